@@ -1,0 +1,13 @@
+# Flags every target of the project shares; never exported to users of the library.
+add_library(vantage_options INTERFACE)
+target_compile_options(vantage_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+  -ffp-contract=off                       # a fused multiply-add would make bytes depend on the machine
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> # false alarm of gcc 12 at -O3 (GCC bug 105329)
+  $<$<BOOL:${VANTAGE_WERROR}>:-Werror>)
+target_compile_definitions(vantage_options INTERFACE EIGEN_DONT_PARALLELIZE EIGEN_MPL2_ONLY)
+
+if(VANTAGE_SANITIZE)
+  add_compile_options(-fsanitize=${VANTAGE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${VANTAGE_SANITIZE})
+endif()

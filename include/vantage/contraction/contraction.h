@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "vantage/core/fields.h"
+#include "vantage/core/run_context.h"
+#include "vantage/mesh/tri_mesh.h"
+
+/// \file
+/// Contraction of a surface towards a curve by constrained Laplacian smoothing: Au, Tai, Chu,
+/// Cohen-Or, Lee, "Skeleton Extraction by Mesh Contraction", SIGGRAPH 2008,
+/// doi:10.1145/1360612.1360643, with the constants of Cao, Tagliasacchi, Olson, Zhang, Su,
+/// "Point Cloud Skeletons via Laplacian-Based Contraction", SMI 2010, doi:10.1109/SMI.2010.25.
+/// Symbols in [brackets] are the papers'. docs/contraction.md has the equations.
+
+namespace vantage {
+
+/// What the weights are scaled against, so that results do not depend on the unit of length.
+enum class ContractionScaling {
+  Sphere,  ///< Enclosing sphere of each component to diameter 2 (ours: independent of rotation).
+  Box,     ///< Longest side of each component's axis-aligned box to 1.6 (the paper's).
+};
+
+/// Weights and stopping rule of contract().
+struct ContractionOptions {
+  ContractionScaling scaling = ContractionScaling::Sphere;
+  double contraction_growth = 3.0;        ///< [s_L] factor on W_L per step (Cao; Au used 2); > 1.
+  double contraction_limit = 2048.0;      ///< Largest W_L (Cao).
+  double attraction_limit = 1e4;          ///< Largest W_H (Cao).
+  double diagonal_limit = 1e4;            ///< Rows of L with a larger diagonal are scaled down (Cao).
+  double shrinkage_tolerance = 0.01;      ///< Stop when a_{t−1} − a_t falls below (Cao).
+  int max_steps = 20;                     ///< At most this many steps (Cao).
+};
+
+/// Names, ranges and help of the numbers in ContractionOptions.
+inline constexpr auto kContractionFields = std::tuple{
+    Field{"contraction-growth", &ContractionOptions::contraction_growth, 1.01, 100.0,
+          "factor on the contraction weight per step [s_L] (Cao 2010: 3; Au 2008: 2)"},
+    Field{"contraction-limit", &ContractionOptions::contraction_limit, 1.0, 1e9,
+          "largest contraction weight W_L (Cao 2010)"},
+    Field{"attraction-limit", &ContractionOptions::attraction_limit, 1.0, 1e9,
+          "largest attraction weight W_H (Cao 2010)"},
+    Field{"diagonal-limit", &ContractionOptions::diagonal_limit, 1.0, 1e12,
+          "largest diagonal of a row of L before it is scaled down (Cao 2010)"},
+    Field{"shrinkage-tolerance", &ContractionOptions::shrinkage_tolerance, 0.0, 1.0,
+          "stop when a step shrinks the mean face area ratio by less (Cao 2010)"},
+    Field{"max-steps", &ContractionOptions::max_steps, 1, 100, "at most this many steps"},
+};
+
+/// Why the contraction of a component ended. None of these is an error.
+enum class ContractionStop {
+  Shrunk,         ///< A step shrank the surface by less than the tolerance.
+  Grew,           ///< A side of the bounding box grew past its bound; that step was discarded.
+  StepLimit,      ///< `max_steps` were taken.
+  NothingToMove,  ///< No face with area: a point or a needle.
+  SolverFailed,   ///< No regularisation gave a finite solution; that step was discarded.
+};
+
+/// Lower-case name of a stop reason for results, e.g. "shrunk".
+std::string_view stop_name(ContractionStop stop);
+
+/// What happened to one connected component.
+struct ComponentContraction {
+  std::size_t vertices = 0;
+  int steps = 0;                   ///< Accepted steps; later levels repeat the last one.
+  ContractionStop stop = ContractionStop::NothingToMove;
+  int regularised_steps = 0;       ///< Steps whose system had to be regularised.
+  std::string strategy{"exact"};   ///< Which method contracted it.
+};
+
+/// Positions of every vertex at every level.
+struct ContractionHistory {
+  /// K + 1 levels of |V| points in model units; level 0 is the input itself.
+  std::vector<std::vector<Vec3>> levels{};
+  std::vector<double> shrinkage{};  ///< [a_t] per level, area-ratio mean; 1 at level 0.
+  std::vector<ComponentContraction> components{};  ///< Ordered by lowest vertex index.
+  std::vector<std::uint32_t> component_of_vertex{};  ///< |V| indices into `components`, or kIsolated.
+  std::vector<std::string> warnings{};  ///< One sentence each.
+
+  /// Marks vertices that no face names; they stay where they are.
+  static constexpr std::uint32_t kIsolated = 0xffffffffu;
+
+  /// K, the number of accepted steps of the longest component.
+  [[nodiscard]] std::size_t level_count() const { return levels.empty() ? 0 : levels.size() - 1; }
+};
+
+/// Contracts each connected component of `mesh` by itself, by exact solves at full resolution.
+/// Connectivity is unchanged: vertex i of every level is vertex i of the input. Commutes with
+/// similarity transforms of the input up to rounding. Coincident vertices should be welded first.
+///
+/// \throw InvalidInput if an option is outside its range.
+/// \throw Cancelled
+/// \complexity One symbolic analysis per component, one sparse Cholesky factorisation per step.
+ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& options = {},
+                            const RunContext& run = {});
+
+}  // namespace vantage

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vantage/core/image.h"
+#include "vantage/core/run_context.h"
+#include "vantage/mesh/tri_mesh.h"
+
+/// \file
+/// Reading models. Vertex order is sacred: vertex i of the result is vertex i of the file (for
+/// .stl the welded vertices in order of first appearance; for glTF the concatenated primitives in
+/// world space), because every per-vertex result refers to it.
+
+namespace vantage {
+
+/// File formats that can be read.
+enum class ModelFormat { Obj, Off, Ply, Stl, Gltf, Glb };
+
+/// Lower-case name as used in results, e.g. "obj".
+std::string_view format_name(ModelFormat format);
+
+/// A named run of triangles: an OBJ group or object, a glTF node.
+struct ModelPart {
+  std::string name{};
+  std::size_t first_triangle = 0;
+  std::size_t triangle_count = 0;
+};
+
+/// What a file holds.
+struct Model {
+  std::string name{};  ///< File name without folder and extension.
+  ModelFormat format = ModelFormat::Obj;
+  TriMesh mesh{};                      ///< Polygons already triangulated. Faces may be absent.
+  std::vector<Rgb8> vertex_colours{};  ///< |V| sRGB colours, or empty.
+  std::vector<ModelPart> parts{};      ///< In file order; may be empty.
+  bool double_precision = false;       ///< Coordinates carry more digits than float holds.
+  std::size_t polygons = 0;            ///< Faces in the file before triangulation.
+  std::size_t quads = 0;               ///< Of these, with four corners.
+  std::size_t larger_polygons = 0;     ///< Of these, with five or more corners.
+  std::size_t skipped_faces = 0;       ///< Faces with fewer than three corners, left out.
+  std::vector<std::string> notes{};    ///< What was read in an unusual way, one sentence each.
+};
+
+/// Parses the bytes of a model.
+/// \param bytes  the whole file. \param name shown in messages; its extension picks the format
+///               unless the bytes plainly say otherwise (magic numbers win, with a note).
+/// \throw FormatError with file, place, problem and remedy.
+/// \throw Cancelled
+Model parse_model(std::string_view bytes, std::string_view name, const RunContext& run = {});
+
+/// Reads a model from disk; glTF may name buffers in the model's own folder, and nowhere else.
+/// \param path a file, or "-" for standard input.
+/// \throw IoError, FormatError, Cancelled
+Model load_model(const std::string& path, const RunContext& run = {});
+
+}  // namespace vantage

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vantage/core/camera.h"
+#include "vantage/core/image.h"
+#include "vantage/mesh/curve_graph.h"
+#include "vantage/mesh/tri_mesh.h"
+
+/// \file
+/// Writers give bytes; write_file() puts them on disk under a temporary name and renames, so that
+/// a failed run leaves no half-written file.
+
+namespace vantage {
+
+/// Writes all of `bytes` to `path` ("-": standard output), whole or not at all.
+/// \throw IoError
+void write_file(const std::string& path, std::string_view bytes);
+
+/// Binary little-endian PLY of a map: x y z, quality (float), red green blue, triangles.
+/// \param double_precision positions as double instead of float.
+/// \param quality |V| values, or empty to leave the property out. \param colours |V|, or empty.
+std::string ply_bytes(const TriMesh& mesh, std::span<const double> quality,
+                      std::span<const Rgb8> colours, bool double_precision);
+
+/// A skeleton as written to files.
+struct SkeletonFile {
+  const CurveGraph* graph = nullptr;
+  std::span<const double> radius{};               ///< |N|, may be empty for .obj and .ply.
+  std::span<const std::int64_t> vertex_node{};    ///< Node of each input vertex, −1 if isolated.
+};
+
+std::string skeleton_json(const SkeletonFile& skeleton);  ///< nodes, edges, radius, vertex_node.
+std::string skeleton_obj(const CurveGraph& graph);        ///< v and l lines.
+std::string skeleton_ply(const CurveGraph& graph);        ///< vertices and edges, ASCII.
+
+/// PNG, 8 bit RGBA, compression level 3. \throw IoError
+std::string png_bytes(const Image& image);
+
+/// Shortest decimal text that reads back as the same double; "null" if not finite (JSON).
+std::string number_text(double value);
+
+}  // namespace vantage

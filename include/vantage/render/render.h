@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "vantage/core/camera.h"
+#include "vantage/core/fields.h"
+#include "vantage/core/image.h"
+#include "vantage/core/run_context.h"
+#include "vantage/mesh/curve_graph.h"
+#include "vantage/mesh/tri_mesh.h"
+
+/// \file
+/// Pictures by ray casting on the CPU: no display, no GL, the same pixels for any thread count.
+
+namespace vantage {
+
+/// What is drawn and how.
+struct RenderOptions {
+  int width = 800;                   ///< px
+  int height = 600;                  ///< px
+  int samples = 16;                  ///< Rays per pixel, rounded up to a square.
+  int ambient_rays = 0;              ///< Occlusion rays per sample; 0 switches them off.
+  std::optional<Rgb8> background{};  ///< Unset: transparent.
+  Rgb8 colour{{196, 192, 186}};      ///< Of the surface where no vertex colours are given.
+};
+
+/// Names, ranges and help of the numbers in RenderOptions.
+inline constexpr auto kRenderFields = std::tuple{
+    Field{"samples", &RenderOptions::samples, 1, 1024, "rays per pixel"},
+    Field{"ambient-rays", &RenderOptions::ambient_rays, 0, 1024, "occlusion rays per sample"},
+};
+
+/// A curve drawn as tubes through the surface, which then becomes translucent.
+struct TubeOverlay {
+  const CurveGraph* graph = nullptr;
+  double radius = 0.0;  ///< Of tubes, model units; joints are 1.6 times as thick.
+  Rgb8 colour{{200, 30, 40}};
+};
+
+/// Renders `mesh` from `camera`.
+/// \param vertex_colours |V| colours, or empty for `options.colour`.
+/// \throw InvalidInput, Cancelled
+Image render(const TriMesh& mesh, const Camera& camera, std::span<const Rgb8> vertex_colours = {},
+             const TubeOverlay& overlay = {}, const RenderOptions& options = {},
+             const RunContext& run = {});
+
+}  // namespace vantage

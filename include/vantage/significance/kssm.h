@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "vantage/contraction/contraction.h"
+#include "vantage/core/run_context.h"
+#include "vantage/mesh/curve_graph.h"
+#include "vantage/mesh/tri_mesh.h"
+
+/// \file
+/// The Kinematics Significance based Skeleton Map: how far every vertex is from the skeleton at
+/// every level of the contraction, each level normalised, suppressed and summed.
+/// docs/kssm.md has the equations.
+
+namespace vantage {
+
+/// How a level's share in the sum is lowered when its displacement is even ("Φ").
+enum class Suppression {
+  Mean,         ///< (1 − mean without the maximum)² (the paper).
+  LocalMaxima,  ///< (1 − mean of the local maxima other than the global one)² (Itti 1998).
+};
+
+/// What is measured at each level.
+enum class Kinematics {
+  Displacement,  ///< d^(j), distance to the skeleton (the paper).
+  Velocity,      ///< d^(j−1) − d^(j), j = 1..K, clamped at nothing: may be negative.
+};
+
+/// Options of compute_kssm().
+struct KssmOptions {
+  Suppression suppression = Suppression::Mean;
+  Kinematics kinematics = Kinematics::Displacement;
+  bool area_weighted_mean = false;  ///< Weight m̄ by vertex area (`--weight area`).
+};
+
+/// The map and what it was made of.
+struct KssmMap {
+  std::vector<double> of_vertex{};                    ///< |V| values ≥ 0; 0 for isolated vertices.
+  std::vector<std::vector<double>> displacement{};    ///< d^(j) per level, model units.
+  std::vector<double> level_factor{};                 ///< (1 − m̄)² per level; 0 where flat.
+  [[nodiscard]] const std::vector<double>& thickness() const { return displacement.front(); }
+};
+
+/// Computes the map of `mesh` from its contraction and the graph it contracts to.
+/// \pre `history` has one point per vertex and at least level 0. \throw InvalidInput, Cancelled
+KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
+                     const CurveGraph& skeleton, const KssmOptions& options = {},
+                     const RunContext& run = {});
+
+}  // namespace vantage

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "vantage/contraction/contraction.h"
+#include "vantage/core/fields.h"
+#include "vantage/core/run_context.h"
+#include "vantage/mesh/curve_graph.h"
+#include "vantage/mesh/tri_mesh.h"
+
+/// \file
+/// From a contracted surface to a graph. docs/skeleton.md explains the steps and the choices.
+
+namespace vantage {
+
+/// Options of extract_skeleton().
+struct SkeletonOptions {
+  ContractionScaling scaling = ContractionScaling::Sphere;  ///< What `spacing` is relative to.
+  double spacing = 0.02;       ///< [r] distance of samples over D, or over the box diagonal (Cao).
+  double prune_ratio = 1.0;    ///< Ends shorter than this times the radius at their root are cut.
+  bool centre = true;          ///< Move nodes to the middle of the surface they stand for.
+  bool prune = true;           ///< Cut spurious ends.
+};
+
+/// Names, ranges and help of the numbers in SkeletonOptions.
+inline constexpr auto kSkeletonFields = std::tuple{
+    Field{"skeleton-spacing", &SkeletonOptions::spacing, 1e-4, 0.5,
+          "distance of skeleton samples as a fraction of the model's diameter (Cao 2010: 0.02)"},
+    Field{"prune-ratio", &SkeletonOptions::prune_ratio, 0.0, 100.0,
+          "cut ends shorter than this times the local thickness"},
+};
+
+/// A curve skeleton and what each node stands for.
+struct Skeleton {
+  CurveGraph graph{};                       ///< Finished: centred and pruned as asked.
+  std::vector<double> radius{};             ///< |N| mean distance of a node to its vertices, level 0.
+  std::vector<std::uint32_t> node_of_vertex{};  ///< |V| nodes of `graph`; kNone for isolated vertices.
+  CurveGraph raw{};                         ///< Before centring and pruning: what KSSM measures to.
+  std::vector<std::uint32_t> raw_node_of_vertex{};  ///< |V| nodes of `raw`; kNone if isolated.
+  std::vector<std::string> warnings{};      ///< One sentence each.
+
+  /// Node of a vertex that belongs to no face.
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+};
+
+/// Extracts the curve skeleton of `mesh` from the last level of its contraction.
+/// \pre `history` was computed from `mesh`. \throw InvalidInput, Cancelled
+Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history,
+                          const SkeletonOptions& options = {}, const RunContext& run = {});
+
+}  // namespace vantage

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "vantage/core/camera.h"
+#include "vantage/core/fields.h"
+#include "vantage/core/run_context.h"
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/tri_mesh.h"
+#include "vantage/visibility/vertex_visibility.h"
+
+/// \file
+/// The score of a view: the significance it sees.
+
+namespace vantage {
+
+/// The camera that scores: its eye stands at centre + R · direction.
+struct ScoringCamera {
+  Sphere sphere{};                                   ///< Enclosing sphere of the model; D > 0.
+  Projection projection = Projection::Perspective;
+  double fov_y_deg = 30.0;                           ///< Vertical field of view, in (0, 180).
+  std::optional<double> distance_factor{};           ///< R over D/2, > 1; unset: 1 / sin(fov/2).
+
+  [[nodiscard]] double distance() const;                          ///< R in model units.
+  [[nodiscard]] Vec3 eye(const Vec3& direction) const;            ///< Position of the eye.
+  [[nodiscard]] Viewpoint viewpoint(const Vec3& direction) const; ///< What visibility is asked.
+};
+
+/// Sum of `significance` over the vertices marked visible, added in vertex order.
+double visible_sum(std::span<const double> significance, std::span<const std::uint8_t> visible);
+
+/// Scores view directions on one model. Holds references: mesh, map and visibility must outlive it.
+class ViewScorer {
+ public:
+  /// \pre significance has one finite value ≥ 0 per vertex.
+  ViewScorer(const VertexVisibility& visibility, std::span<const double> significance,
+             const ScoringCamera& camera);
+
+  /// score(vp) = Σ of the significance of the visible vertices.
+  [[nodiscard]] double score(const Vec3& direction) const;
+
+  /// score() of each direction, in parallel over directions. \throw Cancelled
+  [[nodiscard]] std::vector<double> score_all(std::span<const Vec3> directions,
+                                              const RunContext& run = {}) const;
+
+  /// The score if everything were visible.
+  [[nodiscard]] double total() const { return total_; }
+  [[nodiscard]] const ScoringCamera& camera() const { return camera_; }
+
+ private:
+  const VertexVisibility* visibility_;
+  std::span<const double> significance_;
+  ScoringCamera camera_;
+  double total_ = 0.0;
+};
+
+}  // namespace vantage

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "vantage/core/fields.h"
+#include "vantage/core/run_context.h"
+#include "vantage/core/vec3.h"
+#include "vantage/spatial/directions.h"
+
+/// \file
+/// Searching the view sphere for the direction of largest, or smallest, score.
+/// docs/search.md describes the strategies.
+
+namespace vantage {
+
+/// How the view sphere is searched.
+enum class SearchStrategy {
+  Rapid,       ///< The paper's: best corner of a base, then Loop refinement around it.
+  Exhaustive,  ///< Every direction of a set.
+  Global,      ///< Ours: exhaustive level 3, then refinement around the best few.
+};
+
+/// Whether the largest or the smallest score is wanted.
+enum class Goal { Best, Worst };
+
+/// Options of search_view().
+struct SearchOptions {
+  SearchStrategy strategy = SearchStrategy::Global;
+  ViewSphereBase base = ViewSphereBase::Icosahedron;
+  int subdivisions = 3;                    ///< Of the base: start of rapid, set of exhaustive; 0–8.
+  double epsilon = 0.001;                  ///< Rapid stops when a ring gains less than this …
+  bool epsilon_is_fraction = true;         ///< … as a fraction of `total`, or as a raw sum.
+  bool require_narrow_ring = true;         ///< Rapid also needs a ring narrower than 2° (ours).
+};
+
+/// Names, ranges and help of the numbers in SearchOptions.
+inline constexpr auto kSearchFields = std::tuple{
+    Field{"subdivisions", &SearchOptions::subdivisions, 0, 8,
+          "times the base of the view sphere is split in four"},
+};
+
+/// One evaluated direction of a search, in order of evaluation.
+struct SearchStep {
+  int level = 0;                     ///< 0: the start set; then one per refinement.
+  Vec3 direction = Vec3::UnitZ();
+  double score = 0.0;
+};
+
+/// Result of search_view().
+struct FoundView {
+  Vec3 direction = Vec3::UnitZ();    ///< Unit vector from the centre to the eye.
+  double score = 0.0;
+  std::size_t evaluations = 0;       ///< Directions scored.
+  std::vector<SearchStep> trace{};   ///< Each evaluated direction.
+};
+
+/// Scores a batch of directions; must be a pure function of each direction.
+using ScoreBatch = std::function<std::vector<double>(const std::vector<Vec3>&)>;
+
+/// Searches the sphere. Ties go to the lowest index of the set, then to what was found first.
+/// \param score scores directions. \param total what `epsilon` as a fraction refers to.
+/// \throw InvalidInput, Cancelled
+FoundView search_view(const ScoreBatch& score, double total, Goal goal,
+                      const SearchOptions& options = {}, const RunContext& run = {});
+
+}  // namespace vantage

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "vantage/core/camera.h"
+#include "vantage/core/run_context.h"
+#include "vantage/mesh/tri_mesh.h"
+
+/// \file
+/// Which vertices an eye sees. docs/visibility.md defines it and says how it is decided.
+
+namespace vantage {
+
+/// Which side of a face can be seen.
+enum class FaceSides {
+  Front,  ///< Only the side the winding points to: closed, consistently wound shells.
+  Both,   ///< Both: open, inconsistently wound or non-manifold surfaces.
+};
+
+/// Answers visibility queries on one surface. Immutable after construction; queries are const and
+/// may run on many threads at once. Answers are the same at any scale and position of the model
+/// (up to the rounding of its coordinates) and for any number of threads.
+class VertexVisibility {
+ public:
+  /// Builds the search structure; O(|F| log |F|).
+  /// \param mesh  vertices that share a position are treated as one.
+  /// \param sides one entry per component of connected_components(mesh), or a single entry for all.
+  explicit VertexVisibility(const TriMesh& mesh, std::vector<FaceSides> sides);
+  ~VertexVisibility();
+  VertexVisibility(VertexVisibility&&) noexcept;
+  VertexVisibility& operator=(VertexVisibility&&) noexcept;
+
+  /// 1 for each vertex with an unblocked segment to the eye and an incident face turned to the
+  /// eye, else 0. Faces at the vertex, or at another one of equal position, do not block it.
+  [[nodiscard]] std::vector<std::uint8_t> visible_vertices(const Viewpoint& eye,
+                                                           const RunContext& run = {}) const;
+
+ private:
+  struct Scene;
+  std::unique_ptr<Scene> scene_;
+};
+
+/// A surface wound so that closed shells face outwards.
+struct OrientedMesh {
+  TriMesh mesh{};                    ///< Same vertices; faces of some components reversed.
+  std::vector<FaceSides> sides{};    ///< One per component of connected_components(mesh).
+  std::size_t turned_shells = 0;     ///< Closed components that were inside out.
+};
+
+/// Turns closed, consistently wound components that are inside out. A shell inside an odd number
+/// of other closed shells bounds a cavity and should be wound inwards; an even number, outwards.
+OrientedMesh orient_shells(const TriMesh& mesh);
+
+}  // namespace vantage

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include "contraction/component_contraction.h"
+
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "operators/sparse_cholesky.h"
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/topology.h"
+#include "vantage/operators/cotangent_laplacian.h"
+
+namespace vantage {
+namespace {
+
+/// Faces that begin smaller than this fraction of the mean area say nothing by their ratio.
+constexpr double kTinyFace = 1e-6;
+/// A box side may grow by this factor plus a hundredth of D before a step counts as diverged.
+constexpr double kBoxGrowth = 1.2;
+constexpr double kBoxSlack = 0.01;
+/// Ways to make an ill-conditioned step solvable, tried in order: as defined; non-negative weights
+/// and cotangents of angles above half a degree; then also a growing shift of the diagonal.
+constexpr int kGentlest = 0;
+constexpr int kHarshest = 5;
+constexpr double kSafeCotangent = 115.0;
+constexpr double kFirstShift = 1e-14;  // relative to the largest diagonal entry; × 100 a level
+
+/// Area ratios of faces, then of vertices, against the start.
+class AreaRatios {
+ public:
+  explicit AreaRatios(const TriMesh& start)
+      : start_(face_areas(start)), faces_of_vertex_(vertex_faces(start)) {
+    double mean = 0.0;
+    for (const double area : start_) {
+      mean += area;
+    }
+    mean /= static_cast<double>(start_.size());
+    smallest_ = kTinyFace * mean;
+    mean_area_ = mean;
+  }
+
+  [[nodiscard]] double mean_area() const { return mean_area_; }
+
+  /// Mean over the faces at each vertex of area now over area at the start; vertices without a
+  /// face that counts take the mean of the others. Returns that mean [a_t] too.
+  [[nodiscard]] std::pair<std::vector<double>, double> of_vertices(const TriMesh& now) const {
+    const std::vector<double> areas = face_areas(now);
+    std::vector<double> ratio(faces_of_vertex_.size(), -1.0);
+    double sum = 0.0;
+    std::size_t counted = 0;
+    for (std::size_t v = 0; v < ratio.size(); ++v) {
+      double total = 0.0;
+      int faces = 0;
+      for (const std::uint32_t f : faces_of_vertex_[v]) {
+        if (start_[f] >= smallest_) {
+          total += areas[f] / start_[f];
+          ++faces;
+        }
+      }
+      if (faces > 0) {
+        ratio[v] = total / faces;
+        sum += ratio[v];
+        ++counted;
+      }
+    }
+    const double mean = counted > 0 ? sum / static_cast<double>(counted) : 0.0;
+    for (double& r : ratio) {
+      r = r < 0.0 ? mean : r;
+    }
+    return {std::move(ratio), mean};
+  }
+
+ private:
+  std::vector<double> start_;
+  IndexLists faces_of_vertex_;
+  double smallest_ = 0.0;
+  double mean_area_ = 0.0;
+};
+
+LaplacianLimits limits_of(const ContractionOptions& options, int harshness) {
+  LaplacianLimits limits{.diagonal = options.diagonal_limit};
+  if (harshness > kGentlest) {
+    limits.cotangent = kSafeCotangent;
+    limits.non_negative = true;
+  }
+  return limits;
+}
+
+/// One step of the iteration: minimise |W_L L X'|² + Σ W_H,i² |x'_i − x_i|² by its normal equations.
+class StepSolver {
+ public:
+  /// Positions after the step, or nothing if the system is not positive definite or the result is
+  /// not finite.
+  std::optional<std::vector<Vec3>> solve(const TriMesh& now, double W_L,
+                                         const std::vector<double>& W_H,
+                                         const ContractionOptions& options, int harshness) {
+    const Eigen::SparseMatrix<double> L =
+        cotangent_laplacian(now.positions, now.triangles, limits_of(options, harshness));
+    Eigen::SparseMatrix<double> A = Eigen::SparseMatrix<double>(L.transpose()) * L;
+    A *= W_L * W_L;
+    const auto n = static_cast<Eigen::Index>(now.positions.size());
+    Eigen::MatrixX3d B(n, 3);
+    double largest = 0.0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto v = static_cast<std::size_t>(i);
+      const double squared = W_H[v] * W_H[v];
+      double& diagonal = A.coeffRef(i, i);
+      diagonal += squared;
+      largest = std::max(largest, diagonal);
+      B.row(i) = squared * now.positions[v].transpose();
+    }
+    if (harshness > kGentlest + 1) {
+      const double shift = largest * kFirstShift * std::pow(100.0, harshness - kGentlest - 2);
+      for (Eigen::Index i = 0; i < n; ++i) {
+        A.coeffRef(i, i) += shift;
+        B.row(i) += shift * now.positions[static_cast<std::size_t>(i)].transpose();
+      }
+    }
+    if (!analysed_) {
+      cholesky_.analyze(A);
+      analysed_ = true;
+    }
+    if (!cholesky_.factorize(A)) {
+      return std::nullopt;
+    }
+    const Eigen::MatrixX3d X = cholesky_.solve(B);
+    if (!X.allFinite()) {
+      return std::nullopt;
+    }
+    std::vector<Vec3> positions(now.positions.size());
+    for (Eigen::Index i = 0; i < n; ++i) {
+      positions[static_cast<std::size_t>(i)] = X.row(i).transpose();
+    }
+    return positions;
+  }
+
+ private:
+  SparseCholesky cholesky_{};
+  bool analysed_ = false;
+};
+
+bool outgrew(const std::vector<Vec3>& now, const Vec3& first_size, double diameter) {
+  const Vec3 size = bounding_box(now).size();
+  const Vec3 bound = kBoxGrowth * first_size + Vec3::Constant(kBoxSlack * diameter);
+  return (size.array() > bound.array()).any();
+}
+
+/// What one attempt at a step gave.
+struct Attempt {
+  std::vector<Vec3> positions{};
+  ContractionStop failure = ContractionStop::SolverFailed;
+  bool accepted = false;
+};
+
+}  // namespace
+
+ComponentHistory contract_component(const TriMesh& scaled, const ContractionOptions& options,
+                                    const RunContext& run) {
+  ComponentHistory history;
+  history.summary.vertices = scaled.positions.size();
+  history.levels.push_back(scaled.positions);
+  history.shrinkage.push_back(1.0);
+  const AreaRatios ratios(scaled);
+  if (!(ratios.mean_area() > 0.0)) {
+    return history;
+  }
+  const Vec3 first_size = bounding_box(scaled.positions).size();
+  const double diameter = enclosing_sphere(scaled.positions).diameter;
+
+  TriMesh now = scaled;
+  StepSolver solver;
+  double W_L = 1.0 / (10.0 * std::sqrt(ratios.mean_area()));
+  std::vector<double> W_H(scaled.positions.size(), 1.0);
+  int harshness = kGentlest;
+  history.summary.stop = ContractionStop::StepLimit;
+
+  for (int step = 0; step < options.max_steps; ++step) {
+    run.advance("contracting", static_cast<double>(step) / options.max_steps);
+    Attempt attempt;
+    const bool first = history.summary.steps == 0;
+    // Ill-conditioned steps are repeated more gently. A step that diverges ends the contraction,
+    // except the first: a surface that can be contracted must not be left at level 0.
+    for (; harshness <= kHarshest; ++harshness) {
+      run.check();
+      auto solved = solver.solve(now, W_L, W_H, options, harshness);
+      attempt.failure = solved ? ContractionStop::Grew : ContractionStop::SolverFailed;
+      if (solved) {
+        attempt.positions = std::move(*solved);
+        attempt.accepted = !outgrew(attempt.positions, first_size, diameter);
+        if (attempt.accepted || !first) {
+          break;
+        }
+      }
+    }
+    if (!attempt.accepted) {
+      history.summary.stop = attempt.failure;
+      break;
+    }
+    now.positions = std::move(attempt.positions);
+    const auto [vertex_ratio, mean] = ratios.of_vertices(now);
+    // The rule needs a surface that has begun to shrink: on fine smooth meshes the first steps
+    // move less than the tolerance, and stopping there would leave level 0 alone.
+    const bool begun = mean <= 1.0 - options.shrinkage_tolerance;
+    if (begun && history.shrinkage.back() - mean < options.shrinkage_tolerance && !first) {
+      history.summary.stop = ContractionStop::Shrunk;
+      break;
+    }
+    history.levels.push_back(now.positions);
+    history.shrinkage.push_back(mean);
+    ++history.summary.steps;
+    history.summary.regularised_steps += harshness > kGentlest ? 1 : 0;
+    W_L = std::min(W_L * options.contraction_growth, std::max(W_L, options.contraction_limit));
+    for (std::size_t v = 0; v < W_H.size(); ++v) {
+      W_H[v] = std::min(1.0 / std::sqrt(vertex_ratio[v]), options.attraction_limit);
+    }
+  }
+  return history;
+}
+
+}  // namespace vantage

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vantage/contraction/contraction.h"
+#include "vantage/core/run_context.h"
+#include "vantage/mesh/tri_mesh.h"
+
+namespace vantage {
+
+/// The levels of one connected surface without isolated vertices, in its own scaled frame.
+struct ComponentHistory {
+  std::vector<std::vector<Vec3>> levels{};  ///< Scaled positions; level 0 is the input.
+  std::vector<double> shrinkage{};          ///< [a_t] per level.
+  ComponentContraction summary{};
+};
+
+/// Contracts one component already scaled as options.scaling says (docs/contraction.md).
+/// \pre every vertex belongs to a face, no face names a vertex twice. \throw Cancelled
+ComponentHistory contract_component(const TriMesh& scaled, const ContractionOptions& options,
+                                    const RunContext& run);
+
+
+}  // namespace vantage

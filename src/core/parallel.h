@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include "vantage/core/run_context.h"
+
+/// \file
+/// The only place that makes threads. Work is cut into chunks of a fixed grain, so that what a
+/// chunk computes never depends on the number of threads.
+
+namespace vantage {
+
+/// Runs `work` with at most run.max_threads threads available to the calls below and inside it.
+void with_threads(const RunContext& run, const std::function<void()>& work);
+
+/// Calls `body(begin, end)` for chunks of at most `grain` indices that together cover [0, count).
+/// Chunks must write to disjoint places. Checks run.stop before every chunk.
+/// \throw Cancelled, and whatever `body` throws.
+void parallel_for(const RunContext& run, std::size_t count, std::size_t grain,
+                  const std::function<void(std::size_t begin, std::size_t end)>& body);
+
+/// Sum over chunks of body(begin, end), added in chunk order: the same bits for any thread count.
+double parallel_sum(const RunContext& run, std::size_t count, std::size_t grain,
+                    const std::function<double(std::size_t begin, std::size_t end)>& body);
+
+}  // namespace vantage

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/io/model.h"
+
+#include <filesystem>
+#include <new>
+#include <system_error>
+
+#include "vantage/core/error.h"
+
+#include "io/files.h"
+#include "io/model_format.h"
+#include "io/readers.h"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+Model parse_with(std::string_view bytes, std::string_view name, const RunContext& run,
+                 const BufferSource& buffers) {
+  run.advance("read", 0.0);
+  const DetectedFormat detected = detect_format(bytes, name);
+  Model model = [&] {
+    switch (detected.format) {
+      case ModelFormat::Obj:
+        return parse_obj(bytes, name, run);
+      case ModelFormat::Off:
+        return parse_off(bytes, name, run);
+      case ModelFormat::Ply:
+        return parse_ply(bytes, name, run);
+      case ModelFormat::Stl:
+        return parse_stl(bytes, name, run);
+      case ModelFormat::Gltf:
+      case ModelFormat::Glb:
+        break;
+    }
+    return parse_gltf(bytes, name, run, buffers);
+  }();
+  model.format = detected.format;
+  model.name = model_name(name);
+  if (!detected.note.empty()) {
+    model.notes.insert(model.notes.begin(), detected.note);
+  }
+  return model;
+}
+
+/// Reads `relative` below the folder of `model_path`; links that lead out of it are refused.
+std::string read_beside(const std::string& model_path, const std::string& relative) {
+  std::error_code error;
+  const fs::path folder = fs::canonical(fs::absolute(model_path).parent_path(), error);
+  const fs::path wanted = error ? fs::path() : fs::canonical(folder / relative, error);
+  if (error) {
+    throw IoError(model_path, "names the buffer " + relative + ", which cannot be opened",
+                  error.value());
+  }
+  const fs::path inside = wanted.lexically_relative(folder);
+  if (inside.empty() || *inside.begin() == "..") {
+    throw FormatError(model_path, "", "names the buffer " + relative +
+                                          ", which lies outside the model's folder");
+  }
+  return read_file(wanted.string());
+}
+
+}  // namespace
+
+Model parse_model(std::string_view bytes, std::string_view name, const RunContext& run) {
+  return parse_with(bytes, name, run, {});
+}
+
+Model load_model(const std::string& path, const RunContext& run) {
+  try {
+    const std::string bytes = read_file(path);
+    if (path == "-") {
+      return parse_with(bytes, "standard input", run, {});
+    }
+    return parse_with(bytes, path, run, [&path](const std::string& relative) {
+      return read_beside(path, relative);
+    });
+  } catch (const std::bad_alloc&) {
+    throw IoError(path, "does not fit into memory");
+  }
+}
+
+}  // namespace vantage

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "io/model_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "vantage/core/error.h"
+#include "vantage/io/write.h"
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/polygon.h"
+
+namespace vantage {
+namespace {
+
+/// Vertex indices are 32 bits wide and the highest value is kept free.
+constexpr std::uint64_t kMostVertices = std::numeric_limits<std::uint32_t>::max() - 1;
+
+}  // namespace
+
+std::uint8_t colour_byte(double value) {
+  return static_cast<std::uint8_t>(std::lround(255.0 * (value > 0.0 ? std::min(value, 1.0) : 0.0)));
+}
+
+ModelBuilder::ModelBuilder(ModelFormat format, std::string_view name, const RunContext& run,
+                           std::uint64_t first_index)
+    : name_(name), run_(run), first_index_(first_index) {
+  model_.format = format;
+}
+
+void ModelBuilder::fail(Place place, std::string_view problem) const {
+  throw FormatError(name_, place.text(), problem);
+}
+
+void ModelBuilder::fail(std::string_view problem) const {
+  throw FormatError(name_, "", problem);
+}
+
+void ModelBuilder::add_point(const Vec3& point, Place place) {
+  if (!point.allFinite()) {
+    fail(place, "a coordinate is not a finite number");
+  }
+  if (point.cwiseAbs().maxCoeff() > kLargestCoordinate) {
+    fail(place, "a coordinate is beyond 1e100; rescale the model");
+  }
+  if (point_count() == kMostVertices) {
+    fail(place, "more than 4294967294 vertices");
+  }
+  model_.mesh.positions.push_back(point);
+}
+
+void ModelBuilder::add_corner(std::uint64_t vertex, Place place) {
+  if (vertex >= kMostVertices) {
+    fail(place, "face names vertex " + std::to_string(vertex + first_index_) +
+                    ", which no file can hold");
+  }
+  const auto index = static_cast<std::uint32_t>(vertex);
+  if (index > highest_vertex_ || corners_.empty()) {
+    highest_vertex_ = index;
+    highest_place_ = place;
+  }
+  corners_.push_back(index);
+  ++open_corners_;
+}
+
+void ModelBuilder::end_polygon() {
+  const std::uint32_t count = std::exchange(open_corners_, 0);
+  if (count < 3) {
+    corners_.resize(corners_.size() - count);
+    ++model_.skipped_faces;
+    return;
+  }
+  corner_counts_.push_back(count);
+  ++model_.polygons;
+  model_.quads += count == 4 ? 1 : 0;
+  model_.larger_polygons += count > 4 ? 1 : 0;
+}
+
+void ModelBuilder::add_triangle(std::uint64_t a, std::uint64_t b, std::uint64_t c, Place place) {
+  add_corner(a, place);
+  add_corner(b, place);
+  add_corner(c, place);
+  end_polygon();
+}
+
+void ModelBuilder::add_strip(const std::vector<std::uint64_t>& strip, Place place) {
+  for (std::size_t i = 2; i < strip.size(); ++i) {
+    const std::uint64_t a = strip[i - 2];
+    const std::uint64_t b = strip[i - 1];
+    const std::uint64_t c = strip[i];
+    if (a == b || b == c || c == a) {
+      continue;
+    }
+    i % 2 == 0 ? add_triangle(a, b, c, place) : add_triangle(b, a, c, place);
+  }
+}
+
+void ModelBuilder::add_colour(double red, double green, double blue) {
+  colours_.push_back(
+      {static_cast<float>(red), static_cast<float>(green), static_cast<float>(blue)});
+}
+
+void ModelBuilder::begin_part(std::string_view part_name) {
+  if (!part_starts_.empty() && part_starts_.back().first_polygon == corner_counts_.size()) {
+    part_starts_.back().name = part_name;
+  } else {
+    part_starts_.push_back({std::string(part_name), corner_counts_.size()});
+  }
+}
+
+void ModelBuilder::advance(std::size_t done_bytes, std::size_t all_bytes) {
+  constexpr std::size_t kTicksPerReport = 1 << 14;
+  constexpr double kShareOfParsing = 0.8;  // the rest is triangulation and checks
+  if (++ticks_ % kTicksPerReport == 0) {
+    run_.advance("read", kShareOfParsing * static_cast<double>(done_bytes) /
+                             static_cast<double>(std::max<std::size_t>(all_bytes, 1)));
+  }
+}
+
+void ModelBuilder::check_indices() const {
+  if (!corners_.empty() && highest_vertex_ >= point_count()) {
+    fail(highest_place_, "face names vertex " + std::to_string(highest_vertex_ + first_index_) +
+                             ", but the file has " + std::to_string(point_count()) +
+                             " vertices, counted from " + std::to_string(first_index_));
+  }
+}
+
+void ModelBuilder::check_extent() const {
+  const double extent = bounding_box(model_.mesh.positions).longest_side();
+  if (extent > 0.0 && extent < kSmallestExtent) {
+    fail("the whole model is only " + number_text(extent) +
+         " across, too small to compute with; rescale it");
+  }
+}
+
+void ModelBuilder::triangulate() {
+  std::vector<std::size_t> triangle_of_part_start;
+  std::size_t next_part = 0;
+  std::size_t first_corner = 0;
+  std::vector<Triangle>& triangles = model_.mesh.triangles;
+  triangles.reserve(corners_.size() - 2 * corner_counts_.size());
+  const auto mark_parts = [&](std::size_t polygon) {
+    if (next_part < part_starts_.size() && part_starts_[next_part].first_polygon == polygon) {
+      triangle_of_part_start.push_back(triangles.size());
+      ++next_part;
+    }
+  };
+  for (std::size_t p = 0; p < corner_counts_.size(); ++p) {
+    mark_parts(p);
+    triangulate_polygon({corners_.data() + first_corner, corner_counts_[p]},
+                        model_.mesh.positions, triangles);
+    first_corner += corner_counts_[p];
+    if (p % 4096 == 0) {
+      run_.check();
+    }
+  }
+  mark_parts(corner_counts_.size());
+  finish_parts(triangle_of_part_start);
+}
+
+void ModelBuilder::finish_parts(const std::vector<std::size_t>& triangle_of_part_start) {
+  for (std::size_t i = 0; i < part_starts_.size(); ++i) {
+    const std::size_t first = triangle_of_part_start[i];
+    const std::size_t end = i + 1 < part_starts_.size() ? triangle_of_part_start[i + 1]
+                                                        : model_.mesh.triangles.size();
+    if (end > first) {
+      model_.parts.push_back({std::move(part_starts_[i].name), first, end - first});
+    }
+  }
+}
+
+void ModelBuilder::finish_colours() {
+  if (colours_.empty()) {
+    return;
+  }
+  if (colours_.size() != point_count()) {
+    note("only " + std::to_string(colours_.size()) + " of " + std::to_string(point_count()) +
+         " vertices have a colour, so that colours were left out");
+    return;
+  }
+  float largest = 0.0F;
+  for (const ColourValue& c : colours_) {
+    largest = std::max({largest, c.red, c.green, c.blue});
+  }
+  // HDR colours may pass 1 a little; bytes whose largest is 2 are black anyway.
+  constexpr float kLargestOfUnitRange = 2.0F;
+  const double scale = largest > kLargestOfUnitRange ? 1.0 / 255.0 : 1.0;
+  model_.vertex_colours.reserve(colours_.size());
+  for (const ColourValue& c : colours_) {
+    model_.vertex_colours.push_back({colour_byte(scale * static_cast<double>(c.red)),
+                                     colour_byte(scale * static_cast<double>(c.green)),
+                                     colour_byte(scale * static_cast<double>(c.blue))});
+  }
+}
+
+void ModelBuilder::finish_notes() {
+  if (model_.skipped_faces > 0) {
+    note("faces with fewer than three corners left out: " + std::to_string(model_.skipped_faces));
+  }
+}
+
+Model ModelBuilder::finish() {
+  check_indices();
+  if (model_.mesh.positions.empty()) {
+    fail("holds neither faces nor points");
+  }
+  check_extent();
+  triangulate();
+  finish_colours();
+  finish_notes();
+  run_.advance("read", 1.0);
+  return std::move(model_);
+}
+
+}  // namespace vantage

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vantage/core/run_context.h"
+#include "vantage/io/model.h"
+
+#include "io/place.h"
+
+namespace vantage {
+
+/// Largest magnitude of a coordinate that is read: squares and products of three stay finite.
+inline constexpr double kLargestCoordinate = 1e100;
+/// Smallest extent of a model that is read: squares of it stay normal numbers.
+inline constexpr double kSmallestExtent = 1e-100;
+
+/// Collects what a reader finds, checks it, and makes the Model. Memory grows with what was added,
+/// never with what a header declares.
+class ModelBuilder {
+ public:
+  /// \param first_index what the format calls its first vertex, for messages: 0 or 1.
+  ModelBuilder(ModelFormat format, std::string_view name, const RunContext& run,
+               std::uint64_t first_index);
+
+  /// Adds a vertex. \throw FormatError if it is not finite or beyond kLargestCoordinate.
+  void add_point(const Vec3& point, Place place);
+
+  /// Adds a corner (vertex counted from 0) to the polygon being built.
+  void add_corner(std::uint64_t vertex, Place place);
+
+  /// Ends the polygon; one with fewer than three corners is left out and counted.
+  void end_polygon();
+
+  void add_triangle(std::uint64_t a, std::uint64_t b, std::uint64_t c, Place place);
+
+  /// Adds the triangles of a strip of vertices (odd ones turned, those that name a vertex twice
+  /// left out: they only join strips).
+  void add_strip(const std::vector<std::uint64_t>& strip, Place place);
+
+  /// Adds a colour, 0..1 or 0..255 for each channel: which, is settled by the largest seen.
+  void add_colour(double red, double green, double blue);
+
+  /// What follows belongs to a part of this name; a part without faces disappears.
+  void begin_part(std::string_view part_name);
+
+  void note(std::string text) { model_.notes.push_back(std::move(text)); }
+  void coordinates_need_double() { model_.double_precision = true; }
+  [[nodiscard]] bool double_precision() const { return model_.double_precision; }
+  [[nodiscard]] std::size_t point_count() const { return model_.mesh.positions.size(); }
+  [[nodiscard]] std::size_t colour_count() const { return colours_.size(); }
+  [[nodiscard]] std::string_view name() const { return name_; }
+  void reserve_points(std::size_t count) { model_.mesh.positions.reserve(count); }
+
+  /// Reports progress now and then. \throw Cancelled
+  void advance(std::size_t done_bytes, std::size_t all_bytes);
+
+  [[noreturn]] void fail(Place place, std::string_view problem) const;
+  [[noreturn]] void fail(std::string_view problem) const;
+
+  /// The finished model. \throw FormatError if a face names a vertex that is not there, if the
+  /// extent is too small to compute with, or if there are neither faces nor points.
+  Model finish();
+
+ private:
+  struct ColourValue {
+    float red, green, blue;
+  };
+  struct PartStart {
+    std::string name;
+    std::size_t first_polygon;
+  };
+
+  void check_indices() const;
+  void check_extent() const;
+  void triangulate();
+  void finish_parts(const std::vector<std::size_t>& triangle_of_part_start);
+  void finish_colours();
+  void finish_notes();
+
+  std::string name_;
+  const RunContext& run_;
+  std::uint64_t first_index_;
+  Model model_{};
+  std::vector<std::uint32_t> corners_{};        ///< Of all polygons, one after the other.
+  std::vector<std::uint32_t> corner_counts_{};  ///< Of each polygon.
+  std::uint32_t open_corners_ = 0;              ///< Of the polygon being built.
+  std::uint32_t highest_vertex_ = 0;
+  Place highest_place_{};
+  std::vector<ColourValue> colours_{};
+  std::vector<PartStart> part_starts_{};
+  std::size_t ticks_ = 0;
+};
+
+/// sRGB byte of a value in [0, 1]; outside values are clamped, NaN is 0.
+std::uint8_t colour_byte(double value);
+
+}  // namespace vantage

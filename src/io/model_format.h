@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "vantage/io/model.h"
+
+namespace vantage {
+
+/// The format the bytes plainly are, else the one the name's extension says.
+struct DetectedFormat {
+  ModelFormat format = ModelFormat::Obj;
+  std::string note{};  ///< Set if the bytes contradict the extension.
+};
+
+/// \throw FormatError if the bytes or the extension belong to a format that is not read; it says
+/// what to convert with.
+DetectedFormat detect_format(std::string_view bytes, std::string_view name);
+
+/// File name without folder and without extension.
+std::string model_name(std::string_view path);
+
+}  // namespace vantage

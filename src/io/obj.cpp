@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "io/model_builder.h"
+#include "io/number_parsing.h"
+#include "io/readers.h"
+#include "io/text_cursor.h"
+
+namespace vantage {
+namespace {
+
+/// Keywords of the format that do not shape the polygons.
+constexpr std::array<std::string_view, 45> kSilentKeywords = {
+    "vn",   "vt",     "vp",       "s",         "usemtl",     "mtllib",   "usemap", "maplib",
+    "mg",   "bevel",  "c_interp", "d_interp",  "lod",        "shadow_obj", "trace_obj", "cstype",
+    "deg",  "bmat",   "step",     "curv",      "curv2",      "surf",     "parm",   "trim",
+    "hole", "scrv",   "sp",       "end",       "con",        "ctech",    "stech",  "call",
+    "csh",  "bsp",    "bzp",      "cdc",       "cdp",        "res",      "newmtl", "Ka",
+    "Kd",   "Ks",     "illum",    "maplib",    "usemtllib"};
+
+class ObjReader {
+ public:
+  ObjReader(std::string_view bytes, std::string_view name, const RunContext& run)
+      : cursor_(without_bom(bytes)),
+        size_(bytes.size()),
+        builder_(ModelFormat::Obj, name, run, 1) {}
+
+  Model read() {
+    while (std::optional<std::string_view> line = next_logical_line()) {
+      read_line(*line);
+      builder_.advance(cursor_.offset(), size_);
+    }
+    finish_notes();
+    return builder_.finish();
+  }
+
+ private:
+  /// The next line, joined with the lines that it continues on (\ at its end).
+  std::optional<std::string_view> next_logical_line() {
+    std::optional<std::string_view> line = cursor_.next_line();
+    place_ = cursor_.place();
+    if (!line || line->empty() || line->back() != '\\' || trimmed(*line).front() == '#') {
+      return line;
+    }
+    joined_.clear();
+    while (line && !line->empty() && line->back() == '\\') {
+      joined_.append(line->substr(0, line->size() - 1)).append(" ");
+      line = cursor_.next_line();
+    }
+    joined_.append(line.value_or(""));
+    return joined_;
+  }
+
+  void read_line(std::string_view rest) {
+    const std::string_view keyword = take_token(rest);
+    if (keyword.empty() || keyword.front() == '#') {
+      return;
+    }
+    if (keyword == "v") {
+      read_vertex(rest);
+    } else if (keyword == "f" || keyword == "fo") {
+      read_face(rest);
+    } else if (keyword == "g" || keyword == "o") {
+      builder_.begin_part(trimmed(rest));
+    } else if (keyword == "l" || keyword == "p") {
+      ++lines_and_points_;
+    } else if (keyword.substr(0, 4) == "curv" || keyword == "surf") {
+      ++curves_;
+    } else if (std::find(kSilentKeywords.begin(), kSilentKeywords.end(), keyword) ==
+               kSilentKeywords.end()) {
+      if (unknown_++ == 0) {
+        first_unknown_ = quoted(keyword) + " in " + place_.text();
+      }
+    }
+  }
+
+  double number(std::string_view token) {
+    const std::optional<double> value = number_from(token);
+    if (!value || !std::isfinite(*value)) {
+      builder_.fail(place_, number_problem(token));
+    }
+    return *value;
+  }
+
+  void read_vertex(std::string_view rest) {
+    std::array<double, 7> values{};
+    std::size_t count = 0;
+    for (std::string_view token = take_token(rest); !token.empty() && token.front() != '#';
+         token = take_token(rest)) {
+      if (count == values.size()) {
+        builder_.fail(place_, "a vertex has more than 7 numbers");
+      }
+      values[count] = number(token);
+      if (count < 3 && !builder_.double_precision() && needs_double(token, values[count])) {
+        builder_.coordinates_need_double();
+      }
+      ++count;
+    }
+    if (count < 3) {
+      builder_.fail(place_, "expected 3 coordinates, found " + std::to_string(count));
+    }
+    builder_.add_point({values[0], values[1], values[2]}, place_);
+    if (count >= 6) {
+      builder_.add_colour(values[3], values[4], values[5]);
+    } else if (count == 4) {
+      weights_ += values[3] != 1.0 ? 1 : 0;
+    } else if (count == 5) {
+      builder_.fail(place_, "a vertex has 3 coordinates and 2 more numbers; expected a weight (1 "
+                            "number) or a colour (3 or 4)");
+    }
+  }
+
+  void read_face(std::string_view rest) {
+    for (std::string_view token = take_token(rest); !token.empty() && token.front() != '#';
+         token = take_token(rest)) {
+      builder_.add_corner(corner_vertex(token), place_);
+    }
+    builder_.end_polygon();
+  }
+
+  /// The vertex, from 0, of a corner such as "7", "7/2", "7//5" or "-1/-1/-1".
+  std::uint64_t corner_vertex(std::string_view token) {
+    const std::size_t slash = std::min(token.find('/'), token.size());
+    const std::optional<std::int64_t> index = integer_from(token.substr(0, slash));
+    if (!index || token.find_first_not_of("+-0123456789/", slash) != std::string_view::npos) {
+      builder_.fail(place_, "expected a corner such as 7 or 7/2/5, found " + quoted(token));
+    }
+    if (*index == 0) {
+      builder_.fail(place_, "face names vertex 0, but vertices are counted from 1");
+    }
+    if (*index > 0) {
+      return static_cast<std::uint64_t>(*index) - 1;
+    }
+    const auto seen = static_cast<std::int64_t>(builder_.point_count());
+    if (*index < -seen) {
+      builder_.fail(place_, "face names vertex " + std::to_string(*index) + ", but only " +
+                                std::to_string(seen) + " vertices come before it");
+    }
+    return static_cast<std::uint64_t>(seen + *index);
+  }
+
+  void finish_notes() {
+    if (weights_ > 0) {
+      builder_.note("weights of vertices (a fourth coordinate) left out: " +
+                    std::to_string(weights_));
+    }
+    if (lines_and_points_ > 0) {
+      builder_.note("line and point elements left out: " + std::to_string(lines_and_points_));
+    }
+    if (curves_ > 0) {
+      builder_.note("free-form curves and surfaces left out: " + std::to_string(curves_));
+    }
+    if (unknown_ > 0) {
+      builder_.note("lines with an unknown keyword left out: " + std::to_string(unknown_) +
+                    ", the first is " + first_unknown_);
+    }
+  }
+
+  TextCursor cursor_;
+  std::size_t size_;
+  ModelBuilder builder_;
+  Place place_{};
+  std::string joined_{};
+  std::size_t weights_ = 0;
+  std::size_t lines_and_points_ = 0;
+  std::size_t curves_ = 0;
+  std::size_t unknown_ = 0;
+  std::string first_unknown_{};
+};
+
+}  // namespace
+
+Model parse_obj(std::string_view bytes, std::string_view name, const RunContext& run) {
+  return ObjReader(bytes, name, run).read();
+}
+
+}  // namespace vantage

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+#include "io/off.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "io/number_parsing.h"
+#include "io/readers.h"
+#include "io/text_cursor.h"
+
+namespace vantage {
+namespace {
+
+constexpr char kComment = '#';
+
+bool take_prefix(std::string_view& word, std::string_view prefix) {
+  if (word.substr(0, prefix.size()) != prefix) {
+    return false;
+  }
+  word.remove_prefix(prefix.size());
+  return true;
+}
+
+class OffReader {
+ public:
+  OffReader(std::string_view bytes, std::string_view name, const RunContext& run)
+      : bytes_(without_bom(bytes)), cursor_(bytes_), builder_(ModelFormat::Off, name, run, 0) {}
+
+  Model read() {
+    if (read_header()) {
+      read_binary_off(bytes_, cursor_.offset(), layout_, builder_);
+      return builder_.finish();
+    }
+    read_counts();
+    // Values of one vertex or face end with their line, unless the file has fewer lines than that.
+    by_line_ = content_lines(cursor_.rest()) >= points_ + faces_;
+    read_points();
+    read_faces();
+    finish_notes();
+    return builder_.finish();
+  }
+
+ private:
+  /// Reads the header word and what may stand beside it; true if the rest is binary.
+  bool read_header() {
+    const TextCursor before = cursor_;
+    const std::string_view word = cursor_.next_token(kComment);
+    if (const std::optional<OffLayout> layout = off_layout(word)) {
+      layout_ = *layout;
+    } else if (integer_from(word)) {
+      cursor_ = before;
+      builder_.note("the header word OFF is missing");
+    } else {
+      builder_.fail(cursor_.place(), "expected the header word OFF, found " + quoted(word));
+    }
+    const TextCursor after_word = cursor_;
+    if (cursor_.token_on_line(kComment) == "BINARY") {
+      cursor_.skip_line();
+      return true;
+    }
+    cursor_ = after_word;
+    if (layout_.any_dimension) {
+      const std::int64_t dimension = count("dimension");
+      if (dimension != 3) {
+        builder_.fail(cursor_.place(), "the points have " + std::to_string(dimension) +
+                                           " dimensions, only 3 can be read");
+      }
+    }
+    return false;
+  }
+
+  std::int64_t count(std::string_view what) {
+    const std::string_view token = cursor_.next_token(kComment);
+    const std::optional<std::int64_t> value = integer_from(token);
+    if (!value || *value < 0) {
+      builder_.fail(cursor_.place(), "expected the number of " + std::string(what) + ", found " +
+                                         (token.empty() ? "the end of the file" : quoted(token)));
+    }
+    return *value;
+  }
+
+  void read_counts() {
+    const auto points = static_cast<std::uint64_t>(count("vertices"));
+    const auto faces = static_cast<std::uint64_t>(count("faces"));
+    const Place place = cursor_.place();
+    if (const std::string_view edges = cursor_.token_on_line(kComment);
+        !edges.empty() && !integer_from(edges)) {
+      builder_.fail(place, "expected the number of edges, found " + quoted(edges));
+    }
+    // The shortest vertex is "0 0 0 " and the shortest face "0 ".
+    const std::uint64_t most = cursor_.remaining() + 1;
+    if (points > most / 6 || faces > most / 2 || 6 * points + 2 * faces > most) {
+      builder_.fail(place, "the file declares " + std::to_string(points) + " vertices and " +
+                               std::to_string(faces) + " faces, more than its size can hold");
+    }
+    points_ = static_cast<std::size_t>(points);
+    faces_ = static_cast<std::size_t>(faces);
+    builder_.reserve_points(points_);
+  }
+
+  static std::size_t content_lines(std::string_view text) {
+    std::size_t lines = 0;
+    TextCursor cursor(text);
+    while (std::optional<std::string_view> line = cursor.next_line()) {
+      const std::string_view content = trimmed(*line);
+      lines += !content.empty() && content.front() != kComment ? 1 : 0;
+    }
+    return lines;
+  }
+
+  double number(std::string_view token) {
+    const std::optional<double> value = number_from(token);
+    if (!value || !std::isfinite(*value)) {
+      builder_.fail(cursor_.place(), token.empty() ? "the file ends early" : number_problem(token));
+    }
+    return *value;
+  }
+
+  void read_points() {
+    const std::size_t normal = layout_.normal ? 3 : 0;
+    const std::size_t texture = layout_.texture ? 2 : 0;
+    for (std::size_t v = 0; v < points_; ++v) {
+      std::array<double, 4> position{};
+      Place place{};
+      for (std::size_t c = 0; c < layout_.coordinates(); ++c) {
+        const std::string_view token = c == 0 || !by_line_ ? cursor_.next_token(kComment)
+                                                           : cursor_.token_on_line(kComment);
+        if (token.empty() && cursor_.remaining() > 0) {
+          builder_.fail(cursor_.place(), "expected " + std::to_string(layout_.coordinates()) +
+                                             " coordinates, found " + std::to_string(c));
+        }
+        position[c] = number(token);
+        place = cursor_.place();
+        if (!builder_.double_precision() && needs_double(token, position[c])) {
+          builder_.coordinates_need_double();
+        }
+      }
+      add_off_point(builder_, layout_, position.data(), place);
+      by_line_ ? read_attributes_on_line(normal, texture)
+               : read_attributes(normal, texture);
+      builder_.advance(cursor_.offset(), bytes_.size());
+    }
+  }
+
+  /// Free form: counts of numbers are as the header word says.
+  void read_attributes(std::size_t normal, std::size_t texture) {
+    for (std::size_t i = 0; i < normal; ++i) {
+      cursor_.next_token(kComment);
+    }
+    if (layout_.colour) {
+      std::array<double, 4> colour{};
+      for (double& channel : colour) {
+        channel = number(cursor_.next_token(kComment));
+      }
+      builder_.add_colour(colour[0], colour[1], colour[2]);
+    }
+    for (std::size_t i = 0; i < texture; ++i) {
+      cursor_.next_token(kComment);
+    }
+  }
+
+  /// Line by line: a colour may have three numbers or four, and plain OFF may have a surplus.
+  void read_attributes_on_line(std::size_t normal, std::size_t texture) {
+    std::array<std::string_view, 9> tokens{};
+    std::size_t found = 0;
+    for (std::string_view token = cursor_.token_on_line(kComment); !token.empty();
+         token = cursor_.token_on_line(kComment)) {
+      if (found < tokens.size()) {
+        tokens[found] = token;
+      }
+      ++found;
+    }
+    const std::size_t without_colour = normal + texture;
+    if (layout_.colour && found >= without_colour + 3) {
+      builder_.add_colour(number(tokens[normal]), number(tokens[normal + 1]),
+                          number(tokens[normal + 2]));
+    } else if (!layout_.colour && found > without_colour) {
+      ++lines_with_surplus_;
+    }
+  }
+
+  void read_faces() {
+    for (std::size_t f = 0; f < faces_; ++f) {
+      const std::int64_t corners = count("corners of a face");
+      if (static_cast<std::uint64_t>(corners) > cursor_.remaining()) {
+        builder_.fail(cursor_.place(), "a face declares " + std::to_string(corners) +
+                                           " corners, more than the rest of the file can hold");
+      }
+      for (std::int64_t c = 0; c < corners; ++c) {
+        const std::string_view token = cursor_.next_token(kComment);
+        const std::optional<std::int64_t> vertex = integer_from(token);
+        if (!vertex || *vertex < 0) {
+          builder_.fail(cursor_.place(), token.empty()
+                                             ? "the file ends inside a face"
+                                             : "expected a vertex index, found " + quoted(token));
+        }
+        builder_.add_corner(static_cast<std::uint64_t>(*vertex), cursor_.place());
+      }
+      builder_.end_polygon();
+      if (by_line_) {
+        cursor_.skip_line();  // the colour of the face
+      }
+      builder_.advance(cursor_.offset(), bytes_.size());
+    }
+  }
+
+  void finish_notes() {
+    if (lines_with_surplus_ > 0) {
+      builder_.note("vertices with more numbers than the header word says, left out: " +
+                    std::to_string(lines_with_surplus_));
+    }
+    if (!cursor_.next_token(kComment).empty()) {
+      builder_.note("text after the last face left out, from " + cursor_.place().text());
+    }
+  }
+
+  std::string_view bytes_;
+  TextCursor cursor_;
+  ModelBuilder builder_;
+  OffLayout layout_{};
+  std::size_t points_ = 0;
+  std::size_t faces_ = 0;
+  bool by_line_ = true;
+  std::size_t lines_with_surplus_ = 0;
+};
+
+}  // namespace
+
+std::optional<OffLayout> off_layout(std::string_view word) {
+  OffLayout layout;
+  if (word == "off") {
+    return layout;
+  }
+  layout.texture = take_prefix(word, "ST");
+  layout.colour = take_prefix(word, "C");
+  layout.normal = take_prefix(word, "N");
+  layout.homogeneous = take_prefix(word, "4");
+  layout.any_dimension = take_prefix(word, "n");
+  return word == "OFF" ? std::optional(layout) : std::nullopt;
+}
+
+bool has_off_header(std::string_view bytes) {
+  return off_layout(TextCursor(without_bom(bytes)).next_token(kComment)).has_value();
+}
+
+void add_off_point(ModelBuilder& builder, const OffLayout& layout, const double* numbers,
+                   Place place) {
+  const Vec3 point(numbers[0], numbers[1], numbers[2]);
+  if (!layout.homogeneous) {
+    builder.add_point(point, place);
+    return;
+  }
+  if (numbers[3] == 0.0) {
+    builder.fail(place, "the fourth coordinate is 0: the vertex lies at infinity");
+  }
+  builder.coordinates_need_double();
+  builder.add_point(point / numbers[3], place);
+}
+
+Model parse_off(std::string_view bytes, std::string_view name, const RunContext& run) {
+  return OffReader(bytes, name, run).read();
+}
+
+}  // namespace vantage

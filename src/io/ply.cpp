@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "io/model_builder.h"
+#include "io/ply_header.h"
+#include "io/ply_source.h"
+#include "io/readers.h"
+
+namespace vantage {
+namespace {
+
+/// Value of a full colour channel of this type.
+double full_colour(PlyScalar type) {
+  switch (type) {
+    case PlyScalar::U16:
+    case PlyScalar::I16:
+      return 65535.0;
+    case PlyScalar::F32:
+    case PlyScalar::F64:
+      return 1.0;
+    default:
+      return 255.0;
+  }
+}
+
+/// Reads the elements of a PLY body from either source.
+template <class Source>
+class BodyReader {
+ public:
+  BodyReader(Source source, ModelBuilder& builder, std::size_t all_bytes)
+      : source_(source), builder_(builder), all_bytes_(all_bytes) {}
+
+  void read(const PlyHeader& header) {
+    for (const PlyElement& element : header.elements) {
+      check_count(element);
+      switch (element.properties.empty() ? PlyElement::Kind::Other : element.kind) {
+        case PlyElement::Kind::Vertex:
+          read_vertices(element);
+          break;
+        case PlyElement::Kind::Face:
+        case PlyElement::Kind::Strips:
+          read_faces(element);
+          break;
+        case PlyElement::Kind::Other:
+          skip_element(element);
+          break;
+      }
+    }
+  }
+
+ private:
+  void check_count(const PlyElement& element) {
+    std::size_t least = 0;
+    for (const PlyProperty& property : element.properties) {
+      least += Source::least_bytes(property.is_list ? property.count_type : property.type);
+    }
+    if (least > 0 && element.count > source_.remaining() / least) {
+      builder_.fail("the header declares " + std::to_string(element.count) + " of element " +
+                    element.name + ", more than the size of the file can hold");
+    }
+  }
+
+  void read_vertices(const PlyElement& element) {
+    builder_.reserve_points(static_cast<std::size_t>(element.count));
+    bool has_colour[3] = {false, false, false};
+    for (const PlyProperty& property : element.properties) {
+      has_colour[0] = has_colour[0] || property.role == PlyRole::Red;
+      has_colour[1] = has_colour[1] || property.role == PlyRole::Green;
+      has_colour[2] = has_colour[2] || property.role == PlyRole::Blue;
+    }
+    const bool coloured = has_colour[0] && has_colour[1] && has_colour[2];
+    for (std::uint64_t v = 0; v < element.count; ++v) {
+      read_vertex(element, coloured);
+      builder_.advance(source_.offset(), all_bytes_);
+    }
+  }
+
+  void read_vertex(const PlyElement& element, bool coloured) {
+    Vec3 point = Vec3::Zero();
+    Vec3 colour = Vec3::Zero();
+    const Place binary_place = source_.place();
+    for (const PlyProperty& property : element.properties) {
+      switch (property.role) {
+        case PlyRole::X:
+        case PlyRole::Y:
+        case PlyRole::Z:
+          point[static_cast<int>(property.role) - static_cast<int>(PlyRole::X)] =
+              source_.next_coordinate(property.type);
+          break;
+        case PlyRole::Red:
+        case PlyRole::Green:
+        case PlyRole::Blue:
+          colour[static_cast<int>(property.role) - static_cast<int>(PlyRole::Red)] =
+              source_.next(property.type) / full_colour(property.type);
+          break;
+        default:
+          skip_property(property);
+      }
+    }
+    builder_.add_point(point, binary_place.unit[0] == 'b' ? binary_place : source_.place());
+    if (coloured) {
+      builder_.add_colour(colour.x(), colour.y(), colour.z());
+    }
+  }
+
+  void read_faces(const PlyElement& element) {
+    for (std::uint64_t f = 0; f < element.count; ++f) {
+      for (const PlyProperty& property : element.properties) {
+        if (property.role != PlyRole::Indices) {
+          skip_property(property);
+        } else if (element.kind == PlyElement::Kind::Face) {
+          read_polygon(property);
+        } else {
+          read_strips(property);
+        }
+      }
+      builder_.advance(source_.offset(), all_bytes_);
+    }
+  }
+
+  std::size_t list_length(const PlyProperty& property) {
+    const Place place = source_.place();
+    const double length = source_.next(property.count_type);
+    const auto most = static_cast<double>(source_.remaining() / Source::least_bytes(property.type));
+    if (!(length >= 0.0) || length != std::floor(length)) {
+      builder_.fail(place, "the length of a list is not a whole number from 0");
+    }
+    if (length > most) {
+      builder_.fail(place, "a list is longer than the rest of the file");
+    }
+    return static_cast<std::size_t>(length);
+  }
+
+  /// A vertex index, or −1 where `separator` allows it.
+  double index(PlyScalar type, bool separator) {
+    const Place before = source_.place();
+    const double value = source_.next(type);
+    const double least = separator ? -1.0 : 0.0;
+    constexpr double kMostIndex = 4294967295.0;  // what a uint holds
+    if (!(value >= least) || value > kMostIndex || value != std::floor(value)) {
+      builder_.fail(before.unit[0] == 'b' ? before : source_.place(),
+                    "a face names a vertex that is not a whole number from 0");
+    }
+    return value;
+  }
+
+  void read_polygon(const PlyProperty& property) {
+    const std::size_t length = list_length(property);
+    for (std::size_t i = 0; i < length; ++i) {
+      const Place place = source_.place();
+      builder_.add_corner(static_cast<std::uint64_t>(index(property.type, false)), place);
+    }
+    builder_.end_polygon();
+  }
+
+  void read_strips(const PlyProperty& property) {
+    const std::size_t length = list_length(property);
+    std::vector<std::uint64_t> strip;
+    for (std::size_t i = 0; i < length; ++i) {
+      const double vertex = index(property.type, true);
+      if (vertex < 0.0) {
+        builder_.add_strip(strip, source_.place());
+        strip.clear();
+      } else {
+        strip.push_back(static_cast<std::uint64_t>(vertex));
+      }
+      builder_.advance(source_.offset(), all_bytes_);
+    }
+    builder_.add_strip(strip, source_.place());
+  }
+
+  void skip_element(const PlyElement& element) {
+    for (std::uint64_t i = 0; !element.properties.empty() && i < element.count; ++i) {
+      for (const PlyProperty& property : element.properties) {
+        skip_property(property);
+      }
+      builder_.advance(source_.offset(), all_bytes_);
+    }
+  }
+
+  void skip_property(const PlyProperty& property) {
+    const std::size_t length = property.is_list ? list_length(property) : 1;
+    for (std::size_t i = 0; i < length; ++i) {
+      source_.skip(property.type);
+    }
+  }
+
+  Source source_;
+  ModelBuilder& builder_;
+  std::size_t all_bytes_;
+};
+
+}  // namespace
+
+Model parse_ply(std::string_view bytes, std::string_view name, const RunContext& run) {
+  ModelBuilder builder(ModelFormat::Ply, name, run, 0);
+  const PlyHeader header = read_ply_header(bytes, builder);
+  if (header.encoding == PlyEncoding::Ascii) {
+    BodyReader(PlyTextSource(bytes, header, builder), builder, bytes.size()).read(header);
+  } else {
+    BodyReader(PlyBinarySource(bytes, header, builder), builder, bytes.size()).read(header);
+  }
+  return builder.finish();
+}
+
+}  // namespace vantage

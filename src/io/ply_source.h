@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+#include "io/byte_cursor.h"
+#include "io/model_builder.h"
+#include "io/number_parsing.h"
+#include "io/ply_header.h"
+#include "io/text_cursor.h"
+
+/// \file
+/// The two ways a PLY body is written, with one interface for the reader's template.
+
+namespace vantage {
+
+/// Body of numbers in text.
+class PlyTextSource {
+ public:
+  PlyTextSource(std::string_view bytes, const PlyHeader& header, ModelBuilder& builder)
+      : cursor_(bytes.substr(header.body_offset), header.body_line),
+        start_(header.body_offset),
+        builder_(builder) {}
+
+  double next(PlyScalar /*type*/) {
+    token_ = take();
+    const std::optional<double> value = number_from(token_);
+    if (!value) {
+      builder_.fail(place(), number_problem(token_));
+    }
+    return *value;
+  }
+
+  double next_coordinate(PlyScalar type) {
+    const double value = next(type);
+    if (!builder_.double_precision() && needs_double(token_, value)) {
+      builder_.coordinates_need_double();
+    }
+    return value;
+  }
+
+  void skip(PlyScalar /*type*/) { take(); }
+
+  /// Bytes of the shortest value: a digit and a blank; the file's last one needs no blank.
+  static std::size_t least_bytes(PlyScalar /*type*/) { return 2; }
+  [[nodiscard]] std::size_t remaining() const { return cursor_.remaining() + 1; }
+  [[nodiscard]] Place place() const { return cursor_.place(); }
+  [[nodiscard]] std::size_t offset() const { return start_ + cursor_.offset(); }
+
+ private:
+  std::string_view take() {
+    const std::string_view token = cursor_.next_token();
+    if (token.empty()) {
+      builder_.fail(place(), "the file ends early");
+    }
+    return token;
+  }
+
+  TextCursor cursor_;
+  std::size_t start_;
+  ModelBuilder& builder_;
+  std::string_view token_{};
+};
+
+/// Body of numbers in binary.
+class PlyBinarySource {
+ public:
+  PlyBinarySource(std::string_view bytes, const PlyHeader& header, ModelBuilder& builder)
+      : bytes_(bytes),
+        at_(header.body_offset),
+        order_(header.encoding == PlyEncoding::BinaryBigEndian ? ByteOrder::Big
+                                                               : ByteOrder::Little),
+        builder_(builder) {}
+
+  double next(PlyScalar type) {
+    const char* here = take(ply_scalar_bytes(type));
+    switch (type) {
+      case PlyScalar::I8:
+        return static_cast<double>(decode<std::int8_t>(here, order_));
+      case PlyScalar::U8:
+        return static_cast<double>(decode<std::uint8_t>(here, order_));
+      case PlyScalar::I16:
+        return static_cast<double>(decode<std::int16_t>(here, order_));
+      case PlyScalar::U16:
+        return static_cast<double>(decode<std::uint16_t>(here, order_));
+      case PlyScalar::I32:
+        return static_cast<double>(decode<std::int32_t>(here, order_));
+      case PlyScalar::U32:
+        return static_cast<double>(decode<std::uint32_t>(here, order_));
+      case PlyScalar::F32:
+        return static_cast<double>(decode<float>(here, order_));
+      case PlyScalar::F64:
+        return decode<double>(here, order_);
+    }
+    return 0.0;  // not reached: the switch names every type
+  }
+
+  double next_coordinate(PlyScalar type) {
+    const double value = next(type);
+    if (type == PlyScalar::F64 && value != static_cast<double>(static_cast<float>(value))) {
+      builder_.coordinates_need_double();
+    }
+    return value;
+  }
+
+  void skip(PlyScalar type) { take(ply_scalar_bytes(type)); }
+
+  static std::size_t least_bytes(PlyScalar type) { return ply_scalar_bytes(type); }
+  [[nodiscard]] std::size_t remaining() const { return bytes_.size() - at_; }
+  [[nodiscard]] Place place() const { return {"byte", at_}; }
+  [[nodiscard]] std::size_t offset() const { return at_; }
+
+ private:
+  const char* take(std::size_t count) {
+    if (count > remaining()) {
+      builder_.fail(place(), "the file ends early");
+    }
+    const char* here = bytes_.data() + at_;
+    at_ += count;
+    return here;
+  }
+
+  std::string_view bytes_;
+  std::size_t at_;
+  ByteOrder order_;
+  ModelBuilder& builder_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "vantage/core/run_context.h"
+#include "vantage/io/model.h"
+
+/// \file
+/// One reader per format, from bytes. Each throws FormatError or Cancelled and nothing else.
+
+namespace vantage {
+
+/// Wavefront OBJ: v (with colours), f, g, o; the rest does not shape the surface and is passed over.
+Model parse_obj(std::string_view bytes, std::string_view name, const RunContext& run);
+
+/// Geomview OFF with any of the prefixes ST C N 4 n, text or binary.
+Model parse_off(std::string_view bytes, std::string_view name, const RunContext& run);
+
+/// Stanford PLY, ascii or binary of either byte order.
+Model parse_ply(std::string_view bytes, std::string_view name, const RunContext& run);
+
+/// STL, text or binary, told apart by size and content.
+Model parse_stl(std::string_view bytes, std::string_view name, const RunContext& run);
+
+/// Gives the bytes of an external buffer named by a relative path, or throws IoError.
+using BufferSource = std::function<std::string(const std::string& relative_path)>;
+
+/// glTF 2.0 as JSON or as GLB. \param source where external buffers come from; empty: nowhere.
+Model parse_gltf(std::string_view bytes, std::string_view name, const RunContext& run,
+                 const BufferSource& source);
+
+/// Whether the bytes are a binary STL by their size: 84 bytes and 50 for each declared triangle.
+bool has_binary_stl_size(std::string_view bytes);
+
+/// Whether the text starts with a header word of the OFF family.
+bool has_off_header(std::string_view bytes);
+
+}  // namespace vantage

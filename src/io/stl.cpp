@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "vantage/mesh/weld.h"
+
+#include "io/byte_cursor.h"
+#include "io/model_builder.h"
+#include "io/number_parsing.h"
+#include "io/readers.h"
+#include "io/text_cursor.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 80;
+constexpr std::size_t kPreambleBytes = 84;  // header and number of triangles
+constexpr std::size_t kTriangleBytes = 50;  // normal, three corners, two bytes of attributes
+
+bool equals_ignoring_case(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+    return (x >= 'A' && x <= 'Z' ? static_cast<char>(x - 'A' + 'a') : x) == y;
+  });
+}
+
+std::uint64_t declared_triangles(std::string_view bytes) {
+  return decode<std::uint32_t>(bytes.data() + kHeaderBytes, ByteOrder::Little);
+}
+
+bool looks_like_text(std::string_view bytes) {
+  TextCursor cursor(without_bom(bytes));
+  if (!equals_ignoring_case(cursor.next_token(), "solid")) {
+    return false;
+  }
+  cursor.skip_line();
+  const std::string_view second = cursor.next_token();
+  return equals_ignoring_case(second, "facet") || equals_ignoring_case(second, "endsolid") ||
+         second.empty();
+}
+
+class TextReader {
+ public:
+  TextReader(std::string_view bytes, ModelBuilder& builder)
+      : bytes_(without_bom(bytes)), cursor_(bytes_), builder_(builder) {}
+
+  void read() {
+    while (true) {
+      const std::string_view word = cursor_.next_token();
+      if (word.empty()) {
+        break;
+      }
+      read_statement(word);
+      builder_.advance(cursor_.offset(), bytes_.size());
+    }
+    if (in_facet_) {
+      builder_.fail(cursor_.place(), "the file ends inside a facet");
+    }
+  }
+
+ private:
+  void read_statement(std::string_view word) {
+    const auto is = [word](std::string_view known) { return equals_ignoring_case(word, known); };
+    if (is("vertex")) {
+      read_vertex();
+    } else if (is("facet")) {
+      in_facet_ = true;
+      cursor_.skip_line();  // the normal, which the corners imply
+    } else if (is("endfacet")) {
+      in_facet_ = false;
+      end_open_polygon();
+    } else if (is("outer")) {
+      cursor_.skip_line();
+    } else if (is("endloop")) {
+      end_open_polygon();
+    } else if (is("solid")) {
+      read_solid_name();
+    } else if (is("endsolid")) {
+      cursor_.token_on_line();
+      cursor_.skip_line();
+    } else if (!is("loop")) {
+      builder_.fail(cursor_.place(), "expected a statement such as facet or vertex, found " +
+                                         quoted(word));
+    }
+  }
+
+  void end_open_polygon() {
+    if (std::exchange(has_open_polygon_, false)) {
+      builder_.end_polygon();
+    }
+  }
+
+  void read_solid_name() {
+    std::string part;
+    for (std::string_view token = cursor_.token_on_line(); !token.empty();
+         token = cursor_.token_on_line()) {
+      part += (part.empty() ? "" : " ") + std::string(token);
+    }
+    builder_.begin_part(part);
+  }
+
+  void read_vertex() {
+    Vec3 point;
+    for (int c = 0; c < 3; ++c) {
+      const std::string_view token = cursor_.token_on_line();
+      if (token.empty()) {
+        builder_.fail(cursor_.place(), "expected 3 coordinates, found " + std::to_string(c));
+      }
+      const std::optional<double> value = number_from(token);
+      if (!value || !std::isfinite(*value)) {
+        builder_.fail(cursor_.place(), number_problem(token));
+      }
+      point[c] = *value;
+      if (!builder_.double_precision() && needs_double(token, *value)) {
+        builder_.coordinates_need_double();
+      }
+    }
+    if (!in_facet_) {
+      builder_.fail(cursor_.place(), "a vertex stands outside a facet");
+    }
+    builder_.add_corner(builder_.point_count(), cursor_.place());
+    builder_.add_point(point, cursor_.place());
+    has_open_polygon_ = true;
+  }
+
+  std::string_view bytes_;
+  TextCursor cursor_;
+  ModelBuilder& builder_;
+  bool in_facet_ = false;
+  bool has_open_polygon_ = false;
+};
+
+void read_binary(std::string_view bytes, ModelBuilder& builder) {
+  if (bytes.size() < kPreambleBytes) {
+    builder.fail("is neither a text STL, which starts with the word solid, nor long enough for a "
+                 "binary one");
+  }
+  const std::uint64_t declared = declared_triangles(bytes);
+  const std::uint64_t held = (bytes.size() - kPreambleBytes) / kTriangleBytes;
+  if (declared > held) {
+    builder.fail({"byte", kHeaderBytes}, "the file declares " + std::to_string(declared) +
+                                             " triangles but has room for " +
+                                             std::to_string(held) + "; it may be cut short");
+  }
+  const std::size_t end = kPreambleBytes + static_cast<std::size_t>(declared) * kTriangleBytes;
+  if (end < bytes.size()) {
+    builder.note("bytes after the last triangle left out: " + std::to_string(bytes.size() - end));
+  }
+  builder.reserve_points(static_cast<std::size_t>(declared) * 3);
+  for (std::size_t at = kPreambleBytes; at < end; at += kTriangleBytes) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const Place place{"byte", at + 12 * (corner + 1)};
+      const char* here = bytes.data() + place.value;
+      builder.add_corner(builder.point_count(), place);
+      builder.add_point({static_cast<double>(decode<float>(here, ByteOrder::Little)),
+                         static_cast<double>(decode<float>(here + 4, ByteOrder::Little)),
+                         static_cast<double>(decode<float>(here + 8, ByteOrder::Little))},
+                        place);
+    }
+    builder.end_polygon();
+    builder.advance(at, bytes.size());
+  }
+}
+
+/// An STL file repeats each vertex in every triangle; make it one again.
+void join_equal_positions(TriMesh& mesh) {
+  WeldedMesh welded = weld(mesh);
+  for (Triangle& triangle : mesh.triangles) {
+    for (std::uint32_t& v : triangle) {
+      v = welded.welded_of_vertex[v];
+    }
+  }
+  mesh.positions = std::move(welded.mesh.positions);
+}
+
+}  // namespace
+
+bool has_binary_stl_size(std::string_view bytes) {
+  return bytes.size() >= kPreambleBytes &&
+         bytes.size() - kPreambleBytes == declared_triangles(bytes) * kTriangleBytes;
+}
+
+Model parse_stl(std::string_view bytes, std::string_view name, const RunContext& run) {
+  ModelBuilder builder(ModelFormat::Stl, name, run, 0);
+  if (!has_binary_stl_size(bytes) && looks_like_text(bytes)) {
+    TextReader(bytes, builder).read();
+  } else {
+    read_binary(bytes, builder);
+  }
+  Model model = builder.finish();
+  join_equal_positions(model.mesh);
+  return model;
+}
+
+}  // namespace vantage

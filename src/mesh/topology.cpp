@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/mesh/topology.h"
+
+#include <algorithm>
+
+#include "mesh/disjoint_sets.h"
+
+namespace vantage {
+namespace {
+
+bool names_a_vertex_twice(const Triangle& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+struct EdgeUse {
+  std::uint32_t a, b, face;
+
+  auto operator<=>(const EdgeUse&) const = default;
+};
+
+}  // namespace
+
+EdgeTable build_edge_table(const TriMesh& mesh) {
+  std::vector<EdgeUse> uses;
+  uses.reserve(3 * mesh.triangles.size());
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    if (names_a_vertex_twice(t)) {
+      continue;
+    }
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::uint32_t a = t[corner];
+      const std::uint32_t b = t[(corner + 1) % 3];
+      uses.push_back({std::min(a, b), std::max(a, b), f});
+    }
+  }
+  std::sort(uses.begin(), uses.end());
+
+  EdgeTable table;
+  table.faces_of_edge.values.reserve(uses.size());
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    if (i == 0 || uses[i].a != uses[i - 1].a || uses[i].b != uses[i - 1].b) {
+      if (i > 0) {
+        table.faces_of_edge.offsets.push_back(static_cast<std::uint32_t>(i));
+      }
+      table.edges.push_back({uses[i].a, uses[i].b});
+    }
+    table.faces_of_edge.values.push_back(uses[i].face);
+  }
+  if (!uses.empty()) {
+    table.faces_of_edge.offsets.push_back(static_cast<std::uint32_t>(uses.size()));
+  }
+  return table;
+}
+
+IndexLists vertex_neighbours(const TriMesh& mesh) {
+  std::vector<std::uint32_t> degree(mesh.positions.size() + 1, 0);
+  const EdgeTable table = build_edge_table(mesh);
+  for (const auto& [a, b] : table.edges) {
+    ++degree[a + 1];
+    ++degree[b + 1];
+  }
+  IndexLists rings;
+  rings.offsets.resize(degree.size());
+  for (std::size_t v = 1; v < degree.size(); ++v) {
+    rings.offsets[v] = rings.offsets[v - 1] + degree[v];
+  }
+  rings.values.resize(2 * table.edges.size());
+  std::vector<std::uint32_t> cursor(rings.offsets.begin(), rings.offsets.end() - 1);
+  // Edges are sorted by (a, b): every vertex first receives its lower, then its higher neighbours.
+  for (const auto& [a, b] : table.edges) {
+    rings.values[cursor[b]++] = a;
+  }
+  for (const auto& [a, b] : table.edges) {
+    rings.values[cursor[a]++] = b;
+  }
+  return rings;
+}
+
+IndexLists vertex_faces(const TriMesh& mesh) {
+  IndexLists faces;
+  faces.offsets.assign(mesh.positions.size() + 1, 0);
+  const auto for_each_corner = [&](const auto& visit) {
+    for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+      const Triangle& t = mesh.triangles[f];
+      visit(t[0], f);
+      if (t[1] != t[0]) {
+        visit(t[1], f);
+      }
+      if (t[2] != t[0] && t[2] != t[1]) {
+        visit(t[2], f);
+      }
+    }
+  };
+  for_each_corner([&](std::uint32_t v, std::uint32_t) { ++faces.offsets[v + 1]; });
+  for (std::size_t v = 1; v < faces.offsets.size(); ++v) {
+    faces.offsets[v] += faces.offsets[v - 1];
+  }
+  faces.values.resize(faces.offsets.back());
+  std::vector<std::uint32_t> cursor(faces.offsets.begin(), faces.offsets.end() - 1);
+  for_each_corner([&](std::uint32_t v, std::uint32_t f) { faces.values[cursor[v]++] = f; });
+  return faces;
+}
+
+Components connected_components(const TriMesh& mesh) {
+  DisjointSets sets(mesh.positions.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    sets.join(a, b);
+    sets.join(b, c);
+  }
+  Components components;
+  components.of_vertex.resize(mesh.positions.size());
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    const std::uint32_t root = sets.root(v);
+    components.of_vertex[v] = root == v ? static_cast<std::uint32_t>(components.count++)
+                                        : components.of_vertex[root];
+  }
+  return components;
+}
+
+}  // namespace vantage

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "render/corner_normals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <Eigen/Geometry>
+
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/topology.h"
+#include "vantage/mesh/weld.h"
+
+#include "core/parallel.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t kGrain = 4096;
+/// With more corners at a position than this, corners share the sum of the first corner's group
+/// they fit into: comparing all pairs would take quadratic time at the hub of a large fan.
+constexpr std::size_t kMaxPairwiseCorners = 64;
+
+/// A corner as seen from its position: which one, its face's unit normal, its weighted share.
+struct Corner {
+  std::size_t face = 0;
+  std::size_t index = 0;
+  Vec3 normal = Vec3::Zero();
+  double angle = 0.0;
+};
+
+/// The corners at each welded position, as 3 · face + corner, ascending.
+IndexLists corners_of_positions(const TriMesh& mesh, const WeldedMesh& welded) {
+  const std::size_t positions = welded.mesh.positions.size();
+  IndexLists lists;
+  lists.offsets.assign(positions + 1, 0);
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t v : triangle) {
+      ++lists.offsets[welded.welded_of_vertex[v] + 1];
+    }
+  }
+  for (std::size_t p = 0; p < positions; ++p) {
+    lists.offsets[p + 1] += lists.offsets[p];
+  }
+  lists.values.resize(3 * mesh.triangles.size());
+  std::vector<std::uint32_t> next(lists.offsets.begin(), lists.offsets.end() - 1);
+  std::uint32_t corner = 0;
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t v : triangle) {
+      lists.values[next[welded.welded_of_vertex[v]]++] = corner++;
+    }
+  }
+  return lists;
+}
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+Corner make_corner(const TriMesh& mesh, std::uint32_t id) {
+  Corner corner;
+  corner.face = id / 3;
+  corner.index = id % 3;
+  const Triangle& t = mesh.triangles[corner.face];
+  const Vec3& p = mesh.positions[t[corner.index]];
+  const Vec3 a = mesh.positions[t[(corner.index + 1) % 3]] - p;
+  const Vec3 b = mesh.positions[t[(corner.index + 2) % 3]] - p;
+  const Vec3 area = area_vector(mesh, t);
+  const double length = area.norm();
+  if (length > 0.0 && std::isfinite(length)) {
+    corner.normal = area / length;
+    corner.angle = angle_between(a, b);
+  }
+  return corner;
+}
+
+/// +1 or −1: how `other` counts beside `normal`; 0 if a crease lies between them.
+double side_of(const Vec3& normal, const Vec3& other, double crease_cosine) {
+  const double cosine = normal.dot(other);
+  if (std::abs(cosine) < crease_cosine) {
+    return 0.0;
+  }
+  return cosine < 0.0 ? -1.0 : 1.0;
+}
+
+Vec3f unit_or(const Vec3& sum, const Vec3& fallback) {
+  const double length = sum.norm();
+  return (length > 0.0 ? Vec3(sum / length) : fallback).cast<float>();
+}
+
+using CornerNormals = std::vector<std::array<Vec3f, 3>>;
+
+void smooth_pairwise(std::span<const Corner> corners, double crease_cosine,
+                     CornerNormals& normals) {
+  for (const Corner& corner : corners) {
+    Vec3 sum = Vec3::Zero();
+    for (const Corner& other : corners) {
+      sum += side_of(corner.normal, other.normal, crease_cosine) * other.angle * other.normal;
+    }
+    normals[corner.face][corner.index] = unit_or(sum, corner.normal);
+  }
+}
+
+void smooth_by_groups(std::span<const Corner> corners, double crease_cosine,
+                      CornerNormals& normals) {
+  struct Group {
+    Vec3 leader;
+    Vec3 sum;
+  };
+
+  std::vector<Group> groups;
+  std::vector<std::size_t> group_of_corner;
+  for (const Corner& corner : corners) {
+    std::size_t g = 0;
+    while (g < groups.size() && side_of(groups[g].leader, corner.normal, crease_cosine) == 0.0) {
+      ++g;
+    }
+    if (g == groups.size()) {
+      groups.push_back({corner.normal, Vec3::Zero()});
+    }
+    groups[g].sum +=
+        side_of(groups[g].leader, corner.normal, crease_cosine) * corner.angle * corner.normal;
+    group_of_corner.push_back(g);
+  }
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    const Group& group = groups[group_of_corner[c]];
+    const double side = group.leader.dot(corners[c].normal) < 0.0 ? -1.0 : 1.0;
+    normals[corners[c].face][corners[c].index] = unit_or(side * group.sum, corners[c].normal);
+  }
+}
+
+}  // namespace
+
+std::vector<std::array<Vec3f, 3>> corner_normals(const TriMesh& mesh, double crease_rad,
+                                                 const RunContext& run) {
+  const WeldedMesh welded = weld(mesh);
+  const IndexLists corners_at = corners_of_positions(mesh, welded);
+  const double crease_cosine = std::cos(crease_rad);
+  CornerNormals normals(mesh.triangles.size(), {Vec3f::Zero(), Vec3f::Zero(), Vec3f::Zero()});
+  parallel_for(run, corners_at.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::vector<Corner> corners;
+    for (std::size_t position = begin; position < end; ++position) {
+      corners.clear();
+      for (const std::uint32_t id : corners_at[position]) {
+        Corner corner = make_corner(mesh, id);
+        if (corner.angle > 0.0) {
+          corners.push_back(corner);
+        }
+      }
+      if (corners.size() <= kMaxPairwiseCorners) {
+        smooth_pairwise(corners, crease_cosine, normals);
+      } else {
+        smooth_by_groups(corners, crease_cosine, normals);
+      }
+    }
+  });
+  return normals;
+}
+
+}  // namespace vantage

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/render/framing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "vantage/core/error.h"
+
+namespace vantage {
+namespace {
+
+/// Half-angle of the cone around the poles in which up turns to a fixed axis (ours).
+constexpr double kPoleCone_rad = 5.0 * std::numbers::pi / 180.0;
+/// Below this the sideways part of a unit vector is rounding, not a direction.
+constexpr double kNegligible = 1e-12;
+/// Centring stops when the box is off centre by less than this fraction of its size: far below a
+/// pixel of any picture.
+constexpr double kCentred = 1e-10;
+constexpr int kMaxCentringSteps = 100;
+/// Largest and smallest tangent of half the field of view: 170° and about 0.1 seconds of arc.
+constexpr double kMaxTangent = 11.43;
+constexpr double kMinTangent = 2.5e-7;
+
+/// Horizontal axis that a person standing in front of the model looks along, turned round.
+Vec3 front_of(const Vec3& model_up) {
+  const bool z_is_up = std::abs(model_up.z()) > 0.9;
+  const Vec3 axis = z_is_up ? Vec3(-Vec3::UnitY()) : Vec3(Vec3::UnitZ());
+  return (axis - axis.dot(model_up) * model_up).normalized();
+}
+
+Vec3 orthogonal_part(const Vec3& vector, const Vec3& unit) {
+  return vector - vector.dot(unit) * unit;
+}
+
+/// Picture axes: right, up, and the line of sight.
+struct Axes {
+  Vec3 right;
+  Vec3 up;
+  Vec3 forward;
+};
+
+Axes axes_along(const Vec3& forward, const Vec3& up_hint) {
+  Axes axes;
+  axes.forward = forward;
+  axes.right = forward.cross(up_hint).normalized();
+  axes.up = axes.right.cross(forward);
+  return axes;
+}
+
+/// Bounds of the points in the picture; `in_front` is false if a point cannot be projected.
+struct Bounds {
+  double low_x = std::numeric_limits<double>::infinity();
+  double high_x = -std::numeric_limits<double>::infinity();
+  double low_y = std::numeric_limits<double>::infinity();
+  double high_y = -std::numeric_limits<double>::infinity();
+  bool in_front = true;
+
+  void add(double x, double y) {
+    low_x = std::min(low_x, x);
+    high_x = std::max(high_x, x);
+    low_y = std::min(low_y, y);
+    high_y = std::max(high_y, y);
+  }
+
+  [[nodiscard]] double centre_x() const { return 0.5 * (low_x + high_x); }
+
+  [[nodiscard]] double centre_y() const { return 0.5 * (low_y + high_y); }
+};
+
+Bounds perspective_bounds(std::span<const Vec3> points, const Vec3& eye, const Axes& axes) {
+  Bounds bounds;
+  for (const Vec3& point : points) {
+    const Vec3 offset = point - eye;
+    const double depth = offset.dot(axes.forward);
+    if (!(depth > kNegligible * offset.norm())) {
+      bounds.in_front = false;
+      return bounds;
+    }
+    bounds.add(offset.dot(axes.right) / depth, offset.dot(axes.up) / depth);
+  }
+  return bounds;
+}
+
+/// Half of the width and of the height that may be filled, in halves of the picture's height.
+struct Room {
+  double x;
+  double y;
+};
+
+Room room_for(double aspect, double margin) {
+  const double border = 2.0 * margin * std::min(aspect, 1.0);
+  return {aspect - border, 1.0 - border};
+}
+
+/// Half the picture's height that just holds a centred box of these half-sizes.
+double half_height(const Bounds& bounds, const Room& room) {
+  return std::max(0.5 * (bounds.high_x - bounds.low_x) / room.x,
+                  0.5 * (bounds.high_y - bounds.low_y) / room.y);
+}
+
+void check_arguments(std::span<const Vec3> points, const Viewpoint& eye, const Vec3& centre,
+                     double aspect, double margin) {
+  if (points.empty()) {
+    throw InvalidInput("framing needs at least one point");
+  }
+  if (!(aspect > 0.0) || !std::isfinite(aspect)) {
+    throw InvalidInput("framing needs an aspect (width over height) above 0");
+  }
+  if (!(margin >= 0.0 && margin < 0.5)) {
+    throw InvalidInput("framing needs a margin in [0, 0.5)");
+  }
+  const bool eye_is_valid = eye.projection == Projection::Perspective
+                                ? (eye.position - centre).norm() > 0.0
+                                : eye.position.norm() > 0.0;
+  if (!eye_is_valid || !eye.position.allFinite() || !centre.allFinite()) {
+    throw InvalidInput("framing needs an eye that is finite and away from the model's centre");
+  }
+  if (!std::all_of(points.begin(), points.end(), [](const Vec3& p) { return p.allFinite(); })) {
+    throw InvalidInput("framing needs finite points");
+  }
+}
+
+[[noreturn]] void throw_too_near() {
+  throw InvalidInput(
+      "the eye is inside the model or too near to see all of it; move it further away");
+}
+
+/// Line of sight to start from: to the centre, or to the mean direction if points lie behind that.
+Vec3 first_forward(std::span<const Vec3> points, const Vec3& eye, const Vec3& centre,
+                   const Vec3& up) {
+  const Vec3 forward = (centre - eye).normalized();
+  if (perspective_bounds(points, eye, axes_along(forward, up)).in_front) {
+    return forward;
+  }
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& point : points) {
+    sum += (point - eye).normalized();
+  }
+  if (!(sum.norm() > kNegligible * static_cast<double>(points.size()))) {
+    throw_too_near();
+  }
+  return sum.normalized();
+}
+
+Camera frame_perspective(std::span<const Vec3> points, const Vec3& eye, const Vec3& centre,
+                         const Vec3& model_up, const Room& room) {
+  const Vec3 up_hint = upright((eye - centre).normalized(), model_up);
+  Axes axes = axes_along(first_forward(points, eye, centre, up_hint), up_hint);
+  Bounds bounds;
+  // Turning the camera to the middle of the box turns the picture plane and so the box; the error
+  // shrinks by about tan²(half the field of view) a step.
+  for (int step = 0; step < kMaxCentringSteps; ++step) {
+    bounds = perspective_bounds(points, eye, axes);
+    if (!bounds.in_front) {
+      throw_too_near();
+    }
+    const double x = bounds.centre_x();
+    const double y = bounds.centre_y();
+    const double size = std::max(half_height(bounds, room), kMinTangent);
+    if (std::max(std::abs(x), std::abs(y)) <= kCentred * size) {
+      break;
+    }
+    axes = axes_along((axes.forward + x * axes.right + y * axes.up).normalized(), up_hint);
+  }
+  bounds = perspective_bounds(points, eye, axes);
+  if (!bounds.in_front) {
+    throw_too_near();
+  }
+  // Measured from the axis, so that nothing is clipped even if the centring ended early.
+  const double tangent = std::max(std::max(bounds.high_x, -bounds.low_x) / room.x,
+                                  std::max(bounds.high_y, -bounds.low_y) / room.y);
+  if (tangent > kMaxTangent) {
+    throw_too_near();
+  }
+  const double depth = (centre - eye).dot(axes.forward);
+  Camera camera;
+  camera.projection = Projection::Perspective;
+  camera.eye = eye;
+  camera.target = eye + (depth > 0.0 ? depth : (centre - eye).norm()) * axes.forward;
+  camera.up = axes.up;
+  camera.fov_y_deg = 2.0 * std::atan(std::max(tangent, kMinTangent)) * 180.0 / std::numbers::pi;
+  return camera;
+}
+
+Camera frame_orthographic(std::span<const Vec3> points, const Vec3& direction, const Vec3& centre,
+                          const Vec3& model_up, const Room& room) {
+  const Axes axes = axes_along(-direction, upright(direction, model_up));
+  Bounds bounds;
+  double nearest = 0.0;
+  double reach = 0.0;
+  for (const Vec3& point : points) {
+    const Vec3 offset = point - centre;
+    bounds.add(offset.dot(axes.right), offset.dot(axes.up));
+    nearest = std::max(nearest, offset.dot(direction));
+    reach = std::max(reach, offset.norm());
+  }
+  const double scale = reach > 0.0 ? reach : 1.0;
+  Camera camera;
+  camera.projection = Projection::Orthographic;
+  camera.target = centre + bounds.centre_x() * axes.right + bounds.centre_y() * axes.up;
+  camera.eye = camera.target + (nearest + scale) * direction;
+  camera.up = axes.up;
+  camera.height = 2.0 * std::max(half_height(bounds, room), kMinTangent * scale);
+  return camera;
+}
+
+}  // namespace
+
+Vec3 upright(const Vec3& direction, const Vec3& model_up) {
+  const Vec3 radial = orthogonal_part(model_up, direction);
+  const double sine = radial.norm();
+  const bool above = direction.dot(model_up) > 0.0;
+  if (sine >= std::sin(kPoleCone_rad)) {
+    return radial / sine;
+  }
+  const Vec3 front = front_of(model_up);
+  const Vec3 fixed = orthogonal_part(above ? Vec3(-front) : front, direction).normalized();
+  if (sine <= kNegligible) {
+    return fixed;
+  }
+  const Vec3 side = direction.cross(fixed);
+  const double across = radial.dot(side) / sine;
+  // From exactly behind both ways round are as long; rounding must not choose.
+  const double turn =
+      std::atan2(std::abs(across) <= kNegligible ? 0.0 : across, radial.dot(fixed) / sine);
+  const double t = std::asin(sine) / kPoleCone_rad;
+  const double angle = turn * t * t * (3.0 - 2.0 * t);
+  return std::cos(angle) * fixed + std::sin(angle) * side;
+}
+
+Camera frame_points(std::span<const Vec3> points, const Viewpoint& eye, const Vec3& centre,
+                    const Vec3& model_up, double aspect, double margin) {
+  check_arguments(points, eye, centre, aspect, margin);
+  const Room room = room_for(aspect, margin);
+  if (eye.projection == Projection::Orthographic) {
+    return frame_orthographic(points, eye.position.normalized(), centre, model_up, room);
+  }
+  return frame_perspective(points, eye.position, centre, model_up, room);
+}
+
+}  // namespace vantage

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "render/picture_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "vantage/core/error.h"
+
+namespace vantage {
+namespace {
+
+/// Rays start this much before the scene's ball, relative to its radius: more than rounding.
+constexpr double kBeforeBall = 1e-3;
+/// A sine below this between up and the line of sight leaves the picture's turn undefined.
+constexpr double kMinUpSine = 1e-9;
+
+}  // namespace
+
+PictureRays::PictureRays(const Camera& camera, const UnitFrame& frame, double reach, int width,
+                         int height)
+    : eye_(frame.to_frame(camera.eye)),
+      perspective_(camera.projection == Projection::Perspective),
+      reach_(reach),
+      width_(width),
+      height_(height) {
+  const Vec3 sight = camera.target - camera.eye;
+  if (!sight.allFinite() || !(sight.norm() > 0.0)) {
+    throw InvalidInput("the camera's eye and target must be finite and apart");
+  }
+  back_ = -sight.normalized();
+  const Vec3 side = camera.up.cross(back_);
+  if (!(side.norm() > kMinUpSine * camera.up.norm())) {
+    throw InvalidInput("the camera's up vector must not point along its line of sight");
+  }
+  right_ = side.normalized();
+  up_ = back_.cross(right_);
+  if (perspective_ && !(camera.fov_y_deg > 0.0 && camera.fov_y_deg < 180.0)) {
+    throw InvalidInput("the camera's field of view must be between 0 and 180 degrees");
+  }
+  if (!perspective_ && !(camera.height > 0.0 && std::isfinite(camera.height))) {
+    throw InvalidInput("the orthographic camera's height must be above 0");
+  }
+  half_height_ = perspective_ ? std::tan(camera.fov_y_deg * std::numbers::pi / 360.0)
+                              : 0.5 * camera.height * frame.scale;
+  half_width_ = half_height_ * static_cast<double>(width) / static_cast<double>(height);
+}
+
+PictureRay PictureRays::ray(double x, double y) const {
+  const double across = (2.0 * x / width_ - 1.0) * half_width_;
+  const double along = (1.0 - 2.0 * y / height_) * half_height_;
+  const Vec3 shift = across * right_ + along * up_;
+  PictureRay ray;
+  ray.direction = perspective_ ? Vec3(shift - back_).normalized() : Vec3(-back_);
+  const Vec3 start = perspective_ ? eye_ : Vec3(eye_ + shift);
+  const double nearest_t = -start.dot(ray.direction);
+  const Vec3 nearest = start + nearest_t * ray.direction;
+  ray.can_hit = nearest.norm() <= reach_ && (!perspective_ || nearest_t >= -reach_);
+  const double enter = nearest_t - (1.0 + kBeforeBall) * reach_;
+  ray.origin = start + (perspective_ ? std::max(enter, 0.0) : enter) * ray.direction;
+  return ray;
+}
+
+PixelBox PictureRays::ball_bounds(const Vec3& centre, double radius) const {
+  const Vec3 offset = centre - eye_;
+  const double depth = -offset.dot(back_);
+  if (perspective_ && depth <= 2.0 * radius) {
+    return {0, 0, width_, height_};
+  }
+  const double x = offset.dot(right_);
+  const double y = offset.dot(up_);
+  // The ball lies in a cube along the picture's axes; the cube's near and far faces bound it.
+  const double near = perspective_ ? 1.0 / (depth - radius) : 1.0;
+  const double far = perspective_ ? 1.0 / (depth + radius) : 1.0;
+  const auto low = [&](double value) { return std::min(value * near, value * far); };
+  const auto high = [&](double value) { return std::max(value * near, value * far); };
+  const auto pixel = [](double fraction, int size) {
+    return static_cast<int>(std::clamp(fraction, -1.0, 2.0) * size);
+  };
+  const double w = 2.0 * half_width_;
+  const double h = 2.0 * half_height_;
+  // Two pixels to spare: one for rounding down, one for samples taken beside their pixel.
+  PixelBox box{
+      pixel(0.5 + low(x - radius) / w, width_) - 2, pixel(0.5 - high(y + radius) / h, height_) - 2,
+      pixel(0.5 + high(x + radius) / w, width_) + 3, pixel(0.5 - low(y - radius) / h, height_) + 3};
+  box.x0 = std::clamp(box.x0, 0, width_);
+  box.x1 = std::clamp(box.x1, 0, width_);
+  box.y0 = std::clamp(box.y0, 0, height_);
+  box.y1 = std::clamp(box.y1, 0, height_);
+  return box;
+}
+
+}  // namespace vantage

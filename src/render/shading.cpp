@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "render/shading.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vantage {
+namespace {
+
+// All strengths and directions below are ours, chosen by eye on scans, CAD parts and low-poly
+// models so that every side of a model stays readable. Directions are in the camera's axes.
+const Vec3 kKeyDirection = Vec3(-0.50, 0.68, 0.70).normalized();
+const Vec3 kFillDirection = Vec3(0.85, -0.20, 0.50).normalized();
+const Vec3 kKeyColour(0.86, 0.84, 0.80);
+const Vec3 kFillColour(0.13, 0.15, 0.18);
+const Vec3 kSkyColour(0.30, 0.31, 0.33);
+const Vec3 kGroundColour(0.085, 0.08, 0.075);
+constexpr double kKeyWrap = 0.12;  ///< Soft light reaches this far (as a cosine) round a side.
+constexpr double kFillWrap = 0.35;
+constexpr double kKeyOcclusion = 0.55;  ///< How much of the key light comes from a wide source.
+constexpr double kRim = 0.16;
+constexpr double kSheen = 0.055;
+constexpr double kSheenPower = 28.0;
+constexpr double kShoulder = 0.72;  ///< Brighter channels are compressed into what is left to 1.
+constexpr double kFaceOpacity = 0.34;
+constexpr double kOutlineOpacity = 0.90;
+constexpr double kOutlinePower = 2.2;
+constexpr double kTubeOutline = 0.45;  ///< Cosine to the viewer below which tubes darken.
+
+double wrapped(double cosine, double wrap) {
+  return std::max(0.0, (cosine + wrap) / (1.0 + wrap));
+}
+
+double facing(const SurfacePoint& point) {
+  return std::clamp(point.normal.dot(point.to_viewer), 0.0, 1.0);
+}
+
+Vec3 compress(const Vec3& colour) {
+  const double brightest = colour.maxCoeff();
+  if (brightest <= kShoulder) {
+    return colour;
+  }
+  const double room = 1.0 - kShoulder;
+  const double compressed = kShoulder + room * (1.0 - std::exp((kShoulder - brightest) / room));
+  return colour * (compressed / brightest);
+}
+
+Vec3 diffuse_light(const SurfacePoint& point) {
+  const Vec3& n = point.normal;
+  const double key = wrapped(n.dot(kKeyDirection), kKeyWrap);
+  const double fill = wrapped(n.dot(kFillDirection), kFillWrap);
+  const double sky = 0.5 + 0.5 * n.y();
+  const double key_openness = 1.0 - kKeyOcclusion * (1.0 - point.openness);
+  return key * key_openness * kKeyColour +
+         point.openness * (fill * kFillColour + sky * kSkyColour + (1.0 - sky) * kGroundColour);
+}
+
+double sheen(const SurfacePoint& point, double power) {
+  const Vec3 half = (kKeyDirection + point.to_viewer).normalized();
+  return std::pow(std::max(0.0, point.normal.dot(half)), power);
+}
+
+}  // namespace
+
+Vec3 shade_surface(const SurfacePoint& point) {
+  const double edge = 1.0 - facing(point);
+  const double rim = kRim * edge * edge * edge * (0.5 + 0.5 * point.normal.y()) * point.openness;
+  const Vec3 lit = point.albedo.cwiseProduct(diffuse_light(point) + Vec3::Constant(rim));
+  const double gloss = (kSheen * sheen(point, kSheenPower) + 0.25 * rim) * point.openness;
+  return compress(lit + Vec3::Constant(gloss));
+}
+
+Vec3 shade_tube(const SurfacePoint& point) {
+  const double outline = std::min(1.0, facing(point) / kTubeOutline);
+  const double ink = 0.35 + 0.65 * outline;
+  const Vec3 lit = ink * point.albedo.cwiseProduct(diffuse_light(point) + Vec3::Constant(0.25));
+  return compress(lit + Vec3::Constant(0.18 * sheen(point, 2.0 * kSheenPower)));
+}
+
+double translucent_opacity(const SurfacePoint& point) {
+  const double edge = std::pow(1.0 - facing(point), kOutlinePower);
+  return kFaceOpacity + (kOutlineOpacity - kFaceOpacity) * edge;
+}
+
+}  // namespace vantage

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "render/srgb.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace vantage {
+namespace {
+
+std::array<double, 256> decode_table() {
+  std::array<double, 256> table{};
+  for (std::size_t byte = 0; byte < table.size(); ++byte) {
+    const double value = static_cast<double>(byte) / 255.0;
+    table[byte] = value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+  }
+  return table;
+}
+
+}  // namespace
+
+double linear_of_srgb(std::uint8_t byte) {
+  static const std::array<double, 256> table = decode_table();
+  return table[byte];
+}
+
+Vec3 linear_of_srgb(const Rgb8& colour) {
+  return {linear_of_srgb(colour[0]), linear_of_srgb(colour[1]), linear_of_srgb(colour[2])};
+}
+
+std::uint8_t srgb_of_linear(double value) {
+  const double clamped = std::clamp(value, 0.0, 1.0);
+  const double encoded =
+      clamped <= 0.0031308 ? 12.92 * clamped : 1.055 * std::pow(clamped, 1.0 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
+}
+
+Rgb8 srgb_of_linear(const Vec3& colour) {
+  return {srgb_of_linear(colour[0]), srgb_of_linear(colour[1]), srgb_of_linear(colour[2])};
+}
+
+}  // namespace vantage

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/significance/kssm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "core/parallel.h"
+#include "spatial/graph_distance.h"
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/topology.h"
+
+namespace vantage {
+namespace {
+
+/// A level whose displacement spans less than this fraction of D is flat: rounding, not shape.
+constexpr double kFlat = 1e-6;
+constexpr std::size_t kGrain = 2048;  // vertices a task
+
+/// One level of the map: values d, of which only the referenced vertices count.
+struct Level {
+  std::vector<double> normalised{};  ///< D^(j) in [0, 1] for referenced vertices.
+  std::size_t maximum = 0;           ///< Lowest-index vertex that attains 1.
+  bool flat = true;
+};
+
+Level normalise(const std::vector<double>& d, const std::vector<bool>& referenced,
+                double diameter) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  Level level;
+  for (std::size_t v = 0; v < d.size(); ++v) {
+    if (referenced[v]) {
+      low = std::min(low, d[v]);
+      if (d[v] > high) {
+        high = d[v];
+        level.maximum = v;
+      }
+    }
+  }
+  level.normalised.assign(d.size(), 0.0);
+  level.flat = !(high - low > kFlat * diameter);
+  if (!level.flat) {
+    for (std::size_t v = 0; v < d.size(); ++v) {
+      if (referenced[v]) {
+        level.normalised[v] = (d[v] - low) / (high - low);
+      }
+    }
+  }
+  return level;
+}
+
+/// Weighted mean over the referenced vertices other than the one that attains the maximum.
+double mean_without_maximum(const Level& level, const std::vector<bool>& referenced,
+                            const std::vector<double>& weight) {
+  double sum = 0.0;
+  double weights = 0.0;
+  for (std::size_t v = 0; v < level.normalised.size(); ++v) {
+    if (referenced[v] && v != level.maximum) {
+      sum += weight[v] * level.normalised[v];
+      weights += weight[v];
+    }
+  }
+  return weights > 0.0 ? sum / weights : 0.0;
+}
+
+/// Weighted mean over the strict local maxima over one-rings, the global maximum left out.
+double mean_of_local_maxima(const Level& level, const IndexLists& rings,
+                            const std::vector<double>& weight) {
+  double sum = 0.0;
+  double weights = 0.0;
+  for (std::size_t v = 0; v < level.normalised.size(); ++v) {
+    const double value = level.normalised[v];
+    const auto ring = rings[v];
+    const bool peak = !ring.empty() && std::all_of(ring.begin(), ring.end(), [&](std::uint32_t u) {
+      return level.normalised[u] < value;
+    });
+    if (peak && v != level.maximum) {
+      sum += weight[v] * value;
+      weights += weight[v];
+    }
+  }
+  return weights > 0.0 ? sum / weights : 0.0;
+}
+
+std::vector<std::vector<double>> displacements(const ContractionHistory& history,
+                                               const CurveGraph& skeleton, const RunContext& run) {
+  const GraphDistance distance(skeleton);
+  std::vector<std::vector<double>> d;
+  const auto levels = static_cast<double>(history.levels.size());
+  for (const auto& positions : history.levels) {
+    run.advance("map", static_cast<double>(d.size()) / levels);
+    auto& level = d.emplace_back(positions.size());
+    parallel_for(run, positions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        level[v] = distance(positions[v]);
+      }
+    });
+  }
+  return d;
+}
+
+}  // namespace
+
+KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
+                     const CurveGraph& skeleton, const KssmOptions& options,
+                     const RunContext& run) {
+  const std::size_t vertex_count = mesh.positions.size();
+  if (history.levels.empty() || history.levels.front().size() != vertex_count) {
+    throw InvalidInput("the contraction history does not belong to this mesh");
+  }
+  if (skeleton.nodes.empty()) {
+    throw InvalidInput("the skeleton has no nodes to measure distances to");
+  }
+  const IndexLists rings = vertex_neighbours(mesh);
+  std::vector<bool> referenced(vertex_count);
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    referenced[v] = !rings[v].empty();
+  }
+  const double diameter = enclosing_sphere(referenced_points(mesh)).diameter;
+  const std::vector<double> weight = options.area_weighted_mean
+                                         ? vertex_areas(mesh)
+                                         : std::vector<double>(vertex_count, 1.0);
+
+  KssmMap map;
+  map.displacement = displacements(history, skeleton, run);
+  map.of_vertex.assign(vertex_count, 0.0);
+  const bool velocity = options.kinematics == Kinematics::Velocity;
+  std::vector<double> moved(vertex_count);
+  for (std::size_t j = velocity ? 1 : 0; j < map.displacement.size(); ++j) {
+    if (velocity) {
+      for (std::size_t v = 0; v < vertex_count; ++v) {
+        moved[v] = map.displacement[j - 1][v] - map.displacement[j][v];
+      }
+    }
+    const Level level = normalise(velocity ? moved : map.displacement[j], referenced, diameter);
+    if (level.flat) {
+      map.level_factor.push_back(0.0);
+      continue;
+    }
+    const double mean = options.suppression == Suppression::Mean
+                            ? mean_without_maximum(level, referenced, weight)
+                            : mean_of_local_maxima(level, rings, weight);
+    const double factor = (1.0 - mean) * (1.0 - mean);  // Φ of the paper, on normalised values
+    map.level_factor.push_back(factor);
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+      map.of_vertex[v] += factor * level.normalised[v];
+    }
+  }
+  return map;
+}
+
+}  // namespace vantage

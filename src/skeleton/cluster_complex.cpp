@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#include "skeleton/cluster_complex.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "vantage/mesh/topology.h"
+
+namespace vantage {
+namespace {
+
+using Link = ClusterComplex::Link;
+
+bool before(const Link& link, std::uint32_t cluster) {
+  return link.cluster < cluster;
+}
+
+/// The two corners of a triangle other than `corner`.
+std::array<std::uint32_t, 2> others(const Triangle& t, std::uint32_t corner) {
+  if (t[0] == corner) {
+    return {t[1], t[2]};
+  }
+  return t[1] == corner ? std::array{t[0], t[2]} : std::array{t[0], t[1]};
+}
+
+}  // namespace
+
+ClusterComplex::ClusterComplex(const TriMesh& mesh, std::vector<Vec3> positions,
+                               std::vector<double> weights)
+    : position_(std::move(positions)),
+      weight_(std::move(weights)),
+      parent_(position_.size()),
+      links_(position_.size()),
+      faces_of_(position_.size()),
+      faces_(mesh.triangles),
+      guard_(TriMesh{}, EdgeTable{}) {
+  std::iota(parent_.begin(), parent_.end(), 0U);
+  const EdgeTable table = build_edge_table(mesh);
+  guard_ = HandleGuard(mesh, table);
+  annotation_ = guard_.annotations();
+  ends_ = table.edges;
+  edge_faces_.resize(table.edges.size());
+  // Sorted edges: each cluster first meets its lower, then its higher neighbours.
+  for (std::uint32_t e = 0; e < ends_.size(); ++e) {
+    links_[ends_[e][1]].push_back({ends_[e][0], e});
+    edge_faces_[e] = static_cast<std::uint32_t>(table.faces_of_edge[e].size());
+  }
+  for (std::uint32_t e = 0; e < ends_.size(); ++e) {
+    links_[ends_[e][0]].push_back({ends_[e][1], e});
+  }
+  // A face that stands twice in the file is one triangle here.
+  for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+    const Triangle& t = faces_[f];
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
+      continue;
+    }
+    if (has_face(t[0], t[1], t[2])) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        --edge_faces_[find(t[c], t[(c + 1) % 3])->edge];
+      }
+      continue;
+    }
+    for (const std::uint32_t corner : t) {
+      faces_of_[corner].push_back(f);
+    }
+    ++live_faces_;
+  }
+}
+
+double ClusterComplex::length(std::uint32_t edge) const {
+  return (position_[ends_[edge][0]] - position_[ends_[edge][1]]).norm();
+}
+
+const Link* ClusterComplex::find(std::uint32_t cluster, std::uint32_t neighbour) const {
+  const auto& links = links_[cluster];
+  const auto at = std::lower_bound(links.begin(), links.end(), neighbour, before);
+  return at != links.end() && at->cluster == neighbour ? &*at : nullptr;
+}
+
+bool ClusterComplex::has_face(std::uint32_t cluster, std::uint32_t x, std::uint32_t y) const {
+  return std::any_of(faces_of_[cluster].begin(), faces_of_[cluster].end(), [&](std::uint32_t f) {
+    const auto [p, q] = others(faces_[f], cluster);
+    return (p == x && q == y) || (p == y && q == x);
+  });
+}
+
+std::vector<std::uint32_t> ClusterComplex::pinched_by(std::uint32_t edge) const {
+  const auto [a, b] = ends_[edge];
+  const auto& smaller = links_[a].size() < links_[b].size() ? links_[a] : links_[b];
+  const std::uint32_t other = links_[a].size() < links_[b].size() ? b : a;
+  std::vector<std::uint32_t> common;
+  for (const Link& link : smaller) {
+    if (find(other, link.cluster) != nullptr) {
+      common.push_back(link.cluster);
+    }
+  }
+  if (common.size() == edge_faces_[edge]) {
+    return {};
+  }
+  std::erase_if(common, [&](std::uint32_t c) { return has_face(c, a, b); });
+  return common;
+}
+
+Bits ClusterComplex::loop_class(std::uint32_t edge, std::uint32_t third) const {
+  const std::size_t words = guard_.words();
+  Bits sum(words, 0);
+  const auto [a, b] = ends_[edge];
+  for (const std::uint32_t e : {edge, find(third, a)->edge, find(third, b)->edge}) {
+    for (std::size_t w = 0; w < words; ++w) {
+      sum[w] ^= annotation_[e * words + w];
+    }
+  }
+  guard_.reduce(sum);
+  return sum;
+}
+
+bool ClusterComplex::keeps_handles(std::uint32_t edge) const {
+  if (guard_.words() == 0) {
+    return true;
+  }
+  std::vector<Bits> loops;
+  for (const std::uint32_t third : pinched_by(edge)) {
+    loops.push_back(loop_class(edge, third));
+  }
+  return guard_.may_kill(loops);
+}
+
+void ClusterComplex::kill_pinched_loops(std::uint32_t edge) {
+  if (guard_.words() == 0) {
+    return;
+  }
+  for (const std::uint32_t third : pinched_by(edge)) {
+    guard_.kill(loop_class(edge, third));
+  }
+}
+
+void ClusterComplex::remove_face(std::uint32_t face) {
+  const Triangle t = faces_[face];
+  for (std::size_t c = 0; c < 3; ++c) {
+    --edge_faces_[find(t[c], t[(c + 1) % 3])->edge];
+    std::erase(faces_of_[t[c]], face);
+  }
+  --live_faces_;
+}
+
+void ClusterComplex::absorb_faces(std::uint32_t keep, std::uint32_t gone) {
+  const std::vector<std::uint32_t> faces = faces_of_[gone];
+  for (const std::uint32_t f : faces) {
+    const auto [x, y] = others(faces_[f], gone);
+    if (x == keep || y == keep || has_face(keep, x, y)) {
+      remove_face(f);
+    }
+  }
+  for (const std::uint32_t f : faces_of_[gone]) {
+    for (std::uint32_t& corner : faces_[f]) {
+      corner = corner == gone ? keep : corner;
+    }
+    faces_of_[keep].push_back(f);
+  }
+  faces_of_[gone] = {};
+}
+
+void ClusterComplex::absorb_links(std::uint32_t keep, std::uint32_t gone, std::uint32_t edge) {
+  const std::size_t words = guard_.words();
+  const std::vector<Link> moving = std::exchange(links_[gone], {});
+  for (const auto& [c, e] : moving) {
+    auto& back = links_[c];
+    back.erase(std::lower_bound(back.begin(), back.end(), gone, before));
+    if (c == keep) {
+      continue;
+    }
+    if (const Link* twin = find(keep, c)) {
+      edge_faces_[twin->edge] += edge_faces_[e];
+      ends_[e] = {c, c};
+      continue;
+    }
+    // The way from `keep` to c now leads over the collapsed edge.
+    for (std::size_t w = 0; w < words; ++w) {
+      annotation_[e * words + w] ^= annotation_[edge * words + w];
+    }
+    ends_[e] = {std::min(keep, c), std::max(keep, c)};
+    back.insert(std::lower_bound(back.begin(), back.end(), keep, before), {keep, e});
+    auto& links = links_[keep];
+    links.insert(std::lower_bound(links.begin(), links.end(), c, before), {c, e});
+  }
+  ends_[edge] = {keep, keep};
+}
+
+std::uint32_t ClusterComplex::collapse(std::uint32_t edge) {
+  auto [keep, gone] = ends_[edge];
+  if (links_[gone].size() > links_[keep].size()) {
+    std::swap(keep, gone);
+  }
+  kill_pinched_loops(edge);
+  absorb_faces(keep, gone);
+  absorb_links(keep, gone, edge);
+  const double weight = weight_[keep] + weight_[gone];
+  position_[keep] = (weight_[keep] * position_[keep] + weight_[gone] * position_[gone]) / weight;
+  weight_[keep] = weight;
+  parent_[gone] = keep;
+  return keep;
+}
+
+std::uint32_t ClusterComplex::cluster_of(std::uint32_t vertex) {
+  while (parent_[vertex] != vertex) {
+    parent_[vertex] = parent_[parent_[vertex]];
+    vertex = parent_[vertex];
+  }
+  return vertex;
+}
+
+CurveGraph ClusterComplex::graph(std::vector<std::uint32_t>& node_of_vertex) {
+  constexpr std::uint32_t kUnset = std::numeric_limits<std::uint32_t>::max();
+  CurveGraph graph;
+  std::vector<std::uint32_t> node_of_cluster(position_.size(), kUnset);
+  node_of_vertex.resize(position_.size());
+  for (std::uint32_t v = 0; v < position_.size(); ++v) {
+    const std::uint32_t cluster = cluster_of(v);
+    if (node_of_cluster[cluster] == kUnset) {
+      node_of_cluster[cluster] = static_cast<std::uint32_t>(graph.nodes.size());
+      graph.nodes.push_back(position_[cluster]);
+    }
+    node_of_vertex[v] = node_of_cluster[cluster];
+  }
+  for (std::uint32_t e = 0; e < ends_.size(); ++e) {
+    if (edge_is_live(e)) {
+      const std::uint32_t a = node_of_cluster[ends_[e][0]];
+      const std::uint32_t b = node_of_cluster[ends_[e][1]];
+      graph.edges.push_back({std::min(a, b), std::max(a, b)});
+    }
+  }
+  std::sort(graph.edges.begin(), graph.edges.end());
+  return graph;
+}
+
+}  // namespace vantage

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "vantage/mesh/curve_graph.h"
+#include "vantage/mesh/tri_mesh.h"
+
+namespace vantage {
+
+/// Mean level-0 distance of each node to the vertices it stands for; 0 for a node without any.
+std::vector<double> node_radii(const CurveGraph& graph, const TriMesh& mesh,
+                               std::span<const std::uint32_t> node_of_vertex);
+
+/// Moves every node to the area-weighted centroid of the vertices it stands for, then straightens
+/// chains once, so that a slanted cluster does not leave a kink.
+CurveGraph centre_nodes(const CurveGraph& graph, const TriMesh& mesh,
+                        std::span<const std::uint32_t> node_of_vertex);
+
+/// Cuts ends whose length is below `ratio` times the radius at the junction they hang from,
+/// shortest first; their vertices go to the junction. Cycles and components stay.
+/// \param radius         |N| radii; cut along with the nodes.
+/// \param node_of_vertex mapped to the remaining nodes.
+CurveGraph prune_ends(const CurveGraph& graph, double ratio, std::vector<double>& radius,
+                      std::vector<std::uint32_t>& node_of_vertex);
+
+}  // namespace vantage

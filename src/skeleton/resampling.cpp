@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "skeleton/resampling.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <queue>
+#include <tuple>
+
+namespace vantage {
+namespace {
+
+struct Pair {
+  double length;
+  std::uint32_t a, b;
+
+  bool operator<(const Pair& other) const {  // min-heap
+    return std::tie(other.length, other.a, other.b) < std::tie(length, a, b);
+  }
+};
+
+/// A graph under merging: nodes with sorted neighbour lists.
+class MergingGraph {
+ public:
+  MergingGraph(const CurveGraph& graph, std::vector<double> weight)
+      : position_(graph.nodes), weight_(std::move(weight)), neighbours_(graph.nodes.size()),
+        parent_(graph.nodes.size()) {
+    for (std::uint32_t i = 0; i < parent_.size(); ++i) {
+      parent_[i] = i;
+    }
+    for (const auto& [a, b] : graph.edges) {
+      neighbours_[a].push_back(b);
+      neighbours_[b].push_back(a);
+    }
+    for (auto& list : neighbours_) {
+      std::sort(list.begin(), list.end());
+    }
+  }
+
+  [[nodiscard]] bool linked(std::uint32_t a, std::uint32_t b) const {
+    return std::binary_search(neighbours_[a].begin(), neighbours_[a].end(), b);
+  }
+
+  /// Merging both would close a triangle of the graph and lose its cycle.
+  [[nodiscard]] bool share_a_neighbour(std::uint32_t a, std::uint32_t b) const {
+    return std::any_of(neighbours_[a].begin(), neighbours_[a].end(),
+                       [&](std::uint32_t c) { return linked(b, c); });
+  }
+
+  [[nodiscard]] double distance(std::uint32_t a, std::uint32_t b) const {
+    return (position_[a] - position_[b]).norm();
+  }
+
+  [[nodiscard]] const std::vector<std::uint32_t>& neighbours(std::uint32_t a) const {
+    return neighbours_[a];
+  }
+
+  void merge(std::uint32_t keep, std::uint32_t gone) {
+    const bool keep_fixed = neighbours_[keep].size() != 2;
+    const bool gone_fixed = neighbours_[gone].size() != 2;
+    // Between an end and a junction, the junction stays: a spur shorter than the spacing is no limb.
+    const bool gone_wins =
+        gone_fixed && (!keep_fixed || neighbours_[gone].size() > neighbours_[keep].size());
+    const double total = weight_[keep] + weight_[gone];
+    if (gone_wins) {
+      position_[keep] = position_[gone];
+    } else if (!keep_fixed) {
+      position_[keep] =
+          (weight_[keep] * position_[keep] + weight_[gone] * position_[gone]) / total;
+    }
+    weight_[keep] = total;
+    for (const std::uint32_t c : neighbours_[gone]) {
+      std::erase(neighbours_[c], gone);
+      if (c != keep && !linked(keep, c)) {
+        insert(keep, c);
+        insert(c, keep);
+      }
+    }
+    neighbours_[gone].clear();
+    parent_[gone] = keep;
+  }
+
+  [[nodiscard]] std::uint32_t root(std::uint32_t node) const {
+    while (parent_[node] != node) {
+      node = parent_[node];
+    }
+    return node;
+  }
+
+  [[nodiscard]] const Vec3& position(std::uint32_t node) const { return position_[node]; }
+  [[nodiscard]] std::size_t size() const { return position_.size(); }
+
+ private:
+  void insert(std::uint32_t a, std::uint32_t b) {
+    auto& list = neighbours_[a];
+    list.insert(std::lower_bound(list.begin(), list.end(), b), b);
+  }
+
+  std::vector<Vec3> position_;
+  std::vector<double> weight_;
+  std::vector<std::vector<std::uint32_t>> neighbours_;
+  std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace
+
+CurveGraph merge_close_nodes(const CurveGraph& graph, double spacing, std::vector<double> weight,
+                             std::vector<std::uint32_t>& node_of_vertex) {
+  MergingGraph merging(graph, std::move(weight));
+  std::priority_queue<Pair> queue;
+  for (const auto& [a, b] : graph.edges) {
+    queue.push({merging.distance(a, b), a, b});
+  }
+  while (!queue.empty()) {
+    const auto [length, a, b] = queue.top();
+    queue.pop();
+    if (!(length < spacing)) {
+      break;
+    }
+    if (!merging.linked(a, b) || merging.distance(a, b) != length ||
+        merging.share_a_neighbour(a, b)) {
+      continue;
+    }
+    merging.merge(a, b);
+    for (const std::uint32_t c : merging.neighbours(a)) {
+      queue.push({merging.distance(a, c), std::min(a, c), std::max(a, c)});
+    }
+  }
+
+  constexpr std::uint32_t kUnset = std::numeric_limits<std::uint32_t>::max();
+  CurveGraph result;
+  std::vector<std::uint32_t> new_of_old(merging.size(), kUnset);
+  for (std::uint32_t i = 0; i < merging.size(); ++i) {
+    if (merging.root(i) == i) {
+      new_of_old[i] = static_cast<std::uint32_t>(result.nodes.size());
+      result.nodes.push_back(merging.position(i));
+    }
+  }
+  for (std::uint32_t i = 0; i < merging.size(); ++i) {
+    for (const std::uint32_t c : merging.neighbours(i)) {
+      if (i < c) {
+        result.edges.push_back({new_of_old[i], new_of_old[c]});
+      }
+    }
+  }
+  std::sort(result.edges.begin(), result.edges.end());
+  for (std::uint32_t& node : node_of_vertex) {
+    if (node != kUnset) {
+      node = new_of_old[merging.root(node)];
+    }
+  }
+  return result;
+}
+
+}  // namespace vantage

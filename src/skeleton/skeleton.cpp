@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/skeleton/skeleton.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "skeleton/cluster_complex.h"
+#include "skeleton/embedding.h"
+#include "skeleton/resampling.h"
+#include "skeleton/surgery.h"
+#include "vantage/mesh/measures.h"
+
+namespace vantage {
+namespace {
+
+/// [r] in model units: a fraction of D (ours) or of the box diagonal (Cao 2010, section 4).
+double sample_spacing(const TriMesh& mesh, const SkeletonOptions& options) {
+  const std::vector<Vec3> points = referenced_points(mesh);
+  return options.spacing * (options.scaling == ContractionScaling::Box
+                                ? bounding_box(points).size().norm()
+                                : enclosing_sphere(points).diameter);
+}
+
+/// Share of each vertex in its cluster: its area, or the mean area where it has none.
+std::vector<double> cluster_weights(const TriMesh& mesh) {
+  std::vector<double> weights = vertex_areas(mesh);
+  double mean = 0.0;
+  for (const double w : weights) {
+    mean += w / static_cast<double>(weights.size());
+  }
+  for (double& w : weights) {
+    w = w > 0.0 ? w : std::max(mean, 1e-300);
+  }
+  return weights;
+}
+
+/// A graph straight from surgery.
+struct Collapsed {
+  CurveGraph graph{};
+  std::vector<std::uint32_t> node_of_vertex{};
+  std::size_t lost_handles = 0;
+};
+
+/// Collapses the surface at its last level. Where several handles have shrunk into one another
+/// there, the order of collapses is taken from the last level at which no handle is lost; nodes
+/// stand at the mean of their vertices' last positions all the same.
+Collapsed collapse_history(const TriMesh& mesh, const ContractionHistory& history,
+                           const RunContext& run) {
+  const std::vector<double> weights = cluster_weights(mesh);
+  Collapsed best;
+  double share = 0.0;
+  for (std::size_t level = history.levels.size(); level-- > 0;) {
+    ClusterComplex complex(mesh, history.levels[level], weights);
+    Collapsed trial;
+    trial.lost_handles = collapse_to_graph(complex, run.part(share, 0.5 * (1.0 + share)));
+    share = 0.5 * (1.0 + share);
+    if (best.graph.nodes.empty() || trial.lost_handles < best.lost_handles) {
+      trial.graph = complex.graph(trial.node_of_vertex);
+      best = std::move(trial);
+    }
+    if (best.lost_handles == 0) {
+      break;
+    }
+  }
+  const std::vector<Vec3>& last = history.levels.back();
+  std::vector<double> total(best.graph.nodes.size(), 0.0);
+  for (Vec3& node : best.graph.nodes) {
+    node.setZero();
+  }
+  for (std::size_t v = 0; v < last.size(); ++v) {
+    best.graph.nodes[best.node_of_vertex[v]] += weights[v] * last[v];
+    total[best.node_of_vertex[v]] += weights[v];
+  }
+  for (std::size_t i = 0; i < total.size(); ++i) {
+    best.graph.nodes[i] /= total[i];
+  }
+  return best;
+}
+
+/// Leaves out the nodes that stand for vertices without faces.
+CurveGraph without_isolated(const CurveGraph& graph, const ContractionHistory& history,
+                            std::vector<std::uint32_t>& node_of_vertex) {
+  std::vector<bool> wanted(graph.nodes.size(), false);
+  for (std::size_t v = 0; v < node_of_vertex.size(); ++v) {
+    if (history.component_of_vertex[v] != ContractionHistory::kIsolated) {
+      wanted[node_of_vertex[v]] = true;
+    }
+  }
+  CurveGraph kept;
+  std::vector<std::uint32_t> new_of_old(graph.nodes.size(), Skeleton::kNone);
+  for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
+    if (wanted[i]) {
+      new_of_old[i] = static_cast<std::uint32_t>(kept.nodes.size());
+      kept.nodes.push_back(graph.nodes[i]);
+    }
+  }
+  for (const auto& [a, b] : graph.edges) {
+    kept.edges.push_back({new_of_old[a], new_of_old[b]});
+  }
+  for (std::uint32_t& node : node_of_vertex) {
+    node = new_of_old[node];
+  }
+  return kept;
+}
+
+}  // namespace
+
+Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history,
+                          const SkeletonOptions& options, const RunContext& run) {
+  check_fields(options, kSkeletonFields);
+  if (history.levels.empty() || history.levels.back().size() != mesh.positions.size()) {
+    throw InvalidInput("the contraction history does not belong to this mesh");
+  }
+  Skeleton skeleton;
+  Collapsed collapsed = collapse_history(mesh, history, run.part(0.0, 0.9));
+  if (collapsed.lost_handles > 0) {
+    skeleton.warnings.push_back("the skeleton may have lost " +
+                                std::to_string(collapsed.lost_handles) +
+                                " handle(s) of the surface");
+  }
+  skeleton.raw_node_of_vertex = std::move(collapsed.node_of_vertex);
+  const CurveGraph fine = without_isolated(collapsed.graph, history, skeleton.raw_node_of_vertex);
+  std::vector<double> weight(fine.nodes.size(), 0.0);
+  for (const std::uint32_t node : skeleton.raw_node_of_vertex) {
+    if (node != Skeleton::kNone) {
+      weight[node] += 1.0;
+    }
+  }
+  skeleton.raw = merge_close_nodes(fine, sample_spacing(mesh, options), std::move(weight),
+                                   skeleton.raw_node_of_vertex);
+
+  skeleton.graph = skeleton.raw;
+  skeleton.node_of_vertex = skeleton.raw_node_of_vertex;
+  if (options.centre) {
+    skeleton.graph = centre_nodes(skeleton.graph, mesh, skeleton.node_of_vertex);
+  }
+  skeleton.radius = node_radii(skeleton.graph, mesh, skeleton.node_of_vertex);
+  if (options.prune) {
+    skeleton.graph = prune_ends(skeleton.graph, options.prune_ratio, skeleton.radius,
+                                skeleton.node_of_vertex);
+    skeleton.radius = node_radii(skeleton.graph, mesh, skeleton.node_of_vertex);
+  }
+  run.advance("skeleton", 1.0);
+  return skeleton;
+}
+
+}  // namespace vantage

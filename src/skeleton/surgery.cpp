@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "skeleton/surgery.h"
+
+#include <algorithm>
+#include <queue>
+#include <tuple>
+#include <vector>
+
+namespace vantage {
+namespace {
+
+/// Collapses between two looks at the stop token.
+constexpr std::size_t kPoll = 4096;
+
+struct Candidate {
+  double cost;
+  std::uint32_t edge;
+  std::uint32_t version;
+
+  /// Order of a min-heap: by cost, then by edge.
+  bool operator<(const Candidate& other) const {
+    return std::tie(other.cost, other.edge) < std::tie(cost, edge);
+  }
+};
+
+/// Length of the edge, or half the longest loop that its collapse would pinch if that is more.
+double collapse_cost(const ClusterComplex& complex, std::uint32_t edge) {
+  const double length = complex.length(edge);
+  const auto [a, b] = complex.ends(edge);
+  double cost = length;
+  for (const std::uint32_t c : complex.pinched_by(edge)) {
+    const double around = length + (complex.position(c) - complex.position(a)).norm() +
+                          (complex.position(c) - complex.position(b)).norm();
+    cost = std::max(cost, 0.5 * around);
+  }
+  return cost;
+}
+
+/// The queue of edges that still belong to triangles.
+class CollapseQueue {
+ public:
+  explicit CollapseQueue(ClusterComplex& complex)
+      : complex_(complex), version_(complex.edge_count(), 0) {
+    refill();
+  }
+
+  void refill() {
+    heap_ = {};
+    for (std::uint32_t e = 0; e < complex_.edge_count(); ++e) {
+      push(e);
+    }
+  }
+
+  /// Cheapest edge to collapse; false if none is left.
+  bool pop(std::uint32_t& edge) {
+    while (!heap_.empty()) {
+      const Candidate top = heap_.top();
+      heap_.pop();
+      if (top.version != version_[top.edge] || !collapsible(top.edge)) {
+        continue;
+      }
+      // Collapses next door may have created a loop to pinch since this was queued.
+      const double cost = collapse_cost(complex_, top.edge);
+      if (cost > top.cost) {
+        heap_.push({cost, top.edge, top.version});
+        continue;
+      }
+      edge = top.edge;
+      return true;
+    }
+    return false;
+  }
+
+  /// Queues the edges of a cluster anew after it moved.
+  void refresh(std::uint32_t cluster) {
+    for (const auto& link : complex_.links(cluster)) {
+      ++version_[link.edge];
+      push(link.edge);
+    }
+  }
+
+ private:
+  [[nodiscard]] bool collapsible(std::uint32_t edge) const {
+    return complex_.edge_is_live(edge) && complex_.faces_at(edge) > 0;
+  }
+
+  void push(std::uint32_t edge) {
+    if (collapsible(edge)) {
+      heap_.push({collapse_cost(complex_, edge), edge, version_[edge]});
+    }
+  }
+
+  ClusterComplex& complex_;
+  std::vector<std::uint32_t> version_;
+  std::priority_queue<Candidate> heap_{};
+};
+
+}  // namespace
+
+std::size_t collapse_to_graph(ClusterComplex& complex, const RunContext& run) {
+  CollapseQueue queue(complex);
+  const auto all_faces = static_cast<double>(std::max<std::size_t>(1, complex.face_count()));
+  std::size_t forced = 0;
+  std::size_t collapsed = 0;
+  std::size_t collapsed_at_refill = 0;
+  std::uint32_t edge = 0;
+  while (complex.face_count() > 0) {
+    bool stuck = false;
+    if (!queue.pop(edge)) {
+      // Only edges that the guard refused are left: look again at what the last collapses allow.
+      stuck = collapsed == collapsed_at_refill;
+      collapsed_at_refill = collapsed;
+      queue.refill();
+      if (!stuck || !queue.pop(edge)) {
+        continue;
+      }
+    }
+    if (!complex.keeps_handles(edge)) {
+      if (!stuck) {
+        continue;
+      }
+      ++forced;
+    }
+    queue.refresh(complex.collapse(edge));
+    if (++collapsed % kPoll == 0) {
+      run.advance("skeleton", 1.0 - static_cast<double>(complex.face_count()) / all_faces);
+    }
+  }
+  return forced;
+}
+
+}  // namespace vantage

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "visibility/surface.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "vantage/core/error.h"
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/topology.h"
+#include "vantage/mesh/weld.h"
+
+namespace vantage {
+namespace {
+
+// A face whose height over its longest side is below this has no area: in a UnitFrame, where
+// coordinates carry rounding errors of 2^-53, its normal would be noise.
+constexpr double kFlatHeight = 0x1p-48;
+
+// Bits per axis of a Morton code.
+constexpr int kMortonBits = 20;
+
+/// Moves the low 21 bits of `value` apart so that two zero bits follow each.
+std::uint64_t spread(std::uint64_t value) {
+  value &= 0x1fffff;
+  value = (value | value << 32U) & 0x1f00000000ffffU;
+  value = (value | value << 16U) & 0x1f0000ff0000ffU;
+  value = (value | value << 8U) & 0x100f00f00f00f00fU;
+  value = (value | value << 4U) & 0x10c30c30c30c30c3U;
+  return (value | value << 2U) & 0x1249249249249249U;
+}
+
+bool has_area(const Vec3& a, const Vec3& b, const Vec3& c, double twice_area) {
+  const double longest =
+      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return twice_area * twice_area > kFlatHeight * kFlatHeight * longest && longest > 0.0;
+}
+
+/// A face in the making, with corners numbered as in the welded mesh.
+struct LooseFace {
+  Triangle corners{};
+  Vec3 area_vector = Vec3::Zero();
+  FaceSides sides = FaceSides::Both;
+};
+
+std::vector<LooseFace> faces_with_area(const TriMesh& mesh, const WeldedMesh& welded,
+                                       const std::vector<Vec3>& positions,
+                                       std::span<const FaceSides> sides) {
+  const Components components = connected_components(mesh);
+  if (sides.size() != 1 && sides.size() != components.count) {
+    throw InvalidInput("visibility needs the sides of each of the " +
+                       std::to_string(components.count) + " components, got " +
+                       std::to_string(sides.size()));
+  }
+  std::vector<LooseFace> faces;
+  faces.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    LooseFace face;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      face.corners[corner] = welded.welded_of_vertex[t[corner]];
+    }
+    const Vec3& a = positions[face.corners[0]];
+    const Vec3& b = positions[face.corners[1]];
+    const Vec3& c = positions[face.corners[2]];
+    face.area_vector = (b - a).cross(c - a);
+    face.sides = sides.size() == 1 ? sides[0] : sides[components.of_vertex[t[0]]];
+    if (has_area(a, b, c, face.area_vector.norm())) {
+      faces.push_back(face);
+    }
+  }
+  return faces;
+}
+
+/// Numbers the welded vertices that faces use along a Morton curve.
+std::vector<std::uint32_t> number_sites(const std::vector<Vec3>& positions,
+                                        const std::vector<LooseFace>& faces, Surface& surface) {
+  std::vector<std::uint32_t> site_of_welded(positions.size(), Surface::kNoSite);
+  std::vector<std::uint32_t> used;
+  for (const LooseFace& face : faces) {
+    for (const std::uint32_t v : face.corners) {
+      if (std::exchange(site_of_welded[v], 0) == Surface::kNoSite) {
+        used.push_back(v);
+      }
+    }
+  }
+  std::vector<Vec3> points;
+  points.reserve(used.size());
+  for (const std::uint32_t v : used) {
+    points.push_back(positions[v]);
+  }
+  for (const std::uint32_t i : morton_order(points)) {
+    site_of_welded[used[i]] = static_cast<std::uint32_t>(surface.sites.size());
+    surface.sites.push_back(points[i]);
+  }
+  return site_of_welded;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> morton_order(std::span<const Vec3> points) {
+  const Box box = bounding_box(points);
+  const double side = box.longest_side();
+  const double cells = side > 0.0 ? static_cast<double>((1 << kMortonBits) - 1) / side : 0.0;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
+  keyed.reserve(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    const Vec3 cell = (points[i] - box.low) * cells;
+    keyed.emplace_back(spread(static_cast<std::uint64_t>(cell.x())) |
+                           spread(static_cast<std::uint64_t>(cell.y())) << 1U |
+                           spread(static_cast<std::uint64_t>(cell.z())) << 2U,
+                       i);
+  }
+  std::sort(keyed.begin(), keyed.end());
+  std::vector<std::uint32_t> order;
+  order.reserve(points.size());
+  for (const auto& [key, i] : keyed) {
+    order.push_back(i);
+  }
+  return order;
+}
+
+Surface prepare_surface(const TriMesh& mesh, std::span<const FaceSides> sides) {
+  const WeldedMesh welded = weld(mesh);
+  Surface surface;
+  surface.frame = unit_frame(referenced_points(mesh));
+  std::vector<Vec3> positions;
+  positions.reserve(welded.mesh.positions.size());
+  for (const Vec3& p : welded.mesh.positions) {
+    positions.push_back(surface.frame.to_frame(p));
+  }
+  const std::vector<LooseFace> faces = faces_with_area(mesh, welded, positions, sides);
+  const std::vector<std::uint32_t> site_of_welded = number_sites(positions, faces, surface);
+
+  std::vector<Vec3> centres;
+  centres.reserve(faces.size());
+  for (const LooseFace& face : faces) {
+    const auto& [a, b, c] = face.corners;
+    centres.emplace_back(positions[a] + positions[b] + positions[c]);
+  }
+  for (const std::uint32_t f : morton_order(centres)) {
+    const auto& [a, b, c] = faces[f].corners;
+    surface.faces.push_back({site_of_welded[a], site_of_welded[b], site_of_welded[c]});
+    surface.area_vectors.push_back(faces[f].area_vector);
+    surface.twice_areas.push_back(faces[f].area_vector.norm());
+    surface.sides.push_back(faces[f].sides);
+  }
+
+  // A vertex that no face names is never seen, even at a position that others use.
+  surface.site_of_vertex.assign(mesh.positions.size(), Surface::kNoSite);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) {
+      surface.site_of_vertex[v] = site_of_welded[welded.welded_of_vertex[v]];
+    }
+  }
+  return surface;
+}
+
+}  // namespace vantage
