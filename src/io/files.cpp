@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "io/files.h"
 
+#include <cerrno>
+#include <filesystem>
+#include <new>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <cerrno>
-#include <cstdio>
-#include <new>
-#include <string_view>
-#include <utility>
 
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
@@ -21,6 +22,7 @@ namespace {
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
+
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
 
@@ -31,6 +33,7 @@ class Descriptor {
   }
 
   [[nodiscard]] int number() const { return number_; }
+
   /// Closes now. \return 0 or errno.
   int close() { return ::close(std::exchange(number_, -1)) == 0 ? 0 : errno; }
 
@@ -83,6 +86,39 @@ std::string temporary_path(const std::string& path) {
   return path.substr(0, name) + "." + path.substr(name) + ".part." + std::to_string(::getpid());
 }
 
+void write_in_place(const std::string& path, std::string_view bytes) {
+  const Descriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  const int error = device.number() < 0 ? errno : write_all(device.number(), bytes);
+  if (error != 0) {
+    throw IoError(path, "cannot be written", error);
+  }
+}
+
+/// Some file systems cannot flush and say so; that is no failure.
+int flush(int descriptor) {
+  return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP ? 0 : errno;
+}
+
+/// \param path name for messages. \param target the file behind it, links followed.
+void replace_file(const std::string& path, const std::string& target, std::string_view bytes) {
+  const std::string temporary = temporary_path(target);
+  Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (file.number() < 0) {
+    throw IoError(path, "cannot be created", errno);
+  }
+  int error = write_all(file.number(), bytes);
+  error = error == 0 ? flush(file.number()) : error;
+  const int close_error = file.close();
+  error = error == 0 ? close_error : error;
+  if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) {
+    error = errno;
+  }
+  if (error != 0) {
+    ::unlink(temporary.c_str());
+    throw IoError(path, "cannot be written", error);
+  }
+}
+
 }  // namespace
 
 std::string read_file(const std::string& path) {
@@ -94,7 +130,9 @@ std::string read_file(const std::string& path) {
   if (file.number() < 0) {
     throw IoError(path, "cannot be opened", errno);
   }
+
   struct stat status {};
+
   if (::fstat(file.number(), &status) != 0) {
     throw IoError(path, "cannot be examined", errno);
   }
@@ -114,28 +152,21 @@ void write_file(const std::string& path, std::string_view bytes) {
     }
     return;
   }
+
   struct stat status {};
-  if (::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) {
-    throw IoError(path, "is a folder, not a file");
+
+  if (::stat(path.c_str(), &status) == 0) {
+    if (S_ISDIR(status.st_mode)) {
+      throw IoError(path, "is a folder, not a file");
+    }
+    if (!S_ISREG(status.st_mode)) {  // a device or a pipe must not be replaced by a file
+      write_in_place(path, bytes);
+      return;
+    }
   }
-  const std::string temporary = temporary_path(path);
-  Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (file.number() < 0) {
-    throw IoError(path, "cannot be created", errno);
-  }
-  int error = write_all(file.number(), bytes);
-  if (error == 0 && ::fsync(file.number()) != 0) {
-    error = errno;
-  }
-  const int close_error = file.close();
-  error = error == 0 ? close_error : error;
-  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) {
-    error = errno;
-  }
-  if (error != 0) {
-    ::unlink(temporary.c_str());
-    throw IoError(path, "cannot be written", error);
-  }
+  std::error_code no_such_file;
+  const std::filesystem::path target = std::filesystem::canonical(path, no_such_file);
+  replace_file(path, no_such_file ? path : target.string(), bytes);
 }
 
 }  // namespace vantage

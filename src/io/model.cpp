@@ -55,8 +55,8 @@ std::string read_beside(const std::string& model_path, const std::string& relati
   }
   const fs::path inside = wanted.lexically_relative(folder);
   if (inside.empty() || *inside.begin() == "..") {
-    throw FormatError(model_path, "", "names the buffer " + relative +
-                                          ", which lies outside the model's folder");
+    throw FormatError(model_path, "",
+                      "names the buffer " + relative + ", which lies outside the model's folder");
   }
   return read_file(wanted.string());
 }
@@ -73,9 +73,8 @@ Model load_model(const std::string& path, const RunContext& run) {
     if (path == "-") {
       return parse_with(bytes, "standard input", run, {});
     }
-    return parse_with(bytes, path, run, [&path](const std::string& relative) {
-      return read_beside(path, relative);
-    });
+    return parse_with(bytes, path, run,
+                      [&path](const std::string& relative) { return read_beside(path, relative); });
   } catch (const std::bad_alloc&) {
     throw IoError(path, "does not fit into memory");
   }

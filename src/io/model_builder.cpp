@@ -52,8 +52,8 @@ void ModelBuilder::add_point(const Vec3& point, Place place) {
 
 void ModelBuilder::add_corner(std::uint64_t vertex, Place place) {
   if (vertex >= kMostVertices) {
-    fail(place, "face names vertex " + std::to_string(vertex + first_index_) +
-                    ", which no file can hold");
+    fail(place,
+         "face names vertex " + std::to_string(vertex + first_index_) + ", which no file can hold");
   }
   const auto index = static_cast<std::uint32_t>(vertex);
   if (index > highest_vertex_ || corners_.empty()) {
@@ -148,8 +148,8 @@ void ModelBuilder::triangulate() {
   };
   for (std::size_t p = 0; p < corner_counts_.size(); ++p) {
     mark_parts(p);
-    triangulate_polygon({corners_.data() + first_corner, corner_counts_[p]},
-                        model_.mesh.positions, triangles);
+    triangulate_polygon({corners_.data() + first_corner, corner_counts_[p]}, model_.mesh.positions,
+                        triangles);
     first_corner += corner_counts_[p];
     if (p % 4096 == 0) {
       run_.check();
@@ -162,8 +162,8 @@ void ModelBuilder::triangulate() {
 void ModelBuilder::finish_parts(const std::vector<std::size_t>& triangle_of_part_start) {
   for (std::size_t i = 0; i < part_starts_.size(); ++i) {
     const std::size_t first = triangle_of_part_start[i];
-    const std::size_t end = i + 1 < part_starts_.size() ? triangle_of_part_start[i + 1]
-                                                        : model_.mesh.triangles.size();
+    const std::size_t end =
+        i + 1 < part_starts_.size() ? triangle_of_part_start[i + 1] : model_.mesh.triangles.size();
     if (end > first) {
       model_.parts.push_back({std::move(part_starts_[i].name), first, end - first});
     }

@@ -48,11 +48,17 @@ class ModelBuilder {
   void begin_part(std::string_view part_name);
 
   void note(std::string text) { model_.notes.push_back(std::move(text)); }
+
   void coordinates_need_double() { model_.double_precision = true; }
+
   [[nodiscard]] bool double_precision() const { return model_.double_precision; }
+
   [[nodiscard]] std::size_t point_count() const { return model_.mesh.positions.size(); }
+
   [[nodiscard]] std::size_t colour_count() const { return colours_.size(); }
+
   [[nodiscard]] std::string_view name() const { return name_; }
+
   void reserve_points(std::size_t count) { model_.mesh.positions.reserve(count); }
 
   /// Reports progress now and then. \throw Cancelled
@@ -69,6 +75,7 @@ class ModelBuilder {
   struct ColourValue {
     float red, green, blue;
   };
+
   struct PartStart {
     std::string name;
     std::size_t first_polygon;

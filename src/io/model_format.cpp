@@ -38,8 +38,8 @@ constexpr std::array<ForeignMagic, 26> kForeignMagics = {{
      "is compressed with xz", kUnpack, "unxz"},
     {"\x28\xB5\x2F\xFD"sv, "is compressed with zstd", kUnpack, "unzstd"},
     {"7z\xBC\xAF\x27\x1C"sv, "is a 7-Zip archive", kUnpack, "7z x"},
-    {"PK\x03\x04"sv, "is a ZIP archive (3MF, USDZ and KMZ files are ZIP archives too)", kConvertMesh,
-     ""},
+    {"PK\x03\x04"sv, "is a ZIP archive (3MF, USDZ and KMZ files are ZIP archives too)",
+     kConvertMesh, ""},
     {"DRACO"sv, "is a Draco file", "; convert it to PLY first, with ", "draco_decoder"},
     {"OCTM"sv, "is an OpenCTM file", kConvertMesh, ""},
     {"AC3D"sv, "is an AC3D file", kConvertMesh, ""},
@@ -70,26 +70,41 @@ struct ForeignExtension {
 };
 
 constexpr std::array<ForeignExtension, 31> kForeignExtensions = {{
-    {"3ds", "3DS", kConvertMesh},      {"3mf", "3MF", kConvertMesh},
-    {"ac", "AC3D", kConvertMesh},      {"amf", "AMF", kConvertMesh},
-    {"blend", "Blender", kConvertMesh}, {"brep", "BREP", kConvertSolid},
-    {"ctm", "OpenCTM", kConvertMesh},  {"dae", "COLLADA", kConvertMesh},
+    {"3ds", "3DS", kConvertMesh},
+    {"3mf", "3MF", kConvertMesh},
+    {"ac", "AC3D", kConvertMesh},
+    {"amf", "AMF", kConvertMesh},
+    {"blend", "Blender", kConvertMesh},
+    {"brep", "BREP", kConvertSolid},
+    {"ctm", "OpenCTM", kConvertMesh},
+    {"dae", "COLLADA", kConvertMesh},
     {"drc", "Draco", "; convert it to PLY first, with draco_decoder"},
-    {"dxf", "DXF", kConvertMesh},      {"fbx", "FBX", kConvertMesh},
-    {"iges", "IGES", kConvertSolid},   {"igs", "IGES", kConvertSolid},
-    {"las", "LAS", kConvertMesh},      {"laz", "LAZ", kConvertMesh},
-    {"lwo", "LightWave", kConvertMesh}, {"max", "3ds Max", kConvertMesh},
-    {"mesh", "Medit", kConvertMesh},   {"msh", "Gmsh", kConvertMesh},
-    {"pcd", "PCD", kConvertMesh},      {"pts", "point list", "; convert it to PLY first"},
+    {"dxf", "DXF", kConvertMesh},
+    {"fbx", "FBX", kConvertMesh},
+    {"iges", "IGES", kConvertSolid},
+    {"igs", "IGES", kConvertSolid},
+    {"las", "LAS", kConvertMesh},
+    {"laz", "LAZ", kConvertMesh},
+    {"lwo", "LightWave", kConvertMesh},
+    {"max", "3ds Max", kConvertMesh},
+    {"mesh", "Medit", kConvertMesh},
+    {"msh", "Gmsh", kConvertMesh},
+    {"pcd", "PCD", kConvertMesh},
+    {"pts", "point list", "; convert it to PLY first"},
     {"pwn", "point list", "; convert it to PLY first"},
-    {"skp", "SketchUp", kConvertMesh}, {"step", "STEP", kConvertSolid},
-    {"stp", "STEP", kConvertSolid},    {"usd", "USD", kConvertMesh},
-    {"usdz", "USDZ", kConvertMesh},    {"vtk", "VTK", kConvertMesh},
-    {"wrl", "VRML", kConvertMesh},     {"x3d", "X3D", kConvertMesh},
+    {"skp", "SketchUp", kConvertMesh},
+    {"step", "STEP", kConvertSolid},
+    {"stp", "STEP", kConvertSolid},
+    {"usd", "USD", kConvertMesh},
+    {"usdz", "USDZ", kConvertMesh},
+    {"vtk", "VTK", kConvertMesh},
+    {"wrl", "VRML", kConvertMesh},
+    {"x3d", "X3D", kConvertMesh},
     {"xyz", "point list", "; convert it to PLY first, for example with meshlab or CloudCompare"},
 }};
 
-constexpr std::array<std::string_view, 6> kFormatNames = {"obj", "off", "ply", "stl", "gltf", "glb"};
+constexpr std::array<std::string_view, 6> kFormatNames = {"obj", "off",  "ply",
+                                                          "stl", "gltf", "glb"};
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -119,9 +134,9 @@ std::optional<ModelFormat> format_of_extension(std::string_view extension) {
 void reject_foreign_magic(std::string_view bytes, std::string_view name) {
   for (const ForeignMagic& foreign : kForeignMagics) {
     if (starts_with(bytes, foreign.magic)) {
-      throw FormatError(name, "",
-                        std::string(foreign.what) + std::string(foreign.remedy) +
-                            std::string(foreign.tool));
+      throw FormatError(
+          name, "",
+          std::string(foreign.what) + std::string(foreign.remedy) + std::string(foreign.tool));
     }
   }
 }
@@ -131,8 +146,8 @@ void reject_foreign_magic(std::string_view bytes, std::string_view name) {
       std::find_if(kForeignExtensions.begin(), kForeignExtensions.end(),
                    [&](const ForeignExtension& known) { return known.extension == extension; });
   if (entry != kForeignExtensions.end()) {
-    throw FormatError(name, "",
-                      std::string(entry->what) + " files are not read" + std::string(entry->remedy));
+    throw FormatError(
+        name, "", std::string(entry->what) + " files are not read" + std::string(entry->remedy));
   }
   throw FormatError(name, "",
                     "cannot tell what format this is; OBJ, OFF, PLY, STL, glTF and GLB are read");

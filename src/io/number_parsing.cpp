@@ -33,8 +33,8 @@ DecimalShape decimal_shape(std::string_view token) {
   if (i < token.size()) {
     const std::optional<std::int64_t> written = integer_from(token.substr(i + 1));
     constexpr std::int64_t kFarBeyondDouble = 1'000'000'000;
-    exponent = static_cast<long>(
-        std::clamp(written.value_or(0), -kFarBeyondDouble, kFarBeyondDouble));
+    exponent =
+        static_cast<long>(std::clamp(written.value_or(0), -kFarBeyondDouble, kFarBeyondDouble));
   }
   shape.last_digit_exponent = exponent - fraction_digits;
   shape.first_digit_exponent = shape.last_digit_exponent + shape.significant_digits - 1;
@@ -102,7 +102,7 @@ bool needs_double(std::string_view token, double value) {
   return error > kHalfUnit * unit;
 }
 
-std::string quoted(std::string_view token) {
+std::string in_quotes(std::string_view token) {
   constexpr std::size_t kLongest = 40;
   std::string text = "'";
   for (const char c : token.substr(0, kLongest)) {
@@ -115,12 +115,12 @@ std::string quoted(std::string_view token) {
 std::string number_problem(std::string_view token) {
   const std::optional<double> value = number_from(token);
   if (value && std::isnan(*value)) {
-    return quoted(token) + " is not a finite number";
+    return in_quotes(token) + " is not a finite number";
   }
   if (value && std::isinf(*value)) {
-    return quoted(token) + " is infinite or too large";
+    return in_quotes(token) + " is infinite or too large";
   }
-  std::string text = "expected a number, found " + quoted(token);
+  std::string text = "expected a number, found " + in_quotes(token);
   if (token.find(',') != std::string_view::npos) {
     text += "; write decimals with a point and separate numbers by spaces";
   }

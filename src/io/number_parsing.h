@@ -23,7 +23,7 @@ std::optional<std::int64_t> integer_from(std::string_view token);
 bool needs_double(std::string_view token, double value);
 
 /// `token` in quotes for a message, cut if long, without control characters.
-std::string quoted(std::string_view token);
+std::string in_quotes(std::string_view token);
 
 /// What is wrong with a token that should have been a finite number.
 std::string number_problem(std::string_view token);

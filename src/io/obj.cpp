@@ -15,12 +15,12 @@ namespace {
 
 /// Keywords of the format that do not shape the polygons.
 constexpr std::array<std::string_view, 45> kSilentKeywords = {
-    "vn",   "vt",     "vp",       "s",         "usemtl",     "mtllib",   "usemap", "maplib",
-    "mg",   "bevel",  "c_interp", "d_interp",  "lod",        "shadow_obj", "trace_obj", "cstype",
-    "deg",  "bmat",   "step",     "curv",      "curv2",      "surf",     "parm",   "trim",
-    "hole", "scrv",   "sp",       "end",       "con",        "ctech",    "stech",  "call",
-    "csh",  "bsp",    "bzp",      "cdc",       "cdp",        "res",      "newmtl", "Ka",
-    "Kd",   "Ks",     "illum",    "maplib",    "usemtllib"};
+    "vn",   "vt",    "vp",       "s",        "usemtl",   "mtllib",     "usemap",    "maplib",
+    "mg",   "bevel", "c_interp", "d_interp", "lod",      "shadow_obj", "trace_obj", "cstype",
+    "deg",  "bmat",  "step",     "curv",     "curv2",    "surf",       "parm",      "trim",
+    "hole", "scrv",  "sp",       "end",      "con",      "ctech",      "stech",     "call",
+    "csh",  "bsp",   "bzp",      "cdc",      "cdp",      "res",        "newmtl",    "Ka",
+    "Kd",   "Ks",    "illum",    "maplib",   "usemtllib"};
 
 class ObjReader {
  public:
@@ -73,14 +73,15 @@ class ObjReader {
     } else if (std::find(kSilentKeywords.begin(), kSilentKeywords.end(), keyword) ==
                kSilentKeywords.end()) {
       if (unknown_++ == 0) {
-        first_unknown_ = quoted(keyword) + " in " + place_.text();
+        first_unknown_ = in_quotes(keyword) + " in " + place_.text();
       }
     }
   }
 
-  double number(std::string_view token) {
+  /// \param may_be_nan of a colour: no reason to refuse a shape.
+  double number(std::string_view token, bool may_be_nan) {
     const std::optional<double> value = number_from(token);
-    if (!value || !std::isfinite(*value)) {
+    if (!value || !(std::isfinite(*value) || may_be_nan)) {
       builder_.fail(place_, number_problem(token));
     }
     return *value;
@@ -94,7 +95,7 @@ class ObjReader {
       if (count == values.size()) {
         builder_.fail(place_, "a vertex has more than 7 numbers");
       }
-      values[count] = number(token);
+      values[count] = number(token, count >= 3);
       if (count < 3 && !builder_.double_precision() && needs_double(token, values[count])) {
         builder_.coordinates_need_double();
       }
@@ -109,8 +110,9 @@ class ObjReader {
     } else if (count == 4) {
       weights_ += values[3] != 1.0 ? 1 : 0;
     } else if (count == 5) {
-      builder_.fail(place_, "a vertex has 3 coordinates and 2 more numbers; expected a weight (1 "
-                            "number) or a colour (3 or 4)");
+      builder_.fail(place_,
+                    "a vertex has 3 coordinates and 2 more numbers; expected a weight (1 "
+                    "number) or a colour (3 or 4)");
     }
   }
 
@@ -127,7 +129,7 @@ class ObjReader {
     const std::size_t slash = std::min(token.find('/'), token.size());
     const std::optional<std::int64_t> index = integer_from(token.substr(0, slash));
     if (!index || token.find_first_not_of("+-0123456789/", slash) != std::string_view::npos) {
-      builder_.fail(place_, "expected a corner such as 7 or 7/2/5, found " + quoted(token));
+      builder_.fail(place_, "expected a corner such as 7 or 7/2/5, found " + in_quotes(token));
     }
     if (*index == 0) {
       builder_.fail(place_, "face names vertex 0, but vertices are counted from 1");

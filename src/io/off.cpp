@@ -50,11 +50,16 @@ class OffReader {
     const std::string_view word = cursor_.next_token(kComment);
     if (const std::optional<OffLayout> layout = off_layout(word)) {
       layout_ = *layout;
+    } else if (const std::size_t letters = word.find_last_not_of("0123456789") + 1;
+               letters < word.size() && off_layout(word.substr(0, letters))) {
+      layout_ = *off_layout(word.substr(0, letters));
+      cursor_.give_back(word.size() - letters);
+      builder_.note("the number of vertices follows the header word without a blank");
     } else if (integer_from(word)) {
       cursor_ = before;
       builder_.note("the header word OFF is missing");
     } else {
-      builder_.fail(cursor_.place(), "expected the header word OFF, found " + quoted(word));
+      builder_.fail(cursor_.place(), "expected the header word OFF, found " + in_quotes(word));
     }
     const TextCursor after_word = cursor_;
     if (cursor_.token_on_line(kComment) == "BINARY") {
@@ -76,8 +81,9 @@ class OffReader {
     const std::string_view token = cursor_.next_token(kComment);
     const std::optional<std::int64_t> value = integer_from(token);
     if (!value || *value < 0) {
-      builder_.fail(cursor_.place(), "expected the number of " + std::string(what) + ", found " +
-                                         (token.empty() ? "the end of the file" : quoted(token)));
+      builder_.fail(cursor_.place(),
+                    "expected the number of " + std::string(what) + ", found " +
+                        (token.empty() ? "the end of the file" : in_quotes(token)));
     }
     return *value;
   }
@@ -88,7 +94,7 @@ class OffReader {
     const Place place = cursor_.place();
     if (const std::string_view edges = cursor_.token_on_line(kComment);
         !edges.empty() && !integer_from(edges)) {
-      builder_.fail(place, "expected the number of edges, found " + quoted(edges));
+      builder_.fail(place, "expected the number of edges, found " + in_quotes(edges));
     }
     // The shortest vertex is "0 0 0 " and the shortest face "0 ".
     const std::uint64_t most = cursor_.remaining() + 1;
@@ -126,8 +132,8 @@ class OffReader {
       std::array<double, 4> position{};
       Place place{};
       for (std::size_t c = 0; c < layout_.coordinates(); ++c) {
-        const std::string_view token = c == 0 || !by_line_ ? cursor_.next_token(kComment)
-                                                           : cursor_.token_on_line(kComment);
+        const std::string_view token =
+            c == 0 || !by_line_ ? cursor_.next_token(kComment) : cursor_.token_on_line(kComment);
         if (token.empty() && cursor_.remaining() > 0) {
           builder_.fail(cursor_.place(), "expected " + std::to_string(layout_.coordinates()) +
                                              " coordinates, found " + std::to_string(c));
@@ -139,8 +145,7 @@ class OffReader {
         }
       }
       add_off_point(builder_, layout_, position.data(), place);
-      by_line_ ? read_attributes_on_line(normal, texture)
-               : read_attributes(normal, texture);
+      by_line_ ? read_attributes_on_line(normal, texture) : read_attributes(normal, texture);
       builder_.advance(cursor_.offset(), bytes_.size());
     }
   }
@@ -193,9 +198,9 @@ class OffReader {
         const std::string_view token = cursor_.next_token(kComment);
         const std::optional<std::int64_t> vertex = integer_from(token);
         if (!vertex || *vertex < 0) {
-          builder_.fail(cursor_.place(), token.empty()
-                                             ? "the file ends inside a face"
-                                             : "expected a vertex index, found " + quoted(token));
+          builder_.fail(cursor_.place(),
+                        token.empty() ? "the file ends inside a face"
+                                      : "expected a vertex index, found " + in_quotes(token));
         }
         builder_.add_corner(static_cast<std::uint64_t>(*vertex), cursor_.place());
       }
@@ -243,7 +248,8 @@ std::optional<OffLayout> off_layout(std::string_view word) {
 }
 
 bool has_off_header(std::string_view bytes) {
-  return off_layout(TextCursor(without_bom(bytes)).next_token(kComment)).has_value();
+  const std::string_view word = TextCursor(without_bom(bytes)).next_token(kComment);
+  return off_layout(word.substr(0, word.find_last_not_of("0123456789") + 1)).has_value();
 }
 
 void add_off_point(ModelBuilder& builder, const OffLayout& layout, const double* numbers,

@@ -9,17 +9,22 @@
 namespace vantage {
 namespace {
 
-/// Numbers of a binary OFF file: four bytes each, highest first.
+/// Numbers of a binary OFF file: four bytes each.
 class Words {
  public:
-  Words(std::string_view bytes, std::size_t at, const ModelBuilder& builder)
-      : bytes_(bytes), at_(at), builder_(builder) {}
+  Words(std::string_view bytes, std::size_t at, ByteOrder order, const ModelBuilder& builder)
+      : bytes_(bytes), at_(at), order_(order), builder_(builder) {}
 
-  std::int64_t integer() { return decode<std::int32_t>(take(1), ByteOrder::Big); }
-  double real() { return static_cast<double>(decode<float>(take(1), ByteOrder::Big)); }
+  std::int64_t integer() { return decode<std::int32_t>(take(1), order_); }
+
+  double real() { return static_cast<double>(decode<float>(take(1), order_)); }
+
   void skip(std::size_t words) { take(words); }
+
   [[nodiscard]] std::size_t remaining() const { return (bytes_.size() - at_) / kWordBytes; }
+
   [[nodiscard]] Place place() const { return {"byte", at_}; }
+
   [[nodiscard]] std::size_t offset() const { return at_; }
 
  private:
@@ -36,6 +41,7 @@ class Words {
 
   std::string_view bytes_;
   std::size_t at_;
+  ByteOrder order_;
   const ModelBuilder& builder_;
 };
 
@@ -53,13 +59,30 @@ std::size_t read_count(Words& words, const ModelBuilder& builder, std::string_vi
   return static_cast<std::size_t>(count);
 }
 
+/// The format says highest byte first. pmp writes the machine's order, and then no colours: such a
+/// file is known by counts that make sense only that way.
+bool is_little_endian(std::string_view bytes, std::size_t start, std::size_t point_words) {
+  const auto fits = [&](ByteOrder order) {
+    const std::size_t words = (bytes.size() - start) / 4;
+    const std::uint64_t points = decode<std::uint32_t>(bytes.data() + start, order);
+    const std::uint64_t faces = decode<std::uint32_t>(bytes.data() + start + 4, order);
+    return 3 + points * point_words + faces <= words;
+  };
+  constexpr std::size_t kCountBytes = 12;
+  return bytes.size() - start >= kCountBytes && !fits(ByteOrder::Big) && fits(ByteOrder::Little);
+}
+
 }  // namespace
 
 void read_binary_off(std::string_view bytes, std::size_t start, const OffLayout& layout,
                      ModelBuilder& builder) {
-  Words words(bytes, start, builder);
   const std::size_t point_words = layout.coordinates() + (layout.normal ? 3 : 0) +
                                   (layout.colour ? 4 : 0) + (layout.texture ? 2 : 0);
+  const bool little_endian = is_little_endian(bytes, start, point_words);
+  if (little_endian) {
+    builder.note("the numbers stand lowest byte first, against the format's rule");
+  }
+  Words words(bytes, start, little_endian ? ByteOrder::Little : ByteOrder::Big, builder);
   const std::size_t points = read_count(words, builder, "vertices", point_words);
   const std::size_t faces = read_count(words, builder, "faces", 1);
   words.skip(1);  // number of edges, which nobody uses
@@ -92,7 +115,9 @@ void read_binary_off(std::string_view bytes, std::size_t start, const OffLayout&
       builder.add_corner(static_cast<std::uint64_t>(vertex), place);
     }
     builder.end_polygon();
-    words.skip(read_count(words, builder, "colour components", 1));
+    if (!little_endian) {
+      words.skip(read_count(words, builder, "colour components", 1));
+    }
     builder.advance(words.offset(), bytes.size());
   }
 }

@@ -59,15 +59,13 @@ PlyRole role_of(const PlyElement& element, const PlyProperty& property) {
         std::find_if(kVertexRoles.begin(), kVertexRoles.end(),
                      [&](const RoleName& known) { return known.name == property.name; });
     role = entry == kVertexRoles.end() ? PlyRole::Other : entry->role;
-  } else if ((element.kind == PlyElement::Kind::Face ||
-              element.kind == PlyElement::Kind::Strips) &&
+  } else if ((element.kind == PlyElement::Kind::Face || element.kind == PlyElement::Kind::Strips) &&
              property.is_list &&
              (property.name == "vertex_indices" || property.name == "vertex_index")) {
     role = PlyRole::Indices;
   }
-  const bool taken =
-      std::any_of(element.properties.begin(), element.properties.end(),
-                  [&](const PlyProperty& earlier) { return earlier.role == role; });
+  const bool taken = std::any_of(element.properties.begin(), element.properties.end(),
+                                 [&](const PlyProperty& earlier) { return earlier.role == role; });
   return taken ? PlyRole::Other : role;  // the first of its kind counts
 }
 
@@ -106,7 +104,7 @@ class HeaderReader {
     } else if (keyword == "property") {
       read_property(rest);
     } else {
-      builder_.fail(cursor_.place(), "unknown word " + quoted(keyword) + " in the header");
+      builder_.fail(cursor_.place(), "unknown word " + in_quotes(keyword) + " in the header");
     }
   }
 
@@ -119,7 +117,7 @@ class HeaderReader {
     } else if (encoding == "binary_big_endian") {
       header_.encoding = PlyEncoding::BinaryBigEndian;
     } else {
-      builder_.fail(cursor_.place(), "unknown format " + quoted(encoding) +
+      builder_.fail(cursor_.place(), "unknown format " + in_quotes(encoding) +
                                          "; expected ascii, binary_little_endian or "
                                          "binary_big_endian");
     }
@@ -132,7 +130,7 @@ class HeaderReader {
     const std::optional<std::int64_t> count = integer_from(token);
     if (element.name.empty() || !count || *count < 0) {
       builder_.fail(cursor_.place(), "expected a name and a number of elements, found " +
-                                         quoted(element.name + " " + std::string(token)));
+                                         in_quotes(element.name + " " + std::string(token)));
     }
     element.count = static_cast<std::uint64_t>(*count);
     if (element.name == "vertex") {
@@ -174,7 +172,7 @@ class HeaderReader {
         std::find_if(kScalarNames.begin(), kScalarNames.end(),
                      [&](const ScalarName& known) { return known.name == name; });
     if (entry == kScalarNames.end()) {
-      builder_.fail(cursor_.place(), "unknown type " + quoted(name) + " of a property");
+      builder_.fail(cursor_.place(), "unknown type " + in_quotes(name) + " of a property");
     }
     return entry->type;
   }

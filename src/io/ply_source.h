@@ -45,8 +45,11 @@ class PlyTextSource {
 
   /// Bytes of the shortest value: a digit and a blank; the file's last one needs no blank.
   static std::size_t least_bytes(PlyScalar /*type*/) { return 2; }
+
   [[nodiscard]] std::size_t remaining() const { return cursor_.remaining() + 1; }
+
   [[nodiscard]] Place place() const { return cursor_.place(); }
+
   [[nodiscard]] std::size_t offset() const { return start_ + cursor_.offset(); }
 
  private:
@@ -108,8 +111,11 @@ class PlyBinarySource {
   void skip(PlyScalar type) { take(ply_scalar_bytes(type)); }
 
   static std::size_t least_bytes(PlyScalar type) { return ply_scalar_bytes(type); }
+
   [[nodiscard]] std::size_t remaining() const { return bytes_.size() - at_; }
+
   [[nodiscard]] Place place() const { return {"byte", at_}; }
+
   [[nodiscard]] std::size_t offset() const { return at_; }
 
  private:

@@ -69,21 +69,21 @@ class TextReader {
     } else if (is("facet")) {
       in_facet_ = true;
       cursor_.skip_line();  // the normal, which the corners imply
-    } else if (is("endfacet")) {
-      in_facet_ = false;
+    } else if (is("endfacet") || is("endloop")) {
+      in_facet_ = in_facet_ && !is("endfacet");
       end_open_polygon();
+      line_of_end_ = cursor_.place().value;
     } else if (is("outer")) {
       cursor_.skip_line();
-    } else if (is("endloop")) {
-      end_open_polygon();
     } else if (is("solid")) {
       read_solid_name();
     } else if (is("endsolid")) {
       cursor_.token_on_line();
       cursor_.skip_line();
-    } else if (!is("loop")) {
-      builder_.fail(cursor_.place(), "expected a statement such as facet or vertex, found " +
-                                         quoted(word));
+    } else if (!is("loop") && cursor_.place().value != line_of_end_) {
+      // Some writers put words of their own behind the end of a facet; elsewhere they are errors.
+      builder_.fail(cursor_.place(),
+                    "expected a statement such as facet or vertex, found " + in_quotes(word));
     }
   }
 
@@ -131,19 +131,21 @@ class TextReader {
   ModelBuilder& builder_;
   bool in_facet_ = false;
   bool has_open_polygon_ = false;
+  std::size_t line_of_end_ = 0;
 };
 
 void read_binary(std::string_view bytes, ModelBuilder& builder) {
   if (bytes.size() < kPreambleBytes) {
-    builder.fail("is neither a text STL, which starts with the word solid, nor long enough for a "
-                 "binary one");
+    builder.fail(
+        "is neither a text STL, which starts with the word solid, nor long enough for a "
+        "binary one");
   }
   const std::uint64_t declared = declared_triangles(bytes);
   const std::uint64_t held = (bytes.size() - kPreambleBytes) / kTriangleBytes;
   if (declared > held) {
     builder.fail({"byte", kHeaderBytes}, "the file declares " + std::to_string(declared) +
-                                             " triangles but has room for " +
-                                             std::to_string(held) + "; it may be cut short");
+                                             " triangles but has room for " + std::to_string(held) +
+                                             "; it may be cut short");
   }
   const std::size_t end = kPreambleBytes + static_cast<std::size_t>(declared) * kTriangleBytes;
   if (end < bytes.size()) {

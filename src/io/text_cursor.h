@@ -58,14 +58,21 @@ class TextCursor {
   /// The next token on the current line; empty at its end (the line end is not consumed).
   std::string_view token_on_line(char comment = 0);
 
+  /// Gives back the last `count` characters of the token read last.
+  void give_back(std::size_t count) { at_ -= count; }
+
   /// Skips what is left of the current line, and its end.
   void skip_line();
 
   /// Line of the token or line read last.
   [[nodiscard]] Place place() const { return {"line", token_line_}; }
+
   [[nodiscard]] std::size_t offset() const { return at_; }
+
   [[nodiscard]] std::size_t remaining() const { return bytes_.size() - at_; }
+
   [[nodiscard]] std::string_view rest() const { return bytes_.substr(at_); }
+
   [[nodiscard]] std::size_t line() const { return line_; }
 
  private:

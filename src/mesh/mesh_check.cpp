@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/mesh/mesh_check.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/topology.h"
+#include "vantage/mesh/weld.h"
+
+#include "mesh/disjoint_sets.h"
+
+namespace vantage {
+namespace {
+
+/// Area below which a face counts as empty, relative to D²: what rounding leaves of a flat
+/// triangle whose sides are as long as the model.
+constexpr double kZeroArea = 1e-12;
+
+bool names_a_vertex_twice(const Triangle& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+std::size_t count_unnamed_vertices(const TriMesh& mesh) {
+  std::vector<bool> named(mesh.positions.size(), false);
+  for (const Triangle& t : mesh.triangles) {
+    named[t[0]] = named[t[1]] = named[t[2]] = true;
+  }
+  return static_cast<std::size_t>(std::count(named.begin(), named.end(), false));
+}
+
+/// Corner of triangle `t` (0 to 2) at vertex `v`, which it names.
+std::uint32_t corner_at(const Triangle& t, std::uint32_t v) {
+  return t[0] == v ? 0 : t[1] == v ? 1 : 2;
+}
+
+/// Whether `t` runs through its side {a, b} from a to b.
+bool runs_from(const Triangle& t, std::uint32_t a, std::uint32_t b) {
+  return t[(corner_at(t, a) + 1) % 3] == b;
+}
+
+std::size_t count_duplicate_faces(const TriMesh& mesh) {
+  std::vector<Triangle> sorted = mesh.triangles;
+  for (Triangle& t : sorted) {
+    std::sort(t.begin(), t.end());
+  }
+  std::sort(sorted.begin(), sorted.end());
+  const auto end = std::unique(sorted.begin(), sorted.end());
+  return static_cast<std::size_t>(sorted.end() - end);
+}
+
+void count_faces(const TriMesh& mesh, MeshReport& report) {
+  const double diameter = enclosing_sphere(referenced_points(mesh)).diameter;
+  const double empty = kZeroArea * diameter * diameter;
+  for (const Triangle& t : mesh.triangles) {
+    const bool repeated = names_a_vertex_twice(t);
+    report.repeated_index_faces += repeated ? 1 : 0;
+    report.zero_area_faces += repeated || 0.5 * area_vector(mesh, t).norm() <= empty ? 1 : 0;
+  }
+  report.duplicate_faces = count_duplicate_faces(mesh);
+}
+
+/// Connected groups of the edges that have one face.
+std::size_t count_boundary_loops(const TriMesh& mesh, const EdgeTable& table) {
+  DisjointSets groups(mesh.positions.size());
+  std::vector<bool> on_boundary(mesh.positions.size(), false);
+  for (std::size_t e = 0; e < table.edges.size(); ++e) {
+    if (table.faces_of_edge[e].size() == 1) {
+      const auto [a, b] = table.edges[e];
+      groups.join(a, b);
+      on_boundary[a] = on_boundary[b] = true;
+    }
+  }
+  std::size_t loops = 0;
+  for (std::uint32_t v = 0; v < on_boundary.size(); ++v) {
+    loops += on_boundary[v] && groups.root(v) == v ? 1 : 0;
+  }
+  return loops;
+}
+
+void count_edges(const TriMesh& mesh, const EdgeTable& table, MeshReport& report) {
+  for (std::size_t e = 0; e < table.edges.size(); ++e) {
+    const auto [a, b] = table.edges[e];
+    const auto faces = table.faces_of_edge[e];
+    if (faces.size() == 1) {
+      ++report.boundary_edges;
+    } else if (faces.size() > 2) {
+      ++report.non_manifold_edges;
+    } else if (runs_from(mesh.triangles[faces[0]], a, b) ==
+               runs_from(mesh.triangles[faces[1]], a, b)) {
+      ++report.inconsistent_edges;
+    }
+  }
+  report.boundary_loops = count_boundary_loops(mesh, table);
+}
+
+/// Vertices whose faces, joined over shared edges, form more than one group.
+std::size_t count_pinched_vertices(const TriMesh& mesh, const EdgeTable& table) {
+  DisjointSets corners(3 * mesh.triangles.size());
+  const auto corner_id = [&](std::uint32_t face, std::uint32_t v) {
+    return 3 * face + corner_at(mesh.triangles[face], v);
+  };
+  for (std::size_t e = 0; e < table.edges.size(); ++e) {
+    const auto faces = table.faces_of_edge[e];
+    for (const std::uint32_t face : faces) {
+      for (const std::uint32_t v : table.edges[e]) {
+        corners.join(corner_id(faces[0], v), corner_id(face, v));
+      }
+    }
+  }
+  std::vector<std::uint32_t> fans(mesh.positions.size(), 0);
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (names_a_vertex_twice(mesh.triangles[f])) {
+      continue;
+    }
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      fans[mesh.triangles[f][c]] += corners.root(3 * f + c) == 3 * f + c ? 1 : 0;
+    }
+  }
+  return static_cast<std::size_t>(
+      std::count_if(fans.begin(), fans.end(), [](std::uint32_t count) { return count > 1; }));
+}
+
+/// Whether the faces can be turned so that no edge is run twice the same way.
+bool is_orientable(const TriMesh& mesh, const EdgeTable& table) {
+  const auto face_count = static_cast<std::uint32_t>(mesh.triangles.size());
+  DisjointSets sides(2 * mesh.triangles.size());  // face f as it is, and turned (f + face_count)
+  for (std::size_t e = 0; e < table.edges.size(); ++e) {
+    const auto [a, b] = table.edges[e];
+    const auto faces = table.faces_of_edge[e];
+    const bool turned =
+        runs_from(mesh.triangles[faces[0]], a, b) == runs_from(mesh.triangles[faces[1]], a, b);
+    sides.join(faces[0], faces[1] + (turned ? face_count : 0));
+    sides.join(faces[0] + face_count, faces[1] + (turned ? 0 : face_count));
+  }
+  for (std::uint32_t f = 0; f < face_count; ++f) {
+    if (sides.root(f) == sides.root(f + face_count)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Sum of the genera of a closed orientable manifold: components − χ / 2. Faces that name a vertex
+/// twice have no edges in the table and do not count.
+std::size_t total_genus(TriMesh mesh, const EdgeTable& table) {
+  std::erase_if(mesh.triangles, names_a_vertex_twice);
+  const std::size_t unnamed = count_unnamed_vertices(mesh);
+  const std::size_t components = connected_components(mesh).count - unnamed;
+  const std::size_t vertices = mesh.positions.size() - unnamed;
+  return (2 * components + table.edges.size() - vertices - mesh.triangles.size()) / 2;
+}
+
+}  // namespace
+
+MeshReport check_mesh(const TriMesh& mesh) {
+  MeshReport report;
+  report.vertices = mesh.positions.size();
+  report.faces = mesh.triangles.size();
+  report.duplicate_vertices = weld(mesh).merged_vertices;
+  report.isolated_vertices = count_unnamed_vertices(mesh);
+  report.components = connected_components(mesh).count - report.isolated_vertices;
+
+  const EdgeTable table = build_edge_table(mesh);
+  count_faces(mesh, report);
+  count_edges(mesh, table, report);
+  report.non_manifold_vertices = count_pinched_vertices(mesh, table);
+  report.closed =
+      !table.edges.empty() && report.boundary_edges == 0 && report.non_manifold_edges == 0;
+  report.oriented =
+      !table.edges.empty() && report.non_manifold_edges == 0 && report.inconsistent_edges == 0;
+  report.signed_volume = signed_volume(mesh);
+  if (report.closed && report.non_manifold_vertices == 0 && is_orientable(mesh, table)) {
+    report.genus = total_genus(mesh, table);
+  }
+  return report;
+}
+
+}  // namespace vantage

@@ -28,7 +28,7 @@ struct Corner {
   std::size_t face = 0;
   std::size_t index = 0;
   Vec3 normal = Vec3::Zero();
-  double angle = 0.0;
+  double weight = 0.0;  ///< Angle times area; 0 if the face has no normal.
 };
 
 /// The corners at each welded position, as 3 · face + corner, ascending.
@@ -71,18 +71,24 @@ Corner make_corner(const TriMesh& mesh, std::uint32_t id) {
   const double length = area.norm();
   if (length > 0.0 && std::isfinite(length)) {
     corner.normal = area / length;
-    corner.angle = angle_between(a, b);
+    corner.weight = angle_between(a, b) * length;
   }
   return corner;
 }
 
-/// +1 or −1: how `other` counts beside `normal`; 0 if a crease lies between them.
-double side_of(const Vec3& normal, const Vec3& other, double crease_cosine) {
+/// The cosines of a Crease, which are what is compared.
+struct CreaseCosines {
+  double smooth;
+  double crisp;
+};
+
+/// How much of `other` counts beside `normal`, from 0 across a crease to 1, or to −1 if it is wound
+/// the other way.
+double share_of(const Vec3& normal, const Vec3& other, const CreaseCosines& crease) {
   const double cosine = normal.dot(other);
-  if (std::abs(cosine) < crease_cosine) {
-    return 0.0;
-  }
-  return cosine < 0.0 ? -1.0 : 1.0;
+  const double t =
+      std::clamp((std::abs(cosine) - crease.crisp) / (crease.smooth - crease.crisp), 0.0, 1.0);
+  return std::copysign(t * t * (3.0 - 2.0 * t), cosine);
 }
 
 Vec3f unit_or(const Vec3& sum, const Vec3& fallback) {
@@ -92,18 +98,18 @@ Vec3f unit_or(const Vec3& sum, const Vec3& fallback) {
 
 using CornerNormals = std::vector<std::array<Vec3f, 3>>;
 
-void smooth_pairwise(std::span<const Corner> corners, double crease_cosine,
+void smooth_pairwise(std::span<const Corner> corners, const CreaseCosines& crease,
                      CornerNormals& normals) {
   for (const Corner& corner : corners) {
     Vec3 sum = Vec3::Zero();
     for (const Corner& other : corners) {
-      sum += side_of(corner.normal, other.normal, crease_cosine) * other.angle * other.normal;
+      sum += share_of(corner.normal, other.normal, crease) * other.weight * other.normal;
     }
     normals[corner.face][corner.index] = unit_or(sum, corner.normal);
   }
 }
 
-void smooth_by_groups(std::span<const Corner> corners, double crease_cosine,
+void smooth_by_groups(std::span<const Corner> corners, const CreaseCosines& crease,
                       CornerNormals& normals) {
   struct Group {
     Vec3 leader;
@@ -114,14 +120,14 @@ void smooth_by_groups(std::span<const Corner> corners, double crease_cosine,
   std::vector<std::size_t> group_of_corner;
   for (const Corner& corner : corners) {
     std::size_t g = 0;
-    while (g < groups.size() && side_of(groups[g].leader, corner.normal, crease_cosine) == 0.0) {
+    while (g < groups.size() && share_of(groups[g].leader, corner.normal, crease) == 0.0) {
       ++g;
     }
     if (g == groups.size()) {
       groups.push_back({corner.normal, Vec3::Zero()});
     }
     groups[g].sum +=
-        side_of(groups[g].leader, corner.normal, crease_cosine) * corner.angle * corner.normal;
+        share_of(groups[g].leader, corner.normal, crease) * corner.weight * corner.normal;
     group_of_corner.push_back(g);
   }
   for (std::size_t c = 0; c < corners.size(); ++c) {
@@ -133,11 +139,11 @@ void smooth_by_groups(std::span<const Corner> corners, double crease_cosine,
 
 }  // namespace
 
-std::vector<std::array<Vec3f, 3>> corner_normals(const TriMesh& mesh, double crease_rad,
+std::vector<std::array<Vec3f, 3>> corner_normals(const TriMesh& mesh, const Crease& crease,
                                                  const RunContext& run) {
   const WeldedMesh welded = weld(mesh);
   const IndexLists corners_at = corners_of_positions(mesh, welded);
-  const double crease_cosine = std::cos(crease_rad);
+  const CreaseCosines cosines{std::cos(crease.smooth_rad), std::cos(crease.crisp_rad)};
   CornerNormals normals(mesh.triangles.size(), {Vec3f::Zero(), Vec3f::Zero(), Vec3f::Zero()});
   parallel_for(run, corners_at.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     std::vector<Corner> corners;
@@ -145,14 +151,14 @@ std::vector<std::array<Vec3f, 3>> corner_normals(const TriMesh& mesh, double cre
       corners.clear();
       for (const std::uint32_t id : corners_at[position]) {
         Corner corner = make_corner(mesh, id);
-        if (corner.angle > 0.0) {
+        if (corner.weight > 0.0) {
           corners.push_back(corner);
         }
       }
       if (corners.size() <= kMaxPairwiseCorners) {
-        smooth_pairwise(corners, crease_cosine, normals);
+        smooth_pairwise(corners, cosines, normals);
       } else {
-        smooth_by_groups(corners, crease_cosine, normals);
+        smooth_by_groups(corners, cosines, normals);
       }
     }
   });

@@ -14,13 +14,15 @@ namespace vantage {
 namespace {
 
 /// Half-angle of the cone around the poles in which up turns to a fixed axis (ours).
-constexpr double kPoleCone_rad = 5.0 * std::numbers::pi / 180.0;
+constexpr double kPoleConeRad = 5.0 * std::numbers::pi / 180.0;
 /// Below this the sideways part of a unit vector is rounding, not a direction.
 constexpr double kNegligible = 1e-12;
 /// Centring stops when the box is off centre by less than this fraction of its size: far below a
 /// pixel of any picture.
 constexpr double kCentred = 1e-10;
 constexpr int kMaxCentringSteps = 100;
+/// Turning by a smaller part of the way than this helps no more.
+constexpr double kLeastTurn = 1e-3;
 /// Largest and smallest tangent of half the field of view: 170° and about 0.1 seconds of arc.
 constexpr double kMaxTangent = 11.43;
 constexpr double kMinTangent = 2.5e-7;
@@ -132,7 +134,7 @@ void check_arguments(std::span<const Vec3> points, const Viewpoint& eye, const V
 /// Line of sight to start from: to the centre, or to the mean direction if points lie behind that.
 Vec3 first_forward(std::span<const Vec3> points, const Vec3& eye, const Vec3& centre,
                    const Vec3& up) {
-  const Vec3 forward = (centre - eye).normalized();
+  Vec3 forward = (centre - eye).normalized();
   if (perspective_bounds(points, eye, axes_along(forward, up)).in_front) {
     return forward;
   }
@@ -146,30 +148,50 @@ Vec3 first_forward(std::span<const Vec3> points, const Vec3& eye, const Vec3& ce
   return sum.normalized();
 }
 
-Camera frame_perspective(std::span<const Vec3> points, const Vec3& eye, const Vec3& centre,
-                         const Vec3& model_up, const Room& room) {
-  const Vec3 up_hint = upright((eye - centre).normalized(), model_up);
-  Axes axes = axes_along(first_forward(points, eye, centre, up_hint), up_hint);
-  Bounds bounds;
-  // Turning the camera to the middle of the box turns the picture plane and so the box; the error
-  // shrinks by about tan²(half the field of view) a step.
-  for (int step = 0; step < kMaxCentringSteps; ++step) {
-    bounds = perspective_bounds(points, eye, axes);
-    if (!bounds.in_front) {
-      throw_too_near();
-    }
-    const double x = bounds.centre_x();
-    const double y = bounds.centre_y();
-    const double size = std::max(half_height(bounds, room), kMinTangent);
-    if (std::max(std::abs(x), std::abs(y)) <= kCentred * size) {
-      break;
-    }
-    axes = axes_along((axes.forward + x * axes.right + y * axes.up).normalized(), up_hint);
-  }
-  bounds = perspective_bounds(points, eye, axes);
+/// How far the middle of the box is from the middle of the picture, over the box's size.
+double off_centre(const Bounds& bounds, const Room& room) {
+  return std::max(std::abs(bounds.centre_x()), std::abs(bounds.centre_y())) /
+         std::max(half_height(bounds, room), kMinTangent);
+}
+
+/// Turns the camera about the eye until the points' box is in the middle of the picture. Turning
+/// changes the picture plane and with it the box, so this repeats: by the mean of the angles to
+/// opposite sides, which would be exact for points on one axis, or by less while that does not help.
+Axes centred_axes(std::span<const Vec3> points, const Vec3& eye, const Vec3& first,
+                  const Vec3& up_hint, const Room& room) {
+  Axes axes = axes_along(first, up_hint);
+  Bounds bounds = perspective_bounds(points, eye, axes);
   if (!bounds.in_front) {
     throw_too_near();
   }
+  double part = 1.0;
+  for (int step = 0; step < kMaxCentringSteps && part > kLeastTurn; ++step) {
+    const double error = off_centre(bounds, room);
+    if (error <= kCentred) {
+      break;
+    }
+    const double x = std::tan(0.5 * part * (std::atan(bounds.low_x) + std::atan(bounds.high_x)));
+    const double y = std::tan(0.5 * part * (std::atan(bounds.low_y) + std::atan(bounds.high_y)));
+    const Axes turned =
+        axes_along((axes.forward + x * axes.right + y * axes.up).normalized(), up_hint);
+    const Bounds turned_bounds = perspective_bounds(points, eye, turned);
+    if (turned_bounds.in_front && off_centre(turned_bounds, room) < error) {
+      axes = turned;
+      bounds = turned_bounds;
+      part = std::min(1.0, 2.0 * part);
+    } else {
+      part *= 0.5;
+    }
+  }
+  return axes;
+}
+
+Camera frame_perspective(std::span<const Vec3> points, const Vec3& eye, const Vec3& centre,
+                         const Vec3& model_up, const Room& room) {
+  const Vec3 up_hint = upright((eye - centre).normalized(), model_up);
+  const Axes axes =
+      centred_axes(points, eye, first_forward(points, eye, centre, up_hint), up_hint, room);
+  const Bounds bounds = perspective_bounds(points, eye, axes);
   // Measured from the axis, so that nothing is clipped even if the centring ended early.
   const double tangent = std::max(std::max(bounds.high_x, -bounds.low_x) / room.x,
                                   std::max(bounds.high_y, -bounds.low_y) / room.y);
@@ -214,11 +236,11 @@ Vec3 upright(const Vec3& direction, const Vec3& model_up) {
   const Vec3 radial = orthogonal_part(model_up, direction);
   const double sine = radial.norm();
   const bool above = direction.dot(model_up) > 0.0;
-  if (sine >= std::sin(kPoleCone_rad)) {
+  if (sine >= std::sin(kPoleConeRad)) {
     return radial / sine;
   }
   const Vec3 front = front_of(model_up);
-  const Vec3 fixed = orthogonal_part(above ? Vec3(-front) : front, direction).normalized();
+  Vec3 fixed = orthogonal_part(above ? Vec3(-front) : front, direction).normalized();
   if (sine <= kNegligible) {
     return fixed;
   }
@@ -227,7 +249,7 @@ Vec3 upright(const Vec3& direction, const Vec3& model_up) {
   // From exactly behind both ways round are as long; rounding must not choose.
   const double turn =
       std::atan2(std::abs(across) <= kNegligible ? 0.0 : across, radial.dot(fixed) / sine);
-  const double t = std::asin(sine) / kPoleCone_rad;
+  const double t = std::asin(sine) / kPoleConeRad;
   const double angle = turn * t * t * (3.0 - 2.0 * t);
   return std::cos(angle) * fixed + std::sin(angle) * side;
 }

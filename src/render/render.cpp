@@ -28,12 +28,14 @@
 namespace vantage {
 namespace {
 
-/// Edges that bend by more than this stay crisp (ours): rounded fillets of CAD parts, which are
-/// rarely split finer than 12 to the full turn, stay smooth and their right angles sharp.
-constexpr double kCrease_rad = 40.0 * std::numbers::pi / 180.0;
+/// Edges that bend by less than the first are smooth, by more than the second crisp, between them
+/// something of both (ours): rounded fillets of CAD parts, rarely split finer than 12 to the full
+/// turn, stay smooth and their chamfers sharp, and bends of scans do not fray into teeth.
+constexpr double kSmoothRad = 30.0 * std::numbers::pi / 180.0;
+constexpr double kCreaseRad = 50.0 * std::numbers::pi / 180.0;
 /// Half-width of the tent filter, px. It blurs hardly more than a box as wide as the pixel, and
 /// leaves edges without steps.
-constexpr double kFilter_px = 0.75;
+constexpr double kFilterPx = 0.75;
 /// Occlusion looks this far, over the scene's radius: what is further darkens no crevice.
 constexpr double kOcclusionReach = 0.6;
 /// Occlusion rays start this far off the surface, over the scene's radius: above float rounding
@@ -41,9 +43,9 @@ constexpr double kOcclusionReach = 0.6;
 constexpr double kOcclusionOffset = 1e-4;
 /// Least cosine between a shading normal and the viewer; interpolated normals may lean away.
 constexpr double kLeastFacing = 0.02;
-constexpr int kMaxSide_px = 16384;
+constexpr int kMaxSidePx = 16384;
 /// Rows between two reports of progress: fine enough to stop within a second.
-constexpr int kBand_px = 64;
+constexpr int kBandPx = 64;
 
 /// Light of one sample, multiplied by its opacity.
 struct Light {
@@ -62,7 +64,7 @@ struct Light {
 std::vector<std::array<double, 2>> sample_pattern(int samples) {
   const int side = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(samples))));
   const auto tent = [](double u) {
-    return kFilter_px * (u < 0.5 ? std::sqrt(2.0 * u) - 1.0 : 1.0 - std::sqrt(2.0 - 2.0 * u));
+    return kFilterPx * (u < 0.5 ? std::sqrt(2.0 * u) - 1.0 : 1.0 - std::sqrt(2.0 - 2.0 * u));
   };
   std::vector<std::array<double, 2>> pattern;
   for (int j = 0; j < side; ++j) {
@@ -149,7 +151,7 @@ Scene::Scene(const TriMesh& mesh, const Camera& camera, std::span<const Rgb8> ve
   for (const Rgb8& colour : vertex_colours) {
     colour_of_vertex_.emplace_back(linear_of_srgb(colour).cast<float>());
   }
-  normals_ = corner_normals(mesh_, kCrease_rad, run);
+  normals_ = corner_normals(mesh_, {kSmoothRad, kCreaseRad}, run);
   run.check();
   surface_.emplace(mesh_);
 }
@@ -255,7 +257,7 @@ Light Scene::sample(const PictureRay& ray, int x, int y, std::size_t index,
   const RayHit hit = surface_->closest_hit(ray.origin.cast<float>(), ray.direction.cast<float>());
   if (hit && static_cast<double>(hit.t) <= tube.t) {
     const SurfacePoint point = surface_point(ray, hit, index, shift);
-    light.behind(shade_surface(point), tubes_ ? translucent_opacity(point) : 1.0);
+    light.behind(shade_surface(point), tubes_ ? translucent_opacity(point, has_tube) : 1.0);
   }
   if (has_tube) {
     SurfacePoint point;
@@ -298,10 +300,10 @@ std::array<std::uint8_t, 4> Scene::pixel(int x, int y) const {
 void check_input(const TriMesh& mesh, std::span<const Rgb8> vertex_colours,
                  const TubeOverlay& overlay, const RenderOptions& options) {
   check_fields(options, kRenderFields);
-  if (options.width < 1 || options.height < 1 || options.width > kMaxSide_px ||
-      options.height > kMaxSide_px) {
+  if (options.width < 1 || options.height < 1 || options.width > kMaxSidePx ||
+      options.height > kMaxSidePx) {
     throw InvalidInput("a picture's width and height must be between 1 and " +
-                       std::to_string(kMaxSide_px) + " pixels");
+                       std::to_string(kMaxSidePx) + " pixels");
   }
   if (mesh.positions.empty()) {
     throw InvalidInput("there is nothing to draw: the model is empty");
@@ -333,9 +335,9 @@ Image render(const TriMesh& mesh, const Camera& camera, std::span<const Rgb8> ve
   run.advance("render", 0.0);
   with_threads(run, [&] {
     const Scene scene(mesh, camera, vertex_colours, overlay, options, run);
-    for (int band = 0; band < options.height; band += kBand_px) {
+    for (int band = 0; band < options.height; band += kBandPx) {
       run.advance("render", 0.1 + 0.9 * band / options.height);
-      const int rows = std::min(kBand_px, options.height - band);
+      const int rows = std::min(kBandPx, options.height - band);
       parallel_for(run, static_cast<std::size_t>(rows), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t row = begin; row < end; ++row) {
           const int y = band + static_cast<int>(row);

@@ -11,10 +11,10 @@ namespace {
 // models so that every side of a model stays readable. Directions are in the camera's axes.
 const Vec3 kKeyDirection = Vec3(-0.50, 0.68, 0.70).normalized();
 const Vec3 kFillDirection = Vec3(0.85, -0.20, 0.50).normalized();
-const Vec3 kKeyColour(0.86, 0.84, 0.80);
+const Vec3 kKeyColour(0.99, 0.96, 0.91);
 const Vec3 kFillColour(0.13, 0.15, 0.18);
-const Vec3 kSkyColour(0.30, 0.31, 0.33);
-const Vec3 kGroundColour(0.085, 0.08, 0.075);
+const Vec3 kSkyColour(0.25, 0.265, 0.29);
+const Vec3 kGroundColour(0.08, 0.074, 0.068);
 constexpr double kKeyWrap = 0.12;  ///< Soft light reaches this far (as a cosine) round a side.
 constexpr double kFillWrap = 0.35;
 constexpr double kKeyOcclusion = 0.55;  ///< How much of the key light comes from a wide source.
@@ -22,8 +22,9 @@ constexpr double kRim = 0.16;
 constexpr double kSheen = 0.055;
 constexpr double kSheenPower = 28.0;
 constexpr double kShoulder = 0.72;  ///< Brighter channels are compressed into what is left to 1.
-constexpr double kFaceOpacity = 0.34;
-constexpr double kOutlineOpacity = 0.90;
+constexpr double kFaceOpacity = 0.56;
+constexpr double kOutlineOpacity = 0.94;
+constexpr double kVeil = 0.45;  ///< Share of its opacity that a surface keeps in front of a tube.
 constexpr double kOutlinePower = 2.2;
 constexpr double kTubeOutline = 0.45;  ///< Cosine to the viewer below which tubes darken.
 
@@ -73,13 +74,14 @@ Vec3 shade_surface(const SurfacePoint& point) {
 Vec3 shade_tube(const SurfacePoint& point) {
   const double outline = std::min(1.0, facing(point) / kTubeOutline);
   const double ink = 0.35 + 0.65 * outline;
-  const Vec3 lit = ink * point.albedo.cwiseProduct(diffuse_light(point) + Vec3::Constant(0.25));
+  const Vec3 lit = ink * point.albedo.cwiseProduct(diffuse_light(point) + Vec3::Constant(0.35));
   return compress(lit + Vec3::Constant(0.18 * sheen(point, 2.0 * kSheenPower)));
 }
 
-double translucent_opacity(const SurfacePoint& point) {
+double translucent_opacity(const SurfacePoint& point, bool before_tube) {
   const double edge = std::pow(1.0 - facing(point), kOutlinePower);
-  return kFaceOpacity + (kOutlineOpacity - kFaceOpacity) * edge;
+  const double opacity = kFaceOpacity + (kOutlineOpacity - kFaceOpacity) * edge;
+  return before_tube ? kVeil * opacity : opacity;
 }
 
 }  // namespace vantage

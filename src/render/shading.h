@@ -22,7 +22,7 @@ Vec3 shade_surface(const SurfacePoint& point);
 Vec3 shade_tube(const SurfacePoint& point);
 
 /// How opaque a translucent surface looks: least where seen straight on, most at its outline, as
-/// glass is.
-double translucent_opacity(const SurfacePoint& point);
+/// glass is; and less in front of a tube, which it should only veil.
+double translucent_opacity(const SurfacePoint& point, bool before_tube);
 
 }  // namespace vantage

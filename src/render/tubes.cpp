@@ -33,14 +33,14 @@ Tubes::Tubes(const CurveGraph& graph, double radius, const PictureRays& rays, in
       capsules_.push_back({graph.nodes[n], graph.nodes[n], kJointThickness * radius});
     }
   }
-  tiles_across_ = (width + kTile_px - 1) / kTile_px;
-  const int tiles_down = (height + kTile_px - 1) / kTile_px;
+  tiles_across_ = (width + kTilePx - 1) / kTilePx;
+  const int tiles_down = (height + kTilePx - 1) / kTilePx;
   std::vector<std::array<std::uint32_t, 2>> tile_and_capsule;
   for (std::uint32_t c = 0; c < capsules_.size(); ++c) {
     const PixelBox box = join(rays.ball_bounds(capsules_[c].begin, capsules_[c].radius),
                               rays.ball_bounds(capsules_[c].end, capsules_[c].radius));
-    for (int y = box.y0 / kTile_px; y * kTile_px < box.y1; ++y) {
-      for (int x = box.x0 / kTile_px; x * kTile_px < box.x1; ++x) {
+    for (int y = box.y0 / kTilePx; y * kTilePx < box.y1; ++y) {
+      for (int x = box.x0 / kTilePx; x * kTilePx < box.x1; ++x) {
         tile_and_capsule.push_back({static_cast<std::uint32_t>(y * tiles_across_ + x), c});
       }
     }
@@ -106,8 +106,8 @@ TubeHit Tubes::meet(const Capsule& capsule, const PictureRay& ray) {
 
 TubeHit Tubes::closest_hit(const PictureRay& ray, int x, int y) const {
   TubeHit nearest;
-  const auto tile = static_cast<std::size_t>((y / kTile_px) * tiles_across_ + x / kTile_px);
-  for (const std::uint32_t c : capsules_of_tile_[tile]) {
+  const int tile = (y / kTilePx) * tiles_across_ + x / kTilePx;
+  for (const std::uint32_t c : capsules_of_tile_[static_cast<std::size_t>(tile)]) {
     const TubeHit hit = meet(capsules_[c], ray);
     if (hit.t < nearest.t) {
       nearest = hit;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/spatial/directions.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <numbers>
 #include <string>
 #include <unordered_map>
+
+#include <Eigen/Geometry>
 
 #include "vantage/core/error.h"
 

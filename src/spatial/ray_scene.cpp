@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "spatial/ray_scene.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
+
+#include <embree3/rtcore.h>
 
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
@@ -36,15 +36,17 @@ struct Embree {
     scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   }
+
   ~Embree() {
     rtcReleaseScene(scene);
     rtcReleaseDevice(device);
   }
+
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;
 
   /// Takes the geometry over and builds the hierarchy.
-  void commit(RTCGeometry geometry) {
+  void commit(RTCGeometry geometry) const {
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
 #include <span>
+
+#include <Eigen/Core>
 
 #include "vantage/core/vec3.h"
 #include "vantage/mesh/tri_mesh.h"
@@ -54,9 +55,8 @@ class RayScene {
   RayScene& operator=(RayScene&&) noexcept;
 
   /// Nearest hit with tnear ≤ t ≤ tfar. The direction need not be a unit vector.
-  [[nodiscard]] RayHit closest_hit(
-      const Vec3f& origin, const Vec3f& direction, float tnear = 0.0F,
-      float tfar = std::numeric_limits<float>::infinity()) const;
+  [[nodiscard]] RayHit closest_hit(const Vec3f& origin, const Vec3f& direction, float tnear = 0.0F,
+                                   float tfar = std::numeric_limits<float>::infinity()) const;
 
   /// Whether anything is hit with tnear ≤ t ≤ tfar.
   [[nodiscard]] bool occluded(const Vec3f& origin, const Vec3f& direction, float tnear = 0.0F,

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "visibility/eye_grid.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
+
+#include <Eigen/Geometry>
 
 namespace vantage {
 namespace {
@@ -15,10 +16,10 @@ namespace {
 constexpr double kNearestShare = 1.0 / 64.0;
 // The finest level has at most 2^11 × 2^11 cells, 16 MB of counters.
 constexpr unsigned kMaxBits = 11;
-// Finest cells per face: chosen by measurement on scans of 10 K to 170 K vertices.
+// Finest cells per face, and how many cells beyond its first a face may span before it goes to a
+// coarser level: both chosen by measurement on shapes of 10 K to 170 K vertices.
 constexpr double kCellsPerFace = 1.0;
-// A face lies in the level where it spans at most this many cells beyond its first.
-constexpr std::uint32_t kSpan = 1;
+constexpr std::uint32_t kSpan = 2;
 // Outlines grow by this share of the picture (and of the depth range): four units in the last
 // place of a float, whose rounding they must cover.
 constexpr float kMargin = 0x1p-21F;
@@ -81,17 +82,17 @@ void EyeGrid::choose_resolution(std::size_t face_count) {
   }
 }
 
-EyeGrid::Entry EyeGrid::outline(const Triangle& face, std::uint32_t index) const {
+EyeGrid::Outline EyeGrid::outline(const Triangle& face) const {
   const Spot& a = spots_[face[0]];
   const Spot& b = spots_[face[1]];
   const Spot& c = spots_[face[2]];
   const float margin = kMargin * static_cast<float>(1U << bits_);
   return {std::min({a.x, b.x, c.x}) - margin, std::max({a.x, b.x, c.x}) + margin,
           std::min({a.y, b.y, c.y}) - margin, std::max({a.y, b.y, c.y}) + margin,
-          std::min({a.depth, b.depth, c.depth}) - kMargin, index};
+          std::min({a.depth, b.depth, c.depth}) - kMargin};
 }
 
-EyeGrid::Cover EyeGrid::cover(const Entry& outline) const {
+EyeGrid::Cover EyeGrid::cover(const Outline& outline) const {
   const auto last = static_cast<float>((1U << bits_) - 1);
   const auto cell = [&](float at) {
     return static_cast<std::uint32_t>(std::clamp(at, 0.0F, last));
@@ -113,10 +114,12 @@ EyeGrid::Cover EyeGrid::cover(const Entry& outline) const {
 
 void EyeGrid::count_cells(const Surface& surface) {
   cell_begin_.assign(level_begin_.back() + 1, 0);
+  outlines_.resize(surface.faces.size());
   covers_.resize(surface.faces.size());
   used_levels_ = 0;
   for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
-    const Cover c = cover(outline(surface.faces[f], f));
+    outlines_[f] = outline(surface.faces[f]);
+    const Cover c = cover(outlines_[f]);
     covers_[f] = c;
     used_levels_ |= 1U << c.level;
     std::size_t row = level_begin_[c.level] + (std::size_t{c.y_low} << (bits_ - c.level)) + c.x_low;
@@ -131,17 +134,16 @@ void EyeGrid::count_cells(const Surface& surface) {
     total += count;
     count = total;  // for now the end of the cell: filling walks back to its begin
   }
-  entries_.resize(total);
+  faces_.resize(total);
 }
 
-void EyeGrid::fill_cells(const Surface& surface) {
-  for (std::uint32_t f = static_cast<std::uint32_t>(surface.faces.size()); f-- > 0;) {
-    const Entry entry = outline(surface.faces[f], f);
+void EyeGrid::fill_cells() {
+  for (std::uint32_t f = static_cast<std::uint32_t>(covers_.size()); f-- > 0;) {
     const Cover c = covers_[f];
     std::size_t row = level_begin_[c.level] + (std::size_t{c.y_low} << (bits_ - c.level)) + c.x_low;
     for (unsigned y = 0; y < c.rows; ++y, row += std::size_t{1} << (bits_ - c.level)) {
       for (unsigned x = 0; x < c.columns; ++x) {
-        entries_[--cell_begin_[row + x]] = entry;
+        faces_[--cell_begin_[row + x]] = f;
       }
     }
   }
@@ -153,7 +155,7 @@ bool EyeGrid::build(const Surface& surface, const Viewpoint& eye) {
   }
   choose_resolution(surface.faces.size());
   count_cells(surface);
-  fill_cells(surface);
+  fill_cells();
   return true;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vantage/core/camera.h"
+
 #include "visibility/surface.h"
 
 /// \file
@@ -39,10 +40,11 @@ class EyeGrid {
     for (std::uint32_t levels = used_levels_; levels != 0; levels &= levels - 1) {
       const std::size_t cell = cell_of(static_cast<unsigned>(std::countr_zero(levels)), x, y);
       for (std::uint32_t i = cell_begin_[cell]; i < cell_begin_[cell + 1]; ++i) {
-        const Entry& e = entries_[i];
-        const bool near = (e.x_low <= spot.x) & (spot.x <= e.x_high) & (e.y_low <= spot.y) &
-                          (spot.y <= e.y_high) & (e.depth <= spot.depth);
-        if (near && decide(e.face)) {
+        const std::uint32_t face = faces_[i];
+        const Outline& o = outlines_[face];
+        const bool near = (o.depth <= spot.depth) & (o.x_low <= spot.x) & (spot.x <= o.x_high) &
+                          (o.y_low <= spot.y) & (spot.y <= o.y_high);
+        if (near && decide(face)) {
           return true;
         }
       }
@@ -57,9 +59,8 @@ class EyeGrid {
   };
 
   /// What a face covers in the picture, rounded outwards, and its nearest depth.
-  struct Entry {
+  struct Outline {
     float x_low, x_high, y_low, y_high, depth;
-    std::uint32_t face;
   };
 
   /// The cells of one level that a face lies in.
@@ -70,23 +71,24 @@ class EyeGrid {
 
   bool project(const Surface& surface, const Viewpoint& eye);
   void choose_resolution(std::size_t face_count);
-  [[nodiscard]] Entry outline(const Triangle& face, std::uint32_t index) const;
-  [[nodiscard]] Cover cover(const Entry& outline) const;
+  [[nodiscard]] Outline outline(const Triangle& face) const;
+  [[nodiscard]] Cover cover(const Outline& outline) const;
   void count_cells(const Surface& surface);
-  void fill_cells(const Surface& surface);
+  void fill_cells();
 
   [[nodiscard]] std::size_t cell_of(unsigned level, std::uint32_t x, std::uint32_t y) const {
     return level_begin_[level] + ((y >> level) << (bits_ - level)) + (x >> level);
   }
 
-  unsigned bits_ = 0;                          // the finest level has 2^bits × 2^bits cells
-  std::uint32_t used_levels_ = 0;              // bit l: some face lies in level l
-  std::vector<std::size_t> level_begin_{};     // first cell of each level
-  std::vector<Spot> spots_{};                  // of each site
-  std::vector<std::array<double, 3>> plane_{}; // x, y, depth of each site before scaling
-  std::vector<Cover> covers_{};                // of each face
-  std::vector<std::uint32_t> cell_begin_{};    // first entry of each cell
-  std::vector<Entry> entries_{};
+  unsigned bits_ = 0;                           // the finest level has 2^bits × 2^bits cells
+  std::uint32_t used_levels_ = 0;               // bit l: some face lies in level l
+  std::vector<std::size_t> level_begin_{};      // first cell of each level
+  std::vector<Spot> spots_{};                   // of each site
+  std::vector<std::array<double, 3>> plane_{};  // x, y, depth of each site before scaling
+  std::vector<Outline> outlines_{};             // of each face
+  std::vector<Cover> covers_{};                 // of each face
+  std::vector<std::uint32_t> cell_begin_{};     // where each cell begins in faces_
+  std::vector<std::uint32_t> faces_{};          // faces of all cells, one cell after the other
 };
 
 }  // namespace vantage

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "visibility/surface.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <string>
 #include <utility>
+
+#include <Eigen/Geometry>
 
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"

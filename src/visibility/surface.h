@@ -5,9 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "spatial/ray_scene.h"
 #include "vantage/mesh/tri_mesh.h"
 #include "vantage/visibility/vertex_visibility.h"
+
+#include "spatial/ray_scene.h"
 
 /// \file
 /// A mesh made ready for visibility queries: in a UnitFrame, one vertex per position, without

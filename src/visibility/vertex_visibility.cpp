@@ -5,8 +5,9 @@
 #include <mutex>
 #include <optional>
 
-#include "core/parallel.h"
 #include "vantage/core/error.h"
+
+#include "core/parallel.h"
 #include "visibility/eye_grid.h"
 #include "visibility/segment.h"
 #include "visibility/surface.h"
@@ -19,6 +20,7 @@ namespace {
 constexpr double kEdgeOn = 0x1p-46;
 // With more candidates than this in its grid cells a site asks the hierarchy in space instead.
 constexpr std::size_t kMaxCandidates = 1024;
+constexpr std::uint32_t kNoFace = ~std::uint32_t{0};
 // Sites per chunk: a few tenths of a millisecond.
 constexpr std::size_t kGrain = 2048;
 
@@ -97,28 +99,37 @@ struct VertexVisibility::Scene {
   GridPool grids{};
   LazyCandidates candidates{};
 
-  /// Whether something stands between a site and the eye. \param grid may be null.
-  bool blocked(std::uint32_t site, const Viewpoint& eye, const EyeGrid* grid) {
+  /// The face found between a site and the eye, or kNoFace. \param grid may be null.
+  /// \param hint a face worth asking first, or kNoFace: what hid a site hides most neighbours too.
+  std::uint32_t blocker(std::uint32_t site, const Viewpoint& eye, const EyeGrid* grid,
+                        std::uint32_t hint) {
     const Vec3& start = surface.sites[site];
     const bool bounded = eye.projection == Projection::Perspective;
     const Vec3 direction = bounded ? Vec3(eye.position - start) : eye.position;
     if (!(direction.squaredNorm() > 0.0)) {
-      return false;  // the eye is at the vertex itself
+      return kNoFace;  // the eye is at the vertex itself
     }
     const Segment segment(start, direction, bounded);
+    std::uint32_t found = kNoFace;
     const auto decide = [&](std::uint32_t f) {
       const auto& [a, b, c] = surface.faces[f];
-      return a != site && b != site && c != site &&
-             segment.crosses(surface.sites[a], surface.sites[b], surface.sites[c],
-                             surface.twice_areas[f]);
+      const bool blocks = a != site && b != site && c != site &&
+                          segment.crosses(surface.sites[a], surface.sites[b], surface.sites[c],
+                                          surface.twice_areas[f]);
+      found = blocks ? f : kNoFace;
+      return blocks;
     };
+    if (hint != kNoFace && decide(hint)) {
+      return found;
+    }
     if (grid != nullptr && grid->candidate_count(site) <= kMaxCandidates) {
-      return grid->any(site, decide);
+      static_cast<void>(grid->any(site, decide));
+      return found;
     }
     const double length = direction.norm();
-    return candidates.of(surface).any(
-        start, direction / length,
-        bounded ? length : std::numeric_limits<double>::infinity(), decide);
+    const double reach = bounded ? length : std::numeric_limits<double>::infinity();
+    static_cast<void>(candidates.of(surface).any(start, direction / length, reach, decide));
+    return found;
   }
 };
 
@@ -139,10 +150,13 @@ std::vector<std::uint8_t> VertexVisibility::visible_vertices(const Viewpoint& ey
   std::unique_ptr<EyeGrid> grid = scene_->grids.borrow();
   const EyeGrid* usable = grid->build(surface, local) ? grid.get() : nullptr;
   parallel_for(run, seen.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::uint32_t last = kNoFace;
     for (std::size_t site = begin; site < end; ++site) {
-      if (seen[site] != 0 &&
-          scene_->blocked(static_cast<std::uint32_t>(site), local, usable)) {
-        seen[site] = 0;
+      if (seen[site] != 0) {
+        const std::uint32_t found =
+            scene_->blocker(static_cast<std::uint32_t>(site), local, usable, last);
+        seen[site] = found == kNoFace ? 1 : 0;
+        last = found == kNoFace ? last : found;
       }
     }
   });

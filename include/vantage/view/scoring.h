@@ -20,14 +20,14 @@ namespace vantage {
 
 /// The camera that scores: its eye stands at centre + R · direction.
 struct ScoringCamera {
-  Sphere sphere{};                                   ///< Enclosing sphere of the model; D > 0.
+  Sphere sphere{};  ///< Enclosing sphere of the model; D > 0.
   Projection projection = Projection::Perspective;
-  double fov_y_deg = 30.0;                           ///< Vertical field of view, in (0, 180).
-  std::optional<double> distance_factor{};           ///< R over D/2, > 1; unset: 1 / sin(fov/2).
+  double fov_y_deg = 30.0;                  ///< Vertical field of view, in (0, 180).
+  std::optional<double> distance_factor{};  ///< R over D/2, > 1; unset: 1 / sin(fov/2).
 
-  [[nodiscard]] double distance() const;                          ///< R in model units.
-  [[nodiscard]] Vec3 eye(const Vec3& direction) const;            ///< Position of the eye.
-  [[nodiscard]] Viewpoint viewpoint(const Vec3& direction) const; ///< What visibility is asked.
+  [[nodiscard]] double distance() const;                           ///< R in model units.
+  [[nodiscard]] Vec3 eye(const Vec3& direction) const;             ///< Position of the eye.
+  [[nodiscard]] Viewpoint viewpoint(const Vec3& direction) const;  ///< What visibility is asked.
 };
 
 /// Sum of `significance` over the vertices marked visible, added in vertex order.
@@ -49,6 +49,7 @@ class ViewScorer {
 
   /// The score if everything were visible.
   [[nodiscard]] double total() const { return total_; }
+
   [[nodiscard]] const ScoringCamera& camera() const { return camera_; }
 
  private:

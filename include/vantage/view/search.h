@@ -28,14 +28,14 @@ enum class SearchStrategy {
 /// Whether the largest or the smallest score is wanted.
 enum class Goal { Best, Worst };
 
-/// Options of search_view().
+/// Options of search_view() and search_best_and_worst().
 struct SearchOptions {
   SearchStrategy strategy = SearchStrategy::Global;
   ViewSphereBase base = ViewSphereBase::Icosahedron;
-  int subdivisions = 3;                    ///< Of the base: start of rapid, set of exhaustive; 0–8.
-  double epsilon = 0.001;                  ///< Rapid stops when a ring gains less than this …
-  bool epsilon_is_fraction = true;         ///< … as a fraction of `total`, or as a raw sum.
-  bool require_narrow_ring = true;         ///< Rapid also needs a ring narrower than 2° (ours).
+  int subdivisions = 3;             ///< Of the base: start of rapid, set of exhaustive; 0–8.
+  double epsilon = 0.001;           ///< Rapid stops when a ring gains less than this …
+  bool epsilon_is_fraction = true;  ///< … as a fraction of `total`, or as a raw sum.
+  bool require_narrow_ring = true;  ///< Rapid also needs a ring narrower than 2° (ours).
 };
 
 /// Names, ranges and help of the numbers in SearchOptions.
@@ -46,26 +46,38 @@ inline constexpr auto kSearchFields = std::tuple{
 
 /// One evaluated direction of a search, in order of evaluation.
 struct SearchStep {
-  int level = 0;                     ///< 0: the start set; then one per refinement.
+  int level = 0;  ///< 0: the start set; then one per refinement.
   Vec3 direction = Vec3::UnitZ();
   double score = 0.0;
 };
 
-/// Result of search_view().
+/// One view found by a search.
 struct FoundView {
-  Vec3 direction = Vec3::UnitZ();    ///< Unit vector from the centre to the eye.
+  Vec3 direction = Vec3::UnitZ();  ///< Unit vector from the centre to the eye.
   double score = 0.0;
-  std::size_t evaluations = 0;       ///< Directions scored.
-  std::vector<SearchStep> trace{};   ///< Each evaluated direction.
+  std::size_t evaluations = 0;      ///< Directions scored for it; none is scored twice.
+  std::vector<SearchStep> trace{};  ///< Each evaluated direction.
+};
+
+/// Result of search_best_and_worst().
+struct FoundViews {
+  FoundView best{};
+  FoundView worst{};  ///< Its evaluations and trace hold only what the best had not scored before.
 };
 
 /// Scores a batch of directions; must be a pure function of each direction.
 using ScoreBatch = std::function<std::vector<double>(const std::vector<Vec3>&)>;
 
 /// Searches the sphere. Ties go to the lowest index of the set, then to what was found first.
-/// \param score scores directions. \param total what `epsilon` as a fraction refers to.
+/// \param score scores directions. \param total the score if everything were visible, ≥ 0: what
+/// `epsilon` as a fraction refers to; at 0 all views are equal and the first direction is returned.
 /// \throw InvalidInput, Cancelled
 FoundView search_view(const ScoreBatch& score, double total, Goal goal,
                       const SearchOptions& options = {}, const RunContext& run = {});
+
+/// Both searches, sharing what they evaluate: the views are those of search_view().
+/// \throw InvalidInput, Cancelled
+FoundViews search_best_and_worst(const ScoreBatch& score, double total,
+                                 const SearchOptions& options = {}, const RunContext& run = {});
 
 }  // namespace vantage

@@ -45,9 +45,9 @@ class VertexVisibility {
 
 /// A surface wound so that closed shells face outwards.
 struct OrientedMesh {
-  TriMesh mesh{};                    ///< Same vertices; faces of some components reversed.
-  std::vector<FaceSides> sides{};    ///< One per component of connected_components(mesh).
-  std::size_t turned_shells = 0;     ///< Closed components that were inside out.
+  TriMesh mesh{};                  ///< Same vertices; faces of some components reversed.
+  std::vector<FaceSides> sides{};  ///< One per component of connected_components(mesh).
+  std::size_t turned_shells = 0;   ///< Closed components that were inside out.
 };
 
 /// Turns closed, consistently wound components that are inside out. A shell inside an odd number

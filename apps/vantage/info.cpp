@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include <nlohmann/json.hpp>
+
+#include "vantage/io/write.h"
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/mesh_check.h"
+#include "vantage/mesh/weld.h"
+#include "vantage/report/view_report.h"
+
+#include "commands.h"
+#include "method_flags.h"
+#include "terminal.h"
+
+namespace vantage::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json point(const Vec3& p) {
+  return Json::array({p.x(), p.y(), p.z()});
+}
+
+struct InfoCommand {
+  std::string model{};
+
+  void add_flags(CLI::App& app, Session& session) {
+    app.add_option("MODEL", model, "file to read, or -")->required();
+    add_common_flags(app, session.flags);
+  }
+
+  void run(Session& session) {
+    const Model loaded = session.load(model);
+    const WeldedMesh welded = weld(loaded.mesh);
+    const MeshReport as_read = check_mesh(loaded.mesh);
+    const MeshReport check = check_mesh(welded.mesh);
+    if (session.flags.json) {
+      write_file("-", json(loaded, welded, as_read, check));
+    } else {
+      print(session, loaded, welded, as_read, check);
+    }
+  }
+
+ private:
+  static std::string json(const Model& loaded, const WeldedMesh& welded, const MeshReport& as_read,
+                          const MeshReport& check) {
+    const Box box = bounding_box(loaded.mesh.positions);
+    Json parts = Json::array();
+    for (const ModelPart& part : loaded.parts) {
+      parts.push_back({{"name", part.name}, {"faces", part.triangle_count}});
+    }
+    const Json json = {
+        {"name", loaded.name},
+        {"format", format_name(loaded.format)},
+        {"vertices", as_read.vertices},
+        {"polygons", loaded.polygons},
+        {"quads", loaded.quads},
+        {"larger_polygons", loaded.larger_polygons},
+        {"skipped_faces", loaded.skipped_faces},
+        {"faces", as_read.faces},
+        {"vertex_colours", !loaded.vertex_colours.empty()},
+        {"double_precision", loaded.double_precision},
+        {"parts", parts},
+        {"box", {{"low", point(box.low)}, {"high", point(box.high)}}},
+        {"diameter", enclosing_sphere(referenced_points(loaded.mesh)).diameter},
+        {"area", surface_area(loaded.mesh)},
+        {"volume", check.closed && check.oriented ? Json(check.signed_volume) : Json(nullptr)},
+        {"duplicate_vertices", as_read.duplicate_vertices},
+        {"isolated_vertices", as_read.isolated_vertices},
+        {"repeated_index_faces", as_read.repeated_index_faces},
+        {"up", up_name(default_up(loaded.format))},
+        {"welded",
+         {{"vertices", check.vertices},
+          {"faces", check.faces},
+          {"components", check.components},
+          {"closed", check.closed},
+          {"oriented", check.oriented},
+          {"genus", check.genus ? Json(*check.genus) : Json(nullptr)},
+          {"dropped_faces", welded.dropped_faces},
+          {"zero_area_faces", check.zero_area_faces},
+          {"duplicate_faces", check.duplicate_faces},
+          {"boundary_edges", check.boundary_edges},
+          {"boundary_loops", check.boundary_loops},
+          {"non_manifold_edges", check.non_manifold_edges},
+          {"non_manifold_vertices", check.non_manifold_vertices},
+          {"inconsistent_edges", check.inconsistent_edges}}},
+        {"notes", loaded.notes}};
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  }
+
+  static void print(Session& session, const Model& loaded, const WeldedMesh& welded,
+                    const MeshReport& as_read, const MeshReport& check) {
+    const auto line = [&](const std::string& label, const std::string& text) {
+      std::string padded = label;
+      padded.resize(14, ' ');
+      session.tell("  " + padded + text);
+    };
+    const Vec3 size = bounding_box(loaded.mesh.positions).size();
+    session.tell(printable(loaded.name) + " (" + std::string(format_name(loaded.format)) + ")");
+    line("vertices", grouped(as_read.vertices) +
+                         (loaded.vertex_colours.empty() ? "" : ", with colours") +
+                         (loaded.double_precision ? ", double precision" : ""));
+    line("faces", polygons(loaded, as_read));
+    if (loaded.parts.size() > 1) {
+      line("parts", grouped(loaded.parts.size()));
+    }
+    line("size", rounded(size.x()) + " × " + rounded(size.y()) + " × " + rounded(size.z()));
+    if (as_read.faces > 0) {
+      std::string shape = plural(check.components, "component") + ", ";
+      shape += check.closed ? "closed" : "open";
+      shape += check.genus ? ", genus " + std::to_string(*check.genus) : "";
+      line("surface", shape);
+      line("area", rounded(surface_area(loaded.mesh)));
+      if (check.closed && check.oriented) {
+        line("volume", rounded(check.signed_volume) +
+                           (check.signed_volume < 0.0 ? " (wound inside out)" : ""));
+      }
+    }
+    const std::vector<std::string> defects = defects_of(welded, as_read, check, loaded);
+    line("defects", defects.empty() ? "none" : defects.front());
+    for (std::size_t i = 1; i < defects.size(); ++i) {
+      line("", defects[i]);
+    }
+    for (const std::string& note : loaded.notes) {
+      session.say("note: " + note);
+    }
+  }
+
+  static std::string polygons(const Model& loaded, const MeshReport& as_read) {
+    if (as_read.faces == 0) {
+      return "none: points only";
+    }
+    std::string text = plural(as_read.faces, "triangle");
+    if (loaded.quads + loaded.larger_polygons > 0) {
+      text += ", from " + plural(loaded.polygons, "polygon") + " (" + plural(loaded.quads, "quad") +
+              ", " + grouped(loaded.larger_polygons) + " larger)";
+    }
+    return text;
+  }
+
+  static std::vector<std::string> defects_of(const WeldedMesh& welded, const MeshReport& as_read,
+                                             const MeshReport& check, const Model& loaded) {
+    const std::pair<std::size_t, const char*> counts[] = {
+        {as_read.duplicate_vertices,
+         "vertices at the position of an earlier one (welded for all work)"},
+        {as_read.isolated_vertices, "vertices that belong to no face"},
+        {loaded.skipped_faces, "faces with fewer than three corners, left out"},
+        {welded.dropped_faces, "faces that name one position twice"},
+        {check.zero_area_faces, "faces without area"},
+        {check.duplicate_faces, "faces that stand there twice"},
+        {check.boundary_loops, "open boundaries"},
+        {check.non_manifold_edges, "edges with three or more faces"},
+        {check.non_manifold_vertices, "vertices where sheets touch"},
+        {check.inconsistent_edges, "edges whose faces are wound against each other"}};
+    std::vector<std::string> defects;
+    for (const auto& [count, what] : counts) {
+      if (count > 0) {
+        defects.push_back(grouped(count) + " " + what);
+      }
+    }
+    if (check.closed && check.oriented && check.signed_volume < 0.0) {
+      defects.emplace_back("the surface is wound inside out");
+    }
+    return defects;
+  }
+};
+
+}  // namespace
+
+void add_info_command(CLI::App& program, Session& session) {
+  add_command<InfoCommand>(program, session, "info", "what a file holds and what is wrong with it",
+                           "Examples:\n"
+                           "  vantage info scan.ply\n"
+                           "  vantage info scan.ply --json");
+}
+
+}  // namespace vantage::cli

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "vantage/core/version.h"
+
+#include "commands.h"
+#include "session.h"
+
+namespace {
+
+constexpr const char* kAbout =
+    "Finds the view of a 3D model that tells most about its shape, and the one that tells least.";
+
+constexpr const char* kFooter =
+    "Reads OBJ, OFF, PLY, STL, glTF and GLB; - reads standard input.\n"
+    "\n"
+    "Exit codes: 0 done; 1 failed; 2 wrong usage; 3 input unreadable; 75 try again; 130 "
+    "interrupted.\n"
+    "\n"
+    "Try: vantage view horse.ply";
+
+/// One sentence on standard error for a command line that makes no sense.
+int report_usage(const CLI::ParseError& error) {
+  std::string problem = error.what();
+  while (!problem.empty() && (problem.back() == '\n' || problem.back() == '.')) {
+    problem.pop_back();
+  }
+  for (char& c : problem) {
+    c = c == '\n' ? ' ' : c;
+  }
+  std::fprintf(stderr, "vantage: %s; see --help\n", problem.c_str());
+  return vantage::cli::kWrongUsage;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace vantage::cli;
+  Session session;
+  CLI::App program{kAbout, "vantage"};
+  program.set_version_flag("--version", "vantage " + std::string(vantage::version()) + "\n" +
+                                            vantage::library_versions());
+  program.require_subcommand(1);
+  program.footer(kFooter);
+  try {
+    add_view_command(program, session);
+    add_skeleton_command(program, session);
+    add_map_command(program, session);
+    add_score_command(program, session);
+    add_render_command(program, session);
+    add_info_command(program, session);
+    program.parse(argc, argv);
+    session.end_progress();
+    if (std::fflush(stdout) != 0) {
+      std::fputs("vantage: cannot write to standard output\n", stderr);
+      return kFailed;
+    }
+    return kDone;
+  } catch (const CLI::Success& request) {  // --help, --version
+    return program.exit(request) == 0 ? kDone : kFailed;
+  } catch (const CLI::ParseError& error) {
+    return report_usage(error);
+  } catch (...) {
+    return session.report_failure();
+  }
+}

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "vantage/io/write.h"
+#include "vantage/render/colour_map.h"
+#include "vantage/report/view_report.h"
+
+#include "commands.h"
+#include "method_flags.h"
+#include "output_folder.h"
+#include "terminal.h"
+
+namespace vantage::cli {
+namespace {
+
+std::string map_bytes(const Model& loaded, const ShapeAnalysis& shape,
+                      std::span<const double> field) {
+  const std::vector<double> values = on_input_vertices(shape, field);
+  return ply_bytes(loaded.mesh, values, colour_map(values), loaded.double_precision);
+}
+
+struct MapCommand {
+  std::string model{};
+  std::string file{};
+  std::string levels{};
+  std::string name = "kssm";
+  MethodFlags method{};
+
+  void add_flags(CLI::App& app, Session& session) {
+    app.add_option("MODEL", model, "file to read, or -")->required();
+    app.add_option("-o,--output", file, "PLY file to write, with property quality and colours")
+        ->required();
+    app.add_option("--method", name,
+                   "kssm: significance; thickness: distance to the skeleton, in the model's units")
+        ->check(CLI::IsMember({"kssm", "thickness"}))
+        ->capture_default_str();
+    app.add_option("--levels", levels,
+                   "folder for the displacement of each contraction level: level-00.ply, …");
+    method.add_to(app, {.map = true});
+    add_common_flags(app, session.flags);
+  }
+
+  void run(Session& session) {
+    const ViewOptions options = method.resolve();
+    const Model loaded = session.load(model);
+    const ShapeAnalysis shape = analyse_shape(loaded, options, session.run());
+    const std::vector<double>& field = name == "kssm" ? shape.map.of_vertex : shape.map.thickness();
+    write_file(file, map_bytes(loaded, shape, field));
+    if (!levels.empty()) {
+      make_folder(levels);
+      for (std::size_t j = 0; j < shape.map.displacement.size(); ++j) {
+        const std::string number = (j < 10 ? "0" : "") + std::to_string(j);
+        write_file((std::filesystem::path(levels) / ("level-" + number + ".ply")).string(),
+                   map_bytes(loaded, shape, shape.map.displacement[j]));
+      }
+    }
+    report(session, loaded, shape, field);
+  }
+
+ private:
+  void report(Session& session, const Model& loaded, const ShapeAnalysis& shape,
+              const std::vector<double>& field) const {
+    const auto [low, high] = std::minmax_element(field.begin(), field.end());
+    if (session.flags.json) {
+      const nlohmann::ordered_json json = {{"file", file},
+                                           {"method", name},
+                                           {"min", *low},
+                                           {"max", *high},
+                                           {"levels", shape.history.level_count()},
+                                           {"level_factors", shape.map.level_factor},
+                                           {"warnings", shape.warnings}};
+      write_file("-", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+      return;
+    }
+    session.tell(printable(loaded.name) + ": " + name + " from " + rounded(*low) + " to " +
+                 rounded(*high) + " over " + plural(field.size(), "vertex") + ", " +
+                 plural(shape.history.level_count(), "level") + " → " + printable(file));
+    for (const std::string& warning : shape.warnings) {
+      session.say("note: " + warning);
+    }
+  }
+};
+
+}  // namespace
+
+void add_map_command(CLI::App& program, Session& session) {
+  add_command<MapCommand>(program, session, "map", "the significance map of a model",
+                          "Examples:\n"
+                          "  vantage map horse.ply -o map.ply\n"
+                          "  vantage map horse.ply -o thick.ply --method thickness\n"
+                          "  vantage map horse.ply -o map.ply --levels levels");
+}
+
+}  // namespace vantage::cli

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "vantage/report/view_report.h"
+
+namespace vantage::cli {
+
+/// Which groups of method flags a command offers.
+struct FlagGroups {
+  bool map = false;      ///< How KSSM is formed.
+  bool camera = false;   ///< The scoring camera and up.
+  bool search = false;   ///< The search.
+  bool picture = false;  ///< --size.
+};
+
+/// Turns command line flags into ViewOptions: the preset first, then whatever was given.
+class MethodFlags {
+ public:
+  /// Adds contraction and skeleton flags, --preset, and the groups asked for.
+  void add_to(CLI::App& app, const FlagGroups& groups);
+
+  /// The options as asked for on the command line.
+  [[nodiscard]] ViewOptions resolve() const;
+
+ private:
+  using Override = std::function<void(ViewOptions&)>;
+
+  void add_map_flags(CLI::App& app);
+  void add_camera_flags(CLI::App& app);
+  void add_search_flags(CLI::App& app);
+  template <class Part, class Table>
+  void add_numbers(CLI::App& app, const std::string& group, Part ViewOptions::*part,
+                   const Table& table);
+
+  std::string preset_ = "default";
+  std::string search_{};
+  std::vector<Override> overrides_{};
+};
+
+/// Parses "x,y,z". \throw CLI::ValidationError
+Vec3 parse_vector(const std::string& text, const std::string& flag);
+
+/// Adds --json -q -v --threads --seed.
+struct CommonFlags;
+void add_common_flags(CLI::App& app, CommonFlags& flags);
+
+/// Adds --size WxH.
+void add_size_flag(CLI::App& app, std::function<void(int width, int height)> take);
+
+}  // namespace vantage::cli

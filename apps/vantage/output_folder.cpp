@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "output_folder.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/error.h"
+#include "vantage/io/write.h"
+
+namespace vantage::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What tells a folder of ours from somebody else's.
+constexpr std::string_view kMarker = "view.json";
+
+bool is_ours(const fs::path& folder) {
+  std::ifstream stream(folder / kMarker, std::ios::binary);
+  if (!stream) {
+    return false;
+  }
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  return json.is_object() && json.contains("vantage") && json.contains("options_hash");
+}
+
+}  // namespace
+
+void make_folder(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error || !fs::is_directory(path)) {
+    throw IoError(path, "cannot make this folder; choose another with -o", error.value());
+  }
+}
+
+void OutputFolder::check() const {
+  std::error_code error;
+  const fs::file_status status = fs::status(path_, error);
+  if (!fs::exists(status)) {
+    return;
+  }
+  if (!fs::is_directory(status)) {
+    throw IoError(path_, "is a file where the results' folder should be; choose another with -o");
+  }
+  if (!fs::is_empty(path_, error) && !is_ours(path_)) {
+    throw IoError(path_,
+                  "holds files that are not results of vantage; choose another folder with -o");
+  }
+}
+
+void OutputFolder::add(std::string name, std::string bytes) {
+  files_.emplace_back(std::move(name), std::move(bytes));
+}
+
+void OutputFolder::write() {
+  std::error_code error;
+  const bool fresh = !fs::exists(path_, error);
+  make_folder(path_);
+  std::vector<fs::path> written;
+  try {
+    for (const auto& [name, bytes] : files_) {
+      const fs::path file = fs::path(path_) / name;
+      write_file(file.string(), bytes);
+      written.push_back(file);
+    }
+  } catch (const Error&) {
+    for (const fs::path& file : written) {
+      fs::remove(file, error);
+    }
+    if (fresh) {
+      fs::remove(path_, error);
+    }
+    throw;
+  }
+}
+
+std::vector<std::string> OutputFolder::names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, bytes] : files_) {
+    names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace vantage::cli

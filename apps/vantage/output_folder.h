@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace vantage::cli {
+
+/// A folder of results, collected in memory and written at the end: a run that fails before leaves
+/// nothing behind, and one that fails while writing removes what it wrote.
+class OutputFolder {
+ public:
+  /// \param path the folder; made if it is missing. A folder that holds files of these names but no
+  /// view.json of ours is refused by check(), before any work is done.
+  explicit OutputFolder(std::string path) : path_(std::move(path)) {}
+
+  /// \throw IoError if writing there would replace somebody else's files, or it is not a folder.
+  void check() const;
+
+  /// Takes a file to write.
+  void add(std::string name, std::string bytes);
+
+  /// Writes all files. \throw IoError
+  void write();
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+  [[nodiscard]] std::vector<std::string> names() const;
+
+ private:
+  std::string path_;
+  std::vector<std::pair<std::string, std::string>> files_{};
+};
+
+/// Makes a folder and its parents. \throw IoError
+void make_folder(const std::string& path);
+
+}  // namespace vantage::cli

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include <charconv>
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/error.h"
+#include "vantage/io/camera_files.h"
+#include "vantage/io/write.h"
+#include "vantage/mesh/measures.h"
+#include "vantage/render/framing.h"
+#include "vantage/report/view_report.h"
+
+#include "commands.h"
+#include "input_text.h"
+#include "method_flags.h"
+#include "terminal.h"
+
+namespace vantage::cli {
+namespace {
+
+/// "white", "black", "transparent" or "#rrggbb".
+std::optional<Rgb8> parse_background(const std::string& text) {
+  if (text == "transparent") {
+    return std::nullopt;
+  }
+  if (text == "white") {
+    return Rgb8{255, 255, 255};
+  }
+  if (text == "black") {
+    return Rgb8{0, 0, 0};
+  }
+  Rgb8 colour{};
+  bool good = text.size() == 7 && text.front() == '#';
+  for (std::size_t i = 0; good && i < 3; ++i) {
+    const char* first = text.data() + 1 + 2 * i;
+    const auto [end, error] = std::from_chars(first, first + 2, colour[i], 16);
+    good = error == std::errc{} && end == first + 2;
+  }
+  if (!good) {
+    throw CLI::ValidationError(
+        "--background", "expected white, black, transparent or #rrggbb, found '" + text + "'");
+  }
+  return colour;
+}
+
+struct RenderCommand {
+  std::string model{};
+  std::string file{};
+  std::string direction_text{};
+  std::string camera_file{};
+  std::string view{};
+  std::string show = "plain";
+  std::optional<Rgb8> background{};
+  MethodFlags method{};
+
+  void add_flags(CLI::App& app, Session& session) {
+    app.add_option("MODEL", model, "file to read, or -")->required();
+    app.add_option("-o,--output", file, "PNG file to write")->required();
+    CLI::Option_group* from = app.add_option_group("From", "where to look from: one of");
+    from->add_option("--direction", direction_text, "x,y,z: from the model's centre to the eye");
+    from->add_option("--camera", camera_file,
+                     "a camera: glTF, transforms.json, or view.json (its best view)");
+    from->add_option("--view", view, "best or worst: search for it")
+        ->check(CLI::IsMember({"best", "worst"}));
+    from->require_option(1);
+    app.add_option("--show", show, "plain surface, KSSM colours, or the skeleton through it")
+        ->check(CLI::IsMember({"plain", "kssm", "skeleton"}))
+        ->capture_default_str()
+        ->group("Pictures");
+    app.add_option_function<std::string>(
+           "--background", [this](const std::string& text) { background = parse_background(text); },
+           "white, black, transparent or #rrggbb")
+        ->default_str("transparent")
+        ->group("Pictures");
+    method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
+    add_common_flags(app, session.flags);
+  }
+
+  void run(Session& session) {
+    const ViewOptions options = method.resolve();
+    const RunContext run = session.run();
+    const Vec3 direction =
+        direction_text.empty() ? Vec3::UnitZ() : unit(parse_vector(direction_text, "--direction"));
+    std::optional<Camera> camera;
+    if (!camera_file.empty()) {
+      camera = session.reading([&] { return parse_camera(read_text(camera_file), camera_file); });
+    }
+    const Model loaded = session.load(model);
+    ShapeAnalysis shape = prepare_surface(loaded);
+    if (!view.empty() || show != "plain") {
+      shape = analyse_shape(loaded, options, run.part(0.0, 0.5));
+    }
+    if (!camera) {
+      camera = view.empty() ? framed(shape, loaded, direction, options)
+                            : found(shape, loaded, options, run.part(0.5, 0.9));
+    }
+    const std::map<std::string, Picture> pictures{
+        {"plain", Picture::Plain}, {"kssm", Picture::Map}, {"skeleton", Picture::Skeleton}};
+    const Image image =
+        take_picture(shape, *camera, pictures.at(show), options, background, run.part(0.9, 1.0));
+    write_file(file, png_bytes(image));
+    report(session, *camera, options);
+  }
+
+ private:
+  static Vec3 unit(const Vec3& v) {
+    const double length = v.stableNorm();
+    if (!(length > 0.0) || !std::isfinite(length)) {
+      throw CLI::ValidationError("--direction", "must not be zero");
+    }
+    return v / length;
+  }
+
+  static Camera framed(const ShapeAnalysis& shape, const Model& loaded, const Vec3& direction,
+                       const ViewOptions& options) {
+    const ScoringCamera scoring = scoring_camera(shape, options);
+    return frame_points(referenced_points(shape.surface), scoring.viewpoint(direction),
+                        shape.sphere.centre,
+                        up_vector(options.up.value_or(default_up(loaded.format))),
+                        static_cast<double>(options.width) / options.height);
+  }
+
+  [[nodiscard]] Camera found(const ShapeAnalysis& shape, const Model& loaded,
+                             const ViewOptions& options, const RunContext& run) const {
+    const ViewReport report =
+        find_views(shape, options.up.value_or(default_up(loaded.format)), options, run);
+    return view == "best" ? report.best.picture : report.worst.picture;
+  }
+
+  void report(Session& session, const Camera& camera, const ViewOptions& options) const {
+    const auto point = [](const Vec3& p) {
+      return nlohmann::ordered_json::array({p.x(), p.y(), p.z()});
+    };
+    if (session.flags.json) {
+      session.end_progress();
+      const nlohmann::ordered_json json = {{"file", file},
+                                           {"width", options.width},
+                                           {"height", options.height},
+                                           {"eye", point(camera.eye)},
+                                           {"target", point(camera.target)},
+                                           {"up", point(camera.up)},
+                                           {"fov_y_deg", camera.fov_y_deg}};
+      write_file("-", json.dump(2) + "\n");
+      return;
+    }
+    session.tell(printable(file) + ": " + std::to_string(options.width) + " × " +
+                 std::to_string(options.height));
+  }
+};
+
+}  // namespace
+
+void add_render_command(CLI::App& program, Session& session) {
+  add_command<RenderCommand>(
+      program, session, "render", "one picture of a model",
+      "Examples:\n"
+      "  vantage render horse.ply -o horse.png --direction 1,0.6,1\n"
+      "  vantage render horse.ply -o map.png --view best --show kssm\n"
+      "  vantage render horse.ply -o again.png --camera horse.vantage/view.json");
+}
+
+}  // namespace vantage::cli

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <fstream>
+#include <iterator>
+
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/error.h"
+#include "vantage/io/csv.h"
+#include "vantage/io/write.h"
+#include "vantage/report/view_report.h"
+#include "vantage/spatial/directions.h"
+
+#include "commands.h"
+#include "input_text.h"
+#include "method_flags.h"
+#include "terminal.h"
+
+namespace vantage::cli {
+namespace {
+
+struct ScoreCommand {
+  std::string model{};
+  std::string directions{};
+  std::string eyes{};
+  std::string file = "-";
+  std::string measure = "kssm";
+  int sphere = -1;
+  MethodFlags method{};
+
+  void add_flags(CLI::App& app, Session& session) {
+    app.add_option("MODEL", model, "file to read, or -")->required();
+    CLI::Option_group* what = app.add_option_group("Views", "what to score: one of");
+    what->add_option("--directions", directions, "CSV file dx,dy,dz: directions to the eye");
+    what->add_option("--eyes", eyes, "CSV file x,y,z: positions of the eye, in model units");
+    what->add_option("--sphere", sphere, "all directions of the icosahedron split this many times")
+        ->check(CLI::Range(0, 8));
+    what->require_option(1);
+    app.add_option("--method", measure, "what to score by")
+        ->check(CLI::IsMember({"kssm"}))
+        ->capture_default_str();
+    app.add_option("-o,--output", file, "CSV file to write; - is standard output")
+        ->capture_default_str();
+    method.add_to(app, {.map = true, .camera = true});
+    add_common_flags(app, session.flags);
+  }
+
+  void run(Session& session) {
+    const ViewOptions options = method.resolve();
+    const RunContext run = session.run();
+    const bool free_eyes = !eyes.empty();
+    const std::vector<Vec3> points = session.reading([&] { return points_to_score(); });
+    const Model loaded = session.load(model);
+    const ShapeAnalysis shape = analyse_shape(loaded, options, run.part(0.0, 0.5));
+    const VertexVisibility visibility(shape.surface, shape.sides);
+    const std::vector<double> scores =
+        free_eyes ? score_eyes(shape, visibility, points, run.part(0.5, 1.0))
+                  : score_directions(shape, visibility, points, options, run.part(0.5, 1.0));
+    session.end_progress();
+    write_file(session.flags.json && file == "-" ? "-" : file,
+               session.flags.json && file == "-" ? json(points, scores, free_eyes)
+                                                 : csv(points, scores, free_eyes));
+    for (const std::string& warning : shape.warnings) {
+      session.say("note: " + warning);
+    }
+  }
+
+ private:
+  [[nodiscard]] std::vector<Vec3> points_to_score() const {
+    if (sphere >= 0) {
+      return direction_set(ViewSphereBase::Icosahedron, sphere).directions;
+    }
+    const bool free_eyes = !eyes.empty();
+    const std::string& name = free_eyes ? eyes : directions;
+    using Columns = std::array<std::string_view, 3>;
+    std::vector<Vec3> points = parse_points_csv(
+        read_text(name), name, free_eyes ? Columns{"x", "y", "z"} : Columns{"dx", "dy", "dz"});
+    if (!free_eyes) {
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const double length = points[i].stableNorm();
+        if (!(length > 0.0)) {
+          throw FormatError(name, "row " + std::to_string(i + 1), "a direction must not be zero");
+        }
+        points[i] /= length;
+      }
+    }
+    return points;
+  }
+
+  static std::vector<double> score_directions(const ShapeAnalysis& shape,
+                                              const VertexVisibility& visibility,
+                                              const std::vector<Vec3>& points,
+                                              const ViewOptions& options, const RunContext& run) {
+    const ViewScorer scorer(visibility, shape.map.of_vertex, scoring_camera(shape, options));
+    return scorer.score_all(points, run);
+  }
+
+  static std::vector<double> score_eyes(const ShapeAnalysis& shape,
+                                        const VertexVisibility& visibility,
+                                        const std::vector<Vec3>& points, const RunContext& run) {
+    std::vector<double> scores;
+    for (const Vec3& eye : points) {
+      run.advance("scoring",
+                  static_cast<double>(scores.size()) / static_cast<double>(points.size()));
+      const Viewpoint viewpoint{.projection = Projection::Perspective, .position = eye};
+      scores.push_back(visible_sum(shape.map.of_vertex, visibility.visible_vertices(viewpoint)));
+    }
+    return scores;
+  }
+
+  [[nodiscard]] std::string csv(const std::vector<Vec3>& points, const std::vector<double>& scores,
+                                bool free_eyes) const {
+    std::string text = free_eyes ? "method,x,y,z,score\n" : "method,dx,dy,dz,score\n";
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      text += measure;
+      for (const double value : {points[i].x(), points[i].y(), points[i].z(), scores[i]}) {
+        text += ',' + number_text(value);
+      }
+      text += '\n';
+    }
+    return text;
+  }
+
+  [[nodiscard]] std::string json(const std::vector<Vec3>& points, const std::vector<double>& scores,
+                                 bool free_eyes) const {
+    auto rows = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      rows.push_back(
+          {{"method", measure},
+           {free_eyes ? "eye" : "direction",
+            nlohmann::ordered_json::array({points[i].x(), points[i].y(), points[i].z()})},
+           {"score", scores[i]}});
+    }
+    return rows.dump(2) + "\n";
+  }
+};
+
+}  // namespace
+
+void add_score_command(CLI::App& program, Session& session) {
+  add_command<ScoreCommand>(program, session, "score", "score given views",
+                            "Examples:\n"
+                            "  vantage score horse.ply --sphere 3 -o scores.csv\n"
+                            "  vantage score horse.ply --directions views.csv\n"
+                            "  vantage score room.obj --eyes cameras.csv");
+}
+
+}  // namespace vantage::cli

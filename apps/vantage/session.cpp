@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "session.h"
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <thread>
+
+#include <pthread.h>
+#include <unistd.h>
+
+#include "vantage/core/error.h"
+
+#include "terminal.h"
+
+namespace vantage::cli {
+namespace {
+
+std::atomic<int> first_signal{0};
+
+sigset_t watched_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGINT);
+  sigaddset(&set, SIGTERM);
+  return set;
+}
+
+int code_of_signal(int number) {
+  return number == SIGTERM ? kTryAgain : kInterrupted;
+}
+
+/// Waits for signals in a thread of its own, where more than an async-signal-safe flag is allowed.
+void watch_signals(std::stop_source stop) {
+  const sigset_t set = watched_signals();
+  for (;;) {
+    int number = 0;
+    if (sigwait(&set, &number) != 0) {
+      return;
+    }
+    if (first_signal.exchange(number) != 0) {
+      _exit(code_of_signal(number));
+    }
+    stop.request_stop();
+  }
+}
+
+}  // namespace
+
+Session::Session() {
+  // Blocked here, before any other thread exists, so that only the watcher receives them.
+  const sigset_t set = watched_signals();
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a failed write, reported like any other
+  std::thread(watch_signals, stop_).detach();
+}
+
+RunContext Session::run() {
+  RunContext context;
+  context.stop = stop_.get_token();
+  context.max_threads = flags.threads;
+  if (!flags.quiet && !flags.json) {
+    context.report = [this](std::string_view stage, double fraction) {
+      progress_.show(stage, fraction);
+    };
+  }
+  return context;
+}
+
+Model Session::load(const std::string& path) {
+  return reading([&] { return load_model(path, run()); });
+}
+
+void Session::say(const std::string& text) {
+  progress_.finish();
+  if (!flags.quiet) {
+    std::fprintf(stderr, "%s\n", printable(text).c_str());
+  }
+}
+
+void Session::tell(const std::string& text) {
+  progress_.finish();
+  if (!flags.quiet && !flags.json) {
+    std::printf("%s\n", text.c_str());
+  }
+}
+
+int Session::report_failure() {
+  progress_.finish();
+  const auto complain = [](const std::string& problem) {
+    std::fprintf(stderr, "vantage: %s\n", printable(problem).c_str());
+  };
+  try {
+    throw;
+  } catch (const Cancelled&) {
+    const int number = first_signal.load();
+    complain(number == SIGTERM ? "stopped by SIGTERM before the end; run it again"
+                               : "interrupted; nothing was left half written");
+    return code_of_signal(number);
+  } catch (const IoError& error) {
+    complain(error.what());
+    if (error.error_number() == ENOSPC || error.error_number() == EDQUOT) {
+      return kTryAgain;
+    }
+    return reading_input_ ? kUnreadableInput : kFailed;
+  } catch (const FormatError& error) {
+    complain(error.what());
+    return kUnreadableInput;
+  } catch (const std::bad_alloc&) {
+    complain("out of memory; try a smaller model, or a machine with more");
+    return reading_input_ ? kUnreadableInput : kFailed;
+  } catch (const std::exception& error) {
+    complain(error.what());
+    return reading_input_ ? kUnreadableInput : kFailed;
+  }
+}
+
+}  // namespace vantage::cli

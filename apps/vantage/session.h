@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <stop_token>
+#include <string>
+
+#include "vantage/core/run_context.h"
+#include "vantage/io/model.h"
+
+#include "progress.h"
+
+/// \file
+/// What every command shares: the common flags, signals, progress, and how a failure ends.
+
+namespace vantage::cli {
+
+/// Exit codes of the program.
+enum ExitCode : int {
+  kDone = 0,
+  kFailed = 1,
+  kWrongUsage = 2,
+  kUnreadableInput = 3,
+  kTryAgain = 75,
+  kInterrupted = 130,
+};
+
+/// Flags that every command has.
+struct CommonFlags {
+  bool json = false;
+  bool quiet = false;
+  bool verbose = false;
+  int threads = 0;
+  std::uint64_t seed = 0;
+};
+
+/// One run of the program.
+class Session {
+ public:
+  /// Starts to listen for SIGINT and SIGTERM; the second one ends the process at once.
+  Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  CommonFlags flags{};
+
+  /// The context to pass to the library: progress to a terminal, stop on signals, threads.
+  [[nodiscard]] RunContext run();
+
+  /// Reads a model; a failure in here means exit code 3.
+  Model load(const std::string& path);
+
+  /// Runs a step that reads the user's input; a failure in here means exit code 3.
+  template <class Step>
+  auto reading(Step&& step) {
+    reading_input_ = true;
+    auto result = step();
+    reading_input_ = false;
+    return result;
+  }
+
+  /// Writes a message to standard error unless `-q` was given.
+  void say(const std::string& text);
+  /// Writes a result to standard output unless `-q` or `--json` was given.
+  void tell(const std::string& text);
+
+  /// Clears the progress line.
+  void end_progress() { progress_.finish(); }
+
+  /// Prints what went wrong, in one sentence, and gives the exit code. Call inside a catch.
+  int report_failure();
+
+ private:
+  std::stop_source stop_{};
+  Progress progress_{};
+  bool reading_input_ = false;
+};
+
+}  // namespace vantage::cli

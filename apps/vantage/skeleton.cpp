@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/error.h"
+#include "vantage/io/write.h"
+#include "vantage/report/view_report.h"
+
+#include "commands.h"
+#include "method_flags.h"
+#include "output_folder.h"
+#include "terminal.h"
+
+namespace vantage::cli {
+namespace {
+
+struct SkeletonCommand {
+  std::string model{};
+  std::string file{};
+  std::string levels{};
+  MethodFlags method{};
+
+  void add_flags(CLI::App& app, Session& session) {
+    app.add_option("MODEL", model, "file to read, or -")->required();
+    app.add_option("-o,--output", file, "file to write: .json, .obj (lines) or .ply (edges)")
+        ->required()
+        ->check([](const std::string& name) {
+          const std::string extension = std::filesystem::path(name).extension().string();
+          const bool known = extension == ".json" || extension == ".obj" || extension == ".ply";
+          return known ? std::string()
+                       : "the skeleton's file must end in .json, .obj or .ply, not '" + extension +
+                             "'";
+        });
+    app.add_option("--levels", levels,
+                   "folder for the contracted surface of each level: level-00.ply, …");
+    method.add_to(app, {});
+    add_common_flags(app, session.flags);
+  }
+
+  void run(Session& session) {
+    const ViewOptions options = method.resolve();
+    const RunContext run = session.run();
+    const Model loaded = session.load(model);
+    ShapeAnalysis shape = prepare_surface(loaded);
+    add_history(shape, options, run.part(0.0, 0.8));
+    add_skeleton(shape, options, run.part(0.8, 1.0));
+    write_file(file, bytes(shape));
+    if (!levels.empty()) {
+      write_levels(loaded, shape);
+    }
+    report(session, loaded, shape);
+  }
+
+ private:
+  [[nodiscard]] std::string bytes(const ShapeAnalysis& shape) const {
+    const std::string extension = std::filesystem::path(file).extension().string();
+    if (extension == ".obj") {
+      return skeleton_obj(shape.skeleton.graph);
+    }
+    if (extension == ".ply") {
+      return skeleton_ply(shape.skeleton.graph);
+    }
+    return skeleton_json({.graph = &shape.skeleton.graph,
+                          .radius = shape.skeleton.radius,
+                          .vertex_node = nodes_of_input_vertices(shape)});
+  }
+
+  void write_levels(const Model& loaded, const ShapeAnalysis& shape) const {
+    make_folder(levels);
+    TriMesh level{.positions = {}, .triangles = loaded.mesh.triangles};
+    for (std::size_t j = 0; j < shape.history.levels.size(); ++j) {
+      level.positions.clear();
+      for (const std::uint32_t v : shape.surface_vertex) {
+        level.positions.push_back(shape.history.levels[j][v]);
+      }
+      const std::string number = (j < 10 ? "0" : "") + std::to_string(j);
+      write_file((std::filesystem::path(levels) / ("level-" + number + ".ply")).string(),
+                 ply_bytes(level, {}, {}, loaded.double_precision));
+    }
+  }
+
+  void report(Session& session, const Model& loaded, const ShapeAnalysis& shape) const {
+    const CurveGraph& graph = shape.skeleton.graph;
+    if (session.flags.json) {
+      const nlohmann::ordered_json json = {{"file", file},
+                                           {"nodes", graph.nodes.size()},
+                                           {"edges", graph.edges.size()},
+                                           {"components", component_count(graph)},
+                                           {"cycles", cycle_count(graph)},
+                                           {"length", total_length(graph)},
+                                           {"levels", shape.history.level_count()},
+                                           {"shrinkage", shape.history.shrinkage},
+                                           {"warnings", shape.warnings}};
+      write_file("-", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+      return;
+    }
+    session.tell(printable(loaded.name) + ": " + plural(graph.nodes.size(), "node") + ", " +
+                 plural(graph.edges.size(), "edge") + ", " +
+                 plural(component_count(graph), "component") + ", " +
+                 plural(cycle_count(graph), "cycle") + ", length " + rounded(total_length(graph)) +
+                 " → " + printable(file));
+    for (const std::string& warning : shape.warnings) {
+      session.say("note: " + warning);
+    }
+  }
+};
+
+}  // namespace
+
+void add_skeleton_command(CLI::App& program, Session& session) {
+  add_command<SkeletonCommand>(program, session, "skeleton", "the curve skeleton of a model",
+                               "Examples:\n"
+                               "  vantage skeleton horse.ply -o horse.json\n"
+                               "  vantage skeleton horse.ply -o horse.obj --levels levels");
+}
+
+}  // namespace vantage::cli

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace vantage::cli {
+
+/// The text without control characters: names from files must not drive the terminal.
+std::string printable(std::string_view text);
+
+/// 1234567 → "1 234 567".
+std::string grouped(std::size_t number);
+
+/// A number with `digits` significant digits, for people.
+std::string rounded(double value, int digits = 4);
+
+/// `count` with its noun: "1 cycle", "2 cycles".
+std::string plural(std::size_t count, std::string_view noun);
+
+}  // namespace vantage::cli

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include <cstdint>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "vantage/mesh/measures.h"
+#include "vantage/render/framing.h"
+#include "vantage/render/render.h"
+
+#include "render/corner_normals.h"
+#include "support/shapes.h"
+
+namespace vantage {
+namespace {
+
+Camera camera_for(const TriMesh& mesh) {
+  const Sphere sphere = enclosing_sphere(mesh.positions);
+  const Vec3 eye = sphere.centre + 2.0 * sphere.diameter * Vec3(0.5, 0.4, 0.77).normalized();
+  return frame_points(mesh.positions, {Projection::Perspective, eye}, sphere.centre, Vec3::UnitY(),
+                      1.0);
+}
+
+/// Icospheres of levels 4 to 7: 2 562, 10 242, 40 962 and 163 842 vertices.
+TriMesh sphere_of_level(const benchmark::State& state) {
+  return test::sphere(static_cast<int>(state.range(0)));
+}
+
+void run_render(benchmark::State& state, const TriMesh& mesh, const RenderOptions& options) {
+  const Camera camera = camera_for(mesh);
+  if (render(mesh, camera, {}, {}, options).pixel(options.width / 2, options.height / 2)[3] !=
+      255) {
+    state.SkipWithError("the middle of the picture is not covered");
+    return;
+  }
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(render(mesh, camera, {}, {}, options).rgba.data());
+  }
+  const double samples = static_cast<double>(options.width) * options.height * options.samples;
+  state.counters["vertices"] = static_cast<double>(mesh.positions.size());
+  state.counters["samples/s"] =
+      benchmark::Counter(samples, benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void BM_Picture(benchmark::State& state) {
+  run_render(state, sphere_of_level(state), {.width = 512, .height = 512, .samples = 16});
+}
+
+void BM_Thumbnail(benchmark::State& state) {
+  run_render(state, sphere_of_level(state), {.width = 256, .height = 256, .samples = 9});
+}
+
+void BM_PictureWithOcclusion(benchmark::State& state) {
+  run_render(state, sphere_of_level(state),
+             {.width = 512, .height = 512, .samples = 16, .ambient_rays = 4});
+}
+
+void BM_CornerNormals(benchmark::State& state) {
+  const TriMesh mesh = sphere_of_level(state);
+  const Crease crease{0.5, 0.9};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(corner_normals(mesh, crease).data());
+  }
+  state.counters["faces/s"] = benchmark::Counter(static_cast<double>(mesh.triangles.size()),
+                                                 benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void BM_FramePoints(benchmark::State& state) {
+  const TriMesh mesh = sphere_of_level(state);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(camera_for(mesh).fov_y_deg);
+  }
+}
+
+BENCHMARK(BM_Thumbnail)
+    ->ArgName("level")
+    ->DenseRange(4, 7)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_Picture)
+    ->ArgName("level")
+    ->DenseRange(4, 7)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_PictureWithOcclusion)
+    ->ArgName("level")
+    ->Arg(6)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_CornerNormals)
+    ->ArgName("level")
+    ->DenseRange(4, 7)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_FramePoints)
+    ->ArgName("level")
+    ->DenseRange(4, 7)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vantage/contraction/contraction.h"
+#include "vantage/core/camera.h"
+#include "vantage/core/image.h"
+#include "vantage/core/run_context.h"
+#include "vantage/io/model.h"
+#include "vantage/mesh/mesh_check.h"
+#include "vantage/mesh/tri_mesh.h"
+#include "vantage/significance/kssm.h"
+#include "vantage/skeleton/skeleton.h"
+#include "vantage/view/scoring.h"
+#include "vantage/view/search.h"
+#include "vantage/visibility/vertex_visibility.h"
+
+/// \file
+/// The whole method, from a model to its best and worst view. Each step is also a function of its
+/// own module; this is the order in which the program runs them.
+
+namespace vantage {
+
+/// A named set of choices.
+enum class Preset {
+  Default,  ///< Ours wherever the specification gives two.
+  Paper,    ///< The paper's: box scaling, cube of 8, rapid search, ε = 0.1 as a raw sum.
+};
+
+/// The model's up axis.
+enum class UpAxis { X, Y, Z, MinusX, MinusY, MinusZ };
+
+/// Unit vector of an axis.
+Vec3 up_vector(UpAxis axis);
+/// "x", "-y", …
+std::string_view up_name(UpAxis axis);
+/// The axis a format implies when nothing is said: z for STL, y otherwise.
+UpAxis default_up(ModelFormat format);
+
+/// Everything that shapes the result of a view.
+struct ViewOptions {
+  Preset preset = Preset::Default;
+  ContractionOptions contraction{};
+  SkeletonOptions skeleton{};
+  KssmOptions kssm{};
+  bool kssm_to_finished_graph = false;  ///< Measure to the centred, pruned graph (not the raw one).
+  SearchOptions search{};
+  Projection projection = Projection::Perspective;
+  double fov_y_deg = 30.0;                  ///< Of the scoring camera, in (0, 180).
+  std::optional<double> distance_factor{};  ///< Eye distance over D/2, > 1.
+  std::optional<UpAxis> up{};               ///< Unset: default_up().
+  int width = 800;                          ///< Of pictures, px.
+  int height = 600;                         ///< Of pictures, px.
+  bool pictures = true;                     ///< Whether view.json names pictures.
+};
+
+/// Names, ranges and help of the numbers in ViewOptions itself.
+inline constexpr auto kViewFields = std::tuple{
+    Field{"fov", &ViewOptions::fov_y_deg, 1.0, 170.0,
+          "vertical field of view of the scoring camera, degrees"},
+};
+
+/// The options a preset stands for.
+ViewOptions preset_options(Preset preset);
+
+/// Wall-clock seconds of each stage.
+struct StageSeconds {
+  double load = 0.0;
+  double contract = 0.0;
+  double skeleton = 0.0;
+  double map = 0.0;
+  double search = 0.0;
+  double render = 0.0;
+  double total = 0.0;
+};
+
+/// The surface as the method works on it, and what it found out about its shape.
+struct ShapeAnalysis {
+  TriMesh surface{};                            ///< Welded, closed shells turned outwards.
+  std::vector<FaceSides> sides{};               ///< One per component of `surface`.
+  std::vector<std::uint32_t> surface_vertex{};  ///< For each input vertex its one in `surface`.
+  MeshReport check{};                           ///< Of the welded surface.
+  Sphere sphere{};                              ///< Smallest around all referenced vertices.
+  ContractionHistory history{};
+  Skeleton skeleton{};
+  KssmMap map{};
+  std::vector<std::string> warnings{};  ///< Every repair and doubt, one sentence each.
+};
+
+/// Welds and orients the model's surface; the only place that repairs, and it lists every repair.
+/// Leaves history, skeleton and map empty.
+/// \throw InvalidInput if the model has no faces, or no extent.
+ShapeAnalysis prepare_surface(const Model& model);
+
+/// Adds the contraction history to a prepared surface. \throw Cancelled
+void add_history(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
+/// Adds the skeleton. \pre history is there. \throw Cancelled
+void add_skeleton(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
+/// Adds the significance map. \pre skeleton is there. \throw Cancelled
+void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
+
+/// All of the above; `seconds` receives the stage times if not null.
+ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options,
+                            const RunContext& run = {}, StageSeconds* seconds = nullptr);
+
+/// A per-vertex field of the surface carried to the input's vertices; isolated ones get 0.
+std::vector<double> on_input_vertices(const ShapeAnalysis& shape, std::span<const double> field);
+
+/// Skeleton node of each input vertex; −1 for vertices without faces.
+std::vector<std::int64_t> nodes_of_input_vertices(const ShapeAnalysis& shape);
+
+/// One view and the picture's camera.
+struct ReportedView {
+  Vec3 direction = Vec3::UnitZ();  ///< From the centre to the eye.
+  Vec3 eye = Vec3::UnitZ();        ///< Model units.
+  Vec3 up = Vec3::UnitY();
+  double score = 0.0;                  ///< Pure sum of the visible significance.
+  double score_fraction = 0.0;         ///< score / total; 0 if total is 0.
+  double objective = 0.0;              ///< What the search compared: score times the prior.
+  double visible_area_fraction = 0.0;  ///< Of the surface; each visible vertex counts its third.
+  Camera picture{};                    ///< Same eye, framed tightly.
+};
+
+/// The result of the search.
+struct ViewReport {
+  ScoringCamera camera{};
+  UpAxis up = UpAxis::Y;
+  ReportedView best{};
+  ReportedView worst{};
+  double total = 0.0;  ///< The score if everything were visible.
+  FoundView best_search{};
+  FoundView worst_search{};
+  std::vector<std::string> warnings{};
+};
+
+/// The scoring camera of a model.
+ScoringCamera scoring_camera(const ShapeAnalysis& shape, const ViewOptions& options);
+
+/// Finds the best and the worst view. \pre the map is there. \throw Cancelled
+ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& options,
+                      const RunContext& run = {});
+
+/// Describes the view from a given direction. \pre the map is there.
+ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& visibility,
+                           const ScoringCamera& camera, const Vec3& direction, UpAxis up,
+                           const ViewOptions& options);
+
+/// What a picture of a view shows.
+enum class Picture { Plain, Map, Skeleton };
+
+/// Takes a picture with `camera`. \throw Cancelled
+/// \param background unset: transparent.
+Image take_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
+                   const ViewOptions& options, const std::optional<Rgb8>& background = {},
+                   const RunContext& run = {});
+
+/// view.json: the same bytes for the same input, options and version.
+/// \param seconds adds the times, for `--json`; null for the file.
+std::string view_json(const Model& model, const ShapeAnalysis& shape, const ViewReport& report,
+                      const ViewOptions& options, const StageSeconds* seconds = nullptr);
+
+/// timings.json: the stage seconds alone.
+std::string timings_json(const StageSeconds& seconds);
+
+/// The search's evaluated directions as CSV: goal,step,level,dx,dy,dz,score.
+std::string trace_csv(const ViewReport& report);
+
+/// Sixteen hex digits that change when an option that shapes the result does.
+std::string options_hash(const ViewOptions& options);
+
+}  // namespace vantage

@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# Everything too slow for every commit: full lint, sanitizers over all tests, fuzzers, pages.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+seconds=${1:-60}  # a fuzzer
+scripts/install_dependencies.sh check
+scripts/check_format.sh
+scripts/check_tidy.sh
+cmake --preset asan >/dev/null && cmake --build --preset asan
+ctest --test-dir build/asan -j "$(nproc)" --output-on-failure
+cmake --preset fuzz >/dev/null && cmake --build --preset fuzz
+for target in build/fuzz/fuzz/*_fuzz; do
+  name=$(basename "$target" _fuzz)
+  corpus=$(mktemp -d)
+  "$target" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=10 "$corpus" "fuzz/corpus/${name%%_*}"
+  rm -r "$corpus"
+done
+scripts/build_docs.sh

@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# Installs the Debian 12 packages that are missing: install_dependencies.sh build|test|check
+#   build  what the program needs      test  also what the tests need
+#   check  also formatter, linter, sanitizer runtimes, Doxygen
+set -euo pipefail
+
+build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libembree-dev libpng-dev nlohmann-json3-dev
+       libcli11-dev libtinygltf-dev libmetis-dev)
+test=(libgtest-dev libgmock-dev python3)
+check=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev libbenchmark-dev doxygen)
+
+case "${1:-build}" in
+  build) wanted=("${build[@]}") ;;
+  test)  wanted=("${build[@]}" "${test[@]}") ;;
+  check) wanted=("${build[@]}" "${test[@]}" "${check[@]}") ;;
+  *) echo "usage: $0 build|test|check" >&2; exit 2 ;;
+esac
+
+missing=()
+for package in "${wanted[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
+done
+if ((${#missing[@]} > 0)); then
+  echo "installing: ${missing[*]}"
+  as_root=()
+  if [[ $(id -u) -ne 0 ]]; then as_root=(sudo); fi
+  "${as_root[@]}" apt-get update -qq
+  DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+fi

@@ -1,0 +1,117 @@
+#!/usr/bin/env python3
+"""Measures the program on real models and prints the tables of docs/performance.md as Markdown.
+
+    measure.py view   PROGRAM MODEL...    one row a model: sizes, cycles against genus, seconds by stage
+    measure.py rapid  PROGRAM MODEL...    the paper's rapid search against 10 242 directions
+    measure.py broken PROGRAM FOLDER      how every file of a folder ends, under limits
+
+Only ratios of one run mean something on a shared machine.
+"""
+
+import json
+import pathlib
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+
+PAPER_SECONDS = {"rocker-arm_10044": 5.3, "cow_29000": 14.8, "venus_33066": 17.6, "horse_48485": 28.2,
+                 "dinosaur_56194": 36.7, "armadillo_172966": 102.5}  # Table 1 of the paper
+EPSILONS = ["0.001", "0.01", "0.1", "1", "10", "100", "1000"]
+BROKEN_SECONDS = 60
+BROKEN_BYTES = 4 << 30
+
+
+def run(program, *arguments):
+    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+def paper_seconds(name):
+    return next((s for key, s in PAPER_SECONDS.items() if name.startswith(key)), None)
+
+
+def view_table(program, models):
+    print("| model | vertices | levels | nodes / edges | cycles / genus | load | contract | skeleton | map"
+          " | search | total s | paper s | best score (fraction) | best direction |")
+    print("| --- " * 14 + "|")
+    with tempfile.TemporaryDirectory() as folder:
+        for model in models:
+            r = run(program, "view", model, "-o", folder, "--no-images", "--json")
+            s, best = r["seconds"], r["best"]
+            paper = paper_seconds(r["model"]["name"])
+            stages = " | ".join(f"{s[k]:.2f}" for k in ("load", "contract", "skeleton", "map", "search"))
+            print(f"| {r['model']['name']} | {r['model']['vertices']} | {r['contraction']['levels']} "
+                  f"| {r['skeleton']['nodes']} / {r['skeleton']['edges']} "
+                  f"| {r['skeleton']['cycles']} / {r['model']['genus'] if r['model']['closed'] else '–'} "
+                  f"| {stages} | {s['total']:.2f} | {paper or '–'} "
+                  f"| {best['score']:.1f} ({best['score_fraction']:.3f}) "
+                  f"| {', '.join(f'{x:.3f}' for x in best['direction'])} |", flush=True)
+
+
+def rapid_table(program, models):
+    print("| model | search | ε | best / dense | worst − dense, % of range | evaluations best + worst |"
+          " seconds |")
+    print("| --- " * 7 + "|")
+    with tempfile.TemporaryDirectory() as folder:
+        for model in models:
+            def search(*flags):
+                return run(program, "view", model, "-o", folder, "--no-images", "--json",
+                           "--preset", "paper", *flags)
+            dense = search("--search", "exhaustive", "--subdivisions", "5")
+            top, low = dense["best"]["score"], dense["worst"]["score"]
+
+            def row(label, epsilon, r):
+                gap = 100 * (r["worst"]["score"] - low) / (top - low)
+                print(f"| {r['model']['name']} | {label} | {epsilon} | {r['best']['score'] / top:.4f} "
+                      f"| {gap:.2f} | {r['search']['evaluations']} + {r['search']['worst_evaluations']} "
+                      f"| {r['seconds']['search']:.2f} |", flush=True)
+            row("dense", "–", dense)
+            for epsilon in EPSILONS:
+                row("rapid", epsilon, search("--epsilon", epsilon))
+
+
+def broken_table(program, folder):
+    endings = {}
+    slowest = (0.0, "")
+    folder = pathlib.Path(folder)
+    suffixes = {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".xyz", ".gz", ".drc"}
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_AS, (BROKEN_BYTES, BROKEN_BYTES))
+    with tempfile.TemporaryDirectory() as out:
+        for file in sorted(p for p in folder.rglob("*") if p.is_file() and p.suffix.lower() in suffixes):
+            start = time.monotonic()
+            try:
+                done = subprocess.run([program, "view", file, "-o", out + "/r", "--no-images", "-q"],
+                                      capture_output=True, timeout=BROKEN_SECONDS, preexec_fn=limit,
+                                      check=False)
+                code = done.returncode
+            except subprocess.TimeoutExpired:
+                code = "hung"
+            slowest = max(slowest, (time.monotonic() - start, str(file.relative_to(folder))))
+            kind = {0: "done", 1: "cannot be viewed, says why", 3: "unreadable, says why",
+                    "hung": "hung"}.get(code, "crashed")
+            endings.setdefault(kind, []).append(file.name)
+    print("| ending | files |\n| --- | --- |")
+    for kind in ("done", "cannot be viewed, says why", "unreadable, says why", "hung", "crashed"):
+        print(f"| {kind} | {len(endings.get(kind, []))} |")
+    for kind in ("hung", "crashed"):
+        for name in endings.get(kind, []):
+            print(f"{kind}: {name}")
+    print(f"\nslowest: {slowest[1]}, {slowest[0]:.1f} s")
+
+
+def main():
+    tables = {"view": view_table, "rapid": rapid_table}
+    if len(sys.argv) >= 4 and sys.argv[1] in tables:
+        tables[sys.argv[1]](sys.argv[2], sys.argv[3:])
+    elif len(sys.argv) == 4 and sys.argv[1] == "broken":
+        broken_table(sys.argv[2], sys.argv[3])
+    else:
+        sys.exit(__doc__)
+
+
+if __name__ == "__main__":
+    main()

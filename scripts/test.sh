@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# From a bare Debian 12 and a clone to all tests passing.
+# Set VANTAGE_DATA to a folder of real meshes to run the tests that need them too.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/install_dependencies.sh test
+cmake --preset release -DVANTAGE_BUILD_BENCH=OFF >/dev/null
+cmake --build --preset release
+ctest --preset release -j "$(nproc)"

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/io/camera_files.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/error.h"
+#include "vantage/io/write.h"
+
+namespace vantage {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+/// Camera-to-world: columns are the camera's x (right), y (up), −(view direction), and the eye.
+Eigen::Matrix4d camera_to_world(const Camera& camera) {
+  const Vec3 back = (camera.eye - camera.target).normalized();
+  const Vec3 right = camera.up.cross(back).normalized();
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  matrix.block<3, 1>(0, 0) = right;
+  matrix.block<3, 1>(0, 1) = back.cross(right);
+  matrix.block<3, 1>(0, 2) = back;
+  matrix.block<3, 1>(0, 3) = camera.eye;
+  if (!matrix.allFinite()) {
+    throw InvalidInput("a camera must look from one finite point at another, and not along its up");
+  }
+  return matrix;
+}
+
+Json list(const Vec3& v) {
+  return Json::array({v.x(), v.y(), v.z()});
+}
+
+double aspect(PictureSize size) {
+  if (size.width <= 0 || size.height <= 0) {
+    throw InvalidInput("a picture must have at least one pixel");
+  }
+  return static_cast<double>(size.width) / size.height;
+}
+
+std::string triple(const Vec3& v) {
+  return number_text(v.x()) + "," + number_text(v.y()) + "," + number_text(v.z());
+}
+
+/// `text` in single quotes for a POSIX shell.
+std::string shell_quoted(std::string_view text) {
+  std::string result = "'";
+  for (const char c : text) {
+    result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  }
+  return result + "'";
+}
+
+}  // namespace
+
+std::string camera_gltf(const Camera& camera, PictureSize size, double near_far_scale) {
+  const Eigen::Matrix4d matrix = camera_to_world(camera);
+  const double distance = (camera.target - camera.eye).norm();
+  constexpr double kNearestFraction = 1e-3;  // of the scene; znear must be positive
+  const double near =
+      std::max(distance - near_far_scale, kNearestFraction * std::max(near_far_scale, distance));
+  const double far = distance + near_far_scale;
+  Json lens;
+  if (camera.projection == Projection::Perspective) {
+    lens = {{"type", "perspective"},
+            {"perspective",
+             {{"yfov", camera.fov_y_deg * kRadPerDeg},
+              {"aspectRatio", aspect(size)},
+              {"znear", near},
+              {"zfar", far}}}};
+  } else {
+    // xmag and ymag are half the width and half the height of what is seen.
+    lens = {{"type", "orthographic"},
+            {"orthographic",
+             {{"xmag", 0.5 * camera.height * aspect(size)},
+              {"ymag", 0.5 * camera.height},
+              {"znear", near},
+              {"zfar", far}}}};
+  }
+  const Json node = {{"name", "camera"},
+                     {"camera", 0},
+                     {"matrix", std::vector<double>(matrix.data(), matrix.data() + 16)},
+                     {"extras", {{"target", list(camera.target)}}}};
+  const Json file = {{"asset", {{"version", "2.0"}, {"generator", "vantage"}}},
+                     {"scene", 0},
+                     {"scenes", Json::array({{{"nodes", Json::array({0})}}})},
+                     {"nodes", Json::array({node})},
+                     {"cameras", Json::array({lens})}};
+  return file.dump(2) + "\n";
+}
+
+std::string camera_transforms_json(const Camera& camera, PictureSize size,
+                                   std::string_view image_name) {
+  const Eigen::Matrix4d matrix = camera_to_world(camera);
+  Json rows = Json::array();
+  for (int r = 0; r < 4; ++r) {
+    rows.push_back({matrix(r, 0), matrix(r, 1), matrix(r, 2), matrix(r, 3)});
+  }
+  Json file;
+  if (camera.projection == Projection::Perspective) {
+    const double half_height = std::tan(0.5 * camera.fov_y_deg * kRadPerDeg);
+    const double focal = 0.5 * size.height / half_height;  // px, the same both ways
+    file["camera_angle_x"] = 2.0 * std::atan(half_height * aspect(size));
+    file["camera_angle_y"] = camera.fov_y_deg * kRadPerDeg;
+    file["fl_x"] = focal;
+    file["fl_y"] = focal;
+  } else {
+    file["orthographic_height"] = camera.height;  // ours: the format knows no such camera
+  }
+  file["cx"] = 0.5 * size.width;
+  file["cy"] = 0.5 * size.height;
+  file["w"] = size.width;
+  file["h"] = size.height;
+  file["frames"] = Json::array({{{"file_path", std::string(image_name)},
+                                 {"transform_matrix", rows},
+                                 {"target", list(camera.target)}}});
+  return file.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string camera_f3d(const Camera& camera, std::string_view model) {
+  std::string line = "f3d " + shell_quoted(model) + " --camera-position=" + triple(camera.eye) +
+                     " --camera-focal-point=" + triple(camera.target) +
+                     " --camera-view-up=" + triple(camera.up);
+  line += camera.projection == Projection::Perspective
+              ? " --camera-view-angle=" + number_text(camera.fov_y_deg)
+              : " --camera-orthographic";
+  return line + "\n";
+}
+
+}  // namespace vantage

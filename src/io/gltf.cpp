@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "io/gltf_accessor.h"
+#include "io/gltf_document.h"
+#include "io/model_builder.h"
+#include "io/readers.h"
+
+namespace vantage {
+namespace {
+
+using Transform = Eigen::Matrix4d;
+
+/// A file may show one mesh many times. All that is shown together may have this many vertices
+/// and corners for each byte of the file …
+constexpr std::size_t kMostPerByte = 64;
+/// … and this many in any case.
+constexpr std::size_t kMostInSmallFile = 1'000'000;
+/// Nodes may be visited this often, and once more for each byte of the file. A valid file visits
+/// each node once; some exporters share subtrees, and a malicious one doubles at every level.
+constexpr std::size_t kMostVisitsInSmallFile = 10'000;
+
+/// sRGB value of a linear one, both in [0, 1] (IEC 61966-2-1).
+double srgb_of_linear(double linear) {
+  linear = linear > 0.0 ? std::min(linear, 1.0) : 0.0;
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+class SceneReader {
+ public:
+  SceneReader(const GltfDocument& document, ModelBuilder& builder)
+      : document_(document),
+        gltf_(document.structure),
+        builder_(builder),
+        budget_(kMostInSmallFile + kMostPerByte * document.total_bytes),
+        visits_left_(kMostVisitsInSmallFile + document.total_bytes) {
+    for (const tinygltf::Mesh& mesh : gltf_.meshes) {
+      for (const tinygltf::Primitive& primitive : mesh.primitives) {
+        has_triangles_ = has_triangles_ || primitive.mode >= TINYGLTF_MODE_TRIANGLES;
+        has_colours_ = has_colours_ || primitive.attributes.count("COLOR_0") > 0;
+      }
+    }
+  }
+
+  void read() {
+    std::vector<Visit> pending;
+    const std::vector<int> roots = root_nodes();
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
+      pending.push_back({*root, Transform::Identity(), 1});
+    }
+    while (!pending.empty()) {
+      const Visit visit = pending.back();
+      pending.pop_back();
+      read_node(visit, pending);
+    }
+    if (skipped_primitives_ > 0) {
+      builder_.note("primitives of points or lines left out: " +
+                    std::to_string(skipped_primitives_));
+    }
+  }
+
+ private:
+  struct Visit {
+    int node;
+    Transform parent;
+    std::size_t depth;
+  };
+
+  /// The default scene, else the first, else every node that is nobody's child.
+  std::vector<int> root_nodes() {
+    if (!gltf_.scenes.empty()) {
+      const int scene = gltf_.defaultScene < 0 ? 0 : gltf_.defaultScene;
+      if (static_cast<std::size_t>(scene) >= gltf_.scenes.size()) {
+        builder_.fail("the default scene does not exist");
+      }
+      return gltf_.scenes[static_cast<std::size_t>(scene)].nodes;
+    }
+    std::vector<bool> is_child(gltf_.nodes.size(), false);
+    for (const tinygltf::Node& node : gltf_.nodes) {
+      for (const int child : node.children) {
+        if (child >= 0 && static_cast<std::size_t>(child) < is_child.size()) {
+          is_child[static_cast<std::size_t>(child)] = true;
+        }
+      }
+    }
+    std::vector<int> roots;
+    for (std::size_t n = 0; n < is_child.size(); ++n) {
+      if (!is_child[n]) {
+        roots.push_back(static_cast<int>(n));
+      }
+    }
+    if (gltf_.nodes.empty() && !gltf_.meshes.empty()) {
+      builder_.note("the file has no scene: each mesh is shown once, where it stands");
+      for (const tinygltf::Mesh& mesh : gltf_.meshes) {
+        builder_.begin_part(mesh.name);
+        read_mesh(mesh, Transform::Identity());
+      }
+    }
+    return roots;
+  }
+
+  void read_node(const Visit& visit, std::vector<Visit>& pending) {
+    const auto n = static_cast<std::size_t>(visit.node);
+    if (visit.node < 0 || n >= gltf_.nodes.size()) {
+      builder_.fail("node " + std::to_string(visit.node) + " does not exist");
+    }
+    if (visit.depth > gltf_.nodes.size()) {
+      builder_.fail("node " + std::to_string(n) + " is its own ancestor");
+    }
+    if (visits_left_-- == 0) {
+      builder_.fail(
+          "its nodes share their children so often that the model is out of proportion "
+          "to the file");
+    }
+    const tinygltf::Node& node = gltf_.nodes[n];
+    const Transform world = visit.parent * local_transform(node, n);
+    if (!world.allFinite()) {
+      builder_.fail("the transform of node " + std::to_string(n) + " is not finite");
+    }
+    if (node.mesh >= 0) {
+      if (static_cast<std::size_t>(node.mesh) >= gltf_.meshes.size()) {
+        builder_.fail("node " + std::to_string(n) + " shows a mesh that does not exist");
+      }
+      const tinygltf::Mesh& mesh = gltf_.meshes[static_cast<std::size_t>(node.mesh)];
+      builder_.begin_part(node.name.empty() ? mesh.name : node.name);
+      read_mesh(mesh, world);
+    }
+    for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
+      pending.push_back({*child, world, visit.depth + 1});
+    }
+  }
+
+  Transform local_transform(const tinygltf::Node& node, std::size_t n) const {
+    const auto has_size = [&](const std::vector<double>& values, std::size_t size) {
+      if (!values.empty() && values.size() != size) {
+        builder_.fail("the transform of node " + std::to_string(n) + " has " +
+                      std::to_string(values.size()) + " numbers instead of " +
+                      std::to_string(size));
+      }
+      return !values.empty();
+    };
+    if (has_size(node.matrix, 16)) {
+      return Eigen::Map<const Transform>(node.matrix.data());  // both are column-major
+    }
+    Eigen::Affine3d transform = Eigen::Affine3d::Identity();
+    if (has_size(node.translation, 3)) {
+      transform.translate(Eigen::Map<const Vec3>(node.translation.data()));
+    }
+    if (has_size(node.rotation, 4)) {
+      Eigen::Quaterniond turn(node.rotation[3], node.rotation[0], node.rotation[1],
+                              node.rotation[2]);
+      if (!(turn.norm() > 0.0)) {
+        builder_.fail("the rotation of node " + std::to_string(n) + " is zero");
+      }
+      transform.rotate(turn.normalized());
+    }
+    if (has_size(node.scale, 3)) {
+      transform.scale(Eigen::Map<const Vec3>(node.scale.data()));
+    }
+    return transform.matrix();
+  }
+
+  void read_mesh(const tinygltf::Mesh& mesh, const Transform& world) {
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+      const bool is_surface = primitive.mode >= TINYGLTF_MODE_TRIANGLES;
+      const bool is_cloud = primitive.mode == TINYGLTF_MODE_POINTS && !has_triangles_;
+      if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+        builder_.fail("a primitive has the unknown mode " + std::to_string(primitive.mode));
+      }
+      if (is_surface || is_cloud) {
+        read_primitive(primitive, world);
+      } else {
+        ++skipped_primitives_;
+      }
+    }
+  }
+
+  /// Counts `amount` against what the whole file may show.
+  void spend(std::size_t amount) {
+    if (amount > budget_) {
+      builder_.fail("shows its meshes so often that the model is out of proportion to the file");
+    }
+    budget_ -= amount;
+  }
+
+  void read_primitive(const tinygltf::Primitive& primitive, const Transform& world) {
+    const auto position = primitive.attributes.find("POSITION");
+    if (position == primitive.attributes.end()) {
+      builder_.note("a primitive without positions was left out");
+      return;
+    }
+    const GltfAccessor points(document_, position->second, budget_, builder_);
+    if (points.components() != 3) {
+      builder_.fail("the positions of a primitive do not have 3 components");
+    }
+    if (!points.has_data()) {
+      builder_.fail(document_.has_draco
+                        ? "is compressed with KHR_draco_mesh_compression, which is not read; "
+                          "unpack it first, with gltf-transform copy IN.glb OUT.glb"
+                        : "the positions of a primitive have no data");
+    }
+    spend(points.count());
+    const std::size_t first = builder_.point_count();
+    for (std::size_t i = 0; i < points.count(); ++i) {
+      const Eigen::Vector4d local(points.value(i, 0), points.value(i, 1), points.value(i, 2), 1.0);
+      const Vec3 at = (world * local).head<3>();
+      if (!at.allFinite()) {
+        builder_.fail("position " + std::to_string(i) + " of accessor " +
+                      std::to_string(position->second) + " is not finite");
+      }
+      builder_.add_point(at, {"vertex", builder_.point_count()});
+      builder_.advance(first + i, first + points.count());
+    }
+    read_colours(primitive, points.count());
+    if (primitive.mode != TINYGLTF_MODE_POINTS) {
+      read_faces(primitive, first, points.count(), world.topLeftCorner<3, 3>().determinant() < 0.0);
+    }
+  }
+
+  void read_colours(const tinygltf::Primitive& primitive, std::size_t count) {
+    if (!has_colours_) {
+      return;
+    }
+    const auto colour = primitive.attributes.find("COLOR_0");
+    if (colour == primitive.attributes.end()) {
+      for (std::size_t i = 0; i < count; ++i) {
+        builder_.add_colour(1.0, 1.0, 1.0);
+      }
+      return;
+    }
+    const GltfAccessor colours(document_, colour->second, count, builder_);
+    if (colours.count() != count || colours.components() < 3) {
+      builder_.fail("the colours of a primitive do not fit its positions");
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      builder_.add_colour(srgb_of_linear(colours.value(i, 0)), srgb_of_linear(colours.value(i, 1)),
+                          srgb_of_linear(colours.value(i, 2)));
+    }
+  }
+
+  /// The corners of a primitive in drawing order, counted from 0 within the primitive.
+  std::vector<std::uint64_t> corners_of(const tinygltf::Primitive& primitive,
+                                        std::size_t vertices) {
+    std::vector<std::uint64_t> corners;
+    if (primitive.indices < 0) {
+      spend(vertices);
+      corners.resize(vertices);
+      for (std::size_t i = 0; i < vertices; ++i) {
+        corners[i] = i;
+      }
+      return corners;
+    }
+    const GltfAccessor indices(document_, primitive.indices, budget_, builder_);
+    if (indices.components() != 1 || !indices.is_integer()) {
+      builder_.fail("the indices of a primitive are not unsigned integers");
+    }
+    spend(indices.count());
+    corners.reserve(indices.count());
+    for (std::size_t i = 0; i < indices.count(); ++i) {
+      corners.push_back(static_cast<std::uint64_t>(indices.value(i, 0)));
+      if (corners.back() >= vertices) {
+        builder_.fail("index " + std::to_string(i) + " of accessor " +
+                      std::to_string(primitive.indices) + " names vertex " +
+                      std::to_string(corners.back()) + ", but the primitive has only " +
+                      std::to_string(vertices));
+      }
+    }
+    return corners;
+  }
+
+  /// \param mirrored the node turns the surface inside out, which the format takes back.
+  void read_faces(const tinygltf::Primitive& primitive, std::size_t first, std::size_t vertices,
+                  bool mirrored) {
+    std::vector<std::uint64_t> corners = corners_of(primitive, vertices);
+    const Place place{"vertex", first};
+    const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+      const std::uint64_t second = corners[mirrored ? c : b];
+      const std::uint64_t third = corners[mirrored ? b : c];
+      builder_.add_triangle(first + corners[a], first + second, first + third, place);
+    };
+    if (primitive.mode == TINYGLTF_MODE_TRIANGLES) {
+      if (corners.size() % 3 != 0) {
+        builder_.note("corners beyond the last whole triangle left out: " +
+                      std::to_string(corners.size() % 3));
+      }
+      for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+        add(i, i + 1, i + 2);
+      }
+      return;
+    }
+    for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
+      const bool is_fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
+      const std::size_t a = is_fan ? 0 : i;
+      const bool joins_strips = corners[a] == corners[i + 1] || corners[i + 1] == corners[i + 2] ||
+                                corners[i + 2] == corners[a];
+      if (!joins_strips) {
+        is_fan || i % 2 == 0 ? add(a, i + 1, i + 2) : add(i + 1, i, i + 2);
+      }
+    }
+  }
+
+  const GltfDocument& document_;
+  const tinygltf::Model& gltf_;
+  ModelBuilder& builder_;
+  std::size_t budget_;
+  std::size_t visits_left_;
+  bool has_triangles_ = false;
+  bool has_colours_ = false;
+  std::size_t skipped_primitives_ = 0;
+};
+
+}  // namespace
+
+Model parse_gltf(std::string_view bytes, std::string_view name, const RunContext& run,
+                 const BufferSource& source) {
+  ModelBuilder builder(ModelFormat::Gltf, name, run, 0);
+  const GltfDocument document = read_gltf_document(bytes, source, builder);
+  SceneReader(document, builder).read();
+  return builder.finish();
+}
+
+}  // namespace vantage

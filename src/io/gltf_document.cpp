@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+// The one place that compiles tinygltf, without pictures and without file access.
+#include <fstream>  // tinygltf names its types even so
+
+#define TINYGLTF_IMPLEMENTATION
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define TINYGLTF_NO_EXTERNAL_IMAGE
+#define TINYGLTF_NO_FS
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "io/byte_cursor.h"
+#include "io/gltf_document.h"
+#include "io/gltf_uri.h"
+#include "io/number_parsing.h"
+#include "io/text_cursor.h"
+
+namespace vantage {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
+
+/// Containers nested deeper than this are no glTF: the format itself needs 7 levels.
+constexpr int kDeepestNesting = 64;
+
+struct Chunks {
+  std::string_view json;
+  std::string_view binary;
+  bool has_binary = false;
+};
+
+/// Splits a GLB file.
+Chunks glb_chunks(std::string_view bytes, const ModelBuilder& builder) {
+  constexpr std::size_t kHeaderBytes = 12;
+  constexpr std::size_t kChunkHeaderBytes = 8;
+  constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
+  constexpr std::uint32_t kBinaryChunk = 0x004E4942;
+  const auto word = [&](std::size_t at) {
+    return decode<std::uint32_t>(bytes.data() + at, ByteOrder::Little);
+  };
+  if (bytes.size() < kHeaderBytes + kChunkHeaderBytes) {
+    builder.fail("the file is too short for a GLB");
+  }
+  if (word(4) != 2) {
+    builder.fail({"byte", 4}, "is GLB version " + std::to_string(word(4)) +
+                                  ", only 2 is read; convert it with gltf-pipeline");
+  }
+  if (word(8) > bytes.size()) {
+    builder.fail({"byte", 8}, "the file should have " + std::to_string(word(8)) +
+                                  " bytes but has " + std::to_string(bytes.size()));
+  }
+  bytes = bytes.substr(0, word(8));
+  Chunks chunks;
+  for (std::size_t at = kHeaderBytes; at + kChunkHeaderBytes <= bytes.size();) {
+    const std::size_t length = word(at);
+    const std::uint32_t type = word(at + 4);
+    const std::size_t begin = at + kChunkHeaderBytes;
+    if (length > bytes.size() - begin) {
+      builder.fail({"byte", at}, "a chunk reaches beyond the end of the file");
+    }
+    if (at == kHeaderBytes && type != kJsonChunk) {
+      builder.fail({"byte", at}, "the first chunk is not JSON");
+    }
+    if (at == kHeaderBytes) {
+      chunks.json = bytes.substr(begin, length);
+    } else if (type == kBinaryChunk && !chunks.has_binary) {
+      chunks.binary = bytes.substr(begin, length);
+      chunks.has_binary = true;
+    }
+    at = begin + length;
+  }
+  return chunks;
+}
+
+/// Refuses text whose brackets nest too deeply for recursive code.
+void check_nesting(std::string_view json, const ModelBuilder& builder) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (in_string) {
+      i += c == '\\' ? 1 : 0;
+      in_string = c != '"';
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      ++depth;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+    if (depth > kDeepestNesting) {
+      builder.fail({"byte", i}, "the JSON is nested deeper than any glTF");
+    }
+  }
+}
+
+Json parse_json(std::string_view text, const ModelBuilder& builder) {
+  check_nesting(text, builder);
+  try {
+    Json json = Json::parse(text.begin(), text.end());
+    if (json.is_object()) {
+      return json;
+    }
+  } catch (const Json::parse_error& error) {
+    builder.fail({"byte", error.byte}, "the JSON is not well formed");
+  } catch (const Json::exception&) {
+    builder.fail("the JSON holds a number that is too large");
+  }
+  builder.fail("the JSON is not an object");
+}
+
+bool names(const Json& root, const char* list, std::string_view extension) {
+  const auto found = root.find(list);
+  return found != root.end() && found->is_array() &&
+         std::any_of(found->begin(), found->end(), [&](const Json& entry) {
+           return entry.is_string() && entry.get_ref<const std::string&>() == extension;
+         });
+}
+
+void check_extensions(const Json& root, ModelBuilder& builder) {
+  if (names(root, "extensionsRequired", kDraco)) {
+    builder.fail(
+        "needs the extension KHR_draco_mesh_compression, which is not read; unpack it "
+        "first, with gltf-transform copy IN.glb OUT.glb");
+  }
+  if (names(root, "extensionsRequired", "EXT_meshopt_compression")) {
+    builder.fail(
+        "needs the extension EXT_meshopt_compression, which is not read; unpack it "
+        "first, with gltf-transform copy IN.glb OUT.glb, or pack it again with gltfpack "
+        "without -c");
+  }
+  if (names(root, "extensionsUsed", "EXT_mesh_gpu_instancing")) {
+    builder.note("EXT_mesh_gpu_instancing is not read: one instance of each mesh is shown");
+  }
+  if (root.contains("skins")) {
+    builder.note("skinned meshes are read in their rest pose");
+  }
+}
+
+void check_version(const Json& root, const ModelBuilder& builder) {
+  const auto asset = root.find("asset");
+  const bool has_asset = asset != root.end() && asset->is_object();
+  const auto version = has_asset ? asset->find("version") : asset;
+  if (!has_asset || version == asset->end() || !version->is_string()) {
+    builder.fail("the JSON has no asset.version, which every glTF has");
+  }
+  const auto& text = version->get_ref<const std::string&>();
+  if (text.substr(0, 2) != "2.") {
+    builder.fail("is glTF version " + in_quotes(text) +
+                 ", only 2 is read; convert it with gltf-pipeline");
+  }
+}
+
+std::string read_buffer(const Json& buffer, std::size_t index, const Chunks& chunks,
+                        const BufferSource& source, const ModelBuilder& builder) {
+  const std::string label = "buffer " + std::to_string(index);
+  const auto entry = buffer.is_object() ? buffer.find("uri") : buffer.end();
+  if (!buffer.is_object() || entry == buffer.end()) {
+    return index == 0 && chunks.has_binary ? std::string(chunks.binary) : std::string();
+  }
+  if (!entry->is_string()) {
+    builder.fail("the URI of " + label + " is not text");
+  }
+  const auto& uri = entry->get_ref<const std::string&>();
+  if (uri.substr(0, 5) == "data:") {
+    std::optional<std::string> data = decode_data_uri(uri);
+    if (!data) {
+      builder.fail("the data URI of " + label + " is not well formed base64");
+    }
+    return std::move(*data);
+  }
+  const std::optional<std::string> path = relative_path_of_uri(uri);
+  if (!path) {
+    builder.fail(label + " is at " + in_quotes(uri) +
+                 ", but only files in the model's own folder "
+                 "are read");
+  }
+  if (!source) {
+    builder.fail(label + " is the file " + in_quotes(uri) +
+                 ", which cannot be found without the model's folder; name the model by its path");
+  }
+  return source(*path);
+}
+
+/// Copies what describes geometry and leaves out what tinygltf would walk recursively or load.
+Json geometry_only(const Json& root) {
+  Json kept = Json::object();
+  kept["asset"] = {{"version", "2.0"}};
+  for (const char* const member :
+       {"scene", "scenes", "nodes", "meshes", "accessors", "bufferViews"}) {
+    const auto found = root.find(member);
+    if (found == root.end()) {
+      continue;
+    }
+    Json value = *found;
+    for (Json& item : value) {
+      if (item.is_object()) {
+        item.erase("extras");
+        item.erase("extensions");
+      }
+      if (item.is_object() && item.contains("primitives")) {
+        for (Json& primitive : item["primitives"]) {
+          if (primitive.is_object()) {
+            primitive.erase("extras");
+            primitive.erase("extensions");
+            primitive.erase("targets");
+          }
+        }
+      }
+    }
+    kept[member] = std::move(value);
+  }
+  return kept;
+}
+
+tinygltf::Model parse_structure(const Json& root, const ModelBuilder& builder) {
+  tinygltf::Model model;
+  std::string error;
+  std::string warning;
+  bool done = false;
+  try {
+    const std::string text = geometry_only(root).dump();
+    if (text.size() > std::numeric_limits<unsigned>::max()) {
+      builder.fail("the JSON is larger than 4 GB");
+    }
+    tinygltf::TinyGLTF loader;
+    done = loader.LoadASCIIFromString(&model, &error, &warning, text.data(),
+                                      static_cast<unsigned>(text.size()), "");
+  } catch (const Json::exception&) {
+    done = false;
+  }
+  if (!done) {
+    const std::string_view first = TextCursor(error).next_line().value_or("");
+    builder.fail("is not valid glTF: " +
+                 std::string(first.empty() ? "a value has a wrong type" : trimmed(first)));
+  }
+  return model;
+}
+
+}  // namespace
+
+GltfDocument read_gltf_document(std::string_view bytes, const BufferSource& source,
+                                ModelBuilder& builder) {
+  constexpr std::string_view kMagic = "glTF";
+  const Chunks chunks = bytes.substr(0, kMagic.size()) == kMagic
+                            ? glb_chunks(bytes, builder)
+                            : Chunks{without_bom(bytes), {}, false};
+  const Json root = parse_json(chunks.json, builder);
+  check_version(root, builder);
+  check_extensions(root, builder);
+  GltfDocument document;
+  document.structure = parse_structure(root, builder);
+  document.has_draco = names(root, "extensionsUsed", kDraco);
+  document.total_bytes = bytes.size();
+  if (const auto list = root.find("buffers"); list != root.end() && list->is_array()) {
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      document.buffers.push_back(read_buffer((*list)[i], i, chunks, source, builder));
+      document.total_bytes += document.buffers.back().size();
+    }
+  }
+  return document;
+}
+
+}  // namespace vantage

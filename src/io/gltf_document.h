@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tiny_gltf.h>
+
+#include "io/model_builder.h"
+#include "io/readers.h"
+
+namespace vantage {
+
+/// A glTF file: its structure as tinygltf reads it, and its buffers as we read them.
+struct GltfDocument {
+  tinygltf::Model structure{};         ///< Scenes, nodes, meshes, accessors, buffer views.
+  std::vector<std::string> buffers{};  ///< All bytes of each buffer.
+  std::size_t total_bytes = 0;         ///< Of the file and its buffers.
+  bool has_draco = false;              ///< KHR_draco_mesh_compression is used somewhere.
+};
+
+/// Reads the container, the JSON and the buffers. tinygltf sees only the part of the JSON that
+/// describes geometry: no pictures, no extras, no URIs, hence no file access and no deep nesting.
+/// \throw FormatError, IoError
+GltfDocument read_gltf_document(std::string_view bytes, const BufferSource& source,
+                                ModelBuilder& builder);
+
+}  // namespace vantage

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "io/gltf_uri.h"
+
+#include <charconv>
+#include <cstdint>
+
+namespace vantage {
+namespace {
+
+/// Value of a base64 digit, −1 for other characters.
+int base64_value(char c) {
+  if (c >= 'A' && c <= 'Z') {
+    return c - 'A';
+  }
+  if (c >= 'a' && c <= 'z') {
+    return c - 'a' + 26;
+  }
+  if (c >= '0' && c <= '9') {
+    return c - '0' + 52;
+  }
+  return c == '+' ? 62 : c == '/' ? 63 : -1;
+}
+
+std::optional<std::string> decode_base64(std::string_view text) {
+  while (!text.empty() && text.back() == '=') {
+    text.remove_suffix(1);
+  }
+  std::string bytes;
+  bytes.reserve(text.size() / 4 * 3 + 3);
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    const int value = base64_value(c);
+    if (value < 0) {
+      return std::nullopt;
+    }
+    bits = (bits << 6) | static_cast<std::uint32_t>(value);
+    count += 6;
+    if (count >= 8) {
+      count -= 8;
+      bytes += static_cast<char>((bits >> count) & 0xFFU);
+    }
+  }
+  return bytes;
+}
+
+std::optional<std::string> decode_percent(std::string_view text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      decoded += text[i];
+      continue;
+    }
+    unsigned value = 0;
+    const std::string_view digits = text.substr(i + 1, 2);
+    const auto [end, error] =
+        std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+    if (error != std::errc() || digits.size() != 2 || end != digits.data() + 2) {
+      return std::nullopt;
+    }
+    decoded += static_cast<char>(value);
+    i += 2;
+  }
+  return decoded;
+}
+
+bool climbs(std::string_view path) {
+  std::size_t begin = 0;
+  while (begin <= path.size()) {
+    const std::size_t end = std::min(path.find('/', begin), path.size());
+    if (path.substr(begin, end - begin) == "..") {
+      return true;
+    }
+    begin = end + 1;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::optional<std::string> decode_data_uri(std::string_view uri) {
+  constexpr std::string_view kMarker = ";base64,";
+  const std::size_t marker = uri.find(kMarker);
+  if (uri.substr(0, 5) != "data:" || marker == std::string_view::npos || uri.find(',') < marker) {
+    return std::nullopt;
+  }
+  return decode_base64(uri.substr(marker + kMarker.size()));
+}
+
+std::optional<std::string> relative_path_of_uri(std::string_view uri) {
+  std::optional<std::string> path = decode_percent(uri);
+  // A colon before the first slash is a scheme (http:, file:) or a drive (C:).
+  if (!path || path->empty() || path->front() == '/' || climbs(*path) ||
+      path->substr(0, path->find('/')).find(':') != std::string::npos ||
+      path->find('\\') != std::string::npos || path->find('\0') != std::string::npos) {
+    return std::nullopt;
+  }
+  return path;
+}
+
+}  // namespace vantage

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace vantage {
+
+/// The bytes of a "data:…;base64,…" URI; nothing if it is not well formed.
+std::optional<std::string> decode_data_uri(std::string_view uri);
+
+/// The relative path a URI names, percent signs decoded; nothing if it has a scheme, is absolute,
+/// or climbs with "..".
+std::optional<std::string> relative_path_of_uri(std::string_view uri);
+
+}  // namespace vantage

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include <csetjmp>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include <png.h>
+
+#include "vantage/core/error.h"
+#include "vantage/io/write.h"
+
+namespace vantage {
+namespace {
+
+constexpr int kCompressionLevel =
+    3;  // 7 ms and 105 kB for 800 × 600; level 6 takes 17 ms for 90 kB
+
+/// What libpng's callbacks share; it reports errors by a long jump past C++ frames.
+struct PngOutput {
+  std::string bytes{};
+  std::string problem{};
+};
+
+void append_bytes(png_structp png, png_bytep data, std::size_t count) {
+  auto* output = static_cast<PngOutput*>(png_get_io_ptr(png));
+  output->bytes.append(reinterpret_cast<const char*>(data), count);
+}
+
+void flush_nothing(png_structp /*png*/) {}
+
+[[noreturn]] void keep_error(png_structp png, png_const_charp message) {
+  static_cast<PngOutput*>(png_get_error_ptr(png))->problem = message;
+  png_longjmp(png, 1);
+}
+
+void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
+
+/// Writes the picture; false after an error. Holds no object with a destructor, because libpng
+/// leaves it by a long jump.
+bool encode(png_structp png, png_infop info, const Image& image, png_bytepp rows,
+            PngOutput* output) {
+  if (setjmp(png_jmpbuf(png)) != 0) {
+    return false;
+  }
+  png_set_write_fn(png, output, append_bytes, flush_nothing);
+  png_set_compression_level(png, kCompressionLevel);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
+               static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB_ALPHA,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  png_write_info(png, info);
+  png_write_image(png, rows);
+  png_write_end(png, nullptr);
+  return true;
+}
+
+}  // namespace
+
+std::string png_bytes(const Image& image) {
+  const auto width = static_cast<std::size_t>(image.width > 0 ? image.width : 0);
+  const auto height = static_cast<std::size_t>(image.height > 0 ? image.height : 0);
+  if (width == 0 || height == 0 || image.rgba.size() != 4 * width * height) {
+    throw InvalidInput("a picture must have at least one pixel and four bytes for each");
+  }
+  std::vector<png_bytep> rows(height);
+  for (std::size_t y = 0; y < height; ++y) {
+    rows[y] = const_cast<png_bytep>(image.rgba.data() + 4 * width * y);  // libpng only reads them
+  }
+  PngOutput output;
+  png_structp png =
+      png_create_write_struct(PNG_LIBPNG_VER_STRING, &output, keep_error, ignore_warning);
+  png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+  const bool done = info != nullptr && encode(png, info, image, rows.data(), &output);
+  png_destroy_write_struct(&png, &info);
+  if (!done) {
+    throw IoError("picture", "cannot be encoded: " + output.problem);
+  }
+  return std::move(output.bytes);
+}
+
+}  // namespace vantage

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/render/colour_map.h"
+#include "vantage/render/render.h"
+#include "vantage/report/view_report.h"
+
+namespace vantage {
+namespace {
+
+/// Radius of the skeleton's tubes over D: thin enough for fingers, thick enough to see.
+constexpr double kTubeRadius = 0.004;
+/// With sixteen samples a pixel, one occlusion ray each is already smooth.
+constexpr int kAmbientRays = 1;
+
+}  // namespace
+
+Image take_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
+                   const ViewOptions& options, const std::optional<Rgb8>& background,
+                   const RunContext& run) {
+  RenderOptions look;
+  look.width = options.width;
+  look.height = options.height;
+  look.background = background;
+  look.ambient_rays = kAmbientRays;
+  std::vector<Rgb8> colours;
+  TubeOverlay overlay;
+  if (picture == Picture::Map) {
+    colours = colour_map(shape.map.of_vertex);
+  } else if (picture == Picture::Skeleton) {
+    overlay.graph = &shape.skeleton.graph;
+    overlay.radius = kTubeRadius * shape.sphere.diameter;
+  }
+  return render(shape.surface, camera, colours, overlay, look, run);
+}
+
+}  // namespace vantage

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include <chrono>
+#include <utility>
+
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/weld.h"
+#include "vantage/report/view_report.h"
+
+namespace vantage {
+namespace {
+
+/// Seconds since `mark`, which is set to now.
+double lap(std::chrono::steady_clock::time_point& mark) {
+  const auto now = std::chrono::steady_clock::now();
+  const double seconds = std::chrono::duration<double>(now - mark).count();
+  mark = now;
+  return seconds;
+}
+
+std::string counted(std::size_t count, std::string_view one, std::string_view many,
+                    std::string_view rest) {
+  std::string text = std::to_string(count);
+  text += ' ';
+  text += count == 1 ? one : many;
+  text += rest;
+  return text;
+}
+
+void list_repairs(const WeldedMesh& welded, const OrientedMesh& oriented, const MeshReport& check,
+                  std::vector<std::string>& warnings) {
+  const auto add = [&](std::size_t count, std::string_view one, std::string_view many,
+                       std::string_view rest) {
+    if (count > 0) {
+      warnings.push_back(counted(count, one, many, rest));
+    }
+  };
+  add(welded.merged_vertices, "vertex", "vertices",
+      " welded to an earlier one at the same position");
+  add(welded.dropped_faces, "face", "faces", " left out for naming one position twice");
+  add(check.isolated_vertices, "vertex", "vertices", " belonging to no face left out");
+  add(check.zero_area_faces, "face", "faces", " without area");
+  add(check.duplicate_faces, "face", "faces", " standing there twice");
+  add(check.non_manifold_edges, "edge", "edges", " with three or more faces");
+  add(check.inconsistent_edges, "edge", "edges", " whose faces are wound against each other");
+  add(oriented.turned_shells, "closed shell", "closed shells", " wound inside out and turned");
+  std::size_t both = 0;
+  for (const FaceSides sides : oriented.sides) {
+    both += sides == FaceSides::Both ? 1 : 0;
+  }
+  if (both > 0) {
+    warnings.push_back(
+        "the surface is open or wound inconsistently: both sides of its faces count as visible");
+  }
+}
+
+}  // namespace
+
+ShapeAnalysis prepare_surface(const Model& model) {
+  if (model.mesh.triangles.empty()) {
+    throw InvalidInput(model.name +
+                       ": the file holds points but no faces; reconstruct a surface first, point "
+                       "clouds are not supported yet");
+  }
+  WeldedMesh welded = weld(model.mesh);
+  ShapeAnalysis shape;
+  shape.check = check_mesh(welded.mesh);
+  OrientedMesh oriented = orient_shells(welded.mesh);
+  list_repairs(welded, oriented, shape.check, shape.warnings);
+  shape.sphere = enclosing_sphere(referenced_points(welded.mesh));
+  if (welded.mesh.triangles.empty() || !(shape.sphere.diameter > 0.0)) {
+    throw InvalidInput(
+        model.name +
+        ": all faces have collapsed to points or lines, so there is no shape to look at");
+  }
+  shape.surface = std::move(oriented.mesh);
+  shape.sides = std::move(oriented.sides);
+  shape.surface_vertex = std::move(welded.welded_of_vertex);
+  return shape;
+}
+
+void add_history(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
+  shape.history = contract(shape.surface, options.contraction, run);
+  shape.warnings.insert(shape.warnings.end(), shape.history.warnings.begin(),
+                        shape.history.warnings.end());
+}
+
+void add_skeleton(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
+  shape.skeleton = extract_skeleton(shape.surface, shape.history, options.skeleton, run);
+  shape.warnings.insert(shape.warnings.end(), shape.skeleton.warnings.begin(),
+                        shape.skeleton.warnings.end());
+}
+
+void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
+  const CurveGraph& graph =
+      options.kssm_to_finished_graph ? shape.skeleton.graph : shape.skeleton.raw;
+  shape.map = compute_kssm(shape.surface, shape.history, graph, options.kssm, run);
+}
+
+ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options, const RunContext& run,
+                            StageSeconds* seconds) {
+  auto mark = std::chrono::steady_clock::now();
+  StageSeconds ignored;
+  StageSeconds& took = seconds != nullptr ? *seconds : ignored;
+  ShapeAnalysis shape = prepare_surface(model);
+  add_history(shape, options, run.part(0.0, 0.8));
+  took.contract = lap(mark);
+  add_skeleton(shape, options, run.part(0.8, 0.95));
+  took.skeleton = lap(mark);
+  add_map(shape, options, run.part(0.95, 1.0));
+  took.map = lap(mark);
+  return shape;
+}
+
+std::vector<double> on_input_vertices(const ShapeAnalysis& shape, std::span<const double> field) {
+  std::vector<double> values;
+  values.reserve(shape.surface_vertex.size());
+  for (const std::uint32_t v : shape.surface_vertex) {
+    values.push_back(field[v]);
+  }
+  return values;
+}
+
+std::vector<std::int64_t> nodes_of_input_vertices(const ShapeAnalysis& shape) {
+  std::vector<std::int64_t> nodes;
+  nodes.reserve(shape.surface_vertex.size());
+  for (const std::uint32_t v : shape.surface_vertex) {
+    const std::uint32_t node = shape.skeleton.node_of_vertex[v];
+    nodes.push_back(node == Skeleton::kNone ? -1 : static_cast<std::int64_t>(node));
+  }
+  return nodes;
+}
+
+}  // namespace vantage

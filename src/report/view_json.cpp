@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/version.h"
+#include "vantage/io/write.h"
+#include "vantage/report/view_report.h"
+
+#include "report/option_echo.h"
+
+namespace vantage {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kSchema = 1;
+
+Json point(const Vec3& p) {
+  return Json::array({p.x(), p.y(), p.z()});
+}
+
+Json view_of(const ReportedView& view, const Json& image) {
+  return {
+      {"direction", point(view.direction)},
+      {"eye", point(view.eye)},
+      {"up", point(view.up)},
+      {"score", view.score},
+      {"score_fraction", view.score_fraction},
+      {"objective", view.objective},
+      {"visible_area_fraction", view.visible_area_fraction},
+      {"image", image},
+      {"frame", {{"target", point(view.picture.target)}, {"fov_y_deg", view.picture.fov_y_deg}}}};
+}
+
+Json camera_of(const ScoringCamera& camera) {
+  return {{"projection", projection_name(camera.projection)},
+          {"fov_y_deg", camera.fov_y_deg},
+          {"target", point(camera.sphere.centre)},
+          {"distance", camera.distance()}};
+}
+
+Json contraction_of(const ContractionHistory& history) {
+  Json strategies = Json::array();
+  for (const ComponentContraction& component : history.components) {
+    strategies.push_back(component.strategy);
+  }
+  return {{"strategy", strategies},
+          {"levels", history.level_count()},
+          {"shrinkage", history.shrinkage},
+          {"warnings", history.warnings}};
+}
+
+Json seconds_of(const StageSeconds& seconds) {
+  return {{"load", seconds.load},  {"contract", seconds.contract}, {"skeleton", seconds.skeleton},
+          {"map", seconds.map},    {"search", seconds.search},     {"render", seconds.render},
+          {"total", seconds.total}};
+}
+
+std::string text_of(const Json& json) {
+  // Names may hold bytes that are no UTF-8: replaced, so that the file stays valid JSON.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void add_trace(std::string& csv, std::string_view goal, const FoundView& found) {
+  std::size_t step = 0;
+  for (const SearchStep& s : found.trace) {
+    csv += std::string(goal) + ',' + std::to_string(step++) + ',' + std::to_string(s.level);
+    for (const double value : {s.direction.x(), s.direction.y(), s.direction.z(), s.score}) {
+      csv += ',' + number_text(value);
+    }
+    csv += '\n';
+  }
+}
+
+}  // namespace
+
+std::string view_json(const Model& model, const ShapeAnalysis& shape, const ViewReport& report,
+                      const ViewOptions& options, const StageSeconds* seconds) {
+  Json json;
+  json["vantage"] = version();
+  json["schema"] = kSchema;
+  json["options_hash"] = options_hash(options);
+  json["model"] = {{"name", model.name},
+                   {"format", format_name(model.format)},
+                   {"vertices", shape.check.vertices},
+                   {"faces", shape.check.faces},
+                   {"components", shape.check.components},
+                   {"closed", shape.check.closed},
+                   {"genus", shape.check.genus ? Json(*shape.check.genus) : Json(nullptr)}};
+  json["method"] = "kssm";
+  json["preset"] = preset_name(options.preset);
+  json["weight"] = "vertex";
+  json["prior"] = "none";
+  json["up"] = up_name(report.up);
+  json["camera"] = camera_of(report.camera);
+  json["best"] = view_of(report.best, options.pictures ? Json("best.png") : Json(nullptr));
+  json["worst"] = view_of(report.worst, options.pictures ? Json("worst.png") : Json(nullptr));
+  json["total"] = report.total;
+  const SearchOptions& search = options.search;
+  json["search"] = {
+      {"strategy", strategy_name(search.strategy)},
+      {"base", base_name(search.base)},
+      {"subdivisions", search.subdivisions},
+      {"epsilon", search.epsilon_is_fraction ? search.epsilon * report.total : search.epsilon},
+      {"evaluations", report.best_search.evaluations},
+      {"worst_evaluations", report.worst_search.evaluations}};
+  json["skeleton"] = {{"nodes", shape.skeleton.graph.nodes.size()},
+                      {"edges", shape.skeleton.graph.edges.size()},
+                      {"components", component_count(shape.skeleton.graph)},
+                      {"cycles", cycle_count(shape.skeleton.graph)}};
+  json["contraction"] = contraction_of(shape.history);
+  std::vector<std::string> warnings = model.notes;
+  warnings.insert(warnings.end(), shape.warnings.begin(), shape.warnings.end());
+  warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
+  json["warnings"] = warnings;
+  if (seconds != nullptr) {
+    json["seconds"] = seconds_of(*seconds);
+  }
+  return text_of(json);
+}
+
+std::string timings_json(const StageSeconds& seconds) {
+  return text_of({{"seconds", seconds_of(seconds)}});
+}
+
+std::string trace_csv(const ViewReport& report) {
+  std::string csv = "goal,step,level,dx,dy,dz,score\n";
+  add_trace(csv, "best", report.best_search);
+  add_trace(csv, "worst", report.worst_search);
+  return csv;
+}
+
+}  // namespace vantage

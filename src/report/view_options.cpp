@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <cstdint>
+
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/version.h"
+#include "vantage/report/view_report.h"
+
+#include "report/option_echo.h"
+
+namespace vantage {
+namespace {
+
+template <class Options, class Table>
+void echo_fields(nlohmann::ordered_json& json, const Options& options, const Table& table) {
+  for_each_field(
+      table, [&](const auto& field) { json[std::string(field.name)] = options.*(field.member); });
+}
+
+}  // namespace
+
+Vec3 up_vector(UpAxis axis) {
+  switch (axis) {
+    case UpAxis::X:
+      return Vec3::UnitX();
+    case UpAxis::Y:
+      return Vec3::UnitY();
+    case UpAxis::Z:
+      return Vec3::UnitZ();
+    case UpAxis::MinusX:
+      return -Vec3::UnitX();
+    case UpAxis::MinusY:
+      return -Vec3::UnitY();
+    case UpAxis::MinusZ:
+      return -Vec3::UnitZ();
+  }
+  return Vec3::UnitY();
+}
+
+std::string_view up_name(UpAxis axis) {
+  constexpr std::array<std::string_view, 6> kNames{"x", "y", "z", "-x", "-y", "-z"};
+  return kNames[static_cast<std::size_t>(axis)];
+}
+
+UpAxis default_up(ModelFormat format) {
+  return format == ModelFormat::Stl ? UpAxis::Z : UpAxis::Y;
+}
+
+std::string_view strategy_name(SearchStrategy strategy) {
+  constexpr std::array<std::string_view, 3> kNames{"rapid", "exhaustive", "global"};
+  return kNames[static_cast<std::size_t>(strategy)];
+}
+
+std::string_view base_name(ViewSphereBase base) {
+  return base == ViewSphereBase::Cube ? "cube" : "icosahedron";
+}
+
+std::string_view preset_name(Preset preset) {
+  return preset == Preset::Paper ? "paper" : "default";
+}
+
+std::string_view projection_name(Projection projection) {
+  return projection == Projection::Perspective ? "perspective" : "orthographic";
+}
+
+ViewOptions preset_options(Preset preset) {
+  ViewOptions options;
+  options.preset = preset;
+  if (preset == Preset::Paper) {
+    options.contraction.scaling = ContractionScaling::Box;
+    options.skeleton.scaling = ContractionScaling::Box;
+    options.search = {.strategy = SearchStrategy::Rapid,
+                      .base = ViewSphereBase::Cube,
+                      .subdivisions = 0,
+                      .epsilon = 0.1,
+                      .epsilon_is_fraction = false,
+                      .require_narrow_ring = false};
+  }
+  return options;
+}
+
+std::string options_hash(const ViewOptions& options) {
+  nlohmann::ordered_json json;
+  json["version"] = version();
+  json["preset"] = preset_name(options.preset);
+  json["contraction-scaling"] = static_cast<int>(options.contraction.scaling);
+  echo_fields(json, options.contraction, kContractionFields);
+  json["skeleton-scaling"] = static_cast<int>(options.skeleton.scaling);
+  echo_fields(json, options.skeleton, kSkeletonFields);
+  json["centre"] = options.skeleton.centre;
+  json["prune"] = options.skeleton.prune;
+  json["suppression"] = static_cast<int>(options.kssm.suppression);
+  json["kinematics"] = static_cast<int>(options.kssm.kinematics);
+  json["area-weighted-mean"] = options.kssm.area_weighted_mean;
+  json["finished-graph"] = options.kssm_to_finished_graph;
+  json["search"] = strategy_name(options.search.strategy);
+  json["base"] = base_name(options.search.base);
+  echo_fields(json, options.search, kSearchFields);
+  json["epsilon"] = options.search.epsilon;
+  json["epsilon-is-fraction"] = options.search.epsilon_is_fraction;
+  json["narrow-ring"] = options.search.require_narrow_ring;
+  json["projection"] = projection_name(options.projection);
+  echo_fields(json, options, kViewFields);
+  json["distance"] = options.distance_factor ? nlohmann::ordered_json(*options.distance_factor)
+                                             : nlohmann::ordered_json(nullptr);
+  json["up"] = options.up ? std::string(up_name(*options.up)) : "auto";
+  json["size"] = {options.width, options.height};
+  json["pictures"] = options.pictures;
+
+  // FNV-1a, 64 bit: a fingerprint to compare runs by, not a seal.
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char c : json.dump()) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  }
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text(16, '0');
+  for (std::size_t i = 0; i < 16; ++i) {
+    text[15 - i] = kDigits[(hash >> (4 * i)) & 15U];
+  }
+  return text;
+}
+
+}  // namespace vantage

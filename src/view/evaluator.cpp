@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "view/evaluator.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "vantage/core/error.h"
+
+namespace vantage {
+namespace {
+
+// Directions a batch: enough to keep many cores busy, few enough for a bar that moves.
+constexpr std::size_t kBatch = 32;
+
+}  // namespace
+
+std::vector<double> Evaluator::scores(const std::vector<Vec3>& directions, int level) {
+  const auto key = [](const Vec3& d) {
+    return Key{std::bit_cast<std::uint64_t>(d.x()), std::bit_cast<std::uint64_t>(d.y()),
+               std::bit_cast<std::uint64_t>(d.z())};
+  };
+  std::vector<Vec3> fresh;
+  for (const Vec3& d : directions) {
+    if (known_.try_emplace(key(d), 0.0).second) {
+      fresh.push_back(d);
+    }
+  }
+  if (!fresh.empty()) {
+    const std::vector<double> values = (*score_)(fresh);
+    if (values.size() != fresh.size()) {
+      throw InvalidInput("the score function returned " + std::to_string(values.size()) +
+                         " values for " + std::to_string(fresh.size()) + " directions");
+    }
+    for (std::size_t i = 0; i < fresh.size(); ++i) {
+      known_[key(fresh[i])] = values[i];
+      trace_.push_back({level, fresh[i], values[i]});
+    }
+  }
+  std::vector<double> result;
+  result.reserve(directions.size());
+  for (const Vec3& d : directions) {
+    result.push_back(known_.at(key(d)));
+  }
+  return result;
+}
+
+std::vector<double> Evaluator::scores(const std::vector<Vec3>& directions, int level,
+                                      const RunContext& run) {
+  std::vector<double> result;
+  result.reserve(directions.size());
+  for (std::size_t begin = 0; begin < directions.size(); begin += kBatch) {
+    run.advance("search", static_cast<double>(begin) / static_cast<double>(directions.size()));
+    const std::size_t end = std::min(directions.size(), begin + kBatch);
+    const std::vector<Vec3> batch(directions.begin() + static_cast<std::ptrdiff_t>(begin),
+                                  directions.begin() + static_cast<std::ptrdiff_t>(end));
+    const std::vector<double> part = scores(batch, level);
+    result.insert(result.end(), part.begin(), part.end());
+  }
+  run.advance("search", 1.0);
+  return result;
+}
+
+}  // namespace vantage

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/view/scoring.h"
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "vantage/core/error.h"
+
+#include "core/parallel.h"
+
+namespace vantage {
+
+double ScoringCamera::distance() const {
+  const double radius = 0.5 * sphere.diameter;
+  if (distance_factor.has_value()) {
+    return *distance_factor * radius;
+  }
+  return radius / std::sin(0.5 * fov_y_deg * std::numbers::pi / 180.0);
+}
+
+Vec3 ScoringCamera::eye(const Vec3& direction) const {
+  return sphere.centre + distance() * direction;
+}
+
+Viewpoint ScoringCamera::viewpoint(const Vec3& direction) const {
+  return {projection, projection == Projection::Perspective ? eye(direction) : direction};
+}
+
+double visible_sum(std::span<const double> significance, std::span<const std::uint8_t> visible) {
+  double sum = 0.0;
+  for (std::size_t v = 0; v < significance.size(); ++v) {
+    sum += visible[v] != 0 ? significance[v] : 0.0;
+  }
+  return sum;
+}
+
+ViewScorer::ViewScorer(const VertexVisibility& visibility, std::span<const double> significance,
+                       const ScoringCamera& camera)
+    : visibility_(&visibility),
+      significance_(significance),
+      camera_(camera),
+      total_(std::accumulate(significance.begin(), significance.end(), 0.0)) {
+  for (const double s : significance) {
+    if (!(s >= 0.0) || !std::isfinite(s)) {
+      throw InvalidInput("a significance map must be finite and nowhere negative");
+    }
+  }
+  if (!(camera.fov_y_deg > 0.0 && camera.fov_y_deg < 180.0)) {
+    throw InvalidInput("the scoring camera's field of view must be between 0 and 180 degrees");
+  }
+  if (camera.distance_factor.has_value() && !(*camera.distance_factor > 1.0)) {
+    throw InvalidInput("the scoring camera's distance must be more than 1 sphere radius");
+  }
+}
+
+double ViewScorer::score(const Vec3& direction) const {
+  // One thread: whoever calls this in parallel has spent them on directions.
+  const RunContext alone{.max_threads = 1};
+  return visible_sum(significance_,
+                     visibility_->visible_vertices(camera_.viewpoint(direction), alone));
+}
+
+std::vector<double> ViewScorer::score_all(std::span<const Vec3> directions,
+                                          const RunContext& run) const {
+  std::vector<double> scores(directions.size(), 0.0);
+  parallel_for(run, directions.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      scores[i] = score(directions[i]);
+    }
+  });
+  return scores;
+}
+
+}  // namespace vantage

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "vantage/mesh/topology.h"
+#include "vantage/mesh/weld.h"
+#include "vantage/visibility/vertex_visibility.h"
+
+#include "mesh/disjoint_sets.h"
+#include "spatial/ray_scene.h"
+
+namespace vantage {
+namespace {
+
+// Rays that vote on whether a shell is inside an odd number of others, and how often a ray that
+// grazes an edge is replaced by another one.
+constexpr int kVotes = 5;
+constexpr int kMaxRays = 40;
+// A crossing nearer to an edge, or a start nearer to a plane, than this is not trusted: relative to
+// the products it is computed from; some thousand rounding errors.
+constexpr double kDoubt = 1e-12;
+// A shell whose volume is below this share of area times size has no inside to speak of.
+constexpr double kFlatShell = 1e-12;
+
+/// The faces of the mesh over welded vertices, grouped in shells that edges hold together.
+struct Shells {
+  std::vector<Vec3> positions{};          // in a UnitFrame
+  std::vector<Triangle> faces{};          // of welded vertices
+  std::vector<std::uint32_t> face_of{};   // face of the mesh that faces[i] was
+  std::vector<std::uint32_t> shell_of{};  // of each face, numbered in order of first face
+  std::vector<std::vector<std::uint32_t>> members{};  // faces of each shell
+  std::vector<std::uint8_t> closed{};  // of each shell: as many faces run along each edge one
+                                       // way as the other
+};
+
+bool names_a_vertex_twice(const Triangle& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+/// +1 if the face runs along the edge from its lower to its higher vertex, −1 otherwise.
+int sense(const Triangle& face, const std::array<std::uint32_t, 2>& edge) {
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    if (face[corner] == edge[0]) {
+      return face[(corner + 1) % 3] == edge[1] ? 1 : -1;
+    }
+  }
+  return 0;
+}
+
+/// Whether the faces of each set that meet at the edge run as often one way as the other.
+bool balanced(std::span<const std::uint32_t> faces_at_edge, const std::vector<Triangle>& faces,
+              const std::array<std::uint32_t, 2>& edge, DisjointSets& sets) {
+  return std::all_of(faces_at_edge.begin(), faces_at_edge.end(), [&](std::uint32_t f) {
+    int sum = 0;
+    for (const std::uint32_t other : faces_at_edge) {
+      if (sets.root(other) == sets.root(f)) {
+        sum += sense(faces[other], edge);
+      }
+    }
+    return sum == 0;
+  });
+}
+
+/// Joins faces across edges of two; across edges of more only if their shells need each other to
+/// be closed there: two cubes that share an edge remain two shells.
+DisjointSets join_faces(const std::vector<Triangle>& faces, const EdgeTable& edges) {
+  DisjointSets sets(faces.size());
+  const auto join_all = [&](std::span<const std::uint32_t> at_edge) {
+    bool joined = false;
+    for (const std::uint32_t f : at_edge.subspan(1)) {
+      joined = sets.join(at_edge[0], f) || joined;
+    }
+    return joined;
+  };
+  for (std::size_t e = 0; e < edges.edges.size(); ++e) {
+    if (edges.faces_of_edge[e].size() == 2) {
+      join_all(edges.faces_of_edge[e]);
+    }
+  }
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t e = 0; e < edges.edges.size(); ++e) {
+      const auto at_edge = edges.faces_of_edge[e];
+      if (at_edge.size() > 2 && !balanced(at_edge, faces, edges.edges[e], sets)) {
+        changed = join_all(at_edge) || changed;
+      }
+    }
+  }
+  return sets;
+}
+
+Shells find_shells(const TriMesh& mesh, const WeldedMesh& welded) {
+  Shells shells;
+  const UnitFrame frame = unit_frame(welded.mesh.positions);
+  for (const Vec3& p : welded.mesh.positions) {
+    shells.positions.push_back(frame.to_frame(p));
+  }
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    Triangle t = mesh.triangles[f];
+    for (std::uint32_t& v : t) {
+      v = welded.welded_of_vertex[v];
+    }
+    if (!names_a_vertex_twice(t)) {
+      shells.faces.push_back(t);
+      shells.face_of.push_back(f);
+    }
+  }
+  const EdgeTable edges = build_edge_table({.positions = {}, .triangles = shells.faces});
+  DisjointSets sets = join_faces(shells.faces, edges);
+  shells.shell_of.resize(shells.faces.size());
+  for (std::uint32_t f = 0; f < shells.faces.size(); ++f) {
+    const std::uint32_t root = sets.root(f);
+    if (root == f) {
+      shells.shell_of[f] = static_cast<std::uint32_t>(shells.members.size());
+      shells.members.emplace_back();
+    }
+    shells.shell_of[f] = shells.shell_of[root];
+    shells.members[shells.shell_of[f]].push_back(f);
+  }
+  shells.closed.assign(shells.members.size(), 1);
+  for (std::size_t e = 0; e < edges.edges.size(); ++e) {
+    const auto at_edge = edges.faces_of_edge[e];
+    if (!balanced(at_edge, shells.faces, edges.edges[e], sets)) {
+      for (const std::uint32_t f : at_edge) {
+        shells.closed[shells.shell_of[f]] = 0;
+      }
+    }
+  }
+  return shells;
+}
+
+/// Sign of the enclosed volume: 1 wound outwards, −1 inwards, 0 no inside.
+int winding(const Shells& shells, const std::vector<std::uint32_t>& members) {
+  const Vec3 origin = shells.positions[shells.faces[members.front()][0]];
+  double volume = 0.0;
+  double area = 0.0;
+  double size = 0.0;
+  for (const std::uint32_t f : members) {
+    const auto& [i, j, k] = shells.faces[f];
+    const Vec3 a = shells.positions[i] - origin;
+    const Vec3 b = shells.positions[j] - origin;
+    const Vec3 c = shells.positions[k] - origin;
+    volume += a.dot(b.cross(c)) / 6.0;
+    area += 0.5 * (b - a).cross(c - a).norm();
+    size = std::max({size, a.norm(), b.norm(), c.norm()});
+  }
+  if (std::abs(volume) <= kFlatShell * area * size) {
+    return 0;
+  }
+  return volume > 0.0 ? 1 : -1;
+}
+
+enum class Crossing { None, Clear, Doubtful };
+
+/// How the half-line from `start` meets the triangle.
+Crossing crossing(const Vec3& start, const Vec3& direction, const Vec3& p, const Vec3& q,
+                  const Vec3& r) {
+  const Vec3 a = p - start;
+  const Vec3 b = q - start;
+  const Vec3 c = r - start;
+  const double size = std::max({a.norm(), b.norm(), c.norm()});
+  const double doubt = kDoubt * size * size;
+  const std::array<double, 3> side{direction.dot(b.cross(c)), direction.dot(c.cross(a)),
+                                   direction.dot(a.cross(b))};
+  const auto [low, high] = std::minmax_element(side.begin(), side.end());
+  if (*low<-doubt&& * high> doubt) {
+    return Crossing::None;
+  }
+  const Vec3 normal = (b - a).cross(c - a);
+  const double height = normal.dot(a);
+  const double slope = normal.dot(direction);
+  const bool behind = (height > 0.0) != (slope > 0.0);
+  const double unsure_height = kDoubt * size * normal.norm();
+  if (behind && std::abs(height) > unsure_height && std::abs(slope) > kDoubt * normal.norm()) {
+    return Crossing::None;
+  }
+  const bool through = *low > doubt || *high < -doubt;
+  return through && std::abs(height) > unsure_height ? Crossing::Clear : Crossing::Doubtful;
+}
+
+/// A direction that no modelling tool aligns anything with; `turn` selects one of a sequence that
+/// fills the sphere evenly (golden ratio spiral).
+Vec3 odd_direction(int turn) {
+  const double z = 1.0 - 2.0 * std::fmod(0.5 + 0.7548776662466927 * (turn + 1), 1.0);
+  const double angle = 2.3999632297286533 * (turn + 1);
+  const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
+  return {r * std::cos(angle), r * std::sin(angle), z};
+}
+
+/// Tells for closed shells whether an odd number of other closed shells holds them.
+class Nesting {
+ public:
+  explicit Nesting(const Shells& shells)
+      : shells_(shells), scene_(shells.positions, shells.faces) {}
+
+  bool odd(std::uint32_t shell) {
+    int votes = 0;
+    int odd_votes = 0;
+    for (int turn = 0; turn < kMaxRays && votes < kVotes; ++turn) {
+      if (const std::optional<bool> vote = ask(shell, turn)) {
+        ++votes;
+        odd_votes += *vote ? 1 : 0;
+      }
+    }
+    return 2 * odd_votes > votes;
+  }
+
+ private:
+  /// One ray from the middle of a face of the shell; nothing if it grazes an edge.
+  std::optional<bool> ask(std::uint32_t shell, int turn) {
+    const std::vector<std::uint32_t>& members = shells_.members[shell];
+    const std::size_t pick = static_cast<std::size_t>(turn) * members.size() / kMaxRays;
+    const auto& [a, b, c] = shells_.faces[members[pick]];
+    const Vec3 start = (shells_.positions[a] + shells_.positions[b] + shells_.positions[c]) / 3.0;
+    const Vec3 direction = odd_direction(turn);
+    std::vector<std::uint32_t> hit_shells;
+    const bool doubtful =
+        scene_.any(start, direction, std::numeric_limits<double>::infinity(), [&](std::uint32_t f) {
+          const std::uint32_t other = shells_.shell_of[f];
+          if (other == shell || shells_.closed[other] == 0) {
+            return false;
+          }
+          const auto& [i, j, k] = shells_.faces[f];
+          const Crossing kind = crossing(start, direction, shells_.positions[i],
+                                         shells_.positions[j], shells_.positions[k]);
+          if (kind == Crossing::Clear) {
+            hit_shells.push_back(other);
+          }
+          return kind == Crossing::Doubtful;
+        });
+    if (doubtful) {
+      return std::nullopt;
+    }
+    // Each shell that is crossed an odd number of times holds the start.
+    return hit_shells.size() % 2 == 1;
+  }
+
+  const Shells& shells_;
+  CandidateScene scene_;
+};
+
+}  // namespace
+
+OrientedMesh orient_shells(const TriMesh& mesh) {
+  OrientedMesh result;
+  result.mesh = mesh;
+  const WeldedMesh welded = weld(mesh);
+  const Shells shells = find_shells(mesh, welded);
+  const Components components = connected_components(mesh);
+  const Components welded_components = connected_components(welded.mesh);
+
+  // One open shell makes both sides of its whole component count.
+  std::vector<FaceSides> welded_sides(welded_components.count, FaceSides::Front);
+  const auto component_of = [&](std::uint32_t face) {
+    return welded_components.of_vertex[shells.faces[face][0]];
+  };
+  for (std::size_t s = 0; s < shells.members.size(); ++s) {
+    if (shells.closed[s] == 0) {
+      welded_sides[component_of(shells.members[s].front())] = FaceSides::Both;
+    }
+  }
+  result.sides.assign(components.count, FaceSides::Both);
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    result.sides[components.of_vertex[v]] =
+        welded_sides[welded_components.of_vertex[welded.welded_of_vertex[v]]];
+  }
+
+  if (shells.faces.empty()) {
+    return result;
+  }
+  Nesting nesting(shells);
+  for (std::uint32_t s = 0; s < shells.members.size(); ++s) {
+    if (shells.closed[s] == 0) {
+      continue;
+    }
+    const int wound = winding(shells, shells.members[s]);
+    if (wound == 0 || (wound < 0) == nesting.odd(s)) {
+      continue;
+    }
+    ++result.turned_shells;
+    for (const std::uint32_t f : shells.members[s]) {
+      Triangle& t = result.mesh.triangles[shells.face_of[f]];
+      std::swap(t[1], t[2]);
+    }
+  }
+  return result;
+}
+
+}  // namespace vantage

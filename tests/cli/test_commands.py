@@ -1,0 +1,155 @@
+"""Every command other than view."""
+
+import json
+import math
+import unittest
+
+from program import MODELS, ProgramTest, read_ply
+
+
+class Skeleton(ProgramTest):
+
+    def test_json_maps_every_vertex_to_a_node(self):
+        self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json")
+        skeleton = json.loads((self.dir / "s.json").read_text())
+        self.assertEqual(set(skeleton), {"nodes", "edges", "radius", "vertex_node"})
+        self.assertEqual(len(skeleton["radius"]), len(skeleton["nodes"]))
+        self.assertEqual(len(skeleton["vertex_node"]), 820)
+        self.assertEqual(set(skeleton["vertex_node"]), set(range(len(skeleton["nodes"]))))
+
+    def test_obj_and_ply_hold_the_same_graph(self):
+        self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json")
+        self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.obj")
+        self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.ply")
+        graph = json.loads((self.dir / "s.json").read_text())
+        lines = (self.dir / "s.obj").read_text().splitlines()
+        nodes = [[float(x) for x in line.split()[1:]] for line in lines if line.startswith("v ")]
+        edges = [[int(i) - 1 for i in line.split()[1:]] for line in lines if line.startswith("l ")]
+        self.assertEqual(nodes, graph["nodes"])
+        self.assertEqual(edges, graph["edges"])
+        header = (self.dir / "s.ply").read_bytes().split(b"end_header")[0].decode()
+        self.assertIn(f"element vertex {len(nodes)}", header)
+        self.assertIn(f"element edge {len(edges)}", header)
+
+    def test_levels_start_with_the_model_itself(self):
+        self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json", "--levels", "levels")
+        levels = sorted(p.name for p in (self.dir / "levels").iterdir())
+        self.assertEqual(levels, [f"level-{j:02}.ply" for j in range(len(levels))])
+        self.assertGreater(len(levels), 1)
+        self.vantage("map", MODELS / "fan.ply", "-o", "map.ply")
+        _, first, _ = read_ply(self.dir / "levels" / "level-00.ply")
+        _, model, _ = read_ply(self.dir / "map.ply")
+        self.assertEqual([(v["x"], v["y"], v["z"]) for v in first],
+                         [(v["x"], v["y"], v["z"]) for v in model])
+
+    def test_other_endings_are_wrong_usage(self):
+        done = self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.xyz", exit_code=2)
+        self.assertIn(".json", done.err)
+
+
+class Map(ProgramTest):
+
+    def test_thickness_is_the_displacement_of_level_zero(self):
+        self.vantage("map", MODELS / "fan.ply", "-o", "t.ply", "--method", "thickness")
+        self.vantage("map", MODELS / "fan.ply", "-o", "k.ply", "--levels", "levels")
+        _, thickness, _ = read_ply(self.dir / "t.ply")
+        _, level, _ = read_ply(self.dir / "levels" / "level-00.ply")
+        self.assertEqual([v["quality"] for v in thickness], [v["quality"] for v in level])
+
+    def test_warm_colours_stand_for_high_values(self):
+        self.vantage("map", MODELS / "fan.ply", "-o", "k.ply")
+        _, vertices, _ = read_ply(self.dir / "k.ply")
+        ordered = sorted(vertices, key=lambda v: v["quality"])
+        self.assertGreater(ordered[-1]["red"], ordered[-1]["blue"])
+        self.assertGreater(ordered[0]["blue"], ordered[0]["red"])
+
+    def test_local_maxima_give_another_map(self):
+        self.vantage("map", MODELS / "fan.ply", "-o", "a.ply")
+        self.vantage("map", MODELS / "fan.ply", "-o", "b.ply", "--suppression", "local-maxima")
+        self.assertNotEqual((self.dir / "a.ply").read_bytes(), (self.dir / "b.ply").read_bytes())
+
+
+class Score(ProgramTest):
+
+    def test_sphere_scores_one_row_a_direction(self):
+        out = self.vantage("score", MODELS / "fan.ply", "--sphere", 1).out.splitlines()
+        self.assertEqual(out[0], "method,dx,dy,dz,score")
+        self.assertEqual(len(out), 1 + 42)
+
+    def test_an_eye_at_the_scoring_distance_scores_as_its_direction(self):
+        self.vantage("view", MODELS / "fan.ply", "-o", "out", "--no-images", "--search", "rapid")
+        best = json.loads((self.dir / "out" / "view.json").read_text())["best"]
+        self.write("eyes.csv", "x,y,z\n" + ",".join(repr(x) for x in best["eye"]) + "\n")
+        out = self.vantage("score", MODELS / "fan.ply", "--eyes", "eyes.csv").out.splitlines()
+        self.assertEqual(out[0], "method,x,y,z,score")
+        self.assertAlmostEqual(float(out[1].split(",")[-1]) / best["score"], 1.0, places=3)
+
+    def test_lengths_of_directions_do_not_matter(self):
+        self.write("a.csv", "dx,dy,dz\n1,2,3\n")
+        self.write("b.csv", "10,20,30\n")
+        rows = [self.vantage("score", MODELS / "fan.ply", "--directions", name).out.splitlines()[1]
+                for name in ("a.csv", "b.csv")]
+        self.assertEqual(rows[0], rows[1])
+        direction = [float(x) for x in rows[0].split(",")[1:4]]
+        self.assertAlmostEqual(math.hypot(*direction), 1.0, places=15)
+
+
+class Render(ProgramTest):
+
+    def test_takes_a_direction_a_camera_or_the_best_view(self):
+        size = ("--size", "96x72")
+        self.vantage("view", MODELS / "fan.ply", "-o", "out", "--search", "rapid", *size)
+        for name, source in (("a.png", ("--view", "best", "--search", "rapid")),
+                             ("b.png", ("--camera", "out/camera-best.gltf")),
+                             ("c.png", ("--direction", "1,0.5,1"))):
+            self.vantage("render", MODELS / "fan.ply", "-o", name, *source, *size)
+        best = (self.dir / "out" / "best.png").read_bytes()
+        self.assertEqual((self.dir / "a.png").read_bytes(), best)
+        self.assertNotEqual((self.dir / "c.png").read_bytes(), best)
+        self.assertEqual((self.dir / "b.png").read_bytes()[:8], best[:8])
+
+    def test_needs_one_place_to_look_from(self):
+        self.vantage("render", MODELS / "fan.ply", "-o", "a.png", exit_code=2)
+        self.vantage("render", MODELS / "fan.ply", "-o", "a.png", "--view", "best",
+                     "--direction", "1,0,0", exit_code=2)
+
+
+class Info(ProgramTest):
+
+    def test_tells_what_the_file_holds(self):
+        out = self.vantage("info", MODELS / "dustbin.ply").out
+        self.assertIn("1 823", out)
+        self.assertIn("genus 9", out)
+        self.assertIn("defects", out)
+
+    def test_json_counts_defects(self):
+        self.write("open.off", "OFF\n5 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n9 9 9\n3 0 1 2\n3 1 3 2\n")
+        info = json.loads(self.vantage("info", "open.off", "--json").out)
+        self.assertEqual(info["isolated_vertices"], 1)
+        self.assertEqual(info["welded"]["boundary_loops"], 1)
+        self.assertFalse(info["welded"]["closed"])
+        self.assertIsNone(info["welded"]["genus"])
+
+    def test_reads_standard_input(self):
+        model = (MODELS / "fan.ply").read_bytes()
+        self.assertIn("820", self.vantage("info", "-", stdin=model).out)
+
+
+class Help(ProgramTest):
+
+    def test_every_command_explains_itself_with_an_example(self):
+        out = self.vantage("--help").out
+        for command in ("view", "skeleton", "map", "score", "render", "info"):
+            self.assertIn(command, out)
+            page = self.vantage(command, "--help").out
+            self.assertIn("Examples:", page)
+            self.assertIn(f"vantage {command}", page)
+
+    def test_version_names_the_program_and_its_libraries(self):
+        out = self.vantage("--version").out
+        self.assertRegex(out, r"vantage \d+\.\d+\.\d+")
+        self.assertIn("Embree", out)
+
+
+if __name__ == "__main__":
+    unittest.main()

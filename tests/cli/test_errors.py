@@ -1,0 +1,144 @@
+"""Wrong usage, bad input, full disks, signals: one sentence, the right exit code, nothing left."""
+
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from program import MODELS, PROGRAM, ProgramTest
+
+CUBE = ("OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+        "4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n")
+
+
+class Usage(ProgramTest):
+
+    def check_usage(self, *arguments):
+        done = self.vantage(*arguments, exit_code=2)
+        self.assertEqual(done.out, "")
+        self.assertEqual(len(done.err.strip().splitlines()), 1, done.err)
+
+    def test_no_command(self):
+        self.check_usage()
+
+    def test_unknown_command(self):
+        self.check_usage("veiw", "a.off")
+
+    def test_unknown_flag(self):
+        self.check_usage("view", "a.off", "--fast")
+
+    def test_number_out_of_range(self):
+        self.check_usage("view", "a.off", "--subdivisions", "99")
+        self.check_usage("view", "a.off", "--fov", "0")
+        self.check_usage("view", "a.off", "--size", "0x10")
+        self.check_usage("view", "a.off", "--epsilon", "much")
+        self.check_usage("view", "a.off", "--max-steps", "0")
+
+    def test_word_that_is_no_choice(self):
+        self.check_usage("view", "a.off", "--search", "psychic")
+        self.check_usage("view", "a.off", "--up", "w")
+
+
+class Input(ProgramTest):
+
+    def check_unreadable(self, name, *words):
+        done = self.vantage("view", name, exit_code=3)
+        self.assertEqual(done.out, "")
+        lines = done.err.strip().splitlines()
+        self.assertEqual(len(lines), 1, done.err)
+        for word in (name, *words):
+            self.assertIn(word, lines[0])
+        self.assertEqual([p for p in self.dir.iterdir() if p.name != name], [])
+
+    def test_missing_file(self):
+        self.check_unreadable("missing.off", "No such file")
+
+    def test_folder_instead_of_a_file(self):
+        os.mkdir(self.dir / "folder.off")
+        self.check_unreadable("folder.off")
+
+    def test_place_of_the_mistake_is_named(self):
+        self.write("bad.off", CUBE.replace("1 1 1", "1 one 1"))
+        self.check_unreadable("bad.off", "line 9")
+
+    def test_index_past_the_last_vertex(self):
+        self.write("bad.off", CUBE.replace("4 3 0 4 7", "4 3 0 4 8"))
+        self.check_unreadable("bad.off", "line 16")
+
+    def test_truncated_file(self):
+        self.write("cut.ply", (MODELS / "fan.ply").read_bytes()[:3000])
+        self.check_unreadable("cut.ply")
+
+    def test_empty_file(self):
+        self.write("empty.obj", "")
+        self.check_unreadable("empty.obj")
+
+    def test_format_that_is_not_read_names_a_converter(self):
+        self.write("part.step", "ISO-10303-21;\n")
+        self.check_unreadable("part.step", "convert")
+
+    def test_points_alone_are_refused_with_a_remedy(self):
+        self.write("p.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n")
+        done = self.vantage("view", "p.off", exit_code=1)
+        self.assertIn("surface", done.err)
+        self.assertIn("3", self.vantage("info", "p.off").out)
+
+    def test_no_extent(self):
+        self.write("dot.off", "OFF\n3 1 0\n1 1 1\n1 1 1\n1 1 1\n3 0 1 2\n")
+        self.vantage("view", "dot.off", exit_code=1)
+
+    def test_control_characters_do_not_reach_the_terminal(self):
+        name = "evil\x1b[31m.off"
+        self.write(name, "nonsense")
+        done = self.vantage("view", name, exit_code=3)
+        self.assertNotIn("\x1b", done.err)
+
+
+class Output(ProgramTest):
+
+    def test_full_disk_asks_to_try_again_and_leaves_nothing(self):
+        if not os.path.exists("/dev/full"):
+            self.fail("/dev/full is needed to test a full disk")
+        with open("/dev/full", "wb") as full:
+            done = subprocess.run([PROGRAM, "score", str(MODELS / "fan.ply"), "--sphere", "0"],
+                                  stdout=full, stderr=subprocess.PIPE, timeout=120, check=False)
+        self.assertEqual(done.returncode, 75, done.stderr)
+
+    def test_folder_that_cannot_be_made(self):
+        self.write("file", "x")
+        done = self.vantage("view", MODELS / "fan.ply", "-o", "file/out", "--no-images",
+                            "--search", "rapid", exit_code=1)
+        self.assertIn("file/out", done.err)
+
+    def test_quiet_says_nothing(self):
+        done = self.vantage("view", MODELS / "fan.ply", "-o", "out", "--no-images", "-q",
+                            "--search", "rapid")
+        self.assertEqual((done.out, done.err), ("", ""))
+
+
+class Signals(ProgramTest):
+
+    def interrupt(self, number):
+        process = subprocess.Popen(
+            [PROGRAM, "view", str(MODELS / "mannequin.ply"), "-o", "out", "--search", "exhaustive",
+             "--subdivisions", "5"],
+            cwd=self.dir, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        time.sleep(1.0)  # into the work, which takes far longer
+        started = time.monotonic()
+        process.send_signal(number)
+        _, err = process.communicate(timeout=60)
+        self.assertLess(time.monotonic() - started, 5.0)
+        self.assertEqual(len(err.decode().strip().splitlines()), 1)
+        self.assertFalse((self.dir / "out").exists())
+        return process.returncode
+
+    def test_interrupt_ends_with_130(self):
+        self.assertEqual(self.interrupt(signal.SIGINT), 130)
+
+    def test_termination_ends_with_75(self):
+        self.assertEqual(self.interrupt(signal.SIGTERM), 75)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,127 @@
+"""Odd but legal surfaces through the whole program; real broken files where VANTAGE_DATA is set."""
+
+import json
+import os
+import pathlib
+import resource
+import subprocess
+import sys
+import unittest
+
+from program import PROGRAM, ProgramTest
+
+QUICK = ("--no-images", "--search", "rapid")
+MEMORY = 4 << 30  # bytes
+SECONDS = 60
+
+
+def off(vertices, faces):
+    return "\n".join(["OFF", f"{len(vertices)} {len(faces)} 0",
+                      *(" ".join(map(str, v)) for v in vertices),
+                      *(" ".join(map(str, (len(f), *f))) for f in faces), ""])
+
+
+TETRAHEDRON = ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
+               [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
+
+
+class OddSurfaces(ProgramTest):
+
+    def view(self, vertices, faces):
+        self.write("m.off", off(vertices, faces))
+        self.vantage("view", "m.off", "-o", "out", *QUICK)
+        text = (self.dir / "out" / "view.json").read_text()
+        self.assertNotIn("NaN", text)
+        self.assertNotIn("Infinity", text)
+        return json.loads(text)
+
+    def test_single_triangle(self):
+        report = self.view([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+        self.assertIsNone(report["model"]["genus"])
+
+    def test_tetrahedron(self):
+        self.assertEqual(self.view(*TETRAHEDRON)["model"]["genus"], 0)
+
+    def test_isolated_vertices_are_left_out_and_listed(self):
+        vertices, faces = TETRAHEDRON
+        report = self.view(vertices + [(50, 0, 0)], faces)
+        self.assertTrue(any("no face" in w for w in report["warnings"]))
+        skeleton = json.loads((self.dir / "out" / "skeleton.json").read_text())
+        self.assertEqual(skeleton["vertex_node"][-1], -1)
+        self.assertLess(report["camera"]["distance"], 10)
+
+    def test_inside_out_shell_is_turned_and_listed(self):
+        vertices, faces = TETRAHEDRON
+        right = self.view(vertices, faces)
+        turned = self.view(vertices, [f[::-1] for f in faces])
+        self.assertTrue(any("inside out" in w for w in turned["warnings"]))
+        # reversing a face reorders its sums: equal up to rounding
+        self.assertAlmostEqual(right["best"]["score"], turned["best"]["score"], places=12)
+
+    def test_three_faces_on_an_edge(self):
+        self.view([(0, 0, 0), (0, 0, 1), (1, 0, 0), (-1, 1, 0), (-1, -1, 0)],
+                  [(0, 1, 2), (0, 1, 3), (0, 1, 4)])
+
+    def test_separate_seams_are_welded(self):
+        vertices, faces = TETRAHEDRON
+        soup = [vertices[i] for f in faces for i in f]
+        report = self.view(soup, [(3 * i, 3 * i + 1, 3 * i + 2) for i in range(4)])
+        self.assertEqual(report["model"]["vertices"], 4)
+        self.assertTrue(report["model"]["closed"])
+
+    def test_hundreds_of_parts(self):
+        vertices, faces = [], []
+        for i in range(300):
+            faces += [[len(vertices) + j for j in f] for f in TETRAHEDRON[1]]
+            vertices += [(x + 2 * (i % 20), y + 2 * (i // 20), z) for x, y, z in TETRAHEDRON[0]]
+        report = self.view(vertices, faces)
+        self.assertEqual(report["model"]["components"], 300)
+        self.assertEqual(report["skeleton"]["components"], 300)
+
+    def test_scale_and_place_do_not_change_the_view(self):
+        vertices, faces = TETRAHEDRON
+        reports = [self.view([[s * x + t for x in v] for v in vertices], faces)
+                   for s, t in ((1, 0), (1e-6, 0), (1e6, 0), (1, 1000))]
+        for report in reports[1:]:
+            for a, b in zip(report["best"]["direction"], reports[0]["best"]["direction"]):
+                self.assertAlmostEqual(a, b, places=9)
+            self.assertAlmostEqual(report["best"]["score_fraction"],
+                                   reports[0]["best"]["score_fraction"], places=9)
+
+
+class BrokenFiles(ProgramTest):
+    """Every file of the pack's nasty/ folder under limits of memory and time."""
+
+    def test_broken_files_end_well_or_with_one_clear_sentence(self):
+        data = os.environ.get("VANTAGE_DATA")
+        if not data:
+            print("\nSKIPPED: VANTAGE_DATA is not set, so no real broken files were tried",
+                  file=sys.stderr, flush=True)
+            self.skipTest("VANTAGE_DATA is not set")
+        models = {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".xyz", ".gz", ".drc"}
+        files = sorted(p for p in (pathlib.Path(data) / "nasty").rglob("*")
+                       if p.is_file() and p.suffix.lower() in models)
+        self.assertGreater(len(files), 200)
+        wrong = []
+        for file in files[::int(os.environ.get("VANTAGE_NASTY_STRIDE", "3"))]:
+            problem = self.problem_with(file)
+            if problem:
+                wrong.append(f"{file.relative_to(data)}: {problem}")
+        self.assertEqual(wrong, [])
+
+    def problem_with(self, file):
+        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+        try:
+            done = subprocess.run([PROGRAM, "view", str(file), "-o", "out", *QUICK], cwd=self.dir,
+                                  capture_output=True, timeout=SECONDS, preexec_fn=limit, check=False)
+        except subprocess.TimeoutExpired:
+            return f"took more than {SECONDS} s"
+        if done.returncode not in (0, 1, 3):
+            return f"exit code {done.returncode}: {done.stderr[-300:]!r}"
+        if done.returncode != 0 and len(done.stderr.decode(errors="replace").strip().splitlines()) != 1:
+            return f"not one sentence: {done.stderr[-300:]!r}"
+        return None
+
+
+if __name__ == "__main__":
+    unittest.main()

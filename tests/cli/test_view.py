@@ -1,0 +1,131 @@
+"""`vantage view`: the main job."""
+
+import json
+import math
+import os
+import shutil
+import unittest
+
+from program import MODELS, ProgramTest, read_ply
+
+PNG = b"\x89PNG\r\n\x1a\n"
+
+
+class View(ProgramTest):
+
+    def test_writes_pictures_cameras_map_skeleton_and_report(self):
+        shutil.copy(MODELS / "cat_lowpoly.ply", self.dir)
+        done = self.vantage("view", "cat_lowpoly.ply", "--size", "160x120", "--search", "rapid")
+        folder = self.dir / "cat_lowpoly.vantage"
+        self.assertEqual(sorted(p.name for p in folder.iterdir()), sorted([
+            "best.png", "worst.png", "best-kssm.png", "worst-kssm.png", "best-skeleton.png",
+            "worst-skeleton.png", "map.ply", "skeleton.json", "view.json", "timings.json",
+            "camera-best.gltf", "camera-best.transforms.json", "camera-best.f3d.txt",
+            "camera-worst.gltf", "camera-worst.transforms.json", "camera-worst.f3d.txt"]))
+        self.assertTrue((folder / "best.png").read_bytes().startswith(PNG))
+        self.assertIn("cat_lowpoly.vantage/", done.out)
+
+    def test_report_holds_what_the_specification_lists(self):
+        self.vantage("view", MODELS / "fan.ply", "-o", "out", "--no-images")
+        report = json.loads((self.dir / "out" / "view.json").read_text())
+        self.assertEqual(report["schema"], 1)
+        self.assertEqual(report["model"]["vertices"], 820)
+        self.assertEqual(report["model"]["genus"], 1)
+        self.assertEqual(report["skeleton"]["cycles"], 1)
+        self.assertEqual(len(report["contraction"]["shrinkage"]), report["contraction"]["levels"] + 1)
+        self.assertLessEqual(report["worst"]["score"], report["best"]["score"])
+        best = report["best"]
+        self.assertAlmostEqual(math.hypot(*best["direction"]), 1.0, places=12)
+        self.assertAlmostEqual(best["score_fraction"], best["score"] / report["total"], places=12)
+        camera = report["camera"]
+        for axis in range(3):  # the eye stands at centre + R · direction
+            self.assertAlmostEqual(
+                best["eye"][axis],
+                camera["target"][axis] + camera["distance"] * best["direction"][axis], places=6)
+        self.assertNotIn("seconds", report)
+
+    def test_json_goes_alone_to_standard_output_with_seconds(self):
+        done = self.vantage("view", MODELS / "fan.ply", "-o", "out", "--no-images", "--json")
+        printed = json.loads(done.out)
+        seconds = printed.pop("seconds")
+        self.assertEqual(set(seconds),
+                         {"load", "contract", "skeleton", "map", "search", "render", "total"})
+        self.assertEqual(printed, json.loads((self.dir / "out" / "view.json").read_text()))
+
+    def test_files_are_the_same_for_any_thread_count_path_and_time(self):
+        self.vantage("view", MODELS / "fan.ply", "-o", "one", "--threads", 1, "--size", "120x90")
+        os.mkdir(self.dir / "elsewhere")
+        shutil.copy(MODELS / "fan.ply", self.dir / "elsewhere")
+        os.utime(self.dir / "elsewhere" / "fan.ply", (1, 1))
+        self.vantage("view", "elsewhere/fan.ply", "-o", "two", "--threads", 2, "--size", "120x90")
+        for file in (self.dir / "one").iterdir():
+            if file.name != "timings.json":
+                self.assertEqual(file.read_bytes(), (self.dir / "two" / file.name).read_bytes(),
+                                 file.name)
+
+    def test_score_of_the_best_direction_is_the_best_score(self):
+        self.vantage("view", MODELS / "fan.ply", "-o", "out", "--no-images")
+        report = json.loads((self.dir / "out" / "view.json").read_text())
+        for which in ("best", "worst"):
+            direction = ",".join(repr(x) for x in report[which]["direction"])
+            self.write("d.csv", "dx,dy,dz\n" + direction + "\n")
+            scored = self.vantage("score", MODELS / "fan.ply", "--directions", "d.csv").out
+            self.assertEqual(float(scored.splitlines()[1].split(",")[-1]), report[which]["score"])
+
+    def test_total_is_the_sum_of_the_map(self):
+        self.vantage("view", MODELS / "fan.ply", "-o", "out", "--no-images")
+        report = json.loads((self.dir / "out" / "view.json").read_text())
+        names, table, triangles = read_ply(self.dir / "out" / "map.ply")
+        self.assertEqual(names, ["x", "y", "z", "quality", "red", "green", "blue"])
+        self.assertEqual(len(triangles), report["model"]["faces"])
+        # quality is stored as float: each value is off by at most 2^-24 of itself
+        total = sum(row["quality"] for row in table)
+        self.assertAlmostEqual(total / report["total"], 1.0, delta=2.0 ** -24)
+
+    def test_paper_preset_is_the_papers_search(self):
+        self.vantage("view", MODELS / "fan.ply", "-o", "out", "--no-images", "--preset", "paper",
+                     "--trace", "trace.csv")
+        report = json.loads((self.dir / "out" / "view.json").read_text())
+        self.assertEqual(report["preset"], "paper")
+        self.assertEqual(report["search"]["strategy"], "rapid")
+        self.assertEqual(report["search"]["base"], "cube")
+        self.assertEqual(report["search"]["epsilon"], 0.1)
+        rows = (self.dir / "trace.csv").read_text().splitlines()
+        self.assertEqual(rows[0], "goal,step,level,dx,dy,dz,score")
+        start = [row.split(",") for row in rows[1:] if row.startswith("best") and row.split(",")[2] == "0"]
+        self.assertEqual(len(start), 8)
+        for row in start:
+            for value in row[3:6]:
+                self.assertAlmostEqual(abs(float(value)), 1 / math.sqrt(3), places=15)
+        searched = report["search"]
+        self.assertEqual(len(rows) - 1, searched["evaluations"] + searched["worst_evaluations"])
+
+    def test_results_of_ours_are_replaced_and_other_files_never(self):
+        arguments = ("view", MODELS / "fan.ply", "-o", "out", "--no-images", "--search", "rapid")
+        self.vantage(*arguments)
+        self.vantage(*arguments)  # our own results: replaced
+        os.mkdir(self.dir / "theirs")
+        self.write("theirs/view.json", '{"holiday": "pictures"}')
+        done = self.vantage("view", MODELS / "fan.ply", "-o", "theirs", exit_code=1)
+        self.assertIn("theirs", done.err)
+        self.assertEqual((self.dir / "theirs" / "view.json").read_text(), '{"holiday": "pictures"}')
+
+    def test_up_axis_is_z_for_stl_and_y_otherwise(self):
+        stl = "solid t\n"
+        for a, b, c in ((0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)):
+            corners = ["0 0 0", "1 0 0", "0 1 0", "0 0 1"]
+            stl += "facet normal 0 0 0\nouter loop\n"
+            stl += "".join(f"vertex {corners[i]}\n" for i in (a, c, b))
+            stl += "endloop\nendfacet\n"
+        self.write("t.stl", stl + "endsolid t\n")
+        self.vantage("view", "t.stl", "--no-images", "--search", "rapid")
+        report = json.loads((self.dir / "t.vantage" / "view.json").read_text())
+        self.assertEqual(report["up"], "z")
+        self.assertEqual(report["model"]["vertices"], 4)
+        self.vantage("view", "t.stl", "--no-images", "--search", "rapid", "--up=-x")
+        report = json.loads((self.dir / "t.vantage" / "view.json").read_text())
+        self.assertEqual(report["up"], "-x")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "vantage/core/camera.h"
+#include "vantage/mesh/tri_mesh.h"
+#include "vantage/visibility/vertex_visibility.h"
+
+/// \file
+/// Visibility by trying every face for every vertex: slow, simple and independent of the library.
+
+namespace vantage::test {
+
+/// What brute force can say about a vertex.
+enum class Seen {
+  No,       ///< Hidden or turned away, by a clear margin.
+  Yes,      ///< Visible, by a clear margin.
+  Exactly,  ///< Exactly on a silhouette, an edge or a face to within rounding: either is right.
+};
+
+/// Asks about every vertex by the definition: extended precision, signed volumes, O(|V| |F|).
+/// \param sides of every face.
+std::vector<Seen> brute_force_visibility(const TriMesh& mesh, FaceSides sides,
+                                         const Viewpoint& eye);
+
+}  // namespace vantage::test

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/io/camera_files.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/error.h"
+
+namespace vantage::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// An eye at (3, 4, 5) that looks at (1, 1, 1).
+Camera slanted(Projection projection) {
+  Camera camera;
+  camera.projection = projection;
+  camera.eye = Vec3(3, 4, 5);
+  camera.target = Vec3(1, 1, 1);
+  const Vec3 back = (camera.eye - camera.target).normalized();
+  camera.up = back.cross(Vec3::UnitY().cross(back)).normalized();
+  camera.fov_y_deg = 24.0;
+  camera.height = 7.0;
+  return camera;
+}
+
+void expect_same(const Camera& a, const Camera& b) {
+  constexpr double kTolerance = 1e-12;  // degrees to radians and back, and a cross product
+  EXPECT_EQ(a.projection, b.projection);
+  EXPECT_EQ(a.eye, b.eye);
+  EXPECT_EQ(a.target, b.target);
+  EXPECT_LT((a.up - b.up).norm(), kTolerance);
+  if (a.projection == Projection::Perspective) {
+    EXPECT_NEAR(a.fov_y_deg, b.fov_y_deg, kTolerance);
+  } else {
+    EXPECT_NEAR(a.height, b.height, kTolerance);
+  }
+}
+
+class CameraFile : public testing::TestWithParam<Projection> {};
+
+TEST_P(CameraFile, GltfReadsBack) {
+  const Camera camera = slanted(GetParam());
+  expect_same(parse_camera(camera_gltf(camera, {640, 480}, 2.0), "c.gltf"), camera);
+}
+
+TEST_P(CameraFile, TransformsReadBack) {
+  const Camera camera = slanted(GetParam());
+  expect_same(parse_camera(camera_transforms_json(camera, {640, 480}, "a.png"), "t.json"), camera);
+}
+
+INSTANTIATE_TEST_SUITE_P(BothProjections, CameraFile,
+                         testing::Values(Projection::Perspective, Projection::Orthographic));
+
+TEST(CameraGltf, LooksAlongMinusZOfItsNode) {
+  const Camera camera = slanted(Projection::Perspective);
+  const auto file = nlohmann::json::parse(camera_gltf(camera, {640, 480}, 2.0));
+  const auto matrix = file["nodes"][0]["matrix"].get<std::vector<double>>();
+  const Vec3 z(matrix[8], matrix[9], matrix[10]);  // third column
+  EXPECT_LT((z - (camera.eye - camera.target).normalized()).norm(), 1e-15);
+  EXPECT_EQ(Vec3(matrix[12], matrix[13], matrix[14]), camera.eye);
+}
+
+TEST(CameraGltf, EnclosesTheSceneBetweenItsPlanes) {
+  const Camera camera = slanted(Projection::Perspective);
+  const auto file = nlohmann::json::parse(camera_gltf(camera, {640, 480}, 2.0));
+  const auto& lens = file["cameras"][0]["perspective"];
+  const double distance = std::sqrt(2.0 * 2 + 3 * 3 + 4 * 4);
+  EXPECT_NEAR(lens["znear"].get<double>(), distance - 2.0, 1e-12);
+  EXPECT_NEAR(lens["zfar"].get<double>(), distance + 2.0, 1e-12);
+  EXPECT_NEAR(lens["aspectRatio"].get<double>(), 640.0 / 480.0, 1e-15);
+}
+
+TEST(CameraTransforms, GiveTheHorizontalAngleInRadians) {
+  Camera camera = slanted(Projection::Perspective);
+  camera.fov_y_deg = 90.0;  // half the height is 1 at distance 1, half the width 2
+  const auto file = nlohmann::json::parse(camera_transforms_json(camera, {800, 400}, "a.png"));
+  EXPECT_NEAR(file["camera_angle_x"].get<double>(), 2.0 * std::atan(2.0), 1e-12);
+  EXPECT_NEAR(file["fl_x"].get<double>(), 200.0, 1e-9);
+}
+
+TEST(CameraTransforms, OfOtherToolsNeedOnlyTheHorizontalAngle) {
+  const Camera camera = parse_camera(
+      R"({"camera_angle_x": 1.5707963267948966, "w": 400, "h": 400, "frames": [{"transform_matrix":
+          [[1,0,0,0],[0,1,0,0],[0,0,1,5],[0,0,0,1]]}]})",
+      "t.json");
+  EXPECT_NEAR(camera.fov_y_deg, 90.0, 1e-12);
+  EXPECT_EQ(camera.target, Vec3(0, 0, 4));
+}
+
+TEST(CameraF3d, QuotesTheNameOfTheModel) {
+  const std::string line = camera_f3d(slanted(Projection::Perspective), "it's mine.obj");
+  EXPECT_THAT(line, HasSubstr("f3d 'it'\\''s mine.obj' --camera-position=3,4,5 "
+                              "--camera-focal-point=1,1,1 "));
+  EXPECT_THAT(line, HasSubstr("--camera-view-angle=24"));
+}
+
+TEST(ParseCamera, ReadsThePictureOfTheBestViewFromAViewJson) {
+  const Camera camera = parse_camera(
+      R"({"camera":{"projection":"perspective","fov_y_deg":30,"target":[0,0,0],"distance":4},
+          "best":{"eye":[0,0,4],"up":[0,1,0.2],"frame":{"target":[0,0.5,0],"fov_y_deg":21}}})",
+      "view.json");
+  EXPECT_EQ(camera.eye, Vec3(0, 0, 4));
+  EXPECT_EQ(camera.target, Vec3(0, 0.5, 0));
+  EXPECT_EQ(camera.fov_y_deg, 21.0);
+  EXPECT_NEAR(camera.up.dot(camera.eye - camera.target), 0.0, 1e-15);
+}
+
+TEST(ParseCamera, RefusesWhatHoldsNoCamera) {
+  for (const char* text :
+       {"{", "[]", "{}", R"({"frames":[]})", R"({"frames":[{"transform_matrix":[1]}]})",
+        R"({"cameras":[],"nodes":[{"camera":0,"matrix":[]}]})", R"({"best":{},"camera":{}})",
+        R"({"cameras":[{}],"nodes":[{"camera":-1}]})"}) {
+    EXPECT_THROW(parse_camera(text, "c.json"), FormatError) << text;
+  }
+}
+
+TEST(ParseCamera, RefusesACameraThatSeesNothing) {
+  EXPECT_THROW(parse_camera(R"({"camera":{},"best":{"eye":[0,0,4],"up":[0,0,1],
+                       "frame":{"target":[0,0,0],"fov_y_deg":21}}})",
+                            "view.json"),
+               FormatError);
+}
+
+}  // namespace
+}  // namespace vantage::test

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "vantage/io/model.h"
+
+#include "io/byte_cursor.h"
+#include "unit/io/error_text.h"
+
+namespace vantage::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// A GLB from its JSON and its binary chunk.
+std::string glb(std::string json, std::string binary) {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  binary.resize((binary.size() + 3) / 4 * 4, '\0');
+  std::string bytes = "glTF";
+  append_little_endian(bytes, std::uint32_t{2});
+  append_little_endian(bytes, static_cast<std::uint32_t>(28 + json.size() + binary.size()));
+  append_little_endian(bytes, static_cast<std::uint32_t>(json.size()));
+  bytes += "JSON" + json;
+  append_little_endian(bytes, static_cast<std::uint32_t>(binary.size()));
+  return bytes + std::string("BIN\0", 4) + binary;
+}
+
+/// Four points of a unit square (48 bytes) and the indices 0 1 2 3 as bytes.
+std::string square_bytes() {
+  std::string bytes;
+  for (const float value : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, 1.F, 1.F, 0.F}) {
+    append_little_endian(bytes, value);
+  }
+  return bytes + std::string("\0\1\2\3", 4);
+}
+
+/// The parts of a file that a test may change.
+struct Scene {
+  std::string nodes = R"([{"mesh":0}])";
+  std::string primitive = R"({"attributes":{"POSITION":0},"indices":1,"mode":5})";
+  std::string accessors =
+      R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},
+         {"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"})";
+  std::string views = R"({"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":4})";
+  std::string more{};  ///< Further members of the root, each with a comma in front.
+  std::string buffer = R"({"byteLength":52})";
+  std::string binary = square_bytes();
+
+  [[nodiscard]] std::string bytes() const {
+    return glb(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":)" + nodes +
+                   R"(,"meshes":[{"name":"m","primitives":[)" + primitive + R"(]}],"accessors":[)" +
+                   accessors + R"(],"bufferViews":[)" + views + R"(],"buffers":[)" + buffer + "]" +
+                   more + "}",
+               binary);
+  }
+
+  [[nodiscard]] Model parsed() const { return parse_model(bytes(), "a.glb"); }
+
+  [[nodiscard]] std::string error() const { return error_text(bytes(), "a.glb"); }
+};
+
+TEST(Gltf, ReadsStripsTurningEverySecondTriangle) {
+  EXPECT_THAT(Scene{}.parsed().mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{2, 1, 3}));
+}
+
+TEST(Gltf, ReadsFans) {
+  Scene scene;
+  scene.primitive = R"({"attributes":{"POSITION":0},"indices":1,"mode":6})";
+  EXPECT_THAT(scene.parsed().mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}));
+}
+
+TEST(Gltf, ReadsPrimitivesWithoutIndices) {
+  Scene scene;
+  scene.primitive = R"({"attributes":{"POSITION":0}})";
+  const Model model = scene.parsed();
+  EXPECT_THAT(model.mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
+  EXPECT_EQ(model.mesh.positions.size(), 4U);
+}
+
+TEST(Gltf, AppliesTranslationRotationAndScaleDownTheTree) {
+  Scene scene;  // half a turn about z after scaling by 2, then moved by 10
+  scene.nodes =
+      R"([{"translation":[10,0,0],"children":[1]},{"rotation":[0,0,1,0],"scale":[2,2,2],"mesh":0}])";
+  const Vec3 corner = scene.parsed().mesh.positions[1];
+  EXPECT_NEAR((corner - Vec3(10 - 2, 0, 0)).norm(), 0.0, 1e-14);
+}
+
+TEST(Gltf, AppliesAMatrixColumnByColumn) {
+  Scene scene;
+  scene.nodes = R"([{"mesh":0,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 5,6,7,1]}])";
+  EXPECT_EQ(scene.parsed().mesh.positions[0], Vec3(5, 6, 7));
+}
+
+TEST(Gltf, AMirroredNodeKeepsItsSurfaceRightSideOut) {
+  Scene scene;
+  scene.nodes = R"([{"mesh":0,"scale":[-1,1,1]}])";
+  EXPECT_THAT(scene.parsed().mesh.triangles, ElementsAre(Triangle{0, 2, 1}, Triangle{2, 3, 1}));
+}
+
+TEST(Gltf, ShowsAMeshOnceForEachNode) {
+  Scene scene;
+  scene.nodes = R"([{"children":[1,2]},{"name":"left","mesh":0},{"mesh":0,"translation":[0,0,9]}])";
+  const Model model = scene.parsed();
+  ASSERT_EQ(model.parts.size(), 2U);
+  EXPECT_EQ(model.parts[0].name, "left");
+  EXPECT_EQ(model.parts[1].name, "m");
+  EXPECT_EQ(model.mesh.positions.size(), 8U);
+  EXPECT_EQ(model.mesh.triangles[2][0], 4U);
+}
+
+TEST(Gltf, ReadsInterleavedAndNormalisedPositions) {
+  Scene scene;  // signed bytes, one of every eight: −127 is −1, 127 is 1
+  scene.binary = std::string("\x81\0\0\0....\x7F\0\0\0....\0\x7F\0\0....\0\0\0\0....", 32);
+  scene.views = R"({"buffer":0,"byteLength":32,"byteStride":8})";
+  scene.accessors =
+      R"({"bufferView":0,"componentType":5120,"normalized":true,"count":4,"type":"VEC3"})";
+  scene.primitive = R"({"attributes":{"POSITION":0}})";
+  const Model model = scene.parsed();
+  EXPECT_EQ(model.mesh.positions[0], Vec3(-1, 0, 0));
+  EXPECT_EQ(model.mesh.positions[2], Vec3(0, 1, 0));
+}
+
+TEST(Gltf, ReadsSparseAccessors) {
+  Scene scene;  // element 3 is replaced by the first point of the buffer, the origin
+  scene.accessors =
+      R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","sparse":{"count":1,
+          "indices":{"bufferView":1,"byteOffset":3,"componentType":5121},"values":{"bufferView":0}}},
+         {"bufferView":1,"componentType":5121,"count":4,"type":"SCALAR"})";
+  EXPECT_EQ(scene.parsed().mesh.positions[3], Vec3(0, 0, 0));
+  EXPECT_EQ(scene.parsed().mesh.positions[1], Vec3(1, 0, 0));
+}
+
+TEST(Gltf, TurnsLinearColoursIntoSrgb) {
+  Scene scene;
+  scene.binary += std::string("\xFF\0\x80\xFF", 4) + std::string(12, '\0');
+  scene.views += R"(,{"buffer":0,"byteOffset":52,"byteLength":16})";
+  scene.accessors +=
+      R"(,{"bufferView":2,"componentType":5121,"normalized":true,"count":4,"type":"VEC4"})";
+  scene.primitive = R"({"attributes":{"POSITION":0,"COLOR_0":2}})";
+  // 0x80 / 255 = 0.502 linear is 1.055 · 0.502^(1/2.4) − 0.055 = 0.7367, times 255 = 187.9
+  EXPECT_EQ(scene.parsed().vertex_colours[0], (Rgb8{255, 0, 188}));
+}
+
+TEST(Gltf, ReadsADataUri) {
+  // One triangle: (0,0,0), (1,0,0), (0,1,0) as 36 bytes in base64.
+  const std::string json =
+      R"({"asset":{"version":"2.0"},"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+      "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
+      "bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":
+      "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+  const Model model = parse_model(json, "a.gltf");
+  EXPECT_EQ(model.mesh.positions[2], Vec3(0, 1, 0));
+  EXPECT_THAT(model.notes, ElementsAre(HasSubstr("no scene")));
+}
+
+TEST(Gltf, PassesOverPicturesAndExtras) {
+  Scene scene;
+  scene.more = R"(,"images":[{"uri":"/etc/passwd"},{"uri":"http://x/y.png"}],"textures":[{}],
+      "materials":[{"extras":[[[1]]]}],"extras":{"a":1})";
+  EXPECT_EQ(scene.parsed().mesh.triangles.size(), 2U);
+}
+
+TEST(Gltf, LeavesLinesOut) {
+  Scene scene;
+  scene.primitive += R"(,{"attributes":{"POSITION":0},"mode":1})";
+  EXPECT_THAT(scene.parsed().notes, ElementsAre(HasSubstr("points or lines left out: 1")));
+}
+
+TEST(Gltf, ReadsAFileOfPointsAlone) {
+  Scene scene;
+  scene.primitive = R"({"attributes":{"POSITION":0},"mode":0})";
+  EXPECT_EQ(scene.parsed().mesh.positions.size(), 4U);
+}
+
+TEST(Gltf, RefusesAnAccessorLargerThanItsView) {
+  Scene scene;
+  scene.accessors = R"({"bufferView":0,"componentType":5126,"count":5,"type":"VEC3"})";
+  scene.primitive = R"({"attributes":{"POSITION":0}})";
+  EXPECT_THAT(scene.error(), HasSubstr("accessor 0 reaches beyond its buffer view"));
+}
+
+TEST(Gltf, RefusesAnAccessorOfAnAbsurdLength) {
+  Scene scene;
+  scene.accessors = R"({"componentType":5126,"count":300000000,"type":"VEC3"})";
+  scene.primitive = R"({"attributes":{"POSITION":0}})";
+  EXPECT_THAT(scene.error(), HasSubstr("accessor 0 has more elements than the size of the file"));
+}
+
+TEST(Gltf, RefusesAViewLargerThanItsBuffer) {
+  Scene scene;
+  scene.views = R"({"buffer":0,"byteLength":4800},{"buffer":0,"byteOffset":48,"byteLength":4})";
+  EXPECT_THAT(scene.error(), HasSubstr("reaches beyond its buffer"));
+}
+
+TEST(Gltf, RefusesOffsetsThatOverflow) {
+  Scene scene;
+  scene.views = R"({"buffer":0,"byteOffset":18446744073709551615,"byteLength":48},
+                   {"buffer":0,"byteOffset":48,"byteLength":4})";
+  EXPECT_THAT(scene.error(), HasSubstr("reaches beyond its buffer"));
+}
+
+TEST(Gltf, RefusesIndicesBeyondThePrimitive) {
+  Scene scene;
+  scene.binary[50] = 4;
+  EXPECT_THAT(scene.error(), HasSubstr("index 2 of accessor 1 names vertex 4"));
+}
+
+TEST(Gltf, RefusesSparseIndicesThatDoNotAscend) {
+  Scene scene;
+  scene.accessors =
+      R"({"bufferView":0,"componentType":5126,"count":2,"type":"VEC3","sparse":{"count":2,
+          "indices":{"bufferView":1,"byteOffset":2,"componentType":5121},"values":{"bufferView":0}}})";
+  scene.primitive = R"({"attributes":{"POSITION":0}})";
+  EXPECT_THAT(scene.error(), HasSubstr("sparse indices that do not ascend below its length"));
+}
+
+TEST(Gltf, RefusesNodesThatAreTheirOwnAncestors) {
+  Scene scene;
+  scene.nodes = R"([{"children":[1]},{"children":[0],"mesh":0}])";
+  EXPECT_THAT(scene.error(), HasSubstr("is its own ancestor"));
+}
+
+TEST(Gltf, RefusesNodesThatDoubleAtEveryLevel) {
+  Scene scene;
+  scene.nodes = "[";
+  for (int level = 1; level <= 40; ++level) {
+    const std::string next = std::to_string(level);
+    scene.nodes += R"({"children":[)" + next + "," + next + "]},";
+  }
+  scene.nodes += R"({"mesh":0}])";
+  EXPECT_THAT(scene.error(), HasSubstr("out of proportion to the file"));
+}
+
+TEST(Gltf, RefusesTransformsThatAreNotFinite) {
+  Scene scene;
+  scene.nodes = R"([{"scale":[1e300,1,1],"children":[1]},{"mesh":0,"scale":[1e300,1,1]}])";
+  EXPECT_THAT(scene.error(), HasSubstr("the transform of node 1 is not finite"));
+  scene.nodes = R"([{"mesh":0,"scale":[1e999,1,1]}])";
+  EXPECT_THAT(scene.error(), HasSubstr("a number that is too large"));
+  scene.nodes = R"([{"mesh":0,"matrix":[1,2,3]}])";
+  EXPECT_THAT(scene.error(), HasSubstr("has 3 numbers instead of 16"));
+}
+
+TEST(Gltf, RefusesPositionsThatAreNotFinite) {
+  Scene scene;
+  scene.binary.replace(0, 4, std::string("\0\0\xC0\x7F", 4));
+  EXPECT_THAT(scene.error(), HasSubstr("position 0 of accessor 0 is not finite"));
+}
+
+TEST(Gltf, NamesTheCompressionItCannotReadAndTheRemedy) {
+  Scene scene;
+  scene.more = R"(,"extensionsRequired":["KHR_draco_mesh_compression"])";
+  EXPECT_THAT(scene.error(), HasSubstr("KHR_draco_mesh_compression, which is not read; unpack it "
+                                       "first, with gltf-transform"));
+  scene.more = R"(,"extensionsRequired":["EXT_meshopt_compression"])";
+  EXPECT_THAT(scene.error(), HasSubstr("EXT_meshopt_compression"));
+}
+
+TEST(Gltf, RefusesBuffersOutsideTheModelsFolder) {
+  for (const char* uri : {"../a.bin", "/dev/zero", "http://127.0.0.1/a.bin", "file:///a",
+                          "%2e%2e/a", "b/../../a", "C:/a", "..\\\\a"}) {
+    Scene scene;
+    scene.buffer = R"({"byteLength":52,"uri":")" + std::string(uri) + "\"}";
+    EXPECT_THAT(scene.error(), HasSubstr("only files in the model's own folder are read")) << uri;
+  }
+}
+
+TEST(Gltf, RefusesAnExternalBufferWhereThereIsNoFolder) {
+  Scene scene;
+  scene.buffer = R"({"byteLength":52,"uri":"a.bin"})";
+  EXPECT_THAT(scene.error(), HasSubstr("cannot be found without the model's folder"));
+}
+
+TEST(Gltf, RefusesBrokenContainers) {
+  const std::string whole = Scene{}.bytes();
+  EXPECT_THAT(error_text(whole.substr(0, whole.size() - 8), "a.glb"),
+              HasSubstr("byte 8: the file should have"));
+  std::string version_one = whole;
+  version_one[4] = 1;
+  EXPECT_THAT(error_text(version_one, "a.glb"), HasSubstr("is GLB version 1, only 2 is read"));
+  EXPECT_THAT(error_text("glTF", "a.glb"), HasSubstr("too short for a GLB"));
+  EXPECT_THAT(error_text("{\"asset\":", "a.gltf"), HasSubstr("the JSON is not well formed"));
+  EXPECT_THAT(error_text("[]", "a.gltf"), HasSubstr("the JSON is not an object"));
+  EXPECT_THAT(error_text("{}", "a.gltf"), HasSubstr("no asset.version"));
+  EXPECT_THAT(error_text(std::string(100000, '['), "a.gltf"), HasSubstr("nested deeper"));
+}
+
+TEST(Gltf, RefusesWrongTypesInTheJson) {
+  Scene scene;
+  scene.accessors = R"({"bufferView":0,"componentType":"x","count":4,"type":"VEC3"})";
+  EXPECT_THAT(scene.error(), HasSubstr("is not valid glTF"));
+}
+
+TEST(Gltf, RefusesABufferThatIsNotBase64) {
+  Scene scene;
+  scene.buffer = R"({"byteLength":52,"uri":"data:;base64,**"})";
+  EXPECT_THAT(scene.error(), HasSubstr("the data URI of buffer 0 is not well formed base64"));
+}
+
+}  // namespace
+}  // namespace vantage::test

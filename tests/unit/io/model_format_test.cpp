@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "io/model_format.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "vantage/core/error.h"
+
+#include "unit/io/error_text.h"
+
+namespace vantage::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kPly =
+    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+    "property float z\nend_header\n1 2 3\n";
+
+TEST(ModelFormat, TheBytesWinOverTheNameAndANoteSaysSo) {
+  const Model model = parse_model(kPly, "folder/liar.obj");
+  EXPECT_EQ(model.format, ModelFormat::Ply);
+  EXPECT_THAT(model.notes.at(0), HasSubstr("the name says .obj, but the bytes are ply"));
+}
+
+TEST(ModelFormat, TheExtensionMayBeInCapitals) {
+  EXPECT_EQ(parse_model("v 1 2 3\n", "A.OBJ").format, ModelFormat::Obj);
+}
+
+TEST(ModelFormat, GuessesWithoutAnExtension) {
+  EXPECT_EQ(detect_format("# hi\nv 1 2 3\n", "standard input").format, ModelFormat::Obj);
+  EXPECT_EQ(detect_format("solid x\nfacet", "standard input").format, ModelFormat::Stl);
+  EXPECT_EQ(detect_format(std::string(84, '\0'), "standard input").format, ModelFormat::Stl);
+  EXPECT_EQ(detect_format(" {\"asset\":{}}", "standard input").format, ModelFormat::Gltf);
+  EXPECT_EQ(detect_format("COFF\n", "standard input").format, ModelFormat::Off);
+}
+
+TEST(ModelFormat, NamesAreFileNamesWithoutExtension) {
+  EXPECT_EQ(model_name("a/b.c/horse.v2.ply"), "horse.v2");
+  EXPECT_EQ(model_name(".hidden"), ".hidden");
+  EXPECT_EQ(model_name("plain"), "plain");
+}
+
+TEST(ModelFormat, RefusesCompressedFilesWithTheToolThatUnpacksThem) {
+  EXPECT_THAT(error_text("\x1F\x8B\x08", "a.ply.gz"), HasSubstr("unpack it first, with gunzip"));
+  EXPECT_THAT(error_text("BZh9", "a.obj.bz2"), HasSubstr("bunzip2"));
+}
+
+TEST(ModelFormat, RefusesForeignFormatsByTheirBytes) {
+  EXPECT_THAT(error_text("PK\x03\x04", "a.3mf"), HasSubstr("is a ZIP archive"));
+  EXPECT_THAT(error_text("DRACO\x02", "a"), HasSubstr("draco_decoder"));
+  EXPECT_THAT(error_text("<?xml version", "a.dae"), HasSubstr("COLLADA"));
+  EXPECT_THAT(error_text("\x89PNG\r\n", "a.ply"), HasSubstr("is a PNG picture, not a model"));
+  EXPECT_THAT(error_text("ISO-10303-21;", "a.step"), HasSubstr("convert it to STL or OBJ"));
+}
+
+TEST(ModelFormat, RefusesForeignFormatsByTheirExtension) {
+  EXPECT_THAT(error_text("MM....", "a.3ds"), HasSubstr("3DS files are not read; convert it to"));
+  EXPECT_THAT(error_text("0 0 0\n", "a.xyz"), HasSubstr("point list files are not read"));
+}
+
+TEST(ModelFormat, RefusesWhatItDoesNotKnow) {
+  EXPECT_THAT(error_text("hello", "a.what"), HasSubstr("cannot tell what format this is"));
+}
+
+TEST(ModelFormat, RefusesBytesThatContradictAFormatWithASignature) {
+  EXPECT_THAT(error_text("plx\n", "a.ply"), HasSubstr("line 1: expected the word ply"));
+  EXPECT_THAT(error_text("glTX....", "a.glb"), HasSubstr("expected the letters glTF"));
+}
+
+}  // namespace
+}  // namespace vantage::test

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "vantage/io/model.h"
+
+#include "io/byte_cursor.h"
+#include "unit/io/error_text.h"
+
+namespace vantage::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* kVertices =
+    "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+constexpr const char* kFourPoints = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
+
+Model ply(const std::string& text) {
+  return parse_model(text, "a.ply");
+}
+
+std::string ascii(const std::string& header, const std::string& body) {
+  return "ply\nformat ascii 1.0\n" + header + "end_header\n" + body;
+}
+
+template <class T>
+void append(std::string& bytes, T value, ByteOrder order) {
+  std::string raw;
+  append_little_endian(raw, value);
+  bytes.append(order == ByteOrder::Little ? raw : std::string(raw.rbegin(), raw.rend()));
+}
+
+/// One triangle: a scalar of every type stands before each position.
+std::string binary_ply(ByteOrder order) {
+  std::string bytes = "ply\nformat binary_";
+  bytes += order == ByteOrder::Little ? "little" : "big";
+  bytes +=
+      "_endian 1.0\nelement vertex 3\nproperty char a\nproperty uchar b\nproperty int16 c\n"
+      "property uint16 d\nproperty int e\nproperty uint f\nproperty float x\nproperty double y\n"
+      "property float32 z\nelement face 1\nproperty list uchar short vertex_index\nend_header\n";
+  for (int v = 0; v < 3; ++v) {
+    append(bytes, std::int8_t{-1}, order);
+    append(bytes, std::uint8_t{1}, order);
+    append(bytes, std::int16_t{-1}, order);
+    append(bytes, std::uint16_t{1}, order);
+    append(bytes, std::int32_t{-1}, order);
+    append(bytes, std::uint32_t{1}, order);
+    append(bytes, static_cast<float>(v), order);
+    append(bytes, v == 1 ? 0.1 : 0.0, order);
+    append(bytes, v == 2 ? 2.5F : 0.0F, order);
+  }
+  append(bytes, std::uint8_t{3}, order);
+  for (std::int16_t v = 0; v < 3; ++v) {
+    append(bytes, v, order);
+  }
+  return bytes;
+}
+
+TEST(Ply, ReadsAscii) {
+  const Model model =
+      ply(ascii(std::string(kVertices) + "element face 2\nproperty list uchar int vertex_indices\n",
+                std::string(kFourPoints) + "3 0 1 2\n4 0 1 3 2\n"));
+  EXPECT_EQ(model.mesh.positions[3], Vec3(1, 1, 0));
+  EXPECT_EQ(model.polygons, 2U);
+  EXPECT_EQ(model.quads, 1U);
+}
+
+TEST(Ply, ReadsEveryScalarTypeInEitherByteOrder) {
+  for (const ByteOrder order : {ByteOrder::Little, ByteOrder::Big}) {
+    const Model model = ply(binary_ply(order));
+    EXPECT_EQ(model.mesh.positions[1], Vec3(1, 0.1, 0));
+    EXPECT_EQ(model.mesh.positions[2], Vec3(2, 0, 2.5));
+    EXPECT_THAT(model.mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
+    EXPECT_TRUE(model.double_precision);
+  }
+}
+
+TEST(Ply, PassesOverOtherElementsAndListProperties) {
+  const Model model = ply(
+      ascii("comment hello\nobj_info x\nelement camera 1\nproperty list uint8 float view\n"
+            "property int k\n" +
+                std::string(kVertices) +
+                "property list uchar float more\nelement face 1\nproperty float q\n"
+                "property list uchar int vertex_indices\nproperty list uchar float texcoord\n",
+            "2 0.5 0.5 7\n0 0 0 1 9\n1 0 0 0\n0 1 0 2 1 1\n1 1 0 0\n0.5 3 0 1 2 6 0 0 0 0 0 0\n"));
+  EXPECT_EQ(model.mesh.positions[2], Vec3(0, 1, 0));
+  EXPECT_THAT(model.mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
+}
+
+TEST(Ply, ReadsTriangleStripsWithSeparators) {
+  // 0 1 2 3: the second triangle of a strip is turned. −1 starts a new strip.
+  const Model model = ply(
+      ascii(std::string(kVertices) + "element tristrips 1\nproperty list int int vertex_indices\n",
+            std::string(kFourPoints) + "8 0 1 2 3 -1 3 2 1\n"));
+  EXPECT_THAT(model.mesh.triangles,
+              ElementsAre(Triangle{0, 1, 2}, Triangle{2, 1, 3}, Triangle{3, 2, 1}));
+}
+
+TEST(Ply, DropsTheEmptyTrianglesThatJoinStrips) {
+  const Model model = ply(
+      ascii(std::string(kVertices) + "element tristrips 1\nproperty list int int vertex_indices\n",
+            std::string(kFourPoints) + "6 0 1 2 2 3 1\n"));
+  EXPECT_THAT(model.mesh.triangles,
+              ElementsAre(Triangle{0, 1, 2}, Triangle{3, 2, 1}));  // the sixth corner: turned
+}
+
+TEST(Ply, ReadsByteAndFloatColours) {
+  const std::string point =
+      "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
+  EXPECT_THAT(ply(ascii(point + "property uchar red\nproperty uchar green\nproperty uchar blue\n",
+                        "0 0 0 255 1 0\n"))
+                  .vertex_colours,
+              ElementsAre(Rgb8{255, 1, 0}));
+  EXPECT_THAT(ply(ascii(point + "property float red\nproperty float green\nproperty float blue\n",
+                        "0 0 0 1 0.2 0\n"))
+                  .vertex_colours,
+              ElementsAre(Rgb8{255, 51, 0}));
+}
+
+TEST(Ply, ReadsAHeaderWithReturnsAlone) {
+  const Model model = ply(
+      "ply\rformat binary_little_endian 1.0\relement vertex 1\rproperty uchar x\rproperty uchar y\r"
+      "property uchar z\rend_header\r\n\x01\x02");
+  EXPECT_EQ(model.mesh.positions[0], Vec3(10, 1, 2));  // 10 is the \n after the header
+}
+
+TEST(Ply, ReadsPointsWithoutFaces) {
+  EXPECT_EQ(ply(ascii(kVertices, kFourPoints)).mesh.positions.size(), 4U);
+}
+
+TEST(Ply, RefusesCountsThatTheFileCannotHold) {
+  EXPECT_THAT(error_text("ply\nformat binary_little_endian 1.0\nelement vertex 4294967295\n"
+                         "property float x\nproperty float y\nproperty float z\nend_header\n....",
+                         "a.ply"),
+              HasSubstr("declares 4294967295 of element vertex, more than the size"));
+}
+
+TEST(Ply, RefusesAListLongerThanTheFile) {
+  EXPECT_THAT(error_text(ascii(std::string(kVertices) +
+                                   "element face 1\nproperty list uint int vertex_indices\n",
+                               std::string(kFourPoints) + "4000000000 0 1 2\n"),
+                         "a.ply"),
+              HasSubstr("a list is longer than the rest of the file"));
+}
+
+TEST(Ply, RefusesIndicesThatAreNotThere) {
+  const std::string header =
+      std::string(kVertices) + "element face 1\nproperty list uchar int vertex_indices\n";
+  EXPECT_THAT(error_text(ascii(header, std::string(kFourPoints) + "3 0 1 4\n"), "a.ply"),
+              HasSubstr("face names vertex 4, but the file has 4 vertices"));
+  EXPECT_THAT(error_text(ascii(header, std::string(kFourPoints) + "3 0 1 -1\n"), "a.ply"),
+              HasSubstr("line 14: a face names a vertex that is not a whole number from 0"));
+}
+
+TEST(Ply, RefusesCoordinatesThatAreNotFiniteEvenOfIsolatedVertices) {
+  EXPECT_THAT(error_text(ascii(kVertices, "0 0 0\n1 0 0\nnan 1 0\n1 1 0\n"), "a.ply"),
+              HasSubstr("line 10: a coordinate is not a finite number"));
+}
+
+TEST(Ply, RefusesATruncatedFile) {
+  const std::string whole = binary_ply(ByteOrder::Little);
+  EXPECT_THAT(error_text(whole.substr(0, whole.size() - 1), "a.ply"), HasSubstr("byte"));
+  EXPECT_THAT(error_text("ply\nformat ascii 1.0\nelement vertex 1\n", "a.ply"),
+              HasSubstr("the file ends inside its header"));
+}
+
+TEST(Ply, RefusesBrokenHeaders) {
+  EXPECT_THAT(error_text("ply\nformat utf8 1.0\n", "a.ply"),
+              HasSubstr("line 2: unknown format 'utf8'"));
+  EXPECT_THAT(error_text("ply\nformat ascii 1.0\nelement vertex -5\n", "a.ply"),
+              HasSubstr("line 3: expected a name and a number of elements, found 'vertex -5'"));
+  EXPECT_THAT(error_text("ply\nformat ascii 1.0\nproperty float x\n", "a.ply"),
+              HasSubstr("line 3: a property comes before any element"));
+  EXPECT_THAT(error_text("ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\n", "a.ply"),
+              HasSubstr("line 4: unknown type 'half'"));
+  EXPECT_THAT(
+      error_text("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n",
+                 "a.ply"),
+      HasSubstr("lacks one of the properties x, y, z"));
+  EXPECT_THAT(error_text("ply\nelement vertex 0\nend_header\n", "a.ply"),
+              HasSubstr("no line that names the format"));
+  EXPECT_THAT(error_text("ply\nformat ascii 1.0\nelement face 0\nend_header\n", "a.ply"),
+              HasSubstr("declares no element vertex"));
+}
+
+TEST(Ply, RefusesFacesWithoutCorners) {
+  EXPECT_THAT(error_text(ascii(std::string(kVertices) + "element face 1\nproperty int q\n",
+                               std::string(kFourPoints) + "1\n"),
+                         "a.ply"),
+              HasSubstr("lacks the list property vertex_indices"));
+}
+
+}  // namespace
+}  // namespace vantage::test

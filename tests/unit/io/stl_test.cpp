@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "vantage/io/model.h"
+
+#include "io/byte_cursor.h"
+#include "support/shapes.h"
+#include "unit/io/error_text.h"
+
+namespace vantage::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* kFacet =
+    "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+
+std::string binary_stl(const TriMesh& mesh, const std::string& title) {
+  std::string bytes = title;
+  bytes.resize(80, ' ');
+  append_little_endian(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const Triangle& t : mesh.triangles) {
+    bytes.append(12, '\0');
+    for (const std::uint32_t v : t) {
+      for (int c = 0; c < 3; ++c) {
+        append_little_endian(bytes, static_cast<float>(mesh.positions[v][c]));
+      }
+    }
+    bytes.append(2, '\0');
+  }
+  return bytes;
+}
+
+TEST(Stl, JoinsEqualPositionsInOrderOfFirstAppearance) {
+  const TriMesh cube = box(1, 2, 3, 1);
+  const Model model = parse_model(binary_stl(cube, "made by a test"), "a.stl");
+  EXPECT_EQ(model.mesh.positions.size(), 8U);
+  EXPECT_EQ(model.mesh.triangles.size(), 12U);
+  EXPECT_EQ(model.mesh.positions[0], cube.positions[cube.triangles[0][0]]);
+  EXPECT_EQ(model.mesh.positions[1], cube.positions[cube.triangles[0][1]]);
+  EXPECT_THAT(model.mesh.triangles[0], ElementsAre(0, 1, 2));
+}
+
+TEST(Stl, KnowsABinaryFileThatStartsWithSolidByItsSize) {
+  EXPECT_EQ(parse_model(binary_stl(box(1, 1, 1, 1), "solid facet"), "a.stl").polygons, 12U);
+}
+
+TEST(Stl, KeepsFacesThatWeldingMadeDegenerate) {
+  TriMesh mesh;
+  mesh.positions = {Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(1, 0, 0)};
+  mesh.triangles = {{0, 1, 2}};
+  const Model model = parse_model(binary_stl(mesh, ""), "a.stl");
+  EXPECT_THAT(model.mesh.triangles, ElementsAre(Triangle{0, 0, 1}));
+}
+
+TEST(Stl, ReadsTextInEitherCase) {
+  const std::string lower = std::string("solid a b\n") + kFacet + "endsolid a b\n";
+  std::string upper = lower;
+  for (char& c : upper) {
+    c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  }
+  EXPECT_EQ(parse_model(lower, "a.stl").parts.at(0).name, "a b");
+  EXPECT_EQ(parse_model(upper, "a.stl").mesh.triangles.size(), 1U);
+}
+
+TEST(Stl, ReadsSeveralSolidsAsParts) {
+  const Model model = parse_model(
+      std::string("solid a\n") + kFacet + "endsolid\nsolid b\n" + kFacet + "endsolid\n", "a.stl");
+  ASSERT_EQ(model.parts.size(), 2U);
+  EXPECT_EQ(model.parts[1].first_triangle, 1U);
+}
+
+TEST(Stl, PassesOverWordsBehindTheEndOfAFacet) {
+  std::string text = std::string("solid\n") + kFacet + kFacet + "endsolid\n";
+  text.replace(text.find("endfacet"), 8, "endfacet blah");
+  EXPECT_EQ(parse_model(text, "a.stl").polygons, 2U);
+}
+
+TEST(Stl, NotesBytesAfterTheLastTriangle) {
+  const Model model = parse_model(binary_stl(box(1, 1, 1, 1), "") + "xyz", "a.stl");
+  EXPECT_THAT(model.notes, ElementsAre(HasSubstr("bytes after the last triangle left out: 3")));
+}
+
+TEST(Stl, RefusesMoreTrianglesThanTheFileHolds) {
+  const std::string whole = binary_stl(box(1, 1, 1, 1), "");
+  EXPECT_THAT(error_text(whole.substr(0, whole.size() - 1), "a.stl"),
+              HasSubstr("byte 80: the file declares 12 triangles but has room for 11"));
+}
+
+TEST(Stl, RefusesCoordinatesThatAreNotFinite) {
+  TriMesh mesh;
+  mesh.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0),
+                    Vec3(0, std::numeric_limits<double>::quiet_NaN(), 0)};
+  mesh.triangles = {{0, 1, 2}};
+  EXPECT_THAT(error_text(binary_stl(mesh, ""), "a.stl"),
+              HasSubstr("byte 120: a coordinate is not a finite number"));  // 84 + 12 + 2 · 12
+}
+
+TEST(Stl, RefusesTextThatEndsInsideAFacet) {
+  EXPECT_THAT(error_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", "a.stl"),
+              HasSubstr("the file ends inside a facet"));
+}
+
+TEST(Stl, RefusesOtherStatements) {
+  EXPECT_THAT(error_text(std::string("solid a\n") + kFacet + "hello\n", "a.stl"),
+              HasSubstr("line 9: expected a statement such as facet or vertex, found 'hello'"));
+}
+
+TEST(Stl, RefusesAVertexWithTwoCoordinates) {
+  EXPECT_THAT(error_text("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0\nvertex", "a.stl"),
+              HasSubstr("line 4: expected 3 coordinates, found 2"));
+}
+
+TEST(Stl, RefusesBytesThatAreNeitherTextNorLongEnough) {
+  EXPECT_THAT(error_text("hello", "a.stl"), HasSubstr("is neither a text STL"));
+}
+
+TEST(Stl, RefusesAFileWithoutTriangles) {
+  EXPECT_THAT(error_text(std::string(84, '\0'), "a.stl"),
+              HasSubstr("holds neither faces nor points"));
+}
+
+}  // namespace
+}  // namespace vantage::test
