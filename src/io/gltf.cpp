@@ -51,10 +51,7 @@ class SceneReader {
 
   void read() {
     std::vector<Visit> pending;
-    const std::vector<int> roots = root_nodes();
-    for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
-      pending.push_back({*root, Transform::Identity(), 1});
-    }
+    add_visits(root_nodes(), Transform::Identity(), 1, pending);
     while (!pending.empty()) {
       const Visit visit = pending.back();
       pending.pop_back();
@@ -72,6 +69,16 @@ class SceneReader {
     Transform parent;
     std::size_t depth;
   };
+
+  /// Puts nodes on the stack, the first on top.
+  static void add_visits(const std::vector<int>& nodes, const Transform& parent, std::size_t depth,
+                         std::vector<Visit>& pending) {
+    const auto first = static_cast<std::ptrdiff_t>(pending.size());
+    for (const int node : nodes) {
+      pending.push_back({node, parent, depth});
+    }
+    std::reverse(pending.begin() + first, pending.end());
+  }
 
   /// The default scene, else the first, else every node that is nobody's child.
   std::vector<int> root_nodes() {
@@ -132,9 +139,7 @@ class SceneReader {
       builder_.begin_part(node.name.empty() ? mesh.name : node.name);
       read_mesh(mesh, world);
     }
-    for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
-      pending.push_back({*child, world, visit.depth + 1});
-    }
+    add_visits(node.children, world, visit.depth + 1, pending);
   }
 
   Transform local_transform(const tinygltf::Node& node, std::size_t n) const {

@@ -124,11 +124,11 @@ class BodyReader {
   std::size_t list_length(const PlyProperty& property) {
     const Place place = source_.place();
     const double length = source_.next(property.count_type);
-    const auto most = static_cast<double>(source_.remaining() / Source::least_bytes(property.type));
+    const std::size_t most = source_.remaining() / Source::least_bytes(property.type);
     if (!(length >= 0.0) || length != std::floor(length)) {
       builder_.fail(place, "the length of a list is not a whole number from 0");
     }
-    if (length > most) {
+    if (length > static_cast<double>(most)) {
       builder_.fail(place, "a list is longer than the rest of the file");
     }
     return static_cast<std::size_t>(length);

@@ -2,6 +2,7 @@
 #include "vantage/mesh/mesh_check.h"
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include "vantage/mesh/measures.h"
@@ -94,8 +95,8 @@ void count_edges(const TriMesh& mesh, const EdgeTable& table, MeshReport& report
   report.boundary_loops = count_boundary_loops(mesh, table);
 }
 
-/// Vertices whose faces, joined over shared edges, form more than one group.
-std::size_t count_pinched_vertices(const TriMesh& mesh, const EdgeTable& table) {
+/// For each vertex the number of fans: groups of its faces that hang together over shared edges.
+std::vector<std::uint32_t> count_fans(const TriMesh& mesh, const EdgeTable& table) {
   DisjointSets corners(3 * mesh.triangles.size());
   const auto corner_id = [&](std::uint32_t face, std::uint32_t v) {
     return 3 * face + corner_at(mesh.triangles[face], v);
@@ -117,8 +118,7 @@ std::size_t count_pinched_vertices(const TriMesh& mesh, const EdgeTable& table) 
       fans[mesh.triangles[f][c]] += corners.root(3 * f + c) == 3 * f + c ? 1 : 0;
     }
   }
-  return static_cast<std::size_t>(
-      std::count_if(fans.begin(), fans.end(), [](std::uint32_t count) { return count > 1; }));
+  return fans;
 }
 
 /// Whether the faces can be turned so that no edge is run twice the same way.
@@ -141,14 +141,25 @@ bool is_orientable(const TriMesh& mesh, const EdgeTable& table) {
   return true;
 }
 
-/// Sum of the genera of a closed orientable manifold: components − χ / 2. Faces that name a vertex
-/// twice have no edges in the table and do not count.
-std::size_t total_genus(TriMesh mesh, const EdgeTable& table) {
-  std::erase_if(mesh.triangles, names_a_vertex_twice);
-  const std::size_t unnamed = count_unnamed_vertices(mesh);
-  const std::size_t components = connected_components(mesh).count - unnamed;
-  const std::size_t vertices = mesh.positions.size() - unnamed;
-  return (2 * components + table.edges.size() - vertices - mesh.triangles.size()) / 2;
+/// Sum of the genera of a closed orientable surface, shells − χ / 2. Where sheets only touch in a
+/// vertex they are taken apart: every fan counts as a vertex, and shells are joined over edges.
+/// Faces that name a vertex twice have no edges in the table and do not count.
+std::size_t total_genus(const TriMesh& mesh, const EdgeTable& table,
+                        const std::vector<std::uint32_t>& fans) {
+  DisjointSets shells(mesh.triangles.size());
+  for (std::size_t e = 0; e < table.edges.size(); ++e) {
+    shells.join(table.faces_of_edge[e][0], table.faces_of_edge[e][1]);
+  }
+  std::size_t faces = 0;
+  std::size_t shell_count = 0;
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (!names_a_vertex_twice(mesh.triangles[f])) {
+      ++faces;
+      shell_count += shells.root(f) == f ? 1 : 0;
+    }
+  }
+  const std::size_t vertices = std::accumulate(fans.begin(), fans.end(), std::size_t{0});
+  return (2 * shell_count + table.edges.size() - vertices - faces) / 2;
 }
 
 }  // namespace
@@ -164,14 +175,16 @@ MeshReport check_mesh(const TriMesh& mesh) {
   const EdgeTable table = build_edge_table(mesh);
   count_faces(mesh, report);
   count_edges(mesh, table, report);
-  report.non_manifold_vertices = count_pinched_vertices(mesh, table);
+  const std::vector<std::uint32_t> fans = count_fans(mesh, table);
+  report.non_manifold_vertices = static_cast<std::size_t>(
+      std::count_if(fans.begin(), fans.end(), [](std::uint32_t count) { return count > 1; }));
   report.closed =
       !table.edges.empty() && report.boundary_edges == 0 && report.non_manifold_edges == 0;
   report.oriented =
       !table.edges.empty() && report.non_manifold_edges == 0 && report.inconsistent_edges == 0;
   report.signed_volume = signed_volume(mesh);
-  if (report.closed && report.non_manifold_vertices == 0 && is_orientable(mesh, table)) {
-    report.genus = total_genus(mesh, table);
+  if (report.closed && is_orientable(mesh, table)) {
+    report.genus = total_genus(mesh, table, fans);
   }
   return report;
 }

@@ -21,7 +21,7 @@ constexpr double kStraightSine = 1e-9;
 
 /// Twice the area vector of the polygon (Newell), whatever its shape.
 Vec3 newell_normal(std::span<const std::uint32_t> corners, std::span<const Vec3> positions) {
-  const Vec3 origin = positions[corners[0]];
+  const Vec3& origin = positions[corners[0]];
   Vec3 normal = Vec3::Zero();
   Vec3 from = Vec3::Zero();
   for (std::size_t i = 1; i < corners.size(); ++i) {
@@ -72,7 +72,9 @@ class CornerGrid {
       low_ = low_.cwiseMin(points[i]);
       high = high.cwiseMax(points[i]);
     }
-    choose_cells(high - low_, static_cast<double>(members.size()));
+    const Vec2 size = high - low_;
+    along_ = size.y() > size.x() ? 1 : 0;  // few rows: a triangle may cross them all
+    choose_cells(size[along_], size[1 - along_], static_cast<double>(members.size()));
     offsets_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
     for (const std::uint32_t i : members) {
       ++offsets_[cell_of(points[i]) + 1];
@@ -90,7 +92,8 @@ class CornerGrid {
   /// cells and members looked at.
   template <class Test>
   bool any_near(const std::array<Vec2, 3>& triangle, std::size_t& work, const Test& test) const {
-    const auto [lowest, highest] = std::minmax({triangle[0].y(), triangle[1].y(), triangle[2].y()});
+    const auto [lowest, highest] =
+        std::minmax({y_of(triangle[0]), y_of(triangle[1]), y_of(triangle[2])});
     const int last_row = row_of(highest);
     for (int row = row_of(lowest); row <= last_row; ++row) {
       ++work;
@@ -111,32 +114,36 @@ class CornerGrid {
 
  private:
   /// Square cells, as many as there are members; a single row or column if they lie on a line.
-  void choose_cells(const Vec2& size, double count) {
+  void choose_cells(double length, double width, double count) {
     constexpr double kMostCellsAlong = 1 << 22;
     double columns = std::clamp(count, 1.0, kMostCellsAlong);
     double rows = 1.0;
-    if (size.y() > 0.0) {
-      columns = std::clamp(std::sqrt(count * (size.x() / size.y())), 1.0, columns);
+    if (width > 0.0) {
+      columns = std::clamp(std::sqrt(count * (length / width)), 1.0, columns);
       rows = std::clamp(count / columns, 1.0, kMostCellsAlong);
     }
     columns_ = static_cast<int>(columns);
     rows_ = static_cast<int>(rows);
-    columns_per_unit_ = size.x() > 0.0 ? columns_ / size.x() : 0.0;
-    rows_per_unit_ = size.y() > 0.0 ? rows_ / size.y() : columns_per_unit_;
-    columns_per_unit_ = size.x() > 0.0 ? columns_per_unit_ : rows_per_unit_;
+    columns_per_unit_ = length > 0.0 ? columns_ / length : 0.0;
+    rows_per_unit_ = width > 0.0 ? rows_ / width : columns_per_unit_;
+    columns_per_unit_ = length > 0.0 ? columns_per_unit_ : rows_per_unit_;
   }
 
   static int clamped(double cell, int count) {
     return cell > 0.0 ? static_cast<int>(std::min(cell, count - 1.0)) : 0;
   }
 
-  [[nodiscard]] int row_of(double y) const {
-    return clamped((y - low_.y()) * rows_per_unit_, rows_);
+  [[nodiscard]] double x_of(const Vec2& point) const { return point[along_] - low_[along_]; }
+
+  [[nodiscard]] double y_of(const Vec2& point) const {
+    return point[1 - along_] - low_[1 - along_];
   }
 
+  [[nodiscard]] int row_of(double y) const { return clamped(y * rows_per_unit_, rows_); }
+
   [[nodiscard]] std::size_t cell_of(const Vec2& point) const {
-    const int column = clamped((point.x() - low_.x()) * columns_per_unit_, columns_);
-    return static_cast<std::size_t>(row_of(point.y())) * static_cast<std::size_t>(columns_) +
+    const int column = clamped(x_of(point) * columns_per_unit_, columns_);
+    return static_cast<std::size_t>(row_of(y_of(point))) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(column);
   }
 
@@ -175,10 +182,11 @@ class CornerGrid {
   }
 
   [[nodiscard]] Vec2 in_cells(const Vec2& point) const {
-    return {(point.x() - low_.x()) * columns_per_unit_, (point.y() - low_.y()) * rows_per_unit_};
+    return {x_of(point) * columns_per_unit_, y_of(point) * rows_per_unit_};
   }
 
   Vec2 low_ = Vec2::Zero();
+  Eigen::Index along_ = 0;  ///< Axis of the longer side, along which columns are counted.
   double columns_per_unit_ = 0.0;
   double rows_per_unit_ = 0.0;
   int columns_ = 1;
@@ -205,12 +213,12 @@ class EarClipper {
   [[nodiscard]] bool is_strictly_convex() const {
     int turns_of_x = 0;
     for (std::uint32_t i = 0; i < points_.size(); ++i) {
-      const Vec2 in = points_[i] - points_[previous_[i]];
-      const Vec2 out = points_[next_[i]] - points_[i];
-      if (!(in.x() * out.y() - in.y() * out.x() > kStraightSine * in.norm() * out.norm())) {
+      if (!points_outwards(i)) {
         return false;
       }
-      turns_of_x += (in.x() > 0.0) != (out.x() > 0.0) ? 1 : 0;
+      const double in = points_[i].x() - points_[previous_[i]].x();
+      const double out = points_[next_[i]].x() - points_[i].x();
+      turns_of_x += (in > 0.0) != (out > 0.0) ? 1 : 0;
     }
     return turns_of_x <= 2;
   }
@@ -221,7 +229,7 @@ class EarClipper {
     blocks_.resize(points_.size());
     for (std::uint32_t i = 0; i < points_.size(); ++i) {
       candidates[i] = i;
-      blocks_[i] = !(corner_cross(i) > 0.0);
+      blocks_[i] = !points_outwards(i);
       if (blocks_[i]) {
         blockers.push_back(i);
       }
@@ -253,8 +261,15 @@ class EarClipper {
     return cross(points_[previous_[i]], points_[i], points_[next_[i]]);
   }
 
+  /// Neither straight nor pointing inwards.
+  [[nodiscard]] bool points_outwards(std::uint32_t i) const {
+    const Vec2 in = points_[i] - points_[previous_[i]];
+    const Vec2 out = points_[next_[i]] - points_[i];
+    return in.x() * out.y() - in.y() * out.x() > kStraightSine * in.norm() * out.norm();
+  }
+
   [[nodiscard]] bool is_ear(std::uint32_t i, const CornerGrid& grid, std::size_t& work) const {
-    if (!(corner_cross(i) > 0.0)) {
+    if (!points_outwards(i)) {
       return false;
     }
     const Vec2& a = points_[previous_[i]];
@@ -303,7 +318,7 @@ class EarClipper {
     gone_[i] = true;
     --remaining_;
     for (const std::uint32_t neighbour : {before, after}) {
-      blocks_[neighbour] = blocks_[neighbour] && !(corner_cross(neighbour) > 0.0);
+      blocks_[neighbour] = blocks_[neighbour] && !points_outwards(neighbour);
       if (!waiting_[neighbour]) {
         waiting_[neighbour] = true;
         changed.push_back(neighbour);
@@ -356,7 +371,7 @@ std::vector<Vec2> flattened(std::span<const std::uint32_t> corners, std::span<co
                             const Vec3& normal) {
   const Vec3 u = normal.unitOrthogonal();
   const Vec3 v = normal.cross(u);
-  const Vec3 origin = positions[corners[0]];
+  const Vec3& origin = positions[corners[0]];
   std::vector<Vec2> points;
   points.reserve(corners.size());
   for (const std::uint32_t corner : corners) {

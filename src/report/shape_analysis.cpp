@@ -108,6 +108,7 @@ ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options, cons
   took.skeleton = lap(mark);
   add_map(shape, options, run.part(0.95, 1.0));
   took.map = lap(mark);
+  run.advance("map", 1.0);
   return shape;
 }
 

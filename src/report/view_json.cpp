@@ -20,17 +20,24 @@ Json point(const Vec3& p) {
   return Json::array({p.x(), p.y(), p.z()});
 }
 
+Json frame_of(const Camera& picture) {
+  Json frame = {{"target", point(picture.target)}, {"fov_y_deg", picture.fov_y_deg}};
+  if (picture.projection == Projection::Orthographic) {
+    frame["height"] = picture.height;
+  }
+  return frame;
+}
+
 Json view_of(const ReportedView& view, const Json& image) {
-  return {
-      {"direction", point(view.direction)},
-      {"eye", point(view.eye)},
-      {"up", point(view.up)},
-      {"score", view.score},
-      {"score_fraction", view.score_fraction},
-      {"objective", view.objective},
-      {"visible_area_fraction", view.visible_area_fraction},
-      {"image", image},
-      {"frame", {{"target", point(view.picture.target)}, {"fov_y_deg", view.picture.fov_y_deg}}}};
+  return {{"direction", point(view.direction)},
+          {"eye", point(view.eye)},
+          {"up", point(view.up)},
+          {"score", view.score},
+          {"score_fraction", view.score_fraction},
+          {"objective", view.objective},
+          {"visible_area_fraction", view.visible_area_fraction},
+          {"image", image},
+          {"frame", frame_of(view.picture)}};
 }
 
 Json camera_of(const ScoringCamera& camera) {

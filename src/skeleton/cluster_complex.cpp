@@ -11,6 +11,9 @@
 namespace vantage {
 namespace {
 
+/// Share of a cluster that a split made, against its lighter neighbour: it stands for no vertex.
+constexpr double kSplitWeight = 1e-3;
+
 using Link = ClusterComplex::Link;
 
 bool before(const Link& link, std::uint32_t cluster) {
@@ -35,6 +38,7 @@ ClusterComplex::ClusterComplex(const TriMesh& mesh, std::vector<Vec3> positions,
       links_(position_.size()),
       faces_of_(position_.size()),
       faces_(mesh.triangles),
+      vertex_count_(position_.size()),
       guard_(TriMesh{}, EdgeTable{}) {
   std::iota(parent_.begin(), parent_.end(), 0U);
   const EdgeTable table = build_edge_table(mesh);
@@ -136,6 +140,79 @@ void ClusterComplex::kill_pinched_loops(std::uint32_t edge) {
   }
 }
 
+std::uint32_t ClusterComplex::add_edge(std::uint32_t a, std::uint32_t b, const Bits& annotation) {
+  const auto e = static_cast<std::uint32_t>(ends_.size());
+  ends_.push_back({std::min(a, b), std::max(a, b)});
+  edge_faces_.push_back(0);
+  annotation_.insert(annotation_.end(), annotation.begin(), annotation.end());
+  for (const auto& [from, to] : {std::array{a, b}, std::array{b, a}}) {
+    auto& links = links_[from];
+    links.insert(std::lower_bound(links.begin(), links.end(), to, before), {to, e});
+  }
+  return e;
+}
+
+void ClusterComplex::split(std::uint32_t edge) {
+  const std::size_t words = guard_.words();
+  const auto [a, c] = ends_[edge];
+  const auto middle = static_cast<std::uint32_t>(position_.size());
+  position_.emplace_back(0.5 * (position_[a] + position_[c]));
+  weight_.push_back(std::min(weight_[a], weight_[c]) * kSplitWeight);
+  parent_.push_back(middle);
+  links_.emplace_back();
+  faces_of_.emplace_back();
+
+  // `edge` becomes a–middle and keeps its annotation; middle–c carries none.
+  links_[c].erase(std::lower_bound(links_[c].begin(), links_[c].end(), a, before));
+  links_[a].erase(std::lower_bound(links_[a].begin(), links_[a].end(), c, before));
+  ends_[edge] = {a, middle};
+  links_[a].push_back({middle, edge});  // the highest index of all: stays sorted
+  links_[middle].push_back({a, edge});
+  const std::uint32_t rest = add_edge(middle, c, Bits(words, 0));
+
+  std::vector<std::uint32_t> halved;
+  for (const std::uint32_t f : faces_of_[a]) {
+    const auto [x, y] = others(faces_[f], a);
+    if (x == c || y == c) {
+      halved.push_back(f);
+    }
+  }
+  for (const std::uint32_t f : halved) {
+    const auto [x, y] = others(faces_[f], a);
+    const std::uint32_t tip = x == c ? y : x;
+    const std::uint32_t side = find(a, tip)->edge;
+    Bits sum(words, 0);  // a–middle–tip–a bounds a triangle: its annotations add up to nothing
+    for (std::size_t w = 0; w < words; ++w) {
+      sum[w] = annotation_[edge * words + w] ^ annotation_[side * words + w];
+    }
+    edge_faces_[add_edge(middle, tip, sum)] = 2;
+    ++edge_faces_[rest];
+    std::erase(faces_of_[c], f);
+    faces_[f] = {a, middle, tip};
+    faces_of_[middle].push_back(f);
+    const auto other_half = static_cast<std::uint32_t>(faces_.size());
+    faces_.push_back({middle, c, tip});
+    for (const std::uint32_t corner : faces_.back()) {
+      faces_of_[corner].push_back(other_half);
+    }
+    ++live_faces_;
+  }
+}
+
+void ClusterComplex::make_room(std::uint32_t edge) {
+  std::vector<Bits> loops;
+  for (const std::uint32_t third : pinched_by(edge)) {
+    loops.push_back(loop_class(edge, third));
+    if (!guard_.may_kill(loops)) {
+      loops.pop_back();
+      const auto [a, b] = ends_[edge];
+      const std::uint32_t to_a = find(third, a)->edge;
+      const std::uint32_t to_b = find(third, b)->edge;
+      split(edge_faces_[to_a] <= edge_faces_[to_b] ? to_a : to_b);
+    }
+  }
+}
+
 void ClusterComplex::remove_face(std::uint32_t face) {
   const Triangle t = faces_[face];
   for (std::size_t c = 0; c < 3; ++c) {
@@ -215,14 +292,16 @@ CurveGraph ClusterComplex::graph(std::vector<std::uint32_t>& node_of_vertex) {
   constexpr std::uint32_t kUnset = std::numeric_limits<std::uint32_t>::max();
   CurveGraph graph;
   std::vector<std::uint32_t> node_of_cluster(position_.size(), kUnset);
-  node_of_vertex.resize(position_.size());
+  node_of_vertex.resize(vertex_count_);
   for (std::uint32_t v = 0; v < position_.size(); ++v) {
     const std::uint32_t cluster = cluster_of(v);
     if (node_of_cluster[cluster] == kUnset) {
       node_of_cluster[cluster] = static_cast<std::uint32_t>(graph.nodes.size());
       graph.nodes.push_back(position_[cluster]);
     }
-    node_of_vertex[v] = node_of_cluster[cluster];
+    if (v < vertex_count_) {
+      node_of_vertex[v] = node_of_cluster[cluster];
+    }
   }
   for (std::uint32_t e = 0; e < ends_.size(); ++e) {
     if (edge_is_live(e)) {

@@ -6,10 +6,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "skeleton/handle_guard.h"
 #include "vantage/core/vec3.h"
 #include "vantage/mesh/curve_graph.h"
 #include "vantage/mesh/tri_mesh.h"
+
+#include "skeleton/handle_guard.h"
 
 namespace vantage {
 
@@ -29,17 +30,27 @@ class ClusterComplex {
   };
 
   [[nodiscard]] std::size_t edge_count() const { return ends_.size(); }
+
   [[nodiscard]] std::size_t face_count() const { return live_faces_; }  ///< Triangles left.
+
   [[nodiscard]] bool is_live(std::uint32_t cluster) const { return parent_[cluster] == cluster; }
+
   [[nodiscard]] const Vec3& position(std::uint32_t cluster) const { return position_[cluster]; }
+
   [[nodiscard]] const std::vector<Link>& links(std::uint32_t cluster) const {
     return links_[cluster];
   }
-  [[nodiscard]] bool edge_is_live(std::uint32_t edge) const { return ends_[edge][0] != ends_[edge][1]; }
+
+  [[nodiscard]] bool edge_is_live(std::uint32_t edge) const {
+    return ends_[edge][0] != ends_[edge][1];
+  }
+
   [[nodiscard]] const std::array<std::uint32_t, 2>& ends(std::uint32_t edge) const {
     return ends_[edge];
   }
+
   [[nodiscard]] std::uint32_t faces_at(std::uint32_t edge) const { return edge_faces_[edge]; }
+
   [[nodiscard]] double length(std::uint32_t edge) const;
 
   /// Clusters that neighbour both ends of `edge` without a triangle among the three: collapsing the
@@ -48,6 +59,10 @@ class ClusterComplex {
 
   /// Whether collapsing the edge loses no handle.
   [[nodiscard]] bool keeps_handles(std::uint32_t edge) const;
+
+  /// Splits edges next to `edge`, so that collapsing it pinches no loop that the handles need: the
+  /// sampling gets finer where it was too coarse for a handle.
+  void make_room(std::uint32_t edge);
 
   /// Merges both ends of `edge` into the one with more links (ties: the lower one), which moves to
   /// their weighted mean. Returns it.
@@ -64,6 +79,8 @@ class ClusterComplex {
   /// Class of the loop over the ends of `edge` and their common neighbour `third`, in normal form.
   [[nodiscard]] Bits loop_class(std::uint32_t edge, std::uint32_t third) const;
   void kill_pinched_loops(std::uint32_t edge);
+  void split(std::uint32_t edge);
+  std::uint32_t add_edge(std::uint32_t a, std::uint32_t b, const Bits& annotation);
   void absorb_faces(std::uint32_t keep, std::uint32_t gone);
   void absorb_links(std::uint32_t keep, std::uint32_t gone, std::uint32_t edge);
   void remove_face(std::uint32_t face);
@@ -72,14 +89,15 @@ class ClusterComplex {
   std::vector<Vec3> position_;
   std::vector<double> weight_;
   std::vector<std::uint32_t> parent_;
-  std::vector<std::vector<Link>> links_;               ///< Sorted by cluster.
-  std::vector<std::vector<std::uint32_t>> faces_of_;   ///< Live faces at each cluster.
+  std::vector<std::vector<Link>> links_;              ///< Sorted by cluster.
+  std::vector<std::vector<std::uint32_t>> faces_of_;  ///< Live faces at each cluster.
   std::vector<Triangle> faces_;
-  std::vector<std::array<std::uint32_t, 2>> ends_;     ///< Equal ends: the edge is gone.
+  std::vector<std::array<std::uint32_t, 2>> ends_;  ///< Equal ends: the edge is gone.
   std::vector<std::uint32_t> edge_faces_;
+  std::size_t vertex_count_ = 0;  ///< Clusters beyond were made by splits.
   std::size_t live_faces_ = 0;
   HandleGuard guard_;
-  std::vector<std::uint64_t> annotation_;              ///< Kept up to date as edges move.
+  std::vector<std::uint64_t> annotation_;  ///< Kept up to date as edges move.
 };
 
 }  // namespace vantage

@@ -110,8 +110,8 @@ CurveGraph centre_nodes(const CurveGraph& graph, const TriMesh& mesh,
   CurveGraph smooth = centred;
   for (std::size_t i = 0; i < lists.size(); ++i) {
     if (lists[i].size() == 2) {
-      smooth.nodes[i] = 0.5 * centred.nodes[i] +
-                        0.25 * (centred.nodes[lists[i][0]] + centred.nodes[lists[i][1]]);
+      smooth.nodes[i] =
+          0.5 * centred.nodes[i] + 0.25 * (centred.nodes[lists[i][0]] + centred.nodes[lists[i][1]]);
     }
   }
   return smooth;

@@ -52,7 +52,7 @@ struct TreeCotree {
   std::vector<std::uint32_t> parent_face{};  ///< kNone at roots.
   std::vector<std::uint32_t> parent_edge{};  ///< Edge crossed to the parent.
   std::vector<std::uint32_t> depth{};
-  std::vector<std::uint32_t> generators{};   ///< Edges, ascending.
+  std::vector<std::uint32_t> generators{};  ///< Edges, ascending.
 };
 
 /// Edges of components in which every edge has two faces.

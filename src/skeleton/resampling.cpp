@@ -23,7 +23,9 @@ struct Pair {
 class MergingGraph {
  public:
   MergingGraph(const CurveGraph& graph, std::vector<double> weight)
-      : position_(graph.nodes), weight_(std::move(weight)), neighbours_(graph.nodes.size()),
+      : position_(graph.nodes),
+        weight_(std::move(weight)),
+        neighbours_(graph.nodes.size()),
         parent_(graph.nodes.size()) {
     for (std::uint32_t i = 0; i < parent_.size(); ++i) {
       parent_[i] = i;
@@ -65,8 +67,7 @@ class MergingGraph {
     if (gone_wins) {
       position_[keep] = position_[gone];
     } else if (!keep_fixed) {
-      position_[keep] =
-          (weight_[keep] * position_[keep] + weight_[gone] * position_[gone]) / total;
+      position_[keep] = (weight_[keep] * position_[keep] + weight_[gone] * position_[gone]) / total;
     }
     weight_[keep] = total;
     for (const std::uint32_t c : neighbours_[gone]) {
@@ -88,6 +89,7 @@ class MergingGraph {
   }
 
   [[nodiscard]] const Vec3& position(std::uint32_t node) const { return position_[node]; }
+
   [[nodiscard]] std::size_t size() const { return position_.size(); }
 
  private:

@@ -2,13 +2,15 @@
 #include "vantage/skeleton/skeleton.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
+
+#include "vantage/mesh/measures.h"
 
 #include "skeleton/cluster_complex.h"
 #include "skeleton/embedding.h"
 #include "skeleton/resampling.h"
 #include "skeleton/surgery.h"
-#include "vantage/mesh/measures.h"
 
 namespace vantage {
 namespace {
@@ -41,6 +43,36 @@ struct Collapsed {
   std::size_t lost_handles = 0;
 };
 
+/// Moves each node to the weighted mean of its vertices; one that only refinement made, and that
+/// stands for no vertex, to the mean of its neighbours.
+void place_nodes(CurveGraph& graph, const std::vector<Vec3>& positions,
+                 const std::vector<double>& weights,
+                 const std::vector<std::uint32_t>& node_of_vertex) {
+  std::vector<Vec3> sum(graph.nodes.size(), Vec3::Zero());
+  std::vector<double> total(graph.nodes.size(), 0.0);
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    sum[node_of_vertex[v]] += weights[v] * positions[v];
+    total[node_of_vertex[v]] += weights[v];
+  }
+  std::vector<Vec3> around(graph.nodes.size(), Vec3::Zero());
+  std::vector<double> neighbours(graph.nodes.size(), 0.0);
+  for (const auto& [a, b] : graph.edges) {
+    for (const auto& [from, to] : {std::array{a, b}, std::array{b, a}}) {
+      if (total[from] > 0.0) {
+        around[to] += sum[from] / total[from];
+        neighbours[to] += 1.0;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
+    if (total[i] > 0.0) {
+      graph.nodes[i] = sum[i] / total[i];
+    } else if (neighbours[i] > 0.0) {
+      graph.nodes[i] = around[i] / neighbours[i];
+    }
+  }
+}
+
 /// Collapses the surface at its last level. Where several handles have shrunk into one another
 /// there, the order of collapses is taken from the last level at which no handle is lost; nodes
 /// stand at the mean of their vertices' last positions all the same.
@@ -62,28 +94,17 @@ Collapsed collapse_history(const TriMesh& mesh, const ContractionHistory& histor
       break;
     }
   }
-  const std::vector<Vec3>& last = history.levels.back();
-  std::vector<double> total(best.graph.nodes.size(), 0.0);
-  for (Vec3& node : best.graph.nodes) {
-    node.setZero();
-  }
-  for (std::size_t v = 0; v < last.size(); ++v) {
-    best.graph.nodes[best.node_of_vertex[v]] += weights[v] * last[v];
-    total[best.node_of_vertex[v]] += weights[v];
-  }
-  for (std::size_t i = 0; i < total.size(); ++i) {
-    best.graph.nodes[i] /= total[i];
-  }
+  place_nodes(best.graph, history.levels.back(), weights, best.node_of_vertex);
   return best;
 }
 
 /// Leaves out the nodes that stand for vertices without faces.
 CurveGraph without_isolated(const CurveGraph& graph, const ContractionHistory& history,
                             std::vector<std::uint32_t>& node_of_vertex) {
-  std::vector<bool> wanted(graph.nodes.size(), false);
+  std::vector<bool> wanted(graph.nodes.size(), true);
   for (std::size_t v = 0; v < node_of_vertex.size(); ++v) {
-    if (history.component_of_vertex[v] != ContractionHistory::kIsolated) {
-      wanted[node_of_vertex[v]] = true;
+    if (history.component_of_vertex[v] == ContractionHistory::kIsolated) {
+      wanted[node_of_vertex[v]] = false;
     }
   }
   CurveGraph kept;
@@ -136,8 +157,8 @@ Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history
   }
   skeleton.radius = node_radii(skeleton.graph, mesh, skeleton.node_of_vertex);
   if (options.prune) {
-    skeleton.graph = prune_ends(skeleton.graph, options.prune_ratio, skeleton.radius,
-                                skeleton.node_of_vertex);
+    skeleton.graph =
+        prune_ends(skeleton.graph, options.prune_ratio, skeleton.radius, skeleton.node_of_vertex);
     skeleton.radius = node_radii(skeleton.graph, mesh, skeleton.node_of_vertex);
   }
   run.advance("skeleton", 1.0);

@@ -11,6 +11,9 @@ namespace {
 
 /// Collapses between two looks at the stop token.
 constexpr std::size_t kPoll = 4096;
+/// Where this many local refinements do not free the way, more will not (on real models a handful
+/// does, or none).
+constexpr std::size_t kMostRefinements = 256;
 
 struct Candidate {
   double cost;
@@ -46,6 +49,7 @@ class CollapseQueue {
 
   void refill() {
     heap_ = {};
+    version_.resize(complex_.edge_count(), 0);
     for (std::uint32_t e = 0; e < complex_.edge_count(); ++e) {
       push(e);
     }
@@ -73,6 +77,7 @@ class CollapseQueue {
 
   /// Queues the edges of a cluster anew after it moved.
   void refresh(std::uint32_t cluster) {
+    version_.resize(complex_.edge_count(), 0);
     for (const auto& link : complex_.links(cluster)) {
       ++version_[link.edge];
       push(link.edge);
@@ -100,6 +105,7 @@ class CollapseQueue {
 std::size_t collapse_to_graph(ClusterComplex& complex, const RunContext& run) {
   CollapseQueue queue(complex);
   const auto all_faces = static_cast<double>(std::max<std::size_t>(1, complex.face_count()));
+  std::size_t refined = 0;
   std::size_t forced = 0;
   std::size_t collapsed = 0;
   std::size_t collapsed_at_refill = 0;
@@ -119,7 +125,12 @@ std::size_t collapse_to_graph(ClusterComplex& complex, const RunContext& run) {
       if (!stuck) {
         continue;
       }
-      ++forced;
+      if (refined < kMostRefinements) {
+        complex.make_room(edge);
+        ++refined;
+      } else {
+        ++forced;
+      }
     }
     queue.refresh(complex.collapse(edge));
     if (++collapsed % kPoll == 0) {

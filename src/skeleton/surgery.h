@@ -3,8 +3,9 @@
 
 #include <cstddef>
 
-#include "skeleton/cluster_complex.h"
 #include "vantage/core/run_context.h"
+
+#include "skeleton/cluster_complex.h"
 
 namespace vantage {
 

@@ -27,7 +27,9 @@ struct MeshReport {
   bool closed = false;                    ///< Has faces, and every edge has exactly two.
   bool oriented = false;                  ///< Has faces, and no inconsistent or non-manifold edge.
   double signed_volume = 0.0;             ///< Model units³; meaningful when closed and oriented.
-  std::optional<std::size_t> genus{};     ///< Sum over components; only for closed manifolds.
+  /// Sum over all shells, if the surface is closed and orientable; sheets that only touch in a
+  /// vertex are taken apart there.
+  std::optional<std::size_t> genus{};
 };
 
 /// Looks for every defect in the table above; never throws on a mesh with valid indices.

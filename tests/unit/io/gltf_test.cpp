@@ -226,7 +226,7 @@ TEST(Gltf, RefusesNodesThatDoubleAtEveryLevel) {
   scene.nodes = "[";
   for (int level = 1; level <= 40; ++level) {
     const std::string next = std::to_string(level);
-    scene.nodes += R"({"children":[)" + next + "," + next + "]},";
+    scene.nodes.append(R"({"children":[)").append(next).append(",").append(next).append("]},");
   }
   scene.nodes += R"({"mesh":0}])";
   EXPECT_THAT(scene.error(), HasSubstr("out of proportion to the file"));

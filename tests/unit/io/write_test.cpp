@@ -98,7 +98,8 @@ TEST(PlyBytes, DeclareQualityBetweenPositionAndColour) {
 TEST(PlyBytes, LeaveOutQualityAndColoursThatAreNotGiven) {
   const std::string bytes = ply_bytes(sheet(1, 1, 1), {}, {}, false);
   EXPECT_EQ(bytes.find("quality"), std::string::npos);
-  EXPECT_EQ(bytes.size(), bytes.find("end_header\n") + 11 + 4 * 12 + 2 * 13);
+  EXPECT_EQ(bytes.size(), bytes.find("end_header\n") + std::size_t{11} + std::size_t{4} * 12 +
+                              std::size_t{2} * 13);
 }
 
 TEST(PlyBytes, TurnToDoubleWhereFloatsWouldOverflow) {

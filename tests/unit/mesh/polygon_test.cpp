@@ -140,6 +140,7 @@ TEST(TriangulatePolygon, AlwaysGivesTwoTrianglesFewerThanCorners) {
   const std::vector<Vec3> same(9, Vec3(1, 1, 1));
   EXPECT_EQ(triangulated(same).triangles.size(), 7U);
   std::vector<Vec3> pentagram;
+  pentagram.reserve(5);
   for (int i = 0; i < 5; ++i) {
     const double angle = 4.0 * std::numbers::pi * i / 5.0;  // goes round twice
     pentagram.emplace_back(std::cos(angle), std::sin(angle), 0.0);
@@ -147,6 +148,7 @@ TEST(TriangulatePolygon, AlwaysGivesTwoTrianglesFewerThanCorners) {
   EXPECT_EQ(triangulated(pentagram).triangles.size(), 3U);
   Pcg32 random(1);
   std::vector<Vec3> tangle;
+  tangle.reserve(300);
   for (int i = 0; i < 300; ++i) {
     tangle.emplace_back(random.uniform(), random.uniform(), random.uniform());
   }
@@ -156,6 +158,7 @@ TEST(TriangulatePolygon, AlwaysGivesTwoTrianglesFewerThanCorners) {
 TEST(TriangulatePolygon, TakesAMillionCornersOfACircleOrAComb) {
   constexpr int kCorners = 1'000'000;
   std::vector<Vec3> circle;
+  circle.reserve(kCorners);
   for (int i = 0; i < kCorners; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kCorners;
     circle.emplace_back(std::cos(angle), std::sin(angle), 0.0);

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "vantage/report/view_report.h"
+
+#include "support/shapes.h"
+#include "unit/report/model_of.h"
+
+namespace vantage::test {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+TEST(PrepareSurface, WeldsASoupAndSaysSo) {
+  const TriMesh ball = sphere(1);
+  const ShapeAnalysis shape = prepare_surface(model_of(soup(ball)));
+  EXPECT_EQ(shape.surface.positions.size(), ball.positions.size());
+  EXPECT_TRUE(shape.check.closed);
+  EXPECT_THAT(shape.warnings, Contains(HasSubstr("welded")));
+}
+
+TEST(PrepareSurface, TurnsAnInsideOutShellAndSaysSo) {
+  const ShapeAnalysis shape = prepare_surface(model_of(inside_out(sphere(1))));
+  EXPECT_EQ(shape.surface.triangles.size(), sphere(1).triangles.size());
+  EXPECT_THAT(shape.warnings, Contains(HasSubstr("inside out")));
+}
+
+TEST(PrepareSurface, HasNothingToSayOfACleanModel) {
+  EXPECT_TRUE(prepare_surface(model_of(torus(1.0, 0.3, 24, 12))).warnings.empty());
+}
+
+TEST(PrepareSurface, LeavesIsolatedVerticesOutOfTheSphere) {
+  TriMesh mesh = sphere(2);
+  mesh.positions.emplace_back(100.0, 0.0, 0.0);
+  EXPECT_NEAR(prepare_surface(model_of(mesh)).sphere.diameter, 2.0, 1e-9);
+}
+
+TEST(PrepareSurface, RefusesPointsWithoutFaces) {
+  TriMesh points{.positions = sphere(1).positions, .triangles = {}};
+  EXPECT_THROW(prepare_surface(model_of(points)), InvalidInput);
+}
+
+TEST(PrepareSurface, RefusesAModelWithoutExtent) {
+  TriMesh dot;
+  dot.positions.assign(3, Vec3(1.0, 2.0, 3.0));
+  dot.triangles = {{0, 1, 2}};
+  EXPECT_THROW(prepare_surface(model_of(dot)), InvalidInput);
+}
+
+TEST(AnalyseShape, GivesEveryInputVertexItsValueAndNode) {
+  TriMesh mesh = soup(torus(1.0, 0.3, 24, 12));
+  mesh.positions.emplace_back(0.0, 0.0, 0.0);  // belongs to no face
+  const ShapeAnalysis shape = analyse_shape(model_of(mesh), {});
+  const std::vector<double> map = on_input_vertices(shape, shape.map.of_vertex);
+  const std::vector<std::int64_t> nodes = nodes_of_input_vertices(shape);
+  ASSERT_EQ(map.size(), mesh.positions.size());
+  ASSERT_EQ(nodes.size(), mesh.positions.size());
+  EXPECT_EQ(map.back(), 0.0);
+  EXPECT_EQ(nodes.back(), -1);
+  // Corners of a soup at one position share value and node.
+  for (std::size_t i = 0; i + 1 < mesh.positions.size(); ++i) {
+    for (std::size_t j = i + 1; j + 1 < std::min(mesh.positions.size(), i + 60); ++j) {
+      if (mesh.positions[i] == mesh.positions[j]) {
+        EXPECT_EQ(map[i], map[j]);
+        EXPECT_EQ(nodes[i], nodes[j]);
+      }
+    }
+  }
+}
+
+TEST(AnalyseShape, FindsTheLoopOfATorus) {
+  const ShapeAnalysis shape = analyse_shape(model_of(torus(1.0, 0.3, 48, 20)), {});
+  EXPECT_EQ(cycle_count(shape.skeleton.graph), 1U);
+  EXPECT_EQ(*shape.check.genus, 1U);
+}
+
+TEST(AnalyseShape, StopsWhenAsked) {
+  std::stop_source stop;
+  RunContext run;
+  run.stop = stop.get_token();
+  run.report = [&](std::string_view, double fraction) {
+    if (fraction > 0.1) {
+      stop.request_stop();
+    }
+  };
+  EXPECT_THROW(analyse_shape(model_of(torus(1.0, 0.3, 48, 20)), {}, run), Cancelled);
+}
+
+TEST(AnalyseShape, ReportsProgressThatNeverGoesBack) {
+  double last = 0.0;
+  RunContext run;
+  run.report = [&](std::string_view, double fraction) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+  };
+  analyse_shape(model_of(torus(1.0, 0.3, 48, 20)), {}, run);
+  EXPECT_EQ(last, 1.0);
+}
+
+}  // namespace
+}  // namespace vantage::test

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "vantage/report/view_report.h"
+
+#include "support/shapes.h"
+#include "unit/report/model_of.h"
+
+namespace vantage::test {
+namespace {
+
+using nlohmann::json;
+
+std::string report_text(const Model& model, const StageSeconds* seconds = nullptr) {
+  ViewOptions options = preset_options(Preset::Paper);
+  const ShapeAnalysis shape = analyse_shape(model, options);
+  return view_json(model, shape, find_views(shape, UpAxis::Y, options), options, seconds);
+}
+
+TEST(ViewJson, HasNoNumberThatIsNotFinite) {
+  for (const TriMesh& mesh : {sheet(1.0, 1.0, 4), sphere(1), y_of_tubes(0.3, 12)}) {
+    const std::string text = report_text(model_of(mesh));
+    EXPECT_EQ(text.find("nan"), std::string::npos);
+    EXPECT_EQ(text.find("inf"), std::string::npos);
+    EXPECT_TRUE(json::accept(text));
+  }
+}
+
+TEST(ViewJson, GenusIsNullForAnOpenSurface) {
+  const json report = json::parse(report_text(model_of(sheet(1.0, 1.0, 4))));
+  EXPECT_TRUE(report["model"]["genus"].is_null());
+  EXPECT_FALSE(report["model"]["closed"].get<bool>());
+}
+
+TEST(ViewJson, HoldsSecondsOnlyWhenAsked) {
+  const Model model = model_of(sphere(1));
+  StageSeconds seconds;
+  seconds.total = 2.5;
+  EXPECT_FALSE(json::parse(report_text(model)).contains("seconds"));
+  EXPECT_EQ(json::parse(report_text(model, &seconds))["seconds"]["total"], 2.5);
+}
+
+TEST(ViewJson, NameThatIsNoUtf8StaysValidJson) {
+  Model model = model_of(sphere(1));
+  model.name = "br\xFFken";
+  EXPECT_TRUE(json::accept(report_text(model)));
+}
+
+TEST(ViewJson, NamesAStrategyForEachComponent) {
+  const json report =
+      json::parse(report_text(model_of(together(sphere(1), sphere(1), Vec3(3.0, 0.0, 0.0)))));
+  EXPECT_EQ(report["model"]["components"], 2);
+  EXPECT_EQ(report["contraction"]["strategy"], json({"exact", "exact"}));
+}
+
+}  // namespace
+}  // namespace vantage::test

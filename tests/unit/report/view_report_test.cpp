@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/report/view_report.h"
+
+#include <cmath>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "support/shapes.h"
+#include "unit/report/model_of.h"
+
+namespace vantage::test {
+namespace {
+
+ViewOptions quick_search() {
+  ViewOptions options;
+  options.search.strategy = SearchStrategy::Exhaustive;
+  options.search.subdivisions = 2;
+  return options;
+}
+
+class ReportOfAY : public testing::Test {
+ protected:
+  ReportOfAY()
+      : options_(quick_search()),
+        shape_(analyse_shape(model_of(y_of_tubes(0.2, 24)), options_)),
+        report_(find_views(shape_, UpAxis::Y, options_)) {}
+
+  ViewOptions options_;
+  ShapeAnalysis shape_;
+  ViewReport report_;
+};
+
+TEST_F(ReportOfAY, ScoresAreSumsOverTheVisibleVertices) {
+  const VertexVisibility visibility(shape_.surface, shape_.sides);
+  for (const ReportedView* view : {&report_.best, &report_.worst}) {
+    const auto visible = visibility.visible_vertices(report_.camera.viewpoint(view->direction));
+    double sum = 0.0;
+    for (std::size_t v = 0; v < visible.size(); ++v) {
+      sum += visible[v] != 0 ? shape_.map.of_vertex[v] : 0.0;
+    }
+    EXPECT_EQ(view->score, sum);
+    EXPECT_EQ(view->objective, sum);
+    EXPECT_DOUBLE_EQ(view->score_fraction, sum / report_.total);
+  }
+}
+
+TEST_F(ReportOfAY, TotalIsTheSumOfTheMap) {
+  EXPECT_EQ(report_.total,
+            std::accumulate(shape_.map.of_vertex.begin(), shape_.map.of_vertex.end(), 0.0));
+}
+
+TEST_F(ReportOfAY, NoDirectionOfTheSetBeatsTheBestOrUndercutsTheWorst) {
+  for (const SearchStep& step : report_.best_search.trace) {
+    EXPECT_LE(step.score, report_.best.score);
+    EXPECT_GE(step.score, report_.worst.score);
+  }
+  EXPECT_EQ(report_.best_search.trace.size(), 162U);
+}
+
+TEST_F(ReportOfAY, TheEyeStandsWhereTheEnclosingSphereFillsTheView) {
+  const double R = 0.5 * shape_.sphere.diameter / std::sin(15.0 * M_PI / 180.0);
+  EXPECT_NEAR((report_.best.eye - shape_.sphere.centre).norm(), R, 1e-9 * R);
+}
+
+TEST_F(ReportOfAY, ThePictureKeepsTheEyeAndAnUprightUp) {
+  EXPECT_EQ(report_.best.picture.eye, report_.best.eye);
+  EXPECT_NEAR(report_.best.up.dot(report_.best.direction), 0.0, 1e-12);
+  EXPECT_GT(report_.best.up.y(), 0.0);
+}
+
+TEST_F(ReportOfAY, APictureShowsTheModelOnTransparentGround) {
+  options_.width = 64;
+  options_.height = 48;
+  const Image image = take_picture(shape_, report_.best.picture, Picture::Map, options_);
+  ASSERT_EQ(image.rgba.size(), 4U * 64U * 48U);
+  std::size_t covered = 0;
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
+    covered += image.rgba[i] > 0 ? 1 : 0;
+  }
+  EXPECT_GT(covered, 64U * 48U / 20U);
+  EXPECT_LT(covered, 64U * 48U);
+}
+
+TEST(FindViews, OfAMapThatIsZeroGivesTheFirstDirectionAndAWarning) {
+  const ViewOptions options = quick_search();
+  ShapeAnalysis shape = analyse_shape(model_of(sphere(2)), options);
+  shape.map.of_vertex.assign(shape.map.of_vertex.size(), 0.0);
+  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  const Vec3 first =
+      direction_set(ViewSphereBase::Icosahedron, options.search.subdivisions).directions.front();
+  EXPECT_EQ(report.best.direction, first);
+  EXPECT_EQ(report.worst.direction, first);
+  EXPECT_EQ(report.best.score_fraction, 0.0);
+  EXPECT_EQ(report.warnings.size(), 1U);
+}
+
+TEST(FindViews, SeesAsMuchOfAnInsideOutModel) {
+  const ViewOptions options = quick_search();
+  const TriMesh mesh = y_of_tubes(0.25, 20);
+  const ShapeAnalysis right = analyse_shape(model_of(mesh), options);
+  const ShapeAnalysis turned = analyse_shape(model_of(inside_out(mesh)), options);
+  EXPECT_NEAR(find_views(right, UpAxis::Y, options).best.score_fraction,
+              find_views(turned, UpAxis::Y, options).best.score_fraction, 1e-9);
+}
+
+}  // namespace
+}  // namespace vantage::test
