@@ -28,7 +28,7 @@ struct InfoCommand {
     add_common_flags(app, session.flags);
   }
 
-  void run(Session& session) {
+  void run(Session& session) const {
     const Model loaded = session.load(model);
     const WeldedMesh welded = weld(loaded.mesh);
     const MeshReport as_read = check_mesh(loaded.mesh);

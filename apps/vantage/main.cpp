@@ -37,6 +37,7 @@ int report_usage(const CLI::ParseError& error) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): out of memory while reporting a failure may end it
 int main(int argc, char** argv) {
   using namespace vantage::cli;
   Session session;

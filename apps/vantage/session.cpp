@@ -34,7 +34,7 @@ int code_of_signal(int number) {
 }
 
 /// Waits for signals in a thread of its own, where more than an async-signal-safe flag is allowed.
-void watch_signals(std::stop_source stop) {
+void watch_signals(const std::stop_source& stop) {
   const sigset_t set = watched_signals();
   for (;;) {
     int number = 0;

@@ -14,15 +14,13 @@
 
 namespace vantage::cli {
 
-/// Exit codes of the program.
-enum ExitCode : int {
-  kDone = 0,
-  kFailed = 1,
-  kWrongUsage = 2,
-  kUnreadableInput = 3,
-  kTryAgain = 75,
-  kInterrupted = 130,
-};
+// Exit codes of the program.
+inline constexpr int kDone = 0;
+inline constexpr int kFailed = 1;
+inline constexpr int kWrongUsage = 2;
+inline constexpr int kUnreadableInput = 3;
+inline constexpr int kTryAgain = 75;
+inline constexpr int kInterrupted = 130;
 
 /// Flags that every command has.
 struct CommonFlags {

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "contraction/component_contraction.h"
 
-#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
-#include "operators/sparse_cholesky.h"
+#include <Eigen/SparseCore>
+
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 #include "vantage/operators/cotangent_laplacian.h"
+
+#include "operators/sparse_cholesky.h"
 
 namespace vantage {
 namespace {
@@ -180,8 +182,9 @@ ComponentHistory contract_component(const TriMesh& scaled, const ContractionOpti
     run.advance("contracting", static_cast<double>(step) / options.max_steps);
     Attempt attempt;
     const bool first = history.summary.steps == 0;
-    // Ill-conditioned steps are repeated more gently. A step that diverges ends the contraction,
-    // except the first: a surface that can be contracted must not be left at level 0.
+    // Ill-conditioned steps are repeated more gently, and so is one that diverges, because obtuse
+    // slivers push apart what they join. If it diverges all the same the contraction ends, except
+    // at the first step: a surface that can be contracted must not be left at level 0.
     for (; harshness <= kHarshest; ++harshness) {
       run.check();
       auto solved = solver.solve(now, W_L, W_H, options, harshness);
@@ -189,7 +192,7 @@ ComponentHistory contract_component(const TriMesh& scaled, const ContractionOpti
       if (solved) {
         attempt.positions = std::move(*solved);
         attempt.accepted = !outgrew(attempt.positions, first_size, diameter);
-        if (attempt.accepted || !first) {
+        if (attempt.accepted || (!first && harshness > kGentlest)) {
           break;
         }
       }

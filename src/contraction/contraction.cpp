@@ -3,9 +3,10 @@
 
 #include <algorithm>
 
-#include "contraction/component_contraction.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
+
+#include "contraction/component_contraction.h"
 
 namespace vantage {
 namespace {
@@ -78,7 +79,9 @@ ComponentHistory contract_piece(const TriMesh& mesh, const Piece& piece,
     p = (p - scaling.centre) * scaling.factor;
   }
   if (scaled.triangles.empty()) {
-    return {.levels = {scaled.positions}, .shrinkage = {1.0}, .summary = {.vertices = scaled.positions.size()}};
+    return {.levels = {scaled.positions},
+            .shrinkage = {1.0},
+            .summary = {.vertices = scaled.positions.size()}};
   }
   ComponentHistory history = contract_component(scaled, options, run);
   for (auto& level : history.levels) {
@@ -126,8 +129,9 @@ void summarise(const std::vector<ComponentHistory>& parts, ContractionHistory& h
     a = vertices > 0.0 ? a / vertices : 1.0;
   }
   if (regularised > 0) {
-    history.warnings.push_back("slivers made the contraction ill-conditioned; regularised steps in " +
-                               std::to_string(regularised) + " component(s)");
+    history.warnings.push_back(
+        "slivers made the contraction ill-conditioned; regularised steps in " +
+        std::to_string(regularised) + " component(s)");
   }
   if (failed > 0) {
     history.warnings.push_back("the contraction of " + std::to_string(failed) +
@@ -165,8 +169,9 @@ ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& optio
   const auto total = static_cast<double>(mesh.positions.size());
   for (const Piece& piece : pieces) {
     const double share = static_cast<double>(piece.vertices.size()) / total;
-    parts.push_back(contract_piece(mesh, piece, options, run.part(done, done + share)));
-    done = std::min(1.0 - share, done + share);
+    parts.push_back(
+        contract_piece(mesh, piece, options, run.part(done, std::min(1.0, done + share))));
+    done = std::min(1.0, done + share);
     place(piece, parts.back(), mesh, history);
     parts.back().levels.clear();  // now in `history`; keeps the peak at one copy
   }

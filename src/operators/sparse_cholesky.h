@@ -9,7 +9,7 @@ namespace vantage {
 
 /// Direct solver for symmetric positive definite systems whose pattern stays while values change.
 /// The only place that knows which solver is used: Eigen's Cholesky, ordered by AMD for small and
-/// by METIS for large systems (METIS halves the work from about fifty thousand unknowns on).
+/// by METIS for large systems.
 class SparseCholesky {
  public:
   SparseCholesky();

@@ -6,10 +6,11 @@
 #include <cstddef>
 #include <limits>
 
-#include "core/parallel.h"
-#include "spatial/graph_distance.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
+
+#include "core/parallel.h"
+#include "spatial/graph_distance.h"
 
 namespace vantage {
 namespace {
@@ -107,7 +108,9 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
                      const CurveGraph& skeleton, const KssmOptions& options,
                      const RunContext& run) {
   const std::size_t vertex_count = mesh.positions.size();
-  if (history.levels.empty() || history.levels.front().size() != vertex_count) {
+  const bool fits = std::all_of(history.levels.begin(), history.levels.end(),
+                                [&](const auto& level) { return level.size() == vertex_count; });
+  if (history.levels.empty() || !fits) {
     throw InvalidInput("the contraction history does not belong to this mesh");
   }
   if (skeleton.nodes.empty()) {
@@ -119,9 +122,8 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
     referenced[v] = !rings[v].empty();
   }
   const double diameter = enclosing_sphere(referenced_points(mesh)).diameter;
-  const std::vector<double> weight = options.area_weighted_mean
-                                         ? vertex_areas(mesh)
-                                         : std::vector<double>(vertex_count, 1.0);
+  const std::vector<double> weight =
+      options.area_weighted_mean ? vertex_areas(mesh) : std::vector<double>(vertex_count, 1.0);
 
   KssmMap map;
   map.displacement = displacements(history, skeleton, run);

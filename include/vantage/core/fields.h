@@ -17,13 +17,14 @@ namespace vantage {
 /// One number of an options struct: its name on the command line, where it lives, its range.
 template <class Options, class Value>
 struct Field {
-  std::string_view name;    ///< Flag name without dashes, e.g. "contraction-growth".
-  Value Options::*member;   ///< Where the value lives.
-  Value low;                ///< Smallest allowed value.
-  Value high;               ///< Largest allowed value.
-  std::string_view help;    ///< One line: meaning, unit, source.
+  std::string_view name;   ///< Flag name without dashes, e.g. "contraction-growth".
+  Value Options::*member;  ///< Where the value lives.
+  Value low;               ///< Smallest allowed value.
+  Value high;              ///< Largest allowed value.
+  std::string_view help;   ///< One line: meaning, unit, source.
 };
 
+/// Deduces the struct and the type of the value; clang 14 needs it spelled out.
 template <class Options, class Value>
 Field(const char*, Value Options::*, std::type_identity_t<Value>, std::type_identity_t<Value>,
       const char*) -> Field<Options, Value>;

@@ -13,15 +13,14 @@ using Rgb8 = std::array<std::uint8_t, 3>;
 
 /// A picture: row-major, origin top left, sRGB with straight (not premultiplied) alpha.
 struct Image {
-  int width = 0;                      ///< px
-  int height = 0;                     ///< px
-  std::vector<std::uint8_t> rgba{};   ///< 4 · width · height bytes.
+  int width = 0;                     ///< px
+  int height = 0;                    ///< px
+  std::vector<std::uint8_t> rgba{};  ///< 4 · width · height bytes.
 
   /// First of the four bytes of pixel (x, y).
   [[nodiscard]] const std::uint8_t* pixel(int x, int y) const {
-    return rgba.data() +
-           4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                static_cast<std::size_t>(x));
+    return rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                              static_cast<std::size_t>(x));
   }
 };
 

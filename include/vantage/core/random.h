@@ -15,9 +15,9 @@ class Pcg32 {
   /// \param seed start of the sequence. \param stream selects one of 2^63 independent sequences.
   explicit Pcg32(std::uint64_t seed, std::uint64_t stream = 0);
 
-  std::uint32_t next();                     ///< Uniform in [0, 2^32).
-  std::uint32_t below(std::uint32_t bound); ///< Uniform in [0, bound), without bias; bound > 0.
-  double uniform();                         ///< Uniform in [0, 1).
+  std::uint32_t next();                      ///< Uniform in [0, 2^32).
+  std::uint32_t below(std::uint32_t bound);  ///< Uniform in [0, bound), without bias; bound > 0.
+  double uniform();                          ///< Uniform in [0, 1).
 
  private:
   std::uint64_t state_ = 0;

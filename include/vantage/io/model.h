@@ -26,24 +26,24 @@ std::string_view format_name(ModelFormat format);
 
 /// A named run of triangles: an OBJ group or object, a glTF node.
 struct ModelPart {
-  std::string name{};
-  std::size_t first_triangle = 0;
-  std::size_t triangle_count = 0;
+  std::string name{};              ///< As in the file.
+  std::size_t first_triangle = 0;  ///< Index into the mesh's triangles.
+  std::size_t triangle_count = 0;  ///< Triangles in a row.
 };
 
 /// What a file holds.
 struct Model {
-  std::string name{};  ///< File name without folder and extension.
-  ModelFormat format = ModelFormat::Obj;
-  TriMesh mesh{};                      ///< Polygons already triangulated. Faces may be absent.
-  std::vector<Rgb8> vertex_colours{};  ///< |V| sRGB colours, or empty.
-  std::vector<ModelPart> parts{};      ///< In file order; may be empty.
-  bool double_precision = false;       ///< Coordinates carry more digits than float holds.
-  std::size_t polygons = 0;            ///< Faces in the file before triangulation.
-  std::size_t quads = 0;               ///< Of these, with four corners.
-  std::size_t larger_polygons = 0;     ///< Of these, with five or more corners.
-  std::size_t skipped_faces = 0;       ///< Faces with fewer than three corners, left out.
-  std::vector<std::string> notes{};    ///< What was read in an unusual way, one sentence each.
+  std::string name{};                     ///< File name without folder and extension.
+  ModelFormat format = ModelFormat::Obj;  ///< What it was read as.
+  TriMesh mesh{};                         ///< Polygons already triangulated. Faces may be absent.
+  std::vector<Rgb8> vertex_colours{};     ///< |V| sRGB colours, or empty.
+  std::vector<ModelPart> parts{};         ///< In file order; may be empty.
+  bool double_precision = false;          ///< Coordinates carry more digits than float holds.
+  std::size_t polygons = 0;               ///< Faces in the file before triangulation.
+  std::size_t quads = 0;                  ///< Of these, with four corners.
+  std::size_t larger_polygons = 0;        ///< Of these, with five or more corners.
+  std::size_t skipped_faces = 0;          ///< Faces with fewer than three corners, left out.
+  std::vector<std::string> notes{};       ///< What was read in an unusual way, one sentence each.
 };
 
 /// Parses the bytes of a model.

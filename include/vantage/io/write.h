@@ -30,9 +30,9 @@ std::string ply_bytes(const TriMesh& mesh, std::span<const double> quality,
 
 /// A skeleton as written to files.
 struct SkeletonFile {
-  const CurveGraph* graph = nullptr;
-  std::span<const double> radius{};               ///< |N|, may be empty for .obj and .ply.
-  std::span<const std::int64_t> vertex_node{};    ///< Node of each input vertex, −1 if isolated.
+  const CurveGraph* graph = nullptr;            ///< Required.
+  std::span<const double> radius{};             ///< |N|, may be empty for .obj and .ply.
+  std::span<const std::int64_t> vertex_node{};  ///< Node of each input vertex, −1 if isolated.
 };
 
 std::string skeleton_json(const SkeletonFile& skeleton);  ///< nodes, edges, radius, vertex_node.

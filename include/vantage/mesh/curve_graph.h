@@ -12,8 +12,9 @@ namespace vantage {
 
 /// A graph of straight segments embedded in space.
 struct CurveGraph {
-  std::vector<Vec3> nodes{};                            ///< |N| points, in model units.
-  std::vector<std::array<std::uint32_t, 2>> edges{};    ///< |E| pairs a < b, lexicographically sorted.
+  std::vector<Vec3> nodes{};  ///< |N| points, in model units.
+  std::vector<std::array<std::uint32_t, 2>>
+      edges{};  ///< |E| pairs a < b, lexicographically sorted.
 };
 
 /// Number of connected components; isolated nodes count.

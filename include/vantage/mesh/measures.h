@@ -13,17 +13,20 @@ namespace vantage {
 
 /// Axis-aligned box; for no points at all, low = high = 0.
 struct Box {
-  Vec3 low = Vec3::Zero();
-  Vec3 high = Vec3::Zero();
+  Vec3 low = Vec3::Zero();   ///< Corner of least coordinates.
+  Vec3 high = Vec3::Zero();  ///< Corner of greatest coordinates.
 
-  [[nodiscard]] Vec3 size() const { return high - low; }      ///< Sides.
-  [[nodiscard]] double longest_side() const { return size().maxCoeff(); }
+  [[nodiscard]] Vec3 size() const { return high - low; }  ///< Sides.
+
+  [[nodiscard]] double longest_side() const {
+    return size().maxCoeff();
+  }  ///< Longest of the three.
 };
 
 /// Sphere given by centre and diameter [D].
 struct Sphere {
-  Vec3 centre = Vec3::Zero();
-  double diameter = 0.0;  ///< ≥ 0; every tolerance of the library is relative to it.
+  Vec3 centre = Vec3::Zero();  ///< In model units.
+  double diameter = 0.0;       ///< ≥ 0; every tolerance of the library is relative to it.
 };
 
 /// Smallest axis-aligned box around the points.

@@ -11,8 +11,8 @@ namespace vantage {
 /// All that can be wrong, or unusual, with a surface. Counts refer to the mesh as given; call
 /// weld() first if coincident vertices should count as one.
 struct MeshReport {
-  std::size_t vertices = 0;
-  std::size_t faces = 0;
+  std::size_t vertices = 0;               ///< Isolated ones too.
+  std::size_t faces = 0;                  ///< Triangles, degenerate ones too.
   std::size_t components = 0;             ///< Of the surface; isolated vertices are not counted.
   std::size_t isolated_vertices = 0;      ///< Named by no face.
   std::size_t duplicate_vertices = 0;     ///< Positions that appeared before.

@@ -21,6 +21,7 @@ struct IndexLists {
 
   [[nodiscard]] std::size_t size() const { return offsets.size() - 1; }  ///< Number of rows.
 
+  /// Values of a row.
   [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t row) const {
     return {values.data() + offsets[row], offsets[row + 1] - offsets[row]};
   }

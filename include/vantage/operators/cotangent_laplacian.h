@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <span>
+
+#include <Eigen/SparseCore>
 
 #include "vantage/mesh/tri_mesh.h"
 

@@ -37,9 +37,9 @@ inline constexpr auto kRenderFields = std::tuple{
 
 /// A curve drawn as tubes through the surface, which then becomes translucent.
 struct TubeOverlay {
-  const CurveGraph* graph = nullptr;
-  double radius = 0.0;  ///< Of tubes, model units; joints are 1.6 times as thick.
-  Rgb8 colour{{200, 30, 40}};
+  const CurveGraph* graph = nullptr;  ///< Null draws none.
+  double radius = 0.0;                ///< Of tubes, model units; joints are 1.6 times as thick.
+  Rgb8 colour{{200, 30, 40}};         ///< sRGB.
 };
 
 /// Renders `mesh` from `camera`.

@@ -43,19 +43,19 @@ UpAxis default_up(ModelFormat format);
 
 /// Everything that shapes the result of a view.
 struct ViewOptions {
-  Preset preset = Preset::Default;
-  ContractionOptions contraction{};
-  SkeletonOptions skeleton{};
-  KssmOptions kssm{};
+  Preset preset = Preset::Default;      ///< What the options began as.
+  ContractionOptions contraction{};     ///< Of the surface.
+  SkeletonOptions skeleton{};           ///< Of the graph.
+  KssmOptions kssm{};                   ///< Of the map.
   bool kssm_to_finished_graph = false;  ///< Measure to the centred, pruned graph (not the raw one).
-  SearchOptions search{};
-  Projection projection = Projection::Perspective;
-  double fov_y_deg = 30.0;                  ///< Of the scoring camera, in (0, 180).
-  std::optional<double> distance_factor{};  ///< Eye distance over D/2, > 1.
-  std::optional<UpAxis> up{};               ///< Unset: default_up().
-  int width = 800;                          ///< Of pictures, px.
-  int height = 600;                         ///< Of pictures, px.
-  bool pictures = true;                     ///< Whether view.json names pictures.
+  SearchOptions search{};               ///< Of the view sphere.
+  Projection projection = Projection::Perspective;  ///< Of the scoring camera.
+  double fov_y_deg = 30.0;                          ///< Of the scoring camera, in (0, 180).
+  std::optional<double> distance_factor{};          ///< Eye distance over D/2, > 1.
+  std::optional<UpAxis> up{};                       ///< Unset: default_up().
+  int width = 800;                                  ///< Of pictures, px.
+  int height = 600;                                 ///< Of pictures, px.
+  bool pictures = true;                             ///< Whether view.json names pictures.
 };
 
 /// Names, ranges and help of the numbers in ViewOptions itself.
@@ -69,13 +69,13 @@ ViewOptions preset_options(Preset preset);
 
 /// Wall-clock seconds of each stage.
 struct StageSeconds {
-  double load = 0.0;
-  double contract = 0.0;
-  double skeleton = 0.0;
-  double map = 0.0;
-  double search = 0.0;
-  double render = 0.0;
-  double total = 0.0;
+  double load = 0.0;      ///< Reading the file.
+  double contract = 0.0;  ///< Repairs and contraction.
+  double skeleton = 0.0;  ///< Surgery, centring, pruning.
+  double map = 0.0;       ///< Distances and their sum.
+  double search = 0.0;    ///< Both views.
+  double render = 0.0;    ///< Pictures.
+  double total = 0.0;     ///< Of everything.
 };
 
 /// The surface as the method works on it, and what it found out about its shape.
@@ -85,10 +85,10 @@ struct ShapeAnalysis {
   std::vector<std::uint32_t> surface_vertex{};  ///< For each input vertex its one in `surface`.
   MeshReport check{};                           ///< Of the welded surface.
   Sphere sphere{};                              ///< Smallest around all referenced vertices.
-  ContractionHistory history{};
-  Skeleton skeleton{};
-  KssmMap map{};
-  std::vector<std::string> warnings{};  ///< Every repair and doubt, one sentence each.
+  ContractionHistory history{};                 ///< Filled by add_history().
+  Skeleton skeleton{};                          ///< Filled by add_skeleton().
+  KssmMap map{};                                ///< Filled by add_map().
+  std::vector<std::string> warnings{};          ///< Every repair and doubt, one sentence each.
 };
 
 /// Welds and orients the model's surface; the only place that repairs, and it lists every repair.
@@ -115,9 +115,9 @@ std::vector<std::int64_t> nodes_of_input_vertices(const ShapeAnalysis& shape);
 
 /// One view and the picture's camera.
 struct ReportedView {
-  Vec3 direction = Vec3::UnitZ();  ///< From the centre to the eye.
-  Vec3 eye = Vec3::UnitZ();        ///< Model units.
-  Vec3 up = Vec3::UnitY();
+  Vec3 direction = Vec3::UnitZ();      ///< From the centre to the eye.
+  Vec3 eye = Vec3::UnitZ();            ///< Model units.
+  Vec3 up = Vec3::UnitY();             ///< Unit, upright in the picture.
   double score = 0.0;                  ///< Pure sum of the visible significance.
   double score_fraction = 0.0;         ///< score / total; 0 if total is 0.
   double objective = 0.0;              ///< What the search compared: score times the prior.
@@ -127,14 +127,14 @@ struct ReportedView {
 
 /// The result of the search.
 struct ViewReport {
-  ScoringCamera camera{};
-  UpAxis up = UpAxis::Y;
-  ReportedView best{};
-  ReportedView worst{};
-  double total = 0.0;  ///< The score if everything were visible.
-  FoundView best_search{};
-  FoundView worst_search{};
-  std::vector<std::string> warnings{};
+  ScoringCamera camera{};               ///< What scored.
+  UpAxis up = UpAxis::Y;                ///< As used.
+  ReportedView best{};                  ///< Of the largest score.
+  ReportedView worst{};                 ///< Of the least score.
+  double total = 0.0;                   ///< The score if everything were visible.
+  FoundView best_search{};              ///< How it was found.
+  FoundView worst_search{};             ///< Evaluations beyond the best view's.
+  std::vector<std::string> warnings{};  ///< One sentence each.
 };
 
 /// The scoring camera of a model.

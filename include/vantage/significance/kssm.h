@@ -29,16 +29,18 @@ enum class Kinematics {
 
 /// Options of compute_kssm().
 struct KssmOptions {
-  Suppression suppression = Suppression::Mean;
-  Kinematics kinematics = Kinematics::Displacement;
+  Suppression suppression = Suppression::Mean;       ///< How even levels are lowered.
+  Kinematics kinematics = Kinematics::Displacement;  ///< What is summed.
   bool area_weighted_mean = false;  ///< Weight m̄ by vertex area (`--weight area`).
 };
 
 /// The map and what it was made of.
 struct KssmMap {
-  std::vector<double> of_vertex{};                    ///< |V| values ≥ 0; 0 for isolated vertices.
-  std::vector<std::vector<double>> displacement{};    ///< d^(j) per level, model units.
-  std::vector<double> level_factor{};                 ///< (1 − m̄)² per level; 0 where flat.
+  std::vector<double> of_vertex{};                  ///< |V| values ≥ 0; 0 for isolated vertices.
+  std::vector<std::vector<double>> displacement{};  ///< d^(j) per level, model units.
+  std::vector<double> level_factor{};               ///< (1 − m̄)² per level; 0 where flat.
+
+  /// d^(0), the distance of the surface itself to the skeleton, model units.
   [[nodiscard]] const std::vector<double>& thickness() const { return displacement.front(); }
 };
 

@@ -21,10 +21,10 @@ namespace vantage {
 /// Options of extract_skeleton().
 struct SkeletonOptions {
   ContractionScaling scaling = ContractionScaling::Sphere;  ///< What `spacing` is relative to.
-  double spacing = 0.02;       ///< [r] distance of samples over D, or over the box diagonal (Cao).
-  double prune_ratio = 1.0;    ///< Ends shorter than this times the radius at their root are cut.
-  bool centre = true;          ///< Move nodes to the middle of the surface they stand for.
-  bool prune = true;           ///< Cut spurious ends.
+  double spacing = 0.02;     ///< [r] distance of samples over D, or over the box diagonal (Cao).
+  double prune_ratio = 1.0;  ///< Ends shorter than this times the radius at their root are cut.
+  bool centre = true;        ///< Move nodes to the middle of the surface they stand for.
+  bool prune = true;         ///< Cut spurious ends.
 };
 
 /// Names, ranges and help of the numbers in SkeletonOptions.
@@ -37,12 +37,13 @@ inline constexpr auto kSkeletonFields = std::tuple{
 
 /// A curve skeleton and what each node stands for.
 struct Skeleton {
-  CurveGraph graph{};                       ///< Finished: centred and pruned as asked.
-  std::vector<double> radius{};             ///< |N| mean distance of a node to its vertices, level 0.
-  std::vector<std::uint32_t> node_of_vertex{};  ///< |V| nodes of `graph`; kNone for isolated vertices.
-  CurveGraph raw{};                         ///< Before centring and pruning: what KSSM measures to.
+  CurveGraph graph{};            ///< Finished: centred and pruned as asked.
+  std::vector<double> radius{};  ///< |N| mean distance of a node to its vertices, level 0.
+  std::vector<std::uint32_t>
+      node_of_vertex{};  ///< |V| nodes of `graph`; kNone for isolated vertices.
+  CurveGraph raw{};      ///< Before centring and pruning: what KSSM measures to.
   std::vector<std::uint32_t> raw_node_of_vertex{};  ///< |V| nodes of `raw`; kNone if isolated.
-  std::vector<std::string> warnings{};      ///< One sentence each.
+  std::vector<std::string> warnings{};              ///< One sentence each.
 
   /// Node of a vertex that belongs to no face.
   static constexpr std::uint32_t kNone = 0xffffffffu;

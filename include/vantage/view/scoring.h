@@ -20,10 +20,10 @@ namespace vantage {
 
 /// The camera that scores: its eye stands at centre + R · direction.
 struct ScoringCamera {
-  Sphere sphere{};  ///< Enclosing sphere of the model; D > 0.
-  Projection projection = Projection::Perspective;
-  double fov_y_deg = 30.0;                  ///< Vertical field of view, in (0, 180).
-  std::optional<double> distance_factor{};  ///< R over D/2, > 1; unset: 1 / sin(fov/2).
+  Sphere sphere{};                                  ///< Enclosing sphere of the model; D > 0.
+  Projection projection = Projection::Perspective;  ///< Perspective unless asked.
+  double fov_y_deg = 30.0;                          ///< Vertical field of view, in (0, 180).
+  std::optional<double> distance_factor{};          ///< R over D/2, > 1; unset: 1 / sin(fov/2).
 
   [[nodiscard]] double distance() const;                           ///< R in model units.
   [[nodiscard]] Vec3 eye(const Vec3& direction) const;             ///< Position of the eye.
@@ -50,7 +50,7 @@ class ViewScorer {
   /// The score if everything were visible.
   [[nodiscard]] double total() const { return total_; }
 
-  [[nodiscard]] const ScoringCamera& camera() const { return camera_; }
+  [[nodiscard]] const ScoringCamera& camera() const { return camera_; }  ///< As given.
 
  private:
   const VertexVisibility* visibility_;

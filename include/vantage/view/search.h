@@ -30,8 +30,8 @@ enum class Goal { Best, Worst };
 
 /// Options of search_view() and search_best_and_worst().
 struct SearchOptions {
-  SearchStrategy strategy = SearchStrategy::Global;
-  ViewSphereBase base = ViewSphereBase::Icosahedron;
+  SearchStrategy strategy = SearchStrategy::Global;   ///< How to search.
+  ViewSphereBase base = ViewSphereBase::Icosahedron;  ///< Of the start set.
   int subdivisions = 3;             ///< Of the base: start of rapid, set of exhaustive; 0–8.
   double epsilon = 0.001;           ///< Rapid stops when a ring gains less than this …
   bool epsilon_is_fraction = true;  ///< … as a fraction of `total`, or as a raw sum.
@@ -46,22 +46,22 @@ inline constexpr auto kSearchFields = std::tuple{
 
 /// One evaluated direction of a search, in order of evaluation.
 struct SearchStep {
-  int level = 0;  ///< 0: the start set; then one per refinement.
-  Vec3 direction = Vec3::UnitZ();
-  double score = 0.0;
+  int level = 0;                   ///< 0: the start set; then one per refinement.
+  Vec3 direction = Vec3::UnitZ();  ///< Unit vector to the eye.
+  double score = 0.0;              ///< As the scorer gave it.
 };
 
 /// One view found by a search.
 struct FoundView {
-  Vec3 direction = Vec3::UnitZ();  ///< Unit vector from the centre to the eye.
-  double score = 0.0;
+  Vec3 direction = Vec3::UnitZ();   ///< Unit vector from the centre to the eye.
+  double score = 0.0;               ///< As the scorer gave it.
   std::size_t evaluations = 0;      ///< Directions scored for it; none is scored twice.
   std::vector<SearchStep> trace{};  ///< Each evaluated direction.
 };
 
 /// Result of search_best_and_worst().
 struct FoundViews {
-  FoundView best{};
+  FoundView best{};   ///< Of the largest score.
   FoundView worst{};  ///< Its evaluations and trace hold only what the best had not scored before.
 };
 

@@ -30,8 +30,8 @@ class VertexVisibility {
   /// \param sides one entry per component of connected_components(mesh), or a single entry for all.
   explicit VertexVisibility(const TriMesh& mesh, std::vector<FaceSides> sides);
   ~VertexVisibility();
-  VertexVisibility(VertexVisibility&&) noexcept;
-  VertexVisibility& operator=(VertexVisibility&&) noexcept;
+  VertexVisibility(VertexVisibility&&) noexcept;             ///< Leaves the other unusable.
+  VertexVisibility& operator=(VertexVisibility&&) noexcept;  ///< The same.
 
   /// 1 for each vertex with an unblocked segment to the eye and an incident face turned to the
   /// eye, else 0. Faces at the vertex, or at another one of equal position, do not block it.

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "skeleton/shell.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/topology.h"
+
+namespace vantage {
+namespace {
+
+/// Faces a cell of the grid, on average, if all were the same size.
+constexpr double kFacesPerCell = 2.0;
+constexpr int kMostCells = 2048;  // along one side
+/// A ray from a vertex passes over the faces at that vertex: a ten-thousandth of the model.
+constexpr float kSkip = 1e-4F;
+
+TriMesh in_frame(const TriMesh& mesh, const UnitFrame& frame) {
+  TriMesh moved = mesh;
+  for (Vec3& p : moved.positions) {
+    p = frame.to_frame(p);
+  }
+  return moved;
+}
+
+std::vector<Vec3> vertex_normals(const TriMesh& mesh) {
+  std::vector<Vec3> normals(mesh.positions.size(), Vec3::Zero());
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 twice_area = area_vector(mesh, t);
+    for (const std::uint32_t v : t) {
+      normals[v] += twice_area;
+    }
+  }
+  for (Vec3& n : normals) {
+    n.stableNormalize();
+  }
+  return normals;
+}
+
+}  // namespace
+
+Shell::Shell(const TriMesh& mesh, std::span<const std::uint32_t> component_of_vertex)
+    : mesh_(mesh),
+      component_of_vertex_(component_of_vertex),
+      frame_(unit_frame(mesh.positions)),
+      scene_(in_frame(mesh, frame_)),
+      normal_(vertex_normals(mesh)) {
+  mark_open_components();
+  sort_into_cells();
+}
+
+void Shell::mark_open_components() {
+  const EdgeTable table = build_edge_table(mesh_);
+  for (std::size_t e = 0; e < table.edges.size(); ++e) {
+    const std::uint32_t component = component_of_vertex_[table.edges[e][0]];
+    is_open_.resize(std::max<std::size_t>(is_open_.size(), component + std::size_t{1}), 0);
+    if (table.faces_of_edge[e].size() % 2 == 1) {
+      is_open_[component] = 1;
+    }
+  }
+}
+
+void Shell::sort_into_cells() {
+  const Box box = bounding_box(mesh_.positions);
+  const Vec3 size = box.size();
+  size.minCoeff(&up_);  // along the shortest side, projections overlap least
+  low_ = box.low;
+  const double width = size[(up_ + 1) % 3];
+  const double height = size[(up_ + 2) % 3];
+  const double wanted = std::max(1.0, static_cast<double>(mesh_.triangles.size()) / kFacesPerCell);
+  cell_size_ = std::max(std::sqrt(width * height / wanted), std::max(width, height) / kMostCells);
+  if (!(cell_size_ > 0.0)) {
+    cell_size_ = 1.0;
+  }
+  cells_ = {static_cast<int>(width / cell_size_) + 1, static_cast<int>(height / cell_size_) + 1};
+
+  const auto for_each_cell = [&](const Triangle& t, const auto& visit) {
+    Vec3 low = mesh_.positions[t[0]];
+    Vec3 high = low;
+    for (const std::uint32_t v : t) {
+      low = low.cwiseMin(mesh_.positions[v]);
+      high = high.cwiseMax(mesh_.positions[v]);
+    }
+    const auto first = cell_of(low);
+    const auto last = cell_of(high);
+    for (int y = first[1]; y <= last[1]; ++y) {
+      for (int x = first[0]; x <= last[0]; ++x) {
+        visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_[0]) +
+              static_cast<std::size_t>(x));
+      }
+    }
+  };
+  offsets_.assign(static_cast<std::size_t>(cells_[0]) * static_cast<std::size_t>(cells_[1]) + 1, 0);
+  for (const Triangle& t : mesh_.triangles) {
+    for_each_cell(t, [&](std::size_t cell) { ++offsets_[cell + 1]; });
+  }
+  for (std::size_t cell = 1; cell < offsets_.size(); ++cell) {
+    offsets_[cell] += offsets_[cell - 1];
+  }
+  faces_.resize(offsets_.back());
+  std::vector<std::uint32_t> cursor(offsets_.begin(), offsets_.end() - 1);
+  for (std::uint32_t f = 0; f < mesh_.triangles.size(); ++f) {
+    for_each_cell(mesh_.triangles[f], [&](std::size_t cell) { faces_[cursor[cell]++] = f; });
+  }
+}
+
+std::array<int, 2> Shell::cell_of(const Vec3& p) const {
+  std::array<int, 2> cell{};
+  for (int a = 0; a < 2; ++a) {
+    const int axis = (up_ + 1 + a) % 3;
+    const double place = std::floor((p[axis] - low_[axis]) / cell_size_);
+    const int last = cells_.at(static_cast<std::size_t>(a)) - 1;
+    cell.at(static_cast<std::size_t>(a)) =
+        static_cast<int>(std::clamp(place, 0.0, static_cast<double>(last)));
+  }
+  return cell;
+}
+
+/// +1 or −1 if the projected edge passes the projected point on one side, upwards or downwards; the
+/// same decision for both faces at the edge, so that no point slips between two faces.
+int Shell::crossing(std::uint32_t from, std::uint32_t to, const Vec3& p) const {
+  const int x = (up_ + 1) % 3;
+  const int y = (up_ + 2) % 3;
+  const Vec3& a = mesh_.positions[std::min(from, to)];
+  const Vec3& b = mesh_.positions[std::max(from, to)];
+  const bool up = b[y] > p[y];
+  if ((a[y] > p[y]) == up) {
+    return 0;
+  }
+  const double side = (b[x] - a[x]) * (p[y] - a[y]) - (b[y] - a[y]) * (p[x] - a[x]);
+  if (up ? !(side > 0.0) : !(side < 0.0)) {
+    return 0;
+  }
+  return up == (from < to) ? 1 : -1;
+}
+
+/// How often the face, seen along the up axis, winds around the point, if it lies above it.
+int Shell::winding_of_face(const Triangle& t, const Vec3& p) const {
+  const int winding = crossing(t[0], t[1], p) + crossing(t[1], t[2], p) + crossing(t[2], t[0], p);
+  if (winding == 0) {
+    return 0;
+  }
+  const int x = (up_ + 1) % 3;
+  const int y = (up_ + 2) % 3;
+  std::array<double, 3> share{};
+  double total = 0.0;
+  double height = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Vec3 u = mesh_.positions[t.at((c + 1) % 3)] - p;
+    const Vec3 v = mesh_.positions[t.at((c + 2) % 3)] - p;
+    share.at(c) = u[x] * v[y] - u[y] * v[x];
+    total += share.at(c);
+    height += share.at(c) * mesh_.positions[t.at(c)][up_];
+  }
+  const auto [low, high] = std::minmax(
+      {mesh_.positions[t[0]][up_], mesh_.positions[t[1]][up_], mesh_.positions[t[2]][up_]});
+  height = total != 0.0 ? std::clamp(height / total, low, high) : high;
+  return height > p[up_] ? winding : 0;
+}
+
+bool Shell::inside(std::uint32_t component, const Vec3& point) const {
+  if (component >= is_open_.size() || is_open_[component] != 0) {
+    return true;
+  }
+  const auto [x, y] = cell_of(point);
+  const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_[0]) +
+                           static_cast<std::size_t>(x);
+  int winding = 0;
+  for (std::uint32_t i = offsets_[cell]; i < offsets_[cell + 1]; ++i) {
+    const Triangle& t = mesh_.triangles[faces_[i]];
+    if (component_of_vertex_[t[0]] == component) {
+      winding += winding_of_face(t, point);
+    }
+  }
+  return winding != 0;
+}
+
+bool Shell::inside(std::uint32_t component, const Vec3& a, const Vec3& b) const {
+  for (int i = 0; i < kSamples; ++i) {
+    const double s = (i + 0.5) / kSamples;
+    if (!inside(component, (1.0 - s) * a + s * b)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool Shell::middle_at(std::uint32_t vertex, Vec3& middle) const {
+  const Vec3 origin = frame_.to_frame(mesh_.positions[vertex]);
+  if (normal_[vertex].isZero(0.0)) {
+    return false;
+  }
+  for (const double sense : {-1.0, 1.0}) {  // inwards, unless the surface is inside out
+    const Vec3 direction = sense * normal_[vertex];
+    const RayHit hit = scene_.closest_hit(origin.cast<float>(), direction.cast<float>(), kSkip);
+    if (!hit) {
+      continue;
+    }
+    const Vec3 half_way =
+        mesh_.positions[vertex] + (0.5 * static_cast<double>(hit.t) / frame_.scale) * direction;
+    if (inside(component_of_vertex_[vertex], half_way)) {
+      middle = half_way;
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace vantage

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "vantage/mesh/tri_mesh.h"
+
+#include "spatial/ray_scene.h"
+
+namespace vantage {
+
+/// What is inside a surface, component by component. Open components have no inside: every point
+/// counts as inside of them.
+class Shell {
+ public:
+  /// \param component_of_vertex |V| labels; a face belongs to the component of its first vertex.
+  /// Both must outlive the shell.
+  Shell(const TriMesh& mesh, std::span<const std::uint32_t> component_of_vertex);
+
+  /// Whether the surface of the component winds around the point, or is open.
+  [[nodiscard]] bool inside(std::uint32_t component, const Vec3& point) const;
+
+  /// Whether all of the segment, looked at in kSamples places, is inside.
+  [[nodiscard]] bool inside(std::uint32_t component, const Vec3& a, const Vec3& b) const;
+
+  /// Finds the middle between a vertex and the wall across from it, along the normal.
+  /// \return false, and `middle` as it was, if neither way leads through the inside.
+  [[nodiscard]] bool middle_at(std::uint32_t vertex, Vec3& middle) const;
+
+  static constexpr int kSamples = 16;
+
+ private:
+  void mark_open_components();
+  void sort_into_cells();
+  [[nodiscard]] std::array<int, 2> cell_of(const Vec3& p) const;
+  [[nodiscard]] int crossing(std::uint32_t from, std::uint32_t to, const Vec3& p) const;
+  [[nodiscard]] int winding_of_face(const Triangle& t, const Vec3& p) const;
+
+  const TriMesh& mesh_;
+  std::span<const std::uint32_t> component_of_vertex_;
+  std::vector<std::uint8_t> is_open_{};  ///< Of each component.
+  // Faces by the cell of a plane grid that their projection along `up_` touches.
+  int up_ = 2;
+  Vec3 low_ = Vec3::Zero();
+  std::array<int, 2> cells_{1, 1};
+  double cell_size_ = 1.0;
+  std::vector<std::uint32_t> offsets_{};
+  std::vector<std::uint32_t> faces_{};
+  // For middle_at().
+  UnitFrame frame_{};
+  RayScene scene_;
+  std::vector<Vec3> normal_{};  ///< |V| unit normals; zero where undefined.
+};
+
+}  // namespace vantage

@@ -1,0 +1,20 @@
+# Installs into a scratch prefix, builds a consumer against it, and runs that and the program.
+#   cmake -DBUILD=<build folder> -DSOURCE=<source folder> -DSCRATCH=<folder> -P test_install.cmake
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE out)
+  if(NOT code EQUAL 0)
+    message(FATAL_ERROR "${ARGN}\nended with ${code}:\n${out}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${SCRATCH})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/prefix)
+run(${CMAKE_COMMAND} -S ${SOURCE}/tests/install/consumer -B ${SCRATCH}/build
+    -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix
+    -DEXAMPLE=${SOURCE}/examples/best_view.cpp)
+run(${CMAKE_COMMAND} --build ${SCRATCH}/build)
+run(${SCRATCH}/build/consumer ${SOURCE}/models/fan.ply ${SCRATCH}/fan.png)
+run(${SCRATCH}/prefix/bin/vantage info ${SOURCE}/models/fan.ply)
+if(NOT EXISTS ${SCRATCH}/fan.png)
+  message(FATAL_ERROR "the consumer wrote no picture")
+endif()

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include "vantage/contraction/contraction.h"
+#include "vantage/mesh/measures.h"
+
+#include "support/shapes.h"
+
+namespace vantage {
+namespace {
+
+struct Shape {
+  std::string name;
+  TriMesh mesh;
+};
+
+void PrintTo(const Shape& shape, std::ostream* out) {
+  *out << shape.name;
+}
+
+std::vector<Shape> shapes() {
+  return {{"Sphere", test::sphere(3)},
+          {"Torus", test::torus(1.0, 0.3, 40, 16)},
+          {"Box", test::box(1.0, 2.0, 3.0, 8)},
+          {"Cylinder", test::cylinder(0.3, 3.0, 16, 32)},
+          {"OpenCylinder", test::open_cylinder(0.3, 3.0, 16, 32)},
+          {"YOfTubes", test::y_of_tubes(0.25, 20)},
+          {"SphereAndTorus",
+           test::together(test::sphere(2), test::torus(1.0, 0.3, 30, 12), Vec3(0, 0, 5))},
+          {"InsideOutBox", test::inside_out(test::box(1.0, 1.0, 4.0, 6))}};
+}
+
+class ContractionOf : public ::testing::TestWithParam<Shape> {};
+
+/// Largest distance between corresponding points, over the diameter of the model.
+double deviation(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double diameter) {
+  double worst = 0.0;
+  for (std::size_t v = 0; v < a.size(); ++v) {
+    worst = std::max(worst, (a[v] - b[v]).norm() / diameter);
+  }
+  return worst;
+}
+
+TEST_P(ContractionOf, NeverStaysAtLevelZero) {
+  const ContractionHistory history = contract(GetParam().mesh);
+  for (const ComponentContraction& component : history.components) {
+    EXPECT_GE(component.steps, 1);
+  }
+}
+
+TEST_P(ContractionOf, EndsWithASmallFractionOfItsArea) {
+  const TriMesh& mesh = GetParam().mesh;
+  const ContractionHistory history = contract(mesh);
+  const TriMesh last{.positions = history.levels.back(), .triangles = mesh.triangles};
+  const double left = surface_area(last) / surface_area(mesh);
+  RecordProperty("area_left", std::to_string(left));
+  RecordProperty("levels", std::to_string(history.level_count()));
+  EXPECT_LE(left, 0.1);
+}
+
+TEST_P(ContractionOf, ShrinksByMoreThanTheToleranceAtEveryStepButTheFirst) {
+  const TriMesh& mesh = GetParam().mesh;
+  const ContractionHistory history = contract(mesh);
+  if (history.components.size() > 1) {
+    return;  // components end at different levels; the rule is one component's
+  }
+  for (std::size_t j = 2; j < history.shrinkage.size(); ++j) {
+    if (history.shrinkage[j - 1] <= 0.99) {
+      EXPECT_GE(history.shrinkage[j - 1] - history.shrinkage[j], 0.01) << j;
+    }
+  }
+}
+
+TEST_P(ContractionOf, CommutesWithSimilarities) {
+  const TriMesh& mesh = GetParam().mesh;
+  const double diameter = enclosing_sphere(mesh.positions).diameter;
+  const ContractionHistory plain = contract(mesh);
+  const Vec3 axis(1, 2, 3);
+  double worst = 0.0;
+  for (const double scale : {1e-8, 1e-6, 1.0, 1e6, 1e8}) {
+    const Vec3 shift = scale * Vec3(3, -2, 1);
+    const ContractionHistory other = contract(test::moved(mesh, scale, 0.7, axis, shift));
+    ASSERT_EQ(other.levels.size(), plain.levels.size()) << scale;
+    for (std::size_t j = 0; j < plain.levels.size(); ++j) {
+      const TriMesh expected =
+          test::moved({.positions = plain.levels[j], .triangles = {}}, scale, 0.7, axis, shift);
+      worst = std::max(worst, deviation(other.levels[j], expected.positions, scale * diameter));
+    }
+  }
+  RecordProperty("worst_deviation", std::to_string(worst * 1e12) + "e-12 D");
+  // Rounding of the rotated input, amplified by late systems of condition 10¹² and more.
+  EXPECT_LE(worst, 1e-5);
+}
+
+TEST_P(ContractionOf, DoesNotDependOnTheNumberingOfVertices) {
+  const TriMesh& mesh = GetParam().mesh;
+  const double diameter = enclosing_sphere(mesh.positions).diameter;
+  const ContractionHistory plain = contract(mesh);
+  std::vector<std::uint32_t> old_of_new;
+  const ContractionHistory other = contract(test::renumbered(mesh, 11, &old_of_new));
+  ASSERT_EQ(other.levels.size(), plain.levels.size());
+  for (std::size_t j = 0; j < plain.levels.size(); ++j) {
+    std::vector<Vec3> expected;
+    for (const std::uint32_t v : old_of_new) {
+      expected.push_back(plain.levels[j][v]);
+    }
+    EXPECT_LE(deviation(other.levels[j], expected, diameter), 1e-5) << j;
+  }
+}
+
+TEST_P(ContractionOf, DoesNotDependOnWhatElseIsInTheFile) {
+  const TriMesh& mesh = GetParam().mesh;
+  const ContractionHistory alone = contract(mesh);
+  const ContractionHistory joined =
+      contract(test::together(mesh, test::torus(2.0, 0.9, 20, 10), Vec3(9, 9, 9)));
+  const std::size_t common = std::min(alone.levels.size(), joined.levels.size());
+  ASSERT_EQ(common, alone.levels.size());
+  for (std::size_t j = 0; j < common; ++j) {
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      ASSERT_EQ(joined.levels[j][v], alone.levels[j][v]) << "level " << j << ", vertex " << v;
+    }
+  }
+}
+
+TEST_P(ContractionOf, HasTheSameBytesForAnyNumberOfThreads) {
+  const tbb::global_control raised(tbb::global_control::max_allowed_parallelism, 8);
+  const ContractionHistory one = contract(GetParam().mesh, {}, {.max_threads = 1});
+  for (const int threads : {2, 3, 8}) {
+    const ContractionHistory other = contract(GetParam().mesh, {}, {.max_threads = threads});
+    EXPECT_EQ(one.levels, other.levels) << threads;
+    EXPECT_EQ(one.shrinkage, other.shrinkage) << threads;
+  }
+}
+
+TEST_P(ContractionOf, SucceedsWithTheScalingOfThePaper) {
+  const ContractionHistory history =
+      contract(GetParam().mesh, {.scaling = ContractionScaling::Box});
+  EXPECT_GE(history.level_count(), 1U);
+  EXPECT_LE(history.shrinkage.back(), 0.2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, ContractionOf, ::testing::ValuesIn(shapes()),
+                         [](const auto& instance) { return instance.param.name; });
+
+}  // namespace
+}  // namespace vantage

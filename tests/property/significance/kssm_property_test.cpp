@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include "vantage/core/random.h"
+#include "vantage/significance/kssm.h"
+#include "vantage/skeleton/skeleton.h"
+
+#include "support/dense_oracles.h"
+#include "support/shapes.h"
+
+namespace vantage {
+namespace {
+
+struct Shape {
+  std::string name;
+  TriMesh mesh;
+};
+
+void PrintTo(const Shape& shape, std::ostream* out) {
+  *out << shape.name;
+}
+
+TriMesh with_isolated_vertex(TriMesh mesh) {
+  mesh.positions.insert(mesh.positions.begin() + 3, Vec3(40, 50, 60));
+  for (Triangle& t : mesh.triangles) {
+    for (std::uint32_t& v : t) {
+      v += v >= 3 ? 1 : 0;
+    }
+  }
+  return mesh;
+}
+
+/// Moves every vertex a little: on symmetric shapes, rounding alone would decide which of several
+/// equal vertices is a strict local maximum.
+std::vector<Shape> uneven(std::vector<Shape> shapes) {
+  Pcg32 random(17);
+  for (Shape& shape : shapes) {
+    for (Vec3& p : shape.mesh.positions) {
+      p += 0.01 * Vec3(random.uniform(), random.uniform(), random.uniform());
+    }
+  }
+  return shapes;
+}
+
+std::vector<Shape> shapes() {
+  return uneven({{"Torus", test::torus(1.0, 0.3, 30, 12)},
+                 {"Box", test::box(1.0, 2.0, 3.0, 6)},
+                 {"OpenCylinder", test::open_cylinder(0.3, 3.0, 12, 24)},
+                 {"YOfTubes", test::y_of_tubes(0.25, 18)},
+                 {"TwoComponents",
+                  test::together(test::sphere(2), test::torus(1.0, 0.3, 24, 10), Vec3(0, 0, 5))},
+                 {"WithIsolatedVertex", with_isolated_vertex(test::cylinder(0.3, 3.0, 12, 24))}});
+}
+
+/// All ways to ask for a map.
+std::vector<KssmOptions> all_options() {
+  std::vector<KssmOptions> all;
+  for (const auto suppression : {Suppression::Mean, Suppression::LocalMaxima}) {
+    for (const auto kinematics : {Kinematics::Displacement, Kinematics::Velocity}) {
+      for (const bool by_area : {false, true}) {
+        all.push_back({suppression, kinematics, by_area});
+      }
+    }
+  }
+  return all;
+}
+
+class KssmOf : public ::testing::TestWithParam<Shape> {
+ protected:
+  const TriMesh mesh_ = GetParam().mesh;
+  const ContractionHistory history_ = contract(mesh_);
+  const Skeleton skeleton_ = extract_skeleton(mesh_, history_);
+};
+
+TEST_P(KssmOf, AgreesWithADirectEvaluation) {
+  double worst = 0.0;
+  for (const KssmOptions& options : all_options()) {
+    const KssmMap map = compute_kssm(mesh_, history_, skeleton_.raw, options);
+    const std::vector<double> expected = test::direct_kssm(mesh_, history_, skeleton_.raw, options);
+    for (std::size_t v = 0; v < expected.size(); ++v) {
+      worst = std::max(worst, std::abs(map.of_vertex[v] - expected[v]));
+    }
+  }
+  RecordProperty("worst_difference", std::to_string(worst * 1e15) + "e-15");
+  EXPECT_LE(worst, 1e-12);
+}
+
+TEST_P(KssmOf, IsAtLeastZeroAndAtMostOneALevel) {
+  const KssmMap map = compute_kssm(mesh_, history_, skeleton_.raw);
+  for (const double value : map.of_vertex) {
+    EXPECT_GE(value, 0.0);
+    EXPECT_LE(value, static_cast<double>(history_.levels.size()));
+  }
+}
+
+TEST_P(KssmOf, HasTheSameBytesForAnyNumberOfThreads) {
+  const tbb::global_control raised(tbb::global_control::max_allowed_parallelism, 8);
+  const KssmMap one = compute_kssm(mesh_, history_, skeleton_.raw, {}, {.max_threads = 1});
+  for (const int threads : {2, 3, 8}) {
+    const KssmMap other =
+        compute_kssm(mesh_, history_, skeleton_.raw, {}, {.max_threads = threads});
+    EXPECT_EQ(one.of_vertex, other.of_vertex) << threads;
+    EXPECT_EQ(one.displacement, other.displacement) << threads;
+  }
+}
+
+TEST_P(KssmOf, DoesNotChangeWhenEverythingIsMovedTogether) {
+  const KssmMap plain = compute_kssm(mesh_, history_, skeleton_.raw);
+  for (const double scale : {1e-6, 1e6}) {
+    const auto move = [&](const std::vector<Vec3>& points) {
+      return test::moved({.positions = points, .triangles = {}}, scale, 0.9, Vec3(1, -1, 2),
+                         scale * Vec3(1, 2, 3))
+          .positions;
+    };
+    TriMesh mesh = mesh_;
+    mesh.positions = move(mesh.positions);
+    ContractionHistory history = history_;
+    for (auto& level : history.levels) {
+      level = move(level);
+    }
+    CurveGraph graph = skeleton_.raw;
+    graph.nodes = move(graph.nodes);
+    const KssmMap moved = compute_kssm(mesh, history, graph);
+    for (std::size_t v = 0; v < plain.of_vertex.size(); ++v) {
+      // A level spans at least 1e-6 D; rounding of coordinates is 1e-16 D.
+      EXPECT_NEAR(moved.of_vertex[v], plain.of_vertex[v], 1e-8);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, KssmOf, ::testing::ValuesIn(shapes()),
+                         [](const auto& instance) { return instance.param.name; });
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include "vantage/contraction/contraction.h"
+#include "vantage/skeleton/skeleton.h"
+
+#include "support/dense_oracles.h"
+#include "support/shapes.h"
+#include "support/voxel_surface.h"
+#include "unit/skeleton/genus_two.h"
+
+namespace vantage {
+namespace {
+
+struct Shape {
+  std::string name;
+  TriMesh mesh;
+  std::size_t components;
+  std::size_t genus;
+  std::size_t ends;  ///< Nodes of one edge that the finished skeleton has.
+};
+
+/// Closed surfaces whose skeleton is known.
+std::vector<Shape> shapes() {
+  const TriMesh ring = test::torus(1.0, 0.25, 40, 12);
+  return {
+      {"torus", ring, 1, 1, 0},
+      {"genus_two", test::genus_two(32, 12), 1, 2, 0},
+      {"two_tori", test::together(ring, ring, Vec3(0.0, 0.0, 2.0)), 2, 2, 0},
+      {"linked_tori",
+       test::together(ring, test::moved(ring, 1.0, 1.5707963267948966, Vec3::UnitX(), Vec3::Zero()),
+                      Vec3(1.0, 0.0, 0.0)),
+       2, 2, 0},
+      {"cylinder", test::cylinder(0.2, 3.0, 16, 40), 1, 0, 2},
+      {"y", test::y_of_tubes(0.2, 24), 1, 0, 3}};
+}
+
+/// Surfaces of known topology whose ends depend on how their flat parts are cut up.
+std::vector<Shape> blocky_shapes() {
+  return {{"sphere", test::sphere(3), 1, 0, 0},
+          {"box", test::box(1.0, 2.0, 3.0, 8), 1, 0, 0},
+          {"plate_with_two_holes", test::plate_with_holes(2), 1, 2, 0},
+          {"plate_with_five_holes", test::plate_with_holes(5), 1, 5, 0},
+          {"cube_frame", test::cube_frame(), 1, 5, 0}};
+}
+
+Skeleton skeleton_of(const TriMesh& mesh, const SkeletonOptions& options = {}) {
+  return extract_skeleton(mesh, contract(mesh), options);
+}
+
+std::size_t end_count(const CurveGraph& graph) {
+  std::vector<int> degree(graph.nodes.size(), 0);
+  for (const auto& [a, b] : graph.edges) {
+    ++degree[a];
+    ++degree[b];
+  }
+  return static_cast<std::size_t>(std::count(degree.begin(), degree.end(), 1));
+}
+
+void expect_topology(const Shape& shape, const CurveGraph& graph) {
+  EXPECT_EQ(component_count(graph), shape.components);
+  EXPECT_EQ(cycle_count(graph), shape.genus);
+}
+
+class SkeletonProperty : public testing::TestWithParam<Shape> {};
+
+TEST_P(SkeletonProperty, HasAComponentPerComponentAndACyclePerHandle) {
+  const Skeleton skeleton = skeleton_of(GetParam().mesh);
+  expect_topology(GetParam(), skeleton.graph);
+  expect_topology(GetParam(), skeleton.raw);
+  EXPECT_TRUE(skeleton.warnings.empty());
+}
+
+TEST_P(SkeletonProperty, HasAnEndPerTip) {
+  EXPECT_EQ(end_count(skeleton_of(GetParam().mesh).graph), GetParam().ends);
+}
+
+TEST_P(SkeletonProperty, MapsEveryVertexToANode) {
+  const Skeleton skeleton = skeleton_of(GetParam().mesh);
+  ASSERT_EQ(skeleton.node_of_vertex.size(), GetParam().mesh.positions.size());
+  for (std::size_t v = 0; v < skeleton.node_of_vertex.size(); ++v) {
+    ASSERT_LT(skeleton.node_of_vertex[v], skeleton.graph.nodes.size());
+    ASSERT_LT(skeleton.raw_node_of_vertex[v], skeleton.raw.nodes.size());
+  }
+}
+
+TEST_P(SkeletonProperty, RadiusIsTheMeanDistanceToTheVerticesOfANode) {
+  const Skeleton skeleton = skeleton_of(GetParam().mesh);
+  std::vector<double> sum(skeleton.graph.nodes.size(), 0.0);
+  std::vector<double> count(skeleton.graph.nodes.size(), 0.0);
+  for (std::size_t v = 0; v < skeleton.node_of_vertex.size(); ++v) {
+    const std::uint32_t node = skeleton.node_of_vertex[v];
+    sum[node] += (GetParam().mesh.positions[v] - skeleton.graph.nodes[node]).norm();
+    count[node] += 1.0;
+  }
+  ASSERT_EQ(skeleton.radius.size(), sum.size());
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    EXPECT_NEAR(skeleton.radius[i], count[i] > 0.0 ? sum[i] / count[i] : 0.0, 1e-12);
+  }
+}
+
+TEST_P(SkeletonProperty, EveryVertexIsWithinThreeLocalRadiiOfTheGraph) {
+  const Skeleton skeleton = skeleton_of(GetParam().mesh);
+  for (std::size_t v = 0; v < skeleton.node_of_vertex.size(); ++v) {
+    const double distance =
+        test::brute_force_distance(skeleton.graph, GetParam().mesh.positions[v]);
+    ASSERT_LE(distance, 3.0 * skeleton.radius[skeleton.node_of_vertex[v]]) << "vertex " << v;
+  }
+}
+
+TEST_P(SkeletonProperty, NodesOfTheFinishedGraphAreInsideTheShell) {
+  const Skeleton skeleton = skeleton_of(GetParam().mesh);
+  for (const Vec3& node : skeleton.graph.nodes) {
+    EXPECT_NEAR(test::winding_number(GetParam().mesh, node), 1.0, 1e-6) << node.transpose();
+  }
+}
+
+TEST_P(SkeletonProperty, AWiderSpacingGivesFewerNodesAndTheSameTopology) {
+  const Skeleton skeleton = skeleton_of(GetParam().mesh, {.spacing = 0.05});
+  const CurveGraph coarser = skeleton_of(GetParam().mesh, {.spacing = 0.1}).raw;
+  EXPECT_LT(coarser.nodes.size(), skeleton.raw.nodes.size());
+  expect_topology(GetParam(), coarser);
+}
+
+TEST_P(SkeletonProperty, RenumberingKeepsComponentsCyclesAndEnds) {
+  for (const unsigned seed : {1U, 2U}) {
+    const Skeleton skeleton = skeleton_of(test::renumbered(GetParam().mesh, seed));
+    expect_topology(GetParam(), skeleton.graph);
+    EXPECT_EQ(end_count(skeleton.graph), GetParam().ends) << "seed " << seed;
+  }
+}
+
+TEST_P(SkeletonProperty, RotationAndScaleKeepComponentsCyclesAndEnds) {
+  for (const double scale : {1e-6, 1.0, 1e6}) {
+    const Skeleton skeleton = skeleton_of(test::moved(
+        GetParam().mesh, scale, 0.9, Vec3(1.0, -2.0, 0.7), scale * Vec3(3.0, 1.0, -2.0)));
+    expect_topology(GetParam(), skeleton.graph);
+    EXPECT_EQ(end_count(skeleton.graph), GetParam().ends) << "scale " << scale;
+  }
+}
+
+TEST_P(SkeletonProperty, IsTheSameToTheBitForAnyThreadCount) {
+  // Otherwise a machine of two cores would make two threads at most.
+  const tbb::global_control raised(tbb::global_control::max_allowed_parallelism, 8);
+  const auto run = [&](int threads) {
+    const RunContext context{.max_threads = threads};
+    return extract_skeleton(GetParam().mesh, contract(GetParam().mesh, {}, context), {}, context);
+  };
+  const Skeleton alone = run(1);
+  for (const int threads : {2, 3, 8}) {
+    const Skeleton skeleton = run(threads);
+    EXPECT_TRUE(skeleton.graph.nodes == alone.graph.nodes &&
+                skeleton.graph.edges == alone.graph.edges && skeleton.radius == alone.radius &&
+                skeleton.node_of_vertex == alone.node_of_vertex &&
+                skeleton.raw.nodes == alone.raw.nodes)
+        << threads << " threads";
+  }
+}
+
+class SkeletonTopology : public testing::TestWithParam<Shape> {};
+
+TEST_P(SkeletonTopology, IsThatOfTheSurface) {
+  expect_topology(GetParam(), skeleton_of(GetParam().mesh).graph);
+}
+
+TEST_P(SkeletonTopology, StaysUnderRenumbering) {
+  expect_topology(GetParam(), skeleton_of(test::renumbered(GetParam().mesh, 4)).graph);
+}
+
+TEST_P(SkeletonTopology, StaysUnderSimilarities) {
+  for (const double scale : {1e-6, 1e6}) {
+    const TriMesh mesh = test::moved(GetParam().mesh, scale, 0.9, Vec3(1.0, -2.0, 0.7),
+                                     scale * Vec3(3.0, 1.0, -2.0));
+    expect_topology(GetParam(), skeleton_of(mesh).graph);
+  }
+}
+
+TEST_P(SkeletonTopology, DoesNotDependOnTheWinding) {
+  expect_topology(GetParam(), skeleton_of(test::inside_out(GetParam().mesh)).graph);
+}
+
+TEST_P(SkeletonTopology, ComesWithoutLoopsOrDoubledEdges) {
+  const CurveGraph graph = skeleton_of(GetParam().mesh).graph;
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    ASSERT_LT(graph.edges[e][0], graph.edges[e][1]);
+    ASSERT_LT(graph.edges[e][1], graph.nodes.size());
+    ASSERT_TRUE(e == 0 || graph.edges[e - 1] < graph.edges[e]);
+  }
+}
+
+TEST_P(SkeletonTopology, LosesNoLimb) {
+  // Flat parts are far from any curve compared with the mean of their own node.
+  const Skeleton skeleton = skeleton_of(GetParam().mesh);
+  for (std::size_t v = 0; v < skeleton.node_of_vertex.size(); ++v) {
+    const double distance =
+        test::brute_force_distance(skeleton.graph, GetParam().mesh.positions[v]);
+    ASSERT_LE(distance, 3.0 * skeleton.radius[skeleton.node_of_vertex[v]]) << "vertex " << v;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, SkeletonTopology, testing::ValuesIn(shapes()),
+                         [](const auto& each) { return each.param.name; });
+INSTANTIATE_TEST_SUITE_P(Blocks, SkeletonTopology, testing::ValuesIn(blocky_shapes()),
+                         [](const auto& each) { return each.param.name; });
+INSTANTIATE_TEST_SUITE_P(Shapes, SkeletonProperty, testing::ValuesIn(shapes()),
+                         [](const auto& each) { return each.param.name; });
+
+}  // namespace
+}  // namespace vantage

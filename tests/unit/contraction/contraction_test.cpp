@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/contraction/contraction.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "vantage/mesh/measures.h"
+
+#include "support/shapes.h"
+
+namespace vantage {
+namespace {
+
+using ::testing::HasSubstr;
+
+void expect_finite(const ContractionHistory& history) {
+  for (const auto& level : history.levels) {
+    for (const Vec3& p : level) {
+      ASSERT_TRUE(p.allFinite());
+    }
+  }
+}
+
+TEST(Contract, LevelZeroIsTheInputBitForBit) {
+  const TriMesh mesh =
+      test::moved(test::torus(1.0, 0.3, 16, 8), 1e-3, 0.7, Vec3(1, 2, 3), Vec3(5, 6, 7));
+  EXPECT_EQ(contract(mesh).levels.front(), mesh.positions);
+}
+
+TEST(Contract, BringsACylinderToItsAxis) {
+  const double radius = 0.25;
+  const TriMesh mesh = test::cylinder(radius, 4.0, 24, 48);
+  const ContractionHistory history = contract(mesh);
+  double farthest = 0.0;
+  for (const Vec3& p : history.levels.back()) {
+    farthest = std::max(farthest, std::hypot(p.x(), p.y()));
+  }
+  RecordProperty("farthest_from_axis_in_radii", std::to_string(farthest / radius));
+  EXPECT_LE(farthest, 0.02 * radius);
+}
+
+TEST(Contract, BringsATorusToItsCoreCircle) {
+  const double minor = 0.25;
+  const TriMesh mesh = test::torus(1.0, minor, 48, 16);
+  double farthest = 0.0;
+  for (const Vec3& p : contract(mesh).levels.back()) {
+    farthest = std::max(farthest, std::hypot(std::hypot(p.x(), p.y()) - 1.0, p.z()));
+  }
+  RecordProperty("farthest_from_circle_in_radii", std::to_string(farthest / minor));
+  EXPECT_LE(farthest, 0.5 * minor);
+}
+
+TEST(Contract, LeavesIsolatedVerticesExactlyWhereTheyAre) {
+  TriMesh mesh = test::torus(1.0, 0.3, 16, 8);
+  const Vec3 place(0.1, 0.2, 1.0 / 3.0);
+  mesh.positions.push_back(place);
+  const ContractionHistory history = contract(mesh);
+  ASSERT_GE(history.level_count(), 1U);
+  for (const auto& level : history.levels) {
+    EXPECT_EQ(level.back(), place);
+  }
+  EXPECT_EQ(history.component_of_vertex.back(), ContractionHistory::kIsolated);
+  EXPECT_EQ(history.components.size(), 1U);
+}
+
+TEST(Contract, OfNothingButPointsHasOnlyTheInput) {
+  const TriMesh mesh{.positions = {{0, 0, 0}, {1, 2, 3}}, .triangles = {}};
+  const ContractionHistory history = contract(mesh);
+  EXPECT_EQ(history.levels.size(), 1U);
+  EXPECT_TRUE(history.components.empty());
+}
+
+TEST(Contract, OfAnEmptyMeshIsOneEmptyLevel) {
+  EXPECT_EQ(contract({}).levels.size(), 1U);
+}
+
+TEST(Contract, LeavesASurfaceWithoutAreaAlone) {
+  const TriMesh needle{.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, .triangles = {{0, 1, 2}}};
+  const ContractionHistory history = contract(needle);
+  ASSERT_EQ(history.components.size(), 1U);
+  EXPECT_EQ(history.components.front().stop, ContractionStop::NothingToMove);
+  EXPECT_EQ(history.levels.back(), needle.positions);
+}
+
+TEST(Contract, SurvivesFacesThatNameAVertexTwice) {
+  TriMesh mesh = test::box(1, 1, 3, 5);
+  mesh.triangles.push_back({0, 0, 1});
+  mesh.triangles.push_back({2, 2, 2});
+  const ContractionHistory history = contract(mesh);
+  expect_finite(history);
+  EXPECT_GE(history.level_count(), 1U);
+}
+
+TEST(Contract, SurvivesFacesThatStandTwice) {
+  TriMesh mesh = test::torus(1.0, 0.3, 16, 8);
+  for (std::size_t f = 0; f < 20; ++f) {
+    const Triangle copy = mesh.triangles[f];
+    mesh.triangles.push_back(copy);
+    mesh.triangles.push_back({copy[0], copy[2], copy[1]});
+  }
+  const ContractionHistory history = contract(mesh);
+  expect_finite(history);
+  EXPECT_GE(history.level_count(), 1U);
+}
+
+TEST(Contract, SurvivesNeedlesAndZeroAreaFaces) {
+  TriMesh mesh = test::cylinder(0.25, 4.0, 16, 32);
+  // Push rings together until neighbouring ones coincide to the last bits, and one exactly.
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const std::size_t ring = v / 16;
+    if (ring == 10) {
+      mesh.positions[v].z() = mesh.positions[9 * 16].z() * (1.0 + 1e-15);
+    } else if (ring == 20) {
+      mesh.positions[v].z() = mesh.positions[19 * 16].z();
+    }
+  }
+  const ContractionHistory history = contract(mesh);
+  expect_finite(history);
+  EXPECT_GE(history.level_count(), 1U);
+  EXPECT_LT(history.shrinkage.back(), 0.5);
+}
+
+TEST(Contract, SaysWhenItHadToRegularise) {
+  // Caps with angles of almost 180°: cotangents of −10⁷ and more, which push instead of pull.
+  TriMesh mesh = test::sphere(2);
+  const Triangle t = mesh.triangles[5];
+  const auto tip = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.emplace_back(0.5 * (mesh.positions[t[0]] + mesh.positions[t[1]]) * (1 - 1e-9));
+  mesh.triangles.push_back({t[0], tip, t[1]});
+  const ContractionHistory history = contract(mesh);
+  expect_finite(history);
+  ASSERT_GE(history.level_count(), 1U);
+  EXPECT_EQ(history.components.front().regularised_steps > 0, !history.warnings.empty());
+}
+
+TEST(Contract, GivesBackTheVertexOrderOfTwoInterwovenComponents) {
+  TriMesh mesh;
+  const TriMesh torus = test::torus(1.0, 0.3, 16, 8);
+  for (const Vec3& p : torus.positions) {
+    mesh.positions.push_back(p);
+    mesh.positions.emplace_back(p + Vec3(10, 0, 0));
+  }
+  for (const auto& [a, b, c] : torus.triangles) {
+    mesh.triangles.push_back({2 * a, 2 * b, 2 * c});
+    mesh.triangles.push_back({2 * a + 1, 2 * b + 1, 2 * c + 1});
+  }
+  const ContractionHistory history = contract(mesh);
+  ASSERT_EQ(history.components.size(), 2U);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    EXPECT_EQ(history.component_of_vertex[v], v % 2);
+    EXPECT_EQ(history.levels.back()[v].x() > 5.0, v % 2 == 1);
+  }
+}
+
+TEST(Contract, ObeysTheStepLimit) {
+  const ContractionHistory history = contract(test::torus(1.0, 0.3, 16, 8), {.max_steps = 1});
+  EXPECT_EQ(history.level_count(), 1U);
+  EXPECT_EQ(history.components.front().stop, ContractionStop::StepLimit);
+}
+
+TEST(Contract, RefusesOptionsOutOfRangeByName) {
+  for_each_field(kContractionFields, [](const auto& field) {
+    ContractionOptions options;
+    options.*(field.member) = field.high;
+    options.*(field.member) *= 2;
+    try {
+      contract(test::box(1, 1, 1, 1), options);
+      ADD_FAILURE() << field.name << " was accepted";
+    } catch (const InvalidInput& error) {
+      EXPECT_THAT(error.what(), HasSubstr(std::string(field.name)));
+    }
+  });
+}
+
+TEST(Contract, RefusesNotANumber) {
+  EXPECT_THROW(contract(test::box(1, 1, 1, 1),
+                        {.contraction_growth = std::numeric_limits<double>::quiet_NaN()}),
+               InvalidInput);
+}
+
+TEST(StopName, IsDifferentForEveryReason) {
+  EXPECT_EQ(stop_name(ContractionStop::Shrunk), "shrunk");
+  EXPECT_EQ(stop_name(ContractionStop::Grew), "grew");
+  EXPECT_EQ(stop_name(ContractionStop::StepLimit), "step-limit");
+  EXPECT_EQ(stop_name(ContractionStop::NothingToMove), "nothing-to-move");
+  EXPECT_EQ(stop_name(ContractionStop::SolverFailed), "solver-failed");
+}
+
+TEST(ContractProgress, NeverGoesBackOverManyComponents) {
+  // The large component first: the shares of the later ones must still follow on.
+  TriMesh mesh = test::torus(1.0, 0.3, 24, 12);
+  for (int i = 0; i < 3; ++i) {
+    mesh = test::together(mesh, test::sphere(1), Vec3(5.0 * (i + 1), 0, 0));
+  }
+  std::vector<double> seen;
+  contract(mesh, {}, {.report = [&](std::string_view, double f) { seen.push_back(f); }});
+  ASSERT_GE(seen.size(), 5U);
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  EXPECT_EQ(seen.back(), 1.0);
+  EXPECT_GE(seen.front(), 0.0);
+}
+
+TEST(ContractCancel, StopsAtEveryReportedFraction) {
+  const TriMesh mesh = test::together(test::torus(1.0, 0.3, 12, 8), test::sphere(1), Vec3(5, 0, 0));
+  int reports = 0;
+  contract(mesh, {}, {.report = [&](std::string_view, double) { ++reports; }});
+  ASSERT_GE(reports, 4);
+  for (int at = 1; at < reports; ++at) {  // after the last one nothing is left to stop
+    std::stop_source source;
+    int seen = 0;
+    const RunContext run{.report =
+                             [&](std::string_view, double) {
+                               if (++seen == at) {
+                                 source.request_stop();
+                               }
+                             },
+                         .stop = source.get_token()};
+    EXPECT_THROW(contract(mesh, {}, run), Cancelled) << "at report " << at;
+    EXPECT_EQ(seen, at);
+  }
+}
+
+}  // namespace
+}  // namespace vantage

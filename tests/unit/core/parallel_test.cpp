@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "core/parallel.h"
+
+#include <atomic>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include "vantage/core/error.h"
+
+namespace vantage {
+namespace {
+
+/// More threads than this machine may have cores: arenas alone are clamped to them.
+tbb::global_control many_threads() {
+  return tbb::global_control(tbb::global_control::max_allowed_parallelism, 8);
+}
+
+/// Terms whose sum depends on the order of addition.
+double term(std::size_t i) {
+  return std::sin(static_cast<double>(i)) * std::pow(10.0, static_cast<double>(i % 17));
+}
+
+double sum_with(int threads) {
+  return parallel_sum({.max_threads = threads}, 10'007, 64, [](std::size_t begin, std::size_t end) {
+    double sum = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      sum += term(i);
+    }
+    return sum;
+  });
+}
+
+class ForThreads : public ::testing::TestWithParam<int> {};
+
+TEST_P(ForThreads, ParallelSumHasTheBitsOfOneThread) {
+  const auto raised = many_threads();
+  const double expected = sum_with(1);
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    EXPECT_EQ(sum_with(GetParam()), expected);
+  }
+}
+
+TEST_P(ForThreads, ParallelForVisitsEveryIndexOnce) {
+  const auto raised = many_threads();
+  std::vector<std::atomic<int>> visits(1003);
+  parallel_for({.max_threads = GetParam()}, visits.size(), 10,
+               [&](std::size_t begin, std::size_t end) {
+                 EXPECT_LE(end - begin, 10U);
+                 for (std::size_t i = begin; i < end; ++i) {
+                   ++visits[i];
+                 }
+               });
+  for (const auto& count : visits) {
+    EXPECT_EQ(count.load(), 1);
+  }
+}
+
+TEST_P(ForThreads, ExceptionsReachTheCaller) {
+  const auto raised = many_threads();
+  const auto fail = [](std::size_t begin, std::size_t) {
+    if (begin >= 500) {
+      throw std::runtime_error("from a chunk");
+    }
+  };
+  EXPECT_THROW(parallel_for({.max_threads = GetParam()}, 1000, 10, fail), std::runtime_error);
+}
+
+TEST_P(ForThreads, AStopRequestEndsTheLoop) {
+  const auto raised = many_threads();
+  std::stop_source source;
+  const RunContext run{.stop = source.get_token(), .max_threads = GetParam()};
+  EXPECT_THROW(parallel_for(run, 1000, 1, [&](std::size_t, std::size_t) { source.request_stop(); }),
+               Cancelled);
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, ForThreads, ::testing::Values(0, 1, 2, 3, 8));
+
+TEST(ParallelFor, DoesNothingForAnEmptyRange) {
+  bool called = false;
+  parallel_for({}, 0, 10, [&](std::size_t, std::size_t) { called = true; });
+  EXPECT_FALSE(called);
+}
+
+TEST(ParallelSum, OfNothingIsZero) {
+  EXPECT_EQ(parallel_sum({}, 0, 10, [](std::size_t, std::size_t) { return 1.0; }), 0.0);
+}
+
+}  // namespace
+}  // namespace vantage

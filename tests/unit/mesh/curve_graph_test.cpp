@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/mesh/curve_graph.h"
+
+#include <gtest/gtest.h>
+
+namespace vantage {
+namespace {
+
+CurveGraph square_with_tail_and_loner() {
+  return {.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {3, 0, 0}, {9, 9, 9}},
+          .edges = {{0, 1}, {0, 3}, {1, 2}, {1, 4}, {2, 3}}};
+}
+
+TEST(CurveGraphCounts, AnIsolatedNodeIsAComponent) {
+  EXPECT_EQ(component_count(square_with_tail_and_loner()), 2U);
+}
+
+TEST(CurveGraphCounts, ASquareHasOneCycleWhateverHangsFromIt) {
+  EXPECT_EQ(cycle_count(square_with_tail_and_loner()), 1U);
+}
+
+TEST(CurveGraphCounts, TheCompleteGraphOfFourNodesHasThreeIndependentCycles) {
+  const CurveGraph graph{.nodes = std::vector<Vec3>(4, Vec3::Zero()),
+                         .edges = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+  EXPECT_EQ(cycle_count(graph), 6U - 4U + 1U);
+}
+
+TEST(CurveGraphCounts, TheEmptyGraphHasNothing) {
+  EXPECT_EQ(component_count({}), 0U);
+  EXPECT_EQ(cycle_count({}), 0U);
+}
+
+TEST(TotalLength, AddsUpTheEdges) {
+  EXPECT_DOUBLE_EQ(total_length(square_with_tail_and_loner()), 4.0 * 1.0 + 2.0);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "operators/sparse_cholesky.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "vantage/operators/cotangent_laplacian.h"
+
+#include "support/shapes.h"
+
+namespace vantage {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+/// L² + shift on a torus.
+Sparse system_of_torus(double shift) {
+  const TriMesh mesh = test::torus(1.0, 0.3, 16, 10);
+  const Sparse L = cotangent_laplacian(mesh.positions, mesh.triangles);
+  Sparse A = Sparse(L.transpose()) * L;
+  for (Eigen::Index i = 0; i < A.rows(); ++i) {
+    A.coeffRef(i, i) += shift;
+  }
+  return A;
+}
+
+Eigen::MatrixX3d right_side(Eigen::Index n) {
+  Eigen::MatrixX3d B(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto x = static_cast<double>(i);
+    B.row(i) << std::sin(x), std::cos(2.0 * x), 1.0;
+  }
+  return B;
+}
+
+/// Tridiagonal 2, −1: positive definite at any size.
+Sparse chain(int n) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < n; ++i) {
+    entries.emplace_back(i, i, 2.5);
+    if (i > 0) {
+      entries.emplace_back(i, i - 1, -1.0);
+      entries.emplace_back(i - 1, i, -1.0);
+    }
+  }
+  Sparse A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+TEST(SparseCholeskySolve, AgreesWithADenseFactorisation) {
+  const Sparse A = system_of_torus(0.1);
+  SparseCholesky solver;
+  solver.analyze(A);
+  ASSERT_TRUE(solver.factorize(A));
+  const Eigen::MatrixX3d B = right_side(A.rows());
+  const Eigen::MatrixX3d expected = Eigen::MatrixXd(A).llt().solve(B);
+  const double error = (solver.solve(B) - expected).norm() / expected.norm();
+  ::testing::Test::RecordProperty("relative_error", std::to_string(error * 1e15) + "e-15");
+  // Condition about 10⁴: 12 digits are left.
+  EXPECT_LE(error, 1e-11);
+}
+
+TEST(SparseCholeskySolve, ReusesAnAnalysisForOtherValues) {
+  SparseCholesky solver;
+  solver.analyze(system_of_torus(1.0));
+  for (const double shift : {1.0, 3.0}) {
+    const Sparse A = system_of_torus(shift);
+    ASSERT_TRUE(solver.factorize(A));
+    const Eigen::MatrixX3d B = right_side(A.rows());
+    EXPECT_LE((A * solver.solve(B) - B).norm(), 1e-11 * B.norm());
+  }
+}
+
+TEST(SparseCholeskyFactorize, SaysWhenTheMatrixIsNotPositiveDefinite) {
+  SparseCholesky solver;
+  const Sparse A = system_of_torus(-1.0);  // L² has the eigenvalue 0
+  solver.analyze(A);
+  EXPECT_FALSE(solver.factorize(A));
+}
+
+TEST(SparseCholeskyFactorize, WorksAgainAfterAFailure) {
+  SparseCholesky solver;
+  solver.analyze(system_of_torus(1.0));
+  ASSERT_FALSE(solver.factorize(system_of_torus(-1.0)));
+  EXPECT_TRUE(solver.factorize(system_of_torus(1.0)));
+}
+
+TEST(SparseCholeskySolve, HandlesSystemsOnBothSidesOfTheChangeOfOrdering) {
+  for (const int n : {7'999, 8'000, 60'000}) {
+    const Sparse A = chain(n);
+    SparseCholesky solver;
+    solver.analyze(A);
+    ASSERT_TRUE(solver.factorize(A));
+    const Eigen::MatrixX3d X = right_side(n);
+    EXPECT_LE((solver.solve(A * X) - X).norm(), 1e-13 * X.norm()) << n;
+  }
+}
+
+TEST(SparseCholeskySolve, SurvivesBeingMoved) {
+  const Sparse A = chain(10);
+  SparseCholesky solver;
+  solver.analyze(A);
+  ASSERT_TRUE(solver.factorize(A));
+  const SparseCholesky moved = std::move(solver);
+  const Eigen::MatrixX3d X = right_side(10);
+  EXPECT_LE((moved.solve(A * X) - X).norm(), 1e-14 * X.norm());
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/significance/kssm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/dense_oracles.h"
+#include "support/shapes.h"
+#include "vantage/skeleton/skeleton.h"
+
+namespace vantage {
+namespace {
+
+/// A strip of four vertices and two triangles, and a graph of one node at the origin, so that the
+/// displacement of a level is the distance of its points from the origin.
+struct HandMade {
+  TriMesh mesh{.positions = {{1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {5, 0, 0}},
+               .triangles = {{0, 1, 2}, {1, 3, 2}}};
+  CurveGraph graph{.nodes = {{0, 0, 0}}, .edges = {}};
+  ContractionHistory history{.levels = {mesh.positions}};
+};
+
+TEST(ComputeKssm, OfOneLevelIsThatLevelNormalisedAndSuppressed) {
+  const HandMade made;
+  const KssmMap map = compute_kssm(made.mesh, made.history, made.graph);
+  // d = 1, 2, 3, 5; D = 0, 1/4, 1/2, 1; mean without the maximum 1/4; factor (3/4)².
+  const double factor = 0.75 * 0.75;
+  ASSERT_EQ(map.level_factor.size(), 1U);
+  EXPECT_DOUBLE_EQ(map.level_factor[0], factor);
+  EXPECT_DOUBLE_EQ(map.of_vertex[0], 0.0);
+  EXPECT_DOUBLE_EQ(map.of_vertex[1], 0.25 * factor);
+  EXPECT_DOUBLE_EQ(map.of_vertex[2], 0.5 * factor);
+  EXPECT_DOUBLE_EQ(map.of_vertex[3], factor);
+  EXPECT_EQ(map.thickness(), (std::vector<double>{1.0, 2.0, 3.0, 5.0}));
+}
+
+TEST(ComputeKssm, WithLocalMaximaLeavesOutTheGlobalOne) {
+  const HandMade made;
+  const KssmMap map = compute_kssm(made.mesh, made.history, made.graph,
+                                   {.suppression = Suppression::LocalMaxima});
+  // The only strict local maximum is the global one: nothing is suppressed.
+  EXPECT_DOUBLE_EQ(map.level_factor[0], 1.0);
+}
+
+TEST(ComputeKssm, WithLocalMaximaAveragesTheOthers) {
+  HandMade made;
+  // Two separate triangles: maxima 5 (global, D = 1) and 3 (D = 1/2).
+  made.mesh.positions = {{1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {5, 0, 0}, {0, 1, 0}, {0, 4, 0}};
+  made.mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  made.history.levels = {made.mesh.positions};
+  const KssmMap map = compute_kssm(made.mesh, made.history, made.graph,
+                                   {.suppression = Suppression::LocalMaxima});
+  EXPECT_DOUBLE_EQ(map.level_factor[0], (1.0 - 0.5) * (1.0 - 0.5));
+}
+
+TEST(ComputeKssm, FromVelocitiesNeedsAStep) {
+  HandMade made;
+  made.history.levels.push_back(made.mesh.positions);
+  for (Vec3& p : made.history.levels[1]) {
+    p *= 0.5;  // vertex i moves by half its distance
+  }
+  const KssmMap map =
+      compute_kssm(made.mesh, made.history, made.graph, {.kinematics = Kinematics::Velocity});
+  // Velocities ½ (1, 2, 3, 5): the same shape as the displacement.
+  ASSERT_EQ(map.level_factor.size(), 1U);
+  EXPECT_DOUBLE_EQ(map.of_vertex[2], 0.5 * 0.75 * 0.75);
+}
+
+TEST(ComputeKssm, TakesNothingFromAFlatLevel) {
+  HandMade made;
+  made.history.levels.push_back(std::vector<Vec3>(4, Vec3(1, 0, 0)));
+  const KssmMap two = compute_kssm(made.mesh, made.history, made.graph);
+  made.history.levels.pop_back();
+  const KssmMap one = compute_kssm(made.mesh, made.history, made.graph);
+  EXPECT_EQ(two.of_vertex, one.of_vertex);
+  EXPECT_EQ(two.level_factor.back(), 0.0);
+}
+
+TEST(ComputeKssm, OfASphereAroundItsCentreIsZero) {
+  TriMesh mesh = test::sphere(3);
+  ContractionHistory history{.levels = {mesh.positions}};
+  for (int j = 0; j < 3; ++j) {
+    history.levels.push_back(history.levels.back());
+    for (Vec3& p : history.levels.back()) {
+      p *= 0.3;
+    }
+  }
+  const KssmMap map = compute_kssm(mesh, history, {.nodes = {{0, 0, 0}}, .edges = {}});
+  EXPECT_EQ(*std::max_element(map.of_vertex.begin(), map.of_vertex.end()), 0.0);
+}
+
+TEST(ComputeKssm, GivesIsolatedVerticesNothingAndLeavesThemOutOfTheScaling) {
+  HandMade made;
+  const KssmMap without = compute_kssm(made.mesh, made.history, made.graph);
+  made.mesh.positions.emplace_back(1000, 0, 0);
+  made.mesh.positions.emplace_back(0, 0, 0);
+  made.history.levels = {made.mesh.positions};
+  KssmMap with = compute_kssm(made.mesh, made.history, made.graph);
+  EXPECT_EQ(with.of_vertex[4], 0.0);
+  EXPECT_EQ(with.of_vertex[5], 0.0);
+  with.of_vertex.resize(4);
+  EXPECT_EQ(with.of_vertex, without.of_vertex);
+}
+
+TEST(ComputeKssm, CanWeighTheMeanByArea) {
+  HandMade made;
+  // A second triangle a hundred times as large, far less displaced than its share of vertices.
+  made.mesh.positions = {{1, 0, 0}, {2, 0, 0}, {1, 1, 0}, {0, 0, 1}, {0, 20, 0}, {20, 0, 0}};
+  made.mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  made.history.levels = {made.mesh.positions};
+  const KssmOptions by_area{.area_weighted_mean = true};
+  const KssmMap map = compute_kssm(made.mesh, made.history, made.graph, by_area);
+  const std::vector<double> expected =
+      test::direct_kssm(made.mesh, made.history, made.graph, by_area);
+  const KssmMap by_vertex = compute_kssm(made.mesh, made.history, made.graph);
+  EXPECT_GT(std::abs(map.level_factor[0] - by_vertex.level_factor[0]), 0.01);
+  for (std::size_t v = 0; v < expected.size(); ++v) {
+    EXPECT_NEAR(map.of_vertex[v], expected[v], 1e-14);
+  }
+}
+
+TEST(ComputeKssm, RefusesAnotherMeshsHistory) {
+  HandMade made;
+  made.mesh.positions.emplace_back(0, 0, 0);
+  EXPECT_THROW(compute_kssm(made.mesh, made.history, made.graph), InvalidInput);
+}
+
+TEST(ComputeKssm, RefusesAGraphWithoutNodes) {
+  const HandMade made;
+  EXPECT_THROW(compute_kssm(made.mesh, made.history, {}), InvalidInput);
+}
+
+TEST(ComputeKssm, StopsOnRequest) {
+  const HandMade made;
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_THROW(
+      compute_kssm(made.mesh, made.history, made.graph, {}, {.stop = source.get_token()}),
+      Cancelled);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "skeleton/resampling.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "vantage/skeleton/skeleton.h"
+
+namespace vantage {
+namespace {
+
+using ::testing::ElementsAre;
+
+/// A chain along x with nodes every `step`.
+CurveGraph chain(std::uint32_t count, double step) {
+  CurveGraph graph;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    graph.nodes.emplace_back(step * i, 0, 0);
+    if (i > 0) {
+      graph.edges.push_back({i - 1, i});
+    }
+  }
+  return graph;
+}
+
+TEST(MergeCloseNodes, LeavesNoPairOfAChainCloserThanTheSpacing) {
+  std::vector<std::uint32_t> node_of_vertex;
+  const CurveGraph merged =
+      merge_close_nodes(chain(101, 0.01), 0.1, std::vector<double>(101, 1.0), node_of_vertex);
+  for (const auto& [a, b] : merged.edges) {
+    EXPECT_GE((merged.nodes[a] - merged.nodes[b]).norm(), 0.1);
+  }
+  EXPECT_EQ(merged.edges.size() + 1, merged.nodes.size());
+}
+
+TEST(MergeCloseNodes, KeepsEndsWhereTheyAre) {
+  std::vector<std::uint32_t> node_of_vertex;
+  const CurveGraph merged =
+      merge_close_nodes(chain(101, 0.01), 0.1, std::vector<double>(101, 1.0), node_of_vertex);
+  double low = 1.0;
+  double high = 0.0;
+  for (const Vec3& p : merged.nodes) {
+    low = std::min(low, p.x());
+    high = std::max(high, p.x());
+  }
+  EXPECT_EQ(low, 0.0);
+  EXPECT_EQ(high, 1.0);
+}
+
+TEST(MergeCloseNodes, KeepsATinyCycle) {
+  const CurveGraph triangle{.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                            .edges = {{0, 1}, {0, 2}, {1, 2}}};
+  std::vector<std::uint32_t> node_of_vertex;
+  const CurveGraph merged = merge_close_nodes(triangle, 100.0, {1, 1, 1}, node_of_vertex);
+  EXPECT_EQ(cycle_count(merged), 1U);
+}
+
+TEST(MergeCloseNodes, MapsVerticesAndLeavesIsolatedOnesOut) {
+  std::vector<std::uint32_t> node_of_vertex{0, 1, 2, Skeleton::kNone};
+  const CurveGraph merged =
+      merge_close_nodes({.nodes = {{0, 0, 0}, {0.1, 0, 0}, {5, 0, 0}}, .edges = {{0, 1}, {1, 2}}},
+                        1.0, {1, 1, 1}, node_of_vertex);
+  EXPECT_EQ(merged.nodes.size(), 2U);
+  EXPECT_THAT(node_of_vertex, ElementsAre(0U, 0U, 1U, Skeleton::kNone));
+}
+
+TEST(MergeCloseNodes, StaysFiniteForNodesThatStandForNoVertex) {
+  std::vector<std::uint32_t> node_of_vertex;
+  const CurveGraph merged =
+      merge_close_nodes(chain(8, 0.1), 0.25, {1, 1, 0, 0, 0, 0, 1, 1}, node_of_vertex);
+  for (const Vec3& p : merged.nodes) {
+    EXPECT_TRUE(p.allFinite());
+  }
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "vantage/skeleton/skeleton.h"
+
+#include "support/dense_oracles.h"
+#include "support/shapes.h"
+#include "support/voxel_surface.h"
+
+namespace vantage {
+namespace {
+
+Skeleton skeleton_of(const TriMesh& mesh, const SkeletonOptions& options = {}) {
+  return extract_skeleton(mesh, contract(mesh), options);
+}
+
+std::vector<std::size_t> degrees(const CurveGraph& graph) {
+  std::vector<std::size_t> degree(graph.nodes.size(), 0);
+  for (const auto& [a, b] : graph.edges) {
+    ++degree[a];
+    ++degree[b];
+  }
+  return degree;
+}
+
+std::vector<Vec3> ends_of(const CurveGraph& graph) {
+  const auto degree = degrees(graph);
+  std::vector<Vec3> ends;
+  for (std::size_t i = 0; i < degree.size(); ++i) {
+    if (degree[i] == 1) {
+      ends.push_back(graph.nodes[i]);
+    }
+  }
+  return ends;
+}
+
+TEST(ExtractSkeleton, OfATorusIsOneCycleNearItsCoreCircle) {
+  const double minor = 0.25;
+  const Skeleton skeleton = skeleton_of(test::torus(1.0, minor, 60, 20));
+  EXPECT_EQ(cycle_count(skeleton.graph), 1U);
+  EXPECT_EQ(component_count(skeleton.graph), 1U);
+  double worst = 0.0;
+  for (const Vec3& p : skeleton.graph.nodes) {
+    worst = std::max(worst, std::hypot(std::hypot(p.x(), p.y()) - 1.0, p.z()));
+  }
+  RecordProperty("farthest_from_circle_in_tube_radii", std::to_string(worst / minor));
+  EXPECT_LE(worst, minor);
+}
+
+TEST(ExtractSkeleton, OfATorusHasTheLengthOfItsCoreCircle) {
+  const Skeleton skeleton = skeleton_of(test::torus(1.0, 0.25, 60, 20));
+  EXPECT_NEAR(total_length(skeleton.graph), 2.0 * std::numbers::pi, 0.05 * 2.0 * std::numbers::pi);
+}
+
+TEST(ExtractSkeleton, OfATorusHasTheRadiusOfItsTube) {
+  const double minor = 0.25;
+  for (const double radius : skeleton_of(test::torus(1.0, minor, 60, 20)).radius) {
+    EXPECT_NEAR(radius, minor, 0.1 * minor);
+  }
+}
+
+TEST(ExtractSkeleton, OfASphereHasNoCycleAndIsShort) {
+  const Skeleton skeleton = skeleton_of(test::sphere(3));
+  EXPECT_EQ(cycle_count(skeleton.graph), 0U);
+  EXPECT_EQ(component_count(skeleton.graph), 1U);
+  EXPECT_LE(total_length(skeleton.graph), 1.0);  // half the diameter
+}
+
+TEST(ExtractSkeleton, OfACylinderIsAPathOnItsAxis) {
+  const double radius = 0.25;
+  const Skeleton skeleton = skeleton_of(test::cylinder(radius, 4.0, 24, 48));
+  EXPECT_EQ(ends_of(skeleton.graph).size(), 2U);
+  EXPECT_THAT(degrees(skeleton.graph), ::testing::Each(::testing::Le(2U)));
+  for (const Vec3& p : skeleton.graph.nodes) {
+    EXPECT_LE(std::hypot(p.x(), p.y()), 0.05 * radius);
+  }
+}
+
+TEST(ExtractSkeleton, OfACylinderReachesNearBothCaps) {
+  const double radius = 0.25;
+  std::vector<Vec3> ends = ends_of(skeleton_of(test::cylinder(radius, 4.0, 24, 48)).graph);
+  ASSERT_EQ(ends.size(), 2U);
+  std::sort(ends.begin(), ends.end(), [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
+  RecordProperty("end_depth_in_radii", std::to_string(ends[0].z() / radius));
+  EXPECT_GE(ends[0].z(), 0.0);
+  EXPECT_LE(ends[0].z(), 2.0 * radius);
+  EXPECT_LE(ends[1].z(), 4.0);
+  EXPECT_GE(ends[1].z(), 4.0 - 2.0 * radius);
+}
+
+TEST(ExtractSkeleton, OfAnOpenCylinderIsAPath) {
+  const Skeleton skeleton = skeleton_of(test::open_cylinder(0.25, 4.0, 24, 48));
+  EXPECT_EQ(cycle_count(skeleton.graph), 0U);
+  EXPECT_EQ(ends_of(skeleton.graph).size(), 2U);
+  EXPECT_GE(total_length(skeleton.graph), 4.0 - 4.0 * 0.25);
+}
+
+TEST(ExtractSkeleton, OfAYHasOneJunctionAndThreeEndsNearItsTips) {
+  const double radius = 0.2;
+  const Skeleton skeleton = skeleton_of(test::y_of_tubes(radius, 28));
+  const auto degree = degrees(skeleton.graph);
+  EXPECT_EQ(std::count(degree.begin(), degree.end(), 3U), 1);
+  EXPECT_EQ(std::count_if(degree.begin(), degree.end(), [](std::size_t d) { return d > 3; }), 0);
+  const std::vector<Vec3> ends = ends_of(skeleton.graph);
+  ASSERT_EQ(ends.size(), 3U);
+  for (const double degrees : {90.0, 210.0, 330.0}) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    const Vec3 axis_end(std::cos(angle), std::sin(angle), 0.0);
+    double nearest = 1e9;
+    for (const Vec3& end : ends) {
+      nearest = std::min(nearest, (end - axis_end).norm());
+    }
+    EXPECT_LE(nearest, 2.0 * radius) << degrees;
+  }
+}
+
+TEST(ExtractSkeleton, KeepsTheHandlesOfAPlateWithTwoAndThreeHoles) {
+  EXPECT_EQ(cycle_count(skeleton_of(test::plate_with_holes(2)).graph), 2U);
+  EXPECT_EQ(cycle_count(skeleton_of(test::plate_with_holes(3)).graph), 3U);
+}
+
+TEST(ExtractSkeleton, KeepsTheFiveHandlesOfACubeFrame) {
+  EXPECT_EQ(cycle_count(skeleton_of(test::cube_frame()).graph), 5U);
+}
+
+TEST(ExtractSkeleton, KeepsAHandleMuchSmallerThanTheSpacing) {
+  // A plate of 50 cells with one hole of a single cell: 1/50 of the length.
+  const TriMesh mesh =
+      test::voxel_surface(50, 5, 2, [](int i, int j, int) { return !(i == 25 && j == 2); });
+  EXPECT_EQ(cycle_count(skeleton_of(mesh, {.spacing = 0.2}).graph), 1U);
+}
+
+TEST(ExtractSkeleton, OfTwoToriHasTwoComponentsAndTwoCycles) {
+  const TriMesh torus = test::torus(1.0, 0.25, 40, 14);
+  const Skeleton skeleton = skeleton_of(test::together(torus, torus, Vec3(4, 0, 0)));
+  EXPECT_EQ(component_count(skeleton.graph), 2U);
+  EXPECT_EQ(cycle_count(skeleton.graph), 2U);
+}
+
+TEST(ExtractSkeleton, KnowsTheNodeOfEveryVertexButIsolatedOnes) {
+  TriMesh mesh = test::y_of_tubes(0.25, 20);
+  mesh.positions.emplace_back(9, 9, 9);
+  const Skeleton skeleton = skeleton_of(mesh);
+  ASSERT_EQ(skeleton.node_of_vertex.size(), mesh.positions.size());
+  ASSERT_EQ(skeleton.raw_node_of_vertex.size(), mesh.positions.size());
+  for (std::size_t v = 0; v + 1 < mesh.positions.size(); ++v) {
+    EXPECT_LT(skeleton.node_of_vertex[v], skeleton.graph.nodes.size());
+    EXPECT_LT(skeleton.raw_node_of_vertex[v], skeleton.raw.nodes.size());
+  }
+  EXPECT_EQ(skeleton.node_of_vertex.back(), Skeleton::kNone);
+  EXPECT_EQ(skeleton.raw_node_of_vertex.back(), Skeleton::kNone);
+}
+
+TEST(ExtractSkeleton, HasARadiusForEveryNode) {
+  const Skeleton skeleton = skeleton_of(test::y_of_tubes(0.25, 20));
+  ASSERT_EQ(skeleton.radius.size(), skeleton.graph.nodes.size());
+  EXPECT_THAT(skeleton.radius, ::testing::Each(::testing::Gt(0.0)));
+}
+
+TEST(ExtractSkeleton, WithoutCentringAndPruningIsTheRawGraph) {
+  const Skeleton skeleton =
+      skeleton_of(test::y_of_tubes(0.25, 20), {.centre = false, .prune = false});
+  EXPECT_EQ(skeleton.graph.nodes, skeleton.raw.nodes);
+  EXPECT_EQ(skeleton.graph.edges, skeleton.raw.edges);
+  EXPECT_EQ(skeleton.node_of_vertex, skeleton.raw_node_of_vertex);
+}
+
+TEST(ExtractSkeleton, LeavesTheRawGraphAloneWhateverFinishesIt) {
+  const TriMesh mesh = test::y_of_tubes(0.25, 20);
+  EXPECT_EQ(skeleton_of(mesh).raw.nodes,
+            skeleton_of(mesh, {.centre = false, .prune = false}).raw.nodes);
+}
+
+/// A rod with a wart less high than the rod is thick.
+TriMesh rod_with_wart() {
+  return test::voxel_surface(30, 4, 5, [](int i, int j, int k) {
+    return k < 4 || (i >= 14 && i < 16 && j >= 1 && j < 3);
+  });
+}
+
+TEST(ExtractSkeleton, PrunesWhatIsShorterThanThick) {
+  EXPECT_EQ(ends_of(skeleton_of(rod_with_wart()).graph).size(), 2U);
+}
+
+TEST(ExtractSkeleton, PrunesNothingLongerThanThick) {
+  const TriMesh mesh = test::voxel_surface(
+      30, 4, 14, [](int i, int, int k) { return k < 4 || (i >= 14 && i < 18); });
+  EXPECT_EQ(ends_of(skeleton_of(mesh).graph).size(), 3U);
+}
+
+TEST(ExtractSkeleton, KeepsEveryNodeOfARoundShapeInside) {
+  for (const TriMesh& mesh : {test::torus(1.0, 0.25, 60, 20), test::y_of_tubes(0.2, 24),
+                              test::cylinder(0.25, 4.0, 24, 48)}) {
+    for (const Vec3& p : skeleton_of(mesh).graph.nodes) {
+      EXPECT_NEAR(test::winding_number(mesh, p), 1.0, 1e-9);
+    }
+  }
+}
+
+TEST(ExtractSkeleton, OfNothingIsNothing) {
+  EXPECT_TRUE(skeleton_of({}).graph.nodes.empty());
+}
+
+TEST(ExtractSkeleton, RefusesAHistoryOfAnotherMesh) {
+  const ContractionHistory history = contract(test::sphere(1));
+  EXPECT_THROW(extract_skeleton(test::sphere(2), history), InvalidInput);
+}
+
+TEST(ExtractSkeleton, RefusesASpacingOfNothing) {
+  EXPECT_THROW(skeleton_of(test::sphere(1), {.spacing = 0.0}), InvalidInput);
+}
+
+TEST(ExtractSkeleton, SurvivesFacesThatStandTwice) {
+  TriMesh mesh = test::torus(1.0, 0.25, 40, 14);
+  for (std::size_t f = 0; f < 30; ++f) {
+    const Triangle copy = mesh.triangles[f];
+    mesh.triangles.push_back(copy);
+  }
+  const Skeleton skeleton = skeleton_of(mesh);
+  EXPECT_EQ(component_count(skeleton.graph), 1U);
+  for (const Vec3& p : skeleton.graph.nodes) {
+    EXPECT_TRUE(p.allFinite());
+  }
+}
+
+TEST(ExtractSkeletonProgress, NeverGoesBackAndEndsAtOne) {
+  const TriMesh mesh = test::plate_with_holes(3);
+  const ContractionHistory history = contract(mesh);
+  std::vector<double> seen;
+  extract_skeleton(mesh, history, {},
+                   {.report = [&](std::string_view, double f) { seen.push_back(f); }});
+  ASSERT_FALSE(seen.empty());
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  EXPECT_EQ(seen.back(), 1.0);
+}
+
+TEST(ExtractSkeletonCancel, StopsBeforeItEnds) {
+  const TriMesh mesh = test::torus(1.0, 0.25, 20, 8);
+  const ContractionHistory history = contract(mesh);
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_THROW(extract_skeleton(mesh, history, {}, {.stop = source.get_token()}), Cancelled);
+}
+
+}  // namespace
+}  // namespace vantage

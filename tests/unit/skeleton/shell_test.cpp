@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "skeleton/shell.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "vantage/core/random.h"
+#include "vantage/mesh/measures.h"
+
+#include "support/dense_oracles.h"
+#include "support/shapes.h"
+#include "support/voxel_surface.h"
+
+namespace vantage {
+namespace {
+
+std::vector<std::uint32_t> one_component(const TriMesh& mesh) {
+  return std::vector<std::uint32_t>(mesh.positions.size(), 0);
+}
+
+TEST(ShellInside, AgreesWithSolidAnglesAtRandomPoints) {
+  Pcg32 random(3);
+  for (const TriMesh& mesh : {test::torus(1.0, 0.3, 20, 10), test::cube_frame(),
+                              test::inside_out(test::y_of_tubes(0.3, 12))}) {
+    const auto components = one_component(mesh);
+    const Shell shell(mesh, components);
+    const Box box = bounding_box(mesh.positions);
+    for (int i = 0; i < 500; ++i) {
+      const Vec3 share(random.uniform(), random.uniform(), random.uniform());
+      const Vec3 p = box.low + share.cwiseProduct(box.size());
+      EXPECT_EQ(shell.inside(0, p), std::abs(test::winding_number(mesh, p)) > 0.5);
+    }
+  }
+}
+
+TEST(ShellInside, HasNoGapsAboveEdgesAndCorners) {
+  // Straight below and above the grid lines of the box's lids and its corners.
+  const TriMesh mesh = test::box(4, 4, 1, 4);
+  const auto components = one_component(mesh);
+  const Shell shell(mesh, components);
+  for (int i = 1; i < 4; ++i) {
+    for (int j = 1; j < 4; ++j) {
+      EXPECT_TRUE(shell.inside(0, Vec3(i, j, 0.5)));
+      EXPECT_FALSE(shell.inside(0, Vec3(i, j, -0.5)));
+      EXPECT_FALSE(shell.inside(0, Vec3(i, j, 1.5)));
+    }
+  }
+}
+
+TEST(ShellInside, LooksAtOneComponentOnly) {
+  const TriMesh mesh = test::together(test::sphere(2), test::sphere(2), Vec3(5, 0, 0));
+  std::vector<std::uint32_t> components(mesh.positions.size(), 0);
+  std::fill(components.begin() + static_cast<std::ptrdiff_t>(components.size() / 2),
+            components.end(), 1);
+  const Shell shell(mesh, components);
+  EXPECT_TRUE(shell.inside(0, Vec3(0, 0, 0)));
+  EXPECT_FALSE(shell.inside(1, Vec3(0, 0, 0)));
+  EXPECT_TRUE(shell.inside(1, Vec3(5, 0, 0)));
+}
+
+TEST(ShellInside, AnOpenSurfaceHasNoOutside) {
+  const TriMesh mesh = test::open_cylinder(0.3, 1.0, 8, 4);
+  const auto components = one_component(mesh);
+  EXPECT_TRUE(Shell(mesh, components).inside(0, Vec3(9, 9, 9)));
+}
+
+TEST(ShellInside, ASegmentThroughAHoleIsNotInside) {
+  const TriMesh mesh = test::torus(1.0, 0.3, 20, 10);
+  const auto components = one_component(mesh);
+  const Shell shell(mesh, components);
+  EXPECT_FALSE(shell.inside(0, Vec3(1, 0, 0), Vec3(-1, 0, 0)));
+  EXPECT_TRUE(shell.inside(0, Vec3(1, 0, 0), Vec3(1, 0.1, 0)));
+}
+
+TEST(ShellMiddle, OfASphereIsItsCentre) {
+  const TriMesh mesh = test::sphere(3);
+  const auto components = one_component(mesh);
+  const Shell shell(mesh, components);
+  for (std::uint32_t v = 0; v < 20; ++v) {
+    Vec3 middle = Vec3::Constant(9.0);
+    ASSERT_TRUE(shell.middle_at(v, middle));
+    EXPECT_LE(middle.norm(), 0.02);  // the wall across is a chord of edges 0.14 long
+  }
+}
+
+TEST(ShellMiddle, IsFoundInAShellTurnedInsideOut) {
+  const TriMesh mesh = test::inside_out(test::sphere(3));
+  const auto components = one_component(mesh);
+  Vec3 middle = Vec3::Constant(9.0);
+  ASSERT_TRUE(Shell(mesh, components).middle_at(0, middle));
+  EXPECT_LE(middle.norm(), 0.02);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "vantage/contraction/contraction.h"
+#include "vantage/core/error.h"
+#include "vantage/skeleton/skeleton.h"
+
+#include "support/shapes.h"
+#include "support/voxel_surface.h"
+
+namespace vantage {
+namespace {
+
+Skeleton skeleton_of(const TriMesh& mesh, const SkeletonOptions& options = {}) {
+  return extract_skeleton(mesh, contract(mesh), options);
+}
+
+std::vector<std::size_t> degrees(const CurveGraph& graph) {
+  std::vector<std::size_t> degree(graph.nodes.size(), 0);
+  for (const auto& [a, b] : graph.edges) {
+    ++degree[a];
+    ++degree[b];
+  }
+  return degree;
+}
+
+TEST(SkeletonOfASingleTriangle, IsOneComponent) {
+  const TriMesh triangle{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}};
+  EXPECT_EQ(component_count(skeleton_of(triangle).graph), 1U);
+}
+
+TEST(SkeletonOfATetrahedron, IsOneComponentWithoutCycles) {
+  const TriMesh tetrahedron{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                            .triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+  const Skeleton skeleton = skeleton_of(tetrahedron);
+  EXPECT_EQ(component_count(skeleton.graph), 1U);
+  EXPECT_EQ(cycle_count(skeleton.graph), 0U);
+}
+
+TEST(SkeletonOfACylinder, IsAsThickAsItInItsMiddle) {
+  const double radius = 0.25;
+  const Skeleton skeleton = skeleton_of(test::cylinder(radius, 4.0, 24, 48));
+  for (std::size_t i = 0; i < skeleton.graph.nodes.size(); ++i) {
+    if (std::abs(skeleton.graph.nodes[i].z() - 2.0) < 1.0) {
+      EXPECT_NEAR(skeleton.radius[i], radius, 0.05 * radius);
+    }
+  }
+}
+
+TEST(SkeletonOfAYOfTubes, EndsWithinATubeRadiusOfTheTips) {
+  // Tips are the far points of the round ends, a radius beyond the axes.
+  const double radius = 0.2;
+  const Skeleton skeleton = skeleton_of(test::y_of_tubes(radius, 28));
+  const std::vector<std::size_t> degree = degrees(skeleton.graph);
+  for (const double degrees : {90.0, 210.0, 330.0}) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    const Vec3 tip = (1.0 + radius) * Vec3(std::cos(angle), std::sin(angle), 0.0);
+    double nearest = 1e9;
+    for (std::size_t i = 0; i < degree.size(); ++i) {
+      if (degree[i] == 1) {
+        nearest = std::min(nearest, (skeleton.graph.nodes[i] - tip).norm());
+      }
+    }
+    EXPECT_LE(nearest, radius) << degrees;
+  }
+}
+
+TEST(SkeletonWithoutPruning, KeepsTheBranchOfABumpThatPruningCuts) {
+  // A bar 4 thick with a bump 2 × 2 wide and 2 high: its branch is no longer than 2 + 4 / 2, the bar
+  // at its root at least 4 / 2 thick.
+  const TriMesh mesh = test::voxel_surface(30, 4, 6, [](int i, int j, int k) {
+    return k < 4 || (i >= 14 && i < 16 && j >= 1 && j < 3);
+  });
+  const auto ends = [&](const SkeletonOptions& options) {
+    const std::vector<std::size_t> degree = degrees(skeleton_of(mesh, options).graph);
+    return std::count(degree.begin(), degree.end(), 1U);
+  };
+  EXPECT_EQ(ends({.prune_ratio = 2.0}), 2);
+  EXPECT_EQ(ends({.prune_ratio = 2.0, .prune = false}), 3);
+}
+
+TEST(SkeletonHistory, WithAnEarlierLevelOfAnotherSizeIsRefused) {
+  const TriMesh mesh = test::sphere(1);
+  ContractionHistory history = contract(mesh);
+  ASSERT_GE(history.levels.size(), 2U);
+  history.levels.front().pop_back();
+  EXPECT_THROW(extract_skeleton(mesh, history), InvalidInput);
+}
+
+TEST(SkeletonHistory, WithoutATableOfComponentsIsRefused) {
+  const TriMesh mesh = test::sphere(1);
+  ContractionHistory history = contract(mesh);
+  history.component_of_vertex.clear();
+  EXPECT_THROW(extract_skeleton(mesh, history), InvalidInput);
+}
+
+}  // namespace
+}  // namespace vantage
