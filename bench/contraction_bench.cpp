@@ -10,11 +10,11 @@ namespace {
 
 /// A torus of about n vertices, four times as long as around.
 TriMesh torus_of(std::int64_t n) {
-  int around = 8;
+  std::int64_t around = 8;
   while (4 * around * around < n) {
     ++around;
   }
-  return test::torus(1.0, 0.25, 4 * around, around);
+  return test::torus(1.0, 0.25, static_cast<int>(4 * around), static_cast<int>(around));
 }
 
 void BM_Contract(benchmark::State& state) {

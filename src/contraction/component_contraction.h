@@ -22,5 +22,4 @@ struct ComponentHistory {
 ComponentHistory contract_component(const TriMesh& scaled, const ContractionOptions& options,
                                     const RunContext& run);
 
-
 }  // namespace vantage

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "core/parallel.h"
 
+#include <algorithm>
+#include <vector>
+
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
-
-#include <algorithm>
-#include <vector>
 
 namespace vantage {
 
@@ -47,9 +47,8 @@ void parallel_for(const RunContext& run, std::size_t count, std::size_t grain,
 double parallel_sum(const RunContext& run, std::size_t count, std::size_t grain,
                     const std::function<double(std::size_t, std::size_t)>& body) {
   std::vector<double> sums((count + grain - 1) / grain, 0.0);
-  parallel_for(run, count, grain, [&](std::size_t begin, std::size_t end) {
-    sums[begin / grain] = body(begin, end);
-  });
+  parallel_for(run, count, grain,
+               [&](std::size_t begin, std::size_t end) { sums[begin / grain] = body(begin, end); });
   double total = 0.0;
   for (const double sum : sums) {
     total += sum;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include <Eigen/Dense>
 
 #include "vantage/mesh/measures.h"
 
@@ -38,7 +39,8 @@ Ball circumscribed(const std::vector<Vec3>& boundary) {
     Q.col(i) = boundary[static_cast<std::size_t>(i) + 1] - origin;
     b(i) = Q.col(i).squaredNorm();
   }
-  const Eigen::VectorXd lambda = (2.0 * Q.transpose() * Q).completeOrthogonalDecomposition().solve(b);
+  const Eigen::VectorXd lambda =
+      (2.0 * Q.transpose() * Q).completeOrthogonalDecomposition().solve(b);
   const Vec3 offset = Q * lambda;
   return {origin + offset, offset.squaredNorm()};
 }
@@ -48,7 +50,8 @@ bool inside(const Ball& ball, const Vec3& p) {
 }
 
 /// Welzl's recursion over the first `count` points, with `boundary` known to lie on the sphere.
-Ball smallest_ball(const std::vector<Vec3>& points, std::size_t count, std::vector<Vec3>& boundary) {
+Ball smallest_ball(const std::vector<Vec3>& points, std::size_t count,
+                   std::vector<Vec3>& boundary) {
   Ball ball = circumscribed(boundary);
   if (boundary.size() == 4) {
     return ball;
@@ -100,7 +103,8 @@ Sphere enclosing_sphere(std::span<const Vec3> points) {
       ball.radius_squared = std::max(ball.radius_squared, farthest);
     }
   }
-  return {middle + scale * ball.centre, 2.0 * scale * std::sqrt(std::max(0.0, ball.radius_squared))};
+  return {middle + scale * ball.centre,
+          2.0 * scale * std::sqrt(std::max(0.0, ball.radius_squared))};
 }
 
 }  // namespace vantage

@@ -112,8 +112,8 @@ Components connected_components(const TriMesh& mesh) {
   components.of_vertex.resize(mesh.positions.size());
   for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
     const std::uint32_t root = sets.root(v);
-    components.of_vertex[v] = root == v ? static_cast<std::uint32_t>(components.count++)
-                                        : components.of_vertex[root];
+    components.of_vertex[v] =
+        root == v ? static_cast<std::uint32_t>(components.count++) : components.of_vertex[root];
   }
   return components;
 }

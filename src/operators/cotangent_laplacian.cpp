@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/operators/cotangent_laplacian.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 namespace vantage {
 namespace {

@@ -2,10 +2,10 @@
 #include "operators/sparse_cholesky.h"
 
 #include <iostream>  // Eigen 3.4's MetisSupport uses std::cerr without including it
+#include <optional>
 
 #include <Eigen/MetisSupport>
 #include <Eigen/SparseCholesky>
-#include <optional>
 
 namespace vantage {
 namespace {
@@ -26,6 +26,7 @@ struct SparseCholesky::Solver {
 };
 
 SparseCholesky::SparseCholesky() : solver_(std::make_unique<Solver>()) {}
+
 SparseCholesky::~SparseCholesky() = default;
 SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;

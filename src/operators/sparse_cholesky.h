@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
-#include <memory>
 
 namespace vantage {
 

@@ -69,6 +69,29 @@ End shortest_spurious_end(const CurveGraph& graph, const Adjacency& lists, doubl
   return best;
 }
 
+/// Gives nodes that stand for no vertex the mean radius of their neighbours, ring by ring.
+void fill_from_neighbours(const CurveGraph& graph, std::vector<double>& count,
+                          std::vector<double>& radius) {
+  const Adjacency lists = adjacency(graph);
+  for (bool changed = true; changed;) {
+    changed = false;
+    const std::vector<double> known = count;
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+      double sum = 0.0;
+      double neighbours = 0.0;
+      for (const std::uint32_t c : lists[i]) {
+        sum += known[c] > 0.0 ? radius[c] : 0.0;
+        neighbours += known[c] > 0.0 ? 1.0 : 0.0;
+      }
+      if (known[i] == 0.0 && neighbours > 0.0) {
+        radius[i] = sum / neighbours;
+        count[i] = 1.0;
+        changed = true;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<double> node_radii(const CurveGraph& graph, const TriMesh& mesh,
@@ -85,6 +108,7 @@ std::vector<double> node_radii(const CurveGraph& graph, const TriMesh& mesh,
   for (std::size_t i = 0; i < sum.size(); ++i) {
     sum[i] = count[i] > 0.0 ? sum[i] / count[i] : 0.0;
   }
+  fill_from_neighbours(graph, count, sum);
   return sum;
 }
 

@@ -10,7 +10,8 @@
 
 namespace vantage {
 
-/// Mean level-0 distance of each node to the vertices it stands for; 0 for a node without any.
+/// Mean level-0 distance of each node to the vertices it stands for; a node without any takes the
+/// mean of its neighbours.
 std::vector<double> node_radii(const CurveGraph& graph, const TriMesh& mesh,
                                std::span<const std::uint32_t> node_of_vertex);
 

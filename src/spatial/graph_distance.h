@@ -25,7 +25,8 @@ class GraphDistance {
   struct Box {
     Vec3 low;
     Vec3 high;
-    std::uint32_t first;  ///< Leaf: first segment. Inner: index of the left child; right follows it.
+    std::uint32_t
+        first;  ///< Leaf: first segment. Inner: index of the left child; right follows it.
     std::uint32_t count;  ///< Leaf: segments. Inner: 0.
   };
 

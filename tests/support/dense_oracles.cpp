@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include <Eigen/Dense>
 
@@ -104,6 +105,38 @@ Real extent_of(const TriMesh& mesh, const std::vector<std::set<std::uint32_t>>& 
   return extent;
 }
 
+/// A level that spans less of the extent than this is flat (docs/kssm.md).
+constexpr Real kFlat = 1e-6L;
+
+/// A third of the area of the faces at each vertex, or 1.
+std::vector<Real> weights_of(const TriMesh& mesh, bool by_area) {
+  if (!by_area) {
+    return std::vector<Real>(mesh.positions.size(), 1);
+  }
+  std::vector<Real> weight(mesh.positions.size(), 0);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) {
+      weight[v] += area_at(mesh.positions, t) / 3;
+    }
+  }
+  return weight;
+}
+
+/// First vertices with the least and with the largest value, of those that have a ring; both 0 if
+/// none has.
+std::pair<std::size_t, std::size_t> extremes_of(const std::vector<Real>& d,
+                                                const std::vector<std::set<std::uint32_t>>& rings) {
+  std::optional<std::size_t> low;
+  std::optional<std::size_t> high;
+  for (std::size_t v = 0; v < d.size(); ++v) {
+    if (!rings[v].empty()) {
+      low = !low || d[v] < d[*low] ? v : *low;
+      high = !high || d[v] > d[*high] ? v : *high;
+    }
+  }
+  return {low.value_or(0), high.value_or(0)};
+}
+
 }  // namespace
 
 DenseMatrix dense_laplacian(const TriMesh& mesh, long double diagonal_limit) {
@@ -153,16 +186,17 @@ std::vector<double> dense_area_ratios(const TriMesh& start, std::span<const Vec3
 StepWeights step_weights(const TriMesh& start, std::span<const Vec3> now, int step,
                          const ContractionOptions& options) {
   StepWeights weights;
-  weights.W_L = 1 / (10 * std::sqrt(mean_face_area(start)));
+  weights.contraction = 1 / (10 * std::sqrt(mean_face_area(start)));
   for (int i = 0; i < step; ++i) {
-    weights.W_L = std::min<Real>(weights.W_L * options.contraction_growth,
-                                 std::max<Real>(weights.W_L, options.contraction_limit));
+    weights.contraction =
+        std::min<Real>(weights.contraction * options.contraction_growth,
+                       std::max<Real>(weights.contraction, options.contraction_limit));
   }
-  weights.W_H.assign(now.size(), 1.0);
+  weights.attraction.assign(now.size(), 1.0);
   if (step > 0) {
     const std::vector<double> ratios = dense_area_ratios(start, now);
     for (std::size_t v = 0; v < now.size(); ++v) {
-      weights.W_H[v] = std::min(1.0 / std::sqrt(ratios[v]), options.attraction_limit);
+      weights.attraction[v] = std::min(1.0 / std::sqrt(ratios[v]), options.attraction_limit);
     }
   }
   return weights;
@@ -171,13 +205,13 @@ StepWeights step_weights(const TriMesh& start, std::span<const Vec3> now, int st
 DenseMatrix dense_step(const TriMesh& now, const StepWeights& weights, long double diagonal_limit) {
   const auto n = static_cast<Eigen::Index>(now.positions.size());
   DenseMatrix stacked(2 * n, n);
-  stacked.topRows(n) = weights.W_L * dense_laplacian(now, diagonal_limit);
+  stacked.topRows(n) = weights.contraction * dense_laplacian(now, diagonal_limit);
   stacked.bottomRows(n).setZero();
   DenseMatrix right = DenseMatrix::Zero(2 * n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto v = static_cast<std::size_t>(i);
-    stacked(n + i, i) = weights.W_H[v];
-    right.row(n + i) = weights.W_H[v] * now.positions[v].cast<Real>().transpose();
+    stacked(n + i, i) = weights.attraction[v];
+    right.row(n + i) = weights.attraction[v] * now.positions[v].cast<Real>().transpose();
   }
   return stacked.householderQr().solve(right);
 }
@@ -185,13 +219,13 @@ DenseMatrix dense_step(const TriMesh& now, const StepWeights& weights, long doub
 double backward_error(const TriMesh& now, std::span<const Vec3> next, const StepWeights& weights,
                       long double diagonal_limit) {
   const auto n = static_cast<Eigen::Index>(now.positions.size());
-  const DenseMatrix L = weights.W_L * dense_laplacian(now, diagonal_limit);
+  const DenseMatrix L = weights.contraction * dense_laplacian(now, diagonal_limit);
   DenseMatrix A = L.transpose() * L;
   DenseMatrix b(n, 3);
   DenseMatrix x(n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto v = static_cast<std::size_t>(i);
-    const Real squared = static_cast<Real>(weights.W_H[v]) * weights.W_H[v];
+    const Real squared = static_cast<Real>(weights.attraction[v]) * weights.attraction[v];
     A(i, i) += squared;
     b.row(i) = squared * now.positions[v].cast<Real>().transpose();
     x.row(i) = next[v].cast<Real>().transpose();
@@ -225,43 +259,27 @@ double brute_force_distance(const CurveGraph& graph, const Vec3& point) {
 
 std::vector<double> direct_kssm(const TriMesh& mesh, const ContractionHistory& history,
                                 const CurveGraph& graph, const KssmOptions& options) {
-  constexpr Real kFlat = 1e-6L;
   const auto rings = rings_of(mesh);
   const Real extent = extent_of(mesh, rings);
   const std::size_t n = mesh.positions.size();
-  std::vector<Real> weight(n, 1);
-  if (options.area_weighted_mean) {
-    weight.assign(n, 0);
-    for (const Triangle& t : mesh.triangles) {
-      for (const std::uint32_t v : t) {
-        weight[v] += area_at(mesh.positions, t) / 3;
-      }
-    }
-  }
+  const std::vector<Real> weight = weights_of(mesh, options.area_weighted_mean);
   const bool velocity = options.kinematics == Kinematics::Velocity;
   std::vector<Real> map(n, 0);
   for (std::size_t j = velocity ? 1 : 0; j < history.levels.size(); ++j) {
     std::vector<Real> d(n, 0);
-    std::optional<std::size_t> low;
-    std::optional<std::size_t> high;
     for (std::size_t v = 0; v < n; ++v) {
-      d[v] = brute_force_distance(graph, history.levels[j][v]);
-      if (velocity) {
-        d[v] = brute_force_distance(graph, history.levels[j - 1][v]) - d[v];
-      }
-      if (!rings[v].empty()) {
-        low = !low || d[v] < d[*low] ? v : *low;
-        high = !high || d[v] > d[*high] ? v : *high;
-      }
+      const Real now = brute_force_distance(graph, history.levels[j][v]);
+      d[v] = velocity ? brute_force_distance(graph, history.levels[j - 1][v]) - now : now;
     }
-    if (!low || d[*high] - d[*low] <= kFlat * extent) {
+    const auto [low, high] = extremes_of(d, rings);
+    if (!(d[high] - d[low] > kFlat * extent)) {
       continue;
     }
     std::vector<Real> D(n, 0);
     for (std::size_t v = 0; v < n; ++v) {
-      D[v] = rings[v].empty() ? 0 : (d[v] - d[*low]) / (d[*high] - d[*low]);
+      D[v] = rings[v].empty() ? 0 : (d[v] - d[low]) / (d[high] - d[low]);
     }
-    const Real mean = mean_of_level(D, rings, weight, *high, options.suppression);
+    const Real mean = mean_of_level(D, rings, weight, high, options.suppression);
     for (std::size_t v = 0; v < n; ++v) {
       map[v] += D[v] * (1 - mean) * (1 - mean);
     }

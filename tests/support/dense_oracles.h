@@ -28,8 +28,8 @@ std::vector<double> dense_area_ratios(const TriMesh& start, std::span<const Vec3
 /// The weights of step `step` (0 is the first), for a surface whose first level is `start` and whose
 /// level before that step is `now`; both already scaled.
 struct StepWeights {
-  long double W_L = 0.0L;
-  std::vector<double> W_H{};
+  long double contraction = 0.0L;    ///< W_L.
+  std::vector<double> attraction{};  ///< W_H of each vertex.
 };
 
 StepWeights step_weights(const TriMesh& start, std::span<const Vec3> now, int step,

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "support/shapes.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <numeric>
+
+#include <Eigen/Geometry>
 
 #include "vantage/core/random.h"
 #include "vantage/mesh/weld.h"
@@ -38,8 +39,8 @@ TriMesh tube_wall(double radius, double height, int around, int along) {
   for (int j = 0; j < along; ++j) {
     for (int i = 0; i < around; ++i) {
       const int next = (i + 1) % around;
-      add_quad(mesh, index(j * around + i), index(j * around + next), index((j + 1) * around + next),
-               index((j + 1) * around + i));
+      add_quad(mesh, index(j * around + i), index(j * around + next),
+               index((j + 1) * around + next), index((j + 1) * around + i));
     }
   }
   return mesh;
@@ -86,9 +87,11 @@ class MarchingTetrahedra {
   [[nodiscard]] Vec3 point(int i, int j, int k) const {
     return {low_ + step_ * i, low_ + step_ * j, low_ + step_ * k};
   }
+
   [[nodiscard]] std::size_t id(int i, int j, int k) const {
     return (static_cast<std::size_t>(k) * index(n_) + index(j)) * index(n_) + index(i);
   }
+
   [[nodiscard]] Vec3 point_of(std::size_t v) const {
     const auto n = static_cast<std::size_t>(n_);
     return point(static_cast<int>(v % n), static_cast<int>(v / n % n), static_cast<int>(v / n / n));

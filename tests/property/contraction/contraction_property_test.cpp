@@ -20,8 +20,8 @@ struct Shape {
   TriMesh mesh;
 };
 
-void PrintTo(const Shape& shape, std::ostream* out) {
-  *out << shape.name;
+std::ostream& operator<<(std::ostream& out, const Shape& shape) {
+  return out << shape.name;
 }
 
 std::vector<Shape> shapes() {
@@ -33,6 +33,8 @@ std::vector<Shape> shapes() {
           {"YOfTubes", test::y_of_tubes(0.25, 20)},
           {"SphereAndTorus",
            test::together(test::sphere(2), test::torus(1.0, 0.3, 30, 12), Vec3(0, 0, 5))},
+          {"Sheet", test::sheet(2.0, 1.0, 24)},
+          {"FineSphere", test::sphere(4)},
           {"InsideOutBox", test::inside_out(test::box(1.0, 1.0, 4.0, 6))}};
 }
 
@@ -77,6 +79,13 @@ TEST_P(ContractionOf, ShrinksByMoreThanTheToleranceAtEveryStepButTheFirst) {
   }
 }
 
+TEST_P(ContractionOf, NeverGrowsInMeanArea) {
+  const ContractionHistory history = contract(GetParam().mesh);
+  for (std::size_t j = 1; j < history.shrinkage.size(); ++j) {
+    EXPECT_LE(history.shrinkage[j], history.shrinkage[j - 1]) << j;
+  }
+}
+
 TEST_P(ContractionOf, CommutesWithSimilarities) {
   const TriMesh& mesh = GetParam().mesh;
   const double diameter = enclosing_sphere(mesh.positions).diameter;
@@ -107,6 +116,7 @@ TEST_P(ContractionOf, DoesNotDependOnTheNumberingOfVertices) {
   ASSERT_EQ(other.levels.size(), plain.levels.size());
   for (std::size_t j = 0; j < plain.levels.size(); ++j) {
     std::vector<Vec3> expected;
+    expected.reserve(old_of_new.size());
     for (const std::uint32_t v : old_of_new) {
       expected.push_back(plain.levels[j][v]);
     }

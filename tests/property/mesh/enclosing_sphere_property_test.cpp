@@ -62,6 +62,7 @@ double random_coordinate(Pcg32& random) {
 TEST_P(EnclosingSphereOfSeed, IsTheSmallestThatTriesOfAllSupportsFind) {
   Pcg32 random(GetParam());
   std::vector<Vec3> points;
+  points.reserve(9);
   for (int i = 0; i < 9; ++i) {
     points.emplace_back(random_coordinate(random), random_coordinate(random),
                         random_coordinate(random));
@@ -73,6 +74,7 @@ TEST_P(EnclosingSphereOfSeed, IsTheSmallestThatTriesOfAllSupportsFind) {
 TEST_P(EnclosingSphereOfSeed, HandlesLatticePointsWithTheirManyTies) {
   Pcg32 random(GetParam(), 1);
   std::vector<Vec3> points;
+  points.reserve(9);
   for (int i = 0; i < 9; ++i) {
     points.emplace_back(random.below(3), random.below(3), random.below(3));
   }
@@ -85,6 +87,7 @@ TEST_P(EnclosingSphereOfSeed, HandlesPointsInAPlane) {
   const Vec3 u = Vec3(1, 2, -1).normalized();
   const Vec3 v = Vec3(3, -1, 1).normalized();
   std::vector<Vec3> points;
+  points.reserve(9);
   for (int i = 0; i < 9; ++i) {
     points.emplace_back(random_coordinate(random) * u + random_coordinate(random) * v);
   }
@@ -95,6 +98,7 @@ TEST_P(EnclosingSphereOfSeed, HandlesPointsInAPlane) {
 TEST_P(EnclosingSphereOfSeed, HoldsEveryPointOfALargeCosphericalCloudFarFromTheOrigin) {
   Pcg32 random(GetParam(), 3);
   std::vector<Vec3> points;
+  points.reserve(5000);
   for (int i = 0; i < 5000; ++i) {
     const Vec3 p(random_coordinate(random), random_coordinate(random), random_coordinate(random));
     points.emplace_back(Vec3(1e3, 0, 0) + p.normalized());

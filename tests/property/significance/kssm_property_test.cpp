@@ -22,8 +22,8 @@ struct Shape {
   TriMesh mesh;
 };
 
-void PrintTo(const Shape& shape, std::ostream* out) {
-  *out << shape.name;
+std::ostream& operator<<(std::ostream& out, const Shape& shape) {
+  return out << shape.name;
 }
 
 TriMesh with_isolated_vertex(TriMesh mesh) {
@@ -73,16 +73,17 @@ std::vector<KssmOptions> all_options() {
 
 class KssmOf : public ::testing::TestWithParam<Shape> {
  protected:
-  const TriMesh mesh_ = GetParam().mesh;
-  const ContractionHistory history_ = contract(mesh_);
-  const Skeleton skeleton_ = extract_skeleton(mesh_, history_);
+  const TriMesh shape_mesh = GetParam().mesh;
+  const ContractionHistory shape_history = contract(shape_mesh);
+  const Skeleton shape_skeleton = extract_skeleton(shape_mesh, shape_history);
 };
 
 TEST_P(KssmOf, AgreesWithADirectEvaluation) {
   double worst = 0.0;
   for (const KssmOptions& options : all_options()) {
-    const KssmMap map = compute_kssm(mesh_, history_, skeleton_.raw, options);
-    const std::vector<double> expected = test::direct_kssm(mesh_, history_, skeleton_.raw, options);
+    const KssmMap map = compute_kssm(shape_mesh, shape_history, shape_skeleton.raw, options);
+    const std::vector<double> expected =
+        test::direct_kssm(shape_mesh, shape_history, shape_skeleton.raw, options);
     for (std::size_t v = 0; v < expected.size(); ++v) {
       worst = std::max(worst, std::abs(map.of_vertex[v] - expected[v]));
     }
@@ -92,39 +93,40 @@ TEST_P(KssmOf, AgreesWithADirectEvaluation) {
 }
 
 TEST_P(KssmOf, IsAtLeastZeroAndAtMostOneALevel) {
-  const KssmMap map = compute_kssm(mesh_, history_, skeleton_.raw);
+  const KssmMap map = compute_kssm(shape_mesh, shape_history, shape_skeleton.raw);
   for (const double value : map.of_vertex) {
     EXPECT_GE(value, 0.0);
-    EXPECT_LE(value, static_cast<double>(history_.levels.size()));
+    EXPECT_LE(value, static_cast<double>(shape_history.levels.size()));
   }
 }
 
 TEST_P(KssmOf, HasTheSameBytesForAnyNumberOfThreads) {
   const tbb::global_control raised(tbb::global_control::max_allowed_parallelism, 8);
-  const KssmMap one = compute_kssm(mesh_, history_, skeleton_.raw, {}, {.max_threads = 1});
+  const KssmMap one =
+      compute_kssm(shape_mesh, shape_history, shape_skeleton.raw, {}, {.max_threads = 1});
   for (const int threads : {2, 3, 8}) {
     const KssmMap other =
-        compute_kssm(mesh_, history_, skeleton_.raw, {}, {.max_threads = threads});
+        compute_kssm(shape_mesh, shape_history, shape_skeleton.raw, {}, {.max_threads = threads});
     EXPECT_EQ(one.of_vertex, other.of_vertex) << threads;
     EXPECT_EQ(one.displacement, other.displacement) << threads;
   }
 }
 
 TEST_P(KssmOf, DoesNotChangeWhenEverythingIsMovedTogether) {
-  const KssmMap plain = compute_kssm(mesh_, history_, skeleton_.raw);
+  const KssmMap plain = compute_kssm(shape_mesh, shape_history, shape_skeleton.raw);
   for (const double scale : {1e-6, 1e6}) {
     const auto move = [&](const std::vector<Vec3>& points) {
       return test::moved({.positions = points, .triangles = {}}, scale, 0.9, Vec3(1, -1, 2),
                          scale * Vec3(1, 2, 3))
           .positions;
     };
-    TriMesh mesh = mesh_;
+    TriMesh mesh = shape_mesh;
     mesh.positions = move(mesh.positions);
-    ContractionHistory history = history_;
+    ContractionHistory history = shape_history;
     for (auto& level : history.levels) {
       level = move(level);
     }
-    CurveGraph graph = skeleton_.raw;
+    CurveGraph graph = shape_skeleton.raw;
     graph.nodes = move(graph.nodes);
     const KssmMap moved = compute_kssm(mesh, history, graph);
     for (std::size_t v = 0; v < plain.of_vertex.size(); ++v) {

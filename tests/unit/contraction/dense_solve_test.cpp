@@ -22,8 +22,8 @@ struct Shape {
   TriMesh mesh;
 };
 
-void PrintTo(const Shape& shape, std::ostream* out) {
-  *out << shape.name;
+std::ostream& operator<<(std::ostream& out, const Shape& shape) {
+  return out << shape.name;
 }
 
 /// Brings the enclosing sphere to diameter 2 around the origin.

@@ -18,7 +18,7 @@ TEST(RunContextAdvance, ReportsNothingWithoutAListener) {
 TEST(RunContextAdvance, ThrowsOnceAStopIsRequested) {
   std::stop_source source;
   const RunContext run{.stop = source.get_token()};
-  EXPECT_NO_THROW(run.advance("stage", 0.1));
+  run.advance("stage", 0.1);
   source.request_stop();
   EXPECT_THROW(run.advance("stage", 0.2), Cancelled);
 }

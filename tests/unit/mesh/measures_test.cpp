@@ -38,6 +38,31 @@ TEST(SurfaceArea, OfAFineSphereApproachesFourPi) {
   EXPECT_NEAR(surface_area(test::sphere(4)), 4.0 * pi, 4.0 * pi * 0.07 * 0.07);
 }
 
+/// The prism over a regular polygon of 20 corners on a circle of `radius`.
+struct Prism {
+  double radius, height;
+
+  [[nodiscard]] double base() const { return 10.0 * radius * radius * std::sin(pi / 10.0); }
+
+  [[nodiscard]] double wall() const { return 40.0 * radius * std::sin(pi / 20.0) * height; }
+};
+
+TEST(SurfaceArea, OfACylinderIsThatOfItsPrism) {
+  const Prism prism{.radius = 0.5, .height = 3.0};
+  EXPECT_NEAR(surface_area(test::cylinder(0.5, 3.0, 20, 7)), 2.0 * prism.base() + prism.wall(),
+              1e-12);
+}
+
+TEST(SurfaceArea, OfACylinderWithoutCapsIsItsWall) {
+  const Prism prism{.radius = 0.5, .height = 3.0};
+  EXPECT_NEAR(surface_area(test::open_cylinder(0.5, 3.0, 20, 7)), prism.wall(), 1e-12);
+}
+
+TEST(SignedVolume, OfACylinderIsThatOfItsPrism) {
+  const Prism prism{.radius = 0.5, .height = 3.0};
+  EXPECT_NEAR(signed_volume(test::cylinder(0.5, 3.0, 20, 7)), prism.base() * prism.height, 1e-12);
+}
+
 TEST(VertexAreas, AddUpToTheSurface) {
   const TriMesh mesh = test::torus(1.0, 0.3, 20, 10);
   const std::vector<double> areas = vertex_areas(mesh);
@@ -100,6 +125,19 @@ TEST(EnclosingSphere, OfAnEquilateralTriangleIsItsCircumcircle) {
   EXPECT_NEAR(enclosing_sphere(points).diameter, 2.0 / std::sqrt(3.0), 1e-11);
 }
 
+TEST(EnclosingSphere, OfARegularTetrahedronPassesThroughItsFourCorners) {
+  // Every other corner of a cube of side 2.
+  const std::vector<Vec3> points{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+  EXPECT_NEAR(enclosing_sphere(points).diameter, 2.0 * std::sqrt(3.0), 1e-11);
+  EXPECT_NEAR(enclosing_sphere(points).centre.norm(), 0.0, 1e-11);
+}
+
+TEST(EnclosingSphere, OfAFlatTetrahedronIsThatOfItsWidestTriangle) {
+  // The tip is so close above the equilateral base that the circumcircle's sphere holds it.
+  const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0.5, std::sqrt(0.75), 0}, {0.5, 0.3, 0.1}};
+  EXPECT_NEAR(enclosing_sphere(points).diameter, 2.0 / std::sqrt(3.0), 1e-11);
+}
+
 TEST(EnclosingSphere, OfABoxHasItsDiagonalAsDiameter) {
   const Sphere sphere = enclosing_sphere(test::box(1, 2, 3, 4).positions);
   EXPECT_NEAR(sphere.diameter, std::sqrt(1.0 + 4.0 + 9.0), 1e-11);
@@ -111,6 +149,7 @@ TEST(EnclosingSphere, OfManyCosphericalPointsIsTheirSphere) {
 
 TEST(EnclosingSphere, OfCocircularPointsIsTheirCircle) {
   std::vector<Vec3> points;
+  points.reserve(360);
   for (int i = 0; i < 360; ++i) {
     points.emplace_back(std::cos(i * pi / 180), std::sin(i * pi / 180), 5.0);
   }

@@ -101,6 +101,28 @@ TEST(SparseCholeskySolve, HandlesSystemsOnBothSidesOfTheChangeOfOrdering) {
   }
 }
 
+TEST(SparseCholeskySolve, LeavesNoResidualOnALargeSheet) {
+  const TriMesh mesh = test::sheet(1.0, 1.0, 230);  // 53 361 vertices: ordered by METIS
+  const Sparse L = cotangent_laplacian(mesh.positions, mesh.triangles);
+  Sparse identity(L.rows(), L.cols());
+  identity.setIdentity();
+  const Sparse A = identity - L;
+  SparseCholesky solver;
+  solver.analyze(A);
+  ASSERT_TRUE(solver.factorize(A));
+  const Eigen::MatrixX3d B = right_side(A.rows());
+  // Eigenvalues lie between 1 and 1 + 8 · 2, so that residual and error are alike.
+  EXPECT_LE((A * solver.solve(B) - B).norm(), 1e-14 * B.norm());
+}
+
+TEST(SparseCholeskyFactorize, SaysSoForLargeSystemsToo) {
+  Sparse A = chain(60'000);
+  A.coeffRef(30'000, 30'000) = -2.5;
+  SparseCholesky solver;
+  solver.analyze(A);
+  EXPECT_FALSE(solver.factorize(A));
+}
+
 TEST(SparseCholeskySolve, SurvivesBeingMoved) {
   const Sparse A = chain(10);
   SparseCholesky solver;

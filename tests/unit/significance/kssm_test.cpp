@@ -8,9 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include "vantage/skeleton/skeleton.h"
+
 #include "support/dense_oracles.h"
 #include "support/shapes.h"
-#include "vantage/skeleton/skeleton.h"
 
 namespace vantage {
 namespace {
@@ -40,8 +41,8 @@ TEST(ComputeKssm, OfOneLevelIsThatLevelNormalisedAndSuppressed) {
 
 TEST(ComputeKssm, WithLocalMaximaLeavesOutTheGlobalOne) {
   const HandMade made;
-  const KssmMap map = compute_kssm(made.mesh, made.history, made.graph,
-                                   {.suppression = Suppression::LocalMaxima});
+  const KssmMap map =
+      compute_kssm(made.mesh, made.history, made.graph, {.suppression = Suppression::LocalMaxima});
   // The only strict local maximum is the global one: nothing is suppressed.
   EXPECT_DOUBLE_EQ(map.level_factor[0], 1.0);
 }
@@ -52,8 +53,8 @@ TEST(ComputeKssm, WithLocalMaximaAveragesTheOthers) {
   made.mesh.positions = {{1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {5, 0, 0}, {0, 1, 0}, {0, 4, 0}};
   made.mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
   made.history.levels = {made.mesh.positions};
-  const KssmMap map = compute_kssm(made.mesh, made.history, made.graph,
-                                   {.suppression = Suppression::LocalMaxima});
+  const KssmMap map =
+      compute_kssm(made.mesh, made.history, made.graph, {.suppression = Suppression::LocalMaxima});
   EXPECT_DOUBLE_EQ(map.level_factor[0], (1.0 - 0.5) * (1.0 - 0.5));
 }
 
@@ -138,9 +139,8 @@ TEST(ComputeKssm, StopsOnRequest) {
   const HandMade made;
   std::stop_source source;
   source.request_stop();
-  EXPECT_THROW(
-      compute_kssm(made.mesh, made.history, made.graph, {}, {.stop = source.get_token()}),
-      Cancelled);
+  EXPECT_THROW(compute_kssm(made.mesh, made.history, made.graph, {}, {.stop = source.get_token()}),
+               Cancelled);
 }
 
 }  // namespace

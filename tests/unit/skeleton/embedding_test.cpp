@@ -100,10 +100,10 @@ struct Standing {
   std::vector<std::uint32_t> node_of_vertex{0, 0, 1, 1, Skeleton::kNone};
 };
 
-TEST(NodeRadii, AreMeanDistancesAndZeroWithoutVertices) {
+TEST(NodeRadii, AreMeanDistancesOrTheNeighboursWithoutVertices) {
   const Standing standing;
   EXPECT_EQ(node_radii(standing.graph, standing.mesh, standing.node_of_vertex),
-            (std::vector<double>{(1.0 + 3.0) / 2.0, (2.0 + 2.0) / 2.0, 0.0}));
+            (std::vector<double>{(1.0 + 3.0) / 2.0, (2.0 + 2.0) / 2.0, (2.0 + 2.0) / 2.0}));
 }
 
 TEST(CentreNodes, MovesAnEndToTheAreaWeightedMeanOfItsVertices) {

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "vantage/contraction/contraction.h"
+#include "vantage/mesh/measures.h"
+
+#include "support/shapes.h"
+
+/// \file
+/// Surfaces of a few faces, thin faces and extreme units.
+
+namespace vantage {
+namespace {
+
+struct Surface {
+  std::string name;
+  TriMesh mesh;
+};
+
+void PrintTo(const Surface& surface, std::ostream* out) {
+  *out << surface.name;
+}
+
+TriMesh tetrahedron() {
+  return {.positions = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
+          .triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
+}
+
+/// A fan around the origin whose faces have sides of 1 and 1e-6.
+TriMesh fan_of_needles() {
+  TriMesh mesh{.positions = {Vec3::Zero()}, .triangles = {}};
+  for (int i = 0; i <= 40; ++i) {
+    mesh.positions.emplace_back(std::cos(1e-6 * i), std::sin(1e-6 * i), 0.0);
+  }
+  for (std::uint32_t i = 1; i <= 40; ++i) {
+    mesh.triangles.push_back({0, i, i + 1});
+  }
+  return mesh;
+}
+
+std::vector<Surface> surfaces() {
+  return {{"Triangle", {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}}},
+          {"NeedleOfOneToAMillion",
+           {.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1e-6, 0}}, .triangles = {{0, 1, 2}}}},
+          {"CapOfAMillionToOne",
+           {.positions = {{0, 0, 0}, {1, 0, 0}, {0.5, 1e-6, 0}}, .triangles = {{0, 1, 2}}}},
+          {"TwoTriangles",
+           {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0.3}},
+            .triangles = {{0, 1, 2}, {2, 1, 3}}}},
+          {"TwoTrianglesBackToBack",
+           {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}, {0, 2, 1}}}},
+          {"BowTie",
+           {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0.5}},
+            .triangles = {{0, 1, 2}, {0, 3, 4}}}},
+          {"Tetrahedron", tetrahedron()},
+          {"Cube", test::box(1, 1, 1, 1)},
+          {"FanOfNeedles", fan_of_needles()}};
+}
+
+class SmallSurface : public ::testing::TestWithParam<Surface> {};
+
+TEST_P(SmallSurface, GivesFinitePositions) {
+  for (const auto& level : contract(GetParam().mesh).levels) {
+    for (const Vec3& p : level) {
+      ASSERT_TRUE(p.allFinite());
+    }
+  }
+}
+
+TEST_P(SmallSurface, EndsWithLessAreaThanItBeganWith) {
+  const TriMesh& mesh = GetParam().mesh;
+  const ContractionHistory history = contract(mesh);
+  const TriMesh last{.positions = history.levels.back(), .triangles = mesh.triangles};
+  EXPECT_LT(surface_area(last), surface_area(mesh));
+}
+
+TEST_P(SmallSurface, StaysInItsBoxWidenedByAFifthAndAHundredthOfTheDiameter) {
+  const TriMesh& mesh = GetParam().mesh;
+  const Vec3 first = bounding_box(mesh.positions).size();
+  const double slack = 0.01 * enclosing_sphere(mesh.positions).diameter;
+  for (const auto& level : contract(mesh).levels) {
+    const Vec3 now = bounding_box(level).size();
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_LE(now[axis], (1.2 * first[axis] + slack) * (1.0 + 1e-9));
+    }
+  }
+}
+
+TEST_P(SmallSurface, IsNeverGivenUpForWantOfASolution) {
+  EXPECT_NE(contract(GetParam().mesh).components.front().stop, ContractionStop::SolverFailed);
+}
+
+INSTANTIATE_TEST_SUITE_P(Surfaces, SmallSurface, ::testing::ValuesIn(surfaces()),
+                         [](const auto& instance) { return instance.param.name; });
+
+TEST(SmallSurfaces, LeaveAVertexThatHangsOnADegenerateFaceWhereItIs) {
+  TriMesh mesh = test::torus(1.0, 0.3, 16, 8);
+  const Vec3 place(0.1, 0.2, 0.3);
+  mesh.positions.push_back(place);
+  mesh.triangles.push_back({0, 0, static_cast<std::uint32_t>(mesh.positions.size() - 1)});
+  const ContractionHistory history = contract(mesh);
+  ASSERT_GE(history.level_count(), 1U);
+  EXPECT_LE((history.levels.back().back() - place).norm(), 1e-12);
+}
+
+TEST(SmallSurfaces, ContractInUnitsFromTheTinyToTheHuge) {
+  const TriMesh mesh = test::torus(1.0, 0.3, 16, 8);
+  const ContractionHistory plain = contract(mesh);
+  for (const int exponent : {-400, -100, 100, 400}) {  // exact: powers of two
+    const double scale = std::ldexp(1.0, exponent);
+    const ContractionHistory other =
+        contract(test::moved(mesh, scale, 0.0, Vec3::UnitX(), Vec3::Zero()));
+    ASSERT_EQ(other.levels.size(), plain.levels.size()) << exponent;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      EXPECT_LE((other.levels.back()[v] / scale - plain.levels.back()[v]).norm(), 1e-9) << exponent;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vantage
