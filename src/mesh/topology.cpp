@@ -2,6 +2,7 @@
 #include "vantage/mesh/topology.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "mesh/disjoint_sets.h"
 
@@ -15,7 +16,9 @@ bool names_a_vertex_twice(const Triangle& t) {
 struct EdgeUse {
   std::uint32_t a, b, face;
 
-  auto operator<=>(const EdgeUse&) const = default;
+  bool operator<(const EdgeUse& other) const {
+    return std::tie(a, b, face) < std::tie(other.a, other.b, other.face);
+  }
 };
 
 }  // namespace

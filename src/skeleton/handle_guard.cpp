@@ -148,11 +148,11 @@ std::vector<std::uint32_t> dual_loop(const TreeCotree& trees, const EdgeTable& t
   return up;
 }
 
-/// Inverse of a square matrix over Z₂; empty if singular.
-std::vector<Bits> inverse(std::vector<Bits> A) {
+/// Inverse of a square matrix over Z₂ that is made of diagonal blocks. Columns without a pivot are
+/// added to `singular`; the blocks they belong to mean nothing then, the others are right.
+std::vector<Bits> inverse(std::vector<Bits> A, std::vector<std::size_t>& singular) {
   const std::size_t n = A.size();
-  const std::size_t words = n == 0 ? 0 : A.front().size();
-  std::vector<Bits> I(n, Bits(words, 0));
+  std::vector<Bits> I(n, Bits(A.front().size(), 0));
   for (std::size_t i = 0; i < n; ++i) {
     flip(I[i].data(), i);
   }
@@ -162,7 +162,8 @@ std::vector<Bits> inverse(std::vector<Bits> A) {
       ++pivot;
     }
     if (pivot == n) {
-      return {};
+      singular.push_back(column);
+      continue;
     }
     std::swap(A[pivot], A[column]);
     std::swap(I[pivot], I[column]);
@@ -174,6 +175,30 @@ std::vector<Bits> inverse(std::vector<Bits> A) {
     }
   }
   return I;
+}
+
+/// Coordinates of every component that has a singular one: there two sheets touch in a vertex, so
+/// that it is no surface after all, and its handles are not guarded.
+Bits coordinates_to_drop(const TriMesh& mesh, const EdgeTable& table, const TreeCotree& trees,
+                         const std::vector<std::size_t>& singular, std::size_t words) {
+  Bits dropped(words, 0);
+  if (singular.empty()) {
+    return dropped;
+  }
+  const Components components = connected_components(mesh);
+  const auto component_of = [&](std::size_t i) {
+    return components.of_vertex[table.edges[trees.generators[i]][0]];
+  };
+  std::vector<bool> bad(components.count, false);
+  for (const std::size_t i : singular) {
+    bad[component_of(i)] = true;
+  }
+  for (std::size_t i = 0; i < trees.generators.size(); ++i) {
+    if (bad[component_of(i)]) {
+      flip(dropped.data(), i);
+    }
+  }
+  return dropped;
 }
 
 }  // namespace
@@ -208,10 +233,11 @@ HandleGuard::HandleGuard(const TriMesh& mesh, const EdgeTable& table) {
       }
     }
   }
-  crossings_ = inverse(std::move(A));
-  if (crossings_.empty()) {
-    annotation_.clear();  // two sheets touch in a vertex: not a surface after all
-    return;
+  std::vector<std::size_t> singular;
+  crossings_ = inverse(std::move(A), singular);
+  const Bits dropped = coordinates_to_drop(mesh, table, trees, singular, words);
+  for (std::size_t i = 0; i < annotation_.size(); ++i) {
+    annotation_[i] &= ~dropped[i % words];
   }
   words_ = words;
 }

@@ -123,6 +123,33 @@ TEST(HandleGuard, GuardsTheClosedComponentBesideAnOpenOne) {
   EXPECT_EQ(coordinates(both.guard), 2);
 }
 
+TEST(HandleGuard, GuardsATorusBesideASphereThatTouchesItself) {
+  // Two opposite vertices of the sphere become one: closed over its edges, but no surface there.
+  TriMesh pinched = sphere(2);
+  std::uint32_t opposite = 0;
+  for (std::uint32_t v = 0; v < pinched.positions.size(); ++v) {
+    if (pinched.positions[v].dot(pinched.positions[0]) <
+        pinched.positions[opposite].dot(pinched.positions[0])) {
+      opposite = v;
+    }
+  }
+  for (Triangle& t : pinched.triangles) {
+    std::replace(t.begin(), t.end(), opposite, 0U);
+  }
+  const auto sphere_vertices = static_cast<std::uint32_t>(pinched.positions.size());
+  const TriMesh mesh = together(pinched, torus(1.0, 0.3, 8, 6), Vec3(5.0, 0.0, 0.0));
+  const EdgeTable table = build_edge_table(mesh);
+  const HandleGuard guard(mesh, table);
+  ASSERT_EQ(guard.words(), 1U);
+  std::uint64_t on_sphere = 0;
+  std::uint64_t on_torus = 0;
+  for (std::size_t e = 0; e < table.edges.size(); ++e) {
+    (table.edges[e][0] < sphere_vertices ? on_sphere : on_torus) |= guard.annotations()[e];
+  }
+  EXPECT_EQ(on_sphere, 0U);
+  EXPECT_EQ(std::popcount(on_torus), 2);
+}
+
 TEST(HandleGuard, HasTwoCoordinatesOnATorus) {
   EXPECT_EQ(coordinates(torus().guard), 2);
 }

@@ -42,7 +42,8 @@ TEST(ShellInside, HasNoGapsAboveEdgesAndCorners) {
   const Shell shell(mesh, components);
   for (const double z : {-0.5, 0.5, 1.5}) {
     for (int cell = 0; cell < 9; ++cell) {
-      EXPECT_EQ(shell.inside(0, Vec3(1 + cell / 3, 1 + cell % 3, z)), z == 0.5);
+      const int row = 1 + cell / 3;
+      EXPECT_EQ(shell.inside(0, Vec3(row, 1 + cell % 3, z)), z == 0.5);
     }
   }
 }
