@@ -125,7 +125,7 @@ TEST(HandleGuard, GuardsTheClosedComponentBesideAnOpenOne) {
 
 TEST(HandleGuard, GuardsATorusBesideASphereThatTouchesItself) {
   // Two opposite vertices of the sphere become one: closed over its edges, but no surface there.
-  TriMesh pinched = sphere(2);
+  TriMesh pinched = test::sphere(2);
   std::uint32_t opposite = 0;
   for (std::uint32_t v = 0; v < pinched.positions.size(); ++v) {
     if (pinched.positions[v].dot(pinched.positions[0]) <
@@ -137,7 +137,7 @@ TEST(HandleGuard, GuardsATorusBesideASphereThatTouchesItself) {
     std::replace(t.begin(), t.end(), opposite, 0U);
   }
   const auto sphere_vertices = static_cast<std::uint32_t>(pinched.positions.size());
-  const TriMesh mesh = together(pinched, torus(1.0, 0.3, 8, 6), Vec3(5.0, 0.0, 0.0));
+  const TriMesh mesh = test::together(pinched, test::torus(1.0, 0.3, 8, 6), Vec3(5.0, 0.0, 0.0));
   const EdgeTable table = build_edge_table(mesh);
   const HandleGuard guard(mesh, table);
   ASSERT_EQ(guard.words(), 1U);
