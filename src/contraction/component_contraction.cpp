@@ -22,6 +22,9 @@ constexpr double kTinyFace = 1e-6;
 /// A box side may grow by this factor plus a hundredth of D before a step counts as diverged.
 constexpr double kBoxGrowth = 1.2;
 constexpr double kBoxSlack = 0.01;
+/// A vertex may get this far from the first enclosing sphere's centre, in radii. The box does not
+/// see one vertex that flies off while the others shrink, and what it sees depends on the axes.
+constexpr double kFarthest = 1.2;
 /// Ways to make an ill-conditioned step solvable, tried in order: as defined; non-negative weights
 /// and cotangents of angles above half a degree; then also a growing shift of the diagonal.
 constexpr int kGentlest = 0;
@@ -143,11 +146,30 @@ class StepSolver {
   bool analysed_ = false;
 };
 
-bool outgrew(const std::vector<Vec3>& now, const Vec3& first_size, double diameter) {
-  const Vec3 size = bounding_box(now).size();
-  const Vec3 bound = kBoxGrowth * first_size + Vec3::Constant(kBoxSlack * diameter);
-  return (size.array() > bound.array()).any();
-}
+/// What a step must not outgrow.
+class Bounds {
+ public:
+  explicit Bounds(const std::vector<Vec3>& start)
+      : size_(bounding_box(start).size()), sphere_(enclosing_sphere(start)) {}
+
+  /// True if a step of this harshness that ends at `now` has diverged.
+  [[nodiscard]] bool exceeded_by(const std::vector<Vec3>& now, int harshness) const {
+    const Vec3 bound = kBoxGrowth * size_ + Vec3::Constant(kBoxSlack * sphere_.diameter);
+    return (bounding_box(now).size().array() > bound.array()).any() ||
+           (harshness == kGentlest && strayed(now));
+  }
+
+ private:
+  [[nodiscard]] bool strayed(const std::vector<Vec3>& now) const {
+    const double farthest = kFarthest * 0.5 * sphere_.diameter;
+    return std::any_of(now.begin(), now.end(), [&](const Vec3& p) {
+      return (p - sphere_.centre).squaredNorm() > farthest * farthest;
+    });
+  }
+
+  Vec3 size_;
+  Sphere sphere_;
+};
 
 /// What one attempt at a step gave.
 struct Attempt {
@@ -168,9 +190,7 @@ ComponentHistory contract_component(const TriMesh& scaled, const ContractionOpti
   if (!(ratios.mean_area() > 0.0)) {
     return history;
   }
-  const Vec3 first_size = bounding_box(scaled.positions).size();
-  const double diameter = enclosing_sphere(scaled.positions).diameter;
-
+  const Bounds bounds(scaled.positions);
   TriMesh now = scaled;
   StepSolver solver;
   double W_L = 1.0 / (10.0 * std::sqrt(ratios.mean_area()));
@@ -191,7 +211,7 @@ ComponentHistory contract_component(const TriMesh& scaled, const ContractionOpti
       attempt.failure = solved ? ContractionStop::Grew : ContractionStop::SolverFailed;
       if (solved) {
         attempt.positions = std::move(*solved);
-        attempt.accepted = !outgrew(attempt.positions, first_size, diameter);
+        attempt.accepted = !bounds.exceeded_by(attempt.positions, harshness);
         if (attempt.accepted || (!first && harshness > kGentlest)) {
           break;
         }

@@ -22,7 +22,8 @@ using DenseMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 /// cot α + cot β by the law of cosines, rows scaled down to `diagonal_limit`.
 DenseMatrix dense_laplacian(const TriMesh& mesh, long double diagonal_limit);
 
-/// Mean over the faces at each vertex of area now over area at the start (docs/contraction.md).
+/// Mean over the faces at each vertex of area now over area at the start (docs/contraction.md); −1
+/// where no face counts.
 std::vector<double> dense_area_ratios(const TriMesh& start, std::span<const Vec3> now);
 
 /// The weights of step `step` (0 is the first), for a surface whose first level is `start` and whose

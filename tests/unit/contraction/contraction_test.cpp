@@ -126,19 +126,6 @@ TEST(Contract, SurvivesNeedlesAndZeroAreaFaces) {
   EXPECT_LT(history.shrinkage.back(), 0.5);
 }
 
-TEST(Contract, SaysWhenItHadToRegularise) {
-  // Caps with angles of almost 180°: cotangents of −10⁷ and more, which push instead of pull.
-  TriMesh mesh = test::sphere(2);
-  const Triangle t = mesh.triangles[5];
-  const auto tip = static_cast<std::uint32_t>(mesh.positions.size());
-  mesh.positions.emplace_back(0.5 * (mesh.positions[t[0]] + mesh.positions[t[1]]) * (1 - 1e-9));
-  mesh.triangles.push_back({t[0], tip, t[1]});
-  const ContractionHistory history = contract(mesh);
-  expect_finite(history);
-  ASSERT_GE(history.level_count(), 1U);
-  EXPECT_EQ(history.components.front().regularised_steps > 0, !history.warnings.empty());
-}
-
 TEST(Contract, GivesBackTheVertexOrderOfTwoInterwovenComponents) {
   TriMesh mesh;
   const TriMesh torus = test::torus(1.0, 0.3, 16, 8);

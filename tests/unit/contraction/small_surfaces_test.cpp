@@ -21,6 +21,7 @@ struct Surface {
   TriMesh mesh;
 };
 
+// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest looks for this name
 void PrintTo(const Surface& surface, std::ostream* out) {
   *out << surface.name;
 }
@@ -96,6 +97,57 @@ TEST_P(SmallSurface, IsNeverGivenUpForWantOfASolution) {
 
 INSTANTIATE_TEST_SUITE_P(Surfaces, SmallSurface, ::testing::ValuesIn(surfaces()),
                          [](const auto& instance) { return instance.param.name; });
+
+/// A sphere in every seventh face of which a vertex lies `height` of the face's height from a side:
+/// angles of almost 180°, whose cotangents of −1/height push instead of pull.
+TriMesh sphere_with_caps(double height) {
+  TriMesh mesh = test::sphere(2);
+  const std::size_t faces = mesh.triangles.size();
+  for (std::size_t f = 0; f < faces; f += 7) {
+    const auto [a, b, c] = mesh.triangles[f];
+    const auto tip = static_cast<std::uint32_t>(mesh.positions.size());
+    const Vec3 middle = 0.5 * (mesh.positions[a] + mesh.positions[b]);
+    mesh.positions.emplace_back(middle + height * (mesh.positions[c] - middle));
+    mesh.triangles[f] = {a, b, tip};
+    mesh.triangles.push_back({b, c, tip});
+    mesh.triangles.push_back({c, a, tip});
+  }
+  return mesh;
+}
+
+class Caps : public ::testing::TestWithParam<double> {};
+
+TEST_P(Caps, MakeItRegulariseAndSaySo) {
+  const ContractionHistory history = contract(sphere_with_caps(GetParam()));
+  EXPECT_GT(history.components.front().regularised_steps, 0);
+  EXPECT_EQ(history.warnings.size(), 1U);
+}
+
+TEST_P(Caps, SendNoVertexOutOfTheSphere) {
+  const TriMesh mesh = sphere_with_caps(GetParam());
+  const Sphere sphere = enclosing_sphere(mesh.positions);
+  for (const auto& level : contract(mesh).levels) {
+    for (const Vec3& p : level) {
+      EXPECT_LE((p - sphere.centre).norm(), 1.2 * 0.5 * sphere.diameter);
+    }
+  }
+}
+
+TEST_P(Caps, ContractAlikeWhateverTheRotation) {
+  const TriMesh mesh = sphere_with_caps(GetParam());
+  const ContractionHistory plain = contract(mesh);
+  for (const double angle : {0.7, 1.1, 2.0, 2.9}) {
+    const ContractionHistory other =
+        contract(test::moved(mesh, 1.0, angle, Vec3(1, 2, 3), Vec3::Zero()));
+    ASSERT_EQ(other.levels.size(), plain.levels.size()) << angle;
+    // Rounding of coordinates over `height` is the relative error of the cotangents.
+    EXPECT_NEAR(other.shrinkage.back(), plain.shrinkage.back(), 0.05 * plain.shrinkage.back());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Heights, Caps, ::testing::Values(1e-6, 1e-9), [](const auto& instance) {
+  return instance.param < 1e-7 ? "Billionth" : "Millionth";
+});
 
 TEST(SmallSurfaces, LeaveAVertexThatHangsOnADegenerateFaceWhereItIs) {
   TriMesh mesh = test::torus(1.0, 0.3, 16, 8);
