@@ -195,8 +195,15 @@ StepWeights step_weights(const TriMesh& start, std::span<const Vec3> now, int st
   weights.attraction.assign(now.size(), 1.0);
   if (step > 0) {
     const std::vector<double> ratios = dense_area_ratios(start, now);
+    double sum = 0.0;
+    int counted = 0;
+    for (const double ratio : ratios) {
+      sum += std::max(ratio, 0.0);
+      counted += ratio < 0.0 ? 0 : 1;
+    }
     for (std::size_t v = 0; v < now.size(); ++v) {
-      weights.attraction[v] = std::min(1.0 / std::sqrt(ratios[v]), options.attraction_limit);
+      const double ratio = ratios[v] < 0.0 ? sum / counted : ratios[v];
+      weights.attraction[v] = std::min(1.0 / std::sqrt(ratio), options.attraction_limit);
     }
   }
   return weights;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,8 @@ struct Surface {
   TriMesh mesh;
 };
 
-// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest looks for this name
-void PrintTo(const Surface& surface, std::ostream* out) {
-  *out << surface.name;
+std::ostream& operator<<(std::ostream& out, const Surface& surface) {
+  return out << surface.name;
 }
 
 TriMesh tetrahedron() {
