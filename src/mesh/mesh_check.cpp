@@ -10,6 +10,7 @@
 #include "vantage/mesh/weld.h"
 
 #include "mesh/disjoint_sets.h"
+#include "mesh/triangle_corners.h"
 
 namespace vantage {
 namespace {
@@ -18,21 +19,12 @@ namespace {
 /// triangle whose sides are as long as the model.
 constexpr double kZeroArea = 1e-12;
 
-bool names_a_vertex_twice(const Triangle& t) {
-  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
-
 std::size_t count_unnamed_vertices(const TriMesh& mesh) {
   std::vector<bool> named(mesh.positions.size(), false);
   for (const Triangle& t : mesh.triangles) {
     named[t[0]] = named[t[1]] = named[t[2]] = true;
   }
   return static_cast<std::size_t>(std::count(named.begin(), named.end(), false));
-}
-
-/// Corner of triangle `t` (0 to 2) at vertex `v`, which it names.
-std::uint32_t corner_at(const Triangle& t, std::uint32_t v) {
-  return t[0] == v ? 0 : t[1] == v ? 1 : 2;
 }
 
 /// Whether `t` runs through its side {a, b} from a to b.
@@ -93,32 +85,6 @@ void count_edges(const TriMesh& mesh, const EdgeTable& table, MeshReport& report
     }
   }
   report.boundary_loops = count_boundary_loops(mesh, table);
-}
-
-/// For each vertex the number of fans: groups of its faces that hang together over shared edges.
-std::vector<std::uint32_t> count_fans(const TriMesh& mesh, const EdgeTable& table) {
-  DisjointSets corners(3 * mesh.triangles.size());
-  const auto corner_id = [&](std::uint32_t face, std::uint32_t v) {
-    return 3 * face + corner_at(mesh.triangles[face], v);
-  };
-  for (std::size_t e = 0; e < table.edges.size(); ++e) {
-    const auto faces = table.faces_of_edge[e];
-    for (const std::uint32_t face : faces) {
-      for (const std::uint32_t v : table.edges[e]) {
-        corners.join(corner_id(faces[0], v), corner_id(face, v));
-      }
-    }
-  }
-  std::vector<std::uint32_t> fans(mesh.positions.size(), 0);
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-    if (names_a_vertex_twice(mesh.triangles[f])) {
-      continue;
-    }
-    for (std::uint32_t c = 0; c < 3; ++c) {
-      fans[mesh.triangles[f][c]] += corners.root(3 * f + c) == 3 * f + c ? 1 : 0;
-    }
-  }
-  return fans;
 }
 
 /// Whether the faces can be turned so that no edge is run twice the same way.

@@ -5,13 +5,10 @@
 #include <tuple>
 
 #include "mesh/disjoint_sets.h"
+#include "mesh/triangle_corners.h"
 
 namespace vantage {
 namespace {
-
-bool names_a_vertex_twice(const Triangle& t) {
-  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
 
 struct EdgeUse {
   std::uint32_t a, b, face;
@@ -119,6 +116,31 @@ Components connected_components(const TriMesh& mesh) {
         root == v ? static_cast<std::uint32_t>(components.count++) : components.of_vertex[root];
   }
   return components;
+}
+
+std::vector<std::uint32_t> count_fans(const TriMesh& mesh, const EdgeTable& table) {
+  DisjointSets corners(3 * mesh.triangles.size());
+  const auto corner_id = [&](std::uint32_t face, std::uint32_t v) {
+    return 3 * face + corner_at(mesh.triangles[face], v);
+  };
+  for (std::size_t e = 0; e < table.edges.size(); ++e) {
+    const auto faces = table.faces_of_edge[e];
+    for (const std::uint32_t face : faces) {
+      for (const std::uint32_t v : table.edges[e]) {
+        corners.join(corner_id(faces[0], v), corner_id(face, v));
+      }
+    }
+  }
+  std::vector<std::uint32_t> fans(mesh.positions.size(), 0);
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (names_a_vertex_twice(mesh.triangles[f])) {
+      continue;
+    }
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      fans[mesh.triangles[f][c]] += corners.root(3 * f + c) == 3 * f + c ? 1 : 0;
+    }
+  }
+  return fans;
 }
 
 }  // namespace vantage

@@ -42,6 +42,10 @@ IndexLists vertex_neighbours(const TriMesh& mesh);
 /// The faces at each vertex, ascending; a face that names a vertex twice is listed once.
 IndexLists vertex_faces(const TriMesh& mesh);
 
+/// For each vertex the number of fans: groups of its faces that hang together over shared edges.
+/// \pre `table` is that of build_edge_table(mesh).
+std::vector<std::uint32_t> count_fans(const TriMesh& mesh, const EdgeTable& table);
+
 /// Label of the connected component of each vertex, numbered by lowest vertex index; vertices that
 /// no face names are components of their own.
 struct Components {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "vantage/mesh/tri_mesh.h"
+
+/// \file
+/// Small questions about one triangle.
+
+namespace vantage {
+
+/// Whether two of the corners are the same vertex.
+inline bool names_a_vertex_twice(const Triangle& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+/// Which corner, 0 to 2, vertex v is. \pre v is one of them.
+inline std::uint32_t corner_at(const Triangle& t, std::uint32_t v) {
+  return t[0] == v ? 0 : (t[1] == v ? 1 : 2);
+}
+
+}  // namespace vantage
