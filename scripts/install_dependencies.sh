@@ -5,8 +5,8 @@
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libembree-dev libpng-dev nlohmann-json3-dev
-       libcli11-dev libtinygltf-dev libmetis-dev libnanoflann-dev)
-test=(libgtest-dev libgmock-dev python3)
+       libcli11-dev libtinygltf-dev libmetis-dev libnanoflann-dev libmeshoptimizer-dev)
+test=(libgtest-dev libgmock-dev python3 chromium)
 check=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev libbenchmark-dev doxygen)
 
 case "${1:-build}" in
@@ -15,6 +15,9 @@ case "${1:-build}" in
   check) wanted=("${build[@]}" "${test[@]}" "${check[@]}") ;;
   *) echo "usage: $0 build|test|check" >&2; exit 2 ;;
 esac
+
+# Node.js of any origin will do: the distribution's packages conflict with others.
+command -v npm >/dev/null || wanted+=(npm)
 
 missing=()
 for package in "${wanted[@]}"; do

@@ -8,6 +8,7 @@
 #include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
 #include "vantage/render/colour_map.h"
+#include "vantage/report/html_report.h"
 #include "vantage/report/view_report.h"
 
 #include "commands.h"
@@ -46,13 +47,15 @@ struct ViewCommand {
   std::string folder{};
   std::string trace{};
   bool no_images = false;
+  bool no_report = false;
   MethodFlags method{};
 
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("MODEL", model, "file to read, or -")->required();
     app.add_option("-o,--output", folder, "folder for the results; default: NAME.vantage");
     app.add_option("--trace", trace, "also write each evaluated direction to this CSV file");
-    app.add_flag("--no-images", no_images, "no pictures");
+    app.add_flag("--no-images", no_images, "no pictures and no report");
+    app.add_flag("--no-report", no_report, "no report.html, the page to explore the result in");
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
     add_common_flags(app, session.flags);
   }
@@ -77,7 +80,10 @@ struct ViewCommand {
     const auto render_start = Clock::now();
     output.add("view.json", view_json(loaded, shape, report, options));
     if (!no_images) {
-      add_pictures(output, shape, report, options, run.part(0.9, 1.0));
+      add_pictures(output, shape, report, options, run.part(0.9, 0.95));
+      if (!no_report && has_report_page()) {
+        output.add("report.html", report_html(loaded, shape, report, options, run.part(0.95, 1.0)));
+      }
     }
     seconds.render = seconds_since(render_start);
     add_data(output, loaded, shape, report, options);

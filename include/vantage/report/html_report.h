@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "vantage/core/run_context.h"
+#include "vantage/io/model.h"
+#include "vantage/report/view_report.h"
+
+/// \file
+/// report.html: one self-contained page to explore a result in. docs/report.md describes it,
+/// docs/formats.md its data block.
+
+namespace vantage {
+
+/// Whether this build has the page: it is bundled by npm when the library is built.
+bool has_report_page();
+
+/// The page: the model in 3D with its significance, skeleton and contraction, the view sphere as a
+/// heat map, the views with their cameras, the paper's search to replay. Models past 300 000 faces
+/// are simplified for display, which the page says; the numbers are those of the whole model.
+/// \pre the map is there. \throw InvalidInput if !has_report_page(). \throw Cancelled
+/// \complexity 642 evaluations and two rapid searches, then about 30 bytes a face.
+std::string report_html(const Model& model, const ShapeAnalysis& shape, const ViewReport& report,
+                        const ViewOptions& options, const RunContext& run = {});
+
+}  // namespace vantage

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "vantage/mesh/tri_mesh.h"
+
+/// \file
+/// A smaller copy of a surface, to look at.
+
+namespace vantage {
+
+/// Faces over some of the vertices of a surface.
+struct DisplayMesh {
+  std::vector<Triangle> triangles{};           ///< Over the rows of vertex_of_row.
+  std::vector<std::uint32_t> vertex_of_row{};  ///< Vertex of the surface, ascending.
+};
+
+/// At most about `max_faces` faces and at most `max_vertices` vertices of `surface`, chosen so that
+/// it looks alike; vertices stay where they are. The surface itself, less vertices without faces, if
+/// it is small enough.
+DisplayMesh display_mesh(const TriMesh& surface, std::size_t max_faces, std::size_t max_vertices);
+
+}  // namespace vantage

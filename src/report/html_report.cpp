@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/report/html_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/error.h"
+#include "vantage/io/camera_files.h"
+#include "vantage/io/write.h"
+#include "vantage/render/colour_map.h"
+#include "vantage/spatial/directions.h"
+
+#include "report/display_mesh.h"
+#include "report/report_page.h"
+
+namespace vantage {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Past this many faces the page shows a simplified copy.
+constexpr std::size_t kDisplayFaces = 300000;
+/// The contraction is played on at most this many vertices: each level costs 6 bytes a vertex.
+constexpr std::size_t kHistoryVertices = 30000;
+/// The heat map's set: icosahedron level 3, 642 directions.
+constexpr int kSphereLevel = 3;
+/// Coordinates, in radii of the enclosing sphere, are stored as 16 bits over [-1.25, 1.25]: a
+/// contracted surface may reach a little beyond the sphere.
+constexpr double kReach = 1.25;
+/// Size of the pictures in the filmstrip, px.
+constexpr int kStripWidth = 288;
+constexpr int kStripHeight = 216;
+
+std::string base64(const void* data, std::size_t size) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const auto* bytes = static_cast<const unsigned char*>(data);
+  std::string text;
+  text.reserve((size + 2) / 3 * 4);
+  for (std::size_t i = 0; i < size; i += 3) {
+    const std::size_t left = std::min<std::size_t>(3, size - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      group = group << 8U | (k < left ? bytes[i + k] : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k <= left ? kDigits[group >> (18U - 6U * k) & 63U] : '=';
+    }
+  }
+  return text;
+}
+
+template <class Value>
+std::string base64(const std::vector<Value>& values) {
+  return base64(values.data(), values.size() * sizeof(Value));
+}
+
+/// Model coordinates to radii of the enclosing sphere around its centre, which the page works in.
+struct Frame {
+  Vec3 centre = Vec3::Zero();
+  double radius = 1.0;
+
+  [[nodiscard]] Vec3 to(const Vec3& p) const { return (p - centre) / radius; }
+};
+
+Json numbers(const Vec3& p) {
+  return Json::array({p.x(), p.y(), p.z()});
+}
+
+std::string packed_positions(const std::vector<Vec3>& positions,
+                             const std::vector<std::uint32_t>& rows, const Frame& frame) {
+  std::vector<std::uint16_t> packed;
+  packed.reserve(3 * rows.size());
+  for (const std::uint32_t v : rows) {
+    const Vec3 p = frame.to(positions[v]);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double share = std::clamp((p[axis] + kReach) / (2.0 * kReach), 0.0, 1.0);
+      packed.push_back(static_cast<std::uint16_t>(std::lround(65535.0 * share)));
+    }
+  }
+  return base64(packed);
+}
+
+std::string packed_significance(const std::vector<double>& map,
+                                const std::vector<std::uint32_t>& rows) {
+  const double highest = map.empty() ? 0.0 : *std::max_element(map.begin(), map.end());
+  std::vector<std::uint8_t> packed;
+  packed.reserve(rows.size());
+  for (const std::uint32_t v : rows) {
+    const double share = highest > 0.0 ? map[v] / highest : 0.0;
+    packed.push_back(static_cast<std::uint8_t>(std::lround(255.0 * share)));
+  }
+  return base64(packed);
+}
+
+Json surface_part(const DisplayMesh& display, const ShapeAnalysis& shape) {
+  return {{"faces", display.triangles.size()},
+          {"indices", base64(display.triangles)},
+          {"significance", packed_significance(shape.map.of_vertex, display.vertex_of_row)}};
+}
+
+Json mesh_part(const ShapeAnalysis& shape, const Frame& frame) {
+  const DisplayMesh display = display_mesh(shape.surface, kDisplayFaces, 2 * kDisplayFaces);
+  Json part = surface_part(display, shape);
+  part["positions"] = packed_positions(shape.surface.positions, display.vertex_of_row, frame);
+  return part;
+}
+
+Json history_part(const ShapeAnalysis& shape, const Frame& frame) {
+  const DisplayMesh display = display_mesh(shape.surface, kDisplayFaces, kHistoryVertices);
+  Json part = surface_part(display, shape);
+  part["levels"] = Json::array();
+  for (const auto& level : shape.history.levels) {
+    part["levels"].push_back(packed_positions(level, display.vertex_of_row, frame));
+  }
+  return part;
+}
+
+Json skeleton_part(const CurveGraph& graph, const Frame& frame) {
+  Json nodes = Json::array();
+  for (const Vec3& p : graph.nodes) {
+    nodes.push_back(numbers(frame.to(p)));
+  }
+  return {{"nodes", nodes}, {"edges", graph.edges}};
+}
+
+Json sphere_part(const DirectionSet& set, const std::vector<double>& scores) {
+  Json directions = Json::array();
+  for (const Vec3& d : set.directions) {
+    directions.push_back(numbers(d));
+  }
+  return {{"directions", directions}, {"triangles", set.triangles}, {"scores", scores}};
+}
+
+/// The paper's search, to its end: the page stops it where a chosen ε would.
+Json rapid_part(const ScoreBatch& score, double total, Goal goal, const RunContext& run) {
+  SearchOptions options = preset_options(Preset::Paper).search;
+  options.epsilon = 0.0;
+  const FoundView found = search_view(score, total, goal, options, run);
+  Json steps = Json::array();
+  for (const SearchStep& step : found.trace) {
+    steps.push_back(
+        {{"level", step.level}, {"direction", numbers(step.direction)}, {"score", step.score}});
+  }
+  return steps;
+}
+
+Json view_part(const char* name, const ReportedView& view, const ShapeAnalysis& shape,
+               const Model& model, const ViewOptions& options, const Frame& frame,
+               const RunContext& run) {
+  ViewOptions small = options;
+  small.width = kStripWidth;
+  small.height = kStripHeight;
+  const std::string png =
+      png_bytes(take_picture(shape, view.picture, Picture::Plain, small, {}, run));
+  const PictureSize size{options.width, options.height};
+  return {{"name", name},
+          {"direction", numbers(view.direction)},
+          {"score", view.score},
+          {"score_fraction", view.score_fraction},
+          {"eye", numbers(frame.to(view.picture.eye))},
+          {"target", numbers(frame.to(view.picture.target))},
+          {"up", numbers(view.picture.up)},
+          {"fov_y_deg", view.picture.fov_y_deg},
+          {"aspect", static_cast<double>(options.width) / options.height},
+          {"picture", "data:image/png;base64," + base64(png.data(), png.size())},
+          {"cameras",
+           {{"glTF", camera_gltf(view.picture, size, shape.sphere.diameter)},
+            {"NeRF transforms.json",
+             camera_transforms_json(view.picture, size, std::string(name) + ".png")},
+            {"f3d", camera_f3d(view.picture, model.name)}}}};
+}
+
+std::string colour_table() {
+  std::vector<Rgb8> table;
+  for (int i = 0; i < 256; ++i) {
+    table.push_back(cool_warm(i / 255.0));
+  }
+  return base64(table);
+}
+
+/// Text that may stand inside a script element: no "<" can end it.
+std::string script_safe(const Json& json) {
+  std::string safe;
+  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+    if (c == '<') {
+      safe += "\\u003c";
+    } else {
+      safe += c;
+    }
+  }
+  return safe;
+}
+
+}  // namespace
+
+bool has_report_page() {
+  return !report_page().empty();
+}
+
+std::string report_html(const Model& model, const ShapeAnalysis& shape, const ViewReport& report,
+                        const ViewOptions& options, const RunContext& run) {
+  if (!has_report_page()) {
+    throw InvalidInput("this build has no 3D page; build it where npm is installed");
+  }
+  const Frame frame{report.camera.sphere.centre, 0.5 * report.camera.sphere.diameter};
+  const VertexVisibility visibility(shape.surface, shape.sides);
+  const ViewScorer scorer(visibility, shape.map.of_vertex, report.camera);
+  const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, kSphereLevel);
+  RunContext quiet = run;
+  quiet.report = nullptr;
+  const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
+    return scorer.score_all(directions, quiet);
+  };
+
+  Json data = {{"view", Json::parse(view_json(model, shape, report, options))},
+               {"up", numbers(up_vector(report.up))},
+               {"lens",
+                {{"distance", report.camera.distance() / frame.radius},
+                 {"fov_y_deg", report.camera.fov_y_deg},
+                 {"aspect", 1.0}}},
+               {"colours", colour_table()}};
+  run.advance("report", 0.0);
+  data["mesh"] = mesh_part(shape, frame);
+  data["history"] = history_part(shape, frame);
+  data["skeleton"] = skeleton_part(shape.skeleton.graph, frame);
+  run.advance("report", 0.2);
+  data["sphere"] = sphere_part(set, score(set.directions));
+  run.advance("report", 0.7);
+  data["rapid"] = {{"best", rapid_part(score, report.total, Goal::Best, quiet)},
+                   {"worst", rapid_part(score, report.total, Goal::Worst, quiet)}};
+  run.advance("report", 0.8);
+  data["views"] = {view_part("best", report.best, shape, model, options, frame, quiet),
+                   view_part("worst", report.worst, shape, model, options, frame, quiet)};
+  data["warnings"] = data["view"]["warnings"];
+
+  constexpr std::string_view kMark = "<!--VANTAGE-DATA-->";
+  std::string page(report_page());
+  const std::size_t at = page.find(kMark);
+  if (at == std::string::npos) {
+    throw InvalidInput("the 3D page of this build has no place for the data; build it again");
+  }
+  page.replace(at, kMark.size(), script_safe(data));
+  run.advance("report", 1.0);
+  return page;
+}
+
+}  // namespace vantage

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Debian's Chromium without a display, rendering WebGL in software.
+import { createRequire } from 'node:module';
+import * as path from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+// playwright-core is where the page's own packages are, in the build folder.
+const require = createRequire(path.join(process.env.VANTAGE_VIEWER_BUILD, 'package.json'));
+const { chromium } = require('playwright-core');
+
+export async function launch() {
+  return chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    headless: true,
+    args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking',
+      '--disable-component-update', '--disable-sync', '--use-gl=angle', '--use-angle=swiftshader',
+      '--enable-unsafe-swiftshader'],
+  });
+}
+
+/** Opens a report from disk and waits for its first frame; collects what must not happen. */
+export async function open(browser, file, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1200, height: 800 }, ...options });
+  const page = await context.newPage();
+  page.complaints = [];
+  page.on('console', (m) => {
+    if (['error', 'warning'].includes(m.type()) && !/GPU stall|swiftshader/i.test(m.text())) {
+      page.complaints.push(`console: ${m.text()}`);
+    }
+  });
+  page.on('pageerror', (e) => page.complaints.push(`error: ${e.message}`));
+  page.on('request', (r) => {
+    if (!/^(file|data|blob):/.test(r.url())) {
+      page.complaints.push(`request: ${r.url()}`);
+    }
+  });
+  const start = Date.now();
+  await page.goto(pathToFileURL(file).href);
+  await page.waitForSelector('html[data-ready=yes]', { state: 'attached', timeout: 60000 });
+  page.loadSeconds = (Date.now() - start) / 1000;
+  return page;
+}

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+// The model, its significance, its skeleton and its contraction, in one three.js scene.
+// Lengths are in radii of the enclosing sphere, around its centre.
+import * as THREE from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { toCreasedNormals } from 'three/addons/utils/BufferGeometryUtils.js';
+import { asBytes, asIndices, asPositions } from './decode.js';
+
+const PLAIN = new THREE.Color(0xc4c0ba);
+const BONE = new THREE.Color(0xc81e28);
+// Creases are worth splitting vertices for on coarse models, CAD parts mostly.
+const CREASE_LIMIT = 60000;
+const CREASE_RAD = Math.PI / 5;
+const FLIGHT_MS = 700;
+const KEY_STEP_RAD = Math.PI / 36;
+
+function colours(values, table) {
+  const rgb = new Float32Array(3 * values.length);
+  const palette = Array.from({ length: 256 }, (_, i) =>
+    new THREE.Color().setRGB(table[3 * i] / 255, table[3 * i + 1] / 255, table[3 * i + 2] / 255, THREE.SRGBColorSpace));
+  values.forEach((value, v) => palette[value].toArray(rgb, 3 * v));
+  return rgb;
+}
+
+function surface(part, positions, table) {
+  let geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
+  geometry.setAttribute('color', new THREE.BufferAttribute(colours(asBytes(part.significance), table), 3));
+  geometry.setIndex(new THREE.BufferAttribute(asIndices(part.indices), 1));
+  return geometry;
+}
+
+export class ModelView {
+  /** @param onMove called with the unit direction to the eye and the up vector whenever the camera has moved. */
+  constructor(canvas, data, onMove) {
+    this.canvas = canvas;
+    this.onMove = onMove;
+    this.up = new THREE.Vector3(...data.up);
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(30, 1, 0.01, 50);
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.addLights();
+    this.addSurface(data);
+    this.addHistory(data);
+    this.addSkeleton(data.skeleton);
+    this.view = data.views[0];
+    this.look(this.view);
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+    this.resize();
+    canvas.addEventListener('keydown', (event) => this.turnByKey(event));
+  }
+
+  addLights() {
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.6));
+    // Fixed to the camera, so that no view is dark.
+    const key = new THREE.DirectionalLight(0xffffff, 1.9);
+    key.position.set(-0.6, 1.2, 1.6);
+    this.camera.add(key);
+    this.scene.add(this.camera);
+  }
+
+  addSurface(data) {
+    const table = asBytes(data.colours);
+    const indexed = surface(data.mesh, asPositions(data.mesh.positions), table);
+    const coarse = indexed.index.count / 3 <= CREASE_LIMIT;
+    const geometry = coarse ? toCreasedNormals(indexed, CREASE_RAD) : indexed;
+    if (!coarse) {
+      geometry.computeVertexNormals();
+    }
+    this.material = new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 0.75, side: THREE.DoubleSide });
+    this.mesh = new THREE.Mesh(geometry, this.material);
+    this.scene.add(this.mesh);
+  }
+
+  addHistory(data) {
+    const levels = data.history.levels.map(asPositions);
+    const geometry = surface(data.history, levels[0].slice(), asBytes(data.colours));
+    this.history = { levels, mesh: new THREE.Mesh(geometry, this.material) };
+    this.history.mesh.visible = false;
+    this.scene.add(this.history.mesh);
+  }
+
+  addSkeleton({ nodes, edges }) {
+    const group = new THREE.Group();
+    const material = new THREE.MeshStandardMaterial({ color: BONE, roughness: 0.6 });
+    const ball = new THREE.SphereGeometry(0.013, 12, 8);
+    const tube = new THREE.CylinderGeometry(0.008, 0.008, 1, 10);
+    const points = nodes.map((p) => new THREE.Vector3(...p));
+    const balls = new THREE.InstancedMesh(ball, material, points.length);
+    points.forEach((p, i) => balls.setMatrixAt(i, new THREE.Matrix4().setPosition(p)));
+    const tubes = new THREE.InstancedMesh(tube, material, edges.length);
+    const along = new THREE.Vector3(0, 1, 0);
+    edges.forEach(([a, b], i) => {
+      const axis = points[b].clone().sub(points[a]);
+      const turn = new THREE.Quaternion().setFromUnitVectors(along, axis.clone().normalize());
+      const middle = points[a].clone().lerp(points[b], 0.5);
+      tubes.setMatrixAt(i, new THREE.Matrix4().compose(middle, turn, new THREE.Vector3(1, axis.length(), 1)));
+    });
+    group.add(balls, tubes);
+    group.visible = false;
+    this.skeleton = group;
+    this.scene.add(group);
+  }
+
+  showMap(on) {
+    this.material.vertexColors = on;
+    this.material.color = on ? new THREE.Color(1, 1, 1) : PLAIN;
+    this.material.needsUpdate = true;
+    this.draw();
+  }
+
+  showSkeleton(on) {
+    this.skeleton.visible = on;
+    this.material.transparent = on;
+    this.material.opacity = on ? 0.35 : 1;
+    this.material.depthWrite = !on;
+    this.material.needsUpdate = true;
+    this.draw();
+  }
+
+  /** @param level between two levels the positions are mixed. */
+  setLevel(level) {
+    const { levels, mesh } = this.history;
+    mesh.visible = level > 0;
+    this.mesh.visible = !mesh.visible;
+    if (mesh.visible) {
+      const low = Math.min(Math.floor(level), levels.length - 1);
+      const high = Math.min(low + 1, levels.length - 1);
+      const share = level - low;
+      const to = mesh.geometry.attributes.position;
+      for (let i = 0; i < to.array.length; ++i) {
+        to.array[i] = levels[low][i] * (1 - share) + levels[high][i] * share;
+      }
+      to.needsUpdate = true;
+      mesh.geometry.computeVertexNormals();
+      mesh.geometry.computeBoundingSphere();
+    }
+    this.draw();
+  }
+
+  /** Stands at a view's camera at once. */
+  look(view) {
+    this.stop();
+    this.view = view;
+    this.controls?.dispose();
+    this.camera.position.set(...view.eye);
+    this.camera.up.set(...view.up);
+    this.setLens(view);
+    this.camera.lookAt(new THREE.Vector3(...view.target));
+    this.controls = new OrbitControls(this.camera, this.canvas);
+    this.controls.target.set(...view.target);
+    this.controls.enablePan = false;
+    this.controls.minDistance = 0.2;
+    this.controls.maxDistance = 20;
+    this.controls.addEventListener('change', () => this.moved());
+    this.controls.update();
+    this.moved();
+  }
+
+  /** Flies along the great circle to a view. */
+  fly(view, done) {
+    this.stop();
+    const from = { eye: this.camera.position.clone(), up: this.camera.up.clone(), target: this.controls.target.clone(), fov: this.view.fov_y_deg };
+    const to = { eye: new THREE.Vector3(...view.eye), up: new THREE.Vector3(...view.up), target: new THREE.Vector3(...view.target), fov: view.fov_y_deg };
+    const turn = new THREE.Quaternion().setFromUnitVectors(from.eye.clone().normalize(), to.eye.clone().normalize());
+    const start = performance.now();
+    const step = (now) => {
+      const t = Math.min(1, (now - start) / FLIGHT_MS);
+      if (t === 1) {
+        this.look(view);
+        done?.();
+        return;
+      }
+      const share = t * t * (3 - 2 * t);
+      const distance = from.eye.length() * (1 - share) + to.eye.length() * share;
+      const part = new THREE.Quaternion().slerp(turn, share);
+      this.camera.position.copy(from.eye).applyQuaternion(part).setLength(distance);
+      this.camera.up.copy(from.up).lerp(to.up, share).normalize();
+      this.setLens({ ...view, fov_y_deg: from.fov * (1 - share) + to.fov * share });
+      this.camera.lookAt(from.target.clone().lerp(to.target, share));
+      this.moved();
+      this.flight = requestAnimationFrame(step);
+    };
+    this.flight = requestAnimationFrame(step);
+  }
+
+  stop() {
+    cancelAnimationFrame(this.flight);
+  }
+
+  /** The picture's field of view, widened where the window is narrower than the picture. */
+  setLens(view) {
+    const half = Math.tan((view.fov_y_deg * Math.PI) / 360);
+    const narrow = Math.max(1, view.aspect / this.camera.aspect);
+    this.camera.fov = (360 / Math.PI) * Math.atan(half * narrow);
+    this.camera.updateProjectionMatrix();
+  }
+
+  direction() {
+    return this.camera.position.clone().normalize();
+  }
+
+  turnByKey(event) {
+    const turns = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+    const turn = turns[event.key];
+    if (!turn) {
+      return;
+    }
+    event.preventDefault();
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const side = new THREE.Vector3().crossVectors(this.camera.up, offset).normalize();
+    offset.applyAxisAngle(this.camera.up, turn[0] * KEY_STEP_RAD).applyAxisAngle(side, turn[1] * KEY_STEP_RAD);
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.controls.update();
+    this.moved();
+  }
+
+  resize() {
+    const { clientWidth, clientHeight } = this.canvas.parentElement;
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.camera.aspect = clientWidth / Math.max(1, clientHeight);
+    this.setLens(this.view);
+    this.draw();
+  }
+
+  moved() {
+    this.onMove(this.direction(), this.camera.up);
+    this.draw();
+  }
+
+  /** At most once a frame, however often it is asked. */
+  draw() {
+    this.pending ??= requestAnimationFrame(() => {
+      this.pending = undefined;
+      this.renderer.render(this.scene, this.camera);
+    });
+  }
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// The texts beside the model. Everything from the file goes in as text, never as markup.
+
+const element = (id) => document.getElementById(id);
+
+function make(tag, text, parent) {
+  const node = document.createElement(tag);
+  node.textContent = text;
+  parent.append(node);
+  return node;
+}
+
+const short = (x) => (Math.abs(x) >= 1000 ? x.toFixed(0) : Number(x.toPrecision(4)).toString());
+const percent = (x) => `${(100 * x).toFixed(1)} %`;
+
+export function fillHeader(view) {
+  const { model } = view;
+  document.title = `${model.name} · Vantage`;
+  element('name').textContent = model.name;
+  const kind = model.closed ? `closed, genus ${model.genus ?? '–'}` : 'open';
+  element('summary').textContent =
+    `${model.vertices.toLocaleString('en')} vertices · ${model.faces.toLocaleString('en')} faces · ${kind}`;
+}
+
+export function fillViews(views, onPick) {
+  const buttons = views.map((view) => {
+    const button = document.createElement('button');
+    button.className = 'view';
+    button.type = 'button';
+    button.dataset.view = view.name;
+    const picture = document.createElement('img');
+    picture.src = view.picture;
+    picture.alt = `${view.name} view`;
+    button.append(picture);
+    make('span', view.name, button);
+    make('small', `${short(view.score)} · ${percent(view.score_fraction)}`, button);
+    button.addEventListener('click', () => onPick(view));
+    element('views').append(button);
+    return button;
+  });
+  return (name) => buttons.forEach((b) => b.setAttribute('aria-pressed', String(b.dataset.view === name)));
+}
+
+export function fillNumbers(data) {
+  const { view } = data;
+  const rows = [
+    ['method', `${view.method}, preset ${view.preset}`],
+    ['best score', `${short(view.best.score)} (${percent(view.best.score_fraction)} of all)`],
+    ['worst score', `${short(view.worst.score)} (${percent(view.worst.score_fraction)})`],
+    ['search', `${view.search.strategy}, ${view.search.evaluations + view.search.worst_evaluations} views`],
+    ['skeleton', `${view.skeleton.nodes} nodes, ${view.skeleton.edges} edges, ${view.skeleton.cycles} cycles`],
+    ['contraction', `${view.contraction.levels} levels`],
+    ['up axis', view.up],
+    ['version', view.vantage],
+  ];
+  if (data.mesh.faces < view.model.faces) {
+    rows.push(['shown here', `${data.mesh.faces.toLocaleString('en')} of ${view.model.faces.toLocaleString('en')} faces`]);
+  }
+  for (const [name, value] of rows) {
+    const row = document.createElement('tr');
+    make('td', name, row);
+    make('td', String(value), row);
+    element('numbers').append(row);
+  }
+}
+
+export function fillWarnings(warnings) {
+  if (warnings.length === 0) {
+    element('warnings-box').remove();
+  }
+  warnings.forEach((text) => make('li', text, element('warnings')));
+}
+
+/** Where the eye is now and what that view scores. */
+export function showDirection(direction, score, total) {
+  const numbers = direction.toArray().map((x) => x.toFixed(3)).join(', ');
+  const share = total > 0 ? ` (${percent(score / total)})` : '';
+  element('direction').textContent = `direction ${numbers}\nscore about ${short(score)}${share}`;
+}
+
+export function showReplay({ path, evaluations, levels }, dense) {
+  const last = path[path.length - 1];
+  element('replay-text').textContent =
+    `${evaluations} views in ${levels} rings; ends at ${short(last.score)}, the view found: ${short(dense)}`;
+}
+
+/** Fills the camera box; returns a function that shows another view's camera. */
+export function fillCameras(views) {
+  const formats = Object.keys(views[0].cameras);
+  formats.forEach((name) => make('option', name, element('format')).setAttribute('value', name));
+  let current = views[0];
+  const show = (view = current) => {
+    current = view;
+    element('camera').value = view.cameras[element('format').value] ?? '';
+  };
+  element('format').addEventListener('change', () => show());
+  element('copy').addEventListener('click', async () => {
+    element('camera').select();
+    try {
+      await navigator.clipboard.writeText(element('camera').value);
+    } catch {
+      document.execCommand('copy'); // pages opened from disk may not use the clipboard
+    }
+    element('copy').textContent = 'Copied';
+    setTimeout(() => { element('copy').textContent = 'Copy'; }, 1200);
+  });
+  show();
+  return show;
+}
+
+export function fillLegend(table) {
+  const context = element('colours').getContext('2d');
+  const image = context.createImageData(256, 1);
+  for (let i = 0; i < 256; ++i) {
+    image.data.set([table[3 * i], table[3 * i + 1], table[3 * i + 2], 255], 4 * i);
+  }
+  context.putImageData(image, 0, 0);
+}
