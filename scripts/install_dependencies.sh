@@ -4,7 +4,7 @@
 #   check  also formatter, linter, sanitizer runtimes, Doxygen
 set -euo pipefail
 
-build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libembree-dev libpng-dev nlohmann-json3-dev
+build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libembree-dev libpng-dev libwebp-dev zlib1g-dev nlohmann-json3-dev
        libcli11-dev libtinygltf-dev libmetis-dev)
 test=(libgtest-dev libgmock-dev python3)
 check=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev libbenchmark-dev doxygen)

@@ -4,6 +4,7 @@
 
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/weld.h"
+#include "vantage/report/focus.h"
 #include "vantage/report/view_report.h"
 
 namespace vantage {
@@ -107,6 +108,9 @@ ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options, cons
   add_skeleton(shape, options, run.part(0.8, 0.95));
   took.skeleton = lap(mark);
   add_map(shape, options, run.part(0.95, 1.0));
+  if (!options.focus.empty()) {
+    focus_on(shape, find_object(list_objects(model, shape), options.focus));
+  }
   took.map = lap(mark);
   run.advance("map", 1.0);
   return shape;
