@@ -27,7 +27,7 @@ class ViewSetFlags {
 
  private:
   void write_tour(OutputFolder& output, const ShapeAnalysis& shape, const ViewReport& report,
-                  UpAxis up, const ViewOptions& options, const RunContext& run) const;
+                  UpAxis up, const RunContext& run) const;
   [[nodiscard]] double seconds(const Tour& tour) const;
 
   ViewSetRequest request_{};
@@ -37,7 +37,7 @@ class ViewSetFlags {
   bool no_refine_ = false;
   std::string tour_{};
   double seconds_ = 0.0;
-  int fps_ = 20;
+  int fps_ = 15;
   int width_ = 480;
   int height_ = 360;
 };
