@@ -199,15 +199,15 @@ void ViewSetFlags::write_tour(OutputFolder& output, const ShapeAnalysis& shape,
 }
 
 std::string view_set_table(const ReportedViewSet& set) {
-  std::string text = "  view    direction                 gain  coverage";
+  std::string text = "  view    direction                       gain  coverage";
   for (std::size_t i = 0; i < set.views.size(); ++i) {
     const Vec3& d = set.views[i].direction;
     const std::string direction =
         "(" + rounded(d.x(), 3) + ", " + rounded(d.y(), 3) + ", " + rounded(d.z(), 3) + ")";
     const ChosenView& chosen = set.choice.views[i];
     std::string row = "  " + padded(std::to_string(i + 1), 4) + "    " + direction;
-    row.resize(std::max<std::size_t>(row.size(), 34), ' ');
-    text += "\n" + row + padded(rounded(chosen.gain, 4), 8) +
+    row.resize(std::max<std::size_t>(row.size(), 36), ' ');
+    text += "\n" + row + padded(rounded(chosen.gain, 6), 10) +
             padded(rounded(100.0 * chosen.coverage, 4), 8) + " %";
   }
   text += "\n  as much coverage needs at least " + plural(set.choice.least_views, "view");
