@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "vantage/io/write.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/mesh_check.h"
 #include "vantage/mesh/weld.h"
+#include "vantage/report/focus.h"
 #include "vantage/report/view_report.h"
 
 #include "commands.h"
@@ -15,6 +18,10 @@ namespace vantage::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// Objects listed for people; --json lists more, but a soup has one for each face.
+constexpr std::size_t kShownObjects = 12;
+constexpr std::size_t kListedObjects = 1000;
 
 Json point(const Vec3& p) {
   return Json::array({p.x(), p.y(), p.z()});
@@ -33,16 +40,29 @@ struct InfoCommand {
     const WeldedMesh welded = weld(loaded.mesh);
     const MeshReport as_read = check_mesh(loaded.mesh);
     const MeshReport check = check_mesh(welded.mesh);
+    const std::vector<SceneObject> objects = loaded.mesh.triangles.empty()
+                                                 ? std::vector<SceneObject>{}
+                                                 : list_objects(loaded, welded_surface(welded));
     if (session.flags.json) {
-      write_file("-", json(loaded, welded, as_read, check));
+      write_file("-", json(loaded, welded, as_read, check, objects));
     } else {
       print(session, loaded, welded, as_read, check);
+      print_objects(session, objects);
+      for (const std::string& note : loaded.notes) {
+        session.say("note: " + note);
+      }
     }
   }
 
  private:
   static std::string json(const Model& loaded, const WeldedMesh& welded, const MeshReport& as_read,
-                          const MeshReport& check) {
+                          const MeshReport& check, const std::vector<SceneObject>& objects) {
+    Json listed = Json::array();
+    for (std::size_t i = 0; i < std::min(objects.size(), kListedObjects); ++i) {
+      listed.push_back({{"index", i},
+                        {"name", objects[i].name.empty() ? Json(nullptr) : Json(objects[i].name)},
+                        {"faces", objects[i].faces}});
+    }
     const Box box = bounding_box(loaded.mesh.positions);
     Json parts = Json::array();
     for (const ModelPart& part : loaded.parts) {
@@ -60,6 +80,8 @@ struct InfoCommand {
         {"vertex_colours", !loaded.vertex_colours.empty()},
         {"double_precision", loaded.double_precision},
         {"parts", parts},
+        {"objects", listed},
+        {"object_count", objects.size()},
         {"box", {{"low", point(box.low)}, {"high", point(box.high)}}},
         {"diameter", enclosing_sphere(referenced_points(loaded.mesh)).diameter},
         {"area", surface_area(loaded.mesh)},
@@ -120,8 +142,31 @@ struct InfoCommand {
     for (std::size_t i = 1; i < defects.size(); ++i) {
       line("", defects[i]);
     }
-    for (const std::string& note : loaded.notes) {
-      session.say("note: " + note);
+  }
+
+  /// As much of a shape as list_objects() looks at.
+  static ShapeAnalysis welded_surface(const WeldedMesh& welded) {
+    ShapeAnalysis shape;
+    shape.surface = welded.mesh;
+    shape.surface_vertex = welded.welded_of_vertex;
+    return shape;
+  }
+
+  /// What --focus can name, if there is a choice.
+  static void print_objects(Session& session, const std::vector<SceneObject>& objects) {
+    if (objects.size() < 2) {
+      return;
+    }
+    for (std::size_t i = 0; i < std::min(objects.size(), kShownObjects); ++i) {
+      std::string number = std::to_string(i);
+      number.insert(0, number.size() < 3 ? 3 - number.size() : 0, ' ');
+      const std::string name = objects[i].name.empty() ? "" : "  " + printable(objects[i].name);
+      session.tell((i == 0 ? "  objects     " : "              ") + number + "  " +
+                   plural(objects[i].faces, "face") + name);
+    }
+    if (objects.size() > kShownObjects) {
+      session.tell("              … " + grouped(objects.size() - kShownObjects) +
+                   " more; --json lists them");
     }
   }
 

@@ -109,6 +109,14 @@ void MethodFlags::add_to(CLI::App& app, const FlagGroups& groups) {
 
 void MethodFlags::add_map_flags(CLI::App& app) {
   app.add_option_function<std::string>(
+         "--focus",
+         [this](const std::string& object) {
+           overrides_.emplace_back([object](ViewOptions& o) { o.focus = object; });
+         },
+         "only this object's significance counts, the others still hide it: name or number as "
+         "listed by info")
+      ->group("Method");
+  app.add_option_function<std::string>(
          "--suppression",
          [this](const std::string& name) {
            const auto kind = name == "mean" ? Suppression::Mean : Suppression::LocalMaxima;
@@ -267,21 +275,25 @@ void add_common_flags(CLI::App& app, CommonFlags& flags) {
       ->group(group);
 }
 
+std::pair<int, int> parse_size(const std::string& text) {
+  const std::size_t x = text.find('x');
+  const std::string wanted = "WIDTHxHEIGHT like 800x600";
+  const int width = number_or_throw<int>(std::string_view(text).substr(0, x), "--size", wanted);
+  const int height =
+      x == std::string::npos
+          ? width
+          : number_or_throw<int>(std::string_view(text).substr(x + 1), "--size", wanted);
+  if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide) {
+    throw CLI::ValidationError("--size", "sides must be between 1 and 16384 pixels");
+  }
+  return {width, height};
+}
+
 void add_size_flag(CLI::App& app, std::function<void(int, int)> take) {
   app.add_option_function<std::string>(
          "--size",
          [take = std::move(take)](const std::string& text) {
-           const std::size_t x = text.find('x');
-           const std::string wanted = "WIDTHxHEIGHT like 800x600";
-           const int width =
-               number_or_throw<int>(std::string_view(text).substr(0, x), "--size", wanted);
-           const int height =
-               x == std::string::npos
-                   ? width
-                   : number_or_throw<int>(std::string_view(text).substr(x + 1), "--size", wanted);
-           if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide) {
-             throw CLI::ValidationError("--size", "sides must be between 1 and 16384 pixels");
-           }
+           const auto [width, height] = parse_size(text);
            take(width, height);
          },
          "size of pictures in pixels: WIDTHxHEIGHT, or one number for a square")

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -49,6 +50,9 @@ Vec3 parse_vector(const std::string& text, const std::string& flag);
 /// Adds --json -q -v --threads --seed.
 struct CommonFlags;
 void add_common_flags(CLI::App& app, CommonFlags& flags);
+
+/// Parses "WIDTHxHEIGHT", or one number for a square. \throw CLI::ValidationError
+std::pair<int, int> parse_size(const std::string& text);
 
 /// Adds --size WxH.
 void add_size_flag(CLI::App& app, std::function<void(int width, int height)> take);

@@ -15,6 +15,7 @@
 #include "input_text.h"
 #include "method_flags.h"
 #include "terminal.h"
+#include "visible_table.h"
 
 namespace vantage::cli {
 namespace {
@@ -25,6 +26,7 @@ struct ScoreCommand {
   std::string eyes{};
   std::string file = "-";
   std::string measure = "kssm";
+  std::string visible{};
   int sphere = -1;
   MethodFlags method{};
 
@@ -41,6 +43,8 @@ struct ScoreCommand {
         ->capture_default_str();
     app.add_option("-o,--output", file, "CSV file to write; - is standard output")
         ->capture_default_str();
+    app.add_option("--visible", visible,
+                   "also write which direction sees which vertex to this .npy file (NumPy)");
     method.add_to(app, {.map = true, .camera = true});
     add_common_flags(app, session.flags);
   }
@@ -49,6 +53,9 @@ struct ScoreCommand {
     const ViewOptions options = method.resolve();
     const RunContext run = session.run();
     const bool free_eyes = !eyes.empty();
+    if (free_eyes && !visible.empty()) {
+      throw CLI::ValidationError("--visible", "needs directions: --sphere or --directions");
+    }
     const std::vector<Vec3> points = session.reading([&] { return points_to_score(); });
     const Model loaded = session.load(model);
     const ShapeAnalysis shape = analyse_shape(loaded, options, run.part(0.0, 0.5));
@@ -56,6 +63,11 @@ struct ScoreCommand {
     const std::vector<double> scores =
         free_eyes ? score_eyes(shape, visibility, points, run.part(0.5, 1.0))
                   : score_directions(shape, visibility, points, options, run.part(0.5, 1.0));
+    if (!visible.empty()) {
+      const VisibleSets sets = visible_sets(visibility, scoring_camera(shape, options), points,
+                                            shape.surface.positions.size(), session.run());
+      write_file(visible, visible_table(sets, shape.map.of_vertex));
+    }
     session.end_progress();
     write_file(session.flags.json && file == "-" ? "-" : file,
                session.flags.json && file == "-" ? json(points, scores, free_eyes)

@@ -15,6 +15,7 @@
 #include "method_flags.h"
 #include "output_folder.h"
 #include "terminal.h"
+#include "view_set_flags.h"
 
 namespace vantage::cli {
 namespace {
@@ -49,6 +50,7 @@ struct ViewCommand {
   bool no_images = false;
   bool no_report = false;
   MethodFlags method{};
+  ViewSetFlags several{};
 
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("MODEL", model, "file to read, or -")->required();
@@ -57,6 +59,7 @@ struct ViewCommand {
     app.add_flag("--no-images", no_images, "no pictures and no report");
     app.add_flag("--no-report", no_report, "no report.html, the page to explore the result in");
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
+    several.add_to(app);
     add_common_flags(app, session.flags);
   }
 
@@ -64,6 +67,7 @@ struct ViewCommand {
     const auto start = Clock::now();
     ViewOptions options = method.resolve();
     options.pictures = !no_images;
+    options.view_set = several.request();
     const RunContext run = session.run();
 
     StageSeconds seconds;
@@ -85,6 +89,7 @@ struct ViewCommand {
         output.add("report.html", report_html(loaded, shape, report, options, run.part(0.95, 1.0)));
       }
     }
+    several.write(output, shape, report, up, options, run.part(0.9, 1.0));
     seconds.render = seconds_since(render_start);
     add_data(output, loaded, shape, report, options);
     seconds.total = seconds_since(start);
@@ -163,6 +168,9 @@ struct ViewCommand {
                  plural(shape.history.level_count(), "contraction level"));
     session.tell("  best view   " + view_line(report.best));
     session.tell("  worst view  " + view_line(report.worst));
+    if (report.set) {
+      session.tell(view_set_table(*report.set));
+    }
     session.tell("  search      " +
                  plural(report.best_search.evaluations + report.worst_search.evaluations, "view") +
                  " evaluated");
@@ -189,6 +197,8 @@ void add_view_command(CLI::App& program, Session& session) {
       "Examples:\n"
       "  vantage view horse.ply\n"
       "  vantage view part.stl -o out --size 1024 --up z\n"
+      "  vantage view horse.ply --views 6 --tour horse.webp\n"
+      "  vantage view scene.obj --focus lamp --coverage 0.95\n"
       "  vantage view horse.ply --preset paper --epsilon 1 --trace search.csv\n"
       "  vantage view horse.ply --json | jq .best.direction");
 }

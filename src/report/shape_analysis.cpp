@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <chrono>
+#include <optional>
 #include <utility>
 
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/weld.h"
+#include "vantage/report/focus.h"
 #include "vantage/report/view_report.h"
 
 namespace vantage {
@@ -102,11 +104,18 @@ ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options, cons
   StageSeconds ignored;
   StageSeconds& took = seconds != nullptr ? *seconds : ignored;
   ShapeAnalysis shape = prepare_surface(model);
+  std::optional<SceneObject> focus;  // found before the work, lest a wrong name costs minutes
+  if (!options.focus.empty()) {
+    focus = find_object(list_objects(model, shape), options.focus);
+  }
   add_history(shape, options, run.part(0.0, 0.8));
   took.contract = lap(mark);
   add_skeleton(shape, options, run.part(0.8, 0.95));
   took.skeleton = lap(mark);
   add_map(shape, options, run.part(0.95, 1.0));
+  if (focus) {
+    focus_on(shape, *focus);
+  }
   took.map = lap(mark);
   run.advance("map", 1.0);
   return shape;

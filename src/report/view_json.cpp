@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <array>
+#include <numbers>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -64,6 +66,34 @@ Json seconds_of(const StageSeconds& seconds) {
           {"total", seconds.total}};
 }
 
+Json views_of(const ReportedViewSet& set, bool pictures) {
+  Json views = Json::array();
+  for (std::size_t i = 0; i < set.views.size(); ++i) {
+    const std::string number = (i < 9 ? "0" : "") + std::to_string(i + 1);
+    Json view = view_of(set.views[i], pictures ? Json("view-" + number + ".png") : Json(nullptr));
+    view["gain"] = set.choice.views[i].gain;
+    view["coverage"] = set.choice.views[i].coverage;
+    views.push_back(view);
+  }
+  return views;
+}
+
+Json set_of(const ReportedViewSet& set, ViewSelection selection) {
+  constexpr std::array<std::string_view, 3> kStops{"count", "coverage", "exhausted"};
+  constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+  return {{"selection", selection_name(selection)},
+          {"stop", kStops[static_cast<std::size_t>(set.choice.stop)]},
+          {"candidates", set.choice.candidates},
+          {"evaluations", set.choice.evaluations},
+          {"reachable", set.choice.reachable},
+          {"least_views", set.choice.least_views},
+          {"most_coverage", set.choice.most_coverage},
+          {"tour",
+           {{"order", set.tour.order},
+            {"length_deg", set.tour.length_rad * kDegPerRad},
+            {"optimal", set.tour.optimal}}}};
+}
+
 std::string text_of(const Json& json) {
   // Names may hold bytes that are no UTF-8: replaced, so that the file stays valid JSON.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -95,6 +125,9 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
                    {"components", shape.check.components},
                    {"closed", shape.check.closed},
                    {"genus", shape.check.genus ? Json(*shape.check.genus) : Json(nullptr)}};
+  if (!options.focus.empty()) {
+    json["focus"] = options.focus;
+  }
   json["method"] = "kssm";
   json["preset"] = preset_name(options.preset);
   json["weight"] = "vertex";
@@ -103,6 +136,10 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
   json["camera"] = camera_of(report.camera);
   json["best"] = view_of(report.best, options.pictures ? Json("best.png") : Json(nullptr));
   json["worst"] = view_of(report.worst, options.pictures ? Json("worst.png") : Json(nullptr));
+  if (report.set && options.view_set) {
+    json["views"] = views_of(*report.set, options.pictures);
+    json["view_set"] = set_of(*report.set, options.view_set->selection);
+  }
   json["total"] = report.total;
   const SearchOptions& search = options.search;
   json["search"] = {

@@ -107,10 +107,20 @@ std::string options_hash(const ViewOptions& options) {
   json["up"] = options.up ? std::string(up_name(*options.up)) : "auto";
   json["size"] = {options.width, options.height};
   json["pictures"] = options.pictures;
+  if (!options.focus.empty()) {
+    json["focus"] = options.focus;
+  }
+  if (options.view_set) {
+    echo_fields(json, options.view_set->set, kViewSetFields);
+    echo_fields(json, *options.view_set, kViewSetRequestFields);
+    json["refine"] = options.view_set->set.refine;
+    json["level"] = options.view_set->set.level;
+    json["select"] = selection_name(options.view_set->selection);
+  }
 
   // FNV-1a, 64 bit: a fingerprint to compare runs by, not a seal.
   std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char c : json.dump()) {
+  for (const char c : json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) {
     hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
   }
   constexpr std::string_view kDigits = "0123456789abcdef";
@@ -119,6 +129,11 @@ std::string options_hash(const ViewOptions& options) {
     text[15 - i] = kDigits[(hash >> (4 * i)) & 15U];
   }
   return text;
+}
+
+std::string_view selection_name(ViewSelection selection) {
+  constexpr std::array<std::string_view, 3> kNames{"kssm", "vazquez", "feixas"};
+  return kNames[static_cast<std::size_t>(selection)];
 }
 
 }  // namespace vantage

@@ -70,9 +70,15 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
   const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
     return scorer.score_all(directions, batch_run);
   };
-  auto [best, worst] = search_best_and_worst(score, report.total, options.search, run);
+  const double search_share = options.view_set ? 0.25 : 1.0;  // of the progress bar
+  auto [best, worst] =
+      search_best_and_worst(score, report.total, options.search, run.part(0.0, search_share));
   report.best = describe_view(shape, visibility, report.camera, best.direction, up, options);
   report.worst = describe_view(shape, visibility, report.camera, worst.direction, up, options);
+  if (options.view_set) {
+    report.set = find_view_set(shape, visibility, report.camera, best.direction, up, options,
+                               report.warnings, run.part(search_share, 1.0));
+  }
   report.best_search = std::move(best);
   report.worst_search = std::move(worst);
   return report;

@@ -13,10 +13,13 @@
 #include "vantage/io/model.h"
 #include "vantage/mesh/mesh_check.h"
 #include "vantage/mesh/tri_mesh.h"
+#include "vantage/report/view_set_request.h"
 #include "vantage/significance/kssm.h"
 #include "vantage/skeleton/skeleton.h"
 #include "vantage/view/scoring.h"
 #include "vantage/view/search.h"
+#include "vantage/view/tour.h"
+#include "vantage/view/view_set.h"
 #include "vantage/visibility/vertex_visibility.h"
 
 /// \file
@@ -56,6 +59,10 @@ struct ViewOptions {
   int width = 800;                                  ///< Of pictures, px.
   int height = 600;                                 ///< Of pictures, px.
   bool pictures = true;                             ///< Whether view.json names pictures.
+  /// Several views besides best and worst.
+  std::optional<ViewSetRequest> view_set{};
+  /// Object whose significance alone counts, see focus.h; empty: all.
+  std::string focus{};
 };
 
 /// Names, ranges and help of the numbers in ViewOptions itself.
@@ -125,6 +132,13 @@ struct ReportedView {
   Camera picture{};                    ///< Same eye, framed tightly.
 };
 
+/// Several views that together tell most, and the round over them.
+struct ReportedViewSet {
+  std::vector<ReportedView> views{};  ///< Of choice.views, in the same order.
+  ViewSet choice{};                   ///< Gains, coverage and bounds.
+  Tour tour{};                        ///< The shortest round over the views.
+};
+
 /// The result of the search.
 struct ViewReport {
   ScoringCamera camera{};               ///< What scored.
@@ -135,12 +149,15 @@ struct ViewReport {
   FoundView best_search{};              ///< How it was found.
   FoundView worst_search{};             ///< Evaluations beyond the best view's.
   std::vector<std::string> warnings{};  ///< One sentence each.
+  /// If several views were asked for.
+  std::optional<ReportedViewSet> set{};
 };
 
 /// The scoring camera of a model.
 ScoringCamera scoring_camera(const ShapeAnalysis& shape, const ViewOptions& options);
 
-/// Finds the best and the worst view. \pre the map is there. \throw Cancelled
+/// Finds the best and the worst view, and a set of views if options.view_set asks for one.
+/// \pre the map is there. \throw Cancelled
 ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& options,
                       const RunContext& run = {});
 
@@ -148,6 +165,21 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
 ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& visibility,
                            const ScoringCamera& camera, const Vec3& direction, UpAxis up,
                            const ViewOptions& options);
+
+/// Chooses several views as options.view_set asks. \pre the map is there, and options.view_set.
+/// \param best the best view, where the choice by significance begins.
+/// \param warnings receives what did not go as asked for. \throw InvalidInput, Cancelled
+ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility& visibility,
+                              const ScoringCamera& camera, const Vec3& best, UpAxis up,
+                              const ViewOptions& options, std::vector<std::string>& warnings,
+                              const RunContext& run = {});
+
+/// Cameras along the tour of a set, `count` at equal distances, all with the field of view that
+/// shows the whole surface from every one of them. \pre at least two different views.
+/// \param aspect width over height.
+std::vector<Camera> tour_cameras(const ShapeAnalysis& shape, const ReportedViewSet& set,
+                                 const ScoringCamera& camera, UpAxis up, double aspect,
+                                 std::size_t count);
 
 /// What a picture of a view shows.
 enum class Picture { Plain, Map, Skeleton };

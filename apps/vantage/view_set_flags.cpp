@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#include "view_set_flags.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "vantage/core/error.h"
+#include "vantage/io/animation.h"
+#include "vantage/io/write.h"
+#include "vantage/render/render.h"
+
+#include "method_flags.h"
+#include "terminal.h"
+
+namespace vantage::cli {
+namespace {
+
+// Degrees a second that the eye travels unless --tour-seconds says otherwise. [ours]: a full turn
+// in ten seconds, slow enough to see what passes.
+constexpr double kDegPerSecond = 36.0;
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+// Keys of the moving camera, one for this angle. Straight lines between them stay within 4e-5 of
+// the view sphere's radius.
+constexpr double kDegPerKey = 1.0;
+// Rays of the moving pictures: a third of a still's; grain does not show in motion. [ours]
+constexpr int kTourSamples = 9;
+constexpr int kTourAmbientRays = 1;
+constexpr int kMostFrames = 4000;
+constexpr double kMostSeconds = 600.0;
+
+std::string numbered(std::size_t i) {
+  return (i < 9 ? "view-0" : "view-") + std::to_string(i + 1);
+}
+
+std::string padded(std::string text, std::size_t width) {
+  return std::string(width > text.size() ? width - text.size() : 0, ' ') + text;
+}
+
+bool is_webp(const std::string& file) {
+  return std::filesystem::path(file).extension() == ".webp";
+}
+
+std::string check_tour_name(const std::string& file) {
+  const bool known = is_webp(file) || std::filesystem::path(file).extension() == ".png";
+  return known ? "" : "the tour's file must end in .webp or .png (animated PNG)";
+}
+
+}  // namespace
+
+void ViewSetFlags::add_to(CLI::App& app) {
+  const std::string group = "Several views";
+  app.add_option("--views", views_, "this many views that together see most")
+      ->check(CLI::Range(1, 1000))
+      ->group(group);
+  app.add_option("--coverage", coverage_,
+                 "views until this share of what can be seen at all is seen, above 0 to 1")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(group);
+  app.add_option("--min-separation", request_.set.min_separation_deg,
+                 "least angle between two of the views, degrees")
+      ->check(CLI::Range(0.0, 180.0))
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--select", select_,
+                 "kssm: newly seen significance; vazquez: entropy of unseen faces; feixas: merging "
+                 "by mutual information")
+      ->check(CLI::IsMember({"kssm", "vazquez", "feixas"}))
+      ->default_str("kssm")
+      ->group(group);
+  app.add_option("--information", request_.information,
+                 "with --select feixas: stop when the merged view's information is this share of "
+                 "the channel's")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(group);
+  app.add_flag("--no-refine", no_refine_, "leave the views on the 2562 candidate directions")
+      ->group(group);
+  app.add_option("--tour", tour_, "moving picture of the round over the views: .webp or .png")
+      ->check(check_tour_name)
+      ->group(group);
+  app.add_option("--tour-seconds", seconds_, "length of the tour; default: 36 degrees a second")
+      ->check(CLI::Range(0.1, kMostSeconds))
+      ->group(group);
+  app.add_option("--fps", fps_, "pictures a second of the tour")
+      ->check(CLI::Range(1, 60))
+      ->capture_default_str()
+      ->group(group);
+  app.add_option_function<std::string>(
+         "--tour-size",
+         [this](const std::string& text) { std::tie(width_, height_) = parse_size(text); },
+         "size of the tour's pictures in pixels, like --size")
+      ->default_str("480x360")
+      ->group(group);
+}
+
+std::optional<ViewSetRequest> ViewSetFlags::request() const {
+  ViewSetRequest request = request_;
+  request.selection = select_ == "vazquez"  ? ViewSelection::Vazquez
+                      : select_ == "feixas" ? ViewSelection::Feixas
+                                            : ViewSelection::Kssm;
+  request.set.views = views_.value_or(0);
+  request.set.coverage = coverage_.value_or(1.0);
+  request.set.refine = !no_refine_;
+  if (coverage_ && !(*coverage_ > 0.0)) {
+    throw CLI::ValidationError("--coverage", "must be above 0");
+  }
+  const bool by_kssm = request.selection == ViewSelection::Kssm;
+  const bool by_information = request.information > 0.0;
+  if (by_information && request.selection != ViewSelection::Feixas) {
+    throw CLI::ValidationError("--information", "needs --select feixas");
+  }
+  if (!by_kssm && (coverage_ || request.set.min_separation_deg > 0.0)) {
+    throw CLI::ValidationError("--select", select_ +
+                                               " chooses a number of views; --coverage and "
+                                               "--min-separation go with --select kssm");
+  }
+  if (views_ || coverage_ || by_information) {
+    return request;
+  }
+  if (!tour_.empty() || !select_.empty() || request.set.min_separation_deg > 0.0) {
+    throw CLI::ValidationError("--views",
+                               "say how many views are wanted, with --views N or "
+                               "--coverage C");
+  }
+  return std::nullopt;
+}
+
+double ViewSetFlags::seconds(const Tour& tour) const {
+  return seconds_ > 0.0 ? seconds_ : std::max(1.0, tour.length_rad * kDegPerRad / kDegPerSecond);
+}
+
+void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, const ViewReport& report,
+                         UpAxis up, const ViewOptions& options, const RunContext& run) const {
+  if (!report.set) {
+    return;
+  }
+  const PictureSize size{options.width, options.height};
+  const std::vector<ReportedView>& views = report.set->views;
+  std::vector<NamedCamera> cameras;
+  const double stills_share = tour_.empty() ? 1.0 : 0.3;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const std::string name = numbered(i);
+    const double step = stills_share / static_cast<double>(views.size());
+    if (options.pictures) {
+      const RunContext part =
+          run.part(static_cast<double>(i) * step, std::min(1.0, static_cast<double>(i + 1) * step));
+      output.add(name + ".png", png_bytes(take_picture(shape, views[i].picture, Picture::Plain,
+                                                       options, {}, part)));
+    }
+    output.add("camera-" + name + ".gltf",
+               camera_gltf(views[i].picture, size, shape.sphere.diameter));
+    cameras.push_back({views[i].picture, name + ".png"});
+  }
+  output.add("views.transforms.json", views_transforms_json(cameras, size));
+  if (report.set->tour.length_rad > 0.0) {
+    write_tour(output, shape, report, up, run.part(stills_share, 1.0));
+  } else if (!tour_.empty()) {
+    throw InvalidInput(
+        "one view sees everything asked for, so there is no tour; ask for more "
+        "with --views, or leave --tour out");
+  }
+}
+
+void ViewSetFlags::write_tour(OutputFolder& output, const ShapeAnalysis& shape,
+                              const ViewReport& report, UpAxis up, const RunContext& run) const {
+  const ReportedViewSet& set = *report.set;
+  const double aspect = static_cast<double>(width_) / height_;
+  const double length = seconds(set.tour);
+  const auto keys = static_cast<std::size_t>(
+      std::max(12.0, std::ceil(set.tour.length_rad * kDegPerRad / kDegPerKey)));
+  output.add("tour.gltf",
+             camera_animation_gltf(tour_cameras(shape, set, report.camera, up, aspect, keys),
+                                   length, {width_, height_}, shape.sphere.diameter));
+  if (tour_.empty()) {
+    return;
+  }
+  const double wanted = std::max(3.0, std::round(length * fps_));
+  if (wanted > kMostFrames) {
+    throw InvalidInput("the tour would have " + rounded(wanted, 6) + " pictures, but at most " +
+                       std::to_string(kMostFrames) + " are made; lower --fps or --tour-seconds");
+  }
+  const int frames = static_cast<int>(wanted);
+  RenderOptions look;
+  look.width = width_;
+  look.height = height_;
+  look.samples = kTourSamples;
+  look.ambient_rays = kTourAmbientRays;
+  AnimationEncoder encoder(is_webp(tour_) ? AnimationFormat::WebP : AnimationFormat::Apng, width_,
+                           height_, frames, fps_);
+  double done = 0.0;
+  for (const Camera& camera :
+       tour_cameras(shape, set, report.camera, up, aspect, static_cast<std::size_t>(frames))) {
+    const double next = std::min(1.0, done + 1.0 / frames);
+    encoder.add(render(shape.surface, camera, {}, {}, look, run.part(done, next)));
+    done = next;
+  }
+  write_file(tour_, encoder.finish());
+}
+
+std::string view_set_table(const ReportedViewSet& set) {
+  std::string text = "  view    direction                       gain  coverage";
+  for (std::size_t i = 0; i < set.views.size(); ++i) {
+    const Vec3& d = set.views[i].direction;
+    const std::string direction =
+        "(" + rounded(d.x(), 3) + ", " + rounded(d.y(), 3) + ", " + rounded(d.z(), 3) + ")";
+    const ChosenView& chosen = set.choice.views[i];
+    std::string row = "  " + padded(std::to_string(i + 1), 4) + "    " + direction;
+    row.resize(std::max<std::size_t>(row.size(), 36), ' ');
+    text += "\n" + row + padded(rounded(chosen.gain, 6), 10) +
+            padded(rounded(100.0 * chosen.coverage, 4), 8) + " %";
+  }
+  text += "\n  as much coverage needs at least " + plural(set.choice.least_views, "view");
+  if (set.views.size() > 1) {
+    text += "; tour of " + rounded(set.tour.length_rad * kDegPerRad, 4) + " degrees";
+    text += set.tour.optimal ? "" : " (not proved shortest)";
+  }
+  return text;
+}
+
+}  // namespace vantage::cli

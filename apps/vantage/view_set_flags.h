@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "vantage/report/view_report.h"
+
+#include "output_folder.h"
+
+namespace vantage::cli {
+
+/// The flags of several views and the tour over them, and the files these make.
+class ViewSetFlags {
+ public:
+  /// Adds the flags.
+  void add_to(CLI::App& app);
+
+  /// What was asked for, if anything. \throw CLI::ValidationError if the flags do not fit together.
+  [[nodiscard]] std::optional<ViewSetRequest> request() const;
+
+  /// Adds pictures and cameras of the set, and the moving camera, to the folder; writes --tour.
+  void write(OutputFolder& output, const ShapeAnalysis& shape, const ViewReport& report, UpAxis up,
+             const ViewOptions& options, const RunContext& run) const;
+
+ private:
+  void write_tour(OutputFolder& output, const ShapeAnalysis& shape, const ViewReport& report,
+                  UpAxis up, const RunContext& run) const;
+  [[nodiscard]] double seconds(const Tour& tour) const;
+
+  ViewSetRequest request_{};
+  std::optional<int> views_{};
+  std::optional<double> coverage_{};
+  std::string select_{};
+  bool no_refine_ = false;
+  std::string tour_{};
+  double seconds_ = 0.0;
+  int fps_ = 15;
+  int width_ = 480;
+  int height_ = 360;
+};
+
+/// One line a view: where from, what it adds, how much is seen by then.
+std::string view_set_table(const ReportedViewSet& set);
+
+}  // namespace vantage::cli

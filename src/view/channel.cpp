@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/view/channel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vantage/core/error.h"
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/topology.h"
+
+#include "core/parallel.h"
+
+namespace vantage {
+namespace {
+
+// Views a chunk.
+constexpr std::size_t kGrain = 4;
+
+/// The area that each view sees in all. \throw InvalidInput
+std::vector<double> seen_areas(const ViewChannel& channel) {
+  std::vector<double> areas;
+  areas.reserve(channel.views.size());
+  for (const auto& view : channel.views) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < view.size(); ++i) {
+      const bool ascends = i == 0 || view[i - 1].face < view[i].face;
+      if (!ascends || view[i].face >= channel.face_count || !(view[i].area > 0.0F) ||
+          !std::isfinite(view[i].area)) {
+        throw InvalidInput(
+            "a channel's views must list existing faces in ascending order with areas above 0");
+      }
+      sum += static_cast<double>(view[i].area);
+    }
+    areas.push_back(sum);
+  }
+  return areas;
+}
+
+/// x log2(x / y), and 0 for x = 0.
+double divergence_term(double x, double y) {
+  return x > 0.0 ? x * std::log2(x / y) : 0.0;
+}
+
+/// Solid angle of a small face seen from the eye; orthographic: its projected area. Negative if it
+/// is turned away and only its front can be seen.
+double projected_area(const TriMesh& mesh, const Triangle& face, FaceSides side,
+                      const Viewpoint& eye) {
+  const Vec3 twice = area_vector(mesh, face);
+  const Vec3 middle =
+      (mesh.positions[face[0]] + mesh.positions[face[1]] + mesh.positions[face[2]]) / 3.0;
+  const bool is_perspective = eye.projection == Projection::Perspective;
+  const Vec3 sight = is_perspective ? Vec3(eye.position - middle) : eye.position;
+  const double distance = sight.norm();
+  const double area =
+      0.5 * twice.dot(sight) / distance / (is_perspective ? distance * distance : 1.0);
+  return side == FaceSides::Both ? std::abs(area) : area;
+}
+
+RunContext without_progress(const RunContext& run) {
+  return {.stop = run.stop, .max_threads = run.max_threads};
+}
+
+/// What Feixas's merge keeps of v̂: Σ a_z, Σ a_t and Σ_z s_z log(s_z / p_z).
+class MergedView {
+ public:
+  MergedView(const ViewChannel& channel, const std::vector<double>& seen)
+      : channel_(channel), seen_(seen), p_(channel.face_count, 0.0), s_(channel.face_count, 0.0) {
+    double all = 0.0;
+    for (const auto& view : channel.views) {
+      for (const FaceArea& a : view) {
+        p_[a.face] += static_cast<double>(a.area);
+      }
+    }
+    for (const double area : p_) {
+      all += area;
+    }
+    for (double& p : p_) {
+      p = all > 0.0 ? p / all : 0.0;
+    }
+  }
+
+  /// I(v̂;Z) if the view were merged in. Only its own faces change their terms.
+  [[nodiscard]] double with(std::size_t view) const {
+    const double total = total_ + seen_[view];
+    return (sum_ + change(view)) / total - std::log2(total);
+  }
+
+  void merge(std::size_t view) {
+    sum_ += change(view);
+    total_ += seen_[view];
+    for (const FaceArea& a : channel_.views[view]) {
+      s_[a.face] += static_cast<double>(a.area);
+    }
+  }
+
+ private:
+  [[nodiscard]] double change(std::size_t view) const {
+    double sum = 0.0;
+    for (const FaceArea& a : channel_.views[view]) {
+      const double before = s_[a.face];
+      sum += divergence_term(before + static_cast<double>(a.area), p_[a.face]) -
+             divergence_term(before, p_[a.face]);
+    }
+    return sum;
+  }
+
+  const ViewChannel& channel_;
+  const std::vector<double>& seen_;
+  std::vector<double> p_;
+  std::vector<double> s_;
+  double total_ = 0.0;
+  double sum_ = 0.0;
+};
+
+}  // namespace
+
+std::vector<ChannelPick> greedy_entropy_views(const ViewChannel& channel, std::size_t count,
+                                              const RunContext& run) {
+  const std::vector<double> seen = seen_areas(channel);
+  std::vector<std::uint8_t> dropped(channel.face_count, 0);
+  std::vector<ChannelPick> picks;
+  std::vector<double> entropy(channel.views.size(), 0.0);
+  while (picks.size() < count) {
+    parallel_for(without_progress(run), entropy.size(), kGrain,
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t v = begin; v < end; ++v) {
+                     double sum = 0.0;
+                     for (const FaceArea& a : channel.views[v]) {
+                       const double p = static_cast<double>(a.area) / seen[v];
+                       sum -= dropped[a.face] == 0 ? p * std::log2(p) : 0.0;
+                     }
+                     entropy[v] = sum;
+                   }
+                 });
+    const auto best = std::max_element(entropy.begin(), entropy.end());
+    if (best == entropy.end() || !(*best > 0.0)) {
+      break;
+    }
+    const auto view = static_cast<std::uint32_t>(best - entropy.begin());
+    picks.push_back({view, *best});
+    for (const FaceArea& a : channel.views[view]) {
+      dropped[a.face] = 1;
+    }
+  }
+  return picks;
+}
+
+MergedViews merge_views(const ViewChannel& channel, std::size_t count, double ratio,
+                        const RunContext& run) {
+  if (!(ratio >= 0.0 && ratio <= 1.0)) {
+    throw InvalidInput("the ratio of information to stop at must be between 0 and 1");
+  }
+  const std::vector<double> seen = seen_areas(channel);
+  double all = 0.0;
+  for (const double area : seen) {
+    all += area;
+  }
+  MergedView merged(channel, seen);
+  std::vector<double> information(channel.views.size(), 0.0);
+  std::vector<std::uint8_t> usable(channel.views.size(), 0);
+  MergedViews result;
+  while (result.picks.size() < count) {
+    parallel_for(without_progress(run), information.size(), kGrain,
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t v = begin; v < end; ++v) {
+                     information[v] = seen[v] > 0.0 ? merged.with(v) : 0.0;
+                   }
+                 });
+    if (result.picks.empty()) {
+      for (std::size_t v = 0; v < seen.size(); ++v) {
+        usable[v] = seen[v] > 0.0 ? 1 : 0;
+        result.channel_information += seen[v] > 0.0 ? seen[v] / all * information[v] : 0.0;
+      }
+    }
+    std::size_t best = seen.size();
+    for (std::size_t v = 0; v < seen.size(); ++v) {
+      if (usable[v] != 0 && (best == seen.size() || information[v] < information[best])) {
+        best = v;
+      }
+    }
+    if (best == seen.size()) {
+      break;
+    }
+    usable[best] = 0;
+    merged.merge(best);
+    // Less than nothing is rounding.
+    result.picks.push_back({static_cast<std::uint32_t>(best), std::max(0.0, information[best])});
+    if (ratio > 0.0 && information[best] <= ratio * result.channel_information) {
+      break;
+    }
+  }
+  return result;
+}
+
+ViewChannel channel_table(const TriMesh& mesh, std::span<const FaceSides> sides,
+                          const VisibleSets& sets, std::span<const Viewpoint> eyes,
+                          const RunContext& run) {
+  const Components components = connected_components(mesh);
+  if (sets.view_count() != eyes.size() || sets.vertex_count() != mesh.positions.size() ||
+      (sides.size() != 1 && sides.size() != components.count)) {
+    throw InvalidInput("a channel needs one eye a view, one bit a vertex, one rule a component");
+  }
+  ViewChannel channel;
+  channel.face_count = mesh.triangles.size();
+  channel.views.resize(eyes.size());
+  parallel_for(without_progress(run), eyes.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+        const auto& [a, b, c] = mesh.triangles[f];
+        const int corners = static_cast<int>(sets.sees(i, a)) + static_cast<int>(sets.sees(i, b)) +
+                            static_cast<int>(sets.sees(i, c));
+        if (corners > 0) {
+          const FaceSides side = sides.size() == 1 ? sides[0] : sides[components.of_vertex[a]];
+          const double area = projected_area(mesh, mesh.triangles[f], side, eyes[i]);
+          const auto stored = static_cast<float>(area * corners / 3.0);
+          if (stored > 0.0F && std::isfinite(stored)) {
+            channel.views[i].push_back({f, stored});
+          }
+        }
+      }
+    }
+  });
+  return channel;
+}
+
+}  // namespace vantage

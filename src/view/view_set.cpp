@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/view/view_set.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "vantage/core/error.h"
+#include "vantage/spatial/directions.h"
+#include "vantage/view/cover.h"
+#include "vantage/view/visible_sets.h"
+
+#include "view/sphere_angles.h"
+
+namespace vantage {
+namespace {
+
+// The table of candidates stays below this. [ours]: 2562 candidates up to 3.3 million vertices.
+constexpr double kMostTableBytes = 1024.0 * 1024.0 * 1024.0;
+constexpr int kFinestLevel = 6;
+// Refinement: half the 4° between candidates of level 4, down to what no picture shows. [ours]
+constexpr double kFirstStepRad = 2.0 * kRadPerDeg;
+constexpr double kLastStepRad = 0.1 * kRadPerDeg;
+// Coverage is met within the rounding of the sums.
+constexpr double kRounding = 1e-12;
+
+int affordable_level(int wanted, std::size_t vertices) {
+  int level = wanted;
+  const auto bytes = [&] {
+    return (10.0 * std::ldexp(1.0, 2 * level) + 2.0) * static_cast<double>(vertices) / 8.0;
+  };
+  while (level > 0 && bytes() > kMostTableBytes) {
+    --level;
+  }
+  return level;
+}
+
+void check(const ViewSetOptions& options) {
+  check_fields(options, kViewSetFields);
+  if (!(options.coverage > 0.0)) {
+    throw InvalidInput("option coverage must be more than 0");
+  }
+  if (options.level < 0 || options.level > kFinestLevel) {
+    throw InvalidInput("the level of a view set's candidates must be between 0 and 6");
+  }
+}
+
+/// The significance of what some view sees, 0 elsewhere.
+std::vector<double> reachable_significance(const VisibleSets& candidates, const VisibleSets& given,
+                                           std::span<const double> significance) {
+  std::vector<std::uint64_t> seen((significance.size() + 63) / 64, 0);
+  for (const VisibleSets* sets : {&candidates, &given}) {
+    for (std::size_t i = 0; i < sets->view_count(); ++i) {
+      const auto row = sets->row(i);
+      for (std::size_t w = 0; w < row.size(); ++w) {
+        seen[w] |= row[w];
+      }
+    }
+  }
+  std::vector<double> reachable(significance.begin(), significance.end());
+  for (std::size_t v = 0; v < reachable.size(); ++v) {
+    if (((seen[v / 64] >> (v % 64)) & 1U) == 0) {
+      reachable[v] = 0.0;
+    }
+  }
+  return reachable;
+}
+
+class Selection {
+ public:
+  Selection(const VertexVisibility& visibility, std::span<const double> significance,
+            const ScoringCamera& camera, const ViewSetOptions& options, const RunContext& run)
+      : visibility_(visibility),
+        camera_(camera),
+        options_(options),
+        vertices_(significance.size()),
+        quiet_{.stop = run.stop, .max_threads = run.max_threads} {}
+
+  /// \param given the views to measure; if only one, the first of those to choose.
+  ViewSet make(std::span<const Vec3> given, bool choose, std::span<const double> significance,
+               const RunContext& run) {
+    result_.level = affordable_level(options_.level, vertices_);
+    directions_ = direction_set(ViewSphereBase::Icosahedron, result_.level).directions;
+    result_.candidates = directions_.size();
+    result_.evaluations = directions_.size() + given.size();
+    const VisibleSets candidates =
+        visible_sets(visibility_, camera_, directions_, vertices_, run.part(0.0, kTableShare));
+    const VisibleSets bits = visible_sets(visibility_, camera_, given, vertices_, quiet_);
+    const auto weights = reachable_significance(candidates, bits, significance);
+    for (const double w : weights) {
+      result_.reachable += w;
+    }
+    GreedyCover cover(candidates, weights, quiet_);
+    bound_.add_state(0.0, cover.gains(quiet_));
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      add(cover, given[i], bits.row(i), cover.gain(bits.row(i)));
+    }
+    if (choose) {
+      extend(cover, run);
+    }
+    bound_.add_state(seen_, cover.gains(quiet_));
+    result_.least_views = bound_.least_views(seen_ * (1.0 - kRounding));
+    if (result_.reachable > 0.0) {
+      result_.most_coverage =
+          std::min(1.0, bound_.most_covered(result_.views.size()) / result_.reachable);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  // Share of the progress bar that the table of candidates takes.
+  static constexpr double kTableShare = 0.9;
+
+  [[nodiscard]] bool is_apart(const Vec3& direction) const {
+    return std::all_of(result_.views.begin(), result_.views.end(), [&](const ChosenView& view) {
+      return angle_between(view.direction, direction) >=
+             options_.min_separation_deg * kRadPerDeg * (1.0 - kRounding);
+    });
+  }
+
+  void extend(GreedyCover& cover, const RunContext& run) {
+    while (!finished()) {
+      run.advance("views", kTableShare + (1.0 - kTableShare) * result_.views.back().coverage);
+      const GreedyCover::Pick pick =
+          cover.next([&](std::uint32_t i) { return is_apart(directions_[i]); });
+      if (pick.view == GreedyCover::kNone) {
+        result_.stop = ViewSetStop::Exhausted;
+        return;
+      }
+      add_refined(cover, directions_[pick.view], pick.gain);
+    }
+  }
+
+  bool finished() {
+    if (options_.views > 0 && result_.views.size() >= static_cast<std::size_t>(options_.views)) {
+      result_.stop = ViewSetStop::Count;
+      return true;
+    }
+    if (seen_ >= options_.coverage * result_.reachable * (1.0 - kRounding)) {
+      result_.stop = ViewSetStop::Coverage;
+      return true;
+    }
+    return false;
+  }
+
+  void add(GreedyCover& cover, const Vec3& direction, std::span<const std::uint64_t> bits,
+           double gain) {
+    cover.mark_seen(bits);
+    seen_ += gain;
+    const double share = result_.reachable > 0.0 ? seen_ / result_.reachable : 1.0;
+    result_.views.push_back({direction, gain, std::min(1.0, share)});
+    // States after 1, 2, 4, … views: the tightest bound comes from an early one, its cost is a pass.
+    if (std::has_single_bit(result_.views.size())) {
+      bound_.add_state(seen_, cover.gains(quiet_));
+    }
+  }
+
+  void add_refined(GreedyCover& cover, Vec3 direction, double gain) {
+    for (double step = kFirstStepRad; options_.refine && step >= kLastStepRad;) {
+      const std::vector<Vec3> ring = ring_around(direction, step);
+      const VisibleSets sets = visible_sets(visibility_, camera_, ring, vertices_, quiet_);
+      result_.evaluations += ring.size();
+      std::size_t best = ring.size();
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const double value = is_apart(ring[i]) ? cover.gain(sets.row(i)) : 0.0;
+        if (value > gain) {
+          gain = value;
+          best = i;
+        }
+      }
+      if (best == ring.size()) {
+        step *= 0.5;
+      } else {
+        direction = ring[best];
+      }
+    }
+    const VisibleSets bits =
+        visible_sets(visibility_, camera_, std::span(&direction, 1), vertices_, quiet_);
+    add(cover, direction, bits.row(0), gain);
+  }
+
+  const VertexVisibility& visibility_;
+  const ScoringCamera& camera_;
+  const ViewSetOptions& options_;
+  std::size_t vertices_;
+  RunContext quiet_;
+  std::vector<Vec3> directions_{};
+  ViewSet result_{};
+  CoverBound bound_{};
+  double seen_ = 0.0;
+};
+
+}  // namespace
+
+ViewSet select_views(const VertexVisibility& visibility, std::span<const double> significance,
+                     const ScoringCamera& camera, const Vec3& first, const ViewSetOptions& options,
+                     const RunContext& run) {
+  check(options);
+  return Selection(visibility, significance, camera, options, run)
+      .make(std::span(&first, 1), true, significance, run);
+}
+
+ViewSet measure_views(const VertexVisibility& visibility, std::span<const double> significance,
+                      const ScoringCamera& camera, std::span<const Vec3> directions,
+                      const ViewSetOptions& options, const RunContext& run) {
+  check(options);
+  if (directions.empty()) {
+    throw InvalidInput("there must be at least one view to measure");
+  }
+  ViewSet set = Selection(visibility, significance, camera, options, run)
+                    .make(directions, false, significance, run);
+  set.stop = ViewSetStop::Count;
+  return set;
+}
+
+}  // namespace vantage

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/view/visible_sets.h"
+
+#include <algorithm>
+
+#include "vantage/core/error.h"
+
+#include "core/parallel.h"
+
+namespace vantage {
+namespace {
+
+// Directions a batch: a bar that moves, and a stop that is heard.
+constexpr std::size_t kBatch = 64;
+
+}  // namespace
+
+void VisibleSets::set(std::size_t view, std::span<const std::uint8_t> visible) {
+  if (visible.size() != vertices_) {
+    throw InvalidInput("a view's visible vertices are " + std::to_string(visible.size()) +
+                       " flags, but the surface has " + std::to_string(vertices_) + " vertices");
+  }
+  std::uint64_t* words = bits_.data() + view * words_;
+  std::fill(words, words + words_, 0);
+  for (std::size_t v = 0; v < visible.size(); ++v) {
+    words[v / 64] |= std::uint64_t{visible[v] != 0 ? 1U : 0U} << (v % 64);
+  }
+}
+
+VisibleSets visible_sets(const VertexVisibility& visibility, const ScoringCamera& camera,
+                         std::span<const Vec3> directions, std::size_t vertex_count,
+                         const RunContext& run) {
+  VisibleSets sets(directions.size(), vertex_count);
+  RunContext quiet = run;
+  quiet.report = nullptr;
+  const RunContext alone{.stop = run.stop, .max_threads = 1};
+  for (std::size_t first = 0; first < directions.size(); first += kBatch) {
+    run.advance("views", static_cast<double>(first) / static_cast<double>(directions.size()));
+    const std::size_t count = std::min(kBatch, directions.size() - first);
+    parallel_for(quiet, count, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = first + begin; i < first + end; ++i) {
+        sets.set(i, visibility.visible_vertices(camera.viewpoint(directions[i]), alone));
+      }
+    });
+  }
+  run.advance("views", 1.0);
+  return sets;
+}
+
+}  // namespace vantage

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/view/channel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "vantage/core/error.h"
+#include "vantage/core/random.h"
+
+#include "support/shapes.h"
+
+namespace vantage {
+namespace {
+
+ViewChannel random_channel(std::size_t views, std::size_t faces, std::uint64_t seed) {
+  Pcg32 random(seed);
+  ViewChannel channel{faces, {}};
+  for (std::size_t v = 0; v < views; ++v) {
+    channel.views.emplace_back();
+    for (std::uint32_t f = 0; f < faces; ++f) {
+      if (random.uniform() < 0.5) {
+        channel.views.back().push_back({f, static_cast<float>(0.1 + random.uniform())});
+      }
+    }
+  }
+  return channel;
+}
+
+/// I(v̂;Z) of merged views by its definition, in a dense table.
+double merged_information(const ViewChannel& channel, const std::vector<std::size_t>& merged) {
+  std::vector<double> p(channel.face_count, 0.0);
+  std::vector<double> q(channel.face_count, 0.0);
+  double all = 0.0;
+  double some = 0.0;
+  for (std::size_t v = 0; v < channel.views.size(); ++v) {
+    const bool is_merged = std::find(merged.begin(), merged.end(), v) != merged.end();
+    for (const FaceArea& a : channel.views[v]) {
+      const auto area = static_cast<double>(a.area);
+      p[a.face] += area;
+      all += area;
+      q[a.face] += is_merged ? area : 0.0;
+      some += is_merged ? area : 0.0;
+    }
+  }
+  double sum = 0.0;
+  for (std::size_t z = 0; z < p.size(); ++z) {
+    sum += q[z] > 0.0 ? q[z] / some * std::log2(q[z] / some / (p[z] / all)) : 0.0;
+  }
+  return sum;
+}
+
+TEST(GreedyEntropyViews, TakesTheViewOfMostEntropyFirst) {
+  // One face: 0 bits. Two equal faces: 1 bit. Four equal faces: 2 bits.
+  const ViewChannel channel{
+      7, {{{0, 1.0F}}, {{1, 1.0F}, {2, 1.0F}}, {{3, 1.0F}, {4, 1.0F}, {5, 1.0F}, {6, 1.0F}}}};
+  const auto picks = greedy_entropy_views(channel, 1);
+  ASSERT_EQ(picks.size(), 1U);
+  EXPECT_EQ(picks[0].view, 2U);
+  EXPECT_NEAR(picks[0].value, 2.0, 1e-12);
+}
+
+TEST(GreedyEntropyViews, DropsTheFacesSeen) {
+  // The second view has more entropy than the third, but the first has seen all of it.
+  const ViewChannel channel{6,
+                            {{{0, 1.0F}, {1, 1.0F}, {2, 1.0F}, {3, 1.0F}},
+                             {{0, 1.0F}, {1, 1.0F}, {2, 1.0F}},
+                             {{4, 1.0F}, {5, 1.0F}}}};
+  const auto picks = greedy_entropy_views(channel, 3);
+  ASSERT_EQ(picks.size(), 2U);  // nothing is left for a third
+  EXPECT_EQ(picks[0].view, 0U);
+  EXPECT_EQ(picks[1].view, 2U);
+  EXPECT_NEAR(picks[1].value, 1.0, 1e-12);
+}
+
+TEST(GreedyEntropyViews, AViewThatSeesNothingIsNeverChosen) {
+  const ViewChannel channel{2, {{}, {{0, 1.0F}, {1, 1.0F}}}};
+  const auto picks = greedy_entropy_views(channel, 5);
+  ASSERT_EQ(picks.size(), 1U);
+  EXPECT_EQ(picks[0].view, 1U);
+}
+
+TEST(MergeViews, StartsWithTheViewOfLeastMutualInformation) {
+  const ViewChannel channel = random_channel(12, 30, 4);
+  std::size_t least = 0;
+  for (std::size_t v = 1; v < 12; ++v) {
+    if (merged_information(channel, {v}) < merged_information(channel, {least})) {
+      least = v;
+    }
+  }
+  const MergedViews merged = merge_views(channel, 1);
+  ASSERT_EQ(merged.picks.size(), 1U);
+  EXPECT_EQ(merged.picks[0].view, least);
+}
+
+TEST(MergeViews, EveryStepIsTheDefinitionsBest) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const ViewChannel channel = random_channel(10, 25, seed);
+    const MergedViews merged = merge_views(channel, 6);
+    std::vector<std::size_t> chosen;
+    for (const ChannelPick& pick : merged.picks) {
+      double least = INFINITY;
+      for (std::size_t v = 0; v < 10; ++v) {
+        if (std::find(chosen.begin(), chosen.end(), v) == chosen.end()) {
+          chosen.push_back(v);
+          least = std::min(least, merged_information(channel, chosen));
+          chosen.pop_back();
+        }
+      }
+      chosen.push_back(pick.view);
+      EXPECT_NEAR(merged_information(channel, chosen), least, 1e-12);
+      EXPECT_NEAR(pick.value, least, 1e-12);
+    }
+  }
+}
+
+TEST(MergeViews, AllViewsMergedTellNothing) {
+  const MergedViews merged = merge_views(random_channel(8, 20, 1), 8);
+  ASSERT_EQ(merged.picks.size(), 8U);
+  EXPECT_NEAR(merged.picks.back().value, 0.0, 1e-12);
+}
+
+TEST(MergeViews, GivesTheChannelsInformation) {
+  // Two views, each with a face of its own: I(V;Z) is 1 bit, and each view's VMI too.
+  const ViewChannel channel{2, {{{0, 1.0F}}, {{1, 1.0F}}}};
+  const MergedViews merged = merge_views(channel, 2);
+  EXPECT_NEAR(merged.channel_information, 1.0, 1e-12);
+  EXPECT_EQ(merged.picks[0].view, 0U);
+  EXPECT_NEAR(merged.picks[0].value, 1.0, 1e-12);
+}
+
+TEST(MergeViews, StopsAtTheShareOfInformation) {
+  const ViewChannel channel = random_channel(10, 25, 2);
+  const MergedViews merged = merge_views(channel, 10, 0.5);
+  const double limit = 0.5 * merged.channel_information;
+  EXPECT_LE(merged.picks.back().value, limit);
+  for (std::size_t i = 0; i + 1 < merged.picks.size(); ++i) {
+    EXPECT_GT(merged.picks[i].value, limit);
+  }
+}
+
+TEST(MergeViews, BlindViewsAreLeftOut) {
+  const ViewChannel channel{1, {{}, {{0, 1.0F}}, {}}};
+  const MergedViews merged = merge_views(channel, 3);
+  ASSERT_EQ(merged.picks.size(), 1U);
+  EXPECT_EQ(merged.picks[0].view, 1U);
+  EXPECT_EQ(merged.channel_information, 0.0);
+}
+
+TEST(Channel, MalformedTablesAreRefused) {
+  EXPECT_THROW(merge_views({1, {{{1, 1.0F}}}}, 1), InvalidInput);             // no such face
+  EXPECT_THROW(merge_views({2, {{{1, 1.0F}, {0, 1.0F}}}}, 1), InvalidInput);  // not ascending
+  EXPECT_THROW(greedy_entropy_views({1, {{{0, 0.0F}}}}, 1), InvalidInput);    // no area
+  EXPECT_THROW(greedy_entropy_views({1, {{{0, NAN}}}}, 1), InvalidInput);     // not a number
+  EXPECT_THROW(merge_views({1, {{{0, 1.0F}}}}, 1, 1.5), InvalidInput);        // no such share
+}
+
+TEST(ChannelTable, HoldsTheProjectedAreaOfACubesSide) {
+  const TriMesh cube = test::box(1.0, 1.0, 1.0, 1);
+  const std::vector<Viewpoint> eyes{{Projection::Orthographic, Vec3::UnitX()}};
+  const VertexVisibility visibility(cube, {FaceSides::Front});
+  VisibleSets sets(1, cube.positions.size());
+  sets.set(0, visibility.visible_vertices(eyes[0]));
+  const std::vector<FaceSides> sides{FaceSides::Front};
+  const ViewChannel channel = channel_table(cube, sides, sets, eyes);
+  double area = 0.0;
+  for (const FaceArea& a : channel.views[0]) {
+    area += static_cast<double>(a.area);
+  }
+  EXPECT_NEAR(area, 1.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace vantage

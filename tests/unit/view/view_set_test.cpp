@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/view/view_set.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "vantage/core/error.h"
+#include "vantage/mesh/measures.h"
+#include "vantage/view/visible_sets.h"
+
+#include "support/shapes.h"
+
+namespace vantage {
+namespace {
+
+/// Views of a closed shape with the same significance everywhere.
+class Scene {
+ public:
+  explicit Scene(TriMesh shape)
+      : mesh(std::move(shape)),
+        significance(mesh.positions.size(), 1.0),
+        camera{.sphere = enclosing_sphere(mesh.positions)} {}
+
+  [[nodiscard]] ViewSet select(const Vec3& first, const ViewSetOptions& options,
+                               const RunContext& run = {}) const {
+    const VertexVisibility visibility(mesh, {FaceSides::Front});
+    return select_views(visibility, significance, camera, first.normalized(), options, run);
+  }
+
+  TriMesh mesh;
+  std::vector<double> significance;
+  ScoringCamera camera;
+};
+
+const Scene& cube() {
+  static const Scene kCube(test::box(1.0, 1.0, 1.0, 1));
+  return kCube;
+}
+
+TEST(SelectViews, TwoViewsSeeAllCornersOfACube) {
+  // From (1,1,1) every corner but (0,0,0) is seen; one further view sees that.
+  const ViewSet set = cube().select(Vec3(1, 1, 1), {.level = 2});
+  ASSERT_EQ(set.views.size(), 2U);
+  EXPECT_EQ(set.views[0].gain, 7.0);
+  EXPECT_EQ(set.views[1].gain, 1.0);
+  EXPECT_EQ(set.views[1].coverage, 1.0);
+  EXPECT_EQ(set.stop, ViewSetStop::Coverage);
+}
+
+TEST(SelectViews, NoSingleViewSeesAllCornersOfACube) {
+  EXPECT_EQ(cube().select(Vec3(1, 1, 1), {.level = 2}).least_views, 2U);
+}
+
+TEST(SelectViews, StopsAtTheNumberAskedFor) {
+  const ViewSet set = cube().select(Vec3(1, 1, 1), {.views = 1, .level = 2});
+  EXPECT_EQ(set.views.size(), 1U);
+  EXPECT_EQ(set.stop, ViewSetStop::Count);
+  EXPECT_DOUBLE_EQ(set.views[0].coverage, 7.0 / 8.0);
+}
+
+TEST(SelectViews, StopsAtTheCoverageAskedFor) {
+  const ViewSet set = cube().select(Vec3(1, 1, 1), {.coverage = 0.875, .level = 2});
+  EXPECT_EQ(set.views.size(), 1U);
+}
+
+TEST(SelectViews, FirstViewIsTheOneGiven) {
+  const Vec3 first = Vec3(0.2, -0.3, 0.9).normalized();
+  EXPECT_EQ(cube().select(first, {.level = 2}).views[0].direction, first);
+}
+
+
+TEST(SelectViews, GainsNeverGrowWithoutRefinement) {
+  const Scene scene(test::torus(1.0, 0.4, 24, 12));
+  const ViewSet set = scene.select(Vec3::UnitX(), {.refine = false, .level = 3});
+  ASSERT_GE(set.views.size(), 3U);
+  for (std::size_t i = 2; i < set.views.size(); ++i) {
+    EXPECT_LE(set.views[i].gain, set.views[i - 1].gain) << i;
+  }
+}
+
+TEST(SelectViews, GainsAddUpToTheCoverage) {
+  const Scene scene(test::torus(1.0, 0.4, 24, 12));
+  const ViewSet set = scene.select(Vec3::UnitX(), {.views = 5, .level = 3});
+  double seen = 0.0;
+  for (const ChosenView& view : set.views) {
+    seen += view.gain;
+    EXPECT_NEAR(view.coverage, seen / set.reachable, 1e-12);
+  }
+}
+
+TEST(SelectViews, WhatNoViewSeesIsNotReachable) {
+  // A box inside a box: the inner one's 8 corners are seen from nowhere.
+  const TriMesh inner =
+      test::moved(test::box(0.2, 0.2, 0.2, 1), 1.0, 0.0, Vec3::UnitX(), Vec3(0.4, 0.4, 0.4));
+  const Scene scene(test::together(test::box(1.0, 1.0, 1.0, 1), inner, Vec3::Zero()));
+  const ViewSet set = scene.select(Vec3(1, 1, 1), {.level = 2});
+  EXPECT_EQ(set.reachable, 8.0);
+  EXPECT_EQ(set.views.back().coverage, 1.0);
+}
+
+TEST(SelectViews, KeepsViewsApart) {
+  const Scene scene(test::torus(1.0, 0.4, 24, 12));
+  const ViewSet set =
+      scene.select(Vec3::UnitX(), {.views = 4, .min_separation_deg = 80.0, .level = 3});
+  for (std::size_t i = 0; i < set.views.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double cosine = set.views[i].direction.dot(set.views[j].direction);
+      EXPECT_GE(std::acos(cosine), 80.0 * std::numbers::pi / 180.0 - 1e-9);
+    }
+  }
+}
+
+TEST(SelectViews, SaysThatNoViewIsFarEnoughAway) {
+  const ViewSet set =
+      cube().select(Vec3(1, 1, 1), {.views = 3, .min_separation_deg = 179.9, .level = 0});
+  EXPECT_EQ(set.views.size(), 1U);
+  EXPECT_EQ(set.stop, ViewSetStop::Exhausted);
+}
+
+TEST(SelectViews, RefinementNeverLowersTheFirstGain) {
+  const Scene scene(test::torus(1.0, 0.4, 40, 20));
+  const ViewSet plain = scene.select(Vec3::UnitX(), {.views = 2, .refine = false, .level = 2});
+  const ViewSet refined = scene.select(Vec3::UnitX(), {.views = 2, .level = 2});
+  EXPECT_GE(refined.views[1].gain, plain.views[1].gain);
+}
+
+TEST(SelectViews, IsTheSameForAnyNumberOfThreads) {
+  const Scene scene(test::torus(1.0, 0.4, 24, 12));
+  const ViewSetOptions options{.views = 5, .level = 3};
+  const ViewSet one = scene.select(Vec3::UnitX(), options, {.max_threads = 1});
+  const ViewSet four = scene.select(Vec3::UnitX(), options, {.max_threads = 4});
+  ASSERT_EQ(one.views.size(), four.views.size());
+  for (std::size_t i = 0; i < one.views.size(); ++i) {
+    EXPECT_EQ(one.views[i].direction, four.views[i].direction);
+    EXPECT_EQ(one.views[i].gain, four.views[i].gain);
+  }
+}
+
+TEST(SelectViews, AMapOfZerosIsCoveredByTheFirstView) {
+  Scene scene(test::box(1.0, 1.0, 1.0, 1));
+  scene.significance.assign(scene.significance.size(), 0.0);
+  const ViewSet set = scene.select(Vec3::UnitX(), {.level = 1});
+  EXPECT_EQ(set.views.size(), 1U);
+  EXPECT_EQ(set.views[0].coverage, 1.0);
+}
+
+TEST(SelectViews, RefusesACoverageOfNothing) {
+  EXPECT_THROW(cube().select(Vec3::UnitX(), {.coverage = 0.0}), InvalidInput);
+  EXPECT_THROW(cube().select(Vec3::UnitX(), {.coverage = 1.5}), InvalidInput);
+}
+
+TEST(MeasureViews, GivesTheGainsOfGivenViewsInTheirOrder) {
+  const VertexVisibility visibility(cube().mesh, {FaceSides::Front});
+  const Vec3 corner = Vec3(1, 1, 1).normalized();
+  const std::vector<Vec3> views{Vec3::UnitX(), corner, corner};
+  const ViewSet set =
+      measure_views(visibility, cube().significance, cube().camera, views, {.level = 2});
+  // Along x the 4 corners of one side; then the 7 of (1,1,1) without these; then nothing new.
+  EXPECT_EQ(set.views[0].gain, 4.0);
+  EXPECT_EQ(set.views[1].gain, 3.0);
+  EXPECT_EQ(set.views[2].gain, 0.0);
+}
+
+}  // namespace
+}  // namespace vantage
