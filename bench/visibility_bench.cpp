@@ -1,17 +1,25 @@
 // SPDX-License-Identifier: MIT
+#include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include <benchmark/benchmark.h>
 
+#include "vantage/io/model.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 #include "vantage/spatial/directions.h"
-#include "vantage/view/scoring.h"
+#include "vantage/visibility/face_visibility.h"
+#include "vantage/visibility/vertex_visibility.h"
 
+#include "core/parallel.h"
 #include "spatial/ray_scene.h"
 #include "support/shapes.h"
 
@@ -37,16 +45,36 @@ TriMesh dented_ball_of(std::int64_t vertices) {
   return mesh;
 }
 
-TriMesh shape(const benchmark::State& state) {
-  return state.range(1) == 0 ? torus_of(state.range(0)) : dented_ball_of(state.range(0));
+/// A named input: a torus, a dented ball, or a file of the folder that VANTAGE_DATA names.
+struct Subject {
+  std::string name{};
+  std::function<TriMesh()> make{};
+};
+
+std::vector<Subject> subjects() {
+  std::vector<Subject> all;
+  for (const int vertices : {10000, 40000, 170000}) {
+    all.push_back({"torus_" + std::to_string(vertices), [=] { return torus_of(vertices); }});
+    all.push_back({"dented_" + std::to_string(vertices), [=] { return dented_ball_of(vertices); }});
+  }
+  const char* folder = std::getenv("VANTAGE_DATA");
+  if (folder != nullptr) {
+    const std::string base = folder;
+    for (const char* name : {"rocker-arm_10044.off", "rockerarm_40177.ply", "horse_48485.obj",
+                             "venus_igea_134345.ply", "armadillo_172966_loop.ply"}) {
+      all.push_back({name, [path = base + "/paper/" + name] { return load_model(path).mesh; }});
+    }
+  }
+  return all;
 }
 
-std::vector<Viewpoint> eyes_around(const TriMesh& mesh) {
-  const Sphere sphere = enclosing_sphere(mesh.positions);
+std::vector<Viewpoint> eyes_around(const TriMesh& mesh, Projection projection) {
+  const Sphere sphere = enclosing_sphere(referenced_points(mesh));
   std::vector<Viewpoint> eyes;
   for (const Vec3& d : direction_set(ViewSphereBase::Icosahedron, 1).directions) {
-    eyes.push_back(
-        {Projection::Perspective, sphere.centre + 0.5 * sphere.diameter * kEyeDistance * d});
+    eyes.push_back({projection, projection == Projection::Orthographic
+                                    ? d
+                                    : sphere.centre + 0.5 * sphere.diameter * kEyeDistance * d});
   }
   return eyes;
 }
@@ -60,78 +88,132 @@ std::size_t count(const std::vector<std::uint8_t>& visible) {
 }
 
 /// What a program would do without this module: one float ray per front-facing vertex in file
-/// order, lifted off the surface by an epsilon.
-std::size_t plain_rays(const RayScene& scene, const TriMesh& mesh, const IndexLists& faces,
-                       const Viewpoint& eye) {
-  std::size_t seen = 0;
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    const Vec3 to_eye = eye.position - mesh.positions[v];
-    bool turned = false;
-    for (const std::uint32_t f : faces[v]) {
-      turned = turned || area_vector(mesh, mesh.triangles[f]).dot(to_eye) > 0.0;
+/// order, lifted off the surface by an epsilon. The mesh is in a frame of size about 1.
+class PlainRays {
+ public:
+  explicit PlainRays(const TriMesh& mesh) : mesh_(mesh), faces_(vertex_faces(mesh)), scene_(mesh) {
+    for (const Triangle& t : mesh.triangles) {
+      normals_.push_back(area_vector(mesh, t).cast<float>());
     }
+    for (const Vec3& p : mesh.positions) {
+      points_.emplace_back(p.cast<float>());
+    }
+  }
+
+  [[nodiscard]] std::size_t seen(const Viewpoint& eye, const RunContext& run) const {
     constexpr float lift = 1e-4F;
-    seen +=
-        turned && !scene.occluded(mesh.positions[v].cast<float>(), to_eye.cast<float>(), lift, 1.0F)
-            ? 1U
-            : 0U;
+    const Vec3f at = eye.position.cast<float>();
+    const bool bounded = eye.projection == Projection::Perspective;
+    const float reach = bounded ? 1.0F : std::numeric_limits<float>::infinity();
+    return static_cast<std::size_t>(
+        parallel_sum(run, points_.size(), 2048, [&](std::size_t begin, std::size_t end) {
+          std::size_t sum = 0;
+          for (std::size_t v = begin; v < end; ++v) {
+            const Vec3f to_eye = bounded ? Vec3f(at - points_[v]) : at;
+            bool turned = false;
+            for (const std::uint32_t f : faces_[v]) {
+              turned = turned || normals_[f].dot(to_eye) > 0.0F;
+            }
+            sum += turned && !scene_.occluded(points_[v], to_eye, lift, reach) ? 1U : 0U;
+          }
+          return static_cast<double>(sum);
+        }));
   }
-  return seen;
+
+ private:
+  const TriMesh& mesh_;
+  IndexLists faces_;
+  RayScene scene_;
+  std::vector<Vec3f> normals_{};
+  std::vector<Vec3f> points_{};
+};
+
+TriMesh in_unit_frame(TriMesh mesh) {
+  const UnitFrame frame = unit_frame(referenced_points(mesh));
+  for (Vec3& p : mesh.positions) {
+    p = frame.to_frame(p);
+  }
+  return mesh;
 }
 
-void BM_VisibleVertices(benchmark::State& state) {
-  const TriMesh mesh = shape(state);
-  const VertexVisibility visibility(mesh, {FaceSides::Front});
-  const std::vector<Viewpoint> eyes = eyes_around(mesh);
-  const RunContext alone{.max_threads = 1};
-  std::size_t next = 0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(visibility.visible_vertices(eyes[next++ % eyes.size()], alone));
-  }
-  state.counters["vertices/s"] = benchmark::Counter(static_cast<double>(mesh.positions.size()),
-                                                    benchmark::Counter::kIsIterationInvariantRate);
+double seconds_of(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void BM_PlainRays(benchmark::State& state) {
-  const TriMesh mesh = shape(state);
-  const IndexLists faces = vertex_faces(mesh);
-  const RayScene scene(mesh);
-  const std::vector<Viewpoint> eyes = eyes_around(mesh);
+/// One view by the library and the same view by plain rays, in turn: the time of the iteration is
+/// ours, and the counter `rays/ours` says how many times longer the rays took.
+void compare(benchmark::State& state, const Subject& subject, Projection projection, int threads) {
+  const TriMesh mesh = in_unit_frame(subject.make());
+  const PlainRays rays(mesh);
   const VertexVisibility visibility(mesh, {FaceSides::Front});
-  const std::size_t exact = count(visibility.visible_vertices(eyes[0]));
-  const std::size_t plain = plain_rays(scene, mesh, faces, eyes[0]);
+  const std::vector<Viewpoint> eyes = eyes_around(mesh, projection);
+  const RunContext run{.max_threads = threads};
+  const std::size_t exact = count(visibility.visible_vertices(eyes[0], run));
+  const std::size_t plain = rays.seen(eyes[0], run);
   // Both must do the same job, but for the vertices that the epsilon gets wrong.
   if (plain > exact + exact / 50 || exact > plain + plain / 50) {
     state.SkipWithError("the baseline and the library see different vertices");
     return;
   }
   std::size_t next = 0;
+  double ours = 0.0;
+  double theirs = 0.0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(plain_rays(scene, mesh, faces, eyes[next++ % eyes.size()]));
+    const Viewpoint& eye = eyes[next++ % eyes.size()];
+    theirs += seconds_of([&] { benchmark::DoNotOptimize(rays.seen(eye, run)); });
+    const double now =
+        seconds_of([&] { benchmark::DoNotOptimize(visibility.visible_vertices(eye, run)); });
+    ours += now;
+    state.SetIterationTime(now);
   }
-  state.counters["vertices/s"] = benchmark::Counter(static_cast<double>(mesh.positions.size()),
-                                                    benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["vertices"] = static_cast<double>(mesh.positions.size());
+  state.counters["rays_ms"] = 1e3 * theirs / static_cast<double>(next);
+  state.counters["rays/ours"] = theirs / ours;
 }
 
 void BM_PrepareVisibility(benchmark::State& state) {
-  const TriMesh mesh = shape(state);
+  const TriMesh mesh = dented_ball_of(state.range(0));
   for (auto _ : state) {
     benchmark::DoNotOptimize(VertexVisibility(mesh, {FaceSides::Front}));
   }
 }
 
-void sizes(benchmark::internal::Benchmark* bench) {
-  bench->ArgNames({"vertices", "dented"})->Unit(benchmark::kMillisecond)->UseRealTime();
-  for (const int dented : {0, 1}) {
-    for (const int vertices : {10000, 40000, 170000}) {
-      bench->Args({vertices, dented});
-    }
+void BM_VisibleArea(benchmark::State& state) {
+  const TriMesh mesh = test::box(1.0, 2.0, 3.0, static_cast<int>(state.range(0)));
+  const FaceVisibility visibility(mesh, {FaceSides::Front});
+  const std::vector<Viewpoint> eyes = eyes_around(mesh, Projection::Perspective);
+  const RunContext alone{.max_threads = 1};
+  std::size_t next = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(visibility.seen_faces(eyes[next++ % eyes.size()], alone));
   }
+  state.counters["samples"] = static_cast<double>(visibility.sample_count());
 }
 
-BENCHMARK(BM_VisibleVertices)->Apply(sizes);
-BENCHMARK(BM_PlainRays)->Apply(sizes);
-BENCHMARK(BM_PrepareVisibility)->Apply(sizes);
+BENCHMARK(BM_PrepareVisibility)->Arg(170000)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_VisibleArea)->Arg(1)->Arg(100)->Unit(benchmark::kMillisecond);
+
+[[maybe_unused]] const bool kRegistered = [] {
+  for (const Subject& subject : subjects()) {
+    for (const Projection projection : {Projection::Perspective, Projection::Orthographic}) {
+      for (const int threads : {1, 2}) {
+        const std::string name =
+            "BM_VisibleVertices/" + subject.name +
+            (projection == Projection::Perspective ? "/perspective/" : "/orthographic/") +
+            std::to_string(threads);
+        benchmark::RegisterBenchmark(name.c_str(),
+                                     [=](benchmark::State& state) {
+                                       compare(state, subject, projection, threads);
+                                     })
+            ->UseManualTime()
+            ->Unit(benchmark::kMillisecond);
+      }
+    }
+  }
+  return true;
+}();
 
 }  // namespace
 }  // namespace vantage

@@ -1,94 +1,96 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "vantage/core/camera.h"
+#include "vantage/core/run_context.h"
 
 #include "visibility/surface.h"
 
 /// \file
-/// The faces of a surface sorted by where an eye sees them: for any vertex it names the few faces
-/// that may stand between it and the eye. All segments of one query end in the same eye, so a flat
-/// grid in the picture plane does what a hierarchy in space would do, at a tenth of the cost.
+/// Which of many points one eye sees, all at once. All segments of one query end in the same eye, so
+/// the points are sorted into a flat grid over the picture, and every face strikes out the points
+/// behind it: what a hierarchy in space would do, at a fraction of the cost.
 
 namespace vantage {
 
-/// A pyramid of grids over the picture plane. A face lies in the level whose cells are about its
-/// size, in at most a few cells, so memory is O(|F|) whatever the shapes. Made for reuse: rebuilding
-/// it for another eye allocates nothing new.
+/// Points on a surface whose sight is asked for. Refers to data that must outlive it.
+struct SurfacePoints {
+  std::span<const Vec3> exact{};           ///< In the surface's frame.
+  const FloatPoints* rounded = nullptr;    ///< The same, rounded.
+  std::span<const std::uint32_t> owner{};  ///< The face each point lies on. Empty: the points are
+                                           ///< the surface's sites, in its order.
+
+  /// Whether the face holds the point and therefore never blocks it.
+  [[nodiscard]] bool held(std::uint32_t point, std::uint32_t face, const Triangle& corners) const {
+    return owner.empty() ? corners[0] == point || corners[1] == point || corners[2] == point
+                         : owner[point] == face;
+  }
+};
+
+/// Working memory of one query. Made for reuse: another eye allocates nothing new.
 class EyeGrid {
  public:
-  /// Sorts the faces for an eye given in the surface's frame. \return false, without a usable
-  /// grid, if some site is not well in front of the eye.
-  bool build(const Surface& surface, const Viewpoint& eye);
+  /// Sets seen[i] to 0 for every point that some face hides from the eye. Float arithmetic with
+  /// error bounds settles clear cases, the double test of segment.h the doubtful ones.
+  /// \param eye  in the surface's frame. \param seen 0 for points not to be asked about.
+  /// \return false if the answer is not complete: the eye is too near for a flat grid, or the faces
+  ///         are so long and thin that a grid is slow. What is 0 by then is hidden all the same.
+  bool hide(const Surface& surface, const Viewpoint& eye, const SurfacePoints& points,
+            std::vector<std::uint8_t>& seen, const RunContext& run);
 
-  /// Number of faces to look at for one site.
-  [[nodiscard]] std::size_t candidate_count(std::uint32_t site) const;
+  /// Which side each face turns to the eye, after face_sides(): 1 its front, 2 its back, 0 neither.
+  [[nodiscard]] const std::vector<std::uint8_t>& turned() const { return turned_; }
 
-  /// Asks decide(face) about the candidates of a site until one answers true: every face whose
-  /// projection may hold the site's and that may be nearer to the eye.
-  template <class Decide>
-  [[nodiscard]] bool any(std::uint32_t site, const Decide& decide) const {
-    const Spot spot = spots_[site];
-    const auto x = static_cast<std::uint32_t>(spot.x);
-    const auto y = static_cast<std::uint32_t>(spot.y);
-    for (std::uint32_t levels = used_levels_; levels != 0; levels &= levels - 1) {
-      const std::size_t cell = cell_of(static_cast<unsigned>(std::countr_zero(levels)), x, y);
-      for (std::uint32_t i = cell_begin_[cell]; i < cell_begin_[cell + 1]; ++i) {
-        const std::uint32_t face = faces_[i];
-        const Outline& o = outlines_[face];
-        const bool near = (o.depth <= spot.depth) & (o.x_low <= spot.x) & (spot.x <= o.x_high) &
-                          (o.y_low <= spot.y) & (spot.y <= o.y_high);
-        if (near && decide(face)) {
-          return true;
-        }
-      }
-    }
-    return false;
-  }
+  /// Fills turned().
+  void face_sides(const Surface& surface, const Viewpoint& eye, const RunContext& run);
 
  private:
-  /// A site in the picture: x, y in finest cells, depth 0 (nearest) to 1.
+  /// A place in the picture: x, y in cells, depth along the view axis in frame units.
   struct Spot {
     float x, y, depth;
   };
 
-  /// What a face covers in the picture, rounded outwards, and its nearest depth.
-  struct Outline {
-    float x_low, x_high, y_low, y_high, depth;
-  };
+  /// What a query knows of one face.
+  struct Outline;
+  struct Tally;
 
-  /// The cells of one level that a face lies in.
-  struct Cover {
-    std::uint16_t x_low, y_low;
-    std::uint8_t columns, rows, level;
-  };
-
-  bool project(const Surface& surface, const Viewpoint& eye);
-  void choose_resolution(std::size_t face_count);
+  bool aim(const Viewpoint& eye);
+  void project(const FloatPoints& points, std::vector<Spot>& spots, const RunContext& run) const;
+  void choose_cells(const std::vector<Spot>& corners, std::size_t active);
+  void to_cells(std::vector<Spot>& spots, const RunContext& run) const;
+  void sort_points(const std::vector<Spot>& spots, const std::vector<std::uint8_t>& seen);
+  void find_deepest();
   [[nodiscard]] Outline outline(const Triangle& face) const;
-  [[nodiscard]] Cover cover(const Outline& outline) const;
-  void count_cells(const Surface& surface);
-  void fill_cells();
+  [[nodiscard]] bool behind_all(const Outline& outline) const;
+  bool walk(const Surface& surface, const SurfacePoints& points, std::uint8_t side,
+            const RunContext& run);
+  std::size_t strike(const Surface& surface, const SurfacePoints& points, std::uint32_t face,
+                     const Outline& outline);
+  [[nodiscard]] bool blocks(const Surface& surface, const SurfacePoints& points,
+                            std::uint32_t point, std::uint32_t face) const;
 
-  [[nodiscard]] std::size_t cell_of(unsigned level, std::uint32_t x, std::uint32_t y) const {
-    return level_begin_[level] + ((y >> level) << (bits_ - level)) + (x >> level);
-  }
-
-  unsigned bits_ = 0;                           // the finest level has 2^bits × 2^bits cells
-  std::uint32_t used_levels_ = 0;               // bit l: some face lies in level l
-  std::vector<std::size_t> level_begin_{};      // first cell of each level
-  std::vector<Spot> spots_{};                   // of each site
-  std::vector<std::array<double, 3>> plane_{};  // x, y, depth of each site before scaling
-  std::vector<Outline> outlines_{};             // of each face
-  std::vector<Cover> covers_{};                 // of each face
-  std::vector<std::uint32_t> cell_begin_{};     // where each cell begins in faces_
-  std::vector<std::uint32_t> faces_{};          // faces of all cells, one cell after the other
+  Viewpoint eye_{};
+  float right_[3]{}, up_[3]{}, towards_[3]{};  // axes of the picture
+  float distance_ = 0.0F;                      // of the eye from the frame's origin
+  float x_low_ = 0.0F, y_low_ = 0.0F;          // corner of the picture
+  float cells_per_unit_ = 1.0F;
+  float margin_ = 0.0F;  // bound of the error of a spot's x and y, in cells
+  std::uint32_t columns_ = 1, rows_ = 1;
+  std::uint32_t tile_columns_ = 1, tile_rows_ = 1;
+  std::vector<Spot> corners_{};            // of each site
+  std::vector<Spot> spots_{};              // of each point, if the points are not the sites
+  std::vector<std::uint8_t> turned_{};     // of each face
+  std::vector<std::uint8_t> steep_{};      // of each face: far from edge on
+  std::vector<std::uint32_t> begin_{};     // where each cell begins in the arrays below
+  std::vector<std::uint32_t> point_of_{};  // points, one cell after the other
+  std::vector<float> x_{}, y_{};           // of each of them
+  std::vector<float> depth_{};             // of each of them; minus infinity once hidden
+  std::vector<float> deepest_{};           // of the points left in each tile of cells
 };
 
 }  // namespace vantage

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "vantage/core/camera.h"
 #include "vantage/core/vec3.h"
 
 /// \file
@@ -85,5 +86,11 @@ class Segment {
   double shear_x_ = 0.0;
   double shear_y_ = 0.0;
 };
+
+/// The segment from a point to an eye that is elsewhere.
+inline Segment segment_to(const Vec3& point, const Viewpoint& eye) {
+  const bool bounded = eye.projection == Projection::Perspective;
+  return {point, bounded ? Vec3(eye.position - point) : eye.position, bounded};
+}
 
 }  // namespace vantage

@@ -43,6 +43,7 @@ struct LooseFace {
   Triangle corners{};
   Vec3 area_vector = Vec3::Zero();
   FaceSides sides = FaceSides::Both;
+  std::uint32_t of_mesh = 0;
 };
 
 std::vector<LooseFace> faces_with_area(const TriMesh& mesh, const WeldedMesh& welded,
@@ -56,8 +57,10 @@ std::vector<LooseFace> faces_with_area(const TriMesh& mesh, const WeldedMesh& we
   }
   std::vector<LooseFace> faces;
   faces.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
     LooseFace face;
+    face.of_mesh = f;
     for (std::size_t corner = 0; corner < 3; ++corner) {
       face.corners[corner] = welded.welded_of_vertex[t[corner]];
     }
@@ -97,7 +100,42 @@ std::vector<std::uint32_t> number_sites(const std::vector<Vec3>& positions,
   return site_of_welded;
 }
 
+FacePlanes planes_of(const Surface& surface) {
+  FacePlanes planes;
+  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    const Vec3 normal = surface.area_vectors[f] / surface.twice_areas[f];
+    planes.x.push_back(static_cast<float>(normal.x()));
+    planes.y.push_back(static_cast<float>(normal.y()));
+    planes.z.push_back(static_cast<float>(normal.z()));
+    planes.offset.push_back(static_cast<float>(normal.dot(surface.sites[surface.faces[f][0]])));
+  }
+  return planes;
+}
+
 }  // namespace
+
+FloatPoints rounded_points(std::span<const Vec3> points) {
+  FloatPoints rounded;
+  for (const Vec3& p : points) {
+    rounded.x.push_back(static_cast<float>(p.x()));
+    rounded.y.push_back(static_cast<float>(p.y()));
+    rounded.z.push_back(static_cast<float>(p.z()));
+  }
+  return rounded;
+}
+
+Viewpoint eye_in_frame(const Viewpoint& eye, const UnitFrame& frame) {
+  if (!eye.position.allFinite()) {
+    throw InvalidInput("the eye of a visibility query must be finite");
+  }
+  if (eye.projection == Projection::Perspective) {
+    return {eye.projection, frame.to_frame(eye.position)};
+  }
+  if (!(eye.position.squaredNorm() > 0.0)) {
+    throw InvalidInput("the direction of an orthographic view must not be zero");
+  }
+  return {eye.projection, eye.position.normalized()};
+}
 
 std::vector<std::uint32_t> morton_order(std::span<const Vec3> points) {
   const Box box = bounding_box(points);
@@ -145,7 +183,10 @@ Surface prepare_surface(const TriMesh& mesh, std::span<const FaceSides> sides) {
     surface.area_vectors.push_back(faces[f].area_vector);
     surface.twice_areas.push_back(faces[f].area_vector.norm());
     surface.sides.push_back(faces[f].sides);
+    surface.face_of_mesh.push_back(faces[f].of_mesh);
   }
+  surface.rounded = rounded_points(surface.sites);
+  surface.planes = planes_of(surface);
 
   // A vertex that no face names is never seen, even at a position that others use.
   surface.site_of_vertex.assign(mesh.positions.size(), Surface::kNoSite);

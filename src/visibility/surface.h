@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "vantage/core/camera.h"
 #include "vantage/mesh/tri_mesh.h"
 #include "vantage/visibility/vertex_visibility.h"
 
@@ -15,6 +16,16 @@
 /// faces of zero area, everything in an order in which neighbours in space are close in memory.
 
 namespace vantage {
+
+/// Points rounded to float, coordinate by coordinate, for loops that the compiler vectorises.
+struct FloatPoints {
+  std::vector<float> x{}, y{}, z{};
+};
+
+/// Planes of faces, rounded: the points p with unit normal · p = offset.
+struct FacePlanes {
+  std::vector<float> x{}, y{}, z{}, offset{};
+};
 
 /// A vertex here is a *site*: a position that at least one face of positive area uses.
 struct Surface {
@@ -27,7 +38,17 @@ struct Surface {
   std::vector<Vec3> area_vectors{};             ///< Of each face, in the frame.
   std::vector<double> twice_areas{};            ///< Their lengths; > 0.
   std::vector<FaceSides> sides{};               ///< Of each face.
+  std::vector<std::uint32_t> face_of_mesh{};    ///< The mesh's face that each face was.
+  FloatPoints rounded{};                        ///< The sites.
+  FacePlanes planes{};                          ///< Of each face.
 };
+
+/// The points in single precision.
+FloatPoints rounded_points(std::span<const Vec3> points);
+
+/// An eye in the frame of a surface; orthographic directions get unit length.
+/// \throw InvalidInput if it is not finite, or an orthographic direction is zero.
+Viewpoint eye_in_frame(const Viewpoint& eye, const UnitFrame& frame);
 
 /// \param sides one per component of connected_components(mesh), or a single one for all.
 /// \throw InvalidInput if there are neither.

@@ -54,4 +54,13 @@ struct OrientedMesh {
 /// of other closed shells bounds a cavity and should be wound inwards; an even number, outwards.
 OrientedMesh orient_shells(const TriMesh& mesh);
 
+/// Which vertices of a mesh an eye sees; all there is to call for a single view of triangles from
+/// anywhere. Closed shells that are inside out are turned first, and open or inconsistently wound
+/// components are seen from both sides, as everywhere in this library. For several eyes build a
+/// VertexVisibility once.
+/// \param mesh of any units; vertices that share a position are treated as one.
+/// \param eye  position in the mesh's coordinates, outside or inside the model.
+/// \return 1 for each visible vertex, else 0. \throw InvalidInput if the eye is not finite.
+std::vector<std::uint8_t> visible_vertices(const TriMesh& mesh, const Vec3& eye);
+
 }  // namespace vantage
