@@ -6,6 +6,8 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/render/framing.h"
 
+#include "report/prior_search.h"
+
 namespace vantage {
 namespace {
 
@@ -70,8 +72,11 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
   const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
     return scorer.score_all(directions, batch_run);
   };
-  auto [best, worst] = search_best_and_worst(score, report.total, options.search, run);
+  const UprightFrame frame = upright_frame(up_vector(up));
+  auto [best, worst] =
+      search_under_prior(score, report.total, options.prior, frame, options.search, run);
   report.best = describe_view(shape, visibility, report.camera, best.direction, up, options);
+  report.best.objective = report.best.score * options.prior.factor(frame, best.direction);
   report.worst = describe_view(shape, visibility, report.camera, worst.direction, up, options);
   report.best_search = std::move(best);
   report.worst_search = std::move(worst);
