@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "input_text.h"
 #include "session.h"
 #include "terminal.h"
 
@@ -195,6 +196,11 @@ void MethodFlags::add_camera_flags(CLI::App& app) {
 
 void MethodFlags::add_search_flags(CLI::App& app) {
   const std::string group = "Search";
+  app.add_option("--prior", prior_,
+                 "what the best view's score is multiplied by: none, upright (how people look at "
+                 "things; the default), or a JSON file")
+      ->default_str("upright; none with --preset paper")
+      ->group(group);
   app.add_option("--search", search_,
                  "rapid: the paper's; exhaustive: a whole direction set; global: a set, then "
                  "refinement around its peaks")
@@ -237,6 +243,11 @@ ViewOptions MethodFlags::resolve() const {
         search_ == "global" ? SearchStrategy::Global : SearchStrategy::Exhaustive;
     options.search.base = ViewSphereBase::Icosahedron;
     options.search.subdivisions = SearchOptions{}.subdivisions;
+  }
+  if (!prior_.empty()) {
+    options.prior = prior_ == "none"      ? no_prior()
+                    : prior_ == "upright" ? upright_prior()
+                                          : parse_prior(read_text(prior_), prior_);
   }
   for (const Override& apply : overrides_) {
     apply(options);

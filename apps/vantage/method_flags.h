@@ -41,6 +41,7 @@ class MethodFlags {
 
   std::string preset_ = "default";
   std::string search_{};
+  std::string prior_{};
   std::vector<Override> overrides_{};
 };
 

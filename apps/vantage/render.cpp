@@ -78,7 +78,7 @@ struct RenderCommand {
   }
 
   void run(Session& session) {
-    const ViewOptions options = method.resolve();
+    const ViewOptions options = session.reading([&] { return method.resolve(); });
     const RunContext run = session.run();
     const Vec3 direction =
         direction_text.empty() ? Vec3::UnitZ() : unit(parse_vector(direction_text, "--direction"));

@@ -65,7 +65,7 @@ struct ViewCommand {
 
   void run(Session& session) {
     const auto start = Clock::now();
-    ViewOptions options = method.resolve();
+    ViewOptions options = session.reading([&] { return method.resolve(); });
     options.pictures = !no_images;
     options.view_set = several.request();
     const RunContext run = session.run();

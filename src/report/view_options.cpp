@@ -18,6 +18,20 @@ void echo_fields(nlohmann::ordered_json& json, const Options& options, const Tab
       table, [&](const auto& field) { json[std::string(field.name)] = options.*(field.member); });
 }
 
+/// Everything of a prior that shapes the result; its name does not.
+nlohmann::ordered_json prior_echo(const ViewPrior& prior) {
+  nlohmann::ordered_json json;
+  if (prior.is_uniform) {
+    return json;
+  }
+  echo_fields(json, prior.upright, kUprightPriorFields);
+  for (const PriorLobe& lobe : prior.lobes) {
+    json["lobes"].push_back(
+        {lobe.direction.x(), lobe.direction.y(), lobe.direction.z(), lobe.weight, lobe.width_rad});
+  }
+  return json;
+}
+
 }  // namespace
 
 Vec3 up_vector(UpAxis axis) {
@@ -70,6 +84,7 @@ ViewOptions preset_options(Preset preset) {
   if (preset == Preset::Paper) {
     options.contraction.scaling = ContractionScaling::Box;
     options.skeleton.scaling = ContractionScaling::Box;
+    options.prior = no_prior();
     options.search = {.strategy = SearchStrategy::Rapid,
                       .base = ViewSphereBase::Cube,
                       .subdivisions = 0,
@@ -100,6 +115,7 @@ std::string options_hash(const ViewOptions& options) {
   json["epsilon"] = options.search.epsilon;
   json["epsilon-is-fraction"] = options.search.epsilon_is_fraction;
   json["narrow-ring"] = options.search.require_narrow_ring;
+  json["prior"] = prior_echo(options.prior);
   json["projection"] = projection_name(options.projection);
   echo_fields(json, options, kViewFields);
   json["distance"] = options.distance_factor ? nlohmann::ordered_json(*options.distance_factor)

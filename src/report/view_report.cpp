@@ -6,6 +6,8 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/render/framing.h"
 
+#include "report/prior_search.h"
+
 namespace vantage {
 namespace {
 
@@ -71,9 +73,11 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
     return scorer.score_all(directions, batch_run);
   };
   const double search_share = options.view_set ? 0.25 : 1.0;  // of the progress bar
-  auto [best, worst] =
-      search_best_and_worst(score, report.total, options.search, run.part(0.0, search_share));
+  const UprightFrame frame = upright_frame(up_vector(up));
+  auto [best, worst] = search_under_prior(score, report.total, options.prior, frame, options.search,
+                                          run.part(0.0, search_share));
   report.best = describe_view(shape, visibility, report.camera, best.direction, up, options);
+  report.best.objective = report.best.score * options.prior.factor(frame, best.direction);
   report.worst = describe_view(shape, visibility, report.camera, worst.direction, up, options);
   if (options.view_set) {
     report.set = find_view_set(shape, visibility, report.camera, best.direction, up, options,

@@ -54,6 +54,16 @@ class Input(ProgramTest):
     def test_missing_file(self):
         self.check_unreadable("missing.off", "No such file")
 
+    def test_prior_file_that_is_none(self):
+        self.write("cube.off", CUBE)
+        self.write("my.json", '{"vantage_prior": 1, "upright": {"corner_strength": "much"}}')
+        for prior, words in (("missing.json", "No such file"), ("my.json", "upright.corner_strength")):
+            done = self.vantage("view", "cube.off", "--prior", prior, "-o", "out", exit_code=3)
+            self.assertEqual(len(done.err.strip().splitlines()), 1, done.err)
+            self.assertIn(prior, done.err)
+            self.assertIn(words, done.err)
+            self.assertFalse((self.dir / "out").exists())
+
     def test_folder_instead_of_a_file(self):
         os.mkdir(self.dir / "folder.off")
         self.check_unreadable("folder.off")

@@ -44,6 +44,22 @@ class View(ProgramTest):
                 camera["target"][axis] + camera["distance"] * best["direction"][axis], places=6)
         self.assertNotIn("seconds", report)
 
+    def test_prior_is_reported_and_leaves_score_and_worst_view_pure(self):
+        reports = {}
+        self.write("even.json", '{"vantage_prior": 1}')
+        for name, flags in (("default", []), ("none", ["--prior", "none"]),
+                            ("even.json", ["--prior", "even.json"]), ("paper", ["--preset", "paper"])):
+            self.vantage("view", MODELS / "deer.ply", "-o", "of-" + name, "--no-images", *flags)
+            reports[name] = json.loads((self.dir / ("of-" + name) / "view.json").read_text())
+        self.assertEqual([r["prior"] for r in reports.values()], ["upright", "none", "even.json", "none"])
+        self.assertLess(reports["default"]["best"]["objective"], reports["default"]["best"]["score"])
+        self.assertEqual(reports["none"]["best"]["objective"], reports["none"]["best"]["score"])
+        self.assertEqual(reports["even.json"]["best"], reports["none"]["best"])
+        self.assertLessEqual(reports["default"]["best"]["score"], reports["none"]["best"]["score"])
+        self.assertEqual(reports["default"]["worst"], reports["none"]["worst"])
+        self.assertEqual(reports["default"]["total"], reports["none"]["total"])
+        self.assertGreater(reports["default"]["best"]["direction"][1], 0.0)  # not from below
+
     def test_json_goes_alone_to_standard_output_with_seconds(self):
         done = self.vantage("view", MODELS / "fan.ply", "-o", "out", "--no-images", "--json")
         printed = json.loads(done.out)

@@ -16,6 +16,7 @@
 #include "vantage/report/view_set_request.h"
 #include "vantage/significance/kssm.h"
 #include "vantage/skeleton/skeleton.h"
+#include "vantage/view/prior.h"
 #include "vantage/view/scoring.h"
 #include "vantage/view/search.h"
 #include "vantage/view/tour.h"
@@ -52,6 +53,7 @@ struct ViewOptions {
   KssmOptions kssm{};                   ///< Of the map.
   bool kssm_to_finished_graph = false;  ///< Measure to the centred, pruned graph (not the raw one).
   SearchOptions search{};               ///< Of the view sphere.
+  ViewPrior prior = upright_prior();    ///< Multiplies the best view's score in the search.
   Projection projection = Projection::Perspective;  ///< Of the scoring camera.
   double fov_y_deg = 30.0;                          ///< Of the scoring camera, in (0, 180).
   std::optional<double> distance_factor{};          ///< Eye distance over D/2, > 1.

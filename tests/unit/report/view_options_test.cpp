@@ -46,6 +46,9 @@ TEST(OptionsHash, ChangesWithEveryOptionThatShapesTheResult) {
       [](ViewOptions& o) { o.fov_y_deg = 40.0; },
       [](ViewOptions& o) { o.distance_factor = 3.0; },
       [](ViewOptions& o) { o.up = UpAxis::Z; },
+      [](ViewOptions& o) { o.prior = no_prior(); },
+      [](ViewOptions& o) { o.prior.upright.front_strength = 0.1; },
+      [](ViewOptions& o) { o.prior.lobes.emplace_back(); },
       [](ViewOptions& o) { o.width = 801; },
   };
   std::set<std::string> hashes;

@@ -16,6 +16,7 @@ ViewOptions quick_search() {
   ViewOptions options;
   options.search.strategy = SearchStrategy::Exhaustive;
   options.search.subdivisions = 2;
+  options.prior = no_prior();
   return options;
 }
 
@@ -43,6 +44,20 @@ TEST_F(ReportOfAY, ScoresAreSumsOverTheVisibleVertices) {
     EXPECT_EQ(view->objective, sum);
     EXPECT_DOUBLE_EQ(view->score_fraction, sum / report_.total);
   }
+}
+
+TEST_F(ReportOfAY, UnderAPriorTheObjectiveIsScoreTimesPriorAndTheRestIsPure) {
+  options_.prior = upright_prior();
+  const ViewReport found = find_views(shape_, UpAxis::Y, options_);
+  const UprightFrame frame = upright_frame(Vec3::UnitY());
+  EXPECT_EQ(found.best.objective,
+            found.best.score * upright_prior().factor(frame, found.best.direction));
+  for (const SearchStep& step : found.best_search.trace) {
+    EXPECT_LE(step.score * upright_prior().factor(frame, step.direction), found.best.objective);
+  }
+  EXPECT_EQ(found.worst.direction, report_.worst.direction);
+  EXPECT_EQ(found.worst.score, report_.worst.score);
+  EXPECT_EQ(found.worst.objective, report_.worst.score);
 }
 
 TEST_F(ReportOfAY, TotalIsTheSumOfTheMap) {

@@ -1,0 +1,312 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Fits the upright prior to views that people chose, cross-validates it by model, prints the table.
+
+    fit_prior.py FOLDER --vantage PROGRAM [--cache FOLDER] [--sphere 4] [--page docs/prior.md] [--check]
+
+FOLDER holds views.csv (model,subject,status,vx,vy,vz,…), mirror_planes.csv (model,nx,ny,nz) and the
+models in models/, y up. Score fields come from `PROGRAM score MODEL --sphere N` and are kept in the
+cache. docs/prior.md explains the method; --page writes the tables into that page, between its marks;
+--check fails when the claims of the page do not hold. Needs numpy (Debian: python3-numpy).
+"""
+import argparse
+import csv
+import hashlib
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+try:
+    import numpy as np
+except ImportError:
+    print("NOTHING WAS TESTED: this script needs numpy (Debian: python3-numpy)", file=sys.stderr)
+    sys.exit(77)
+
+FRONT_SHARE = 0.08  # exponent of the front term, see docs/prior.md; chosen, not fitted
+STRENGTHS = (1.0, 1.5, 2.0, 3.0, 4.0)  # candidates, chosen by the training models
+START = np.array([3.0, 5.0, 8.0, 1.0])  # of the likelihood's ascent; the result does not hang on it
+RIDGE = 1e-2  # keeps a weight finite that no row speaks about
+FLOOR = 1e-3  # a score below this share of the largest counts as this share: its logarithm is taken
+BEGIN, END = "<!-- fit_prior.py begins -->", "<!-- fit_prior.py ends -->"
+FIXED = {"three-quarter (1, 0.6, 1)": (1, 0.6, 1), "isometric (1, 1, 1)": (1, 1, 1),
+         "f3d's default (1, 0.5, 1)": (1, 0.5, 1), "straight front (+Z)": (0, 0, 1)}
+
+
+class People:
+    """What people chose for one model."""
+
+    def __init__(self, name):
+        self.name = name
+        self.rows = []  # (moved, unit direction)
+        self.planes = []
+
+    def views(self, moved_only):
+        return np.array([v for moved, v in self.rows if moved or not moved_only])
+
+    def copies(self, directions, fold):
+        """Each direction and, when folding, its images in the mirror planes: copies × n × 3."""
+        images = [np.asarray(directions, float)]
+        for n in self.planes if fold else []:
+            images += [d - 2 * (d @ n)[:, None] * n for d in images]
+        return np.stack(images)
+
+    def angles(self, directions, fold, moved_only=True):
+        """Angle from each direction to each chosen view: n × views, as a share of 180 degrees."""
+        cosines = np.clip(self.copies(directions, fold) @ self.views(moved_only).T, -1, 1)
+        return np.arccos(cosines.max(0)) / np.pi
+
+
+def unit(v):
+    v = np.asarray(v, float)
+    return v / np.linalg.norm(v, axis=-1, keepdims=True)
+
+
+def read_people(folder):
+    people = {}
+    with open(folder / "views.csv", newline="", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            one = people.setdefault(row["model"], People(row["model"]))
+            one.rows.append((row["status"] == "moved", unit([row["vx"], row["vy"], row["vz"]])))
+    with open(folder / "mirror_planes.csv", newline="", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            people[row["model"]].planes.append(unit([row["nx"], row["ny"], row["nz"]]))
+    return [people[name] for name in sorted(people)]
+
+
+def score_field(program, model, level, cache):
+    """Directions and KSSM scores as shares of the largest; the key is the program and the model."""
+    key = hashlib.sha256(pathlib.Path(program).read_bytes() + model.read_bytes()).hexdigest()[:16]
+    path = cache / f"{model.name}-{level}-{key}.csv"
+    if not path.exists():
+        subprocess.run([program, "score", str(model), "--sphere", str(level), "-o", str(path), "-q"],
+                       check=True)
+    with open(path, newline="", encoding="utf-8") as file:
+        table = np.array([[row["dx"], row["dy"], row["dz"], row["score"]]
+                          for row in csv.DictReader(file)], float)
+    return table[:, :3], table[:, 3] / table[:, 3].max()
+
+
+class Study:
+    """Score fields and people together, on one set of directions."""
+
+    def __init__(self, people, fields):
+        self.people = people
+        self.directions = fields[0][0]
+        side, up, front = self.directions.T
+        self.front = front
+        # Near-ties in the prior alone fall toward the front, then toward the right.
+        self.tie = 1e-6 * (2 * front + side)
+        self.shape = np.stack([up, -up * up, 4 * side**2 * front**2], 1)
+        self.log_score = [np.log(np.maximum(score, FLOOR)) for _, score in fields]
+        self.features = [np.column_stack([log, self.shape]) for log in self.log_score]
+        # The set's direction nearest to each chosen view and to its mirror images: views × copies.
+        self.near = [(one.copies(one.views(True), True) @ self.directions.T).argmax(2).T
+                     for one in people]
+        self.error = [one.angles(self.directions, True).mean(1) for one in people]
+
+    def fit(self, models):
+        """Weights of log score and shape under which the chosen views, folded, are likeliest."""
+        w = START.copy()
+        for _ in range(200):
+            slope, bend = -RIDGE * w, -RIDGE * np.eye(len(w))
+            for m in models:
+                x, near = self.features[m], self.near[m]
+                p = self.chance(m, w)
+                r = p[near] / p[near].sum(1, keepdims=True)
+                mean = p @ x
+                slope = slope + (r[:, :, None] * x[near]).sum(1).mean(0) - mean
+                bend = bend - ((x * p[:, None]).T @ x - np.outer(mean, mean))
+            step = np.linalg.solve(bend, -slope)
+            w = w + step * min(1.0, 2.0 / np.abs(step).max())
+            if np.abs(step).max() < 1e-9:
+                break
+        return w
+
+    def chance(self, m, w):
+        z = self.features[m] @ w
+        p = np.exp(z - z.max())
+        return p / p.sum()
+
+    def likelihood(self, m, w):
+        """Mean log likelihood of the chosen views over a uniform choice, folded, nats a row."""
+        p = self.chance(m, w)
+        return np.log(p[self.near[m]].mean(1) * len(p)).mean()
+
+    def log_prior(self, w, strength):
+        return strength * (self.shape @ w[1:]) / w[0] + FRONT_SHARE * self.front + self.tie
+
+    def pick(self, m, w, strength):
+        return int((self.log_score[m] + self.log_prior(w, strength)).argmax())
+
+    def choose_strength(self, models, w):
+        risk = [np.mean([self.error[m][self.pick(m, w, s)] for m in models]) for s in STRENGTHS]
+        return STRENGTHS[int(np.argmin(risk))]
+
+
+def constants(w, strength):
+    """The exponents of src/view/prior.cpp: sine of the elevation, its strength, corners, front."""
+    return {"elevation_sine": w[1] / (2 * w[2]), "elevation_strength": strength * w[2] / w[0],
+            "corner_strength": strength * w[3] / w[0], "front_strength": FRONT_SHARE}
+
+
+def cross_validate(study):
+    """Leaving out each model: the directions of ours and of the prior alone, and likelihoods."""
+    everyone = range(len(study.people))
+    ours, alone, likelihood = [], [], []
+    bare = Study.__new__(Study)
+    bare.__dict__.update(study.__dict__)
+    bare.features = [np.column_stack([np.zeros(len(x)), x[:, 1:]]) for x in study.features]
+    for m in everyone:
+        rest = [k for k in everyone if k != m]
+        w = study.fit(rest)
+        strength = study.choose_strength(rest, w)
+        ours.append(study.directions[study.pick(m, w, strength)])
+        without = bare.fit(rest)
+        alone.append(study.directions[int((study.shape @ without[1:] + study.tie).argmax())])
+        likelihood.append((study.likelihood(m, w), bare.likelihood(m, without)))
+    return np.array(ours), np.array(alone), np.array(likelihood)
+
+
+def rows_of(one, fold, moved_only, directions, measure):
+    return measure(one.angles(np.atleast_2d(directions), fold, moved_only))
+
+
+def another_human(one, fold, moved_only, measure):
+    views = one.views(moved_only)
+    angles = one.angles(views, fold, moved_only)
+    return np.mean([measure(np.delete(angles[i], i)[None]) for i in range(len(views))])
+
+
+def consensus(one, fold, moved_only, measure, directions):
+    """The direction nearest to all others' views, judged by the one left out."""
+    angles = one.angles(directions, fold, moved_only)
+    total = angles.sum(1)
+    columns = range(angles.shape[1])
+    best = [int((total - angles[:, i]).argmin()) for i in columns]
+    return np.mean([measure(angles[b, i][None, None]) for i, b in zip(columns, best)])
+
+
+def mean_angle(angles):
+    return float(angles.mean())
+
+
+def within_45(angles):
+    return float((angles <= 0.25).mean())
+
+
+COLUMNS = {"moved, folded": (True, True, mean_angle), "moved": (False, True, mean_angle),
+           "all, folded": (True, False, mean_angle), "all": (False, False, mean_angle),
+           "within 45°": (True, True, within_45)}
+
+
+def table(study, ours, alone):
+    """name -> column -> one figure a model."""
+    d = study.directions
+
+    def chosen(which):
+        return lambda m, one, f, mv, me: rows_of(one, f, mv, which[m], me)
+
+    def best_possible(m, one, fold, moved_only, measure):
+        angles = one.angles(d, fold, moved_only)
+        return measure(angles[int(angles.mean(1).argmin())][None])
+
+    kssm = np.array([d[int(log.argmax())] for log in study.log_score])
+    rows = {
+        "**ours: prior × KSSM**, left-out models": chosen(ours),
+        "prior alone, left-out models": chosen(alone),
+        "KSSM alone": chosen(kssm),
+        "best possible single view": best_possible,
+        "consensus of the other people": lambda m, one, f, mv, me: consensus(one, f, mv, me, d),
+        "another human": lambda m, one, f, mv, me: another_human(one, f, mv, me)}
+    for name, v in FIXED.items():
+        rows[name] = chosen([unit(v)] * len(study.people))
+    rows["random"] = lambda m, one, f, mv, me: rows_of(one, f, mv, d, me)
+    return {name: {column: np.array([row(m, one, *how) for m, one in enumerate(study.people)])
+                   for column, how in COLUMNS.items()} for name, row in rows.items()}
+
+
+def interval(values, draws):
+    """95 % bootstrap interval of the mean over models."""
+    return np.percentile(values[draws].mean(1), [2.5, 97.5])
+
+
+def page(study, results, likelihood, fitted, level):
+    draws = np.random.default_rng(1).integers(0, len(study.people), (10000, len(study.people)))
+    first = "moved, folded"
+    lines = [f"{len(study.people)} models, {sum(len(n) for n in study.near)} moved rows, directions of "
+             f"level {level}. Error is the mean angle / 180°; in brackets the 95 % interval from "
+             "drawing models anew 10 000 times.", "",
+             "| view | " + " | ".join(COLUMNS) + " |", "| --- |" + " --- |" * len(COLUMNS)]
+    for name, row in results.items():
+        low, high = interval(row[first], draws)
+        cells = [f"{row[c].mean():.3f}" for c in COLUMNS]
+        cells[0] += f" [{low:.3f}, {high:.3f}]"
+        cells[-1] = f"{100 * row['within 45°'].mean():.0f} %"
+        lines.append(f"| {name} | " + " | ".join(cells) + " |")
+    ours = next(iter(results.values()))[first]
+    lines += ["", "Differences on the same models (moved, folded; negative: ours is nearer to people):", "",
+              "| ours minus | mean | 95 % interval |", "| --- | --- | --- |"]
+    for name in ("three-quarter (1, 0.6, 1)", "another human", "prior alone, left-out models",
+                 "KSSM alone", "isometric (1, 1, 1)", "straight front (+Z)"):
+        difference = ours - results[name][first]
+        low, high = interval(difference, draws)
+        lines.append(f"| {name} | {difference.mean():+.3f} | [{low:+.3f}, {high:+.3f}] |")
+    low, high = interval(likelihood[:, 0] - likelihood[:, 1], draws)
+    lines += ["", f"Log likelihood of a left-out model's rows over a uniform choice, folded: "
+              f"{likelihood[:, 0].mean():.3f} nats a row with KSSM, {likelihood[:, 1].mean():.3f} with "
+              f"the prior alone (difference in [{low:+.3f}, {high:+.3f}]).", "",
+              "| model | ours | prior alone | KSSM alone | three-quarter | another human | best possible |",
+              "| --- | --- | --- | --- | --- | --- | --- |"]
+    names = ["**ours: prior × KSSM**, left-out models", "prior alone, left-out models", "KSSM alone",
+             "three-quarter (1, 0.6, 1)", "another human", "best possible single view"]
+    for m, one in enumerate(study.people):
+        lines.append(f"| {one.name} | " + " | ".join(f"{results[n][first][m]:.3f}" for n in names) + " |")
+    lines += ["", "Constants, fitted on all models:", "", "| constant | value |", "| --- | --- |"]
+    lines += [f"| `{name}` | {value:.3f} |" for name, value in fitted.items()]
+    return "\n".join(lines) + "\n"
+
+
+def check(results):
+    """The claims of docs/prior.md that a change of the method must not break; what fails."""
+    mean = {name: row["moved, folded"].mean() for name, row in results.items()}
+    ours = mean["**ours: prior × KSSM**, left-out models"]
+    rivals = ("three-quarter (1, 0.6, 1)", "prior alone, left-out models", "KSSM alone",
+              "isometric (1, 1, 1)", "straight front (+Z)", "random")
+    return [f"ours ({ours:.4f}) is not below {name} ({mean[name]:.4f})"
+            for name in rivals if not ours < mean[name]]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--vantage", required=True)
+    parser.add_argument("--cache", type=pathlib.Path)
+    parser.add_argument("--sphere", type=int, default=4)
+    parser.add_argument("--page", type=pathlib.Path)
+    parser.add_argument("--check", action="store_true")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as scratch:
+        cache = options.cache or pathlib.Path(scratch)
+        cache.mkdir(parents=True, exist_ok=True)
+        people = read_people(options.folder)
+        study = Study(people, [score_field(options.vantage, options.folder / "models" / one.name,
+                                           options.sphere, cache) for one in people])
+    everyone = list(range(len(people)))
+    ours, alone, likelihood = cross_validate(study)
+    results = table(study, ours, alone)
+    w = study.fit(everyone)
+    fitted = constants(w, study.choose_strength(everyone, w))
+    text = page(study, results, likelihood, fitted, options.sphere)
+    print(text)
+    if options.page:
+        old = options.page.read_text(encoding="utf-8")
+        head, rest = old.split(BEGIN)
+        options.page.write_text(head + BEGIN + "\n" + text + END + rest.split(END)[1], encoding="utf-8")
+    problems = check(results) if options.check else []
+    print("\n".join(problems), file=sys.stderr)
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "report/prior_search.h"
+
+#include <utility>
+
+#include "view/evaluator.h"
+
+namespace vantage {
+
+FoundViews search_under_prior(const ScoreBatch& score, double total, const ViewPrior& prior,
+                              const UprightFrame& frame, const SearchOptions& options,
+                              const RunContext& run) {
+  if (prior.is_uniform) {
+    return search_best_and_worst(score, total, options, run);
+  }
+  Evaluator pure(score);
+  const ScoreBatch remembered = [&](const std::vector<Vec3>& directions) {
+    return pure.scores(directions, 0);
+  };
+  const ScoreBatch weighted = [&](const std::vector<Vec3>& directions) {
+    std::vector<double> values = pure.scores(directions, 0);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] *= prior.factor(frame, directions[i]);
+    }
+    return values;
+  };
+  FoundViews views;
+  views.best = search_view(weighted, total, Goal::Best, options, run.part(0.0, 0.8));
+  for (SearchStep& step : views.best.trace) {
+    step.score = pure.scores({step.direction}, 0).front();
+  }
+  views.best.score = pure.scores({views.best.direction}, 0).front();
+  const std::size_t scored = pure.trace().size();
+  views.worst = search_view(remembered, total, Goal::Worst, options, run.part(0.8, 1.0));
+  // What the best view had scored before is not the worst view's cost.
+  std::vector<SearchStep> fresh;
+  std::size_t next = scored;
+  for (const SearchStep& step : views.worst.trace) {
+    if (next < pure.trace().size() && pure.trace()[next].direction == step.direction) {
+      fresh.push_back(step);
+      ++next;
+    }
+  }
+  views.worst.trace = std::move(fresh);
+  views.worst.evaluations = views.worst.trace.size();
+  return views;
+}
+
+}  // namespace vantage

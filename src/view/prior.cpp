@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/view/prior.h"
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace vantage {
+
+UprightFrame upright_frame(const Vec3& up) {
+  Eigen::Index axis = 0;
+  up.cwiseAbs().maxCoeff(&axis);
+  UprightFrame frame;
+  frame.up = Vec3::Unit(axis) * (up[axis] < 0.0 ? -1.0 : 1.0);
+  frame.front = axis == 2 ? Vec3(-Vec3::UnitY()) : Vec3(Vec3::UnitZ());
+  frame.side = frame.up.cross(frame.front);
+  return frame;
+}
+
+double ViewPrior::factor(const UprightFrame& frame, const Vec3& direction) const {
+  if (is_uniform) {
+    return 1.0;
+  }
+  const Vec3 local(frame.side.dot(direction), frame.up.dot(direction), frame.front.dot(direction));
+  const double rise = local.y() - upright.elevation_sine;
+  const double corner = 2.0 * local.x() * local.z();
+  const double value = std::exp(-upright.elevation_strength * rise * rise -
+                                upright.corner_strength * (1.0 - corner * corner) -
+                                upright.front_strength * (1.0 - local.z()));
+  double favour = 1.0;
+  for (const PriorLobe& lobe : lobes) {
+    favour += lobe.weight *
+              std::exp((lobe.direction.dot(local) - 1.0) / (lobe.width_rad * lobe.width_rad));
+  }
+  return value * favour;
+}
+
+ViewPrior no_prior() {
+  return {};
+}
+
+ViewPrior upright_prior() {
+  return {.name = "upright", .is_uniform = false};
+}
+
+}  // namespace vantage
