@@ -2,17 +2,23 @@
 #include "vantage/contraction/contraction.h"
 
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 
 #include "contraction/component_contraction.h"
+#include "contraction/proxy.h"
+#include "core/parallel.h"
 
 namespace vantage {
 namespace {
 
-constexpr double kSphereSide = 2.0;  // ours: D = 2
-constexpr double kBoxSide = 1.6;     // Cao 2010: the longest side of the box
+constexpr std::size_t kGrain = 8192;  // vertices a task
+constexpr double kSphereSide = 2.0;   // ours: D = 2
+constexpr double kBoxSide = 1.6;      // Cao 2010: the longest side of the box
 
 /// One component cut out of the mesh, and where its vertices came from.
 struct Piece {
@@ -68,9 +74,34 @@ std::vector<Piece> cut_into_pieces(const TriMesh& mesh, std::vector<std::uint32_
   return pieces;
 }
 
-ComponentHistory contract_piece(const TriMesh& mesh, const Piece& piece,
-                                const ContractionOptions& options, const RunContext& run) {
+/// Components of more vertices are contracted by a proxy of at most this many [ours; trials in
+/// docs/contraction.md].
+constexpr std::size_t kProxyFrom = 25'000;
+constexpr std::size_t kProxySize = 12'500;
+/// A proxy must be smaller than this share of its component to be worth it.
+constexpr double kProxyShare = 0.7;
+
+/// What one piece's contraction gave, in model units.
+struct PieceResult {
+  ComponentHistory history{};
+  std::optional<Proxy> proxy{};  ///< What `history` is of, if not of the piece itself.
+};
+
+ComponentHistory contract_scaled(const TriMesh& scaled, const std::optional<Proxy>& proxy,
+                                 const ContractionOptions& options, const RunContext& run) {
+  if (!proxy) {
+    return contract_component(scaled, options, run);
+  }
+  ComponentHistory history = contract_component(proxy->mesh, options, run, proxy->shares);
+  history.summary.vertices = scaled.positions.size();
+  history.summary.strategy = "proxy " + std::to_string(proxy->mesh.positions.size());
+  return history;
+}
+
+PieceResult contract_piece(const TriMesh& mesh, const Piece& piece,
+                           const ContractionOptions& options, const RunContext& run) {
   TriMesh scaled{.positions = {}, .triangles = piece.triangles};
+  scaled.positions.reserve(piece.vertices.size());
   for (const std::uint32_t v : piece.vertices) {
     scaled.positions.push_back(mesh.positions[v]);
   }
@@ -79,42 +110,96 @@ ComponentHistory contract_piece(const TriMesh& mesh, const Piece& piece,
     p = (p - scaling.centre) * scaling.factor;
   }
   if (scaled.triangles.empty()) {
-    return {.levels = {scaled.positions},
-            .shrinkage = {1.0},
-            .summary = {.vertices = scaled.positions.size()}};
+    return {{.levels = {scaled.positions},
+             .shrinkage = {1.0},
+             .summary = {.vertices = scaled.positions.size()}},
+            {}};
   }
-  ComponentHistory history = contract_component(scaled, options, run);
-  for (auto& level : history.levels) {
+  PieceResult result;
+  const std::size_t n = piece.vertices.size();
+  if (options.method == ContractionMethod::Auto && n > kProxyFrom) {
+    Proxy proxy = make_proxy(scaled, kProxySize, run);
+    if (static_cast<double>(proxy.mesh.positions.size()) < kProxyShare * static_cast<double>(n)) {
+      result.proxy = std::move(proxy);
+    }
+  }
+  result.history = contract_scaled(scaled, result.proxy, options, run);
+  if (result.proxy && result.history.summary.steps == 0) {
+    result.proxy.reset();
+    result.history = contract_scaled(scaled, result.proxy, options, run);
+  }
+  for (auto& level : result.history.levels) {
     for (Vec3& p : level) {
       p = p / scaling.factor + scaling.centre;
     }
   }
-  return history;
+  return result;
 }
 
 /// Writes a piece's levels into the history of all vertices, adding levels as needed.
-void place(const Piece& piece, const ComponentHistory& part, const TriMesh& mesh,
-           ContractionHistory& history) {
-  while (history.levels.size() < part.levels.size()) {
+void place(const Piece& piece, const PieceResult& result, const TriMesh& mesh,
+           const RunContext& run, ContractionHistory& history) {
+  const auto& levels = result.history.levels;
+  while (history.levels.size() < levels.size()) {
     history.levels.push_back(history.levels.empty() ? mesh.positions : history.levels.back());
   }
+  if (levels.size() == 1) {
+    return;  // stays at its exact input position
+  }
   for (std::size_t level = 1; level < history.levels.size(); ++level) {
-    const auto& from = part.levels[std::min(level, part.levels.size() - 1)];
-    if (part.levels.size() == 1) {
-      continue;  // stays at its exact input position
-    }
-    for (std::size_t i = 0; i < piece.vertices.size(); ++i) {
-      history.levels[level][piece.vertices[i]] = from[i];
-    }
+    const auto& from = levels[std::min(level, levels.size() - 1)];
+    auto& to = history.levels[level];
+    parallel_for(run, piece.vertices.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        to[piece.vertices[i]] =
+            result.proxy ? position_of(result.proxy->place[i], result.proxy->mesh, from) : from[i];
+      }
+    });
   }
 }
 
-void summarise(const std::vector<ComponentHistory>& parts, ContractionHistory& history) {
+/// Gathers the surfaces that were contracted, piece after piece, then isolated vertices.
+ContractedProxy gather_proxy(const TriMesh& mesh, const std::vector<Piece>& pieces,
+                             const std::vector<PieceResult>& results,
+                             const ContractionHistory& history) {
+  ContractedProxy all;
+  all.of_vertex.assign(mesh.positions.size(), ContractionHistory::kIsolated);
+  all.levels.resize(history.levels.size());
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const auto first = static_cast<std::uint32_t>(all.levels.front().size());
+    const std::optional<Proxy>& proxy = results[p].proxy;
+    for (std::size_t i = 0; i < pieces[p].vertices.size(); ++i) {
+      const auto local = proxy ? proxy->of_vertex[i] : static_cast<std::uint32_t>(i);
+      all.of_vertex[pieces[p].vertices[i]] = first + local;
+    }
+    for (const Triangle& t : proxy ? proxy->mesh.triangles : pieces[p].triangles) {
+      all.mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    }
+    const auto& levels = results[p].history.levels;
+    for (std::size_t level = 0; level < all.levels.size(); ++level) {
+      const auto& from = levels[std::min(level, levels.size() - 1)];
+      all.levels[level].insert(all.levels[level].end(), from.begin(), from.end());
+    }
+  }
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    if (all.of_vertex[v] == ContractionHistory::kIsolated) {
+      all.of_vertex[v] = static_cast<std::uint32_t>(all.levels.front().size());
+      for (auto& level : all.levels) {
+        level.push_back(mesh.positions[v]);
+      }
+    }
+  }
+  all.mesh.positions = all.levels.front();
+  return all;
+}
+
+void summarise(const std::vector<PieceResult>& results, ContractionHistory& history) {
   std::size_t failed = 0;
   std::size_t regularised = 0;
   history.shrinkage.assign(history.levels.size(), 0.0);
   double vertices = 0.0;
-  for (const ComponentHistory& part : parts) {
+  for (const PieceResult& result : results) {
+    const ComponentHistory& part = result.history;
     const auto weight = static_cast<double>(part.summary.vertices);
     vertices += weight;
     for (std::size_t level = 0; level < history.levels.size(); ++level) {
@@ -163,19 +248,24 @@ ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& optio
   ContractionHistory history;
   const std::vector<Piece> pieces = cut_into_pieces(mesh, history.component_of_vertex);
   history.levels.push_back(mesh.positions);
-  std::vector<ComponentHistory> parts;
-  parts.reserve(pieces.size());
+  std::vector<PieceResult> results;
+  results.reserve(pieces.size());
   double done = 0.0;
   const auto total = static_cast<double>(mesh.positions.size());
   for (const Piece& piece : pieces) {
     const double share = static_cast<double>(piece.vertices.size()) / total;
-    parts.push_back(
+    results.push_back(
         contract_piece(mesh, piece, options, run.part(done, std::min(1.0, done + share))));
     done = std::min(1.0, done + share);
-    place(piece, parts.back(), mesh, history);
-    parts.back().levels.clear();  // now in `history`; keeps the peak at one copy
+    place(piece, results.back(), mesh, run, history);
+    if (results.back().proxy) {
+      results.back().proxy->place = {};
+    }
   }
-  summarise(parts, history);
+  if (std::any_of(results.begin(), results.end(), [](const auto& r) { return r.proxy; })) {
+    history.proxy = gather_proxy(mesh, pieces, results, history);
+  }
+  summarise(results, history);
   run.advance("contracting", 1.0);
   return history;
 }

@@ -68,6 +68,7 @@ ViewOptions preset_options(Preset preset) {
   ViewOptions options;
   options.preset = preset;
   if (preset == Preset::Paper) {
+    options.contraction.method = ContractionMethod::Exact;
     options.contraction.scaling = ContractionScaling::Box;
     options.skeleton.scaling = ContractionScaling::Box;
     options.search = {.strategy = SearchStrategy::Rapid,
@@ -84,6 +85,7 @@ std::string options_hash(const ViewOptions& options) {
   nlohmann::ordered_json json;
   json["version"] = version();
   json["preset"] = preset_name(options.preset);
+  json["contraction"] = static_cast<int>(options.contraction.method);
   json["contraction-scaling"] = static_cast<int>(options.contraction.scaling);
   echo_fields(json, options.contraction, kContractionFields);
   json["skeleton-scaling"] = static_cast<int>(options.skeleton.scaling);

@@ -79,13 +79,12 @@ void place_nodes(CurveGraph& graph, const std::vector<Vec3>& positions,
 /// Collapses the surface at its last level. Where several handles have shrunk into one another
 /// there, the order of collapses is taken from the last level at which no handle is lost; nodes
 /// stand at the mean of their vertices' last positions all the same.
-Collapsed collapse_history(const TriMesh& mesh, const ContractionHistory& history,
-                           const RunContext& run) {
-  const std::vector<double> weights = cluster_weights(mesh);
+Collapsed collapse_levels(const TriMesh& mesh, const std::vector<std::vector<Vec3>>& levels,
+                          const std::vector<double>& weights, const RunContext& run) {
   Collapsed best;
   double share = 0.0;
-  for (std::size_t level = history.levels.size(); level-- > 0;) {
-    ClusterComplex complex(mesh, history.levels[level], weights);
+  for (std::size_t level = levels.size(); level-- > 0;) {
+    ClusterComplex complex(mesh, levels[level], weights);
     Collapsed trial;
     trial.lost_handles = collapse_to_graph(complex, run.part(share, 0.5 * (1.0 + share)));
     share = 0.5 * (1.0 + share);
@@ -97,8 +96,29 @@ Collapsed collapse_history(const TriMesh& mesh, const ContractionHistory& histor
       break;
     }
   }
-  place_nodes(best.graph, history.levels.back(), weights, best.node_of_vertex);
+  place_nodes(best.graph, levels.back(), weights, best.node_of_vertex);
   return best;
+}
+
+/// Collapses the surface that was contracted: the input, or the proxy that stands for it.
+Collapsed collapse_contracted(const TriMesh& mesh, const ContractionHistory& history,
+                              const RunContext& run) {
+  const std::vector<double> weights = cluster_weights(mesh);
+  if (!history.proxy) {
+    return collapse_levels(mesh, history.levels, weights, run);
+  }
+  const ContractedProxy& proxy = *history.proxy;
+  std::vector<double> shares(proxy.mesh.positions.size(), 0.0);
+  for (std::size_t v = 0; v < weights.size(); ++v) {
+    shares[proxy.of_vertex[v]] += weights[v];
+  }
+  Collapsed collapsed = collapse_levels(proxy.mesh, proxy.levels, shares, run);
+  std::vector<std::uint32_t> node_of_vertex(weights.size());
+  for (std::size_t v = 0; v < weights.size(); ++v) {
+    node_of_vertex[v] = collapsed.node_of_vertex[proxy.of_vertex[v]];
+  }
+  collapsed.node_of_vertex = std::move(node_of_vertex);
+  return collapsed;
 }
 
 /// Whether every level, and the table of components, has an entry for each vertex.
@@ -169,7 +189,7 @@ Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history
     throw InvalidInput("the contraction history does not belong to this mesh");
   }
   Skeleton skeleton;
-  Collapsed collapsed = collapse_history(mesh, history, run.part(0.0, 0.9));
+  Collapsed collapsed = collapse_contracted(mesh, history, run.part(0.0, 0.9));
   if (collapsed.lost_handles > 0) {
     skeleton.warnings.push_back("the skeleton may have lost " +
                                 std::to_string(collapsed.lost_handles) +

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -26,8 +27,15 @@ enum class ContractionScaling {
   Box,     ///< Longest side of each component's axis-aligned box to 1.6 (the paper's).
 };
 
+/// How a surface is contracted.
+enum class ContractionMethod {
+  Auto,   ///< Large components by a decimated proxy of bounded size (ours).
+  Exact,  ///< Every component by exact solves at full resolution (the paper's).
+};
+
 /// Weights and stopping rule of contract().
 struct ContractionOptions {
+  ContractionMethod method = ContractionMethod::Auto;       ///< Proxies or not.
   ContractionScaling scaling = ContractionScaling::Sphere;  ///< Unit of the weights.
   double contraction_growth = 3.0;    ///< [s_L] factor on W_L per step (Cao; Au used 2); > 1.
   double contraction_limit = 2048.0;  ///< Largest W_L (Cao).
@@ -73,6 +81,13 @@ struct ComponentContraction {
   std::string strategy{"exact"};  ///< Which method contracted it.
 };
 
+/// A coarser surface that was contracted in place of the input.
+struct ContractedProxy {
+  TriMesh mesh{};                           ///< Of all components, also of those not decimated.
+  std::vector<std::vector<Vec3>> levels{};  ///< K + 1 levels of its vertices, model units.
+  std::vector<std::uint32_t> of_vertex{};   ///< |V| proxy vertex that each input vertex is part of.
+};
+
 /// Positions of every vertex at every level.
 struct ContractionHistory {
   /// K + 1 levels of |V| points in model units; level 0 is the input itself.
@@ -80,8 +95,9 @@ struct ContractionHistory {
   std::vector<double> shrinkage{};  ///< [a_t] per level, area-ratio mean; 1 at level 0.
   std::vector<ComponentContraction> components{};  ///< Ordered by lowest vertex index.
   std::vector<std::uint32_t>
-      component_of_vertex{};            ///< |V| indices into `components`, or kIsolated.
-  std::vector<std::string> warnings{};  ///< One sentence each.
+      component_of_vertex{};               ///< |V| indices into `components`, or kIsolated.
+  std::vector<std::string> warnings{};     ///< One sentence each.
+  std::optional<ContractedProxy> proxy{};  ///< If some component was contracted by a proxy.
 
   /// Marks vertices that no face names; they stay where they are.
   static constexpr std::uint32_t kIsolated = 0xffffffffu;
@@ -90,7 +106,7 @@ struct ContractionHistory {
   [[nodiscard]] std::size_t level_count() const { return levels.empty() ? 0 : levels.size() - 1; }
 };
 
-/// Contracts each connected component of `mesh` by itself, by exact solves at full resolution.
+/// Contracts each connected component of `mesh` by itself, as options.method says.
 /// Connectivity is unchanged: vertex i of every level is vertex i of the input. Commutes with
 /// similarity transforms of the input up to rounding. Coincident vertices should be welded first.
 ///
