@@ -143,6 +143,7 @@ void MethodFlags::add_map_flags(CLI::App& app) {
       ->check(CLI::IsMember({"raw", "finished"}))
       ->default_str("raw")
       ->group("Method");
+  add_numbers(app, "Method", &ViewOptions::kssm, kKssmFields);
 }
 
 void MethodFlags::add_camera_flags(CLI::App& app) {

@@ -106,7 +106,8 @@ class StepSolver {
   /// not finite.
   std::optional<std::vector<Vec3>> solve(const TriMesh& now, double W_L,
                                          const std::vector<double>& W_H,
-                                         const ContractionOptions& options, int harshness) {
+                                         const ContractionOptions& options, int harshness,
+                                         const RunContext& run) {
     const Eigen::SparseMatrix<double>& L =
         laplacian_.assemble(now.positions, limits_of(options, harshness));
     const bool first = !normal_;
@@ -134,9 +135,9 @@ class StepSolver {
       }
     }
     if (first) {
-      cholesky_.analyze(A);
+      cholesky_.analyze(A, run);
     }
-    if (!cholesky_.factorize(A)) {
+    if (!cholesky_.factorize(A, run)) {
       return std::nullopt;
     }
     const Eigen::MatrixX3d X = cholesky_.solve(B);
@@ -219,7 +220,7 @@ ComponentHistory contract_component(const TriMesh& scaled, const ContractionOpti
     // at the first step: a surface that can be contracted must not be left at level 0.
     for (; harshness <= kHarshest; ++harshness) {
       run.check();
-      auto solved = solver.solve(now, W_L, W_H, options, harshness);
+      auto solved = solver.solve(now, W_L, W_H, options, harshness, run);
       attempt.failure = solved ? ContractionStop::Grew : ContractionStop::SolverFailed;
       if (solved) {
         attempt.positions = std::move(*solved);

@@ -11,6 +11,7 @@
 
 #include "contraction/component_contraction.h"
 #include "contraction/proxy.h"
+#include "contraction/refinement.h"
 #include "core/parallel.h"
 
 namespace vantage {
@@ -76,8 +77,8 @@ std::vector<Piece> cut_into_pieces(const TriMesh& mesh, std::vector<std::uint32_
 
 /// Components of more vertices are contracted by a proxy of at most this many [ours; trials in
 /// docs/contraction.md].
-constexpr std::size_t kProxyFrom = 25'000;
-constexpr std::size_t kProxySize = 12'500;
+constexpr std::size_t kProxyFrom = 20'000;
+constexpr std::size_t kProxySize = 10'000;
 /// A proxy must be smaller than this share of its component to be worth it.
 constexpr double kProxyShare = 0.7;
 
@@ -158,41 +159,6 @@ void place(const Piece& piece, const PieceResult& result, const TriMesh& mesh,
   }
 }
 
-/// Gathers the surfaces that were contracted, piece after piece, then isolated vertices.
-ContractedProxy gather_proxy(const TriMesh& mesh, const std::vector<Piece>& pieces,
-                             const std::vector<PieceResult>& results,
-                             const ContractionHistory& history) {
-  ContractedProxy all;
-  all.of_vertex.assign(mesh.positions.size(), ContractionHistory::kIsolated);
-  all.levels.resize(history.levels.size());
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    const auto first = static_cast<std::uint32_t>(all.levels.front().size());
-    const std::optional<Proxy>& proxy = results[p].proxy;
-    for (std::size_t i = 0; i < pieces[p].vertices.size(); ++i) {
-      const auto local = proxy ? proxy->of_vertex[i] : static_cast<std::uint32_t>(i);
-      all.of_vertex[pieces[p].vertices[i]] = first + local;
-    }
-    for (const Triangle& t : proxy ? proxy->mesh.triangles : pieces[p].triangles) {
-      all.mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-    }
-    const auto& levels = results[p].history.levels;
-    for (std::size_t level = 0; level < all.levels.size(); ++level) {
-      const auto& from = levels[std::min(level, levels.size() - 1)];
-      all.levels[level].insert(all.levels[level].end(), from.begin(), from.end());
-    }
-  }
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    if (all.of_vertex[v] == ContractionHistory::kIsolated) {
-      all.of_vertex[v] = static_cast<std::uint32_t>(all.levels.front().size());
-      for (auto& level : all.levels) {
-        level.push_back(mesh.positions[v]);
-      }
-    }
-  }
-  all.mesh.positions = all.levels.front();
-  return all;
-}
-
 void summarise(const std::vector<PieceResult>& results, ContractionHistory& history) {
   std::size_t failed = 0;
   std::size_t regularised = 0;
@@ -224,6 +190,54 @@ void summarise(const std::vector<PieceResult>& results, ContractionHistory& hist
   }
 }
 
+ContractionHistory contract_pieces(const TriMesh& mesh, const ContractionOptions& options,
+                                   const RunContext& run) {
+  ContractionHistory history;
+  const std::vector<Piece> pieces = cut_into_pieces(mesh, history.component_of_vertex);
+  history.levels.push_back(mesh.positions);
+  std::vector<PieceResult> results;
+  results.reserve(pieces.size());
+  double done = 0.0;
+  const auto total = static_cast<double>(mesh.positions.size());
+  for (const Piece& piece : pieces) {
+    const double share = static_cast<double>(piece.vertices.size()) / total;
+    results.push_back(
+        contract_piece(mesh, piece, options, run.part(done, std::min(1.0, done + share))));
+    done = std::min(1.0, done + share);
+    place(piece, results.back(), mesh, run, history);
+    results.back().proxy.reset();  // now in `history`; keeps the peak at one copy
+    results.back().history.levels.clear();
+  }
+  summarise(results, history);
+  run.advance("contracting", 1.0);
+  return history;
+}
+
+/// The history of the vertices of `mesh`, which come first in the refined surface.
+ContractionHistory of_refined(const TriMesh& mesh, TriMesh refined,
+                              const ContractionOptions& options, const RunContext& run) {
+  ContractionHistory history = contract_pieces(refined, options, run);
+  const std::size_t n = mesh.positions.size();
+  std::vector<std::size_t> added(history.components.size(), 0);
+  for (std::size_t v = n; v < refined.positions.size(); ++v) {
+    ++added[history.component_of_vertex[v]];
+  }
+  for (std::size_t c = 0; c < added.size(); ++c) {
+    ComponentContraction& component = history.components[c];
+    if (added[c] > 0) {
+      component.strategy = "refined " + std::to_string(component.vertices);
+      component.vertices -= added[c];
+    }
+  }
+  ContractedRefinement all{std::move(refined), history.levels, history.component_of_vertex};
+  for (auto& level : history.levels) {
+    level.resize(n);
+  }
+  history.component_of_vertex.resize(n);
+  history.refinement = std::move(all);
+  return history;
+}
+
 }  // namespace
 
 std::string_view stop_name(ContractionStop stop) {
@@ -245,29 +259,12 @@ std::string_view stop_name(ContractionStop stop) {
 ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& options,
                             const RunContext& run) {
   check_fields(options, kContractionFields);
-  ContractionHistory history;
-  const std::vector<Piece> pieces = cut_into_pieces(mesh, history.component_of_vertex);
-  history.levels.push_back(mesh.positions);
-  std::vector<PieceResult> results;
-  results.reserve(pieces.size());
-  double done = 0.0;
-  const auto total = static_cast<double>(mesh.positions.size());
-  for (const Piece& piece : pieces) {
-    const double share = static_cast<double>(piece.vertices.size()) / total;
-    results.push_back(
-        contract_piece(mesh, piece, options, run.part(done, std::min(1.0, done + share))));
-    done = std::min(1.0, done + share);
-    place(piece, results.back(), mesh, run, history);
-    if (results.back().proxy) {
-      results.back().proxy->place = {};
+  if (options.method == ContractionMethod::Auto) {
+    if (std::optional<TriMesh> refined = refine_coarse_components(mesh, run)) {
+      return of_refined(mesh, std::move(*refined), options, run);
     }
   }
-  if (std::any_of(results.begin(), results.end(), [](const auto& r) { return r.proxy; })) {
-    history.proxy = gather_proxy(mesh, pieces, results, history);
-  }
-  summarise(results, history);
-  run.advance("contracting", 1.0);
-  return history;
+  return contract_pieces(mesh, options, run);
 }
 
 }  // namespace vantage

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -33,8 +34,6 @@ constexpr double kPassShare = 0.4;
 /// A pass that removes less than this share of the vertices ends the decimation: what is left must
 /// not collapse, and more passes would only crawl.
 constexpr double kLeastProgress = 1e-3;
-/// Largest number of neighbours a collapse may leave.
-constexpr std::size_t kLargestRing = 14;
 constexpr std::size_t kGrain = 4096;  // edges or vertices a task
 constexpr std::uint32_t kNoVertex = 0xffffffffu;
 
@@ -94,23 +93,104 @@ struct Candidate {
   std::uint32_t b = 0;
 };
 
+/// Cost and place of a collapse by quadric error.
+class ByQuadric {
+ public:
+  static constexpr bool kMayTurn = false;
+  static constexpr std::size_t kLargestRing = 14;  // neighbours a collapse may leave
+
+  explicit ByQuadric(const TriMesh& mesh) : quadrics_(mesh.positions.size()) {
+    for (const Triangle& t : mesh.triangles) {
+      const Vec3 normal = area_vector(mesh, t);
+      const double twice = normal.norm();
+      if (twice > 0.0) {
+        for (const std::uint32_t v : t) {
+          quadrics_[v].add_plane(normal / twice, mesh.positions[v], 0.5 * twice);
+        }
+      }
+    }
+    const EdgeTable table = build_edge_table(mesh);
+    for (std::size_t e = 0; e < table.edges.size(); ++e) {
+      if (table.faces_of_edge[e].size() == 1) {
+        add_border(table.edges[e], mesh.triangles[table.faces_of_edge[e][0]], mesh);
+      }
+    }
+  }
+
+  [[nodiscard]] Vec3 place(std::uint32_t a, std::uint32_t b, const std::vector<Vec3>& x) const {
+    return joint(a, b).best_point(0.5 * (x[a] + x[b]));
+  }
+
+  [[nodiscard]] double cost(std::uint32_t a, std::uint32_t b, const std::vector<Vec3>& x) const {
+    const Quadric sum = joint(a, b);
+    return sum.error(sum.best_point(0.5 * (x[a] + x[b]))) +
+           kEvenness * sum.weight * (x[a] - x[b]).squaredNorm();
+  }
+
+  void merge(std::uint32_t a, std::uint32_t b) { quadrics_[a] += quadrics_[b]; }
+
+ private:
+  [[nodiscard]] Quadric joint(std::uint32_t a, std::uint32_t b) const {
+    Quadric sum = quadrics_[a];
+    sum += quadrics_[b];
+    return sum;
+  }
+
+  void add_border(const std::array<std::uint32_t, 2>& edge, const Triangle& face,
+                  const TriMesh& mesh) {
+    const Vec3 along = mesh.positions[edge[1]] - mesh.positions[edge[0]];
+    const Vec3 normal = along.cross(area_vector(mesh, face));
+    const double length = normal.norm();
+    if (length > 0.0) {
+      for (const std::uint32_t v : edge) {
+        quadrics_[v].add_plane(normal / length, mesh.positions[v], kBorder * along.squaredNorm());
+      }
+    }
+  }
+
+  std::vector<Quadric> quadrics_;
+};
+
+/// Cost and place of a collapse by length.
+class ByLength {
+ public:
+  static constexpr bool kMayTurn = true;
+  static constexpr std::size_t kLargestRing = 32;  // neighbours a collapse may leave
+
+  explicit ByLength(std::vector<double> weights) : weights_(std::move(weights)) {}
+
+  [[nodiscard]] Vec3 place(std::uint32_t a, std::uint32_t b, const std::vector<Vec3>& x) const {
+    return (weights_[a] * x[a] + weights_[b] * x[b]) / (weights_[a] + weights_[b]);
+  }
+
+  [[nodiscard]] static double cost(std::uint32_t a, std::uint32_t b, const std::vector<Vec3>& x) {
+    return (x[a] - x[b]).squaredNorm();
+  }
+
+  void merge(std::uint32_t a, std::uint32_t b) { weights_[a] += weights_[b]; }
+
+ private:
+  std::vector<double> weights_;
+};
+
+template <class Policy>
 class Decimator {
  public:
-  Decimator(const TriMesh& fine, const RunContext& run)
+  Decimator(const TriMesh& fine, Policy policy, const RunContext& run)
       : run_(run),
         mesh_(fine),
-        quadrics_(fine.positions.size()),
+        policy_(std::move(policy)),
         parent_(fine.positions.size()),
         live_(fine.positions.size()) {
     std::iota(parent_.begin(), parent_.end(), 0U);
-    add_quadrics();
   }
 
-  void reduce_to(std::size_t target) {
+  /// Collapses until `target` vertices are left, no edge that may go costs less than `limit`.
+  void reduce_to(std::size_t target, double limit) {
     while (live_ > target) {
       run_.check();
       const std::size_t before = live_;
-      pass(target);
+      pass(target, limit);
       if (static_cast<double>(before - live_) < kLeastProgress * static_cast<double>(before)) {
         break;
       }
@@ -136,35 +216,6 @@ class Decimator {
   }
 
  private:
-  void add_quadrics() {
-    for (const Triangle& t : mesh_.triangles) {
-      const Vec3 normal = area_vector(mesh_, t);
-      const double twice = normal.norm();
-      if (twice > 0.0) {
-        for (const std::uint32_t v : t) {
-          quadrics_[v].add_plane(normal / twice, mesh_.positions[v], 0.5 * twice);
-        }
-      }
-    }
-    const EdgeTable table = build_edge_table(mesh_);
-    for (std::size_t e = 0; e < table.edges.size(); ++e) {
-      if (table.faces_of_edge[e].size() == 1) {
-        add_border(table.edges[e], mesh_.triangles[table.faces_of_edge[e][0]]);
-      }
-    }
-  }
-
-  void add_border(const std::array<std::uint32_t, 2>& edge, const Triangle& face) {
-    const Vec3 along = mesh_.positions[edge[1]] - mesh_.positions[edge[0]];
-    const Vec3 normal = along.cross(area_vector(mesh_, face));
-    const double length = normal.norm();
-    if (length > 0.0) {
-      for (const std::uint32_t v : edge) {
-        quadrics_[v].add_plane(normal / length, mesh_.positions[v], kBorder * along.squaredNorm());
-      }
-    }
-  }
-
   std::uint32_t root_of(std::uint32_t v) {
     while (parent_[v] != v) {
       parent_[v] = parent_[parent_[v]];
@@ -176,15 +227,7 @@ class Decimator {
   /// A vertex as it stands within a pass: ends of collapsed edges move at most once.
   [[nodiscard]] std::uint32_t now(std::uint32_t v) const { return parent_[v]; }
 
-  [[nodiscard]] double cost_of(std::uint32_t a, std::uint32_t b) const {
-    Quadric sum = quadrics_[a];
-    sum += quadrics_[b];
-    const Vec3 at = sum.best_point(0.5 * (mesh_.positions[a] + mesh_.positions[b]));
-    return sum.error(at) +
-           kEvenness * sum.weight * (mesh_.positions[a] - mesh_.positions[b]).squaredNorm();
-  }
-
-  std::vector<Candidate> cheapest_edges() {
+  std::vector<Candidate> cheapest_edges(double limit) {
     std::vector<Candidate> edges;
     edges.reserve(3 * mesh_.triangles.size() / 2 + 16);
     for (std::size_t v = 0; v + 1 < faces_.offsets.size(); ++v) {
@@ -204,25 +247,25 @@ class Decimator {
     }
     parallel_for(run_, edges.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t e = begin; e < end; ++e) {
-        edges[e].cost = static_cast<float>(cost_of(edges[e].a, edges[e].b));
+        edges[e].cost = static_cast<float>(policy_.cost(edges[e].a, edges[e].b, mesh_.positions));
       }
     });
     const auto cheaper = [](const Candidate& x, const Candidate& y) {
       return std::tie(x.cost, x.a, x.b) < std::tie(y.cost, y.a, y.b);
     };
+    std::erase_if(edges, [&](const Candidate& edge) { return !(edge.cost < limit); });
     const auto wanted = static_cast<std::ptrdiff_t>(kPassShare * static_cast<double>(edges.size()));
-    const auto middle = edges.begin() + std::max<std::ptrdiff_t>(wanted, 1);
-    if (middle < edges.end()) {
-      std::nth_element(edges.begin(), middle, edges.end(), cheaper);
-      edges.erase(middle, edges.end());
+    if (wanted > 0) {
+      std::nth_element(edges.begin(), edges.begin() + wanted, edges.end(), cheaper);
+      edges.resize(static_cast<std::size_t>(wanted));
     }
     std::sort(edges.begin(), edges.end(), cheaper);
     return edges;
   }
 
-  void pass(std::size_t target) {
+  void pass(std::size_t target, double limit) {
     faces_ = vertex_faces(mesh_);
-    const std::vector<Candidate> edges = cheapest_edges();
+    const std::vector<Candidate> edges = cheapest_edges(limit);
     moved_.assign(mesh_.positions.size(), false);
     for (const Candidate& edge : edges) {
       if (live_ <= target) {
@@ -239,14 +282,12 @@ class Decimator {
     if (!keeps_topology(a, b)) {
       return;
     }
-    Quadric sum = quadrics_[a];
-    sum += quadrics_[b];
-    const Vec3 at = sum.best_point(0.5 * (mesh_.positions[a] + mesh_.positions[b]));
-    if (turns_a_face(a, b, at) || turns_a_face(b, a, at)) {
+    const Vec3 at = policy_.place(a, b, mesh_.positions);
+    if (!Policy::kMayTurn && (turns_a_face(a, b, at) || turns_a_face(b, a, at))) {
       return;
     }
     mesh_.positions[a] = at;
-    quadrics_[a] = sum;
+    policy_.merge(a, b);
     parent_[b] = a;
     moved_[a] = true;
     moved_[b] = true;
@@ -313,7 +354,7 @@ class Decimator {
     }
     // A tetrahedron, or faces back to back: the common neighbours themselves make an edge of both.
     const std::size_t ring = distinct - 2 - static_cast<std::size_t>(common);
-    return ring >= 3 && ring <= kLargestRing;
+    return ring >= 3 && ring <= Policy::kLargestRing;
   }
 
   /// Whether moving `v` to `at` turns one of its faces that do not hold `other`.
@@ -356,7 +397,7 @@ class Decimator {
 
   const RunContext& run_;
   TriMesh mesh_;
-  std::vector<Quadric> quadrics_;
+  Policy policy_;
   std::vector<std::uint32_t> parent_;
   std::size_t live_;
   IndexLists faces_{};
@@ -368,8 +409,15 @@ class Decimator {
 }  // namespace
 
 Decimation decimate(const TriMesh& fine, std::size_t target, const RunContext& run) {
-  Decimator decimator(fine, run);
-  decimator.reduce_to(target);
+  Decimator decimator(fine, ByQuadric(fine), run);
+  decimator.reduce_to(target, std::numeric_limits<double>::infinity());
+  return decimator.result();
+}
+
+Decimation merge_short_edges(const TriMesh& fine, const std::vector<double>& weights,
+                             double longest, const RunContext& run) {
+  Decimator decimator(fine, ByLength(weights), run);
+  decimator.reduce_to(0, longest * longest);
   return decimator.result();
 }
 

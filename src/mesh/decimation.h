@@ -27,4 +27,10 @@ struct Decimation {
 /// \pre every vertex belongs to a face, no face names a vertex twice. \throw Cancelled
 Decimation decimate(const TriMesh& fine, std::size_t target, const RunContext& run);
 
+/// Collapses edges shorter than `longest`, shortest first, under the same condition on neighbours;
+/// faces may turn over. Merged vertices stand at their weighted mean.
+/// \param weights |V| shares, > 0. Vertices without faces stay. \throw Cancelled
+Decimation merge_short_edges(const TriMesh& fine, const std::vector<double>& weights,
+                             double longest, const RunContext& run);
+
 }  // namespace vantage

@@ -71,6 +71,7 @@ ViewOptions preset_options(Preset preset) {
     options.contraction.method = ContractionMethod::Exact;
     options.contraction.scaling = ContractionScaling::Box;
     options.skeleton.scaling = ContractionScaling::Box;
+    options.kssm.flat_level = 0.0;
     options.search = {.strategy = SearchStrategy::Rapid,
                       .base = ViewSphereBase::Cube,
                       .subdivisions = 0,
@@ -95,6 +96,7 @@ std::string options_hash(const ViewOptions& options) {
   json["suppression"] = static_cast<int>(options.kssm.suppression);
   json["kinematics"] = static_cast<int>(options.kssm.kinematics);
   json["area-weighted-mean"] = options.kssm.area_weighted_mean;
+  echo_fields(json, options.kssm, kKssmFields);
   json["finished-graph"] = options.kssm_to_finished_graph;
   json["search"] = strategy_name(options.search.strategy);
   json["base"] = base_name(options.search.base);

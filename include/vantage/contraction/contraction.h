@@ -29,7 +29,7 @@ enum class ContractionScaling {
 
 /// How a surface is contracted.
 enum class ContractionMethod {
-  Auto,   ///< Large components by a decimated proxy of bounded size (ours).
+  Auto,   ///< Large components by a decimated proxy, those of few huge faces refined (ours).
   Exact,  ///< Every component by exact solves at full resolution (the paper's).
 };
 
@@ -81,11 +81,11 @@ struct ComponentContraction {
   std::string strategy{"exact"};  ///< Which method contracted it.
 };
 
-/// A coarser surface that was contracted in place of the input.
-struct ContractedProxy {
-  TriMesh mesh{};                           ///< Of all components, also of those not decimated.
-  std::vector<std::vector<Vec3>> levels{};  ///< K + 1 levels of its vertices, model units.
-  std::vector<std::uint32_t> of_vertex{};   ///< |V| proxy vertex that each input vertex is part of.
+/// A finer surface that was contracted in place of the input; the input's vertices come first.
+struct ContractedRefinement {
+  TriMesh mesh{};                                    ///< The same surface with more vertices.
+  std::vector<std::vector<Vec3>> levels{};           ///< K + 1 levels of its vertices, model units.
+  std::vector<std::uint32_t> component_of_vertex{};  ///< As in ContractionHistory.
 };
 
 /// Positions of every vertex at every level.
@@ -95,9 +95,10 @@ struct ContractionHistory {
   std::vector<double> shrinkage{};  ///< [a_t] per level, area-ratio mean; 1 at level 0.
   std::vector<ComponentContraction> components{};  ///< Ordered by lowest vertex index.
   std::vector<std::uint32_t>
-      component_of_vertex{};               ///< |V| indices into `components`, or kIsolated.
-  std::vector<std::string> warnings{};     ///< One sentence each.
-  std::optional<ContractedProxy> proxy{};  ///< If some component was contracted by a proxy.
+      component_of_vertex{};            ///< |V| indices into `components`, or kIsolated.
+  std::vector<std::string> warnings{};  ///< One sentence each.
+  /// If some component was made of few huge faces.
+  std::optional<ContractedRefinement> refinement{};
 
   /// Marks vertices that no face names; they stay where they are.
   static constexpr std::uint32_t kIsolated = 0xffffffffu;
