@@ -71,8 +71,12 @@ void MethodFlags::add_to(CLI::App& app, const FlagGroups& groups) {
       ->capture_default_str()
       ->group("Method");
   app.add_option_function<std::string>(
-         "--contraction", [](const std::string&) {},
-         "how the surface is contracted; auto is exact in this version")
+         "--contraction",
+         [this](const std::string& name) {
+           const auto method = name == "exact" ? ContractionMethod::Exact : ContractionMethod::Auto;
+           overrides_.emplace_back([method](ViewOptions& o) { o.contraction.method = method; });
+         },
+         "how the surface is contracted: large components by a decimated proxy, or all exactly")
       ->check(CLI::IsMember({"auto", "exact"}))
       ->default_str("auto")
       ->group("Method");
@@ -148,6 +152,7 @@ void MethodFlags::add_map_flags(CLI::App& app) {
       ->check(CLI::IsMember({"raw", "finished"}))
       ->default_str("raw")
       ->group("Method");
+  add_numbers(app, "Method", &ViewOptions::kssm, kKssmFields);
 }
 
 void MethodFlags::add_camera_flags(CLI::App& app) {

@@ -13,6 +13,7 @@
 #include "vantage/operators/cotangent_laplacian.h"
 
 #include "operators/sparse_cholesky.h"
+#include "operators/step_matrix.h"
 
 namespace vantage {
 namespace {
@@ -35,8 +36,8 @@ constexpr double kFirstShift = 1e-14;  // relative to the largest diagonal entry
 /// Area ratios of faces, then of vertices, against the start.
 class AreaRatios {
  public:
-  explicit AreaRatios(const TriMesh& start)
-      : start_(face_areas(start)), faces_of_vertex_(vertex_faces(start)) {
+  AreaRatios(const TriMesh& start, const FineShares& shares)
+      : start_(face_areas(start)), faces_of_vertex_(vertex_faces(start)), shares_(shares) {
     double mean = 0.0;
     for (const double area : start_) {
       mean += area;
@@ -54,7 +55,7 @@ class AreaRatios {
     const std::vector<double> areas = face_areas(now);
     std::vector<double> ratio(faces_of_vertex_.size(), -1.0);
     double sum = 0.0;
-    std::size_t counted = 0;
+    double counted = 0.0;
     for (std::size_t v = 0; v < ratio.size(); ++v) {
       double total = 0.0;
       int faces = 0;
@@ -65,12 +66,13 @@ class AreaRatios {
         }
       }
       if (faces > 0) {
-        ratio[v] = total / faces;
-        sum += ratio[v];
-        ++counted;
+        const double count = shares_.empty() ? 1.0 : shares_.count[v];
+        ratio[v] = total / faces * (shares_.empty() ? 1.0 : shares_.area[v]);
+        sum += count * ratio[v];
+        counted += count;
       }
     }
-    const double mean = counted > 0 ? sum / static_cast<double>(counted) : 0.0;
+    const double mean = counted > 0.0 ? sum / counted : 0.0;
     for (double& r : ratio) {
       r = r < 0.0 ? mean : r;
     }
@@ -80,6 +82,7 @@ class AreaRatios {
  private:
   std::vector<double> start_;
   IndexLists faces_of_vertex_;
+  const FineShares& shares_;
   double smallest_ = 0.0;
   double mean_area_ = 0.0;
 };
@@ -96,26 +99,34 @@ LaplacianLimits limits_of(const ContractionOptions& options, int harshness) {
 /// One step of the iteration: minimise |W_L L X'|² + Σ W_H,i² |x'_i − x_i|² by its normal equations.
 class StepSolver {
  public:
+  StepSolver(const TriMesh& start, const FineShares& shares)
+      : shares_(shares), laplacian_(start.positions.size(), start.triangles) {}
+
   /// Positions after the step, or nothing if the system is not positive definite or the result is
   /// not finite.
   std::optional<std::vector<Vec3>> solve(const TriMesh& now, double W_L,
                                          const std::vector<double>& W_H,
-                                         const ContractionOptions& options, int harshness) {
-    const Eigen::SparseMatrix<double> L =
-        cotangent_laplacian(now.positions, now.triangles, limits_of(options, harshness));
-    Eigen::SparseMatrix<double> A = Eigen::SparseMatrix<double>(L.transpose()) * L;
-    A *= W_L * W_L;
+                                         const ContractionOptions& options, int harshness,
+                                         const RunContext& run) {
+    const Eigen::SparseMatrix<double>& L =
+        laplacian_.assemble(now.positions, limits_of(options, harshness));
+    const bool first = !normal_;
+    if (first) {
+      normal_.emplace(L);
+    }
     const auto n = static_cast<Eigen::Index>(now.positions.size());
     Eigen::MatrixX3d B(n, 3);
-    double largest = 0.0;
+    Eigen::VectorXd rows(n);
+    Eigen::VectorXd held(n);
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto v = static_cast<std::size_t>(i);
-      const double squared = W_H[v] * W_H[v];
-      double& diagonal = A.coeffRef(i, i);
-      diagonal += squared;
-      largest = std::max(largest, diagonal);
-      B.row(i) = squared * now.positions[v].transpose();
+      const double count = shares_.empty() ? 1.0 : shares_.count[v];
+      rows[i] = W_L * W_L / count;
+      held[i] = count * W_H[v] * W_H[v];
+      B.row(i) = held[i] * now.positions[v].transpose();
     }
+    Eigen::SparseMatrix<double>& A = normal_->assemble(L, rows, held);
+    const double largest = A.diagonal().maxCoeff();
     if (harshness > kGentlest + 1) {
       const double shift = largest * kFirstShift * std::pow(100.0, harshness - kGentlest - 2);
       for (Eigen::Index i = 0; i < n; ++i) {
@@ -123,11 +134,10 @@ class StepSolver {
         B.row(i) += shift * now.positions[static_cast<std::size_t>(i)].transpose();
       }
     }
-    if (!analysed_) {
-      cholesky_.analyze(A);
-      analysed_ = true;
+    if (first) {
+      cholesky_.analyze(A, run);
     }
-    if (!cholesky_.factorize(A)) {
+    if (!cholesky_.factorize(A, run)) {
       return std::nullopt;
     }
     const Eigen::MatrixX3d X = cholesky_.solve(B);
@@ -142,8 +152,10 @@ class StepSolver {
   }
 
  private:
+  const FineShares& shares_;
+  LaplacianAssembler laplacian_;
+  std::optional<NormalMatrix> normal_{};
   SparseCholesky cholesky_{};
-  bool analysed_ = false;
 };
 
 /// What a step must not outgrow.
@@ -181,19 +193,20 @@ struct Attempt {
 }  // namespace
 
 ComponentHistory contract_component(const TriMesh& scaled, const ContractionOptions& options,
-                                    const RunContext& run) {
+                                    const RunContext& run, const FineShares& shares) {
   ComponentHistory history;
   history.summary.vertices = scaled.positions.size();
   history.levels.push_back(scaled.positions);
   history.shrinkage.push_back(1.0);
-  const AreaRatios ratios(scaled);
+  const AreaRatios ratios(scaled, shares);
   if (!(ratios.mean_area() > 0.0)) {
     return history;
   }
   const Bounds bounds(scaled.positions);
   TriMesh now = scaled;
-  StepSolver solver;
-  double W_L = 1.0 / (10.0 * std::sqrt(ratios.mean_area()));
+  StepSolver solver(scaled, shares);
+  double W_L =
+      1.0 / (10.0 * std::sqrt(shares.empty() ? ratios.mean_area() : shares.mean_face_area));
   std::vector<double> W_H(scaled.positions.size(), 1.0);
   int harshness = kGentlest;
   history.summary.stop = ContractionStop::StepLimit;
@@ -207,7 +220,7 @@ ComponentHistory contract_component(const TriMesh& scaled, const ContractionOpti
     // at the first step: a surface that can be contracted must not be left at level 0.
     for (; harshness <= kHarshest; ++harshness) {
       run.check();
-      auto solved = solver.solve(now, W_L, W_H, options, harshness);
+      auto solved = solver.solve(now, W_L, W_H, options, harshness, run);
       attempt.failure = solved ? ContractionStop::Grew : ContractionStop::SolverFailed;
       if (solved) {
         attempt.positions = std::move(*solved);

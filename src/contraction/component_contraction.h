@@ -17,9 +17,19 @@ struct ComponentHistory {
   ComponentContraction summary{};
 };
 
+/// What the vertices of a coarse surface stand for on the fine one, so that its steps are those of
+/// the fine one (docs/contraction.md). Empty: each vertex stands for itself.
+struct FineShares {
+  std::vector<double> count{};  ///< Fine vertices that each vertex stands for; > 0.
+  std::vector<double> area{};   ///< Coarse over fine area around each vertex; > 0.
+  double mean_face_area = 0.0;  ///< Of the fine surface.
+
+  [[nodiscard]] bool empty() const { return count.empty(); }
+};
+
 /// Contracts one component already scaled as options.scaling says (docs/contraction.md).
 /// \pre every vertex belongs to a face, no face names a vertex twice. \throw Cancelled
 ComponentHistory contract_component(const TriMesh& scaled, const ContractionOptions& options,
-                                    const RunContext& run);
+                                    const RunContext& run, const FineShares& shares = {});
 
 }  // namespace vantage

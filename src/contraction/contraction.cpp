@@ -2,17 +2,24 @@
 #include "vantage/contraction/contraction.h"
 
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 
 #include "contraction/component_contraction.h"
+#include "contraction/proxy.h"
+#include "contraction/refinement.h"
+#include "core/parallel.h"
 
 namespace vantage {
 namespace {
 
-constexpr double kSphereSide = 2.0;  // ours: D = 2
-constexpr double kBoxSide = 1.6;     // Cao 2010: the longest side of the box
+constexpr std::size_t kGrain = 8192;  // vertices a task
+constexpr double kSphereSide = 2.0;   // ours: D = 2
+constexpr double kBoxSide = 1.6;      // Cao 2010: the longest side of the box
 
 /// One component cut out of the mesh, and where its vertices came from.
 struct Piece {
@@ -68,9 +75,34 @@ std::vector<Piece> cut_into_pieces(const TriMesh& mesh, std::vector<std::uint32_
   return pieces;
 }
 
-ComponentHistory contract_piece(const TriMesh& mesh, const Piece& piece,
-                                const ContractionOptions& options, const RunContext& run) {
+/// Components of more vertices are contracted by a proxy of at most this many [ours; trials in
+/// docs/contraction.md].
+constexpr std::size_t kProxyFrom = 20'000;
+constexpr std::size_t kProxySize = 10'000;
+/// A proxy must be smaller than this share of its component to be worth it.
+constexpr double kProxyShare = 0.7;
+
+/// What one piece's contraction gave, in model units.
+struct PieceResult {
+  ComponentHistory history{};
+  std::optional<Proxy> proxy{};  ///< What `history` is of, if not of the piece itself.
+};
+
+ComponentHistory contract_scaled(const TriMesh& scaled, const std::optional<Proxy>& proxy,
+                                 const ContractionOptions& options, const RunContext& run) {
+  if (!proxy) {
+    return contract_component(scaled, options, run);
+  }
+  ComponentHistory history = contract_component(proxy->mesh, options, run, proxy->shares);
+  history.summary.vertices = scaled.positions.size();
+  history.summary.strategy = "proxy " + std::to_string(proxy->mesh.positions.size());
+  return history;
+}
+
+PieceResult contract_piece(const TriMesh& mesh, const Piece& piece,
+                           const ContractionOptions& options, const RunContext& run) {
   TriMesh scaled{.positions = {}, .triangles = piece.triangles};
+  scaled.positions.reserve(piece.vertices.size());
   for (const std::uint32_t v : piece.vertices) {
     scaled.positions.push_back(mesh.positions[v]);
   }
@@ -79,42 +111,61 @@ ComponentHistory contract_piece(const TriMesh& mesh, const Piece& piece,
     p = (p - scaling.centre) * scaling.factor;
   }
   if (scaled.triangles.empty()) {
-    return {.levels = {scaled.positions},
-            .shrinkage = {1.0},
-            .summary = {.vertices = scaled.positions.size()}};
+    return {{.levels = {scaled.positions},
+             .shrinkage = {1.0},
+             .summary = {.vertices = scaled.positions.size()}},
+            {}};
   }
-  ComponentHistory history = contract_component(scaled, options, run);
-  for (auto& level : history.levels) {
+  PieceResult result;
+  const std::size_t n = piece.vertices.size();
+  if (options.method == ContractionMethod::Auto && n > kProxyFrom) {
+    Proxy proxy = make_proxy(scaled, kProxySize, run);
+    if (static_cast<double>(proxy.mesh.positions.size()) < kProxyShare * static_cast<double>(n)) {
+      result.proxy = std::move(proxy);
+    }
+  }
+  result.history = contract_scaled(scaled, result.proxy, options, run);
+  if (result.proxy && result.history.summary.steps == 0) {
+    result.proxy.reset();
+    result.history = contract_scaled(scaled, result.proxy, options, run);
+  }
+  for (auto& level : result.history.levels) {
     for (Vec3& p : level) {
       p = p / scaling.factor + scaling.centre;
     }
   }
-  return history;
+  return result;
 }
 
 /// Writes a piece's levels into the history of all vertices, adding levels as needed.
-void place(const Piece& piece, const ComponentHistory& part, const TriMesh& mesh,
-           ContractionHistory& history) {
-  while (history.levels.size() < part.levels.size()) {
+void place(const Piece& piece, const PieceResult& result, const TriMesh& mesh,
+           const RunContext& run, ContractionHistory& history) {
+  const auto& levels = result.history.levels;
+  while (history.levels.size() < levels.size()) {
     history.levels.push_back(history.levels.empty() ? mesh.positions : history.levels.back());
   }
+  if (levels.size() == 1) {
+    return;  // stays at its exact input position
+  }
   for (std::size_t level = 1; level < history.levels.size(); ++level) {
-    const auto& from = part.levels[std::min(level, part.levels.size() - 1)];
-    if (part.levels.size() == 1) {
-      continue;  // stays at its exact input position
-    }
-    for (std::size_t i = 0; i < piece.vertices.size(); ++i) {
-      history.levels[level][piece.vertices[i]] = from[i];
-    }
+    const auto& from = levels[std::min(level, levels.size() - 1)];
+    auto& to = history.levels[level];
+    parallel_for(run, piece.vertices.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        to[piece.vertices[i]] =
+            result.proxy ? position_of(result.proxy->place[i], result.proxy->mesh, from) : from[i];
+      }
+    });
   }
 }
 
-void summarise(const std::vector<ComponentHistory>& parts, ContractionHistory& history) {
+void summarise(const std::vector<PieceResult>& results, ContractionHistory& history) {
   std::size_t failed = 0;
   std::size_t regularised = 0;
   history.shrinkage.assign(history.levels.size(), 0.0);
   double vertices = 0.0;
-  for (const ComponentHistory& part : parts) {
+  for (const PieceResult& result : results) {
+    const ComponentHistory& part = result.history;
     const auto weight = static_cast<double>(part.summary.vertices);
     vertices += weight;
     for (std::size_t level = 0; level < history.levels.size(); ++level) {
@@ -139,6 +190,54 @@ void summarise(const std::vector<ComponentHistory>& parts, ContractionHistory& h
   }
 }
 
+ContractionHistory contract_pieces(const TriMesh& mesh, const ContractionOptions& options,
+                                   const RunContext& run) {
+  ContractionHistory history;
+  const std::vector<Piece> pieces = cut_into_pieces(mesh, history.component_of_vertex);
+  history.levels.push_back(mesh.positions);
+  std::vector<PieceResult> results;
+  results.reserve(pieces.size());
+  double done = 0.0;
+  const auto total = static_cast<double>(mesh.positions.size());
+  for (const Piece& piece : pieces) {
+    const double share = static_cast<double>(piece.vertices.size()) / total;
+    results.push_back(
+        contract_piece(mesh, piece, options, run.part(done, std::min(1.0, done + share))));
+    done = std::min(1.0, done + share);
+    place(piece, results.back(), mesh, run, history);
+    results.back().proxy.reset();  // now in `history`; keeps the peak at one copy
+    results.back().history.levels.clear();
+  }
+  summarise(results, history);
+  run.advance("contracting", 1.0);
+  return history;
+}
+
+/// The history of the vertices of `mesh`, which come first in the refined surface.
+ContractionHistory of_refined(const TriMesh& mesh, TriMesh refined,
+                              const ContractionOptions& options, const RunContext& run) {
+  ContractionHistory history = contract_pieces(refined, options, run);
+  const std::size_t n = mesh.positions.size();
+  std::vector<std::size_t> added(history.components.size(), 0);
+  for (std::size_t v = n; v < refined.positions.size(); ++v) {
+    ++added[history.component_of_vertex[v]];
+  }
+  for (std::size_t c = 0; c < added.size(); ++c) {
+    ComponentContraction& component = history.components[c];
+    if (added[c] > 0) {
+      component.strategy = "refined " + std::to_string(component.vertices);
+      component.vertices -= added[c];
+    }
+  }
+  ContractedRefinement all{std::move(refined), history.levels, history.component_of_vertex};
+  for (auto& level : history.levels) {
+    level.resize(n);
+  }
+  history.component_of_vertex.resize(n);
+  history.refinement = std::move(all);
+  return history;
+}
+
 }  // namespace
 
 std::string_view stop_name(ContractionStop stop) {
@@ -160,24 +259,12 @@ std::string_view stop_name(ContractionStop stop) {
 ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& options,
                             const RunContext& run) {
   check_fields(options, kContractionFields);
-  ContractionHistory history;
-  const std::vector<Piece> pieces = cut_into_pieces(mesh, history.component_of_vertex);
-  history.levels.push_back(mesh.positions);
-  std::vector<ComponentHistory> parts;
-  parts.reserve(pieces.size());
-  double done = 0.0;
-  const auto total = static_cast<double>(mesh.positions.size());
-  for (const Piece& piece : pieces) {
-    const double share = static_cast<double>(piece.vertices.size()) / total;
-    parts.push_back(
-        contract_piece(mesh, piece, options, run.part(done, std::min(1.0, done + share))));
-    done = std::min(1.0, done + share);
-    place(piece, parts.back(), mesh, history);
-    parts.back().levels.clear();  // now in `history`; keeps the peak at one copy
+  if (options.method == ContractionMethod::Auto) {
+    if (std::optional<TriMesh> refined = refine_coarse_components(mesh, run)) {
+      return of_refined(mesh, std::move(*refined), options, run);
+    }
   }
-  summarise(parts, history);
-  run.advance("contracting", 1.0);
-  return history;
+  return contract_pieces(mesh, options, run);
 }
 
 }  // namespace vantage

@@ -2,6 +2,11 @@
 #include "core/parallel.h"
 
 #include <algorithm>
+#include <chrono>
+#include <exception>
+#include <future>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include <oneapi/tbb/blocked_range.h>
@@ -9,6 +14,11 @@
 #include <oneapi/tbb/task_arena.h>
 
 namespace vantage {
+namespace {
+
+constexpr std::chrono::milliseconds kStopPoll{50};
+
+}  // namespace
 
 void with_threads(const RunContext& run, const std::function<void()>& work) {
   if (run.max_threads <= 0) {
@@ -42,6 +52,31 @@ void parallel_for(const RunContext& run, std::size_t count, std::size_t grain,
                         }
                       });
   });
+}
+
+void interruptible(const RunContext& run, std::function<void()> work) {
+  if (!run.stop.stop_possible()) {
+    work();
+    return;
+  }
+  std::promise<void> promise;
+  std::future<void> done = promise.get_future();
+  std::thread thread([work = std::move(work), promise = std::move(promise)]() mutable {
+    try {
+      work();
+      promise.set_value();
+    } catch (...) {
+      promise.set_exception(std::current_exception());
+    }
+  });
+  while (done.wait_for(kStopPoll) != std::future_status::ready) {
+    if (run.stop.stop_requested()) {
+      thread.detach();
+      run.check();
+    }
+  }
+  thread.join();
+  done.get();
 }
 
 double parallel_sum(const RunContext& run, std::size_t count, std::size_t grain,

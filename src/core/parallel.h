@@ -21,6 +21,11 @@ void with_threads(const RunContext& run, const std::function<void()>& work);
 void parallel_for(const RunContext& run, std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
+/// Runs `work`, which cannot look at run.stop itself, and leaves it behind if a stop is requested:
+/// it then runs to its end in the background, so it must own all that it touches.
+/// \throw Cancelled within a tenth of a second, and whatever `work` throws.
+void interruptible(const RunContext& run, std::function<void()> work);
+
 /// Sum over chunks of body(begin, end), added in chunk order: the same bits for any thread count.
 double parallel_sum(const RunContext& run, std::size_t count, std::size_t grain,
                     const std::function<double(std::size_t begin, std::size_t end)>& body);

@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "operators/step_matrix.h"
+
 namespace vantage {
 namespace {
 
@@ -44,32 +46,55 @@ void scale_down_rows(Eigen::SparseMatrix<double>& L, double limit) {
 
 }  // namespace
 
-Eigen::SparseMatrix<double> cotangent_laplacian(std::span<const Vec3> positions,
-                                                std::span<const Triangle> triangles,
-                                                const LaplacianLimits& limits) {
-  const auto n = static_cast<Eigen::Index>(positions.size());
+LaplacianAssembler::LaplacianAssembler(std::size_t vertices, std::span<const Triangle> triangles)
+    : triangles_(triangles),
+      L_(static_cast<Eigen::Index>(vertices), static_cast<Eigen::Index>(vertices)) {
   std::vector<Entry> entries;
-  entries.reserve(6 * triangles.size() + positions.size());
+  entries.reserve(6 * triangles.size() + vertices);
   for (const Triangle& t : triangles) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
-      const std::uint32_t i = t[(corner + 1) % 3];
-      const std::uint32_t j = t[(corner + 2) % 3];
-      const double w =
-          cotangent(positions[t[corner]], positions[i], positions[j], limits.cotangent);
-      entries.emplace_back(static_cast<int>(i), static_cast<int>(j), w);
-      entries.emplace_back(static_cast<int>(j), static_cast<int>(i), w);
+      const auto i = static_cast<int>(t[(corner + 1) % 3]);
+      const auto j = static_cast<int>(t[(corner + 2) % 3]);
+      entries.emplace_back(i, j, 0.0);
+      entries.emplace_back(j, i, 0.0);
     }
   }
-  for (int i = 0; i < n; ++i) {
+  for (int i = 0; i < static_cast<int>(vertices); ++i) {
     entries.emplace_back(i, i, 0.0);
   }
-  Eigen::SparseMatrix<double> L(n, n);
-  L.setFromTriplets(entries.begin(), entries.end());
+  L_.setFromTriplets(entries.begin(), entries.end());
+  const auto place = [this](std::uint32_t row, std::uint32_t column) {
+    return static_cast<int>(
+        &L_.coeffRef(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) -
+        L_.valuePtr());
+  };
+  slots_.reserve(triangles.size());
+  for (const Triangle& t : triangles) {
+    slots_.push_back({place(t[1], t[2]), place(t[2], t[1]), place(t[2], t[0]), place(t[0], t[2]),
+                      place(t[0], t[1]), place(t[1], t[0])});
+  }
+  for (std::uint32_t i = 0; i < vertices; ++i) {
+    diagonal_.push_back(place(i, i));
+  }
+}
 
+const Eigen::SparseMatrix<double>& LaplacianAssembler::assemble(std::span<const Vec3> positions,
+                                                                const LaplacianLimits& limits) {
+  double* value = L_.valuePtr();
+  std::fill(value, value + L_.nonZeros(), 0.0);
+  for (std::size_t f = 0; f < triangles_.size(); ++f) {
+    const Triangle& t = triangles_[f];
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const double w = cotangent(positions[t[corner]], positions[t[(corner + 1) % 3]],
+                                 positions[t[(corner + 2) % 3]], limits.cotangent);
+      value[slots_[f][2 * corner]] += w;
+      value[slots_[f][2 * corner + 1]] += w;
+    }
+  }
   // The diagonal last, from the summed weights, so that rows sum to zero to the last bit possible.
-  Eigen::VectorXd row_sum = Eigen::VectorXd::Zero(n);
-  for (int column = 0; column < L.outerSize(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(L, column); entry; ++entry) {
+  Eigen::VectorXd row_sum = Eigen::VectorXd::Zero(L_.rows());
+  for (int column = 0; column < L_.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(L_, column); entry; ++entry) {
       if (entry.row() != entry.col()) {
         if (limits.non_negative) {
           entry.valueRef() = std::max(0.0, entry.value());
@@ -78,11 +103,17 @@ Eigen::SparseMatrix<double> cotangent_laplacian(std::span<const Vec3> positions,
       }
     }
   }
-  for (int i = 0; i < n; ++i) {
-    L.coeffRef(i, i) = -row_sum(i);
+  for (std::size_t i = 0; i < diagonal_.size(); ++i) {
+    value[diagonal_[i]] = -row_sum(static_cast<Eigen::Index>(i));
   }
-  scale_down_rows(L, limits.diagonal);
-  return L;
+  scale_down_rows(L_, limits.diagonal);
+  return L_;
+}
+
+Eigen::SparseMatrix<double> cotangent_laplacian(std::span<const Vec3> positions,
+                                                std::span<const Triangle> triangles,
+                                                const LaplacianLimits& limits) {
+  return LaplacianAssembler(positions.size(), triangles).assemble(positions, limits);
 }
 
 }  // namespace vantage

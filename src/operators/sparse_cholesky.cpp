@@ -7,6 +7,8 @@
 #include <Eigen/MetisSupport>
 #include <Eigen/SparseCholesky>
 
+#include "core/parallel.h"
+
 namespace vantage {
 namespace {
 
@@ -17,36 +19,56 @@ using MetisSolver = Eigen::SimplicialLLT<Matrix, Eigen::Lower, Eigen::MetisOrder
 /// Unknowns from which METIS's better ordering pays for its slower analysis: with some seven
 /// factorisations an analysis, it halves the time on real models of 30 000 vertices.
 constexpr Eigen::Index kMetisFrom = 8'000;
+/// Unknowns from which one factorisation may take longer than an interrupt should.
+constexpr Eigen::Index kInterruptibleFrom = 25'000;
 
 }  // namespace
 
 struct SparseCholesky::Solver {
   std::optional<AmdSolver> amd{};
   std::optional<MetisSolver> metis{};
+  bool factorised = false;
+
+  void analyze(const Matrix& A) {
+    amd.reset();
+    metis.reset();
+    if (A.rows() < kMetisFrom) {
+      amd.emplace().analyzePattern(A);
+    } else {
+      metis.emplace().analyzePattern(A);
+    }
+  }
+
+  void factorize(const Matrix& A) {
+    const auto run = [&](auto& solver) {
+      solver.factorize(A);
+      factorised = solver.info() == Eigen::Success;
+    };
+    amd ? run(*amd) : run(*metis);
+  }
 };
 
-SparseCholesky::SparseCholesky() : solver_(std::make_unique<Solver>()) {}
+SparseCholesky::SparseCholesky() : solver_(std::make_shared<Solver>()) {}
 
 SparseCholesky::~SparseCholesky() = default;
 SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
-void SparseCholesky::analyze(const Matrix& A) {
-  solver_->amd.reset();
-  solver_->metis.reset();
-  if (A.rows() < kMetisFrom) {
-    solver_->amd.emplace().analyzePattern(A);
+void SparseCholesky::analyze(const Matrix& A, const RunContext& run) {
+  if (A.rows() < kInterruptibleFrom) {
+    solver_->analyze(A);
   } else {
-    solver_->metis.emplace().analyzePattern(A);
+    interruptible(run, [solver = solver_, copy = A] { solver->analyze(copy); });
   }
 }
 
-bool SparseCholesky::factorize(const Matrix& A) {
-  const auto run = [&](auto& solver) {
-    solver.factorize(A);
-    return solver.info() == Eigen::Success;
-  };
-  return solver_->amd ? run(*solver_->amd) : run(*solver_->metis);
+bool SparseCholesky::factorize(const Matrix& A, const RunContext& run) {
+  if (A.rows() < kInterruptibleFrom) {
+    solver_->factorize(A);
+  } else {
+    interruptible(run, [solver = solver_, copy = A] { solver->factorize(copy); });
+  }
+  return solver_->factorised;
 }
 
 Eigen::MatrixX3d SparseCholesky::solve(const Eigen::MatrixX3d& B) const {

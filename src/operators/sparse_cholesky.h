@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include "vantage/core/run_context.h"
+
 namespace vantage {
 
 /// Direct solver for symmetric positive definite systems whose pattern stays while values change.
@@ -19,18 +21,19 @@ class SparseCholesky {
   SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
   /// Symbolic analysis of the pattern of A. The lower triangle of A is used.
-  void analyze(const Eigen::SparseMatrix<double>& A);
+  /// \throw Cancelled; unusable then.
+  void analyze(const Eigen::SparseMatrix<double>& A, const RunContext& run = {});
 
   /// Numeric factorisation; false if A is not positive definite in double precision.
-  /// \pre analyze() saw the same pattern.
-  bool factorize(const Eigen::SparseMatrix<double>& A);
+  /// \pre analyze() saw the same pattern. \throw Cancelled; unusable then.
+  bool factorize(const Eigen::SparseMatrix<double>& A, const RunContext& run = {});
 
   /// A⁻¹ B for the last matrix factorised. \pre factorize() returned true.
   [[nodiscard]] Eigen::MatrixX3d solve(const Eigen::MatrixX3d& B) const;
 
  private:
   struct Solver;
-  std::unique_ptr<Solver> solver_;
+  std::shared_ptr<Solver> solver_;
 };
 
 }  // namespace vantage

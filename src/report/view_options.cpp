@@ -82,9 +82,11 @@ ViewOptions preset_options(Preset preset) {
   ViewOptions options;
   options.preset = preset;
   if (preset == Preset::Paper) {
+    options.contraction.method = ContractionMethod::Exact;
     options.contraction.scaling = ContractionScaling::Box;
     options.skeleton.scaling = ContractionScaling::Box;
     options.prior = no_prior();
+    options.kssm.flat_level = 0.0;
     options.search = {.strategy = SearchStrategy::Rapid,
                       .base = ViewSphereBase::Cube,
                       .subdivisions = 0,
@@ -99,6 +101,7 @@ std::string options_hash(const ViewOptions& options) {
   nlohmann::ordered_json json;
   json["version"] = version();
   json["preset"] = preset_name(options.preset);
+  json["contraction"] = static_cast<int>(options.contraction.method);
   json["contraction-scaling"] = static_cast<int>(options.contraction.scaling);
   echo_fields(json, options.contraction, kContractionFields);
   json["skeleton-scaling"] = static_cast<int>(options.skeleton.scaling);
@@ -108,6 +111,7 @@ std::string options_hash(const ViewOptions& options) {
   json["suppression"] = static_cast<int>(options.kssm.suppression);
   json["kinematics"] = static_cast<int>(options.kssm.kinematics);
   json["area-weighted-mean"] = options.kssm.area_weighted_mean;
+  echo_fields(json, options.kssm, kKssmFields);
   json["finished-graph"] = options.kssm_to_finished_graph;
   json["search"] = strategy_name(options.search.strategy);
   json["base"] = base_name(options.search.base);

@@ -52,6 +52,19 @@ Level normalise(const std::vector<double>& d, const std::vector<bool>& reference
   return level;
 }
 
+/// Difference of the largest and the smallest value of the referenced vertices.
+double span_of(const std::vector<double>& d, const std::vector<bool>& referenced) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (std::size_t v = 0; v < d.size(); ++v) {
+    if (referenced[v]) {
+      low = std::min(low, d[v]);
+      high = std::max(high, d[v]);
+    }
+  }
+  return high - low;
+}
+
 /// Weighted mean over the referenced vertices other than the one that attains the maximum.
 double mean_without_maximum(const Level& level, const std::vector<bool>& referenced,
                             const std::vector<double>& weight) {
@@ -107,6 +120,7 @@ std::vector<std::vector<double>> displacements(const ContractionHistory& history
 KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
                      const CurveGraph& skeleton, const KssmOptions& options,
                      const RunContext& run) {
+  check_fields(options, kKssmFields);
   const std::size_t vertex_count = mesh.positions.size();
   const bool fits = std::all_of(history.levels.begin(), history.levels.end(),
                                 [&](const auto& level) { return level.size() == vertex_count; });
@@ -135,6 +149,13 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
       for (std::size_t v = 0; v < vertex_count; ++v) {
         moved[v] = map.displacement[j - 1][v] - map.displacement[j][v];
       }
+    }
+    // A velocity is as good as the displacement that it starts from. The input is always resolved.
+    const std::size_t source = velocity ? j - 1 : j;
+    if (source > 0 &&
+        !(span_of(map.displacement[source], referenced) > options.flat_level * diameter)) {
+      map.level_factor.push_back(0.0);
+      continue;
     }
     const Level level = normalise(velocity ? moved : map.displacement[j], referenced, diameter);
     if (level.flat) {

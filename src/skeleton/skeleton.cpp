@@ -8,6 +8,7 @@
 
 #include "vantage/mesh/measures.h"
 
+#include "mesh/decimation.h"
 #include "skeleton/cluster_complex.h"
 #include "skeleton/embedding.h"
 #include "skeleton/resampling.h"
@@ -17,6 +18,12 @@
 
 namespace vantage {
 namespace {
+
+/// Surfaces of this many vertices lose short edges in passes before the ordered collapse [ours].
+constexpr std::size_t kMergeFrom = 10'000;
+/// Longest edge that goes in passes, relative to the spacing [ours: well below what resampling
+/// keeps].
+constexpr double kMergedLength = 0.125;
 
 /// [r] in model units: a fraction of D (ours) or of the box diagonal (Cao 2010, section 4).
 double sample_spacing(const TriMesh& mesh, const SkeletonOptions& options) {
@@ -76,21 +83,48 @@ void place_nodes(CurveGraph& graph, const std::vector<Vec3>& positions,
   }
 }
 
+/// Collapses the surface with its vertices at `positions`. Large surfaces lose their shortest edges
+/// first, in passes; the graph is as fine as before, because spacing is much longer than they are.
+Collapsed collapse_level(const TriMesh& mesh, const std::vector<Vec3>& positions,
+                         const std::vector<double>& weights, double spacing,
+                         const RunContext& run) {
+  Collapsed collapsed;
+  if (positions.size() < kMergeFrom) {
+    ClusterComplex complex(mesh, positions, weights);
+    collapsed.lost_handles = collapse_to_graph(complex, run);
+    collapsed.graph = complex.graph(collapsed.node_of_vertex);
+    return collapsed;
+  }
+  const Decimation merged =
+      merge_short_edges({positions, mesh.triangles}, weights, kMergedLength * spacing, run);
+  std::vector<double> merged_weights(merged.mesh.positions.size(), 0.0);
+  for (std::size_t v = 0; v < weights.size(); ++v) {
+    merged_weights[merged.of_vertex[v]] += weights[v];
+  }
+  ClusterComplex complex(merged.mesh, merged.mesh.positions, std::move(merged_weights));
+  collapsed.lost_handles = collapse_to_graph(complex, run);
+  std::vector<std::uint32_t> node_of_merged;
+  collapsed.graph = complex.graph(node_of_merged);
+  collapsed.node_of_vertex.reserve(weights.size());
+  for (const std::uint32_t v : merged.of_vertex) {
+    collapsed.node_of_vertex.push_back(node_of_merged[v]);
+  }
+  return collapsed;
+}
+
 /// Collapses the surface at its last level. Where several handles have shrunk into one another
 /// there, the order of collapses is taken from the last level at which no handle is lost; nodes
 /// stand at the mean of their vertices' last positions all the same.
-Collapsed collapse_history(const TriMesh& mesh, const ContractionHistory& history,
+Collapsed collapse_history(const TriMesh& mesh, const ContractionHistory& history, double spacing,
                            const RunContext& run) {
   const std::vector<double> weights = cluster_weights(mesh);
   Collapsed best;
   double share = 0.0;
   for (std::size_t level = history.levels.size(); level-- > 0;) {
-    ClusterComplex complex(mesh, history.levels[level], weights);
-    Collapsed trial;
-    trial.lost_handles = collapse_to_graph(complex, run.part(share, 0.5 * (1.0 + share)));
+    Collapsed trial = collapse_level(mesh, history.levels[level], weights, spacing,
+                                     run.part(share, 0.5 * (1.0 + share)));
     share = 0.5 * (1.0 + share);
     if (best.graph.nodes.empty() || trial.lost_handles < best.lost_handles) {
-      trial.graph = complex.graph(trial.node_of_vertex);
       best = std::move(trial);
     }
     if (best.lost_handles == 0) {
@@ -160,6 +194,18 @@ void finish(const TriMesh& mesh, const ContractionHistory& history, const Skelet
   skeleton.radius = node_radii(skeleton.graph, mesh, skeleton.node_of_vertex);
 }
 
+/// The skeleton of the finer surface that was contracted, with what its first vertices belong to.
+Skeleton of_refinement(const TriMesh& mesh, const ContractedRefinement& refinement,
+                       const SkeletonOptions& options, const RunContext& run) {
+  ContractionHistory history;
+  history.levels = refinement.levels;
+  history.component_of_vertex = refinement.component_of_vertex;
+  Skeleton skeleton = extract_skeleton(refinement.mesh, history, options, run);
+  skeleton.node_of_vertex.resize(mesh.positions.size());
+  skeleton.raw_node_of_vertex.resize(mesh.positions.size());
+  return skeleton;
+}
+
 }  // namespace
 
 Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history,
@@ -168,8 +214,12 @@ Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history
   if (!belongs_to(history, mesh)) {
     throw InvalidInput("the contraction history does not belong to this mesh");
   }
+  if (history.refinement) {
+    return of_refinement(mesh, *history.refinement, options, run);
+  }
   Skeleton skeleton;
-  Collapsed collapsed = collapse_history(mesh, history, run.part(0.0, 0.9));
+  const double spacing = sample_spacing(mesh, options);
+  Collapsed collapsed = collapse_history(mesh, history, spacing, run.part(0.0, 0.9));
   if (collapsed.lost_handles > 0) {
     skeleton.warnings.push_back("the skeleton may have lost " +
                                 std::to_string(collapsed.lost_handles) +
@@ -183,8 +233,7 @@ Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history
       weight[node] += 1.0;
     }
   }
-  skeleton.raw = merge_close_nodes(fine, sample_spacing(mesh, options), std::move(weight),
-                                   skeleton.raw_node_of_vertex);
+  skeleton.raw = merge_close_nodes(fine, spacing, std::move(weight), skeleton.raw_node_of_vertex);
 
   finish(mesh, history, options, skeleton);
   run.advance("skeleton", 1.0);

@@ -274,9 +274,16 @@ std::vector<double> direct_kssm(const TriMesh& mesh, const ContractionHistory& h
   std::vector<Real> map(n, 0);
   for (std::size_t j = velocity ? 1 : 0; j < history.levels.size(); ++j) {
     std::vector<Real> d(n, 0);
+    std::vector<Real> source(n, 0);  // the displacement that must be resolved
     for (std::size_t v = 0; v < n; ++v) {
       const Real now = brute_force_distance(graph, history.levels[j][v]);
-      d[v] = velocity ? brute_force_distance(graph, history.levels[j - 1][v]) - now : now;
+      source[v] = velocity ? brute_force_distance(graph, history.levels[j - 1][v]) : now;
+      d[v] = velocity ? source[v] - now : now;
+    }
+    const auto [nearest, farthest] = extremes_of(source, rings);
+    const bool of_input = j == (velocity ? 1U : 0U);
+    if (!of_input && !(source[farthest] - source[nearest] > options.flat_level * extent)) {
+      continue;
     }
     const auto [low, high] = extremes_of(d, rings);
     if (!(d[high] - d[low] > kFlat * extent)) {

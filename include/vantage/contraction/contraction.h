@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -26,8 +27,15 @@ enum class ContractionScaling {
   Box,     ///< Longest side of each component's axis-aligned box to 1.6 (the paper's).
 };
 
+/// How a surface is contracted.
+enum class ContractionMethod {
+  Auto,   ///< Large components by a decimated proxy, those of few huge faces refined (ours).
+  Exact,  ///< Every component by exact solves at full resolution (the paper's).
+};
+
 /// Weights and stopping rule of contract().
 struct ContractionOptions {
+  ContractionMethod method = ContractionMethod::Auto;       ///< Proxies or not.
   ContractionScaling scaling = ContractionScaling::Sphere;  ///< Unit of the weights.
   double contraction_growth = 3.0;    ///< [s_L] factor on W_L per step (Cao; Au used 2); > 1.
   double contraction_limit = 2048.0;  ///< Largest W_L (Cao).
@@ -73,6 +81,13 @@ struct ComponentContraction {
   std::string strategy{"exact"};  ///< Which method contracted it.
 };
 
+/// A finer surface that was contracted in place of the input; the input's vertices come first.
+struct ContractedRefinement {
+  TriMesh mesh{};                                    ///< The same surface with more vertices.
+  std::vector<std::vector<Vec3>> levels{};           ///< K + 1 levels of its vertices, model units.
+  std::vector<std::uint32_t> component_of_vertex{};  ///< As in ContractionHistory.
+};
+
 /// Positions of every vertex at every level.
 struct ContractionHistory {
   /// K + 1 levels of |V| points in model units; level 0 is the input itself.
@@ -82,6 +97,8 @@ struct ContractionHistory {
   std::vector<std::uint32_t>
       component_of_vertex{};            ///< |V| indices into `components`, or kIsolated.
   std::vector<std::string> warnings{};  ///< One sentence each.
+  /// If some component was made of few huge faces.
+  std::optional<ContractedRefinement> refinement{};
 
   /// Marks vertices that no face names; they stay where they are.
   static constexpr std::uint32_t kIsolated = 0xffffffffu;
@@ -90,7 +107,7 @@ struct ContractionHistory {
   [[nodiscard]] std::size_t level_count() const { return levels.empty() ? 0 : levels.size() - 1; }
 };
 
-/// Contracts each connected component of `mesh` by itself, by exact solves at full resolution.
+/// Contracts each connected component of `mesh` by itself, as options.method says.
 /// Connectivity is unchanged: vertex i of every level is vertex i of the input. Commutes with
 /// similarity transforms of the input up to rounding. Coincident vertices should be welded first.
 ///

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tuple>
 #include <vector>
 
 #include "vantage/contraction/contraction.h"
+#include "vantage/core/fields.h"
 #include "vantage/core/run_context.h"
 #include "vantage/mesh/curve_graph.h"
 #include "vantage/mesh/tri_mesh.h"
@@ -32,6 +34,18 @@ struct KssmOptions {
   Suppression suppression = Suppression::Mean;       ///< How even levels are lowered.
   Kinematics kinematics = Kinematics::Displacement;  ///< What is summed.
   bool area_weighted_mean = false;  ///< Weight m̄ by vertex area (`--weight area`).
+  /// Levels after the input whose displacement spans at most this fraction of D contribute nothing;
+  /// 0 keeps all that span more than 1e-6 D (the paper). Ours: twice the distance of skeleton
+  /// samples. What spans less than the skeleton's resolution is noise, and normalising would blow
+  /// it up to the whole range.
+  double flat_level = 0.04;
+};
+
+/// Names, ranges and help of the numbers in KssmOptions.
+inline constexpr auto kKssmFields = std::tuple{
+    Field{
+        "flat-level", &KssmOptions::flat_level, 0.0, 1.0,
+        "leave out levels whose displacement spans at most this fraction of the model's diameter"},
 };
 
 /// The map and what it was made of.
@@ -45,7 +59,8 @@ struct KssmMap {
 };
 
 /// Computes the map of `mesh` from its contraction and the graph it contracts to.
-/// \pre `history` has one point per vertex and at least level 0. \throw InvalidInput, Cancelled
+/// \pre `history` has one point per vertex and at least level 0. \throw InvalidInput if it has not or
+/// an option is outside its range. \throw Cancelled
 KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
                      const CurveGraph& skeleton, const KssmOptions& options = {},
                      const RunContext& run = {});

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "contraction/refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/topology.h"
+
+#include "mesh/edge_splitting.h"
+
+namespace vantage {
+namespace {
+
+/// A face is huge if an edge of it is longer than this, over D [ours: five skeleton samples].
+constexpr double kHuge = 0.1;
+/// A component is refined if huge faces hold more than this share of its area [ours].
+constexpr double kHugeShare = 0.5;
+/// Edges are split down to this length, over D [ours: two skeleton samples].
+constexpr double kFineEdge = 0.04;
+/// Vertices that refinement may make about, of all components together [ours]; edges stay longer
+/// where that is not enough.
+constexpr double kMostVertices = 20'000.0;
+constexpr double kCoarser = 1.25;  // factor on the edge length while that is exceeded
+
+double longest_edge(const TriMesh& mesh, const Triangle& t) {
+  const auto& x = mesh.positions;
+  return std::max(
+      {(x[t[0]] - x[t[1]]).norm(), (x[t[1]] - x[t[2]]).norm(), (x[t[2]] - x[t[0]]).norm()});
+}
+
+/// The faces of the components to refine, one entry per face of the mesh.
+std::vector<bool> faces_to_refine(const TriMesh& mesh, double diameter) {
+  const Components components = connected_components(mesh);
+  const std::vector<double> areas = face_areas(mesh);
+  std::vector<double> area(components.count, 0.0);
+  std::vector<double> huge(components.count, 0.0);
+  for (std::size_t f = 0; f < areas.size(); ++f) {
+    const std::uint32_t component = components.of_vertex[mesh.triangles[f][0]];
+    area[component] += areas[f];
+    if (longest_edge(mesh, mesh.triangles[f]) > kHuge * diameter) {
+      huge[component] += areas[f];
+    }
+  }
+  std::vector<bool> chosen(areas.size(), false);
+  for (std::size_t f = 0; f < areas.size(); ++f) {
+    const std::uint32_t component = components.of_vertex[mesh.triangles[f][0]];
+    chosen[f] = huge[component] > kHugeShare * area[component];
+  }
+  return chosen;
+}
+
+/// About the number of vertices that splitting the chosen faces down to `edge` makes: those of its
+/// area, and those along its sides, which long thin faces have more of.
+double estimated_vertices(const TriMesh& mesh, const std::vector<bool>& chosen, double edge) {
+  double count = 0.0;
+  for (std::size_t f = 0; f < chosen.size(); ++f) {
+    if (chosen[f]) {
+      const double twice = area_vector(mesh, mesh.triangles[f]).norm();
+      count += 2.0 * twice / (edge * edge) + 2.0 * longest_edge(mesh, mesh.triangles[f]) / edge;
+    }
+  }
+  return count;
+}
+
+}  // namespace
+
+std::optional<TriMesh> refine_coarse_components(const TriMesh& mesh, const RunContext& run) {
+  const double diameter = enclosing_sphere(referenced_points(mesh)).diameter;
+  if (mesh.triangles.empty() || !(diameter > 0.0)) {
+    return std::nullopt;
+  }
+  std::vector<bool> chosen = faces_to_refine(mesh, diameter);
+  if (std::find(chosen.begin(), chosen.end(), true) == chosen.end()) {
+    return std::nullopt;
+  }
+  double edge = kFineEdge * diameter;
+  while (edge < diameter && estimated_vertices(mesh, chosen, edge) > kMostVertices) {
+    edge *= kCoarser;
+  }
+  return split_long_edges(mesh, std::move(chosen), edge, run);
+}
+
+}  // namespace vantage

@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/decimation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include <Eigen/Dense>
+
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/topology.h"
+
+#include "core/parallel.h"
+
+namespace vantage {
+namespace {
+
+/// Share of the squared edge length in the cost, against the squared distance to the planes [ours:
+/// even triangles contract like the fine surface; docs/contraction.md has the trials].
+constexpr double kEvenness = 0.05;
+/// Weight of the plane through a border edge, upright on its face, against that of the face.
+constexpr double kBorder = 1.0;
+/// Pull of the optimal position to the middle of the edge, relative to the quadric's weight: solves
+/// what planes leave open.
+constexpr double kMiddle = 1e-3;
+/// A face may turn by at most the angle of this cosine in one collapse [ours: 78°].
+constexpr double kLargestTurn = 0.2;
+/// Share of the edges, the cheapest ones, that one pass may collapse [ours].
+constexpr double kPassShare = 0.4;
+/// A pass that removes less than this share of the vertices ends the decimation: what is left must
+/// not collapse, and more passes would only crawl.
+constexpr double kLeastProgress = 1e-3;
+constexpr std::size_t kGrain = 4096;  // edges or vertices a task
+constexpr std::uint32_t kNoVertex = 0xffffffffu;
+
+/// Sum of squared distances to planes, weighted by area: xᵀ A x − 2 bᵀ x + c, about a near origin.
+struct Quadric {
+  std::array<double, 6> A{};  // xx xy xz yy yz zz
+  Vec3 b = Vec3::Zero();
+  double c = 0.0;
+  double weight = 0.0;
+
+  void add_plane(const Vec3& normal, const Vec3& point, double w) {
+    const double d = normal.dot(point);
+    A[0] += w * normal.x() * normal.x();
+    A[1] += w * normal.x() * normal.y();
+    A[2] += w * normal.x() * normal.z();
+    A[3] += w * normal.y() * normal.y();
+    A[4] += w * normal.y() * normal.z();
+    A[5] += w * normal.z() * normal.z();
+    b += w * d * normal;
+    c += w * d * d;
+    weight += w;
+  }
+
+  Quadric& operator+=(const Quadric& other) {
+    for (std::size_t i = 0; i < A.size(); ++i) {
+      A[i] += other.A[i];
+    }
+    b += other.b;
+    c += other.c;
+    weight += other.weight;
+    return *this;
+  }
+
+  [[nodiscard]] Vec3 times(const Vec3& x) const {
+    return {A[0] * x.x() + A[1] * x.y() + A[2] * x.z(), A[1] * x.x() + A[3] * x.y() + A[4] * x.z(),
+            A[2] * x.x() + A[4] * x.y() + A[5] * x.z()};
+  }
+
+  [[nodiscard]] double error(const Vec3& x) const {
+    return std::max(0.0, x.dot(times(x)) - 2.0 * b.dot(x) + c);
+  }
+
+  /// The point of least error, drawn weakly to `middle`.
+  [[nodiscard]] Vec3 best_point(const Vec3& middle) const {
+    const double pull = kMiddle * weight;
+    Eigen::Matrix3d M;
+    M << A[0] + pull, A[1], A[2], A[1], A[3] + pull, A[4], A[2], A[4], A[5] + pull;
+    const Vec3 x = middle + M.inverse() * (b - times(middle));
+    return x.allFinite() ? x : middle;
+  }
+};
+
+/// An edge that may go, and where its vertex would stand.
+struct Candidate {
+  float cost = 0.0F;
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+};
+
+/// Cost and place of a collapse by quadric error.
+class ByQuadric {
+ public:
+  static constexpr bool kMayTurn = false;
+  static constexpr std::size_t kLargestRing = 14;  // neighbours a collapse may leave
+
+  explicit ByQuadric(const TriMesh& mesh) : quadrics_(mesh.positions.size()) {
+    for (const Triangle& t : mesh.triangles) {
+      const Vec3 normal = area_vector(mesh, t);
+      const double twice = normal.norm();
+      if (twice > 0.0) {
+        for (const std::uint32_t v : t) {
+          quadrics_[v].add_plane(normal / twice, mesh.positions[v], 0.5 * twice);
+        }
+      }
+    }
+    const EdgeTable table = build_edge_table(mesh);
+    for (std::size_t e = 0; e < table.edges.size(); ++e) {
+      if (table.faces_of_edge[e].size() == 1) {
+        add_border(table.edges[e], mesh.triangles[table.faces_of_edge[e][0]], mesh);
+      }
+    }
+  }
+
+  [[nodiscard]] Vec3 place(std::uint32_t a, std::uint32_t b, const std::vector<Vec3>& x) const {
+    return joint(a, b).best_point(0.5 * (x[a] + x[b]));
+  }
+
+  [[nodiscard]] double cost(std::uint32_t a, std::uint32_t b, const std::vector<Vec3>& x) const {
+    const Quadric sum = joint(a, b);
+    return sum.error(sum.best_point(0.5 * (x[a] + x[b]))) +
+           kEvenness * sum.weight * (x[a] - x[b]).squaredNorm();
+  }
+
+  void merge(std::uint32_t a, std::uint32_t b) { quadrics_[a] += quadrics_[b]; }
+
+ private:
+  [[nodiscard]] Quadric joint(std::uint32_t a, std::uint32_t b) const {
+    Quadric sum = quadrics_[a];
+    sum += quadrics_[b];
+    return sum;
+  }
+
+  void add_border(const std::array<std::uint32_t, 2>& edge, const Triangle& face,
+                  const TriMesh& mesh) {
+    const Vec3 along = mesh.positions[edge[1]] - mesh.positions[edge[0]];
+    const Vec3 normal = along.cross(area_vector(mesh, face));
+    const double length = normal.norm();
+    if (length > 0.0) {
+      for (const std::uint32_t v : edge) {
+        quadrics_[v].add_plane(normal / length, mesh.positions[v], kBorder * along.squaredNorm());
+      }
+    }
+  }
+
+  std::vector<Quadric> quadrics_;
+};
+
+/// Cost and place of a collapse by length.
+class ByLength {
+ public:
+  static constexpr bool kMayTurn = true;
+  static constexpr std::size_t kLargestRing = 32;  // neighbours a collapse may leave
+
+  explicit ByLength(std::vector<double> weights) : weights_(std::move(weights)) {}
+
+  [[nodiscard]] Vec3 place(std::uint32_t a, std::uint32_t b, const std::vector<Vec3>& x) const {
+    return (weights_[a] * x[a] + weights_[b] * x[b]) / (weights_[a] + weights_[b]);
+  }
+
+  [[nodiscard]] static double cost(std::uint32_t a, std::uint32_t b, const std::vector<Vec3>& x) {
+    return (x[a] - x[b]).squaredNorm();
+  }
+
+  void merge(std::uint32_t a, std::uint32_t b) { weights_[a] += weights_[b]; }
+
+ private:
+  std::vector<double> weights_;
+};
+
+template <class Policy>
+class Decimator {
+ public:
+  Decimator(const TriMesh& fine, Policy policy, const RunContext& run)
+      : run_(run),
+        mesh_(fine),
+        policy_(std::move(policy)),
+        parent_(fine.positions.size()),
+        live_(fine.positions.size()) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+
+  /// Collapses until `target` vertices are left, no edge that may go costs less than `limit`.
+  void reduce_to(std::size_t target, double limit) {
+    while (live_ > target) {
+      run_.check();
+      const std::size_t before = live_;
+      pass(target, limit);
+      if (static_cast<double>(before - live_) < kLeastProgress * static_cast<double>(before)) {
+        break;
+      }
+    }
+  }
+
+  [[nodiscard]] Decimation result() {
+    Decimation coarse;
+    coarse.of_vertex.resize(parent_.size());
+    std::vector<std::uint32_t> number(parent_.size(), kNoVertex);
+    for (std::uint32_t v = 0; v < parent_.size(); ++v) {
+      const std::uint32_t root = root_of(v);
+      if (number[root] == kNoVertex) {
+        number[root] = static_cast<std::uint32_t>(coarse.mesh.positions.size());
+        coarse.mesh.positions.push_back(mesh_.positions[root]);
+      }
+      coarse.of_vertex[v] = number[root];
+    }
+    for (const Triangle& t : mesh_.triangles) {
+      coarse.mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+    }
+    return coarse;
+  }
+
+ private:
+  std::uint32_t root_of(std::uint32_t v) {
+    while (parent_[v] != v) {
+      parent_[v] = parent_[parent_[v]];
+      v = parent_[v];
+    }
+    return v;
+  }
+
+  /// A vertex as it stands within a pass: ends of collapsed edges move at most once.
+  [[nodiscard]] std::uint32_t now(std::uint32_t v) const { return parent_[v]; }
+
+  std::vector<Candidate> cheapest_edges(double limit) {
+    std::vector<Candidate> edges;
+    edges.reserve(3 * mesh_.triangles.size() / 2 + 16);
+    for (std::size_t v = 0; v + 1 < faces_.offsets.size(); ++v) {
+      const std::size_t first = edges.size();
+      for (const std::uint32_t f : faces_[v]) {
+        for (const std::uint32_t u : mesh_.triangles[f]) {
+          if (u > v) {
+            edges.push_back({0.0F, static_cast<std::uint32_t>(v), u});
+          }
+        }
+      }
+      const auto begin = edges.begin() + static_cast<std::ptrdiff_t>(first);
+      std::sort(begin, edges.end(), [](const auto& x, const auto& y) { return x.b < y.b; });
+      edges.erase(
+          std::unique(begin, edges.end(), [](const auto& x, const auto& y) { return x.b == y.b; }),
+          edges.end());
+    }
+    parallel_for(run_, edges.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t e = begin; e < end; ++e) {
+        edges[e].cost = static_cast<float>(policy_.cost(edges[e].a, edges[e].b, mesh_.positions));
+      }
+    });
+    const auto cheaper = [](const Candidate& x, const Candidate& y) {
+      return std::tie(x.cost, x.a, x.b) < std::tie(y.cost, y.a, y.b);
+    };
+    std::erase_if(edges, [&](const Candidate& edge) { return !(edge.cost < limit); });
+    const auto wanted = static_cast<std::ptrdiff_t>(kPassShare * static_cast<double>(edges.size()));
+    if (wanted > 0) {
+      std::nth_element(edges.begin(), edges.begin() + wanted, edges.end(), cheaper);
+      edges.resize(static_cast<std::size_t>(wanted));
+    }
+    std::sort(edges.begin(), edges.end(), cheaper);
+    return edges;
+  }
+
+  void pass(std::size_t target, double limit) {
+    faces_ = vertex_faces(mesh_);
+    const std::vector<Candidate> edges = cheapest_edges(limit);
+    moved_.assign(mesh_.positions.size(), false);
+    for (const Candidate& edge : edges) {
+      if (live_ <= target) {
+        break;
+      }
+      if (!moved_[edge.a] && !moved_[edge.b]) {
+        try_collapse(edge.a, edge.b);
+      }
+    }
+    compact();
+  }
+
+  void try_collapse(std::uint32_t a, std::uint32_t b) {
+    if (!keeps_topology(a, b)) {
+      return;
+    }
+    const Vec3 at = policy_.place(a, b, mesh_.positions);
+    if (!Policy::kMayTurn && (turns_a_face(a, b, at) || turns_a_face(b, a, at))) {
+      return;
+    }
+    mesh_.positions[a] = at;
+    policy_.merge(a, b);
+    parent_[b] = a;
+    moved_[a] = true;
+    moved_[b] = true;
+    --live_;
+  }
+
+  /// The neighbours of `v` now, each once for each face at the edge to it, ascending.
+  void gather_ring(std::uint32_t v, std::vector<std::uint32_t>& ring) const {
+    ring.clear();
+    for (const std::uint32_t f : faces_[v]) {
+      const Triangle& t = mesh_.triangles[f];
+      const std::array<std::uint32_t, 3> c{now(t[0]), now(t[1]), now(t[2])};
+      if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) {
+        continue;  // collapsed in this pass
+      }
+      for (const std::uint32_t u : c) {
+        if (u != v) {
+          ring.push_back(u);
+        }
+      }
+    }
+    std::sort(ring.begin(), ring.end());
+  }
+
+  /// The link condition: Dey, Edelsbrunner, Guha, Nekhayev, "Topology Preserving Edge Contraction",
+  /// 1999, with the border as one more vertex that all border vertices neighbour.
+  [[nodiscard]] bool keeps_topology(std::uint32_t a, std::uint32_t b) {
+    gather_ring(a, ring_a_);
+    gather_ring(b, ring_b_);
+    const auto faces_at = [](const std::vector<std::uint32_t>& ring, std::uint32_t v) {
+      const auto [first, last] = std::equal_range(ring.begin(), ring.end(), v);
+      return last - first;
+    };
+    const auto edge_faces = faces_at(ring_a_, b);
+    std::ptrdiff_t common = 0;
+    bool border_a = false;
+    bool border_b = false;
+    bool lone = false;  // both other sides of a face at the edge are borders
+    std::size_t distinct = 0;
+    for (std::size_t i = 0; i < ring_a_.size();) {
+      const std::uint32_t v = ring_a_[i];
+      std::size_t j = i;
+      while (j < ring_a_.size() && ring_a_[j] == v) {
+        ++j;
+      }
+      const auto at_b = faces_at(ring_b_, v);
+      border_a = border_a || j - i == 1;
+      if (v != b && at_b > 0) {
+        ++common;
+        lone = lone || (j - i == 1 && at_b == 1);
+      }
+      ++distinct;
+      i = j;
+    }
+    for (std::size_t i = 0; i < ring_b_.size(); ++i) {
+      const bool first = i == 0 || ring_b_[i] != ring_b_[i - 1];
+      const bool last = i + 1 == ring_b_.size() || ring_b_[i] != ring_b_[i + 1];
+      border_b = border_b || (first && last);
+      distinct += first ? 1 : 0;
+    }
+    if (edge_faces == 0 || common != edge_faces || lone ||
+        (border_a && border_b && edge_faces != 1)) {
+      return false;
+    }
+    // A tetrahedron, or faces back to back: the common neighbours themselves make an edge of both.
+    const std::size_t ring = distinct - 2 - static_cast<std::size_t>(common);
+    return ring >= 3 && ring <= Policy::kLargestRing;
+  }
+
+  /// Whether moving `v` to `at` turns one of its faces that do not hold `other`.
+  [[nodiscard]] bool turns_a_face(std::uint32_t v, std::uint32_t other, const Vec3& at) const {
+    for (const std::uint32_t f : faces_[v]) {
+      const Triangle& t = mesh_.triangles[f];
+      std::array<std::uint32_t, 3> c{now(t[0]), now(t[1]), now(t[2])};
+      if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) {
+        continue;
+      }
+      while (c[0] != v) {
+        std::rotate(c.begin(), c.begin() + 1, c.end());
+      }
+      if (c[1] == other || c[2] == other) {
+        continue;
+      }
+      const Vec3 side = mesh_.positions[c[2]] - mesh_.positions[c[1]];
+      const Vec3 before = side.cross(mesh_.positions[v] - mesh_.positions[c[1]]);
+      const Vec3 after = side.cross(at - mesh_.positions[c[1]]);
+      if (before.squaredNorm() > 0.0 &&
+          !(before.dot(after) > kLargestTurn * before.norm() * after.norm())) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void compact() {
+    std::size_t kept = 0;
+    for (Triangle t : mesh_.triangles) {
+      for (std::uint32_t& v : t) {
+        v = now(v);
+      }
+      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) {
+        mesh_.triangles[kept++] = t;
+      }
+    }
+    mesh_.triangles.resize(kept);
+  }
+
+  const RunContext& run_;
+  TriMesh mesh_;
+  Policy policy_;
+  std::vector<std::uint32_t> parent_;
+  std::size_t live_;
+  IndexLists faces_{};
+  std::vector<bool> moved_{};
+  std::vector<std::uint32_t> ring_a_{};
+  std::vector<std::uint32_t> ring_b_{};
+};
+
+}  // namespace
+
+Decimation decimate(const TriMesh& fine, std::size_t target, const RunContext& run) {
+  Decimator decimator(fine, ByQuadric(fine), run);
+  decimator.reduce_to(target, std::numeric_limits<double>::infinity());
+  return decimator.result();
+}
+
+Decimation merge_short_edges(const TriMesh& fine, const std::vector<double>& weights,
+                             double longest, const RunContext& run) {
+  Decimator decimator(fine, ByLength(weights), run);
+  decimator.reduce_to(0, longest * longest);
+  return decimator.result();
+}
+
+}  // namespace vantage

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "vantage/core/run_context.h"
+#include "vantage/mesh/tri_mesh.h"
+
+/// \file
+/// A coarser surface of the same topology by edge collapse under quadric errors: Garland, Heckbert,
+/// "Surface Simplification Using Quadric Error Metrics", SIGGRAPH 1997, doi:10.1145/258734.258849.
+
+namespace vantage {
+
+/// A coarser surface and where each vertex of the fine one went.
+struct Decimation {
+  TriMesh mesh{};                          ///< Coarse; vertices by the lowest one merged in each.
+  std::vector<std::uint32_t> of_vertex{};  ///< |V| coarse vertex that each fine vertex is part of.
+};
+
+/// Collapses edges, cheapest first, until at most `target` vertices are left or no edge may go.
+/// An edge may go if its ends have no common neighbour but the apexes of its faces (so that genus,
+/// borders and components stay) and no face turns over. Cost is the quadric error plus a share of
+/// what keeps triangles even. Deterministic; ties go to the lower index.
+/// \pre every vertex belongs to a face, no face names a vertex twice. \throw Cancelled
+Decimation decimate(const TriMesh& fine, std::size_t target, const RunContext& run);
+
+/// Collapses edges shorter than `longest`, shortest first, under the same condition on neighbours;
+/// faces may turn over. Merged vertices stand at their weighted mean.
+/// \param weights |V| shares, > 0. Vertices without faces stay. \throw Cancelled
+Decimation merge_short_edges(const TriMesh& fine, const std::vector<double>& weights,
+                             double longest, const RunContext& run);
+
+}  // namespace vantage

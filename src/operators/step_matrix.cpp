@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "operators/step_matrix.h"
+
+#include <algorithm>
+
+namespace vantage {
+namespace {
+
+/// Place of entry (row, column) in a compressed matrix that has it.
+int place_of(const Eigen::SparseMatrix<double>& M, int row, int column) {
+  const int* rows = M.innerIndexPtr();
+  const int* first = rows + M.outerIndexPtr()[column];
+  const int* last = rows + M.outerIndexPtr()[column + 1];
+  return static_cast<int>(std::lower_bound(first, last, row) - rows);
+}
+
+}  // namespace
+
+NormalMatrix::NormalMatrix(const Eigen::SparseMatrix<double>& L)
+    : A_(L.rows(), L.cols()), transposed_(static_cast<std::size_t>(L.nonZeros())) {
+  const int n = static_cast<int>(L.cols());
+  const int* start = L.outerIndexPtr();
+  const int* rows = L.innerIndexPtr();
+  for (int column = 0; column < n; ++column) {
+    for (int e = start[column]; e < start[column + 1]; ++e) {
+      transposed_[static_cast<std::size_t>(e)] = place_of(L, column, rows[e]);
+    }
+  }
+  std::vector<int> starts{0};
+  std::vector<int> inner;
+  std::vector<int> seen(static_cast<std::size_t>(n), -1);
+  for (int j = 0; j < n; ++j) {
+    const std::size_t first = inner.size();
+    for (int e = start[j]; e < start[j + 1]; ++e) {
+      const int k = rows[e];
+      for (int g = start[k]; g < start[k + 1]; ++g) {
+        const int i = rows[g];
+        if (i >= j && seen[static_cast<std::size_t>(i)] != j) {
+          seen[static_cast<std::size_t>(i)] = j;
+          inner.push_back(i);
+        }
+      }
+    }
+    std::sort(inner.begin() + static_cast<std::ptrdiff_t>(first), inner.end());
+    starts.push_back(static_cast<int>(inner.size()));
+  }
+  A_.resizeNonZeros(static_cast<Eigen::Index>(inner.size()));
+  std::copy(starts.begin(), starts.end(), A_.outerIndexPtr());
+  std::copy(inner.begin(), inner.end(), A_.innerIndexPtr());
+}
+
+Eigen::SparseMatrix<double>& NormalMatrix::assemble(const Eigen::SparseMatrix<double>& L,
+                                                    const Eigen::VectorXd& row_weights,
+                                                    const Eigen::VectorXd& diagonal) {
+  const int n = static_cast<int>(L.cols());
+  const int* start = L.outerIndexPtr();
+  const int* rows = L.innerIndexPtr();
+  const double* values = L.valuePtr();
+  std::vector<double> column(static_cast<std::size_t>(n), 0.0);
+  for (int j = 0; j < n; ++j) {
+    // Column j of LᵀRL: sum over k of R_k L_kj times row k of L, whose entries stand at transposed_.
+    for (int e = start[j]; e < start[j + 1]; ++e) {
+      const int k = rows[e];
+      const double factor = row_weights[k] * values[e];
+      for (int g = start[k]; g < start[k + 1]; ++g) {
+        if (rows[g] >= j) {
+          column[static_cast<std::size_t>(rows[g])] +=
+              factor * values[transposed_[static_cast<std::size_t>(g)]];
+        }
+      }
+    }
+    for (int e = A_.outerIndexPtr()[j]; e < A_.outerIndexPtr()[j + 1]; ++e) {
+      double& value = column[static_cast<std::size_t>(A_.innerIndexPtr()[e])];
+      A_.valuePtr()[e] = value;
+      value = 0.0;
+    }
+    A_.valuePtr()[A_.outerIndexPtr()[j]] += diagonal[j];  // rows ascend: the diagonal is first
+  }
+  return A_;
+}
+
+}  // namespace vantage
