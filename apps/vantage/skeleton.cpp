@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <filesystem>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
 #include "vantage/report/view_report.h"
+#include "vantage/skeleton/quality.h"
 
 #include "commands.h"
 #include "method_flags.h"
@@ -19,7 +21,9 @@ struct SkeletonCommand {
   std::string model{};
   std::string file{};
   std::string levels{};
+  bool measure = false;
   MethodFlags method{};
+  std::optional<SkeletonQuality> quality{};
 
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("MODEL", model, "file to read, or -")->required();
@@ -34,6 +38,8 @@ struct SkeletonCommand {
         });
     app.add_option("--levels", levels,
                    "folder for the contracted surface of each level: level-00.ply, …");
+    app.add_flag("--measure", measure,
+                 "measure the skeleton against the surface: length outside, limbs, visibility");
     method.add_to(app, {});
     add_common_flags(app, session.flags);
   }
@@ -48,6 +54,11 @@ struct SkeletonCommand {
     write_file(file, bytes(shape));
     if (!levels.empty()) {
       write_levels(loaded, shape);
+    }
+    if (measure) {
+      const double spacing = sample_spacing(shape.surface, options.skeleton);
+      quality = measure_skeleton(shape.surface, shape.history.component_of_vertex, shape.skeleton,
+                                 spacing, run.part(0.9, 1.0));
     }
     report(session, loaded, shape);
   }
@@ -80,18 +91,35 @@ struct SkeletonCommand {
     }
   }
 
+  [[nodiscard]] nlohmann::ordered_json quality_json(const ShapeAnalysis& shape) const {
+    const double whole = quality->length > 0.0 ? quality->length : 1.0;
+    const double diameter = shape.sphere.diameter;
+    return {{"ends", quality->ends},
+            {"outside_fraction", quality->outside_length / whole},
+            {"thin_outside_fraction", quality->thin_outside / whole},
+            {"farthest_over_radius", quality->farthest_ratio},
+            {"farthest_over_diameter", quality->farthest / diameter},
+            {"off_centre", quality->off_centre},
+            {"seen_fraction", quality->seen_fraction}};
+  }
+
   void report(Session& session, const Model& loaded, const ShapeAnalysis& shape) const {
     const CurveGraph& graph = shape.skeleton.graph;
     if (session.flags.json) {
-      const nlohmann::ordered_json json = {{"file", file},
-                                           {"nodes", graph.nodes.size()},
-                                           {"edges", graph.edges.size()},
-                                           {"components", component_count(graph)},
-                                           {"cycles", cycle_count(graph)},
-                                           {"length", total_length(graph)},
-                                           {"levels", shape.history.level_count()},
-                                           {"shrinkage", shape.history.shrinkage},
-                                           {"warnings", shape.warnings}};
+      nlohmann::ordered_json json = {{"file", file},
+                                     {"nodes", graph.nodes.size()},
+                                     {"edges", graph.edges.size()},
+                                     {"components", component_count(graph)},
+                                     {"cycles", cycle_count(graph)},
+                                     {"length", total_length(graph)},
+                                     {"levels", shape.history.level_count()},
+                                     {"shrinkage", shape.history.shrinkage},
+                                     {"warnings", shape.warnings}};
+      json["closed"] = shape.check.closed;
+      json["genus"] = shape.check.genus ? nlohmann::ordered_json(*shape.check.genus) : nullptr;
+      if (quality) {
+        json["quality"] = quality_json(shape);
+      }
       write_file("-", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
       return;
     }

@@ -9,13 +9,24 @@
 
 #include "vantage/skeleton/skeleton.h"
 
+#include "mesh/disjoint_sets.h"
+#include "skeleton/interior_path.h"
+
 namespace vantage {
 namespace {
 
-/// How often a part of an edge may be split again: at most 2⁵ parts.
-constexpr int kMostSplits = 5;
-/// Half of a split edge over the whole, at most.
-constexpr double kMostDetour = 1.5;
+/// How far a way may leave the part of the surface that its edge stands for, in edges [ours].
+constexpr int kMostRings = 2;
+
+/// The nodes next to each node.
+std::vector<std::vector<std::uint32_t>> neighbours_of_nodes(const CurveGraph& graph) {
+  std::vector<std::vector<std::uint32_t>> lists(graph.nodes.size());
+  for (const auto& [a, b] : graph.edges) {
+    lists[a].push_back(b);
+    lists[b].push_back(a);
+  }
+  return lists;
+}
 
 /// The vertices of each node, ascending.
 std::vector<std::vector<std::uint32_t>> vertices_of_nodes(
@@ -57,36 +68,26 @@ class NearestMiddle {
   bool found_ = false;
 };
 
-/// A piece of an edge of the graph that is yet to be looked at.
-struct Piece {
-  std::uint32_t a;
-  std::uint32_t b;
-  int splits;  ///< How many splits made it.
-};
-
 class EdgeRouter {
  public:
   EdgeRouter(CurveGraph graph, const Routing& routing, std::vector<std::uint32_t>& node_of_vertex)
       : graph_(std::move(graph)),
         routing_(routing),
         node_of_vertex_(node_of_vertex),
-        vertices_(vertices_of_nodes(graph_.nodes.size(), node_of_vertex)) {}
+        component_(components_of_nodes(graph_, node_of_vertex, routing.component_of_vertex)),
+        vertices_(vertices_of_nodes(graph_.nodes.size(), node_of_vertex)),
+        neighbours_(neighbours_of_nodes(graph_)) {}
 
   CurveGraph route() {
-    std::vector<Piece> open;
-    for (const auto& [a, b] : graph_.edges) {
-      open.push_back({a, b, 0});
-    }
+    const std::vector<std::array<std::uint32_t, 2>> edges = std::move(graph_.edges);
     graph_.edges.clear();
-    while (!open.empty()) {
-      const Piece piece = open.back();
-      open.pop_back();
-      const std::optional<std::uint32_t> middle = split(piece);
-      if (middle) {
-        open.push_back({piece.a, *middle, piece.splits + 1});
-        open.push_back({*middle, piece.b, piece.splits + 1});
+    for (const auto& [a, b] : edges) {
+      const std::uint32_t component = component_[a];
+      if (component == Skeleton::kNone ||
+          routing_.shell.inside(component, graph_.nodes[a], graph_.nodes[b])) {
+        graph_.edges.push_back({a, b});
       } else {
-        graph_.edges.push_back({std::min(piece.a, piece.b), std::max(piece.a, piece.b)});
+        lead(a, b, way(component, a, b));
       }
     }
     std::sort(graph_.edges.begin(), graph_.edges.end());
@@ -94,73 +95,124 @@ class EdgeRouter {
   }
 
  private:
-  /// The node that was put into the piece; nothing if it may stay as it is.
-  std::optional<std::uint32_t> split(const Piece& piece) {
-    const auto [a, b, splits] = piece;
-    const auto& some = vertices_[a].empty() ? vertices_[b] : vertices_[a];
-    if (splits == kMostSplits || some.empty() ||
-        routing_.shell.inside(routing_.component_of_vertex[some.front()], graph_.nodes[a],
-                              graph_.nodes[b])) {
-      return std::nullopt;
+  /// Corners of a way inside below the vertices of both nodes or, if there is none, also below those
+  /// of the nodes up to kMostRings edges away; none if there is no such way either.
+  std::vector<Vec3> way(std::uint32_t component, std::uint32_t a, std::uint32_t b) {
+    if (!paths_) {
+      paths_.emplace(routing_.mesh, routing_.shell);
     }
-    NearestMiddle middle(routing_.shell, 0.5 * (graph_.nodes[a] + graph_.nodes[b]));
-    middle.look_at(vertices_[a]);
-    middle.look_at(vertices_[b]);
-    if (!middle.found() || !leads_somewhere(middle.nearest(), graph_.nodes[a], graph_.nodes[b])) {
-      return std::nullopt;
+    std::vector<std::uint32_t> around{a, b};
+    for (int ring = 0; ring <= kMostRings; ++ring) {
+      std::vector<std::uint32_t> vertices;
+      for (const std::uint32_t node : around) {
+        vertices.insert(vertices.end(), vertices_[node].begin(), vertices_[node].end());
+      }
+      if (auto corners = paths_->find(component, graph_.nodes[a], graph_.nodes[b], vertices)) {
+        return std::move(*corners);
+      }
+      add_neighbours(around);
     }
-    const auto node = static_cast<std::uint32_t>(graph_.nodes.size());
-    graph_.nodes.push_back(middle.nearest());
-    vertices_.emplace_back();
-    hand_over(a, node);
-    hand_over(b, node);
-    return node;
+    return {};
   }
 
-  /// Whether neither half is much longer than the whole: a detour that grows leads nowhere.
-  static bool leads_somewhere(const Vec3& middle, const Vec3& a, const Vec3& b) {
-    const double longest_squared = kMostDetour * kMostDetour * (a - b).squaredNorm();
-    return (middle - a).squaredNorm() < longest_squared &&
-           (middle - b).squaredNorm() < longest_squared;
+  void add_neighbours(std::vector<std::uint32_t>& nodes) const {
+    const std::size_t count = nodes.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      for (const std::uint32_t c : neighbours_[nodes[i]]) {
+        nodes.push_back(c);
+      }
+    }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
 
-  /// Gives the vertices of `from` that are nearer to `to` to it, but never all of them.
-  void hand_over(std::uint32_t from, std::uint32_t to) {
-    const auto is_nearer = [&](std::uint32_t v) {
+  /// Puts nodes at the corners between a and b, which take over the vertices nearer to them.
+  void lead(std::uint32_t a, std::uint32_t b, const std::vector<Vec3>& corners) {
+    const auto first = static_cast<std::uint32_t>(graph_.nodes.size());
+    std::uint32_t previous = a;
+    for (const Vec3& corner : corners) {
+      const auto node = static_cast<std::uint32_t>(graph_.nodes.size());
+      graph_.nodes.push_back(corner);
+      graph_.edges.push_back({std::min(previous, node), std::max(previous, node)});
+      previous = node;
+    }
+    graph_.edges.push_back({std::min(previous, b), std::max(previous, b)});
+    vertices_.resize(graph_.nodes.size());
+    hand_over(a, first);
+    hand_over(b, first);
+  }
+
+  /// Gives the vertices of `from` that are nearer to a node from `first` on to the nearest of them,
+  /// but never all of them.
+  void hand_over(std::uint32_t from, std::uint32_t first) {
+    std::vector<std::uint32_t> kept;
+    std::vector<std::array<std::uint32_t, 2>> given;
+    for (const std::uint32_t v : vertices_[from]) {
       const Vec3& p = routing_.mesh.positions[v];
-      return (p - graph_.nodes[to]).squaredNorm() < (p - graph_.nodes[from]).squaredNorm();
-    };
-    auto& own = vertices_[from];
-    const auto first_nearer = std::stable_partition(own.begin(), own.end(),
-                                                    [&](std::uint32_t v) { return !is_nearer(v); });
-    if (first_nearer == own.begin()) {
+      std::uint32_t nearest = from;
+      for (std::uint32_t node = first; node < graph_.nodes.size(); ++node) {
+        if ((p - graph_.nodes[node]).squaredNorm() < (p - graph_.nodes[nearest]).squaredNorm()) {
+          nearest = node;
+        }
+      }
+      if (nearest == from) {
+        kept.push_back(v);
+      } else {
+        given.push_back({v, nearest});
+      }
+    }
+    if (kept.empty()) {
       return;
     }
-    for (auto v = first_nearer; v != own.end(); ++v) {
-      node_of_vertex_[*v] = to;
-      vertices_[to].push_back(*v);
+    for (const auto& [v, node] : given) {
+      node_of_vertex_[v] = node;
+      vertices_[node].push_back(v);
     }
-    own.erase(first_nearer, own.end());
+    vertices_[from] = std::move(kept);
   }
 
   CurveGraph graph_;
   const Routing& routing_;
   std::vector<std::uint32_t>& node_of_vertex_;
+  std::vector<std::uint32_t> component_;  ///< Of the nodes that were there at the start.
   std::vector<std::vector<std::uint32_t>> vertices_;
+  std::vector<std::vector<std::uint32_t>> neighbours_;  ///< Before any was put in between.
+  std::optional<InteriorPaths> paths_{};
 };
 
 }  // namespace
+
+std::vector<std::uint32_t> components_of_nodes(const CurveGraph& graph,
+                                               std::span<const std::uint32_t> node_of_vertex,
+                                               std::span<const std::uint32_t> component_of_vertex) {
+  DisjointSets sets(graph.nodes.size());
+  for (const auto& [a, b] : graph.edges) {
+    sets.join(a, b);
+  }
+  std::vector<std::uint32_t> component(graph.nodes.size(), Skeleton::kNone);
+  for (std::size_t v = 0; v < node_of_vertex.size(); ++v) {
+    if (node_of_vertex[v] != Skeleton::kNone) {
+      component[sets.root(node_of_vertex[v])] = component_of_vertex[v];
+    }
+  }
+  for (std::uint32_t i = 0; i < component.size(); ++i) {
+    component[i] = component[sets.root(i)];
+  }
+  return component;
+}
 
 CurveGraph move_nodes_inside(const CurveGraph& centred, const CurveGraph& raw,
                              const Routing& routing,
                              std::span<const std::uint32_t> node_of_vertex) {
   CurveGraph graph = centred;
   const auto vertices = vertices_of_nodes(graph.nodes.size(), node_of_vertex);
+  const auto neighbours = neighbours_of_nodes(graph);
+  const auto components = components_of_nodes(graph, node_of_vertex, routing.component_of_vertex);
   for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
-    if (vertices[i].empty()) {
+    const std::uint32_t component = components[i];
+    if (component == Skeleton::kNone) {
       continue;
     }
-    const std::uint32_t component = routing.component_of_vertex[vertices[i].front()];
     const Vec3 half_way = 0.5 * (centred.nodes[i] + raw.nodes[i]);
     const std::array places{centred.nodes[i], half_way, raw.nodes[i]};
     const auto* const place = std::find_if(places.begin(), places.end(), [&](const Vec3& p) {
@@ -172,6 +224,9 @@ CurveGraph move_nodes_inside(const CurveGraph& centred, const CurveGraph& raw,
     }
     NearestMiddle middle(routing.shell, centred.nodes[i]);
     middle.look_at(vertices[i]);
+    for (std::size_t c = 0; c < neighbours[i].size() && !middle.found(); ++c) {
+      middle.look_at(vertices[neighbours[i][c]]);
+    }
     graph.nodes[i] = middle.found() ? middle.nearest() : centred.nodes[i];
   }
   return graph;

@@ -15,6 +15,8 @@ constexpr double kFacesPerCell = 2.0;
 constexpr int kMostCells = 2048;  // along one side
 /// A ray from a vertex passes over the faces at that vertex: a ten-thousandth of the model.
 constexpr float kSkip = 1e-4F;
+/// Parts of a segment shorter than this share of it are rounding errors of where it is cut.
+constexpr double kRounding = 1e-9;
 
 TriMesh in_frame(const TriMesh& mesh, const UnitFrame& frame) {
   TriMesh moved = mesh;
@@ -160,7 +162,7 @@ int Shell::winding_of_face(const Triangle& t, const Vec3& p) const {
 }
 
 bool Shell::inside(std::uint32_t component, const Vec3& point) const {
-  if (component >= is_open_.size() || is_open_[component] != 0) {
+  if (is_open(component)) {
     return true;
   }
   const auto [x, y] = cell_of(point);
@@ -176,20 +178,68 @@ bool Shell::inside(std::uint32_t component, const Vec3& point) const {
   return winding != 0;
 }
 
-bool Shell::inside(std::uint32_t component, const Vec3& a, const Vec3& b) const {
-  for (int i = 0; i < kSamples; ++i) {
-    const double s = (i + 0.5) / kSamples;
-    if (!inside(component, (1.0 - s) * a + s * b)) {
-      return false;
+/// Where the segment from a (0) to b (1) may pass through the component's surface, sorted; both
+/// ends are among them. Faces whose box the segment's misses are left out.
+std::vector<double> Shell::cuts(std::uint32_t component, const Vec3& a, const Vec3& b) const {
+  const Vec3 low = a.cwiseMin(b);
+  const Vec3 high = a.cwiseMax(b);
+  const auto first = cell_of(low);
+  const auto last = cell_of(high);
+  std::vector<double> places{0.0, 1.0};
+  const auto look_at = [&](const Triangle& t) {
+    const Vec3& p = mesh_.positions[t[0]];
+    const Vec3& q = mesh_.positions[t[1]];
+    const Vec3& r = mesh_.positions[t[2]];
+    if ((p.cwiseMin(q).cwiseMin(r).array() > high.array()).any() ||
+        (p.cwiseMax(q).cwiseMax(r).array() < low.array()).any()) {
+      return;
+    }
+    const Vec3 normal = area_vector(mesh_, t);
+    const double from = normal.dot(a - p);
+    const double to = normal.dot(b - p);
+    if ((from < 0.0) != (to < 0.0)) {
+      places.push_back(from / (from - to));
+    }
+  };
+  for (int y = first[1]; y <= last[1]; ++y) {
+    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_[0]);
+    const std::size_t begin = offsets_[row + static_cast<std::size_t>(first[0])];
+    const std::size_t end = offsets_[row + static_cast<std::size_t>(last[0]) + 1];
+    for (std::size_t i = begin; i < end; ++i) {
+      const Triangle& t = mesh_.triangles[faces_[i]];
+      if (component_of_vertex_[t[0]] == component) {
+        look_at(t);
+      }
     }
   }
-  return true;
+  std::sort(places.begin(), places.end());
+  return places;
 }
 
-bool Shell::middle_at(std::uint32_t vertex, Vec3& middle) const {
+double Shell::outside_length(std::uint32_t component, const Vec3& a, const Vec3& b) const {
+  if (is_open(component)) {
+    return 0.0;
+  }
+  const std::vector<double> places = cuts(component, a, b);
+  double share = 0.0;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const double width = places[i] - places[i - 1];
+    const double s = 0.5 * (places[i] + places[i - 1]);
+    if (width > kRounding && !inside(component, (1.0 - s) * a + s * b)) {
+      share += width;
+    }
+  }
+  return share * (b - a).norm();
+}
+
+bool Shell::inside(std::uint32_t component, const Vec3& a, const Vec3& b) const {
+  return outside_length(component, a, b) == 0.0;
+}
+
+std::optional<Vec3> Shell::wall_at(std::uint32_t vertex) const {
   const Vec3 origin = frame_.to_frame(mesh_.positions[vertex]);
   if (normal_[vertex].isZero(0.0)) {
-    return false;
+    return std::nullopt;
   }
   for (const double sense : {-1.0, 1.0}) {  // inwards, unless the surface is inside out
     const Vec3 direction = sense * normal_[vertex];
@@ -197,14 +247,20 @@ bool Shell::middle_at(std::uint32_t vertex, Vec3& middle) const {
     if (!hit) {
       continue;
     }
-    const Vec3 half_way =
-        mesh_.positions[vertex] + (0.5 * static_cast<double>(hit.t) / frame_.scale) * direction;
-    if (inside(component_of_vertex_[vertex], half_way)) {
-      middle = half_way;
-      return true;
+    const Vec3 across = (static_cast<double>(hit.t) / frame_.scale) * direction;
+    if (inside(component_of_vertex_[vertex], mesh_.positions[vertex] + 0.5 * across)) {
+      return across;
     }
   }
-  return false;
+  return std::nullopt;
+}
+
+bool Shell::middle_at(std::uint32_t vertex, Vec3& middle) const {
+  const std::optional<Vec3> across = wall_at(vertex);
+  if (across) {
+    middle = mesh_.positions[vertex] + 0.5 * *across;
+  }
+  return across.has_value();
 }
 
 }  // namespace vantage

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,14 +24,25 @@ class Shell {
   /// Whether the surface of the component winds around the point, or is open.
   [[nodiscard]] bool inside(std::uint32_t component, const Vec3& point) const;
 
-  /// Whether all of the segment, looked at in kSamples places, is inside.
+  /// Whether all of the segment is inside, but for a rounding error at its ends.
   [[nodiscard]] bool inside(std::uint32_t component, const Vec3& a, const Vec3& b) const;
+
+  /// Length of what of the segment is outside, exact up to rounding: the segment is cut where it
+  /// passes through a face's plane near that face, and the middle of each piece looked at.
+  [[nodiscard]] double outside_length(std::uint32_t component, const Vec3& a, const Vec3& b) const;
+
+  /// From a vertex along its normal, through the inside, to the wall across from it; nothing if
+  /// neither way leads through the inside.
+  [[nodiscard]] std::optional<Vec3> wall_at(std::uint32_t vertex) const;
 
   /// Finds the middle between a vertex and the wall across from it, along the normal.
   /// \return false, and `middle` as it was, if neither way leads through the inside.
   [[nodiscard]] bool middle_at(std::uint32_t vertex, Vec3& middle) const;
 
-  static constexpr int kSamples = 16;
+  /// Whether the component has an edge with an odd number of faces: nothing is inside or outside.
+  [[nodiscard]] bool is_open(std::uint32_t component) const {
+    return component >= is_open_.size() || is_open_[component] != 0;
+  }
 
  private:
   void mark_open_components();
@@ -38,6 +50,8 @@ class Shell {
   [[nodiscard]] std::array<int, 2> cell_of(const Vec3& p) const;
   [[nodiscard]] int crossing(std::uint32_t from, std::uint32_t to, const Vec3& p) const;
   [[nodiscard]] int winding_of_face(const Triangle& t, const Vec3& p) const;
+  [[nodiscard]] std::vector<double> cuts(std::uint32_t component, const Vec3& a,
+                                         const Vec3& b) const;
 
   const TriMesh& mesh_;
   std::span<const std::uint32_t> component_of_vertex_;

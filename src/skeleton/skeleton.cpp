@@ -25,14 +25,6 @@ constexpr std::size_t kMergeFrom = 10'000;
 /// keeps].
 constexpr double kMergedLength = 0.125;
 
-/// [r] in model units: a fraction of D (ours) or of the box diagonal (Cao 2010, section 4).
-double sample_spacing(const TriMesh& mesh, const SkeletonOptions& options) {
-  const std::vector<Vec3> points = referenced_points(mesh);
-  return options.spacing * (options.scaling == ContractionScaling::Box
-                                ? bounding_box(points).size().norm()
-                                : enclosing_sphere(points).diameter);
-}
-
 /// Share of each vertex in its cluster: its area, or the mean area where it has none.
 std::vector<double> cluster_weights(const TriMesh& mesh) {
   std::vector<double> weights = vertex_areas(mesh);
@@ -207,6 +199,13 @@ Skeleton of_refinement(const TriMesh& mesh, const ContractedRefinement& refineme
 }
 
 }  // namespace
+
+double sample_spacing(const TriMesh& mesh, const SkeletonOptions& options) {
+  const std::vector<Vec3> points = referenced_points(mesh);
+  return options.spacing * (options.scaling == ContractionScaling::Box
+                                ? bounding_box(points).size().norm()
+                                : enclosing_sphere(points).diameter);
+}
 
 Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history,
                           const SkeletonOptions& options, const RunContext& run) {

@@ -49,6 +49,9 @@ struct Skeleton {
   static constexpr std::uint32_t kNone = 0xffffffffu;
 };
 
+/// [r] in model units: a fraction of D (ours) or of the box diagonal (Cao 2010, section 4).
+double sample_spacing(const TriMesh& mesh, const SkeletonOptions& options);
+
 /// Extracts the curve skeleton of `mesh` from the last level of its contraction.
 /// \pre `history` was computed from `mesh`. \throw InvalidInput, Cancelled
 Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history,

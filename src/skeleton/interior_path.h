@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "vantage/mesh/topology.h"
+#include "vantage/mesh/tri_mesh.h"
+
+#include "skeleton/shell.h"
+
+namespace vantage {
+
+/// Finds ways inside a shell. Below each vertex, along its normal, stand three points: in the middle
+/// of the wall, nearer to the surface and just below it. A way steps between points of neighbouring
+/// vertices: it can follow the surface wherever that goes, and prefers to do so in the middle.
+class InteriorPaths {
+ public:
+  /// Both must outlive the finder.
+  InteriorPaths(const TriMesh& mesh, const Shell& shell);
+
+  /// Points to go through on a short way from a to b, without a and b; every step is inside.
+  /// \param vertices below which the way may go, all of one component.
+  /// \return nothing if there is no such way.
+  [[nodiscard]] std::optional<std::vector<Vec3>> find(
+      std::uint32_t component, const Vec3& a, const Vec3& b,
+      std::span<const std::uint32_t> vertices) const;
+
+ private:
+  const TriMesh& mesh_;
+  const Shell& shell_;
+  IndexLists neighbours_;
+};
+
+}  // namespace vantage
