@@ -14,8 +14,8 @@
 namespace vantage {
 namespace {
 
-/// A face is huge if an edge of it is longer than this, over D [ours: five skeleton samples].
-constexpr double kHuge = 0.1;
+/// A face is huge if an edge of it is longer than this, over D [ours].
+constexpr double kHuge = 0.25;
 /// A component is refined if huge faces hold more than this share of its area [ours].
 constexpr double kHugeShare = 0.5;
 /// Edges are split down to this length, over D [ours: two skeleton samples].
@@ -31,8 +31,8 @@ double longest_edge(const TriMesh& mesh, const Triangle& t) {
       {(x[t[0]] - x[t[1]]).norm(), (x[t[1]] - x[t[2]]).norm(), (x[t[2]] - x[t[0]]).norm()});
 }
 
-/// The faces of the components to refine, one entry per face of the mesh.
-std::vector<bool> faces_to_refine(const TriMesh& mesh, double diameter) {
+/// The faces of the components to refine, one entry per face of a mesh of diameter 1.
+std::vector<bool> faces_to_refine(const TriMesh& mesh) {
   const Components components = connected_components(mesh);
   const std::vector<double> areas = face_areas(mesh);
   std::vector<double> area(components.count, 0.0);
@@ -40,7 +40,7 @@ std::vector<bool> faces_to_refine(const TriMesh& mesh, double diameter) {
   for (std::size_t f = 0; f < areas.size(); ++f) {
     const std::uint32_t component = components.of_vertex[mesh.triangles[f][0]];
     area[component] += areas[f];
-    if (longest_edge(mesh, mesh.triangles[f]) > kHuge * diameter) {
+    if (longest_edge(mesh, mesh.triangles[f]) > kHuge) {
       huge[component] += areas[f];
     }
   }
@@ -68,19 +68,23 @@ double estimated_vertices(const TriMesh& mesh, const std::vector<bool>& chosen, 
 }  // namespace
 
 std::optional<TriMesh> refine_coarse_components(const TriMesh& mesh, const RunContext& run) {
-  const double diameter = enclosing_sphere(referenced_points(mesh)).diameter;
-  if (mesh.triangles.empty() || !(diameter > 0.0)) {
+  const Sphere sphere = enclosing_sphere(referenced_points(mesh));
+  if (mesh.triangles.empty() || !(sphere.diameter > 0.0)) {
     return std::nullopt;
   }
-  std::vector<bool> chosen = faces_to_refine(mesh, diameter);
+  TriMesh unit = mesh;  // areas of very large or small models have no double
+  for (Vec3& p : unit.positions) {
+    p = (p - sphere.centre) / sphere.diameter;
+  }
+  std::vector<bool> chosen = faces_to_refine(unit);
   if (std::find(chosen.begin(), chosen.end(), true) == chosen.end()) {
     return std::nullopt;
   }
-  double edge = kFineEdge * diameter;
-  while (edge < diameter && estimated_vertices(mesh, chosen, edge) > kMostVertices) {
+  double edge = kFineEdge;
+  while (edge < 1.0 && estimated_vertices(unit, chosen, edge) > kMostVertices) {
     edge *= kCoarser;
   }
-  return split_long_edges(mesh, std::move(chosen), edge, run);
+  return split_long_edges(mesh, std::move(chosen), edge * sphere.diameter, run);
 }
 
 }  // namespace vantage

@@ -11,6 +11,9 @@ namespace vantage {
 namespace {
 
 constexpr std::uint32_t kWhole = 0xffffffffu;  // an edge that is not split
+/// Lengths closer than this are equal, relatively: rounding must not decide how a symmetric shape is
+/// split.
+constexpr double kTie = 1e-9;
 /// Each round halves the longest edges: enough for edges of any finite length over D.
 constexpr int kMostRounds = 40;
 
@@ -24,7 +27,7 @@ std::vector<std::uint32_t> add_middles(TriMesh& mesh, const EdgeTable& table,
     const auto faces = table.faces_of_edge[e];
     const bool wanted =
         std::any_of(faces.begin(), faces.end(), [&](std::uint32_t f) { return chosen[f]; });
-    if (wanted && (a - b).norm() > longest) {
+    if (wanted && (a - b).norm() > (1.0 + kTie) * longest) {
       middle[e] = static_cast<std::uint32_t>(mesh.positions.size());
       mesh.positions.push_back(0.5 * (a + b));
     }
@@ -55,7 +58,7 @@ void cut(const TriMesh& mesh, Triangle t, std::array<std::uint32_t, 3> m,
     // Edge t1 t2 is whole; the quadrilateral t1 t2 m1 m2 is cut along its shorter diagonal.
     out.push_back({t[0], m[2], m[1]});
     const auto& x = mesh.positions;
-    if ((x[t[1]] - x[m[1]]).squaredNorm() <= (x[t[2]] - x[m[2]]).squaredNorm()) {
+    if ((x[t[1]] - x[m[1]]).norm() <= (1.0 + kTie) * (x[t[2]] - x[m[2]]).norm()) {
       out.push_back({t[1], t[2], m[1]});
       out.push_back({t[1], m[1], m[2]});
     } else {

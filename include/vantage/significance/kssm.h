@@ -35,10 +35,10 @@ struct KssmOptions {
   Kinematics kinematics = Kinematics::Displacement;  ///< What is summed.
   bool area_weighted_mean = false;  ///< Weight m̄ by vertex area (`--weight area`).
   /// Levels after the input whose displacement spans at most this fraction of D contribute nothing;
-  /// 0 keeps all that span more than 1e-6 D (the paper). Ours: twice the distance of skeleton
-  /// samples. What spans less than the skeleton's resolution is noise, and normalising would blow
-  /// it up to the whole range.
-  double flat_level = 0.04;
+  /// 0 keeps all that span more than 1e-6 D (the paper). Ours: three times the distance of
+  /// skeleton samples. What spans less is mostly the noise of the sampling, and normalising would
+  /// blow it up to the whole range (docs/kssm.md has the trials).
+  double flat_level = 0.06;
 };
 
 /// Names, ranges and help of the numbers in KssmOptions.

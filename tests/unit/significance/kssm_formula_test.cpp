@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -99,7 +100,10 @@ TEST_P(KssmFormula, FollowsTheVerticesWhenTheyAreRenumbered) {
 
 INSTANTIATE_TEST_SUITE_P(
     AllOptions, KssmFormula,
-    testing::Values(KssmOptions{Suppression::Mean, Kinematics::Displacement, false},
+    testing::Values(KssmOptions{Suppression::Mean, Kinematics::Displacement, false, 0.0},
+                    KssmOptions{Suppression::Mean, Kinematics::Displacement, false, 0.15},
+                    KssmOptions{Suppression::Mean, Kinematics::Velocity, false, 0.15},
+                    KssmOptions{Suppression::Mean, Kinematics::Displacement, false},
                     KssmOptions{Suppression::Mean, Kinematics::Displacement, true},
                     KssmOptions{Suppression::Mean, Kinematics::Velocity, false},
                     KssmOptions{Suppression::Mean, Kinematics::Velocity, true},
@@ -124,6 +128,48 @@ TEST(KssmFlatLevel, SpansAtMostAMillionthOfTheDiameter) {
 TEST(KssmFlatLevel, DoesNotSpanMoreThanAMillionthOfTheDiameter) {
   // All others are at the minimum to rounding, 1e-10 of the span: m̄ is nothing.
   EXPECT_NEAR(factor_with_a_raised_vertex(1.05 * 1e-6 * 2.0), 1.0, 1e-8);
+}
+
+/// Level factors of a raised sphere that halves its size at each step: level j spans 0.2 / 2^j, over
+/// a diameter of about 2.1.
+std::vector<double> factors_of_a_halved_sphere(double flat_level) {
+  TriMesh mesh = test::sphere(2);
+  mesh.positions[5] *= 1.2;
+  ContractionHistory history;
+  history.levels = {mesh.positions};
+  for (int step = 0; step < 3; ++step) {
+    history.levels.push_back(history.levels.back());
+    for (Vec3& p : history.levels.back()) {
+      p *= 0.5;
+    }
+  }
+  const KssmOptions options{.flat_level = flat_level};
+  return compute_kssm(mesh, history, {.nodes = {Vec3::Zero()}, .edges = {}}, options).level_factor;
+}
+
+TEST(KssmFlatLevel, LeavesOutLaterLevelsThatSpanLess) {
+  // Spans over D are 0.095, 0.048, 0.024, 0.012.
+  const std::vector<double> factors = factors_of_a_halved_sphere(0.03);
+  EXPECT_GT(factors[1], 0.9);
+  EXPECT_EQ(factors[2], 0.0);
+  EXPECT_EQ(factors[3], 0.0);
+}
+
+TEST(KssmFlatLevel, NeverLeavesOutTheInput) {
+  EXPECT_GT(factors_of_a_halved_sphere(1.0)[0], 0.9);
+}
+
+TEST(KssmFlatLevel, OfZeroKeepsAllThatIsNotRounding) {
+  EXPECT_GT(factors_of_a_halved_sphere(0.0)[3], 0.9);
+}
+
+TEST(KssmFlatLevel, OutsideItsRangeIsRefusedByName) {
+  try {
+    factors_of_a_halved_sphere(2.0);
+    FAIL() << "accepted";
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find("flat-level"), std::string::npos);
+  }
 }
 
 TEST(KssmHistory, OfALaterLevelOfAnotherSizeIsRefused) {

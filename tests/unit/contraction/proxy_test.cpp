@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "contraction/proxy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "vantage/contraction/contraction.h"
+
+#include "support/shapes.h"
+
+/// \file
+/// Contraction by a decimated proxy, and of surfaces that are refined first.
+
+namespace vantage {
+namespace {
+
+/// A torus of more vertices than are contracted exactly by default: 240 × 96 = 23 040.
+TriMesh large_torus() {
+  return test::torus(1.0, 0.3, 240, 96);
+}
+
+double distance_to_unit_circle(const Vec3& p) {
+  return std::hypot(std::hypot(p.x(), p.y()) - 1.0, p.z());
+}
+
+TEST(MakeProxy, PlacesEveryVertexWithinTheSagOfItsFaces) {
+  const TriMesh torus = large_torus();
+  const Proxy proxy = make_proxy(torus, 4000, {});
+  ASSERT_EQ(proxy.place.size(), torus.positions.size());
+  for (std::size_t v = 0; v < torus.positions.size(); ++v) {
+    const Vec3 p = position_of(proxy.place[v], proxy.mesh, proxy.mesh.positions);
+    // 4000 vertices on 11.8 square units: edges of 0.06, which sag by 0.06² / (8 · 0.3) = 0.0015 on
+    // the tube; some edges are twice as long.
+    EXPECT_LE((p - torus.positions[v]).norm(), 4 * 0.0015);
+  }
+}
+
+TEST(MakeProxy, SharesAllFineVerticesOut) {
+  const Proxy proxy = make_proxy(large_torus(), 4000, {});
+  double sum = 0.0;
+  for (const double count : proxy.shares.count) {
+    sum += count;
+  }
+  EXPECT_NEAR(sum, 240.0 * 96.0, 1e-2 * 240.0 * 96.0);  // a small share is rounded up
+}
+
+TEST(ContractByProxy, SaysSo) {
+  EXPECT_EQ(contract(large_torus()).components.front().strategy, "proxy 10000");
+}
+
+TEST(ContractByProxy, IsNotDoneWhereExactIsAskedFor) {
+  const auto exact = contract(large_torus(), {.method = ContractionMethod::Exact, .max_steps = 1});
+  EXPECT_EQ(exact.components.front().strategy, "exact");
+}
+
+TEST(ContractByProxy, LeavesLevelZeroToTheBit) {
+  const TriMesh torus = large_torus();
+  EXPECT_EQ(contract(torus).levels.front(), torus.positions);
+}
+
+TEST(ContractByProxy, ShrinksAsExactDoesStepByStep) {
+  const TriMesh torus = large_torus();
+  const auto proxy = contract(torus, {.max_steps = 3});
+  const auto exact = contract(torus, {.method = ContractionMethod::Exact, .max_steps = 3});
+  ASSERT_EQ(proxy.levels.size(), exact.levels.size());
+  for (std::size_t level = 1; level < exact.levels.size(); ++level) {
+    double worst = 0.0;
+    for (std::size_t v = 0; v < torus.positions.size(); ++v) {
+      worst = std::max(worst, (proxy.levels[level][v] - exact.levels[level][v]).norm());
+    }
+    EXPECT_LE(worst, 0.02 * 0.3) << level;  // 2 % of the tube's radius
+  }
+}
+
+TEST(ContractByProxy, BringsATorusToItsCoreCircle) {
+  const ContractionHistory history = contract(large_torus());
+  double mean = 0.0;
+  for (const Vec3& p : history.levels.back()) {
+    mean += distance_to_unit_circle(p) / static_cast<double>(history.levels.back().size());
+  }
+  EXPECT_LE(mean, 0.1 * 0.3);
+}
+
+TEST(ContractByProxy, HasTheSameBytesForAnyNumberOfThreads) {
+  const TriMesh torus = large_torus();
+  const auto one = contract(torus, {}, {.max_threads = 1});
+  for (const int threads : {2, 3, 8}) {
+    EXPECT_EQ(contract(torus, {}, {.max_threads = threads}).levels, one.levels) << threads;
+  }
+}
+
+TEST(ContractRefined, SaysSoAndKeepsTheInputsVerticesOnly) {
+  const TriMesh cube = test::box(1, 1, 1, 1);
+  const ContractionHistory history = contract(cube);
+  EXPECT_EQ(history.components.front().strategy.substr(0, 8), "refined ");
+  for (const auto& level : history.levels) {
+    EXPECT_EQ(level.size(), cube.positions.size());
+  }
+}
+
+TEST(ContractRefined, ContractsABeamOfTwelveTrianglesToItsAxis) {
+  const ContractionHistory history = contract(test::box(10, 1, 1, 1));
+  ASSERT_TRUE(history.refinement.has_value());
+  double mean = 0.0;
+  const auto& last = history.refinement->levels.back();
+  for (const Vec3& p : last) {
+    mean += std::hypot(p.y() - 0.5, p.z() - 0.5) / static_cast<double>(last.size());
+  }
+  EXPECT_LE(mean, 0.1);  // a fifth of half its thickness
+}
+
+}  // namespace
+}  // namespace vantage

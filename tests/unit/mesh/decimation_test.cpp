@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/decimation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stop_token>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "vantage/core/error.h"
+#include "vantage/mesh/mesh_check.h"
+#include "vantage/mesh/topology.h"
+
+#include "mesh/edge_splitting.h"
+#include "support/shapes.h"
+
+namespace vantage {
+namespace {
+
+/// V − E + F.
+long euler_characteristic(const TriMesh& mesh) {
+  return static_cast<long>(mesh.positions.size()) -
+         static_cast<long>(build_edge_table(mesh).edges.size()) +
+         static_cast<long>(mesh.triangles.size());
+}
+
+std::size_t border_edges(const TriMesh& mesh) {
+  const EdgeTable table = build_edge_table(mesh);
+  std::size_t count = 0;
+  for (std::size_t e = 0; e < table.edges.size(); ++e) {
+    count += table.faces_of_edge[e].size() == 1 ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(Decimate, LeavesAsManyVerticesAsAsked) {
+  EXPECT_EQ(decimate(test::sphere(4), 500, {}).mesh.positions.size(), 500U);
+}
+
+TEST(Decimate, KeepsTheHandleOfATorusDownToWhatCanBeKept) {
+  const Decimation coarse = decimate(test::torus(1.0, 0.3, 60, 24), 0, {});
+  EXPECT_LT(coarse.mesh.positions.size(), 100U);
+  EXPECT_EQ(euler_characteristic(coarse.mesh), 0);
+  EXPECT_EQ(border_edges(coarse.mesh), 0U);
+}
+
+TEST(Decimate, KeepsASphereClosedDownToATetrahedron) {
+  const Decimation coarse = decimate(test::sphere(3), 0, {});
+  EXPECT_GE(coarse.mesh.positions.size(), 4U);
+  EXPECT_EQ(euler_characteristic(coarse.mesh), 2);
+}
+
+TEST(Decimate, KeepsBothRimsOfAnOpenCylinder) {
+  const Decimation coarse = decimate(test::open_cylinder(0.3, 3.0, 24, 60), 200, {});
+  EXPECT_EQ(euler_characteristic(coarse.mesh), 0);
+  EXPECT_GE(border_edges(coarse.mesh), 6U);
+}
+
+TEST(Decimate, StaysOnASphereToAFewPercent) {
+  const Decimation coarse = decimate(test::sphere(4), 400, {});
+  for (const Vec3& p : coarse.mesh.positions) {
+    // A vertex stands for 4π / 400 square units, a patch of radius 0.1. Quadrics put it where the
+    // tangent planes meet that it stands for; those at the rim meet 0.1² / 2 above the sphere.
+    EXPECT_NEAR(p.norm(), 1.0, 0.005);
+  }
+}
+
+TEST(Decimate, NamesACoarseVertexForEveryFineOneAndEachCoarseOneIsNamed) {
+  const Decimation coarse = decimate(test::torus(1.0, 0.3, 60, 24), 300, {});
+  const std::set<std::uint32_t> named(coarse.of_vertex.begin(), coarse.of_vertex.end());
+  EXPECT_EQ(coarse.of_vertex.size(), 60U * 24U);
+  EXPECT_EQ(named.size(), coarse.mesh.positions.size());
+  EXPECT_EQ(*named.rbegin() + 1, coarse.mesh.positions.size());
+}
+
+TEST(Decimate, StopsOnRequest) {
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_THROW(decimate(test::sphere(3), 10, {.stop = source.get_token()}), Cancelled);
+}
+
+TEST(MergeShortEdges, LeavesNoEdgeThatIsShortAndMayGo) {
+  const TriMesh torus = test::torus(1.0, 0.3, 60, 24);
+  const std::vector<double> weights(torus.positions.size(), 1.0);
+  const Decimation merged = merge_short_edges(torus, weights, 0.15, {});
+  EXPECT_LT(merged.mesh.positions.size(), torus.positions.size() / 2);
+  EXPECT_EQ(euler_characteristic(merged.mesh), 0);
+}
+
+TEST(MergeShortEdges, LeavesLongEdgesAlone) {
+  const TriMesh box = test::box(1, 1, 1, 2);
+  const std::vector<double> weights(box.positions.size(), 1.0);
+  EXPECT_EQ(merge_short_edges(box, weights, 0.4, {}).mesh.triangles, box.triangles);
+}
+
+TEST(SplitLongEdges, KeepsTheVerticesInFrontAndTheTopology) {
+  const TriMesh box = test::box(1, 2, 3, 1);
+  const TriMesh fine =
+      split_long_edges(box, std::vector<bool>(box.triangles.size(), true), 0.3, {});
+  EXPECT_EQ(euler_characteristic(fine), 2);
+  EXPECT_EQ(border_edges(fine), 0U);
+  EXPECT_TRUE(std::equal(box.positions.begin(), box.positions.end(), fine.positions.begin()));
+  for (const auto& [a, b] : build_edge_table(fine).edges) {
+    EXPECT_LE((fine.positions[a] - fine.positions[b]).norm(), 0.3 * (1.0 + 1e-9));
+  }
+}
+
+TEST(SplitLongEdges, KeepsNeighboursOfChosenFacesFitting) {
+  const TriMesh box = test::box(1, 1, 1, 1);
+  std::vector<bool> chosen(box.triangles.size(), false);
+  chosen[0] = true;
+  EXPECT_EQ(border_edges(split_long_edges(box, chosen, 0.4, {})), 0U);
+}
+
+}  // namespace
+}  // namespace vantage
