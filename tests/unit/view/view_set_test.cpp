@@ -71,7 +71,6 @@ TEST(SelectViews, FirstViewIsTheOneGiven) {
   EXPECT_EQ(cube().select(first, {.level = 2}).views[0].direction, first);
 }
 
-
 TEST(SelectViews, GainsNeverGrowWithoutRefinement) {
   const Scene scene(test::torus(1.0, 0.4, 24, 12));
   const ViewSet set = scene.select(Vec3::UnitX(), {.refine = false, .level = 3});
