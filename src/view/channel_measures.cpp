@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/view/channel_measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "vantage/core/error.h"
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/topology.h"
+
+#include "core/parallel.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t kGrain = 256;  // faces a task
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// x log x, 0 at 0.
+double x_log_x(double x) {
+  return x > 0.0 ? x * std::log2(x) : 0.0;
+}
+
+/// The channel by face: which views see it, and how much of it.
+struct FaceRows {
+  std::vector<std::size_t> offsets{};
+  std::vector<std::uint32_t> view{};
+  std::vector<float> area{};
+};
+
+FaceRows rows_by_face(const ViewChannel& channel) {
+  FaceRows rows;
+  rows.offsets.assign(channel.face_count + 1, 0);
+  for (const auto& seen : channel.views) {
+    for (const FaceArea& a : seen) {
+      ++rows.offsets[a.face + 1];
+    }
+  }
+  std::partial_sum(rows.offsets.begin(), rows.offsets.end(), rows.offsets.begin());
+  rows.view.resize(rows.offsets.back());
+  rows.area.resize(rows.offsets.back());
+  std::vector<std::size_t> next(rows.offsets.begin(), rows.offsets.end() - 1);
+  for (std::uint32_t v = 0; v < channel.views.size(); ++v) {
+    for (const FaceArea& a : channel.views[v]) {
+      rows.view[next[a.face]] = v;
+      rows.area[next[a.face]++] = a.area;
+    }
+  }
+  return rows;
+}
+
+/// What a pair adds to the weighted Jensen–Shannon divergence where both distributions have mass:
+/// (a + b) log (a + b) − a log a − b log b; where only one has, the terms cancel.
+double shared_term(double a, double b) {
+  return x_log_x(a + b) - x_log_x(a) - x_log_x(b);
+}
+
+/// Weighted Jensen–Shannon divergence of two distributions a/A and b/B with weights A/(A+B) and
+/// B/(A+B), from the sum of their shared terms:
+/// ((A+B) log (A+B) − A log A − B log B − Σ shared) / (A+B).
+double divergence(double a_sum, double b_sum, double shared) {
+  if (!(a_sum > 0.0) || !(b_sum > 0.0)) {
+    return 0.0;
+  }
+  const double whole = shared_term(a_sum, b_sum);
+  return std::clamp((whole - shared) / (a_sum + b_sum), 0.0, 1.0);
+}
+
+double face_divergence(const FaceRows& rows, const std::vector<double>& area_of_face,
+                       std::uint32_t a, std::uint32_t b) {
+  double shared = 0.0;
+  std::size_t i = rows.offsets[a];
+  std::size_t j = rows.offsets[b];
+  while (i < rows.offsets[a + 1] && j < rows.offsets[b + 1]) {
+    if (rows.view[i] < rows.view[j]) {
+      ++i;
+    } else if (rows.view[j] < rows.view[i]) {
+      ++j;
+    } else {
+      shared += shared_term(rows.area[i++], rows.area[j++]);
+    }
+  }
+  return divergence(area_of_face[a], area_of_face[b], shared);
+}
+
+std::vector<double> face_saliency(const FaceRows& rows, const std::vector<double>& area_of_face,
+                                  const TriMesh& mesh, const RunContext& run) {
+  const IndexLists at_vertex = vertex_faces(mesh);
+  std::vector<double> saliency(area_of_face.size(), 0.0);
+  const auto one = [&](std::uint32_t face, std::vector<std::uint32_t>& around) {
+    around.clear();
+    for (const std::uint32_t v : mesh.triangles[face]) {
+      around.insert(around.end(), at_vertex[v].begin(), at_vertex[v].end());
+    }
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const std::uint32_t other : around) {
+      if (other != face) {
+        sum += face_divergence(rows, area_of_face, face, other);
+        ++count;
+      }
+    }
+    return count > 0 ? sum / static_cast<double>(count) : 0.0;
+  };
+  parallel_for(run, saliency.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> around;
+    for (std::size_t f = begin; f < end; ++f) {
+      if (area_of_face[f] > 0.0) {
+        saliency[f] = one(static_cast<std::uint32_t>(f), around);
+      }
+    }
+  });
+  return saliency;
+}
+
+/// p' ∝ max(S, floor) p.
+std::vector<double> weighted_by_saliency(const std::vector<double>& p,
+                                         const std::vector<double>& saliency) {
+  const double highest =
+      saliency.empty() ? 0.0 : *std::max_element(saliency.begin(), saliency.end());
+  // Without any saliency all faces are alike, and p' is p.
+  const double floor = highest > 0.0 ? kSaliencyFloor * highest : 1.0;
+  std::vector<double> weighted(p.size());
+  double sum = 0.0;
+  for (std::size_t z = 0; z < p.size(); ++z) {
+    weighted[z] = std::max(saliency[z], floor) * p[z];
+    sum += weighted[z];
+  }
+  for (double& w : weighted) {
+    w = sum > 0.0 ? w / sum : 0.0;
+  }
+  return weighted;
+}
+
+double area_seen(std::span<const FaceArea> seen) {
+  double sum = 0.0;
+  for (const FaceArea& a : seen) {
+    sum += a.area;
+  }
+  return sum;
+}
+
+double least_positive(const std::vector<double>& values) {
+  double least = kNever;
+  for (const double value : values) {
+    least = value > 0.0 ? std::min(least, value) : least;
+  }
+  return least;
+}
+
+}  // namespace
+
+ChannelTerms channel_terms(const ViewChannel& channel, const TriMesh& mesh, const RunContext& run) {
+  if (mesh.triangles.size() != channel.face_count) {
+    throw InvalidInput("the channel does not belong to this mesh");
+  }
+  const FaceRows rows = rows_by_face(channel);
+  ChannelTerms terms;
+  double total = 0.0;
+  for (const auto& seen : channel.views) {
+    terms.area_of_view.push_back(area_seen(seen));
+    total += terms.area_of_view.back();
+  }
+  double entropy_of_views = 0.0;
+  for (const double area : terms.area_of_view) {
+    entropy_of_views -= total > 0.0 ? x_log_x(area / total) : 0.0;
+  }
+  const std::size_t faces = channel.face_count;
+  terms.area_of_face.assign(faces, 0.0);
+  terms.p_of_face.assign(faces, 0.0);
+  terms.i2_of_face.assign(faces, 0.0);
+  for (std::size_t z = 0; z < faces; ++z) {
+    double area = 0.0;
+    double logs = 0.0;
+    for (std::size_t k = rows.offsets[z]; k < rows.offsets[z + 1]; ++k) {
+      area += rows.area[k];
+      logs += x_log_x(rows.area[k]);
+    }
+    if (area > 0.0) {
+      // H(V|z) = log A − (1/A) Σ a log a
+      const double entropy = std::log2(area) - logs / area;
+      terms.area_of_face[z] = area;
+      terms.p_of_face[z] = area / total;
+      terms.i2_of_face[z] = entropy_of_views - entropy;
+      terms.entropy_of_faces -= x_log_x(area / total);
+      terms.mutual_information += terms.p_of_face[z] * terms.i2_of_face[z];
+    }
+  }
+  terms.saliency_of_face = face_saliency(rows, terms.area_of_face, mesh, run);
+  terms.weighted_p = weighted_by_saliency(terms.p_of_face, terms.saliency_of_face);
+  return terms;
+}
+
+ChannelMeasures channel_measures(std::span<const FaceArea> seen, const ChannelTerms& terms,
+                                 std::span<const double> face_areas) {
+  ChannelMeasures m;
+  m.projected_area = area_seen(seen);
+  if (!(m.projected_area > 0.0)) {
+    m.kullback_leibler = m.vmi = m.i2 = m.evmi = kNever;
+    return m;
+  }
+  const double surface = std::accumulate(face_areas.begin(), face_areas.end(), 0.0);
+  const double rarest = least_positive(terms.p_of_face);
+  const double rarest_weighted = least_positive(terms.weighted_p);
+  double seen_surface = 0.0;
+  for (const FaceArea& a : seen) {
+    const double p = a.area / m.projected_area;
+    const double log_p = std::log2(p);
+    const double p_z = terms.p_of_face[a.face];
+    const double weighted = terms.weighted_p[a.face];
+    m.entropy -= p * log_p;
+    m.kullback_leibler += p * (log_p - std::log2(face_areas[a.face] / surface));
+    m.vmi += p * (log_p - std::log2(p_z > 0.0 ? p_z : rarest));
+    m.i3 += p * terms.i2_of_face[a.face];
+    m.evmi += p * (log_p - std::log2(weighted > 0.0 ? weighted : rarest_weighted));
+    if (terms.area_of_face[a.face] > 0.0) {
+      m.pmi_saliency += terms.saliency_of_face[a.face] * a.area / terms.area_of_face[a.face];
+    }
+    seen_surface += face_areas[a.face];
+  }
+  m.visible_triangles = static_cast<double>(seen.size());
+  m.visibility_ratio = surface > 0.0 ? seen_surface / surface : 0.0;
+  m.i2 = terms.entropy_of_faces - m.entropy;
+  return m;
+}
+
+double view_divergence(std::span<const FaceArea> a, std::span<const FaceArea> b) {
+  double shared = 0.0;
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (a[i].face < b[j].face) {
+      ++i;
+    } else if (b[j].face < a[i].face) {
+      ++j;
+    } else {
+      shared += shared_term(a[i++].area, b[j++].area);
+    }
+  }
+  return divergence(area_seen(a), area_seen(b), shared);
+}
+
+double instability(std::span<const FaceArea> view,
+                   std::span<const std::span<const FaceArea>> neighbours) {
+  if (view.empty()) {
+    return kNever;
+  }
+  double sum = 0.0;
+  for (const auto& other : neighbours) {
+    // A neighbour that sees nothing shares nothing with this view.
+    sum += other.empty() ? 1.0 : view_divergence(view, other);
+  }
+  return neighbours.empty() ? 0.0 : sum / static_cast<double>(neighbours.size());
+}
+
+std::vector<double> saliency_on_vertices(const TriMesh& mesh,
+                                         std::span<const double> saliency_of_face) {
+  const std::vector<double> areas = face_areas(mesh);
+  std::vector<double> sum(mesh.positions.size(), 0.0);
+  std::vector<double> weight(mesh.positions.size(), 0.0);
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (const std::uint32_t v : mesh.triangles[f]) {
+      sum[v] += areas[f] * saliency_of_face[f];
+      weight[v] += areas[f];
+    }
+  }
+  for (std::size_t v = 0; v < sum.size(); ++v) {
+    sum[v] = weight[v] > 0.0 ? sum[v] / weight[v] : 0.0;
+  }
+  return sum;
+}
+
+}  // namespace vantage
