@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "vantage/core/error.h"
+#include "vantage/core/version.h"
 #include "vantage/report/view_report.h"
 
 #include "batch/content_hash.h"
@@ -18,6 +19,7 @@
 #include "batch/results_store.h"
 #include "batch/runner.h"
 #include "batch/shard_log.h"
+#include "batch_slurm.h"
 #include "commands.h"
 #include "method_flags.h"
 #include "output_folder.h"
@@ -32,6 +34,9 @@ namespace fs = std::filesystem;
 // Share of the machine's memory that all workers together may take; the rest is for caches.
 constexpr double kMemoryShare = 0.8;
 constexpr double kLeastMemoryGb = 0.5;
+// On Slurm the share of a machine is what is asked for: for each worker, and for its parent.
+constexpr double kSlurmMemoryGb = 4.0;
+constexpr double kParentMemoryGb = 0.25;
 
 /// Only the models of one shard, at the places they have among all.
 class ShardSource : public batch::EntrySource {
@@ -42,7 +47,7 @@ class ShardSource : public batch::EntrySource {
   std::optional<batch::Entry> next() override {
     while (true) {
       std::optional<batch::Entry> entry = all_->next();
-      if (!entry || shard_.holds(entry->key)) {
+      if (!entry || (entry->shard ? *entry->shard == shard_.index : shard_.holds(entry->key))) {
         return entry;
       }
     }
@@ -70,12 +75,15 @@ struct BatchCommand {
   std::string write = "best,worst";
   std::string shard{};
   std::string retry{};
+  std::string engine = "local";
   int jobs = 0;
   double memory_gb = 0.0;
   double output_limit_mb = 1024.0;
   batch::RunnerOptions runner{};
   MethodFlags method{};
+  SlurmFlags slurm{};
   std::vector<CLI::Option*> method_options{};
+  std::vector<CLI::Option*> shard_options{};  ///< That a shard takes over as they are.
   CLI::Option* threads = nullptr;
 
   void add_flags(CLI::App& app, Session& session) {
@@ -95,6 +103,11 @@ struct BatchCommand {
                    "{hash16} {hash} {key8}")
         ->capture_default_str();
     add_running_flags(app);
+    for (const char* name : {"--write", "--name", "--jobs", "--timeout", "--memory",
+                             "--output-limit", "--attempts", "--retry", "--verify"}) {
+      shard_options.push_back(app.get_option(name));
+    }
+    slurm.add_to(app);
     const std::vector<CLI::Option*> before = app.get_options();
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
     for (CLI::Option* option : app.get_options()) {
@@ -105,6 +118,7 @@ struct BatchCommand {
     add_common_flags(app, session.flags);
     threads = app.get_option("--threads");
     threads->default_str("1")->description("threads of each worker; 0: all cores");
+    shard_options.push_back(threads);
   }
 
   void add_running_flags(CLI::App& app) {
@@ -139,15 +153,28 @@ struct BatchCommand {
     app.add_option("--shard", shard,
                    "INDEX/COUNT, from 0: only this share of the models, into DIR/shards/")
         ->group(group);
+    app.add_option("--engine", engine,
+                   "local: worker processes here; slurm: a job array, its results merged")
+        ->check(CLI::IsMember({"local", "slurm"}))
+        ->capture_default_str()
+        ->group(group);
   }
 
   void run(Session& session) {
     const std::optional<batch::Shard> part =
         shard.empty() ? std::nullopt : std::optional(batch::parse_shard(shard));
-    batch::check_template(runner.name_template, part.has_value());
+    const bool on_slurm = engine == "slurm";
+    if (on_slurm && part) {
+      throw CLI::ValidationError("--shard", "--engine slurm makes the shards itself");
+    }
+    batch::check_template(runner.name_template, part.has_value() || on_slurm);
     prepare(session, part);
     std::unique_ptr<batch::EntrySource> source = open_source(session);
     const batch::FolderLock lock(folder, runner.work_name);
+    if (on_slurm) {
+      run_shards(session, *source);
+      return;
+    }
     std::unique_ptr<batch::ResultBook> book;
     if (part) {
       source = std::make_unique<ShardSource>(std::move(source), *part);
@@ -204,13 +231,53 @@ struct BatchCommand {
     };
     runner.worker_arguments = {"batch-worker",
                                "--write=" + (kinds.text().empty() ? "json" : kinds.text())};
-    for (const CLI::Option* option : method_options) {
+    append_flags(runner.worker_arguments, method_options);
+    prepare_folder();
+  }
+
+  /// Options as they were given.
+  static void append_flags(std::vector<std::string>& command,
+                           const std::vector<CLI::Option*>& options) {
+    for (const CLI::Option* option : options) {
       for (const std::string& value : option->results()) {
         const std::string name = "--" + option->get_lnames().front();
-        runner.worker_arguments.push_back(option->get_type_size() == 0 ? name : name + "=" + value);
+        command.push_back(option->get_type_size() == 0 ? name : name + "=" + value);
       }
     }
-    prepare_folder();
+  }
+
+  void run_shards(Session& session, batch::EntrySource& source) {
+    batch::SlurmRequest& request = slurm.request;
+    request.folder = fs::absolute(folder).lexically_normal().string();
+    request.cpus = std::max(1, jobs) * runner.threads;
+    const double task_gb = std::max(1, jobs) * (memory_gb > 0.0 ? memory_gb : kSlurmMemoryGb);
+    request.memory_mb = static_cast<int>((task_gb + kParentMemoryGb) * 1e3);
+    request.command = {fs::read_symlink("/proc/self/exe").string(), "batch",
+                       "--manifest=" + request.folder + "/slurm/plan.jsonl",
+                       "--output=" + request.folder, "--quiet"};
+    append_flags(request.command, shard_options);
+    append_flags(request.command, method_options);
+    if (jobs == 0) {
+      request.command.emplace_back("--jobs=1");
+    }
+    if (memory_gb <= 0.0) {
+      request.command.push_back("--memory=" + rounded(kSlurmMemoryGb));
+    }
+    batch::ResultsStore store(folder, batch::Database::Mode::Create);
+    const SlurmBatch plan{
+        .attempts = runner.attempts,
+        .is_current = [this](const batch::Entry& entry, const batch::ModelRecord& record) {
+          return record.version == version() &&
+                 (record.options == runner.options_hash(entry.up) || record.options.empty()) &&
+                 !(runner.retry_failed && record.status == "failed");
+        }};
+    run_on_slurm(session, source, store, slurm, plan);
+    const batch::StatusCounts counts = store.counts();
+    summarise(session,
+              {.done = counts.done, .failed = counts.failed, .duplicates = counts.duplicates});
+    if (counts.failed > 0) {
+      session.exit_code = kSomeFailed;
+    }
   }
 
   /// Refuses a folder with somebody else's files.

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,7 +9,7 @@
 #include "vantage/io/write.h"
 
 #include "batch/results_store.h"
-#include "batch/shard_log.h"
+#include "batch/shard_merge.h"
 #include "commands.h"
 #include "method_flags.h"
 #include "terminal.h"
@@ -19,7 +17,6 @@
 namespace vantage::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 std::string joined(const std::vector<std::string>& words) {
@@ -128,58 +125,26 @@ struct MergeCommand {
 
   void run(Session& session) const {
     batch::ResultsStore store(folders.front(), batch::Database::Mode::Create);
-    std::size_t seen = 0;
-    std::size_t taken = 0;
-    std::size_t torn = 0;
-    store.begin();
-    const auto take = [&](const batch::ModelRecord& record) {
-      ++seen;
-      taken += store.merge(record) ? 1 : 0;
-    };
-    for (const std::string& folder : folders) {
-      for (const std::string& file : session.reading([&] { return shard_files(folder); })) {
-        torn += batch::read_shard_file(file, take);
-      }
-      if (folder != folders.front() &&
-          fs::exists(fs::path(folder) / batch::ResultsStore::kFileName)) {
-        batch::ResultsStore(folder, batch::Database::Mode::Read).for_each_record(take);
-      }
-    }
-    store.commit();
+    const batch::MergeCounts merged =
+        session.reading([&] { return batch::merge_shards(folders, store); });
     const batch::StatusCounts counts = store.counts();
-    session.tell(plural(seen, "record") + " read, " + grouped(taken) + " new; " +
+    session.tell(plural(merged.seen, "record") + " read, " + grouped(merged.taken) + " new; " +
                  grouped(static_cast<std::size_t>(counts.done)) + " done, " +
                  grouped(static_cast<std::size_t>(counts.failed)) + " failed, " +
                  grouped(static_cast<std::size_t>(counts.duplicates)) +
                  " with the content of another");
-    if (torn > 0) {
-      session.say("note: " + plural(torn, "line") + " of the shards' files were no records");
+    if (merged.torn > 0) {
+      session.say("note: " + plural(merged.torn, "line") + " of the shards' files were no records");
     }
     if (session.flags.json) {
-      std::printf("%s\n", Json{{"read", seen},
-                               {"new", taken},
+      std::printf("%s\n", Json{{"read", merged.seen},
+                               {"new", merged.taken},
                                {"done", counts.done},
                                {"failed", counts.failed},
                                {"duplicates", counts.duplicates}}
                               .dump()
                               .c_str());
     }
-  }
-
- private:
-  static std::vector<std::string> shard_files(const std::string& folder) {
-    std::vector<std::string> files;
-    std::error_code error;
-    for (const auto& file : fs::directory_iterator(batch::shard_folder(folder), error)) {
-      const std::string name = file.path().filename().string();
-      // A log holds what a shard that runs, or was killed, has not yet put into its file.
-      if (name.starts_with("shard-") &&
-          (name.ends_with(".jsonl") || name.ends_with(".jsonl.log"))) {
-        files.push_back(file.path().string());
-      }
-    }
-    std::sort(files.begin(), files.end());
-    return files;
   }
 };
 

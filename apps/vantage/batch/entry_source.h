@@ -21,6 +21,7 @@ struct Entry {
   std::string up{};           ///< From the manifest; empty: as the command line says.
   std::int64_t position = 0;  ///< Place among all entries, before any is left out.
   std::string problem{};      ///< Not empty: cannot be done, for this reason.
+  std::optional<std::uint32_t> shard{};  ///< From a balanced plan; else the key's hash decides.
 
   /// What naming templates call the path: the member's if there is one.
   [[nodiscard]] const std::string& shown_path() const { return member.empty() ? path : member; }

@@ -128,6 +128,29 @@ class ManifestSource : public EntrySource {
     return cells;
   }
 
+  /// An entry as write_plan() put it, or nothing if the line is none.
+  static std::optional<Entry> planned_entry(const std::string& line) {
+    const auto json = nlohmann::json::parse(line, nullptr, false);
+    if (!json.is_object() || !json.contains("planned")) {
+      return std::nullopt;
+    }
+    const auto text = [&](const char* name) {
+      return json.contains(name) && json[name].is_string() ? json[name].get<std::string>()
+                                                           : std::string();
+    };
+    Entry entry;
+    entry.path = path_of_key(text("path"));
+    entry.member = path_of_key(text("member"));
+    entry.key = text("key");
+    entry.name = text("name");
+    entry.up = text("up");
+    entry.problem = text("problem");
+    if (json.contains("shard") && json["shard"].is_number_unsigned()) {
+      entry.shard = json["shard"].get<std::uint32_t>();
+    }
+    return entry;
+  }
+
   Fields fields_of(const std::string& line, std::string& problem) const {
     Fields fields;
     if (kind_ == Kind::Paths) {
@@ -155,6 +178,11 @@ class ManifestSource : public EntrySource {
   }
 
   Entry entry_of(const std::string& line) {
+    if (kind_ == Kind::JsonLines) {
+      if (std::optional<Entry> planned = planned_entry(line)) {
+        return *planned;
+      }
+    }
     std::string problem;
     Fields fields = fields_of(line, problem);
     static const char* const kAxes[] = {"", "x", "y", "z", "-x", "-y", "-z"};
