@@ -60,8 +60,15 @@ std::string slurm_script(const SlurmRequest& request) {
   }
   command += "--shard \"$SLURM_ARRAY_TASK_ID\"/" + std::to_string(request.shards);
   // Slurm signals the script alone; it hands SIGTERM on and reports what the shard made of it.
+  const std::string records = quoted(request.folder + "/shards/") +
+                              "\"$(printf 'shard-%05d-of-%05d.jsonl' \"$SLURM_ARRAY_TASK_ID\" " +
+                              std::to_string(request.shards) + ")\"*";
   return "#!/bin/bash\n"
-         "# Written by vantage batch --engine slurm: one shard of a collection a task.\n" +
+         "# Written by vantage batch --engine slurm: one shard of a collection a task.\n"
+         "ended() { cat " +
+         records +
+         " 2>/dev/null | wc -l; }\n"
+         "before=$(ended)\n" +
          command +
          " &\n"
          "shard=$!\n"
@@ -71,6 +78,8 @@ std::string slurm_script(const SlurmRequest& request) {
          "while kill -0 $shard 2>/dev/null; do wait $shard; code=$?; done\n"
          "# 4: every model has ended, some as failed. That is a result, not a failed task.\n"
          "if [ $code -eq 4 ]; then code=0; fi\n"
+         "# Stopped before a single model had ended: starting again would go on for ever.\n"
+         "if [ $code -eq 75 ] && [ \"$(ended)\" -eq \"$before\" ]; then code=1; fi\n"
          "exit $code\n";
 }
 

@@ -34,7 +34,7 @@ struct SlurmProgress {
 std::string index_ranges(const std::vector<std::uint32_t>& indices);
 
 /// The batch script of a request. A shard asked to stop by SIGTERM (time limit, preemption) ends
-/// with 75, for RequeueExit=75; shards whose models have all ended succeed, even if some failed.
+/// with 75, for RequeueExit=75, unless no model of it had ended since it began; shards whose models have all ended succeed, even if some failed.
 std::string slurm_script(const SlurmRequest& request);
 
 /// Submits tasks `indices` of the request. \return the job's id. \throw IoError with sbatch's words.
