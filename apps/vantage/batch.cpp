@@ -48,6 +48,10 @@ class ShardSource : public batch::EntrySource {
     }
   }
 
+  std::string fetch(const batch::Entry& entry, const std::string& file) override {
+    return all_->fetch(entry, file);
+  }
+
  private:
   std::unique_ptr<batch::EntrySource> all_;
   batch::Shard shard_;
@@ -79,7 +83,8 @@ struct BatchCommand {
   CLI::Option* threads = nullptr;
 
   void add_flags(CLI::App& app, Session& session) {
-    app.add_option("INPUT", inputs, "model files and folders of them");
+    app.add_option("INPUT", inputs,
+                   "model files, folders and archives (.zip .tar .tar.gz …) of them");
     app.add_option("-o,--output", folder, "folder for all results")->required();
     app.add_option("--manifest", manifest,
                    "file that lists the models (- for standard input): JSON lines, CSV, or paths");
@@ -229,7 +234,10 @@ struct BatchCommand {
 
   std::unique_ptr<batch::EntrySource> open_source(Session& session) const {
     return session.reading([&] {
-      return manifest.empty() ? batch::entries_of_paths(inputs, filter, folder)
+      return manifest.empty() ? batch::entries_of_paths(inputs, filter, folder,
+                                                        {.entry_bytes = runner.limits.memory_bytes,
+                                                         .timeout_s = runner.timeout_s,
+                                                         .stop = session.run().stop})
                               : batch::entries_of_manifest(manifest);
     });
   }
