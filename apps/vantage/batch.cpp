@@ -15,6 +15,7 @@
 #include "batch/entry_source.h"
 #include "batch/folder_lock.h"
 #include "batch/naming.h"
+#include "batch/overview.h"
 #include "batch/results_store.h"
 #include "batch/runner.h"
 #include "batch/shard_log.h"
@@ -74,6 +75,7 @@ struct BatchCommand {
   std::string write = "best,worst";
   std::string shard{};
   std::string retry{};
+  bool no_overview = false;
   int jobs = 0;
   double memory_gb = 0.0;
   double output_limit_mb = 1024.0;
@@ -99,6 +101,7 @@ struct BatchCommand {
                    "folder of a model's results: {stem} {name} {ext} {parent} {hash2} {hash8} "
                    "{hash16} {hash} {key8}")
         ->capture_default_str();
+    app.add_flag("--no-overview", no_overview, "no index.html and no contact sheets");
     add_running_flags(app);
     const std::vector<CLI::Option*> before = app.get_options();
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
@@ -172,6 +175,12 @@ struct BatchCommand {
       }
     };
     const batch::RunnerCounts counts = batch::run_batch(*source, *book, runner, run.stop, report);
+    if (auto* const store = dynamic_cast<batch::ResultsStore*>(book.get())) {
+      const bool changed = counts.done + counts.failed + counts.duplicates > 0;
+      if (!no_overview && (changed || !fs::exists(fs::path(folder) / "index.html"))) {
+        batch::write_overview(folder, *store, run);
+      }
+    }
     summarise(session, counts);
     if (counts.failed + counts.skipped_failed > 0) {
       session.exit_code = kSomeFailed;

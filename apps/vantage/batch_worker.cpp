@@ -12,11 +12,13 @@
 #include <unistd.h>
 
 #include "vantage/core/error.h"
+#include "vantage/io/write.h"
 #include "vantage/report/view_report.h"
 
 #include "batch/archive_reader.h"
 #include "batch/content_hash.h"
 #include "batch/naming.h"
+#include "batch/thumbnail.h"
 #include "commands.h"
 #include "method_flags.h"
 #include "output_folder.h"
@@ -171,7 +173,9 @@ struct BatchWorkerCommand {
     const UpAxis up = options.up.value_or(default_up(model.format));
     const ViewReport report = find_views(shape, up, options, run);
     OutputFolder output(batch::path_of_key(order.at("staging").get<std::string>()));
-    add_pictures(output, kinds, shape, report, options, run);
+    if (const auto best = add_pictures(output, kinds, shape, report, options, run)) {
+      output.add(batch::kThumbnailFile, png_bytes(batch::thumbnail_of(*best)));
+    }
     add_data(output, kinds, model, shape, report, options,
              batch::path_of_key(order.at("file").get<std::string>()));
     Json view = Json::parse(view_json(model, shape, report, options));

@@ -10,6 +10,7 @@
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
 
+#include "batch/overview.h"
 #include "batch/results_store.h"
 #include "batch/shard_log.h"
 #include "commands.h"
@@ -117,12 +118,14 @@ struct ExportCommand {
 
 struct MergeCommand {
   std::vector<std::string> folders{};
+  bool no_overview = false;
 
   void add_flags(CLI::App& app, Session& session) {
     app.add_option(
            "DIR", folders,
            "folder of a batch that receives its shards' results, and those of further folders")
         ->required();
+    app.add_flag("--no-overview", no_overview, "no index.html and no contact sheets");
     add_common_flags(app, session.flags);
   }
 
@@ -146,6 +149,9 @@ struct MergeCommand {
       }
     }
     store.commit();
+    if (!no_overview) {
+      batch::write_overview(folders.front(), store, session.run());
+    }
     const batch::StatusCounts counts = store.counts();
     session.tell(plural(seen, "record") + " read, " + grouped(taken) + " new; " +
                  grouped(static_cast<std::size_t>(counts.done)) + " done, " +
