@@ -19,6 +19,7 @@
 #include "batch/results_store.h"
 #include "batch/runner.h"
 #include "batch/shard_log.h"
+#include "batch_progress.h"
 #include "commands.h"
 #include "method_flags.h"
 #include "output_folder.h"
@@ -164,15 +165,13 @@ struct BatchCommand {
       book = std::make_unique<batch::ResultsStore>(folder, batch::Database::Mode::Create);
     }
     const RunContext run = session.run();
+    const BatchProgress progress(run, count_entries(session, part));
     const auto report = [&](const batch::RunnerCounts& counts, const batch::ModelRecord* record) {
-      const auto ended = counts.done + counts.failed + counts.skipped + counts.duplicates;
-      if (record != nullptr && record->status == "failed") {
+      if (record != nullptr && record->status == "failed" && record->duplicate_of.empty()) {
         const bool named = record->error.starts_with(record->key);
         session.say(named ? record->error : record->key + ": " + record->error);
       }
-      if (run.report) {
-        run.report(plural(static_cast<std::size_t>(ended), "model") + " ended", 0.0);
-      }
+      progress.show(counts);
     };
     const batch::RunnerCounts counts = batch::run_batch(*source, *book, runner, run.stop, report);
     if (auto* const store = dynamic_cast<batch::ResultsStore*>(book.get())) {
@@ -249,6 +248,24 @@ struct BatchCommand {
                                                          .stop = session.run().stop})
                               : batch::entries_of_manifest(manifest);
     });
+  }
+
+  /// How many models there are, where somebody watches and it can be known beforehand.
+  std::int64_t count_entries(Session& session, const std::optional<batch::Shard>& part) const {
+    const bool watched = isatty(STDERR_FILENO) != 0 && !session.flags.quiet && !session.flags.json;
+    const bool known =
+        manifest != "-" && std::none_of(inputs.begin(), inputs.end(), batch::is_archive);
+    if (!watched || !known) {
+      return -1;
+    }
+    const auto source = open_source(session);
+    const RunContext run = session.run();
+    std::int64_t count = 0;
+    while (const std::optional<batch::Entry> entry = source->next()) {
+      run.check();
+      count += !part || part->holds(entry->key) ? 1 : 0;
+    }
+    return count;
   }
 
   void summarise(Session& session, const batch::RunnerCounts& counts) const {

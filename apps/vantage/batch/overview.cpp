@@ -91,6 +91,10 @@ class ContactSheets {
   }
 
   void write() {
+    // The last sheet is as long as it is full.
+    image_.height = (tile_ + kColumns - 1) / kColumns * (kThumbnailSide + kGap) + kGap;
+    image_.rgba.resize(4 * static_cast<std::size_t>(image_.width) *
+                       static_cast<std::size_t>(image_.height));
     write_file((fs::path(folder_) / sheet_name(sheet_)).string(), png_bytes(image_));
     image_.rgba.clear();
     tile_ = 0;
