@@ -128,7 +128,7 @@ struct BatchCommand {
         ->group(group);
     app.add_option("--memory", memory_gb,
                    "GB of memory for each worker; default: its share of 80 %")
-        ->check(CLI::Range(0.1, 1e6))
+        ->check(CLI::Range(0.3, 1e6))  // less does not hold the program itself
         ->group(group);
     app.add_option("--output-limit", output_limit_mb, "MB, largest file that may be written")
         ->check(CLI::Range(0.001, 1e6))
@@ -151,9 +151,7 @@ struct BatchCommand {
   }
 
   void run(Session& session) {
-    const std::optional<batch::Shard> part =
-        shard.empty() ? std::nullopt : std::optional(batch::parse_shard(shard));
-    batch::check_template(runner.name_template, part.has_value());
+    const std::optional<batch::Shard> part = checked_shard();
     prepare(session, part);
     std::unique_ptr<batch::EntrySource> source = open_source(session);
     const batch::FolderLock lock(folder, runner.work_name);
@@ -187,6 +185,18 @@ struct BatchCommand {
   }
 
  private:
+  /// The shard asked for, if any, and a template that suits it. \throw CLI::ValidationError
+  [[nodiscard]] std::optional<batch::Shard> checked_shard() const {
+    try {
+      const std::optional<batch::Shard> part =
+          shard.empty() ? std::nullopt : std::optional(batch::parse_shard(shard));
+      batch::check_template(runner.name_template, part.has_value());
+      return part;
+    } catch (const InvalidInput& error) {
+      throw CLI::ValidationError(error.what());
+    }
+  }
+
   void prepare(Session& session, const std::optional<batch::Shard>& part) {
     if (inputs.empty() == manifest.empty()) {
       throw CLI::ValidationError("INPUT", "give either inputs or --manifest");

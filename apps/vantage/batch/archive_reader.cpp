@@ -12,13 +12,16 @@ namespace {
 
 using Json = nlohmann::json;
 
+// The largest dictionary of an .xz file is 1.5 GiB.
+constexpr std::uint64_t kUnpackerMemory = 2'000'000'000;
+
 }  // namespace
 
 ArchiveReader::ArchiveReader(std::string path, ArchiveLimits limits)
     : path_(std::move(path)),
       limits_(std::move(limits)),
       process_({"batch-unpack", "--", key_of_path(path_), std::to_string(limits_.entry_bytes)},
-               {.memory_bytes = limits_.entry_bytes, .file_bytes = limits_.entry_bytes}, true) {}
+               {.memory_bytes = kUnpackerMemory, .file_bytes = limits_.entry_bytes}, true) {}
 
 std::optional<std::string> ArchiveReader::answer() {
   return process_.await_line(limits_.timeout_s, limits_.stop);

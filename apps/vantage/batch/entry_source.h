@@ -60,7 +60,7 @@ struct EntryFilter {
 
 /// How far an archive is trusted.
 struct ArchiveLimits {
-  std::uint64_t entry_bytes = 0;  ///< Of one entry unpacked, and of the unpacker's memory; 0: any.
+  std::uint64_t entry_bytes = 0;  ///< Of one entry unpacked; 0: any number.
   double timeout_s = 300.0;       ///< From one entry to the next, and for unpacking one.
   std::stop_token stop{};         ///< Ends waiting.
 };
