@@ -16,9 +16,11 @@
 #include "batch/entry_source.h"
 #include "batch/folder_lock.h"
 #include "batch/naming.h"
+#include "batch/overview.h"
 #include "batch/results_store.h"
 #include "batch/runner.h"
 #include "batch/shard_log.h"
+#include "batch_progress.h"
 #include "batch_slurm.h"
 #include "commands.h"
 #include "method_flags.h"
@@ -53,6 +55,10 @@ class ShardSource : public batch::EntrySource {
     }
   }
 
+  std::string fetch(const batch::Entry& entry, const std::string& file) override {
+    return all_->fetch(entry, file);
+  }
+
  private:
   std::unique_ptr<batch::EntrySource> all_;
   batch::Shard shard_;
@@ -76,6 +82,7 @@ struct BatchCommand {
   std::string shard{};
   std::string retry{};
   std::string engine = "local";
+  bool no_overview = false;
   int jobs = 0;
   double memory_gb = 0.0;
   double output_limit_mb = 1024.0;
@@ -87,7 +94,8 @@ struct BatchCommand {
   CLI::Option* threads = nullptr;
 
   void add_flags(CLI::App& app, Session& session) {
-    app.add_option("INPUT", inputs, "model files and folders of them");
+    app.add_option("INPUT", inputs,
+                   "model files, folders and archives (.zip .tar .tar.gz …) of them");
     app.add_option("-o,--output", folder, "folder for all results")->required();
     app.add_option("--manifest", manifest,
                    "file that lists the models (- for standard input): JSON lines, CSV, or paths");
@@ -102,6 +110,7 @@ struct BatchCommand {
                    "folder of a model's results: {stem} {name} {ext} {parent} {hash2} {hash8} "
                    "{hash16} {hash} {key8}")
         ->capture_default_str();
+    app.add_flag("--no-overview", no_overview, "no index.html and no contact sheets");
     add_running_flags(app);
     for (const char* name : {"--write", "--name", "--jobs", "--timeout", "--memory",
                              "--output-limit", "--attempts", "--retry", "--verify"}) {
@@ -133,7 +142,7 @@ struct BatchCommand {
         ->group(group);
     app.add_option("--memory", memory_gb,
                    "GB of memory for each worker; default: its share of 80 %")
-        ->check(CLI::Range(0.1, 1e6))
+        ->check(CLI::Range(0.3, 1e6))  // less does not hold the program itself
         ->group(group);
     app.add_option("--output-limit", output_limit_mb, "MB, largest file that may be written")
         ->check(CLI::Range(0.001, 1e6))
@@ -161,13 +170,11 @@ struct BatchCommand {
   }
 
   void run(Session& session) {
-    const std::optional<batch::Shard> part =
-        shard.empty() ? std::nullopt : std::optional(batch::parse_shard(shard));
     const bool on_slurm = engine == "slurm";
-    if (on_slurm && part) {
+    if (on_slurm && !shard.empty()) {
       throw CLI::ValidationError("--shard", "--engine slurm makes the shards itself");
     }
-    batch::check_template(runner.name_template, part.has_value() || on_slurm);
+    const std::optional<batch::Shard> part = checked_shard();
     prepare(session, part);
     std::unique_ptr<batch::EntrySource> source = open_source(session);
     const batch::FolderLock lock(folder, runner.work_name);
@@ -183,17 +190,21 @@ struct BatchCommand {
       book = std::make_unique<batch::ResultsStore>(folder, batch::Database::Mode::Create);
     }
     const RunContext run = session.run();
+    const BatchProgress progress(run, count_entries(session, part));
     const auto report = [&](const batch::RunnerCounts& counts, const batch::ModelRecord* record) {
-      const auto ended = counts.done + counts.failed + counts.skipped + counts.duplicates;
-      if (record != nullptr && record->status == "failed") {
+      if (record != nullptr && record->status == "failed" && record->duplicate_of.empty()) {
         const bool named = record->error.starts_with(record->key);
         session.say(named ? record->error : record->key + ": " + record->error);
       }
-      if (run.report) {
-        run.report(plural(static_cast<std::size_t>(ended), "model") + " ended", 0.0);
-      }
+      progress.show(counts);
     };
     const batch::RunnerCounts counts = batch::run_batch(*source, *book, runner, run.stop, report);
+    if (auto* const store = dynamic_cast<batch::ResultsStore*>(book.get())) {
+      const bool changed = counts.done + counts.failed + counts.duplicates > 0;
+      if (!no_overview && (changed || !fs::exists(fs::path(folder) / "index.html"))) {
+        batch::write_overview(folder, *store, run);
+      }
+    }
     summarise(session, counts);
     if (counts.failed + counts.skipped_failed > 0) {
       session.exit_code = kSomeFailed;
@@ -201,6 +212,18 @@ struct BatchCommand {
   }
 
  private:
+  /// The shard asked for, if any, and a template that suits it. \throw CLI::ValidationError
+  [[nodiscard]] std::optional<batch::Shard> checked_shard() const {
+    try {
+      const std::optional<batch::Shard> part =
+          shard.empty() ? std::nullopt : std::optional(batch::parse_shard(shard));
+      batch::check_template(runner.name_template, part.has_value() || engine == "slurm");
+      return part;
+    } catch (const InvalidInput& error) {
+      throw CLI::ValidationError(error.what());
+    }
+  }
+
   void prepare(Session& session, const std::optional<batch::Shard>& part) {
     if (inputs.empty() == manifest.empty()) {
       throw CLI::ValidationError("INPUT", "give either inputs or --manifest");
@@ -272,6 +295,9 @@ struct BatchCommand {
                  !(runner.retry_failed && record.status == "failed");
         }};
     run_on_slurm(session, source, store, slurm, plan);
+    if (!no_overview && !slurm.detach) {
+      batch::write_overview(folder, store, session.run());
+    }
     const batch::StatusCounts counts = store.counts();
     summarise(session,
               {.done = counts.done, .failed = counts.failed, .duplicates = counts.duplicates});
@@ -296,9 +322,30 @@ struct BatchCommand {
 
   std::unique_ptr<batch::EntrySource> open_source(Session& session) const {
     return session.reading([&] {
-      return manifest.empty() ? batch::entries_of_paths(inputs, filter, folder)
+      return manifest.empty() ? batch::entries_of_paths(inputs, filter, folder,
+                                                        {.entry_bytes = runner.limits.memory_bytes,
+                                                         .timeout_s = runner.timeout_s,
+                                                         .stop = session.run().stop})
                               : batch::entries_of_manifest(manifest);
     });
+  }
+
+  /// How many models there are, where somebody watches and it can be known beforehand.
+  std::int64_t count_entries(Session& session, const std::optional<batch::Shard>& part) const {
+    const bool watched = isatty(STDERR_FILENO) != 0 && !session.flags.quiet && !session.flags.json;
+    const bool known =
+        manifest != "-" && std::none_of(inputs.begin(), inputs.end(), batch::is_archive);
+    if (!watched || !known) {
+      return -1;
+    }
+    const auto source = open_source(session);
+    const RunContext run = session.run();
+    std::int64_t count = 0;
+    while (const std::optional<batch::Entry> entry = source->next()) {
+      run.check();
+      count += !part || part->holds(entry->key) ? 1 : 0;
+    }
+    return count;
   }
 
   void summarise(Session& session, const batch::RunnerCounts& counts) const {

@@ -2,7 +2,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <new>
@@ -13,10 +12,13 @@
 #include <unistd.h>
 
 #include "vantage/core/error.h"
+#include "vantage/io/write.h"
 #include "vantage/report/view_report.h"
 
+#include "batch/archive_reader.h"
 #include "batch/content_hash.h"
 #include "batch/naming.h"
+#include "batch/thumbnail.h"
 #include "commands.h"
 #include "method_flags.h"
 #include "output_folder.h"
@@ -138,8 +140,7 @@ struct BatchWorkerCommand {
       Model model = load_model(path, run);
       reading = false;
       model.name = batch::path_of_key(order.at("name").get<std::string>());
-      return result_of(order, model, std::filesystem::path(path).filename().string(), options,
-                       kinds, run);
+      return result_of(order, model, options, kinds, run);
     } catch (const Cancelled&) {
       throw;
     } catch (const IoError& error) {
@@ -162,8 +163,8 @@ struct BatchWorkerCommand {
     }
   }
 
-  static Json result_of(const Json& order, const Model& model, const std::string& file,
-                        ViewOptions options, const OutputKinds& kinds, const RunContext& run) {
+  static Json result_of(const Json& order, const Model& model, ViewOptions options,
+                        const OutputKinds& kinds, const RunContext& run) {
     const auto own_up = order.at("up").get<std::string>();
     if (!own_up.empty()) {
       options.up = up_axis(own_up);
@@ -172,8 +173,11 @@ struct BatchWorkerCommand {
     const UpAxis up = options.up.value_or(default_up(model.format));
     const ViewReport report = find_views(shape, up, options, run);
     OutputFolder output(batch::path_of_key(order.at("staging").get<std::string>()));
-    add_pictures(output, kinds, shape, report, options, run);
-    add_data(output, kinds, model, shape, report, options, file);
+    if (const auto best = add_pictures(output, kinds, shape, report, options, run)) {
+      output.add(batch::kThumbnailFile, png_bytes(batch::thumbnail_of(*best)));
+    }
+    add_data(output, kinds, model, shape, report, options,
+             batch::path_of_key(order.at("file").get<std::string>()));
     Json view = Json::parse(view_json(model, shape, report, options));
     for (const char* side : {"best", "worst"}) {
       if (!kinds.has(side)) {
@@ -194,10 +198,26 @@ struct BatchWorkerCommand {
   }
 };
 
+struct BatchUnpackCommand {
+  std::string archive{};
+  std::uint64_t entry_bytes = 0;
+
+  void add_flags(CLI::App& app, Session& /*session*/) {
+    app.group("");  // not for people
+    app.add_option("ARCHIVE", archive)->required();
+    app.add_option("BYTES", entry_bytes)->required();
+  }
+
+  void run(Session& /*session*/) const {
+    batch::unpack_archive(batch::path_of_key(archive), entry_bytes, STDOUT_FILENO);
+  }
+};
+
 }  // namespace
 
-void add_batch_worker_command(CLI::App& program, Session& session) {
+void add_batch_worker_commands(CLI::App& program, Session& session) {
   add_command<BatchWorkerCommand>(program, session, "batch-worker", "", "");
+  add_command<BatchUnpackCommand>(program, session, "batch-unpack", "", "");
 }
 
 }  // namespace vantage::cli

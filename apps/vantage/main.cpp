@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
     add_render_command(program, session);
     add_info_command(program, session);
     add_batch_command(program, session);
-    add_batch_worker_command(program, session);
+    add_batch_worker_commands(program, session);
     add_results_command(program, session);
     program.parse(argc, argv);
     session.end_progress();

@@ -75,23 +75,28 @@ std::string OutputKinds::text() const {
   return text;
 }
 
-void add_pictures(OutputFolder& output, const OutputKinds& kinds, const ShapeAnalysis& shape,
-                  const ViewReport& report, const ViewOptions& options, const RunContext& run) {
+std::optional<Image> add_pictures(OutputFolder& output, const OutputKinds& kinds,
+                                  const ShapeAnalysis& shape, const ViewReport& report,
+                                  const ViewOptions& options, const RunContext& run) {
   const auto wanted = static_cast<double>(
       std::count_if(kPictures.begin(), kPictures.end(),
                     [&](const PictureKind& picture) { return kinds.has(picture.kind); }));
   double taken = 0.0;
+  std::optional<Image> best;
   for (const PictureKind& picture : kPictures) {
     if (!kinds.has(picture.kind)) {
       continue;
     }
     const ReportedView& view = picture.of_best ? report.best : report.worst;
-    const Image image =
-        take_picture(shape, view.picture, picture.shows, options, {},
-                     run.part(taken / wanted, std::min(1.0, (taken + 1.0) / wanted)));
+    Image image = take_picture(shape, view.picture, picture.shows, options, {},
+                               run.part(taken / wanted, std::min(1.0, (taken + 1.0) / wanted)));
     output.add(std::string(picture.kind) + ".png", png_bytes(image));
     taken += 1.0;
+    if (std::string_view(picture.kind) == "best") {
+      best = std::move(image);
+    }
   }
+  return best;
 }
 
 void add_data(OutputFolder& output, const OutputKinds& kinds, const Model& loaded,

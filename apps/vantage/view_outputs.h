@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -36,9 +37,10 @@ class OutputKinds {
   std::set<std::string, std::less<>> kinds_{};
 };
 
-/// Adds the pictures among `kinds`. \throw Cancelled
-void add_pictures(OutputFolder& output, const OutputKinds& kinds, const ShapeAnalysis& shape,
-                  const ViewReport& report, const ViewOptions& options, const RunContext& run);
+/// Adds the pictures among `kinds`. \return the best view's, if it is among them. \throw Cancelled
+std::optional<Image> add_pictures(OutputFolder& output, const OutputKinds& kinds,
+                                  const ShapeAnalysis& shape, const ViewReport& report,
+                                  const ViewOptions& options, const RunContext& run);
 
 /// Adds map, skeleton and cameras among `kinds`. \param file the model's file name.
 void add_data(OutputFolder& output, const OutputKinds& kinds, const Model& loaded,

@@ -9,6 +9,7 @@
 
 #include <fnmatch.h>
 
+#include "batch/archive_reader.h"
 #include "batch/naming.h"
 
 namespace vantage::batch {
@@ -23,6 +24,8 @@ bool matches(const std::string& pattern, const std::string& path) {
 }
 
 constexpr const char* kReadable[] = {"*.obj", "*.off", "*.ply", "*.stl", "*.gltf", "*.glb"};
+constexpr const char* kArchives[] = {"*.zip",     "*.tar",    "*.tar.gz", "*.tgz",
+                                     "*.tar.bz2", "*.tar.xz", "*.tar.zst"};
 
 /// Walks a folder, holding only the names of the folders between its top and here.
 class FolderWalk {
@@ -95,31 +98,59 @@ class FolderWalk {
 
 class PathSource : public EntrySource {
  public:
-  PathSource(std::vector<std::string> inputs, EntryFilter filter, std::string skipped)
-      : inputs_(std::move(inputs)), filter_(std::move(filter)), skipped_(std::move(skipped)) {}
+  PathSource(std::vector<std::string> inputs, EntryFilter filter, std::string skipped,
+             ArchiveLimits archive_limits)
+      : inputs_(std::move(inputs)),
+        filter_(std::move(filter)),
+        skipped_(std::move(skipped)),
+        archive_limits_(std::move(archive_limits)) {}
 
   std::optional<Entry> next() override {
     while (true) {
+      if (archive_) {
+        if (std::optional<Entry> entry = archive_->next(filter_)) {
+          return numbered(std::move(*entry));
+        }
+        archive_.reset();
+      }
       if (walk_) {
         if (std::optional<Entry> entry = walk_->next()) {
-          return numbered(std::move(*entry));
+          if (!entry->problem.empty() || !is_archive(entry->path)) {
+            return numbered(std::move(*entry));
+          }
+          archive_ = std::make_unique<ArchiveReader>(entry->path, archive_limits_);
+          continue;
         }
         walk_.reset();
       }
       if (at_ == inputs_.size()) {
         return std::nullopt;
       }
-      const std::string path = fs::path(inputs_[at_++]).lexically_normal().string();
-      std::error_code error;
-      if (fs::is_directory(path, error)) {
-        walk_ = std::make_unique<FolderWalk>(path, filter_, skipped_);
-      } else {
-        return numbered(Entry{.key = key_of_path(path), .path = path});
+      if (std::optional<Entry> entry = opened(inputs_[at_++])) {
+        return numbered(std::move(*entry));
       }
     }
   }
 
+  std::string fetch(const Entry& /*entry*/, const std::string& file) override {
+    return archive_ ? archive_->fetch(file) : std::string();
+  }
+
  private:
+  /// Opens a folder or an archive; a plain file is an entry at once.
+  std::optional<Entry> opened(const std::string& input) {
+    std::string path = fs::path(input).lexically_normal().string();
+    std::error_code error;
+    if (fs::is_directory(path, error)) {
+      walk_ = std::make_unique<FolderWalk>(path, filter_, skipped_);
+    } else if (is_archive(path)) {
+      archive_ = std::make_unique<ArchiveReader>(path, archive_limits_);
+    } else {
+      return Entry{.key = key_of_path(path), .path = path};
+    }
+    return std::nullopt;
+  }
+
   Entry numbered(Entry entry) {
     entry.position = position_++;
     return entry;
@@ -131,6 +162,8 @@ class PathSource : public EntrySource {
   std::size_t at_ = 0;
   std::int64_t position_ = 0;
   std::unique_ptr<FolderWalk> walk_{};
+  ArchiveLimits archive_limits_;
+  std::unique_ptr<ArchiveReader> archive_{};
 };
 
 }  // namespace
@@ -145,9 +178,15 @@ bool EntryFilter::accepts(const std::string& path_below) const {
   return included && std::none_of(exclude.begin(), exclude.end(), matches_path);
 }
 
+bool is_archive(const std::string& path) {
+  return std::any_of(std::begin(kArchives), std::end(kArchives),
+                     [&](const char* pattern) { return matches(pattern, path); });
+}
+
 std::unique_ptr<EntrySource> entries_of_paths(std::vector<std::string> inputs, EntryFilter filter,
-                                              std::string skipped) {
-  return std::make_unique<PathSource>(std::move(inputs), std::move(filter), std::move(skipped));
+                                              std::string skipped, ArchiveLimits archive_limits) {
+  return std::make_unique<PathSource>(std::move(inputs), std::move(filter), std::move(skipped),
+                                      std::move(archive_limits));
 }
 
 }  // namespace vantage::batch

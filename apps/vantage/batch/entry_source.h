@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,16 @@ class EntrySource {
   virtual ~EntrySource() = default;
 
   /// The next entry; empty at the end. Keys and positions are filled in.
+  /// \throw IoError
   virtual std::optional<Entry> next() = 0;
+
+  /// Copies the entry that next() gave last out of its archive into a new file.
+  /// \return empty, or why that cannot be.
+  virtual std::string fetch(const Entry& entry, const std::string& file) {
+    static_cast<void>(entry);
+    static_cast<void>(file);
+    return {};
+  }
 };
 
 /// Which files of folders and archives count.
@@ -49,10 +59,20 @@ struct EntryFilter {
   [[nodiscard]] bool accepts(const std::string& path_below) const;
 };
 
-/// Files and folders in the order given; folders are walked in the order of their names' bytes,
+/// How far an archive is trusted.
+struct ArchiveLimits {
+  std::uint64_t entry_bytes = 0;  ///< Of one entry unpacked; 0: any number.
+  double timeout_s = 300.0;       ///< From one entry to the next, and for unpacking one.
+  std::stop_token stop{};         ///< Ends waiting.
+};
+
+/// Whether a path is unpacked rather than read: .zip, .tar, .tar.gz and the like.
+bool is_archive(const std::string& path);
+
+/// Files, archives and folders in the order given; folders are walked in the order of their names' bytes,
 /// and links to folders are not followed. \param skipped folder that is never entered (the output).
 std::unique_ptr<EntrySource> entries_of_paths(std::vector<std::string> inputs, EntryFilter filter,
-                                              std::string skipped);
+                                              std::string skipped, ArchiveLimits archive_limits);
 
 /// Entries of a manifest ("-": standard input): JSON lines with "path" and, if wanted, "key",
 /// "name", "up"; or CSV with such columns in its header; or a path a line (or ended by a zero

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -25,6 +26,9 @@ class ResultBook {
 
   /// Key of the model whose results are in this folder; empty if there is none. \throw IoError
   virtual std::string owner_of(const std::string& folder) = 0;
+
+  /// When the last record was finished, ms since 1970; 0 if there is none. \throw IoError
+  virtual std::int64_t latest_ms() = 0;
 
   /// Adds or replaces a record; on disk when it returns. \throw IoError
   virtual void put(const ModelRecord& record) = 0;

@@ -166,6 +166,12 @@ std::string ResultsStore::owner_of(const std::string& folder) {
   return key;
 }
 
+std::int64_t ResultsStore::latest_ms() {
+  Statement latest(database_, "SELECT COALESCE(MAX(finished_ms), 0) FROM timings");
+  latest.step();
+  return latest.integer(0);
+}
+
 void ResultsStore::put(const ModelRecord& record) {
   statements_->savepoint.run();
   Statement& put = statements_->put;

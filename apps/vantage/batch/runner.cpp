@@ -3,25 +3,19 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <deque>
 #include <filesystem>
 #include <list>
 #include <map>
-#include <memory>
 #include <optional>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-#include <poll.h>
-#include <sys/eventfd.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "vantage/core/error.h"
 #include "vantage/core/version.h"
 
-#include "batch/content_hash.h"
+#include "batch/crew.h"
 #include "batch/naming.h"
 #include "batch/result_folder.h"
 
@@ -29,13 +23,9 @@ namespace vantage::batch {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-using Json = nlohmann::json;
 
 // Models that wait for an equal one to be finished; beyond this nothing new is taken up.
-constexpr std::size_t kMostWaiting = 4096;
-// A worker that says nothing is looked at this often, for its time limit.
-constexpr int kPollMs = 200;
+constexpr std::size_t kMostWaiting = 1024;
 
 FileStamp stamp_of(const std::string& path) {
   struct stat status {};
@@ -53,114 +43,80 @@ std::int64_t now_ms() {
       .count();
 }
 
-/// Wakes a poll when a stop is requested.
-class StopEvent {
- public:
-  explicit StopEvent(const std::stop_token& stop)
-      : descriptor_(::eventfd(0, EFD_CLOEXEC)), callback_(stop, [this] {
-          const std::uint64_t one = 1;
-          [[maybe_unused]] const auto done = ::write(descriptor_, &one, sizeof one);
-        }) {}
+/// Whether two records answer, or ask, for the same thing of a model.
+bool same_question(const ModelRecord& a, const ModelRecord& b) {
+  return a.options == b.options && a.version == b.version && a.name == b.name;
+}
 
-  StopEvent(const StopEvent&) = delete;
-  StopEvent& operator=(const StopEvent&) = delete;
-
-  ~StopEvent() { ::close(descriptor_); }
-
-  [[nodiscard]] int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_;
-  std::stop_callback<std::function<void()>> callback_;
-};
-
-struct Seat;
-
-/// Where a model is between its place in the input and its record.
-enum class Stage {
-  Ready,    ///< Waits for a worker.
-  Hashing,  ///< A worker reads it.
-  Hashed,   ///< Its content is known; whether it runs is decided in the order of the input.
-  Running,  ///< A worker is at it.
-  Waiting,  ///< An equal model is ahead of it.
-};
-
-struct Job {
-  Entry entry{};
-  ModelRecord record{};
-  std::optional<ModelRecord> before{};  // what the book said when it was taken up
-  Stage stage = Stage::Ready;
-  Seat* seat = nullptr;
-  int attempts = 0;
-  Clock::time_point start{};
-  std::vector<Job*> equals{};  // waiting for this one
-};
-
-/// A worker and what it is doing.
-struct Seat {
-  std::unique_ptr<WorkerProcess> process{};
-  Job* job = nullptr;
-  std::string staging{};
-};
+std::string content_key(const ModelRecord& record) {
+  return record.content + ' ' + record.options;
+}
 
 class Runner {
  public:
+  using Report = std::function<void(const RunnerCounts&, const ModelRecord*)>;
+
   Runner(EntrySource& source, ResultBook& book, const RunnerOptions& options,
-         const std::stop_token& stop,
-         const std::function<void(const RunnerCounts&, const ModelRecord*)>& report)
+         const std::stop_token& stop, const Report& report)
       : source_(source),
         book_(book),
         options_(options),
         stop_(stop),
         report_(report),
-        stop_event_(stop),
-        seats_(static_cast<std::size_t>(options.workers)) {}
+        started_ms_(std::max(now_ms(), book.latest_ms())),
+        crew_(options, stop) {}
 
   RunnerCounts run() {
-    clear_work();
-    while (true) {
-      if (stop_.stop_requested()) {
-        seats_.clear();  // kills what is in flight
-        clear_work();
-        book_.finish();
-        throw Cancelled();
+    crew_.clear_work();
+    try {
+      while (step()) {
       }
-      fill();
-      if (jobs_.empty()) {
-        break;
-      }
-      dispatch();
-      wait();
-      enforce_time();
-      decide();
+    } catch (...) {
+      crew_.kill();
+      crew_.remove_work();
+      throw;
     }
-    seats_.clear();
-    clear_work();
+    crew_.kill();
+    crew_.remove_work();
     book_.finish();
     return counts_;
   }
 
  private:
-  void clear_work() const {
-    std::error_code error;
-    fs::remove_all(work_folder(options_.folder, options_.work_name), error);
-    fs::create_directories(work_folder(options_.folder, options_.work_name), error);
-    if (error) {
-      throw IoError(work_folder(options_.folder, options_.work_name), "cannot be created",
-                    error.value());
+  /// \return false once everything has ended.
+  bool step() {
+    fill();
+    if (stop_.stop_requested()) {
+      crew_.kill();
+      book_.finish();
+      throw Cancelled();
     }
+    while (!ready_.empty() && crew_.has_idle()) {
+      Job& job = *ready_.front();
+      ready_.pop_front();
+      crew_.start(job, source_ended_ && ready_.empty());
+    }
+    if (jobs_.empty()) {
+      return !source_ended_;
+    }
+    for (const CrewEvent& event : crew_.wait()) {
+      answer(event);
+    }
+    decide();
+    report_(counts_, nullptr);
+    return true;
   }
 
-  /// Takes up entries until every seat has a next one.
+  /// Takes up entries until every worker has a next one.
   void fill() {
-    while (!source_ended_ && ready_.size() < seats_.size() && waiting_count_ < kMostWaiting &&
-           !stop_.stop_requested()) {
+    while (!source_ended_ && ready_.size() < static_cast<std::size_t>(options_.workers) &&
+           waiting_ < kMostWaiting && !stop_.stop_requested()) {
       std::optional<Entry> entry = source_.next();
-      if (!entry) {
+      if (entry) {
+        take_up(std::move(*entry));
+      } else {
         source_ended_ = true;
-        break;
       }
-      take_up(std::move(*entry));
     }
   }
 
@@ -172,18 +128,22 @@ class Runner {
     record.stamp = stamp_of(entry.path);
     record.options = options_.options_hash(entry.up);
     record.version = version();
-    record.name = entry.name.empty() ? fs::path(entry.shown_path()).stem().string() : entry.name;
-    record.name = key_of_path(record.name);
+    record.name =
+        key_of_path(entry.name.empty() ? fs::path(entry.shown_path()).stem().string() : entry.name);
+    job.file = entry.path;
     job.entry = std::move(entry);
     job.before = book_.find(record.key);
-    if (job.before && is_settled(*job.before, record)) {
+    if (is_settled(job)) {
       ++counts_.skipped;
-      counts_.skipped_failed += job.before->status == "failed" ? 1 : 0;
+      counts_.skipped_failed += job.before && job.before->status == "failed" ? 1 : 0;
       report_(counts_, nullptr);
       return;
     }
     jobs_.push_back(std::move(job));
     Job& kept = jobs_.back();
+    if (kept.entry.problem.empty() && !kept.entry.member.empty()) {
+      fetch(kept);
+    }
     if (!kept.entry.problem.empty()) {
       fail(kept, "input", kept.entry.problem);
     } else {
@@ -191,17 +151,21 @@ class Runner {
     }
   }
 
-  /// Whether an earlier record still says how this model ends.
-  bool is_settled(const ModelRecord& before, const ModelRecord& now) {
-    if (options_.verify || !same_question(before, now) || !(before.stamp == now.stamp)) {
+  /// Whether an earlier record still says how this model ends, or it is listed twice.
+  bool is_settled(const Job& job) {
+    const auto same_key = [&](const Job& other) { return other.record.key == job.record.key; };
+    if (std::any_of(jobs_.begin(), jobs_.end(), same_key)) {
+      return true;
+    }
+    if (!job.before) {
       return false;
     }
-    return still_answers(before);
-  }
-
-  static bool same_question(const ModelRecord& before, const ModelRecord& now) {
-    return before.options == now.options && before.version == now.version &&
-           before.name == now.name;
+    const ModelRecord& before = *job.before;
+    if (before.timings.finished_ms > started_ms_) {
+      return true;
+    }
+    return !options_.verify && same_question(before, job.record) &&
+           before.stamp == job.record.stamp && still_answers(before);
   }
 
   /// Whether an earlier record's results are there.
@@ -211,8 +175,7 @@ class Runner {
     }
     if (before.duplicate_of.empty()) {
       std::error_code error;
-      return !before.folder.empty() &&
-             fs::is_directory(fs::path(models_folder(options_.folder)) / before.folder, error);
+      return !before.folder.empty() && fs::is_directory(place_of(before.folder), error);
     }
     const std::optional<ModelRecord> first = book_.find(before.duplicate_of);
     return first && first->duplicate_of.empty() && first->content == before.content &&
@@ -220,177 +183,50 @@ class Runner {
            still_answers(*first);
   }
 
-  void dispatch() {
-    for (Seat& seat : seats_) {
-      if (ready_.empty()) {
-        return;
-      }
-      if (seat.job == nullptr) {
-        start(seat, *ready_.front());
-        ready_.pop_front();
-      }
-    }
-  }
-
-  void start(Seat& seat, Job& job) {
-    if (!seat.process) {
-      seat.process = std::make_unique<WorkerProcess>(options_.worker_arguments, options_.limits,
-                                                     options_.quiet_workers);
-    }
-    seat.job = &job;
-    seat.staging =
-        (fs::path(work_folder(options_.folder, options_.work_name)) / std::to_string(++staged_))
-            .string();
+  /// Brings a model out of its archive, into a file of its own.
+  void fetch(Job& job) {
+    const fs::path folder = fs::path(work_folder(options_.folder, options_.work_name)) /
+                            ("in-" + std::to_string(++fetched_));
     std::error_code error;
-    if (!fs::create_directory(seat.staging, error)) {
-      throw IoError(seat.staging, "cannot be created", error.value());
+    if (!fs::create_directory(folder, error)) {
+      throw IoError(folder.string(), "cannot be created", error.value());
     }
-    ++job.attempts;
-    job.stage = Stage::Hashing;
-    job.seat = &seat;
-    job.start = Clock::now();
-    const auto idle = static_cast<int>(
-        std::count_if(seats_.begin(), seats_.end(), [](const Seat& s) { return !s.job; }));
-    const bool last_ones = source_ended_ && ready_.size() <= 1 && idle > 0;
-    const int busy = options_.workers - idle;
-    Json order;
-    order["path"] = key_of_path(job.entry.path);
-    order["key"] = job.record.key;
-    order["name"] = job.record.name;
-    order["up"] = job.entry.up;
-    order["staging"] = key_of_path(seat.staging);
-    order["threads"] =
-        last_ones ? std::max(options_.threads, options_.spare_threads / busy) : options_.threads;
-    seat.process->send(order.dump());
+    const std::string name =
+        folder_name("{stem}.{ext}", {.path = job.entry.member, .key = job.record.key});
+    job.file = (folder / name).string();
+    job.entry.problem = source_.fetch(job.entry, job.file);
   }
 
-  void wait() {
-    std::vector<pollfd> files{{stop_event_.descriptor(), POLLIN, 0}};
-    std::vector<Seat*> seats;
-    for (Seat& seat : seats_) {
-      if (seat.job != nullptr) {
-        files.push_back({seat.process->descriptor(), POLLIN, 0});
-        seats.push_back(&seat);
-      }
-    }
-    if (::poll(files.data(), files.size(), kPollMs) <= 0) {
-      report_(counts_, nullptr);
-      return;
-    }
-    for (std::size_t i = 0; i < seats.size(); ++i) {
-      if (files[i + 1].revents != 0) {
-        listen(*seats[i]);
-      }
-    }
-  }
-
-  void listen(Seat& seat) {
-    if (!seat.process->receive()) {
-      const int status = seat.process->end();
-      give_up(seat, "crash", "the worker ended by " + how_it_ended(status));
-      return;
-    }
-    while (seat.job != nullptr) {
-      const std::optional<std::string> line = seat.process->line();
-      if (!line) {
-        return;
-      }
-      const Json answer = Json::parse(*line, nullptr, false);
-      if (!answer.is_object()) {
-        seat.process->end();
-        give_up(seat, "crash", "the worker said something that makes no sense");
-      } else if (answer.contains("content")) {
-        seat.job->record.content = answer["content"].get<std::string>();
-        seat.job->stage = Stage::Hashed;
-      } else {
-        conclude(seat, answer);
-      }
-    }
-  }
-
-  /// The worker's last word on its model.
-  void conclude(Seat& seat, const Json& answer) {
-    Job& job = *seat.job;
-    take_time(job);
-    job.record.timings.peak_bytes = answer.value("peak_bytes", std::int64_t{0});
-    if (answer.contains("result")) {
-      job.record.result = answer["result"].get<std::string>();
-      move_into_place(seat.staging, place_of(job.record.folder));
-      leave(seat);
+  void answer(const CrewEvent& event) {
+    Job& job = *event.job;
+    if (event.kind == CrewEvent::Kind::Result) {
+      move_into_place(event.staging, place_of(job.record.folder));
       job.record.status = "done";
       ++counts_.done;
       settle(job);
       return;
     }
-    const auto reason = answer.value("reason", std::string("work"));
-    const auto error = answer.value("error", std::string("failed"));
-    if (reason == "disk") {
+    if (event.kind == CrewEvent::Kind::Content) {
+      return;
+    }
+    if (event.reason == "disk") {
       throw IoError(options_.folder, "cannot hold more results; make room and run it again",
                     ENOSPC);
     }
-    if (may_pass_next_time(reason)) {
-      give_up(seat, reason, error);  // what the worker holds is in doubt
-    } else {
-      leave(seat);
-      fail(job, reason, error);
-    }
-  }
-
-  static void take_time(Job& job) {
-    job.record.timings.seconds = std::chrono::duration<double>(Clock::now() - job.start).count();
-  }
-
-  [[nodiscard]] std::string place_of(const std::string& folder) const {
-    return (fs::path(models_folder(options_.folder)) / folder).string();
-  }
-
-  /// Replaces the seat's worker; its model is tried again if it has attempts left.
-  void give_up(Seat& seat, const std::string& reason, const std::string& error) {
-    Job& job = *seat.job;
-    take_time(job);
-    seat.process.reset();
-    leave(seat);
     release(job);
-    if (job.attempts < options_.attempts) {
+    if (may_pass_next_time(event.reason) && job.attempts < options_.attempts) {
       job.stage = Stage::Ready;
       ready_.push_front(&job);
       return;
     }
-    fail(job, reason, error);
-  }
-
-  static void leave(Seat& seat) {
-    std::error_code error;
-    fs::remove_all(seat.staging, error);
-    seat.job->seat = nullptr;
-    seat.job = nullptr;
-  }
-
-  void enforce_time() {
-    for (Seat& seat : seats_) {
-      if (seat.job == nullptr || seat.job->stage == Stage::Hashed) {
-        continue;
-      }
-      const std::chrono::duration<double> used = Clock::now() - seat.job->start;
-      if (used.count() > options_.timeout_s) {
-        seat.process->end();
-        give_up(seat, "timeout",
-                "took longer than the time limit of " + limit_text(options_.timeout_s) + " s");
-      }
-    }
-  }
-
-  static std::string limit_text(double seconds) {
-    std::string text = std::to_string(seconds);
-    text.erase(text.find_last_not_of('0') + 1);
-    return text.ends_with('.') ? text.substr(0, text.size() - 1) : text;
+    fail(job, event.reason, event.error);
   }
 
   /// Settles, in the order of the input, which models run and which equal an earlier one: so the
   /// first of equal models is always the one that runs, however fast the others' workers are.
   void decide() {
     for (auto at = jobs_.begin(); at != jobs_.end();) {
-      Job& job = *at++;  // settling a job removes it
+      Job& job = *at++;  // a job that ends is removed
       if (job.stage == Stage::Ready || job.stage == Stage::Hashing) {
         return;
       }
@@ -404,45 +240,55 @@ class Runner {
     ModelRecord& record = job.record;
     if (job.before && job.before->content == record.content && same_question(*job.before, record) &&
         still_answers(*job.before)) {
-      dismiss(job);
-      ModelRecord unchanged = *job.before;  // only touched since, or --verify
-      unchanged.stamp = record.stamp;
-      unchanged.position = record.position;
-      ++counts_.skipped;
-      counts_.skipped_failed += unchanged.status == "failed" ? 1 : 0;
-      book_.put(unchanged);
-      remove(job);
+      Crew::dismiss(job);
+      keep(job);
       return;
     }
     if (const auto ahead = running_.find(content_key(record)); ahead != running_.end()) {
-      dismiss(job);
+      Crew::dismiss(job);
       job.stage = Stage::Waiting;
       ahead->second->equals.push_back(&job);
-      ++waiting_count_;
+      ++waiting_;
       return;
     }
     const std::optional<ModelRecord> first = book_.find_content(record);
     if (first && first->key != record.key && may_stand_for(*first)) {
-      dismiss(job);
+      Crew::dismiss(job);
       settle_as_equal(job, *first);
       return;
     }
+    if (!job.equals.empty() && job.equals.front()->record.content != record.content) {
+      part_from_equals(job);  // the file has changed since the attempt before
+    }
     if (claim_folder(job)) {
-      job.stage = Stage::Running;
-      job.start = Clock::now();
       running_[content_key(record)] = &job;
-      job.seat->process->send("go");
+      Crew::go(job);
     }
   }
 
-  static std::string content_key(const ModelRecord& record) {
-    return record.content + ' ' + record.options;
+  void part_from_equals(Job& job) {
+    for (Job* other : std::exchange(job.equals, {})) {
+      other->stage = Stage::Ready;
+      ready_.push_back(other);
+      --waiting_;
+    }
+  }
+
+  /// The content is what it was; only its file was touched, or it was to be verified.
+  void keep(Job& job) {
+    ModelRecord unchanged = *job.before;
+    unchanged.stamp = job.record.stamp;
+    unchanged.position = job.record.position;
+    ++counts_.skipped;
+    counts_.skipped_failed += unchanged.status == "failed" ? 1 : 0;
+    book_.put(unchanged);
+    remove(job);
   }
 
   /// Whether a finished model's results may count for an equal one.
   bool may_stand_for(const ModelRecord& first) {
     return first.status == "failed"
-               ? !options_.retry_failed || first.timings.finished_ms >= started_ms_
+               ? !options_.retry_failed || first.timings.finished_ms > started_ms_
                : still_answers(first);
   }
 
@@ -457,35 +303,37 @@ class Runner {
     if (const auto claim = claims_.find(record.folder); claim != claims_.end()) {
       owner = claim->second;
     }
-    if (owner.empty() || owner == record.key) {
-      claims_[record.folder] = record.key;
-      return true;
+    if (!owner.empty() && owner != record.key && !give_way(owner, record.content)) {
+      Crew::dismiss(job);
+      fail(job, "name",
+           "its results would go to '" + std::exchange(record.folder, {}) +
+               "', which holds those of " + owner + "; use a --name with {hash8} or {key8}");
+      return false;
     }
+    claims_[record.folder] = record.key;
+    return true;
+  }
+
+  /// Whether results of the same content, made with other options, may be replaced.
+  bool give_way(const std::string& owner, const std::string& content) {
     std::optional<ModelRecord> holder = book_.find(owner);
-    if (holder && holder->content == record.content) {  // an earlier run's, with other options
-      holder->folder.clear();
-      book_.put(*holder);
-      claims_[record.folder] = record.key;
-      return true;
+    if (!holder || holder->content != content) {
+      return false;
     }
-    dismiss(job);
-    const std::string folder = std::exchange(record.folder, {});
-    fail(job, "name",
-         "its results would go to '" + folder + "', which holds those of " + owner +
-             "; use a --name with {hash8} or {key8}");
-    return false;
+    holder->folder.clear();
+    book_.put(*holder);
+    return true;
   }
 
-  /// Tells the job's worker to forget it.
-  static void dismiss(Job& job) {
-    Seat& seat = *job.seat;
-    seat.process->send("skip");
-    leave(seat);
-  }
-
-  void release(Job& job) {
-    running_.erase(content_key(job.record));
-    claims_.erase(job.record.folder);
+  void release(const Job& job) {
+    const auto run = running_.find(content_key(job.record));
+    if (run != running_.end() && run->second == &job) {
+      running_.erase(run);
+    }
+    const auto claim = claims_.find(job.record.folder);
+    if (claim != claims_.end() && claim->second == job.record.key) {
+      claims_.erase(claim);
+    }
   }
 
   void fail(Job& job, const std::string& reason, const std::string& error) {
@@ -499,18 +347,13 @@ class Runner {
     settle(job);
   }
 
-  /// Writes down how the job ended, and the models equal to it.
+  /// Writes down how the job ended, and with it the models equal to it.
   void settle(Job& job) {
     release(job);
     write(job);
     for (Job* equal : job.equals) {
-      --waiting_count_;
-      if (equal->record.key == job.record.key) {  // listed twice
-        ++counts_.skipped;
-        remove(*equal);
-      } else {
-        settle_as_equal(*equal, job.record);
-      }
+      --waiting_;
+      settle_as_equal(*equal, job.record);
     }
     remove(job);
   }
@@ -520,14 +363,16 @@ class Runner {
     job.record.reason = first.reason;
     job.record.error = first.error;
     job.record.duplicate_of = first.key;
+    job.record.timings = {};
     ++(first.status == "done" ? counts_.duplicates : counts_.failed);
+    job.attempts = 0;
     write(job);
     remove(job);
   }
 
   void write(Job& job) {
     job.record.timings.attempts = job.attempts;
-    job.record.timings.finished_ms = now_ms();
+    job.record.timings.finished_ms = std::max(now_ms(), started_ms_ + 1);
     book_.put(job.record);
     if (job.before && !job.before->folder.empty() && job.before->folder != job.record.folder &&
         book_.owner_of(job.before->folder).empty()) {
@@ -538,25 +383,32 @@ class Runner {
   }
 
   void remove(const Job& job) {
+    if (job.file != job.entry.path) {
+      std::error_code error;
+      fs::remove_all(fs::path(job.file).parent_path(), error);
+    }
     jobs_.remove_if([&](const Job& other) { return &other == &job; });
+  }
+
+  [[nodiscard]] std::string place_of(const std::string& folder) const {
+    return (fs::path(models_folder(options_.folder)) / folder).string();
   }
 
   EntrySource& source_;
   ResultBook& book_;
   const RunnerOptions& options_;
   std::stop_token stop_;
-  const std::function<void(const RunnerCounts&, const ModelRecord*)>& report_;
-  StopEvent stop_event_;
+  const Report& report_;
   std::list<Job> jobs_{};  // in the order of the input
   std::deque<Job*> ready_{};
   std::map<std::string, Job*> running_{};        // by content and options
   std::map<std::string, std::string> claims_{};  // folder → key of the running model
-  std::size_t waiting_count_ = 0;
-  std::int64_t staged_ = 0;
-  std::int64_t started_ms_ = now_ms();
+  std::size_t waiting_ = 0;
+  std::int64_t fetched_ = 0;
+  std::int64_t started_ms_;  // later than every record of earlier runs, whatever their clocks
   bool source_ended_ = false;
   RunnerCounts counts_{};
-  std::vector<Seat> seats_;  // last: its workers end before anything they use
+  Crew crew_;  // last: workers end before what they work on
 };
 
 }  // namespace

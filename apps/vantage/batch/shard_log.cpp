@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "batch/shard_log.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -133,6 +134,14 @@ std::optional<ModelRecord> ShardLog::find_content(const ModelRecord& like) {
 std::string ShardLog::owner_of(const std::string& folder) {
   const auto found = owner_of_folder_.find(folder);
   return found == owner_of_folder_.end() ? std::string() : found->second;
+}
+
+std::int64_t ShardLog::latest_ms() {
+  std::int64_t latest = 0;
+  for (const auto& [key, record] : records_) {
+    latest = std::max(latest, record.timings.finished_ms);
+  }
+  return latest;
 }
 
 void ShardLog::open_log() {

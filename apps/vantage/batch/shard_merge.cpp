@@ -27,9 +27,11 @@ std::vector<std::string> shard_files(const std::string& folder) {
 
 }  // namespace
 
-MergeCounts merge_shards(const std::vector<std::string>& folders, ResultsStore& store) {
+MergeCounts merge_shards(const std::vector<std::string>& folders, ResultsStore& store,
+                         const RunContext& run) {
   MergeCounts counts;
   const auto take = [&](const ModelRecord& record) {
+    run.check();
     ++counts.seen;
     counts.taken += store.merge(record) ? 1 : 0;
   };

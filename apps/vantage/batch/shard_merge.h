@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "vantage/core/run_context.h"
+
 #include "batch/results_store.h"
 
 namespace vantage::batch {
@@ -17,7 +19,8 @@ struct MergeCounts {
 };
 
 /// Folds the shard files of the folders, and the stores of all but the first, into the first one's
-/// store, in one transaction; as often as wanted, also while shards run. \throw IoError
-MergeCounts merge_shards(const std::vector<std::string>& folders, ResultsStore& store);
+/// store, in one transaction; as often as wanted, also while shards run. \throw IoError, Cancelled
+MergeCounts merge_shards(const std::vector<std::string>& folders, ResultsStore& store,
+                         const RunContext& run = {});
 
 }  // namespace vantage::batch

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -95,9 +96,8 @@ WorkerProcess::~WorkerProcess() {
 }
 
 void WorkerProcess::send(const std::string& line) {
-  std::string_view rest = line;
   const std::string text = line + "\n";
-  rest = text;
+  std::string_view rest = text;
   while (!rest.empty()) {
     const ssize_t done = ::write(to_worker_, rest.data(), rest.size());
     if (done < 0 && errno != EINTR) {
@@ -129,6 +129,23 @@ std::optional<std::string> WorkerProcess::line() {
   std::string text = received_.substr(0, newline);
   received_.erase(0, newline + 1);
   return text;
+}
+
+std::optional<std::string> WorkerProcess::await_line(double timeout_s,
+                                                     const std::stop_token& stop) {
+  constexpr int kPollMs = 100;
+  for (double waited_ms = 0.0; waited_ms < 1000.0 * timeout_s && !stop.stop_requested();) {
+    if (std::optional<std::string> text = line()) {
+      return text;
+    }
+    pollfd file{from_worker_, POLLIN, 0};
+    const int ready = ::poll(&file, 1, kPollMs);
+    if (ready > 0 && !receive()) {
+      return line();
+    }
+    waited_ms += ready == 0 ? kPollMs : 0;
+  }
+  return std::nullopt;
 }
 
 int WorkerProcess::end() {

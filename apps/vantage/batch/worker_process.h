@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,9 @@ class WorkerProcess {
 
   /// The next whole line received, if there is one.
   std::optional<std::string> line();
+
+  /// Waits for a whole line; empty if the worker ends, the time is over or a stop is requested.
+  std::optional<std::string> await_line(double timeout_s, const std::stop_token& stop);
 
   /// Kills it and waits. \return how it ended, as waitpid() says.
   int end();
