@@ -15,6 +15,10 @@ find_library(METIS_LIBRARY metis REQUIRED)
 
 if(VANTAGE_BUILD_APPS)
   find_package(CLI11 2.1 REQUIRED)            # command line (BSD-3)
+  find_package(SQLite3 3.38 REQUIRED)         # results of batches (public domain); 3.38 for JSON functions
+  find_package(LibArchive 3.6 REQUIRED)       # zip and tar (BSD-2)
+  find_path(SODIUM_INCLUDE_DIR sodium.h REQUIRED)  # SHA-256 (ISC)
+  find_library(SODIUM_LIBRARY sodium REQUIRED)
 endif()
 if(VANTAGE_BUILD_TESTS)
   find_package(GTest 1.12 REQUIRED)

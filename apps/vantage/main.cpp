@@ -17,8 +17,8 @@ constexpr const char* kAbout =
 constexpr const char* kFooter =
     "Reads OBJ, OFF, PLY, STL, glTF and GLB; - reads standard input.\n"
     "\n"
-    "Exit codes: 0 done; 1 failed; 2 wrong usage; 3 input unreadable; 75 try again; 130 "
-    "interrupted.\n"
+    "Exit codes: 0 done; 1 failed; 2 wrong usage; 3 input unreadable; 4 some models of a batch "
+    "failed; 75 try again; 130 interrupted.\n"
     "\n"
     "Try: vantage view horse.ply";
 
@@ -53,13 +53,16 @@ int main(int argc, char** argv) {
     add_score_command(program, session);
     add_render_command(program, session);
     add_info_command(program, session);
+    add_batch_command(program, session);
+    add_batch_worker_commands(program, session);
+    add_results_command(program, session);
     program.parse(argc, argv);
     session.end_progress();
     if (std::fflush(stdout) != 0) {
       std::fputs("vantage: cannot write to standard output\n", stderr);
       return kFailed;
     }
-    return kDone;
+    return session.exit_code;
   } catch (const CLI::Success& request) {  // --help, --version
     return program.exit(request) == 0 ? kDone : kFailed;
   } catch (const CLI::ParseError& error) {

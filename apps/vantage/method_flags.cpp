@@ -260,6 +260,10 @@ ViewOptions MethodFlags::resolve() const {
   return options;
 }
 
+UpAxis up_axis(const std::string& name) {
+  return up_axes().at(name);
+}
+
 Vec3 parse_vector(const std::string& text, const std::string& flag) {
   Vec3 value = Vec3::Zero();
   std::string_view rest = text;

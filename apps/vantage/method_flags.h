@@ -45,6 +45,9 @@ class MethodFlags {
   std::vector<Override> overrides_{};
 };
 
+/// The axis of "x", "-y", … \pre it is one of these.
+UpAxis up_axis(const std::string& name);
+
 /// Parses "x,y,z". \throw CLI::ValidationError
 Vec3 parse_vector(const std::string& text, const std::string& flag);
 

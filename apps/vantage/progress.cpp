@@ -28,6 +28,13 @@ void Progress::show(std::string_view stage, double fraction) {
   if (!terminal_ || now - start_ < kPatience || (shown_ && now - last_ < kRefresh)) {
     return;
   }
+  if (fraction < 0.0) {  // of an unknown whole
+    std::fprintf(stderr, "\r\033[K%.*s", static_cast<int>(stage.size()), stage.data());
+    std::fflush(stderr);
+    shown_ = true;
+    last_ = now;
+    return;
+  }
   const int filled = static_cast<int>(std::lround(std::clamp(fraction, 0.0, 1.0) * kWidth));
   std::string bar;
   for (int i = 0; i < kWidth; ++i) {

@@ -12,7 +12,7 @@ class Progress {
  public:
   Progress();
 
-  /// Shows how much of all work is done, in [0, 1].
+  /// Shows how much of all work is done, in [0, 1]; negative: nobody knows, only `stage` is shown.
   void show(std::string_view stage, double fraction);
   /// Removes the bar.
   void finish();

@@ -19,6 +19,7 @@ inline constexpr int kDone = 0;
 inline constexpr int kFailed = 1;
 inline constexpr int kWrongUsage = 2;
 inline constexpr int kUnreadableInput = 3;
+inline constexpr int kSomeFailed = 4;
 inline constexpr int kTryAgain = 75;
 inline constexpr int kInterrupted = 130;
 
@@ -40,6 +41,7 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   CommonFlags flags{};
+  int exit_code = kDone;  ///< Of a run that ends without an exception.
 
   /// The context to pass to the library: progress to a terminal, stop on signals, threads.
   [[nodiscard]] RunContext run();

@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 
-#include <nlohmann/json.hpp>
-
-#include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
-#include "vantage/render/colour_map.h"
-#include "vantage/report/html_report.h"
 #include "vantage/report/view_report.h"
 
 #include "commands.h"
 #include "method_flags.h"
 #include "output_folder.h"
 #include "terminal.h"
+#include "view_outputs.h"
 #include "view_set_flags.h"
 
 namespace vantage::cli {
@@ -84,14 +79,16 @@ struct ViewCommand {
     const auto render_start = Clock::now();
     output.add("view.json", view_json(loaded, shape, report, options));
     if (!no_images) {
-      add_pictures(output, shape, report, options, run.part(0.9, 0.95));
-      if (!no_report && has_report_page()) {
-        output.add("report.html", report_html(loaded, shape, report, options, run.part(0.95, 1.0)));
+      add_pictures(output, OutputKinds::all(), shape, report, options, run.part(0.9, 0.94));
+      if (!no_report) {
+        add_report(output, OutputKinds::all(), loaded, shape, report, options,
+                   run.part(0.94, 0.98));
       }
     }
-    several.write(output, shape, report, up, options, run.part(0.9, 1.0));
+    several.write(output, shape, report, up, options, run.part(0.98, 1.0));
     seconds.render = seconds_since(render_start);
-    add_data(output, loaded, shape, report, options);
+    add_data(output, OutputKinds::all(), loaded, shape, report, options,
+             std::filesystem::path(model).filename().string());
     seconds.total = seconds_since(start);
     output.add("timings.json", timings_json(seconds));
     output.write();
@@ -107,51 +104,6 @@ struct ViewCommand {
   }
 
  private:
-  static void add_pictures(OutputFolder& output, const ShapeAnalysis& shape,
-                           const ViewReport& report, const ViewOptions& options,
-                           const RunContext& run) {
-    struct Shot {
-      const char* name;
-      const ReportedView& view;
-      Picture picture;
-    };
-
-    const Shot shots[] = {{"best.png", report.best, Picture::Plain},
-                          {"worst.png", report.worst, Picture::Plain},
-                          {"best-kssm.png", report.best, Picture::Map},
-                          {"worst-kssm.png", report.worst, Picture::Map},
-                          {"best-skeleton.png", report.best, Picture::Skeleton},
-                          {"worst-skeleton.png", report.worst, Picture::Skeleton}};
-    double done = 0.0;
-    const double share = 1.0 / std::size(shots);
-    for (const Shot& shot : shots) {
-      const Image image = take_picture(shape, shot.view.picture, shot.picture, options, {},
-                                       run.part(done, std::min(1.0, done + share)));
-      output.add(shot.name, png_bytes(image));
-      done = std::min(1.0 - share, done + share);
-    }
-  }
-
-  void add_data(OutputFolder& output, const Model& loaded, const ShapeAnalysis& shape,
-                const ViewReport& report, const ViewOptions& options) const {
-    const std::vector<double> map = on_input_vertices(shape, shape.map.of_vertex);
-    output.add("map.ply", ply_bytes(loaded.mesh, map, colour_map(map), loaded.double_precision));
-    output.add("skeleton.json", skeleton_json({.graph = &shape.skeleton.graph,
-                                               .radius = shape.skeleton.radius,
-                                               .vertex_node = nodes_of_input_vertices(shape)}));
-    const PictureSize size{options.width, options.height};
-    const std::pair<const char*, const ReportedView*> views[] = {{"best", &report.best},
-                                                                 {"worst", &report.worst}};
-    for (const auto& [name, view] : views) {
-      const std::string stem = std::string("camera-") + name;
-      output.add(stem + ".gltf", camera_gltf(view->picture, size, shape.sphere.diameter));
-      output.add(stem + ".transforms.json",
-                 camera_transforms_json(view->picture, size, std::string(name) + ".png"));
-      output.add(stem + ".f3d.txt",
-                 camera_f3d(view->picture, std::filesystem::path(model).filename().string()));
-    }
-  }
-
   static void summarise(Session& session, const Model& loaded, const ShapeAnalysis& shape,
                         const ViewReport& report, const OutputFolder& output,
                         const StageSeconds& seconds) {

@@ -69,8 +69,8 @@ class Cluster:
 
     def _write_configuration(self):
         host = socket.gethostname().split(".")[0]
-        total = next(int(line.split()[1]) // 1024
-                     for line in open("/proc/meminfo") if line.startswith("MemTotal"))
+        meminfo = pathlib.Path("/proc/meminfo").read_text().splitlines()
+        total = next(int(line.split()[1]) // 1024 for line in meminfo if line.startswith("MemTotal"))
         memory = total // len(self.nodes) - 512
         last = NODE_PORT + len(self.nodes) - 1
         f = self.folder
@@ -144,11 +144,17 @@ class Cluster:
         lines = self._run("squeue", "-h", "-r", "-j", str(job), "-o", "%K %T", check=False).split("\n")
         return dict(line.split() for line in lines if line)
 
-    def stop(self):
+    def queue_is_busy(self):
+        return bool(self._run("squeue", "-h", check=False).strip())
+
+    def cancel_all(self):
         self._run("scancel", "-f", "-u", "root", check=False)
-        deadline = time.monotonic() + 20
-        while self._run("squeue", "-h", check=False).strip() and time.monotonic() < deadline:
+        deadline = time.monotonic() + 30
+        while self.queue_is_busy() and time.monotonic() < deadline:
             time.sleep(0.2)
+
+    def stop(self):
+        self.cancel_all()
         for path in [*self.folder.glob("n*.pid"), self.folder / "controller.pid",
                      self.folder / "munge" / "pid"]:
             try:

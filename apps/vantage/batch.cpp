@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "vantage/core/error.h"
+#include "vantage/core/version.h"
+#include "vantage/report/view_report.h"
+
+#include "batch/content_hash.h"
+#include "batch/entry_source.h"
+#include "batch/folder_lock.h"
+#include "batch/naming.h"
+#include "batch/overview.h"
+#include "batch/results_store.h"
+#include "batch/runner.h"
+#include "batch/shard_log.h"
+#include "batch_progress.h"
+#include "batch_slurm.h"
+#include "commands.h"
+#include "method_flags.h"
+#include "output_folder.h"
+#include "terminal.h"
+#include "view_outputs.h"
+
+namespace vantage::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Share of the machine's memory that all workers together may take; the rest is for caches.
+constexpr double kMemoryShare = 0.8;
+constexpr double kLeastMemoryGb = 0.5;
+// On Slurm the share of a machine is what is asked for: for each worker, and for its parent.
+constexpr double kSlurmMemoryGb = 4.0;
+constexpr double kParentMemoryGb = 0.25;
+
+/// Only the models of one shard, at the places they have among all.
+class ShardSource : public batch::EntrySource {
+ public:
+  ShardSource(std::unique_ptr<batch::EntrySource> all, const batch::Shard& shard)
+      : all_(std::move(all)), shard_(shard) {}
+
+  std::optional<batch::Entry> next() override {
+    while (true) {
+      std::optional<batch::Entry> entry = all_->next();
+      if (!entry || (entry->shard ? *entry->shard == shard_.index : shard_.holds(entry->key))) {
+        return entry;
+      }
+    }
+  }
+
+  std::string fetch(const batch::Entry& entry, const std::string& file) override {
+    return all_->fetch(entry, file);
+  }
+
+ private:
+  std::unique_ptr<batch::EntrySource> all_;
+  batch::Shard shard_;
+};
+
+double machine_memory_gb() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+         static_cast<double>(sysconf(_SC_PAGE_SIZE)) / 1e9;
+}
+
+int cores() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+struct BatchCommand {
+  std::vector<std::string> inputs{};
+  std::string folder{};
+  std::string manifest{};
+  batch::EntryFilter filter{};
+  std::string write = "best,worst";
+  std::string shard{};
+  std::string retry{};
+  std::string engine = "local";
+  bool no_overview = false;
+  int jobs = 0;
+  double memory_gb = 0.0;
+  double output_limit_mb = 1024.0;
+  batch::RunnerOptions runner{};
+  MethodFlags method{};
+  SlurmFlags slurm{};
+  std::vector<CLI::Option*> method_options{};
+  std::vector<CLI::Option*> shard_options{};  ///< That a shard takes over as they are.
+  CLI::Option* threads = nullptr;
+
+  void add_flags(CLI::App& app, Session& session) {
+    app.add_option("INPUT", inputs,
+                   "model files, folders and archives (.zip .tar .tar.gz …) of them");
+    app.add_option("-o,--output", folder, "folder for all results")->required();
+    app.add_option("--manifest", manifest,
+                   "file that lists the models (- for standard input): JSON lines, CSV, or paths");
+    app.add_option("--include", filter.include,
+                   "only files of folders that match this pattern; may be given again");
+    app.add_option("--exclude", filter.exclude, "no files that match this pattern");
+    app.add_option("--write", write,
+                   "what to write for each model, besides view.json: json (no more), " +
+                       OutputKinds::all().text())
+        ->capture_default_str();
+    app.add_option("--name", runner.name_template,
+                   "folder of a model's results: {stem} {name} {ext} {parent} {hash2} {hash8} "
+                   "{hash16} {hash} {key8}")
+        ->capture_default_str();
+    app.add_flag("--no-overview", no_overview, "no index.html and no contact sheets");
+    add_running_flags(app);
+    for (const char* name : {"--write", "--name", "--jobs", "--timeout", "--memory",
+                             "--output-limit", "--attempts", "--retry", "--verify"}) {
+      shard_options.push_back(app.get_option(name));
+    }
+    slurm.add_to(app);
+    const std::vector<CLI::Option*> before = app.get_options();
+    method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
+    for (CLI::Option* option : app.get_options()) {
+      if (std::find(before.begin(), before.end(), option) == before.end()) {
+        method_options.push_back(option);
+      }
+    }
+    add_common_flags(app, session.flags);
+    threads = app.get_option("--threads");
+    threads->default_str("1")->description("threads of each worker; 0: all cores");
+    shard_options.push_back(threads);
+  }
+
+  void add_running_flags(CLI::App& app) {
+    const std::string group = "Running";
+    app.add_option("--jobs", jobs, "worker processes; 0: one a core")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str()
+        ->group(group);
+    app.add_option("--timeout", runner.timeout_s, "seconds for one attempt at a model")
+        ->check(CLI::Range(0.001, 1e7))
+        ->capture_default_str()
+        ->group(group);
+    app.add_option("--memory", memory_gb,
+                   "GB of memory for each worker; default: its share of 80 %")
+        ->check(CLI::Range(0.3, 1e6))  // less does not hold the program itself
+        ->group(group);
+    app.add_option("--output-limit", output_limit_mb, "MB, largest file that may be written")
+        ->check(CLI::Range(0.001, 1e6))
+        ->capture_default_str()
+        ->group(group);
+    app.add_option("--attempts", runner.attempts,
+                   "tries at a model that crashes or breaks a limit; bad input is not tried again")
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str()
+        ->group(group);
+    app.add_option("--retry", retry, "failed: also do again what failed before")
+        ->check(CLI::IsMember({"failed"}))
+        ->group(group);
+    app.add_flag("--verify", runner.verify,
+                 "read every input again instead of trusting size, time and inode")
+        ->group(group);
+    app.add_option("--shard", shard,
+                   "INDEX/COUNT, from 0: only this share of the models, into DIR/shards/")
+        ->group(group);
+    app.add_option("--engine", engine,
+                   "local: worker processes here; slurm: a job array, its results merged")
+        ->check(CLI::IsMember({"local", "slurm"}))
+        ->capture_default_str()
+        ->group(group);
+  }
+
+  void run(Session& session) {
+    const bool on_slurm = engine == "slurm";
+    if (on_slurm && !shard.empty()) {
+      throw CLI::ValidationError("--shard", "--engine slurm makes the shards itself");
+    }
+    const std::optional<batch::Shard> part = checked_shard();
+    prepare(session, part);
+    std::unique_ptr<batch::EntrySource> source = open_source(session);
+    const batch::FolderLock lock(folder, runner.work_name);
+    if (on_slurm) {
+      run_shards(session, *source);
+      return;
+    }
+    std::unique_ptr<batch::ResultBook> book;
+    if (part) {
+      source = std::make_unique<ShardSource>(std::move(source), *part);
+      book = std::make_unique<batch::ShardLog>(folder, *part);
+    } else {
+      book = std::make_unique<batch::ResultsStore>(folder, batch::Database::Mode::Create);
+    }
+    const RunContext run = session.run();
+    const BatchProgress progress(run, count_entries(session, part));
+    const auto report = [&](const batch::RunnerCounts& counts, const batch::ModelRecord* record) {
+      if (record != nullptr && record->status == "failed" && record->duplicate_of.empty()) {
+        const bool named = record->error.starts_with(record->key);
+        session.say(named ? record->error : record->key + ": " + record->error);
+      }
+      progress.show(counts);
+    };
+    const batch::RunnerCounts counts = batch::run_batch(*source, *book, runner, run.stop, report);
+    if (auto* const store = dynamic_cast<batch::ResultsStore*>(book.get())) {
+      const bool changed = counts.done + counts.failed + counts.duplicates > 0;
+      if (!no_overview && (changed || !fs::exists(fs::path(folder) / "index.html"))) {
+        batch::write_overview(folder, *store, run);
+      }
+    }
+    summarise(session, counts);
+    if (counts.failed + counts.skipped_failed > 0) {
+      session.exit_code = kSomeFailed;
+    }
+  }
+
+ private:
+  /// The shard asked for, if any, and a template that suits it. \throw CLI::ValidationError
+  [[nodiscard]] std::optional<batch::Shard> checked_shard() const {
+    try {
+      const std::optional<batch::Shard> part =
+          shard.empty() ? std::nullopt : std::optional(batch::parse_shard(shard));
+      batch::check_template(runner.name_template, part.has_value() || engine == "slurm");
+      return part;
+    } catch (const InvalidInput& error) {
+      throw CLI::ValidationError(error.what());
+    }
+  }
+
+  void prepare(Session& session, const std::optional<batch::Shard>& part) {
+    if (inputs.empty() == manifest.empty()) {
+      throw CLI::ValidationError("INPUT", "give either inputs or --manifest");
+    }
+    OutputKinds kinds = OutputKinds::parse(write);
+    const int count = jobs > 0 ? jobs : cores();
+    runner.folder = folder;
+    runner.workers = count;
+    runner.threads = threads->count() == 0 ? 1 : session.flags.threads;
+    runner.threads = runner.threads == 0 ? cores() : runner.threads;
+    runner.spare_threads = std::max(cores(), runner.threads);
+    const double gb = memory_gb > 0.0
+                          ? memory_gb
+                          : std::max(kLeastMemoryGb, kMemoryShare * machine_memory_gb() / count);
+    runner.limits.memory_bytes = static_cast<std::uint64_t>(gb * 1e9);
+    runner.limits.file_bytes = static_cast<std::uint64_t>(output_limit_mb * 1e6);
+    runner.retry_failed = retry == "failed";
+    runner.quiet_workers = !session.flags.verbose;
+    if (part) {
+      runner.work_name =
+          "shard-" + std::to_string(part->index) + "-of-" + std::to_string(part->count);
+    }
+    const ViewOptions options = method.resolve();
+    runner.options_hash = [options, kinds](const std::string& up) {
+      ViewOptions own = options;
+      own.up = up.empty() ? options.up : up_axis(up);
+      return batch::text_hash(options_hash(own) + ' ' + kinds.text()).substr(0, 16);
+    };
+    runner.worker_arguments = {"batch-worker",
+                               "--write=" + (kinds.text().empty() ? "json" : kinds.text())};
+    append_flags(runner.worker_arguments, method_options);
+    prepare_folder();
+  }
+
+  /// Options as they were given.
+  static void append_flags(std::vector<std::string>& command,
+                           const std::vector<CLI::Option*>& options) {
+    for (const CLI::Option* option : options) {
+      for (const std::string& value : option->results()) {
+        const std::string name = "--" + option->get_lnames().front();
+        command.push_back(option->get_type_size() == 0 ? name : name + "=" + value);
+      }
+    }
+  }
+
+  void run_shards(Session& session, batch::EntrySource& source) {
+    batch::SlurmRequest& request = slurm.request;
+    request.folder = fs::absolute(folder).lexically_normal().string();
+    request.cpus = std::max(1, jobs) * runner.threads;
+    const double task_gb = std::max(1, jobs) * (memory_gb > 0.0 ? memory_gb : kSlurmMemoryGb);
+    request.memory_mb = static_cast<int>((task_gb + kParentMemoryGb) * 1e3);
+    request.command = {fs::read_symlink("/proc/self/exe").string(), "batch",
+                       "--manifest=" + request.folder + "/slurm/plan.jsonl",
+                       "--output=" + request.folder, "--quiet"};
+    append_flags(request.command, shard_options);
+    append_flags(request.command, method_options);
+    if (jobs == 0) {
+      request.command.emplace_back("--jobs=1");
+    }
+    if (memory_gb <= 0.0) {
+      request.command.push_back("--memory=" + rounded(kSlurmMemoryGb));
+    }
+    batch::ResultsStore store(folder, batch::Database::Mode::Create);
+    const SlurmBatch plan{
+        .attempts = runner.attempts,
+        .is_current = [this](const batch::Entry& entry, const batch::ModelRecord& record) {
+          return record.version == version() &&
+                 (record.options == runner.options_hash(entry.up) || record.options.empty()) &&
+                 !(runner.retry_failed && record.status == "failed");
+        }};
+    run_on_slurm(session, source, store, slurm, plan);
+    if (!no_overview && !slurm.detach) {
+      batch::write_overview(folder, store, session.run());
+    }
+    const batch::StatusCounts counts = store.counts();
+    summarise(session,
+              {.done = counts.done, .failed = counts.failed, .duplicates = counts.duplicates});
+    if (counts.failed > 0) {
+      session.exit_code = kSomeFailed;
+    }
+  }
+
+  /// Refuses a folder with somebody else's files.
+  void prepare_folder() const {
+    std::error_code error;
+    const bool fresh = !fs::exists(folder, error) || fs::is_empty(folder, error);
+    const bool ours = fs::exists(fs::path(folder) / batch::ResultsStore::kFileName, error) ||
+                      fs::exists(fs::path(folder) / "shards", error) ||
+                      fs::exists(batch::work_folder(folder, ""), error);
+    if (!fresh && !ours) {
+      throw IoError(folder,
+                    "holds files that are not results of a batch; choose another folder with -o");
+    }
+    make_folder(folder);
+  }
+
+  std::unique_ptr<batch::EntrySource> open_source(Session& session) const {
+    return session.reading([&] {
+      return manifest.empty() ? batch::entries_of_paths(inputs, filter, folder,
+                                                        {.entry_bytes = runner.limits.memory_bytes,
+                                                         .timeout_s = runner.timeout_s,
+                                                         .stop = session.run().stop})
+                              : batch::entries_of_manifest(manifest);
+    });
+  }
+
+  /// How many models there are, where somebody watches and it can be known beforehand.
+  std::int64_t count_entries(Session& session, const std::optional<batch::Shard>& part) const {
+    const bool watched = isatty(STDERR_FILENO) != 0 && !session.flags.quiet && !session.flags.json;
+    const bool known =
+        manifest != "-" && std::none_of(inputs.begin(), inputs.end(), batch::is_archive);
+    if (!watched || !known) {
+      return -1;
+    }
+    const auto source = open_source(session);
+    const RunContext run = session.run();
+    std::int64_t count = 0;
+    while (const std::optional<batch::Entry> entry = source->next()) {
+      run.check();
+      count += !part || part->holds(entry->key) ? 1 : 0;
+    }
+    return count;
+  }
+
+  void summarise(Session& session, const batch::RunnerCounts& counts) const {
+    const nlohmann::ordered_json json = {{"done", counts.done},
+                                         {"failed", counts.failed + counts.skipped_failed},
+                                         {"skipped", counts.skipped},
+                                         {"duplicates", counts.duplicates},
+                                         {"folder", batch::key_of_path(folder)}};
+    session.end_progress();
+    if (session.flags.json) {
+      std::printf("%s\n", json.dump().c_str());
+      return;
+    }
+    const auto count = [](std::int64_t number) {
+      return grouped(static_cast<std::size_t>(number));
+    };
+    session.tell(count(counts.done) + " done, " + count(counts.failed) + " failed, " +
+                 count(counts.duplicates) + " with the content of another, " +
+                 count(counts.skipped) + " done before" +
+                 (counts.skipped_failed > 0
+                      ? " (" + count(counts.skipped_failed) + " of them failed; --retry failed)"
+                      : "") +
+                 "; results in " + printable(folder) + "/");
+  }
+};
+
+}  // namespace
+
+void add_batch_command(CLI::App& program, Session& session) {
+  add_command<BatchCommand>(
+      program, session, "batch", "best and worst views of a whole collection",
+      "Stopped or killed, the same command goes on where it was. Exit code 4: some models failed.\n"
+      "\n"
+      "Examples:\n"
+      "  vantage batch models/ -o results\n"
+      "  vantage batch a.ply b/ -o results --write best,map,camera --jobs 8 --timeout 60\n"
+      "  find . -name '*.stl' | vantage batch --manifest - -o results --name "
+      "'{parent}/{stem}-{hash8}'\n"
+      "  vantage batch models/ -o results --shard 3/64; vantage results merge results");
+}
+
+}  // namespace vantage::cli

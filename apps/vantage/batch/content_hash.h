@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace vantage::batch {
+
+/// SHA-256 of the file as `sha256sum` prints it. A .gltf that names buffer files in its folder is
+/// hashed together with them, in the order in which it names them.
+/// \throw IoError
+std::string content_hash(const std::string& path);
+
+/// SHA-256 of a text, 64 hexadecimal digits.
+std::string text_hash(std::string_view text);
+
+/// The first eight bytes of the SHA-256 of a text, big-endian: a number that stays the same on
+/// every machine and in every version, for shards.
+std::uint64_t stable_number(std::string_view text);
+
+}  // namespace vantage::batch

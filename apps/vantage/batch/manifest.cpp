@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/error.h"
+
+#include "batch/entry_source.h"
+#include "batch/naming.h"
+
+namespace vantage::batch {
+namespace {
+
+// A longer line is no path and no options; it is cut so that a wrong file cannot fill the memory.
+constexpr std::size_t kLongestLine = 1U << 20U;
+
+enum class Kind { Unknown, JsonLines, Csv, Paths };
+
+using Fields = std::map<std::string, std::string>;
+
+class ManifestSource : public EntrySource {
+ public:
+  explicit ManifestSource(const std::string& path)
+      : name_(path), folder_(std::filesystem::path(path).parent_path()) {
+    file_ = path == "-" ? stdin : std::fopen(path.c_str(), "rbe");
+    if (file_ == nullptr) {
+      throw IoError(path, "cannot be read", errno);
+    }
+  }
+
+  ManifestSource(const ManifestSource&) = delete;
+  ManifestSource& operator=(const ManifestSource&) = delete;
+
+  ~ManifestSource() override {
+    if (file_ != stdin) {
+      std::fclose(file_);
+    }
+  }
+
+  std::optional<Entry> next() override {
+    while (true) {
+      std::optional<std::string> line = read_line(kind_ == Kind::Csv || kind_ == Kind::Unknown);
+      if (!line) {
+        return std::nullopt;
+      }
+      if (kind_ == Kind::Unknown && take_first(*line)) {
+        continue;
+      }
+      if (line->empty() || (kind_ == Kind::Paths && line->front() == '#' && !zero_ended_)) {
+        continue;
+      }
+      Entry entry = entry_of(*line);
+      entry.position = position_++;
+      return entry;
+    }
+  }
+
+ private:
+  /// A line without its end; with `quotes`, line ends between double quotes belong to it.
+  std::optional<std::string> read_line(bool quotes) {
+    std::string line;
+    bool inside = false;
+    bool any = false;
+    for (int c = 0; (c = std::getc(file_)) != EOF;) {
+      any = true;
+      if (c == '\0' && (zero_ended_ || kind_ == Kind::Unknown)) {
+        zero_ended_ = true;
+        break;
+      }
+      inside = (c == '"' && quotes && kind_ == Kind::Csv) ? !inside : inside;
+      if (c == '\n' && !inside && !zero_ended_) {
+        break;
+      }
+      if (line.size() < kLongestLine) {
+        line += static_cast<char>(c);
+      }
+    }
+    ++line_number_;
+    if (std::ferror(file_) != 0) {
+      throw IoError(name_, "cannot be read", errno);
+    }
+    if (!any) {
+      return std::nullopt;
+    }
+    if (!line.empty() && line.back() == '\r' && !zero_ended_) {
+      line.pop_back();
+    }
+    return line;
+  }
+
+  /// Decides what the manifest is. \return whether the line is a header.
+  bool take_first(std::string& line) {
+    if (line.starts_with("\xEF\xBB\xBF")) {
+      line.erase(0, 3);
+    }
+    if (line.starts_with('{')) {
+      kind_ = Kind::JsonLines;
+      return false;
+    }
+    header_ = cells_of(line);
+    const bool csv =
+        !zero_ended_ && std::find(header_.begin(), header_.end(), "path") != header_.end();
+    kind_ = csv ? Kind::Csv : Kind::Paths;
+    return csv;
+  }
+
+  static std::vector<std::string> cells_of(const std::string& line) {
+    std::vector<std::string> cells(1);
+    bool inside = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const char c = line[i];
+      if (c == '"' && inside && i + 1 < line.size() && line[i + 1] == '"') {
+        cells.back() += c;
+        ++i;
+      } else if (c == '"') {
+        inside = !inside;
+      } else if (c == ',' && !inside) {
+        cells.emplace_back();
+      } else {
+        cells.back() += c;
+      }
+    }
+    return cells;
+  }
+
+  /// An entry as write_plan() put it, or nothing if the line is none.
+  static std::optional<Entry> planned_entry(const std::string& line) {
+    const auto json = nlohmann::json::parse(line, nullptr, false);
+    if (!json.is_object() || !json.contains("planned")) {
+      return std::nullopt;
+    }
+    const auto text = [&](const char* name) {
+      return json.contains(name) && json[name].is_string() ? json[name].get<std::string>()
+                                                           : std::string();
+    };
+    Entry entry;
+    entry.path = path_of_key(text("path"));
+    entry.member = path_of_key(text("member"));
+    entry.key = text("key");
+    entry.name = text("name");
+    entry.up = text("up");
+    entry.problem = text("problem");
+    if (json.contains("shard") && json["shard"].is_number_unsigned()) {
+      entry.shard = json["shard"].get<std::uint32_t>();
+    }
+    return entry;
+  }
+
+  Fields fields_of(const std::string& line, std::string& problem) const {
+    Fields fields;
+    if (kind_ == Kind::Paths) {
+      fields["path"] = line;
+    } else if (kind_ == Kind::Csv) {
+      const std::vector<std::string> cells = cells_of(line);
+      for (std::size_t i = 0; i < std::min(cells.size(), header_.size()); ++i) {
+        fields[header_[i]] = cells[i];
+      }
+    } else {
+      const auto json = nlohmann::json::parse(line, nullptr, false);
+      if (!json.is_object()) {
+        problem = "is not a JSON object";
+        return fields;
+      }
+      for (const auto& [key, value] : json.items()) {
+        if (value.is_string()) {
+          fields[key] = value.get<std::string>();
+        } else if (key == "path" || key == "key" || key == "name" || key == "up") {
+          problem = "has a \"" + key + "\" that is no text";
+        }
+      }
+    }
+    return fields;
+  }
+
+  Entry entry_of(const std::string& line) {
+    if (kind_ == Kind::JsonLines) {
+      if (std::optional<Entry> planned = planned_entry(line)) {
+        return *planned;
+      }
+    }
+    std::string problem;
+    Fields fields = fields_of(line, problem);
+    static const char* const kAxes[] = {"", "x", "y", "z", "-x", "-y", "-z"};
+    if (problem.empty() && fields["path"].empty()) {
+      problem = "names no path";
+    }
+    const std::string& up = fields["up"];
+    if (problem.empty() && std::find(std::begin(kAxes), std::end(kAxes), up) == std::end(kAxes)) {
+      problem = "has an \"up\" that is none of x y z -x -y -z";
+    }
+    Entry entry;
+    if (!problem.empty()) {
+      const std::string place = "line " + std::to_string(line_number_) + " of the manifest";
+      entry.problem = place + " " + problem;
+      entry.key = fields["path"].empty() ? place : key_of_path(fields["path"]);
+      return entry;
+    }
+    const std::filesystem::path path(fields["path"]);
+    entry.path = path.is_absolute() || folder_.empty() ? path.string() : (folder_ / path).string();
+    entry.key = key_of_path(fields["key"].empty() ? fields["path"] : fields["key"]);
+    entry.name = fields["name"];
+    entry.up = up;
+    return entry;
+  }
+
+  std::string name_;
+  std::filesystem::path folder_;
+  std::FILE* file_ = nullptr;
+  Kind kind_ = Kind::Unknown;
+  bool zero_ended_ = false;
+  std::vector<std::string> header_{};
+  std::int64_t line_number_ = 0;
+  std::int64_t position_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<EntrySource> entries_of_manifest(const std::string& path) {
+  return std::make_unique<ManifestSource>(path);
+}
+
+}  // namespace vantage::batch

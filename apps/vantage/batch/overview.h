@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "vantage/core/run_context.h"
+
+#include "batch/results_store.h"
+
+namespace vantage::batch {
+
+/// What write_overview() wrote.
+struct Overview {
+  std::size_t pages = 0;   ///< index.html, index-2.html, …
+  std::size_t sheets = 0;  ///< contact-sheet-0001.png, …
+};
+
+/// Writes index.html (a table of all models with small pictures, to search and to sort, that needs
+/// nothing from outside the folder; 50 000 models a file) and contact sheets (80 models each, in
+/// the table's order, for the first 20 000 models) into the batch's folder.
+/// \throw IoError, Cancelled
+Overview write_overview(const std::string& folder, ResultsStore& store, const RunContext& run);
+
+}  // namespace vantage::batch

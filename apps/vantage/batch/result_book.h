@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "batch/model_record.h"
+
+namespace vantage::batch {
+
+/// Where a batch writes down how its models ended, and looks up what is done already.
+class ResultBook {
+ public:
+  ResultBook() = default;
+  ResultBook(const ResultBook&) = delete;
+  ResultBook& operator=(const ResultBook&) = delete;
+  virtual ~ResultBook() = default;
+
+  /// The record of a model. \throw IoError
+  virtual std::optional<ModelRecord> find(const std::string& key) = 0;
+
+  /// The first model by position that was really run on this content with these options and
+  /// version. \throw IoError
+  virtual std::optional<ModelRecord> find_content(const ModelRecord& like) = 0;
+
+  /// Key of the model whose results are in this folder; empty if there is none. \throw IoError
+  virtual std::string owner_of(const std::string& folder) = 0;
+
+  /// When the last record was finished, ms since 1970; 0 if there is none. \throw IoError
+  virtual std::int64_t latest_ms() = 0;
+
+  /// Adds or replaces a record; on disk when it returns. \throw IoError
+  virtual void put(const ModelRecord& record) = 0;
+
+  /// Puts everything in its final place. \throw IoError
+  virtual void finish() {}
+};
+
+}  // namespace vantage::batch

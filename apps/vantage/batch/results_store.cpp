@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include "batch/results_store.h"
+
+#include <filesystem>
+
+#include "vantage/core/error.h"
+
+namespace vantage::batch {
+namespace {
+
+constexpr std::int64_t kSchema = 1;
+
+constexpr const char* kTables = R"sql(
+CREATE TABLE IF NOT EXISTS models(
+  key TEXT PRIMARY KEY, position INTEGER NOT NULL, size_bytes INTEGER NOT NULL,
+  modified_ns INTEGER NOT NULL, inode INTEGER NOT NULL, content TEXT NOT NULL,
+  options TEXT NOT NULL, version TEXT NOT NULL, status TEXT NOT NULL, reason TEXT NOT NULL,
+  error TEXT NOT NULL, folder TEXT NOT NULL, duplicate_of TEXT NOT NULL, name TEXT NOT NULL,
+  result TEXT NOT NULL) WITHOUT ROWID;
+CREATE INDEX IF NOT EXISTS models_content ON models(content, options, version, position)
+  WHERE content <> '' AND duplicate_of = '' AND reason <> 'name';
+CREATE INDEX IF NOT EXISTS models_folder ON models(folder) WHERE folder <> '';
+CREATE TABLE IF NOT EXISTS timings(
+  key TEXT PRIMARY KEY, seconds REAL NOT NULL, peak_bytes INTEGER NOT NULL,
+  attempts INTEGER NOT NULL, finished_ms INTEGER NOT NULL) WITHOUT ROWID;
+)sql";
+
+// Models with the same content stand for one: the first by position that was run. The view answers
+// for all of them with its results, so that it does not matter who ran them, or in how many shards.
+constexpr const char* kView = R"sql(
+DROP VIEW IF EXISTS results;
+CREATE VIEW results AS
+SELECT m.key AS key, m.name AS name, c.status AS status,
+  CASE WHEN c.key = m.key THEN '' ELSE c.key END AS duplicate_of,
+  c.reason AS reason, c.error AS error, m.content AS content, m.options AS options,
+  m.version AS version, c.folder AS folder,
+  json_extract(c.result, '$.format') AS format, json_extract(c.result, '$.vertices') AS vertices,
+  json_extract(c.result, '$.faces') AS faces, json_extract(c.result, '$.components') AS components,
+  json_extract(c.result, '$.closed') AS closed, json_extract(c.result, '$.genus') AS genus,
+  json_extract(c.result, '$.total') AS total,
+  json_extract(c.result, '$.best.score') AS best_score,
+  json_extract(c.result, '$.best.score_fraction') AS best_fraction,
+  json_extract(c.result, '$.best.direction[0]') AS best_dx,
+  json_extract(c.result, '$.best.direction[1]') AS best_dy,
+  json_extract(c.result, '$.best.direction[2]') AS best_dz,
+  json_extract(c.result, '$.worst.score') AS worst_score,
+  json_extract(c.result, '$.worst.score_fraction') AS worst_fraction,
+  json_extract(c.result, '$.worst.direction[0]') AS worst_dx,
+  json_extract(c.result, '$.worst.direction[1]') AS worst_dy,
+  json_extract(c.result, '$.worst.direction[2]') AS worst_dz,
+  c.result AS result,
+  t.seconds AS seconds, t.peak_bytes AS peak_bytes, t.attempts AS attempts,
+  t.finished_ms AS finished_ms
+FROM models m
+JOIN models c ON c.key = CASE WHEN m.content = '' OR m.reason = 'name' THEN m.key ELSE COALESCE(
+  (SELECT f.key FROM models f
+   WHERE f.content <> '' AND f.duplicate_of = '' AND f.reason <> 'name' AND f.content = m.content
+     AND f.options = m.options AND f.version = m.version
+   ORDER BY f.position, f.key LIMIT 1), m.key) END
+LEFT JOIN timings t ON t.key = m.key;
+)sql";
+
+constexpr const char* kColumns =
+    "m.key, m.position, m.size_bytes, m.modified_ns, m.inode, m.content, m.options, m.version, "
+    "m.status, m.reason, m.error, m.folder, m.duplicate_of, m.name, m.result, "
+    "COALESCE(t.seconds, 0), COALESCE(t.peak_bytes, 0), COALESCE(t.attempts, 0), "
+    "COALESCE(t.finished_ms, 0) FROM models m LEFT JOIN timings t ON t.key = m.key ";
+
+ModelRecord record_of(const Statement& row) {
+  ModelRecord record;
+  record.key = row.text(0);
+  record.position = row.integer(1);
+  record.stamp = {row.integer(2), row.integer(3), static_cast<std::uint64_t>(row.integer(4))};
+  std::string ModelRecord::*const texts[] = {&ModelRecord::content, &ModelRecord::options,
+                                             &ModelRecord::version, &ModelRecord::status,
+                                             &ModelRecord::reason,  &ModelRecord::error,
+                                             &ModelRecord::folder,  &ModelRecord::duplicate_of,
+                                             &ModelRecord::name,    &ModelRecord::result};
+  int column = 5;
+  for (const auto member : texts) {
+    record.*member = row.text(column++);
+  }
+  record.result = record.result == "{}" ? "" : record.result;  // nothing is known of a failure
+  record.timings = {row.number(15), row.integer(16), static_cast<int>(row.integer(17)),
+                    row.integer(18)};
+  return record;
+}
+
+std::string store_path(const std::string& folder, Database::Mode mode) {
+  const auto path = std::filesystem::path(folder) / ResultsStore::kFileName;
+  std::error_code error;
+  if (mode == Database::Mode::Read && !std::filesystem::is_regular_file(path, error)) {
+    throw IoError(folder, "holds no results of a batch: " + std::string(ResultsStore::kFileName) +
+                              " is not there");
+  }
+  return path.string();
+}
+
+}  // namespace
+
+struct ResultsStore::Statements {
+  explicit Statements(Database& database)
+      : find(database, std::string("SELECT ") + kColumns + "WHERE m.key = ?1"),
+        find_content(database,
+                     std::string("SELECT ") + kColumns +
+                         "WHERE m.content <> '' AND m.duplicate_of = '' AND m.reason <> 'name' AND "
+                         "m.content = ?1 AND m.options = ?2 AND m.version = ?3 "
+                         "ORDER BY m.position, m.key LIMIT 1"),
+        owner(database, "SELECT key FROM models WHERE folder <> '' AND folder = ?1 LIMIT 1"),
+        put(database,
+            "INSERT OR REPLACE INTO models VALUES(?1,?2,?3,?4,?5,?6,?7,?8,?9,?10,?11,?12,?13,?14,"
+            "?15)"),
+        put_timings(database, "INSERT OR REPLACE INTO timings VALUES(?1,?2,?3,?4,?5)"),
+        savepoint(database, "SAVEPOINT one"),
+        release(database, "RELEASE one") {}
+
+  Statement find, find_content, owner, put, put_timings, savepoint, release;
+};
+
+ResultsStore::ResultsStore(const std::string& folder, Database::Mode mode)
+    : database_(store_path(folder, mode), mode) {
+  database_.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;");
+  Statement version(database_, "PRAGMA user_version");
+  version.step();
+  const std::int64_t schema = version.integer(0);
+  version.reset();
+  if (schema > kSchema) {
+    throw IoError(database_.path(), "was written by a newer version of vantage; use that one");
+  }
+  if (schema < kSchema) {
+    database_.run(std::string("BEGIN IMMEDIATE;") + kTables + kView +
+                  "PRAGMA user_version = " + std::to_string(kSchema) + "; COMMIT;");
+  }
+  statements_ = std::make_unique<Statements>(database_);
+}
+
+ResultsStore::~ResultsStore() = default;
+
+std::optional<ModelRecord> ResultsStore::find(const std::string& key) {
+  Statement& find = statements_->find;
+  find.bind(1, key);
+  std::optional<ModelRecord> record;
+  if (find.step()) {
+    record = record_of(find);
+  }
+  find.reset();
+  return record;
+}
+
+std::optional<ModelRecord> ResultsStore::find_content(const ModelRecord& like) {
+  Statement& find = statements_->find_content;
+  find.bind(1, like.content).bind(2, like.options).bind(3, like.version);
+  std::optional<ModelRecord> record;
+  if (find.step()) {
+    record = record_of(find);
+  }
+  find.reset();
+  return record;
+}
+
+std::string ResultsStore::owner_of(const std::string& folder) {
+  Statement& owner = statements_->owner;
+  owner.bind(1, folder);
+  const std::string key = owner.step() ? owner.text(0) : std::string();
+  owner.reset();
+  return key;
+}
+
+std::int64_t ResultsStore::latest_ms() {
+  Statement latest(database_, "SELECT COALESCE(MAX(finished_ms), 0) FROM timings");
+  latest.step();
+  return latest.integer(0);
+}
+
+void ResultsStore::put(const ModelRecord& record) {
+  statements_->savepoint.run();
+  Statement& put = statements_->put;
+  put.bind(1, record.key).bind(2, record.position).bind(3, record.stamp.size_bytes);
+  put.bind(4, record.stamp.modified_ns).bind(5, static_cast<std::int64_t>(record.stamp.inode));
+  put.bind(6, record.content).bind(7, record.options).bind(8, record.version);
+  put.bind(9, record.status).bind(10, record.reason).bind(11, record.error);
+  put.bind(12, record.folder).bind(13, record.duplicate_of).bind(14, record.name);
+  put.bind(15, record.result.empty() ? std::string_view("{}") : record.result);
+  put.run();
+  Statement& timings = statements_->put_timings;
+  timings.bind(1, record.key).bind(2, record.timings.seconds).bind(3, record.timings.peak_bytes);
+  timings.bind(4, std::int64_t{record.timings.attempts}).bind(5, record.timings.finished_ms);
+  timings.run();
+  statements_->release.run();
+}
+
+bool ResultsStore::merge(const ModelRecord& record) {
+  const std::optional<ModelRecord> held = find(record.key);
+  if (held && !supersedes(record, *held)) {
+    return false;
+  }
+  put(record);
+  return true;
+}
+
+void ResultsStore::for_each_record(const std::function<void(const ModelRecord&)>& take) {
+  Statement rows(database_, std::string("SELECT ") + kColumns + "ORDER BY m.key");
+  while (rows.step()) {
+    take(record_of(rows));
+  }
+}
+
+Statement ResultsStore::select(const std::string& columns, const std::string& where,
+                               const std::string& order) {
+  return {database_, "SELECT " + columns + " FROM results" +
+                         (where.empty() ? "" : " WHERE " + where) + " ORDER BY " +
+                         (order.empty() ? "" : order + ", ") + "key"};
+}
+
+StatusCounts ResultsStore::counts() {
+  Statement row(database_,
+                "SELECT COALESCE(SUM(status = 'done' AND duplicate_of = ''), 0), "
+                "COALESCE(SUM(status <> 'done'), 0), "
+                "COALESCE(SUM(status = 'done' AND duplicate_of <> ''), 0) FROM results");
+  row.step();
+  return {row.integer(0), row.integer(1), row.integer(2)};
+}
+
+void ResultsStore::check_integrity() {
+  Statement check(database_, "PRAGMA integrity_check");
+  check.step();
+  if (check.text(0) != "ok") {
+    throw IoError(database_.path(), "is damaged: " + check.text(0));
+  }
+}
+
+const std::vector<std::string>& result_columns() {
+  static const std::vector<std::string> kNames{
+      "key",           "name",       "status",  "duplicate_of", "reason",      "error",
+      "content",       "options",    "version", "folder",       "format",      "vertices",
+      "faces",         "components", "closed",  "genus",        "total",       "best_score",
+      "best_fraction", "best_dx",    "best_dy", "best_dz",      "worst_score", "worst_fraction",
+      "worst_dx",      "worst_dy",   "worst_dz"};
+  return kNames;
+}
+
+const std::vector<std::string>& timing_columns() {
+  static const std::vector<std::string> kNames{"seconds", "peak_bytes", "attempts", "finished_ms"};
+  return kNames;
+}
+
+}  // namespace vantage::batch

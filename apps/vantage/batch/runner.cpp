@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: MIT
+#include "batch/runner.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <deque>
+#include <filesystem>
+#include <list>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include <sys/stat.h>
+
+#include "vantage/core/error.h"
+#include "vantage/core/version.h"
+
+#include "batch/crew.h"
+#include "batch/naming.h"
+#include "batch/result_folder.h"
+
+namespace vantage::batch {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Models that wait for an equal one to be finished; beyond this nothing new is taken up.
+constexpr std::size_t kMostWaiting = 1024;
+
+FileStamp stamp_of(const std::string& path) {
+  struct stat status {};
+
+  if (path.empty() || ::stat(path.c_str(), &status) != 0) {
+    return {};
+  }
+  return {status.st_size, status.st_mtim.tv_sec * 1'000'000'000LL + status.st_mtim.tv_nsec,
+          status.st_ino};
+}
+
+std::int64_t now_ms() {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+/// Whether two records answer, or ask, for the same thing of a model.
+bool same_question(const ModelRecord& a, const ModelRecord& b) {
+  return a.options == b.options && a.version == b.version && a.name == b.name;
+}
+
+std::string content_key(const ModelRecord& record) {
+  return record.content + ' ' + record.options;
+}
+
+class Runner {
+ public:
+  using Report = std::function<void(const RunnerCounts&, const ModelRecord*)>;
+
+  Runner(EntrySource& source, ResultBook& book, const RunnerOptions& options,
+         const std::stop_token& stop, const Report& report)
+      : source_(source),
+        book_(book),
+        options_(options),
+        stop_(stop),
+        report_(report),
+        started_ms_(std::max(now_ms(), book.latest_ms())),
+        crew_(options, stop) {}
+
+  RunnerCounts run() {
+    crew_.clear_work();
+    try {
+      while (step()) {
+      }
+    } catch (...) {
+      crew_.kill();
+      crew_.remove_work();
+      throw;
+    }
+    crew_.kill();
+    crew_.remove_work();
+    book_.finish();
+    return counts_;
+  }
+
+ private:
+  /// \return false once everything has ended.
+  bool step() {
+    fill();
+    if (stop_.stop_requested()) {
+      crew_.kill();
+      book_.finish();
+      throw Cancelled();
+    }
+    while (!ready_.empty() && crew_.has_idle()) {
+      Job& job = *ready_.front();
+      ready_.pop_front();
+      crew_.start(job, source_ended_ && ready_.empty());
+    }
+    if (jobs_.empty()) {
+      return !source_ended_;
+    }
+    for (const CrewEvent& event : crew_.wait()) {
+      answer(event);
+    }
+    decide();
+    report_(counts_, nullptr);
+    return true;
+  }
+
+  /// Takes up entries until every worker has a next one.
+  void fill() {
+    while (!source_ended_ && ready_.size() < static_cast<std::size_t>(options_.workers) &&
+           waiting_ < kMostWaiting && !stop_.stop_requested()) {
+      std::optional<Entry> entry = source_.next();
+      if (entry) {
+        take_up(std::move(*entry));
+      } else {
+        source_ended_ = true;
+      }
+    }
+  }
+
+  void take_up(Entry entry) {
+    Job job;
+    ModelRecord& record = job.record;
+    record.key = entry.key;
+    record.position = entry.position;
+    record.stamp = stamp_of(entry.path);
+    record.options = options_.options_hash(entry.up);
+    record.version = version();
+    record.name =
+        key_of_path(entry.name.empty() ? fs::path(entry.shown_path()).stem().string() : entry.name);
+    job.file = entry.path;
+    job.entry = std::move(entry);
+    job.before = book_.find(record.key);
+    if (is_settled(job)) {
+      ++counts_.skipped;
+      counts_.skipped_failed += job.before && job.before->status == "failed" ? 1 : 0;
+      report_(counts_, nullptr);
+      return;
+    }
+    jobs_.push_back(std::move(job));
+    Job& kept = jobs_.back();
+    if (kept.entry.problem.empty() && !kept.entry.member.empty()) {
+      fetch(kept);
+    }
+    if (!kept.entry.problem.empty()) {
+      fail(kept, "input", kept.entry.problem);
+    } else {
+      ready_.push_back(&kept);
+    }
+  }
+
+  /// Whether an earlier record still says how this model ends, or it is listed twice.
+  bool is_settled(const Job& job) {
+    const auto same_key = [&](const Job& other) { return other.record.key == job.record.key; };
+    if (std::any_of(jobs_.begin(), jobs_.end(), same_key)) {
+      return true;
+    }
+    if (!job.before) {
+      return false;
+    }
+    const ModelRecord& before = *job.before;
+    if (before.timings.finished_ms > started_ms_) {
+      return true;
+    }
+    return !options_.verify && same_question(before, job.record) &&
+           before.stamp == job.record.stamp && still_answers(before);
+  }
+
+  /// Whether an earlier record's results are there.
+  bool still_answers(const ModelRecord& before) {
+    if (before.status == "failed") {
+      return !options_.retry_failed;
+    }
+    if (before.duplicate_of.empty()) {
+      std::error_code error;
+      return !before.folder.empty() && fs::is_directory(place_of(before.folder), error);
+    }
+    const std::optional<ModelRecord> first = book_.find(before.duplicate_of);
+    return first && first->duplicate_of.empty() && first->content == before.content &&
+           first->options == before.options && first->version == before.version &&
+           still_answers(*first);
+  }
+
+  /// Brings a model out of its archive, into a file of its own.
+  void fetch(Job& job) {
+    const fs::path folder = fs::path(work_folder(options_.folder, options_.work_name)) /
+                            ("in-" + std::to_string(++fetched_));
+    std::error_code error;
+    if (!fs::create_directory(folder, error)) {
+      throw IoError(folder.string(), "cannot be created", error.value());
+    }
+    const std::string name =
+        folder_name("{stem}.{ext}", {.path = job.entry.member, .key = job.record.key});
+    job.file = (folder / name).string();
+    job.entry.problem = source_.fetch(job.entry, job.file);
+  }
+
+  void answer(const CrewEvent& event) {
+    Job& job = *event.job;
+    if (event.kind == CrewEvent::Kind::Result) {
+      move_into_place(event.staging, place_of(job.record.folder));
+      job.record.status = "done";
+      ++counts_.done;
+      settle(job);
+      return;
+    }
+    if (event.kind == CrewEvent::Kind::Content) {
+      return;
+    }
+    if (event.reason == "disk") {
+      throw IoError(options_.folder, "cannot hold more results; make room and run it again",
+                    ENOSPC);
+    }
+    release(job);
+    if (may_pass_next_time(event.reason) && job.attempts < options_.attempts) {
+      job.stage = Stage::Ready;
+      ready_.push_front(&job);
+      return;
+    }
+    fail(job, event.reason, event.error);
+  }
+
+  /// Settles, in the order of the input, which models run and which equal an earlier one: so the
+  /// first of equal models is always the one that runs, however fast the others' workers are.
+  void decide() {
+    for (auto at = jobs_.begin(); at != jobs_.end();) {
+      Job& job = *at++;  // a job that ends is removed
+      if (job.stage == Stage::Ready || job.stage == Stage::Hashing) {
+        return;
+      }
+      if (job.stage == Stage::Hashed) {
+        decide(job);
+      }
+    }
+  }
+
+  void decide(Job& job) {
+    ModelRecord& record = job.record;
+    if (job.before && job.before->content == record.content && same_question(*job.before, record) &&
+        still_answers(*job.before)) {
+      Crew::dismiss(job);
+      keep(job);
+      return;
+    }
+    if (const auto ahead = running_.find(content_key(record)); ahead != running_.end()) {
+      Crew::dismiss(job);
+      job.stage = Stage::Waiting;
+      ahead->second->equals.push_back(&job);
+      ++waiting_;
+      return;
+    }
+    const std::optional<ModelRecord> first = book_.find_content(record);
+    if (first && first->key != record.key && may_stand_for(*first)) {
+      Crew::dismiss(job);
+      settle_as_equal(job, *first);
+      return;
+    }
+    if (!job.equals.empty() && job.equals.front()->record.content != record.content) {
+      part_from_equals(job);  // the file has changed since the attempt before
+    }
+    if (claim_folder(job)) {
+      running_[content_key(record)] = &job;
+      Crew::go(job);
+    }
+  }
+
+  void part_from_equals(Job& job) {
+    for (Job* other : std::exchange(job.equals, {})) {
+      other->stage = Stage::Ready;
+      ready_.push_back(other);
+      --waiting_;
+    }
+  }
+
+  /// The content is what it was; only its file was touched, or it was to be verified.
+  void keep(Job& job) {
+    ModelRecord unchanged = *job.before;
+    unchanged.stamp = job.record.stamp;
+    unchanged.position = job.record.position;
+    ++counts_.skipped;
+    counts_.skipped_failed += unchanged.status == "failed" ? 1 : 0;
+    book_.put(unchanged);
+    remove(job);
+  }
+
+  /// Whether a finished model's results may count for an equal one.
+  bool may_stand_for(const ModelRecord& first) {
+    return first.status == "failed"
+               ? !options_.retry_failed || first.timings.finished_ms > started_ms_
+               : still_answers(first);
+  }
+
+  /// Names the job's folder. \return false, with the job failed, if another model has that name.
+  bool claim_folder(Job& job) {
+    ModelRecord& record = job.record;
+    record.folder = folder_name(options_.name_template, {.path = job.entry.shown_path(),
+                                                         .name = job.entry.name,
+                                                         .key = record.key,
+                                                         .content = record.content});
+    std::string owner = book_.owner_of(record.folder);
+    if (const auto claim = claims_.find(record.folder); claim != claims_.end()) {
+      owner = claim->second;
+    }
+    if (!owner.empty() && owner != record.key && !give_way(owner, record.content)) {
+      Crew::dismiss(job);
+      fail(job, "name",
+           "its results would go to '" + std::exchange(record.folder, {}) +
+               "', which holds those of " + owner + "; use a --name with {hash8} or {key8}");
+      return false;
+    }
+    claims_[record.folder] = record.key;
+    return true;
+  }
+
+  /// Whether results of the same content, made with other options, may be replaced.
+  bool give_way(const std::string& owner, const std::string& content) {
+    std::optional<ModelRecord> holder = book_.find(owner);
+    if (!holder || holder->content != content) {
+      return false;
+    }
+    holder->folder.clear();
+    book_.put(*holder);
+    return true;
+  }
+
+  void release(const Job& job) {
+    const auto run = running_.find(content_key(job.record));
+    if (run != running_.end() && run->second == &job) {
+      running_.erase(run);
+    }
+    const auto claim = claims_.find(job.record.folder);
+    if (claim != claims_.end() && claim->second == job.record.key) {
+      claims_.erase(claim);
+    }
+  }
+
+  void fail(Job& job, const std::string& reason, const std::string& error) {
+    release(job);
+    job.record.status = "failed";
+    job.record.reason = reason;
+    job.record.error = error;
+    job.record.folder.clear();
+    job.record.result.clear();
+    ++counts_.failed;
+    settle(job);
+  }
+
+  /// Writes down how the job ended, and with it the models equal to it.
+  void settle(Job& job) {
+    release(job);
+    write(job);
+    for (Job* equal : job.equals) {
+      --waiting_;
+      settle_as_equal(*equal, job.record);
+    }
+    remove(job);
+  }
+
+  void settle_as_equal(Job& job, const ModelRecord& first) {
+    job.record.status = first.status;
+    job.record.reason = first.reason;
+    job.record.error = first.error;
+    job.record.duplicate_of = first.key;
+    job.record.timings = {};
+    ++(first.status == "done" ? counts_.duplicates : counts_.failed);
+    job.attempts = 0;
+    write(job);
+    remove(job);
+  }
+
+  void write(Job& job) {
+    job.record.timings.attempts = job.attempts;
+    job.record.timings.finished_ms = std::max(now_ms(), started_ms_ + 1);
+    book_.put(job.record);
+    if (job.before && !job.before->folder.empty() && job.before->folder != job.record.folder &&
+        book_.owner_of(job.before->folder).empty()) {
+      std::error_code error;  // results of what the file held before
+      fs::remove_all(place_of(job.before->folder), error);
+    }
+    report_(counts_, &job.record);
+  }
+
+  void remove(const Job& job) {
+    if (job.file != job.entry.path) {
+      std::error_code error;
+      fs::remove_all(fs::path(job.file).parent_path(), error);
+    }
+    jobs_.remove_if([&](const Job& other) { return &other == &job; });
+  }
+
+  [[nodiscard]] std::string place_of(const std::string& folder) const {
+    return (fs::path(models_folder(options_.folder)) / folder).string();
+  }
+
+  EntrySource& source_;
+  ResultBook& book_;
+  const RunnerOptions& options_;
+  std::stop_token stop_;
+  const Report& report_;
+  std::list<Job> jobs_{};  // in the order of the input
+  std::deque<Job*> ready_{};
+  std::map<std::string, Job*> running_{};        // by content and options
+  std::map<std::string, std::string> claims_{};  // folder → key of the running model
+  std::size_t waiting_ = 0;
+  std::int64_t fetched_ = 0;
+  std::int64_t started_ms_;  // later than every record of earlier runs, whatever their clocks
+  bool source_ended_ = false;
+  RunnerCounts counts_{};
+  Crew crew_;  // last: workers end before what they work on
+};
+
+}  // namespace
+
+std::string work_folder(const std::string& folder, const std::string& work_name) {
+  const fs::path all = fs::path(folder) / ".work";
+  return work_name.empty() ? all.string() : (all / work_name).string();
+}
+
+std::string models_folder(const std::string& folder) {
+  return (fs::path(folder) / "models").string();
+}
+
+RunnerCounts run_batch(EntrySource& source, ResultBook& book, const RunnerOptions& options,
+                       const std::stop_token& stop,
+                       const std::function<void(const RunnerCounts&, const ModelRecord*)>& report) {
+  return Runner(source, book, options, stop, report).run();
+}
+
+}  // namespace vantage::batch

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "batch/result_book.h"
+
+namespace vantage::batch {
+
+/// One of `count` equal shares of the models.
+struct Shard {
+  std::uint32_t index = 0;  ///< In [0, count).
+  std::uint32_t count = 1;  ///< At least 1.
+
+  /// Whether a model belongs to it: by a hash of its key, so that new models move no other one.
+  [[nodiscard]] bool holds(const std::string& key) const;
+};
+
+/// Parses "3/64". \throw InvalidInput
+Shard parse_shard(const std::string& text);
+
+/// The results of one shard: DIR/shards/shard-00003-of-00064.jsonl, one record a line, in the order
+/// of keys. The file is always whole: it is replaced at checkpoints and at the end; between them
+/// records are appended to a .log beside it, from which a killed shard resumes. Nothing is shared
+/// between shards but the file system.
+class ShardLog : public ResultBook {
+ public:
+  /// \throw IoError
+  ShardLog(const std::string& folder, const Shard& shard);
+  ~ShardLog() override;
+
+  std::optional<ModelRecord> find(const std::string& key) override;
+  std::optional<ModelRecord> find_content(const ModelRecord& like) override;
+  std::string owner_of(const std::string& folder) override;
+  std::int64_t latest_ms() override;
+  void put(const ModelRecord& record) override;
+  void finish() override;
+
+ private:
+  void read(const std::string& path);
+  void remember(const ModelRecord& record);
+  void open_log();
+
+  std::string path_;
+  std::string log_path_;
+  std::FILE* log_ = nullptr;
+  std::size_t unsaved_ = 0;
+  std::map<std::string, ModelRecord> records_{};
+  std::map<std::string, std::set<std::pair<std::int64_t, std::string>>> runs_of_content_{};
+  std::map<std::string, std::string> owner_of_folder_{};
+};
+
+/// Reads every record of a shard file or its log; lines that are torn are passed over.
+/// \return how many lines were no records. \throw IoError
+std::size_t read_shard_file(const std::string& path,
+                            const std::function<void(const ModelRecord&)>& take);
+
+/// Folder of the shard files below a batch's folder.
+std::string shard_folder(const std::string& folder);
+
+}  // namespace vantage::batch

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "vantage/core/image.h"
+
+namespace vantage::batch {
+
+/// Name of the small picture in a model's folder.
+inline constexpr const char* kThumbnailFile = "thumb.png";
+
+/// Longest side of a small picture, px.
+inline constexpr int kThumbnailSide = 160;
+
+/// The picture made smaller, each pixel the mean of those it stands for, weighted by their alpha;
+/// its longest side is kThumbnailSide. Pictures that are small already stay as they are.
+Image thumbnail_of(const Image& image);
+
+/// Reads a PNG. Empty if it cannot be read or a side is longer than `longest_side`.
+std::optional<Image> read_png(const std::string& path, int longest_side);
+
+}  // namespace vantage::batch

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "batch_slurm.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "vantage/core/error.h"
+#include "vantage/core/version.h"
+#include "vantage/io/write.h"
+
+#include "batch/shard_log.h"
+#include "batch/shard_merge.h"
+#include "batch/shard_plan.h"
+#include "output_folder.h"
+#include "terminal.h"
+
+namespace vantage::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using batch::Entry;
+
+/// A shard should last minutes: Slurm takes a second or two to start a task. At about three seconds
+/// a model this is three minutes. [ours]
+constexpr std::int64_t kModelsPerShard = 64;
+/// Slurm's own default for the largest index of an array is 1000.
+constexpr std::uint32_t kMostShards = 1000;
+/// Between two looks at the queue: often at first, then so that thousands of batches do not disturb
+/// the controller.
+constexpr std::chrono::milliseconds kFirstLook(500);
+constexpr std::chrono::milliseconds kLaterLook(5000);
+
+std::string plan_path(const std::string& folder) {
+  return folder + "/slurm/plan.jsonl";
+}
+
+std::string job_path(const std::string& folder) {
+  return folder + "/slurm/job";
+}
+
+std::uint32_t shard_of(const Entry& entry, std::uint32_t shards) {
+  if (entry.shard) {
+    return *entry.shard % shards;
+  }
+  for (std::uint32_t index = 0; index + 1 < shards; ++index) {
+    if (batch::Shard{index, shards}.holds(entry.key)) {
+      return index;
+    }
+  }
+  return shards - 1;
+}
+
+/// One collection on its way through Slurm.
+class SlurmRun {
+ public:
+  SlurmRun(Session& session, batch::ResultsStore& store, const SlurmFlags& flags,
+           const SlurmBatch& batch)
+      : session_(session), store_(store), flags_(flags), batch_(batch) {}
+
+  void plan(batch::EntrySource& entries) {
+    make_folder(flags_.request.folder + "/slurm");
+    models_ = batch::write_plan(entries, plan_path(flags_.request.folder));
+    if (flags_.request.shards == 0) {
+      const std::int64_t wanted = (models_ + kModelsPerShard - 1) / kModelsPerShard;
+      flags_.request.shards =
+          static_cast<std::uint32_t>(std::clamp<std::int64_t>(wanted, 1, kMostShards));
+    }
+    if (flags_.balance) {
+      batch::balance_plan(plan_path(flags_.request.folder), flags_.request.shards);
+    }
+  }
+
+  void run() {
+    join_earlier_job();
+    for (int attempt = 0; attempt < batch_.attempts; ++attempt) {
+      const std::vector<std::uint32_t> shards = unfinished_shards();
+      if (shards.empty()) {
+        return;
+      }
+      const std::string job = batch::submit_slurm(flags_.request, shards);
+      write_file(job_path(flags_.request.folder), job + "\n");
+      session_.say("job " + job + ": " + plural(static_cast<std::size_t>(models_), "model") +
+                   " in " + plural(shards.size(), "shard"));
+      if (flags_.detach) {
+        session_.say("when it has ended: vantage results merge " + flags_.request.folder);
+        return;
+      }
+      await(job);
+    }
+    give_up();
+  }
+
+ private:
+  /// A job that an earlier parent submitted, and did not live to see the end of.
+  void join_earlier_job() {
+    std::ifstream file(job_path(flags_.request.folder));
+    std::string job;
+    if (std::getline(file, job) && !job.empty() && has_tasks(batch::slurm_progress(job))) {
+      session_.say("job " + job + " of an earlier run is still there; waiting for it first");
+      await(job);
+    } else {
+      batch::merge_shards({flags_.request.folder}, store_);
+    }
+  }
+
+  static bool has_tasks(const batch::SlurmProgress& progress) {
+    return progress.waiting + progress.running > 0;
+  }
+
+  void await(const std::string& job) {
+    const RunContext run = session_.run();
+    auto pause = kFirstLook;
+    try {
+      for (batch::SlurmProgress progress = batch::slurm_progress(job); has_tasks(progress);
+           progress = batch::slurm_progress(job)) {
+        run.advance("job " + job + ": " + std::to_string(progress.running) + " running, " +
+                        std::to_string(progress.waiting) + " waiting",
+                    0.0);
+        for (auto slept = kFirstLook; slept <= pause; slept += kFirstLook) {
+          std::this_thread::sleep_for(kFirstLook);
+          run.check();
+        }
+        pause = std::min(2 * pause, kLaterLook);
+      }
+    } catch (const Cancelled&) {
+      batch::cancel_slurm(job);
+      batch::merge_shards({flags_.request.folder}, store_);
+      throw;
+    }
+    batch::cancel_slurm(job);  // tasks that are held would stay for ever
+    std::error_code error;
+    fs::remove(job_path(flags_.request.folder), error);
+    batch::merge_shards({flags_.request.folder}, store_);
+  }
+
+  bool has_ended(const Entry& entry) {
+    const std::optional<batch::ModelRecord> record = store_.find(entry.key);
+    return record && batch_.is_current(entry, *record);
+  }
+
+  template <class Take>
+  void for_each_unfinished(Take&& take) {
+    const auto entries = batch::entries_of_manifest(plan_path(flags_.request.folder));
+    while (const std::optional<Entry> entry = entries->next()) {
+      if (!has_ended(*entry)) {
+        take(*entry);
+      }
+    }
+  }
+
+  std::vector<std::uint32_t> unfinished_shards() {
+    std::vector<bool> needed(flags_.request.shards, false);
+    for_each_unfinished(
+        [&](const Entry& entry) { needed[shard_of(entry, flags_.request.shards)] = true; });
+    std::vector<std::uint32_t> shards;
+    for (std::uint32_t i = 0; i < needed.size(); ++i) {
+      if (needed[i]) {
+        shards.push_back(i);
+      }
+    }
+    return shards;
+  }
+
+  /// Nothing is to be left without a record: what no attempt could end has failed.
+  void give_up() {
+    std::vector<Entry> lost;
+    for_each_unfinished([&](const Entry& entry) { lost.push_back(entry); });
+    for (const Entry& entry : lost) {
+      batch::ModelRecord record;
+      record.key = entry.key;
+      record.position = entry.position;
+      record.version = version();
+      record.status = "failed";
+      record.reason = "crash";
+      record.error = "its shard ended before it " + std::to_string(batch_.attempts) +
+                     " times; see the logs in slurm/, then --retry failed";
+      record.timings.attempts = batch_.attempts;
+      store_.put(record);
+    }
+  }
+
+  Session& session_;
+  batch::ResultsStore& store_;
+  SlurmFlags flags_;
+  const SlurmBatch& batch_;
+  std::int64_t models_ = 0;
+};
+
+}  // namespace
+
+void SlurmFlags::add_to(CLI::App& app) {
+  const std::string group = "Slurm";
+  request.shards = 0;
+  app.add_option("--shards", request.shards,
+                 "tasks of the job array; default: one for every 64 models")
+      ->check(CLI::Range(1, 99999))
+      ->group(group);
+  app.add_flag("--balance", balance,
+               "deal models to shards by the size of their files instead of by a hash of their key")
+      ->group(group);
+  app.add_option("--at-once", request.at_once, "at most this many tasks together")
+      ->check(CLI::Range(1, 99999))
+      ->group(group);
+  app.add_option("--minutes", request.minutes, "time limit of a task; it goes on where it was")
+      ->check(CLI::Range(1, 1000000))
+      ->group(group);
+  app.add_option("--partition", request.partition, "partition to run in")->group(group);
+  app.add_option("--sbatch", request.extra, "a further option for sbatch; may be given again")
+      ->group(group);
+  app.add_flag("--detach", detach, "submit and do not wait; merge with vantage results merge DIR")
+      ->group(group);
+}
+
+void run_on_slurm(Session& session, batch::EntrySource& entries, batch::ResultsStore& store,
+                  const SlurmFlags& flags, const SlurmBatch& batch) {
+  SlurmRun run(session, store, flags, batch);
+  run.plan(entries);
+  run.run();
+}
+
+}  // namespace vantage::cli

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "batch/entry_source.h"
+#include "batch/model_record.h"
+#include "batch/results_store.h"
+#include "batch/slurm.h"
+#include "session.h"
+
+namespace vantage::cli {
+
+/// Flags of `--engine slurm`.
+struct SlurmFlags {
+  batch::SlurmRequest request{};
+  bool balance = false;
+  bool detach = false;
+
+  void add_to(CLI::App& app);
+};
+
+/// What a collection on Slurm needs to know of the batch.
+struct SlurmBatch {
+  int attempts = 2;  ///< At shards that end before their models have.
+  /// Whether a model's record is up to date: same options and version.
+  std::function<bool(const batch::Entry&, const batch::ModelRecord&)> is_current{};
+};
+
+/// Plans the shards, submits them as a job array, waits, merges, and submits again the shards that
+/// ended before their models had; models that no attempt could end are recorded as failed.
+/// Interrupted, it cancels the job and merges what there is; run again, it joins a job that still
+/// runs. \throw Cancelled, IoError
+void run_on_slurm(Session& session, batch::EntrySource& entries, batch::ResultsStore& store,
+                  const SlurmFlags& flags, const SlurmBatch& batch);
+
+}  // namespace vantage::cli

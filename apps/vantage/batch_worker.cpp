@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include <fcntl.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "vantage/core/error.h"
+#include "vantage/io/write.h"
+#include "vantage/report/view_report.h"
+
+#include "batch/archive_reader.h"
+#include "batch/content_hash.h"
+#include "batch/naming.h"
+#include "batch/thumbnail.h"
+#include "commands.h"
+#include "method_flags.h"
+#include "output_folder.h"
+#include "view_outputs.h"
+
+/// \file
+/// The worker of a batch: `vantage batch-worker`, started by `vantage batch` and by nobody else.
+/// Each line on standard input is a model; it answers with the content's hash, is told "go" or
+/// "skip", and answers with the result or the reason why there is none. One model's failure leaves
+/// it fit for the next; what cannot be caught ends the process, which its parent replaces.
+
+namespace vantage::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// For tests only: VANTAGE_TEST_FAULT="crash:part,hang:part,memory:part" makes the worker go wrong
+/// on models whose key contains `part`.
+void suffer_test_fault(const std::string& key) {
+  const char* faults = std::getenv("VANTAGE_TEST_FAULT");
+  std::string_view rest = faults == nullptr ? "" : faults;
+  while (!rest.empty()) {
+    const std::string_view fault = rest.substr(0, rest.find(','));
+    rest.remove_prefix(std::min(rest.size(), fault.size() + 1));
+    const std::size_t colon = std::min(fault.find(':'), fault.size() - 1);
+    if (fault.size() <= colon + 1 || key.find(fault.substr(colon + 1)) == std::string::npos) {
+      continue;
+    }
+    if (fault.starts_with("crash")) {
+      std::abort();
+    }
+    while (fault.starts_with("hang")) {
+      ::sleep(1);
+    }
+    for (std::vector<std::string> hoard; fault.starts_with("memory");) {
+      hoard.emplace_back(std::size_t{64} << 20U, 'x');
+    }
+  }
+}
+
+/// Peak of resident memory since the last call, bytes.
+std::int64_t peak_bytes() {
+  std::ifstream status("/proc/self/status");
+  std::int64_t peak = 0;
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("VmHWM:")) {
+      peak = std::atoll(line.c_str() + 6) * 1024;
+    }
+  }
+  std::ofstream("/proc/self/clear_refs") << "5";  // starts the next peak from here
+  return peak;
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  for (std::size_t at = 0; !what.empty() && (at = text.find(what, at)) != std::string::npos;) {
+    text.replace(at, what.size(), by);
+    at += by.size();
+  }
+  return text;
+}
+
+struct BatchWorkerCommand {
+  std::string write{};
+  MethodFlags method{};
+
+  void add_flags(CLI::App& app, Session& session) {
+    app.group("");  // not for people
+    app.add_option("--write", write);
+    method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
+    add_common_flags(app, session.flags);
+  }
+
+  void run(Session& session) {
+    const ViewOptions options = method.resolve();
+    const OutputKinds kinds = OutputKinds::parse(write);
+    // Whatever a library prints must not be taken for an answer.
+    const int answers = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
+    ::dup2(STDERR_FILENO, STDOUT_FILENO);
+    session.flags.quiet = true;
+    for (std::string line; std::getline(std::cin, line);) {
+      const Json answer = answer_to(Json::parse(line), options, kinds, session, answers);
+      if (!answer.is_null()) {
+        say(answers, answer);
+      }
+    }
+  }
+
+ private:
+  static void say(int answers, const Json& json) {
+    const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    for (std::size_t done = 0; done < text.size();) {
+      const ssize_t count = ::write(answers, text.data() + done, text.size() - done);
+      if (count < 0 && errno != EINTR) {
+        throw IoError("batch", "does not listen any more", errno);
+      }
+      done += count > 0 ? static_cast<std::size_t>(count) : 0;
+    }
+  }
+
+  /// Null if the model is not to be done after all.
+  static Json answer_to(const Json& order, const ViewOptions& options, const OutputKinds& kinds,
+                        Session& session, int answers) {
+    const std::string path = batch::path_of_key(order.at("path").get<std::string>());
+    const auto key = order.at("key").get<std::string>();
+    bool reading = true;
+    const auto failed = [&](const char* reason, const std::string& error) {
+      return Json{
+          {"reason", reason}, {"error", replaced(error, path, key)}, {"peak_bytes", peak_bytes()}};
+    };
+    try {
+      say(answers, {{"content", batch::content_hash(path)}});
+      std::string word;
+      if (!std::getline(std::cin, word) || word != "go") {
+        return nullptr;
+      }
+      suffer_test_fault(key);
+      session.flags.threads = order.at("threads").get<int>();
+      const RunContext run = session.run();
+      Model model = load_model(path, run);
+      reading = false;
+      model.name = batch::path_of_key(order.at("name").get<std::string>());
+      return result_of(order, model, options, kinds, run);
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const IoError& error) {
+      const int number = error.error_number();
+      const bool full = number == ENOSPC || number == EDQUOT;
+      return failed(full               ? "disk"
+                    : number == EFBIG  ? "output"
+                    : number == ENOMEM ? "memory"
+                    : reading          ? "input"
+                                       : "work",
+                    error.what());
+    } catch (const FormatError& error) {
+      return failed("input", error.what());
+    } catch (const InvalidInput& error) {
+      return failed("input", error.what());
+    } catch (const std::bad_alloc&) {
+      return failed("memory", "needs more memory than the limit; see --memory");
+    } catch (const std::exception& error) {
+      return failed("work", error.what());
+    }
+  }
+
+  static Json result_of(const Json& order, const Model& model, ViewOptions options,
+                        const OutputKinds& kinds, const RunContext& run) {
+    const auto own_up = order.at("up").get<std::string>();
+    if (!own_up.empty()) {
+      options.up = up_axis(own_up);
+    }
+    const ShapeAnalysis shape = analyse_shape(model, options, run);
+    const UpAxis up = options.up.value_or(default_up(model.format));
+    const ViewReport report = find_views(shape, up, options, run);
+    OutputFolder output(batch::path_of_key(order.at("staging").get<std::string>()));
+    if (const auto best = add_pictures(output, kinds, shape, report, options, run)) {
+      output.add(batch::kThumbnailFile, png_bytes(batch::thumbnail_of(*best)));
+    }
+    add_report(output, kinds, model, shape, report, options, run);
+    add_data(output, kinds, model, shape, report, options,
+             batch::path_of_key(order.at("file").get<std::string>()));
+    Json view = Json::parse(view_json(model, shape, report, options));
+    for (const char* side : {"best", "worst"}) {
+      if (!kinds.has(side)) {
+        view[side]["image"] = nullptr;
+      }
+    }
+    output.add("view.json", view.dump(2) + "\n");
+    output.write();
+
+    Json result;
+    for (const char* part : {"format", "vertices", "faces", "components", "closed", "genus"}) {
+      result[part] = view["model"][part];
+    }
+    for (const char* part : {"total", "up", "camera", "best", "worst"}) {
+      result[part] = view[part];
+    }
+    return {{"result", result.dump()}, {"peak_bytes", peak_bytes()}};
+  }
+};
+
+struct BatchUnpackCommand {
+  std::string archive{};
+  std::uint64_t entry_bytes = 0;
+
+  void add_flags(CLI::App& app, Session& /*session*/) {
+    app.group("");  // not for people
+    app.add_option("ARCHIVE", archive)->required();
+    app.add_option("BYTES", entry_bytes)->required();
+  }
+
+  void run(Session& /*session*/) const {
+    batch::unpack_archive(batch::path_of_key(archive), entry_bytes, STDOUT_FILENO);
+  }
+};
+
+}  // namespace
+
+void add_batch_worker_commands(CLI::App& program, Session& session) {
+  add_command<BatchWorkerCommand>(program, session, "batch-worker", "", "");
+  add_command<BatchUnpackCommand>(program, session, "batch-unpack", "", "");
+}
+
+}  // namespace vantage::cli

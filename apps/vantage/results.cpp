@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/error.h"
+
+#include "batch/overview.h"
+#include "batch/results_store.h"
+#include "batch/shard_merge.h"
+#include "commands.h"
+#include "method_flags.h"
+#include "results_diff.h"
+#include "results_table.h"
+#include "terminal.h"
+
+namespace vantage::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::unique_ptr<batch::ResultsStore> open_store(Session& session, const std::string& folder) {
+  return session.reading(
+      [&] { return std::make_unique<batch::ResultsStore>(folder, batch::Database::Mode::Read); });
+}
+
+/// A file that is written row by row and gets its name only when it is whole; "-": standard output.
+class RowFile {
+ public:
+  explicit RowFile(const std::string& path) : path_(path), temporary_(path + ".part") {
+    file_ = path == "-" ? stdout : std::fopen(temporary_.c_str(), "wbe");
+    if (file_ == nullptr) {
+      throw IoError(path, "cannot be created", errno);
+    }
+  }
+
+  RowFile(const RowFile&) = delete;
+  RowFile& operator=(const RowFile&) = delete;
+
+  ~RowFile() {
+    if (file_ != nullptr && file_ != stdout) {
+      std::fclose(file_);
+      std::remove(temporary_.c_str());
+    }
+  }
+
+  void add(const std::string& row) {
+    if (std::fwrite(row.data(), 1, row.size(), file_) != row.size()) {
+      throw IoError(path_, "cannot be written", errno);
+    }
+  }
+
+  void finish() {
+    std::FILE* const file = std::exchange(file_, nullptr);
+    const bool flushed = std::fflush(file) == 0;
+    if (file == stdout) {
+      return;
+    }
+    if (std::fclose(file) != 0 || !flushed || std::rename(temporary_.c_str(), path_.c_str()) != 0) {
+      const int error = errno;
+      std::remove(temporary_.c_str());
+      throw IoError(path_, "cannot be written", error);
+    }
+  }
+
+ private:
+  std::string path_;
+  std::string temporary_;
+  std::FILE* file_ = nullptr;
+};
+
+struct ExportCommand {
+  std::vector<std::string> folders{};
+  std::string output = "-";
+  std::string format = "csv";
+  bool timings = false;
+
+  void add_flags(CLI::App& app, Session& session) {
+    app.add_option("DIR", folders, "folder of a batch; of several, all rows")->required();
+    app.add_option("-o,--output", output, "file to write")->capture_default_str();
+    app.add_option("--format", format, "of the table")
+        ->check(CLI::IsMember({"csv", "jsonl"}))
+        ->capture_default_str();
+    app.add_flag("--timings", timings,
+                 "also seconds, memory and attempts, which differ every time");
+    add_common_flags(app, session.flags);
+  }
+
+  void run(Session& session) const {
+    std::vector<std::string> columns = batch::result_columns();
+    if (timings) {
+      columns.insert(columns.end(), batch::timing_columns().begin(), batch::timing_columns().end());
+    }
+    RowFile file(output);
+    if (format == "csv") {
+      file.add(csv_line(columns));
+    }
+    std::vector<std::string> selected = columns;
+    selected.emplace_back("result");
+    const RunContext context = session.run();
+    for (const std::string& folder : folders) {
+      const auto store = open_store(session, folder);
+      batch::Statement rows = select_rows(*store, selected, {}, "");
+      while (rows.step()) {
+        context.check();
+        file.add(format == "csv" ? csv_row(rows, columns.size()) : json_row(rows, columns));
+      }
+    }
+    file.finish();
+  }
+
+ private:
+  static std::string csv_row(const batch::Statement& row, std::size_t count) {
+    std::vector<std::string> cells;
+    for (std::size_t i = 0; i < count; ++i) {
+      cells.push_back(cell_text(row, static_cast<int>(i)));
+    }
+    return csv_line(cells);
+  }
+
+  static std::string json_row(const batch::Statement& row,
+                              const std::vector<std::string>& columns) {
+    Json json;
+    const int result_column = static_cast<int>(columns.size());
+    for (int i = 0; i < result_column; ++i) {
+      const std::string& name = columns[static_cast<std::size_t>(i)];
+      if (!name.starts_with("best_") && !name.starts_with("worst_")) {
+        json[name] = cell_json(row, i, name);
+      }
+    }
+    const Json result = Json::parse(row.text(result_column), nullptr, false);
+    for (const char* part : {"up", "camera", "best", "worst"}) {
+      json[part] = result.is_object() && result.contains(part) ? result[part] : Json(nullptr);
+    }
+    return json.dump() + "\n";
+  }
+};
+
+struct QueryCommand {
+  std::vector<std::string> folders{};
+  std::vector<std::string> where{};
+  std::string status{};
+  std::string sort{};
+  std::string columns = "name,status,best_fraction,worst_fraction,vertices,error";
+  std::size_t limit = 0;
+
+  void add_flags(CLI::App& app, Session& session) {
+    app.add_option("DIR", folders, "folder of a batch")->required();
+    app.add_option("--where", where,
+                   "condition like best_fraction<0.4 or name~chair; may be given again")
+        ->allow_extra_args(false);
+    app.add_option("--status", status, "only these")
+        ->check(CLI::IsMember({"done", "failed", "duplicate"}));
+    app.add_option("--sort", sort, "column to sort by; -COLUMN for the largest first");
+    app.add_option("--columns", columns, "what to show")->capture_default_str();
+    app.add_option("--limit", limit, "at most so many rows; 0: all")->capture_default_str();
+    add_common_flags(app, session.flags);
+  }
+
+  void run(Session& session) const {
+    const std::vector<std::string> wanted = parse_columns(columns);
+    std::vector<Condition> conditions;
+    for (const std::string& text : where) {
+      conditions.push_back(parse_condition(text));
+    }
+    if (!status.empty()) {
+      conditions.push_back(parse_condition(status == "failed" ? "status=failed" : "status=done"));
+      if (status != "failed") {
+        conditions.push_back(
+            parse_condition(status == "done" ? "duplicate_of=" : "duplicate_of!="));
+      }
+    }
+    std::vector<std::vector<std::string>> table{wanted};
+    Json list = Json::array();
+    for (const std::string& folder : folders) {
+      const auto store = open_store(session, folder);
+      batch::Statement rows = select_rows(*store, wanted, conditions, sort);
+      for (std::size_t i = 0; (limit == 0 || i < limit) && rows.step(); ++i) {
+        if (session.flags.json) {
+          list.push_back(object_of(rows, wanted));
+        } else {
+          table.push_back(cells_of(rows));
+        }
+      }
+    }
+    if (session.flags.json) {
+      std::printf("%s\n", list.dump(2).c_str());
+    } else {
+      print(table);
+    }
+  }
+
+ private:
+  static Json object_of(const batch::Statement& row, const std::vector<std::string>& names) {
+    Json json;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      json[names[i]] = cell_json(row, static_cast<int>(i), names[i]);
+    }
+    return json;
+  }
+
+  static std::vector<std::string> cells_of(const batch::Statement& row) {
+    std::vector<std::string> cells;
+    for (int i = 0; i < row.columns(); ++i) {
+      cells.push_back(printable(row.is_real(i) ? rounded(row.number(i)) : row.text(i)));
+    }
+    return cells;
+  }
+
+  static void print(const std::vector<std::vector<std::string>>& table) {
+    std::vector<std::size_t> widths(table.front().size(), 0);
+    for (const auto& row : table) {
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        widths[i] = std::max(widths[i], row[i].size());
+      }
+    }
+    for (const auto& row : table) {
+      std::string line;
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        line += row[i] + std::string(widths[i] - row[i].size() + 2, ' ');
+      }
+      line.erase(line.find_last_not_of(' ') + 1);
+      std::printf("%s\n", line.c_str());
+    }
+  }
+};
+
+struct DiffCommand {
+  std::string before{};
+  std::string after{};
+  double tolerance = 0.0;
+
+  void add_flags(CLI::App& app, Session& session) {
+    app.add_option("A", before, "folder of a batch")->required();
+    app.add_option("B", after, "folder of another one")->required();
+    app.add_option("--tolerance", tolerance,
+                   "scores may differ by this share of the larger before it counts")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+    add_common_flags(app, session.flags);
+  }
+
+  void run(Session& session) const {
+    const auto a = open_store(session, before);
+    const auto b = open_store(session, after);
+    const DiffCounts counts = diff_results(*a, *b, tolerance, [&](const Difference& difference) {
+      if (session.flags.json) {
+        std::printf("%s\n", to_json(difference).dump().c_str());
+      } else {
+        session.tell(difference_line(difference));
+      }
+    });
+    session.tell(plural(counts.equal, "model") + " alike, " + grouped(counts.changed) +
+                 " changed, " + grouped(counts.removed) + " only in A, " + grouped(counts.added) +
+                 " only in B");
+  }
+};
+
+struct MergeCommand {
+  std::vector<std::string> folders{};
+  bool no_overview = false;
+
+  void add_flags(CLI::App& app, Session& session) {
+    app.add_option(
+           "DIR", folders,
+           "folder of a batch that receives its shards' results, and those of further folders")
+        ->required();
+    app.add_flag("--no-overview", no_overview, "no index.html and no contact sheets");
+    add_common_flags(app, session.flags);
+  }
+
+  void run(Session& session) const {
+    batch::ResultsStore store(folders.front(), batch::Database::Mode::Create);
+    const RunContext context = session.run();
+    const batch::MergeCounts merged =
+        session.reading([&] { return batch::merge_shards(folders, store, context); });
+    if (!no_overview) {
+      batch::write_overview(folders.front(), store, context);
+    }
+    summarise(session, merged, store.counts());
+  }
+
+ private:
+  static void summarise(Session& session, const batch::MergeCounts& merged,
+                        const batch::StatusCounts& counts) {
+    const auto count = [](std::int64_t number) {
+      return grouped(static_cast<std::size_t>(number));
+    };
+    session.tell(plural(merged.seen, "record") + " read, " + grouped(merged.taken) + " new; " +
+                 count(counts.done) + " done, " + count(counts.failed) + " failed, " +
+                 count(counts.duplicates) + " with the content of another");
+    if (merged.torn > 0) {
+      session.say("note: " + plural(merged.torn, "line") + " of the shards' files were no records");
+    }
+    if (session.flags.json) {
+      const Json json = {{"read", merged.seen},
+                         {"new", merged.taken},
+                         {"done", counts.done},
+                         {"failed", counts.failed},
+                         {"duplicates", counts.duplicates}};
+      std::printf("%s\n", json.dump().c_str());
+    }
+  }
+};
+
+}  // namespace
+
+void add_results_command(CLI::App& program, Session& session) {
+  CLI::App* results = program.add_subcommand("results", "what a batch has stored");
+  results->require_subcommand(1);
+  add_command<QueryCommand>(
+      *results, session, "query", "rows that fulfil conditions, as a table",
+      "Examples:\n"
+      "  vantage results query DIR --status failed --columns key,reason,error\n"
+      "  vantage results query DIR --where 'best_fraction<0.4' --sort best_fraction --limit 20");
+  add_command<ExportCommand>(*results, session, "export", "all results as one table",
+                             "Examples:\n  vantage results export DIR --format jsonl -o all.jsonl");
+  add_command<DiffCommand>(*results, session, "diff", "what differs between two batches",
+                           "Examples:\n  vantage results diff DIR1 DIR2 --tolerance 0.01");
+  add_command<MergeCommand>(*results, session, "merge", "shards' results into the folder's store",
+                            "Examples:\n  vantage results merge DIR\n"
+                            "  vantage results merge ALL PART1 PART2");
+}
+
+}  // namespace vantage::cli

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "results_diff.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "results_table.h"
+#include "terminal.h"
+
+namespace vantage::cli {
+namespace {
+
+const std::vector<std::string>& compared_columns() {
+  static const std::vector<std::string> kColumns{
+      "key",   "status",     "reason",        "error",       "content",       "vertices",
+      "faces", "best_score", "best_fraction", "worst_score", "worst_fraction"};
+  return kColumns;
+}
+
+bool is_alike(const batch::Statement& a, const batch::Statement& b, int column, double tolerance) {
+  if (a.is_real(column) && b.is_real(column)) {
+    const double x = a.number(column);
+    const double y = b.number(column);
+    return std::abs(x - y) <= tolerance * std::max(std::abs(x), std::abs(y));
+  }
+  return cell_text(a, column) == cell_text(b, column);
+}
+
+Difference compared(const batch::Statement& a, const batch::Statement& b, double tolerance) {
+  Difference difference{.key = a.text(0), .kind = "changed"};
+  const auto& columns = compared_columns();
+  for (std::size_t i = 1; i < columns.size(); ++i) {
+    const int column = static_cast<int>(i);
+    if (!is_alike(a, b, column, tolerance)) {
+      difference.changes.push_back({columns[i], cell_text(a, column), cell_text(b, column)});
+    }
+  }
+  return difference;
+}
+
+}  // namespace
+
+DiffCounts diff_results(batch::ResultsStore& a, batch::ResultsStore& b, double tolerance,
+                        const std::function<void(const Difference&)>& take) {
+  batch::Statement left = select_rows(a, compared_columns(), {}, "");
+  batch::Statement right = select_rows(b, compared_columns(), {}, "");
+  DiffCounts counts;
+  bool in_a = left.step();
+  bool in_b = right.step();
+  while (in_a || in_b) {
+    const int order = !in_a ? 1 : !in_b ? -1 : left.text(0).compare(right.text(0));
+    if (order < 0) {
+      ++counts.removed;
+      take({.key = left.text(0), .kind = "removed"});
+    } else if (order > 0) {
+      ++counts.added;
+      take({.key = right.text(0), .kind = "added"});
+    } else {
+      const Difference difference = compared(left, right, tolerance);
+      ++(difference.changes.empty() ? counts.equal : counts.changed);
+      if (!difference.changes.empty()) {
+        take(difference);
+      }
+    }
+    in_a = order <= 0 ? left.step() : in_a;
+    in_b = order >= 0 ? right.step() : in_b;
+  }
+  return counts;
+}
+
+std::string difference_line(const Difference& difference) {
+  std::string line = difference.kind + "  " + difference.key;
+  for (const Difference::Change& change : difference.changes) {
+    line += "  " + change.column + ": " + (change.a.empty() ? "–" : change.a) + " → " +
+            (change.b.empty() ? "–" : change.b);
+  }
+  return printable(line);
+}
+
+nlohmann::ordered_json to_json(const Difference& difference) {
+  nlohmann::ordered_json json = {{"key", difference.key}, {"kind", difference.kind}};
+  for (const Difference::Change& change : difference.changes) {
+    json["changes"][change.column] = {change.a, change.b};
+  }
+  return json;
+}
+
+}  // namespace vantage::cli

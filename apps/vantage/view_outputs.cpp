@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "view_outputs.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "vantage/io/camera_files.h"
+#include "vantage/io/write.h"
+#include "vantage/render/colour_map.h"
+#include "vantage/report/html_report.h"
+
+namespace vantage::cli {
+namespace {
+
+struct PictureKind {
+  const char* kind;
+  bool of_best;
+  Picture shows;
+};
+
+constexpr std::array<PictureKind, 6> kPictures{{{"best", true, Picture::Plain},
+                                                {"worst", false, Picture::Plain},
+                                                {"best-kssm", true, Picture::Map},
+                                                {"worst-kssm", false, Picture::Map},
+                                                {"best-skeleton", true, Picture::Skeleton},
+                                                {"worst-skeleton", false, Picture::Skeleton}}};
+constexpr std::array<const char*, 3> kData{"map", "skeleton", "camera"};
+constexpr const char* kReport = "report";
+
+}  // namespace
+
+OutputKinds OutputKinds::all() {
+  OutputKinds kinds;
+  for (const PictureKind& picture : kPictures) {
+    kinds.kinds_.insert(picture.kind);
+  }
+  kinds.kinds_.insert(kData.begin(), kData.end());
+  if (has_report_page()) {
+    kinds.kinds_.insert(kReport);
+  }
+  return kinds;
+}
+
+OutputKinds OutputKinds::parse(const std::string& text) {
+  const OutputKinds known = all();
+  OutputKinds kinds;
+  std::size_t from = 0;
+  while (from <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', from), text.size());
+    const std::string kind = text.substr(from, comma - from);
+    if (kind == "views") {
+      throw CLI::ValidationError("--write", "this version does not write '" + kind + "'");
+    }
+    if (kind == kReport && !has_report_page()) {
+      throw CLI::ValidationError("--write", "this program was built without npm: no report");
+    }
+    if (!known.has(kind) && kind != "json") {
+      throw CLI::ValidationError("--write", "'" + kind + "' is none of json," + known.text());
+    }
+    if (kind != "json") {
+      kinds.kinds_.insert(kind);
+    }
+    from = comma + 1;
+  }
+  return kinds;
+}
+
+void OutputKinds::drop_pictures() {
+  for (const PictureKind& picture : kPictures) {
+    kinds_.erase(picture.kind);
+  }
+  kinds_.erase(kReport);  // shows pictures of the views
+}
+
+std::string OutputKinds::text() const {
+  std::string text;
+  for (const std::string& kind : kinds_) {
+    text += (text.empty() ? "" : ",") + kind;
+  }
+  return text;
+}
+
+std::optional<Image> add_pictures(OutputFolder& output, const OutputKinds& kinds,
+                                  const ShapeAnalysis& shape, const ViewReport& report,
+                                  const ViewOptions& options, const RunContext& run) {
+  const auto wanted = static_cast<double>(
+      std::count_if(kPictures.begin(), kPictures.end(),
+                    [&](const PictureKind& picture) { return kinds.has(picture.kind); }));
+  double taken = 0.0;
+  std::optional<Image> best;
+  for (const PictureKind& picture : kPictures) {
+    if (!kinds.has(picture.kind)) {
+      continue;
+    }
+    const ReportedView& view = picture.of_best ? report.best : report.worst;
+    Image image = take_picture(shape, view.picture, picture.shows, options, {},
+                               run.part(taken / wanted, std::min(1.0, (taken + 1.0) / wanted)));
+    output.add(std::string(picture.kind) + ".png", png_bytes(image));
+    taken += 1.0;
+    if (std::string_view(picture.kind) == "best") {
+      best = std::move(image);
+    }
+  }
+  return best;
+}
+
+void add_report(OutputFolder& output, const OutputKinds& kinds, const Model& loaded,
+                const ShapeAnalysis& shape, const ViewReport& report, const ViewOptions& options,
+                const RunContext& run) {
+  if (kinds.has(kReport)) {
+    output.add("report.html", report_html(loaded, shape, report, options, run));
+  }
+}
+
+void add_data(OutputFolder& output, const OutputKinds& kinds, const Model& loaded,
+              const ShapeAnalysis& shape, const ViewReport& report, const ViewOptions& options,
+              const std::string& file) {
+  if (kinds.has("map")) {
+    const std::vector<double> map = on_input_vertices(shape, shape.map.of_vertex);
+    output.add("map.ply", ply_bytes(loaded.mesh, map, colour_map(map), loaded.double_precision));
+  }
+  if (kinds.has("skeleton")) {
+    output.add("skeleton.json", skeleton_json({.graph = &shape.skeleton.graph,
+                                               .radius = shape.skeleton.radius,
+                                               .vertex_node = nodes_of_input_vertices(shape)}));
+  }
+  if (!kinds.has("camera")) {
+    return;
+  }
+  const PictureSize size{options.width, options.height};
+  const std::pair<const char*, const ReportedView*> views[] = {{"best", &report.best},
+                                                               {"worst", &report.worst}};
+  for (const auto& [name, view] : views) {
+    const std::string stem = std::string("camera-") + name;
+    output.add(stem + ".gltf", camera_gltf(view->picture, size, shape.sphere.diameter));
+    output.add(stem + ".transforms.json",
+               camera_transforms_json(view->picture, size, std::string(name) + ".png"));
+    output.add(stem + ".f3d.txt", camera_f3d(view->picture, file));
+  }
+}
+
+}  // namespace vantage::cli

@@ -1,0 +1,344 @@
+"""vantage batch: what it takes, what it writes, what it skips, how its shards add up."""
+
+import csv
+import io
+import json
+import pathlib
+import tarfile
+import unittest
+import zipfile
+
+from program import ProgramTest
+from shapes import box
+
+FAST = ["--search", "rapid", "--write", "json", "--jobs", "2"]
+
+
+class BatchTest(ProgramTest):
+
+    def batch(self, *arguments, exit_code=0, stdin=None, out="out"):
+        """Runs a batch into `out` and returns its counts."""
+        done = self.vantage("batch", *arguments, "-o", out, *FAST, "--json", exit_code=exit_code, stdin=stdin)
+        return json.loads(done.out)
+
+    def rows(self, out="out"):
+        """The export as a dictionary by key."""
+        text = self.vantage("results", "export", out, "--format", "jsonl").out
+        rows = [json.loads(line) for line in text.splitlines()]
+        return {row["key"]: row for row in rows}
+
+    def export(self, out="out"):
+        return self.vantage("results", "export", out, "--format", "jsonl").out
+
+
+class Inputs(BatchTest):
+
+    def test_folders_are_walked_in_the_order_of_names_and_other_files_are_passed_over(self):
+        (self.dir / "in" / "b").mkdir(parents=True)
+        self.write("in/b/1.off", box(1))
+        self.write("in/a.off", box(2))
+        self.write("in/notes.txt", "no model")
+        self.batch("in")
+        with_position = self.vantage("results", "query", "out", "--columns", "key", "--json").out
+        self.assertEqual([row["key"] for row in json.loads(with_position)], ["in/a.off", "in/b/1.off"])
+
+    def test_patterns_choose_and_leave_out(self):
+        (self.dir / "in" / "old").mkdir(parents=True)
+        for name in ("in/a.off", "in/b.OFF", "in/old/c.off", "in/d.model"):
+            self.write(name, box(1))
+        self.batch("in", "--include", "*.off", "--include", "*.model", "--exclude", "old/*")
+        self.assertEqual(sorted(self.rows()), ["in/a.off", "in/b.OFF", "in/d.model"])
+
+    def test_the_output_inside_the_input_is_not_an_input(self):
+        self.write("a.off", box(1))
+        self.batch(".", out="out")
+        self.write("out/models/stray.off", box(3))
+        self.assertEqual(self.batch(".", out="out")["skipped"], 1)
+        self.assertEqual(list(self.rows()), ["./a.off"])
+
+    def test_manifests_say_the_same_as_lines_csv_and_json(self):
+        self.write("a.off", box(1))
+        self.write("b.off", box(2))
+        lines = "# chosen by hand\na.off\n\nb.off\n"
+        table = 'id,path\n1,a.off\n2,"b.off"\n'
+        objects = '{"path": "a.off"}\n{"path": "b.off", "weight": 3}\n'
+        exports = []
+        for i, text in enumerate((lines, table, objects, "a.off\0b.off\0", lines.replace("\n", "\r\n"))):
+            self.batch("--manifest", self.write(f"m{i}", text), out=f"out{i}")
+            exports.append(self.export(f"out{i}"))
+        self.assertEqual(len(exports[0].splitlines()), 2)
+        self.assertEqual(exports, [exports[0]] * 5)
+
+    def test_a_manifest_on_standard_input_may_name_and_turn_models(self):
+        self.write("a.off", box(1))
+        objects = '{"path": "a.off", "key": "first", "name": "A/../B", "up": "x"}\n{"path": "a.off", "key": "second"}\n'
+        self.batch("--manifest", "-", "--name", "{name}-{key8}", stdin=objects.encode())
+        rows = self.rows()
+        self.assertEqual(rows["first"]["name"], "A/../B")
+        self.assertEqual([rows["first"]["up"], rows["second"]["up"]], ["x", "y"])
+        self.assertTrue(rows["first"]["folder"].startswith("A_.._B-"), rows["first"]["folder"])
+        view = json.loads((self.dir / "out/models" / rows["first"]["folder"] / "view.json").read_text())
+        self.assertEqual(view["model"]["name"], "A/../B")
+
+    def test_lines_of_a_manifest_that_make_no_sense_fail_alone(self):
+        self.write("a.off", box(1))
+        objects = '{"path": "a.off"}\n{"up": "x"}\n{"path": "a.off", "up": "north"}\n{"path": 5}\nfree text\n'
+        counts = self.batch("--manifest", "-", stdin=objects.encode(), exit_code=4)
+        # the third names a.off again, which is done already
+        self.assertEqual((counts["done"], counts["failed"]), (1, 3))
+        self.assertIn("line 4", self.rows()["line 4 of the manifest"]["error"])
+
+    def test_inputs_and_a_manifest_together_are_wrong_usage(self):
+        self.vantage("batch", "a.off", "--manifest", "m", "-o", "out", exit_code=2)
+        self.vantage("batch", "-o", "out", exit_code=2)
+
+    def test_pictures_of_later_versions_are_refused_by_name(self):
+        for kind in ("views", "report", "nonsense"):
+            done = self.vantage("batch", "a.off", "-o", "out", "--write", kind, exit_code=2)
+            self.assertIn(kind, done.err)
+
+
+class Archives(BatchTest):
+
+    def test_zip_and_tar_hold_the_same_models_as_a_folder(self):
+        with zipfile.ZipFile(self.dir / "m.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+            archive.writestr("d/a.off", box(1))
+            archive.writestr("d/b.off", box(2))
+            archive.writestr("d/readme.txt", "no model")
+        with tarfile.open(self.dir / "m.tar.gz", "w:gz") as archive:
+            for name, content in (("a.off", box(1)), ("b.off", box(2))):
+                info = tarfile.TarInfo(name)
+                info.size = len(content)
+                archive.addfile(info, io.BytesIO(content.encode()))
+        counts = self.batch("m.zip", "m.tar.gz")
+        self.assertEqual((counts["done"], counts["duplicates"]), (2, 2))
+        rows = self.rows()
+        self.assertEqual(sorted(rows), ["m.tar.gz//a.off", "m.tar.gz//b.off", "m.zip//d/a.off", "m.zip//d/b.off"])
+        self.assertEqual(rows["m.tar.gz//a.off"]["duplicate_of"], "m.zip//d/a.off")
+        self.assertEqual(self.batch("m.zip", "m.tar.gz")["skipped"], 4)
+
+    def test_names_that_climb_out_of_the_archive_write_nothing_outside(self):
+        with zipfile.ZipFile(self.dir / "m.zip", "w") as archive:
+            archive.writestr("../../evil.off", box(1))
+            archive.writestr("/abs.off", box(2))
+        before = {p for p in self.dir.parent.glob("*.off")}
+        counts = self.batch("m.zip")
+        self.assertEqual(counts["done"], 2)
+        self.assertEqual({p for p in self.dir.parent.glob("*.off")}, before)
+        self.assertFalse(pathlib.Path("/abs.off").exists())
+        self.assertEqual(sorted(p.name for p in self.dir.iterdir()), ["m.zip", "out"])
+
+    def test_links_and_repeated_names_are_told_apart(self):
+        with tarfile.open(self.dir / "m.tar", "w") as archive:
+            link = tarfile.TarInfo("link.off")
+            link.type = tarfile.SYMTYPE
+            link.linkname = "/etc/passwd"
+            archive.addfile(link)
+            for content in (box(1), box(2)):
+                info = tarfile.TarInfo("a.off")
+                info.size = len(content)
+                archive.addfile(info, io.BytesIO(content.encode()))
+        self.batch("m.tar")
+        self.assertEqual(sorted(self.rows()), ["m.tar//a.off", "m.tar//a.off//2"])
+
+    def test_a_torn_archive_gives_what_can_be_read_and_fails_for_the_rest(self):
+        with tarfile.open(self.dir / "m.tar", "w") as archive:
+            for i in range(3):
+                content = box(1 + i)
+                info = tarfile.TarInfo(f"{i}.off")
+                info.size = len(content)
+                archive.addfile(info, io.BytesIO(content.encode()))
+        whole = (self.dir / "m.tar").read_bytes()
+        self.write("m.tar", whole[:1024 + 300])  # an entry of two blocks, then a torn header
+        counts = self.batch("m.tar", exit_code=4)
+        self.assertEqual(counts["done"], 1)
+        self.assertIn("cannot be", self.rows()["m.tar"]["error"])
+
+    def test_an_entry_larger_than_the_limit_is_not_unpacked(self):
+        with zipfile.ZipFile(self.dir / "m.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+            archive.writestr("bomb.off", b"0" * 350_000_000)
+            archive.writestr("a.off", box(1))
+        counts = self.batch("m.zip", "--memory", "0.3", exit_code=4)
+        self.assertEqual((counts["done"], counts["failed"]), (1, 1))
+        self.assertIn("larger than 300 MB", self.rows()["m.zip//bomb.off"]["error"])
+
+
+class Results(BatchTest):
+
+    def test_equal_models_are_done_once_and_the_first_one_stands_for_them(self):
+        for name, width in (("c", 1), ("a", 1), ("b", 1), ("d", 2)):
+            self.write(f"{name}.off", box(width))
+        counts = self.batch("c.off", "a.off", "b.off", "d.off")
+        self.assertEqual((counts["done"], counts["duplicates"]), (2, 2))
+        rows = self.rows()
+        self.assertEqual([rows[f"{k}.off"]["duplicate_of"] for k in "abcd"], ["c.off", "c.off", "", ""])
+        self.assertEqual(rows["a.off"]["folder"], rows["c.off"]["folder"])
+        self.assertEqual(len(list((self.dir / "out/models").iterdir())), 2)
+
+    def test_a_second_run_does_nothing_and_changes_no_byte(self):
+        for i in range(4):
+            self.write(f"{i}.off", box(1 + i))
+        self.write("bad.off", "no OFF at all")
+        self.batch(*(f"{i}.off" for i in range(4)), "bad.off", exit_code=4)
+        before = self.export()
+        counts = self.batch(*(f"{i}.off" for i in range(4)), "bad.off", exit_code=4)
+        self.assertEqual((counts["done"], counts["skipped"], counts["failed"]), (0, 5, 1))
+        self.assertEqual(self.export(), before)
+
+    def test_only_what_has_changed_is_done_again(self):
+        for i in range(3):
+            self.write(f"{i}.off", box(1 + i))
+        names = [f"{i}.off" for i in range(3)]
+        self.batch(*names)
+        old = self.rows()["1.off"]["folder"]
+        self.write("1.off", box(7))  # other content
+        self.write("2.off", box(3))  # written again, the same
+        counts = self.batch(*names)
+        self.assertEqual((counts["done"], counts["skipped"]), (1, 2))
+        self.assertFalse((self.dir / "out/models" / old).exists(), "results of the old content stay behind")
+        counts = self.batch(*names, "--fov", "40")
+        self.assertEqual(counts["done"], 3, "other options are other results")
+
+    def test_results_that_have_vanished_are_made_again(self):
+        self.write("a.off", box(1))
+        self.batch("a.off")
+        folder = self.dir / "out/models" / self.rows()["a.off"]["folder"]
+        (folder / "view.json").unlink()
+        folder.rmdir()
+        self.assertEqual(self.batch("a.off")["done"], 1)
+        self.assertTrue((folder / "view.json").exists())
+
+    def test_verify_reads_again_and_believes_only_the_content(self):
+        import os
+        path = self.write("a.off", box(1.5))
+        self.batch("a.off")
+        stamp = path.stat()
+        with path.open("r+b") as file:  # same size, time and inode: only the bytes tell
+            file.write(box(2.5).encode())
+        os.utime(path, ns=(stamp.st_atime_ns, stamp.st_mtime_ns))
+        self.assertEqual(self.batch("a.off")["skipped"], 1)
+        self.assertEqual(self.batch("a.off", "--verify")["done"], 1)
+        self.assertEqual(self.batch("a.off", "--verify")["skipped"], 1)
+
+    def test_names_that_meet_fail_for_the_later_model_and_say_so(self):
+        for folder, width in (("a", 1), ("b", 2)):
+            (self.dir / folder).mkdir()
+            self.write(f"{folder}/same.off", box(width))
+        self.batch("a", "b", "--name", "{stem}", exit_code=4)
+        rows = self.rows()
+        self.assertEqual(rows["a/same.off"]["status"], "done")
+        self.assertIn("a/same.off", rows["b/same.off"]["error"])
+        self.assertIn("{hash8}", rows["b/same.off"]["error"])
+
+    def test_templates_are_checked_before_any_work(self):
+        self.write("a.off", box(1))
+        for template in ("{nothing}", "../{stem}/", "{stem", "a//b", "/abs"):
+            done = self.vantage("batch", "a.off", "-o", "out", "--name", template, exit_code=2)
+            self.assertIn("--name", done.err)
+        self.batch("a.off", "--name", "../.{stem}")
+        self.assertEqual(self.rows()["a.off"]["folder"], "_./_a")
+
+    def test_csv_reads_back_and_timings_are_left_out_unless_asked_for(self):
+        self.write('q"u,o\nte.off', box(1))
+        self.batch('q"u,o\nte.off')
+        plain = list(csv.DictReader(io.StringIO(self.vantage("results", "export", "out").out)))
+        self.assertEqual(plain[0]["key"], 'q"u,o\nte.off')
+        self.assertNotIn("seconds", plain[0])
+        timed = self.vantage("results", "export", "out", "--timings").out
+        self.assertEqual(next(csv.DictReader(io.StringIO(timed)))["attempts"], "1")
+
+    def test_query_chooses_sorts_and_limits(self):
+        for i in range(5):
+            self.write(f"{i}.off", box(1 + i))
+        self.write("bad.off", "no OFF")
+        self.batch(".", exit_code=4)
+        query = lambda *flags: [row["name"] for row in json.loads(
+            self.vantage("results", "query", "out", "--columns", "name", "--json", *flags).out)]
+        self.assertEqual(query("--status", "failed"), ["bad"])
+        self.assertEqual(query("--where", "name>=3", "--where", "status=done"), ["3", "4"])
+        self.assertEqual(query("--where", "name~BA"), ["bad"])
+        self.assertEqual(query("--sort", "-name", "--limit", "2"), ["bad", "4"])
+        # what has no value is last in both directions
+        self.assertEqual(query("--sort", "vertices")[-1], "bad")
+        self.assertEqual(query("--sort", "-vertices")[-1], "bad")
+        self.vantage("results", "query", "out", "--where", "name;drop table models=1", exit_code=2)
+
+    def test_diff_lists_what_came_went_and_changed(self):
+        for i in range(3):
+            self.write(f"{i}.off", box(1 + i))
+        self.batch("0.off", "1.off", out="a")
+        self.write("1.off", box(9))
+        self.batch("1.off", "2.off", out="b")
+        lines = self.vantage("results", "diff", "a", "b", "--json").out.splitlines()
+        kinds = {json.loads(line)["key"]: json.loads(line)["kind"] for line in lines}
+        self.assertEqual(kinds, {"0.off": "removed", "1.off": "changed", "2.off": "added"})
+        self.assertEqual(self.vantage("results", "diff", "a", "a", "--json").out, "")
+
+    def test_the_index_page_holds_no_markup_from_names(self):
+        self.write("<b>&\"' é.off", box(1))
+        self.vantage("batch", ".", "-o", "out", "--search", "rapid", "--write", "best", "--size", "64")
+        page = (self.dir / "out/index.html").read_text()
+        self.assertNotIn("<b>&", page)
+        self.assertIn("\\u003cb>&", page)
+        self.assertTrue((self.dir / "out/contact-sheet-0001.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_a_folder_with_foreign_files_is_refused(self):
+        (self.dir / "out").mkdir()
+        self.write("out/thesis.txt", "mine")
+        self.write("a.off", box(1))
+        self.vantage("batch", "a.off", "-o", "out", exit_code=1)
+        self.assertEqual(len(list((self.dir / "out").iterdir())), 1)
+
+
+class Shards(BatchTest):
+
+    def setUp(self):
+        super().setUp()
+        for i in range(12):
+            self.write(f"{i:02}.off", box(1 + i // 2))  # pairs of equal models, apart or together
+        self.write("bad.off", "no OFF")
+        self.names = [f"{i:02}.off" for i in range(12)] + ["bad.off"]
+
+    def test_merged_shards_export_the_same_bytes_as_one_run(self):
+        self.batch(*self.names, exit_code=4, out="one")
+        for count in (1, 3, 64):
+            out = f"shards-{count}"
+            for i in range(count):
+                done = self.vantage("batch", *self.names, "-o", out, *FAST, "--shard", f"{i}/{count}",
+                                    exit_code=None)
+                self.assertIn(done.returncode, (0, 4))
+                if i == count // 2:
+                    self.vantage("results", "merge", out)  # at any time, as often as wanted
+            self.vantage("results", "merge", out)
+            self.assertEqual(self.export(out), self.export("one"))
+            self.assertIn("0 new", self.vantage("results", "merge", out).out)
+
+    def test_a_new_model_moves_no_other_one(self):
+        def keys(out):
+            return {path.name: {json.loads(line)["key"] for line in path.read_text().splitlines()}
+                    for path in (self.dir / out / "shards").iterdir()}
+        for i in range(3):
+            self.vantage("batch", *self.names, "-o", "a", *FAST, "--shard", f"{i}/3", exit_code=None)
+        self.write("new.off", box(99))
+        for i in range(3):
+            self.vantage("batch", "new.off", *self.names, "-o", "b", *FAST, "--shard", f"{i}/3", exit_code=None)
+        before, after = keys("a"), keys("b")
+        self.assertEqual({name: after[name] - {"new.off"} for name in after}, before)
+
+    def test_a_finished_shard_does_nothing_again(self):
+        self.vantage("batch", *self.names, "-o", "out", *FAST, "--shard", "1/3", exit_code=None)
+        file = self.dir / "out/shards/shard-00001-of-00003.jsonl"
+        before = file.read_bytes()
+        counts = json.loads(self.vantage("batch", *self.names, "-o", "out", *FAST, "--shard", "1/3", "--json",
+                                         exit_code=None).out)
+        self.assertEqual(counts["done"] + counts["duplicates"], 0)
+        self.assertEqual(file.read_bytes(), before)
+
+    def test_shards_need_names_that_cannot_meet(self):
+        self.vantage("batch", *self.names, "-o", "out", "--shard", "0/2", "--name", "{stem}", exit_code=2)
+        for shard in ("2/2", "a/b", "1", "-1/2", "0/0"):
+            self.vantage("batch", *self.names, "-o", "out", f"--shard={shard}", exit_code=2)
+
+
+if __name__ == "__main__":
+    unittest.main()

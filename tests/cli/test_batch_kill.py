@@ -1,0 +1,134 @@
+"""A batch killed by SIGKILL at random moments: nothing lost, nothing done twice, nothing corrupt.
+
+VANTAGE_KILLS says how often (default 40); the seed is fixed.
+"""
+
+import json
+import os
+import pathlib
+import random
+import signal
+import sqlite3
+import subprocess
+import time
+import unittest
+
+from program import PROGRAM, ProgramTest
+from shapes import box
+
+KILLS = int(os.environ.get("VANTAGE_KILLS", "40"))
+MODELS = 40
+RUN = ["--write", "camera", "--search", "rapid", "--jobs", "2", "-q"]
+
+
+def processes_of_session(session):
+    """Ids of the living processes of a session; ones that only wait to be buried do not count."""
+    found = []
+    for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = stat.read_text(errors="replace").rpartition(")")[2].split()
+        except OSError:
+            continue
+        if int(fields[3]) == session and fields[0] not in "ZX":
+            found.append(int(stat.parent.name))
+    return found
+
+
+class Kill(ProgramTest):
+
+    def setUp(self):
+        super().setUp()
+        for i in range(MODELS):
+            self.write(f"m{i:03}.off", box(1 + i // 2 * 0.01))  # every second one equals the one before
+        self.write("bad.off", "OFF\n1 1 0\n0 0 0\n3 0 1 2\n")
+        self.random = random.Random(20240607)
+
+    def start(self, folder, *more):
+        return subprocess.Popen([PROGRAM, "batch", *(p.name for p in sorted(self.dir.glob("*.off"))),
+                                 "-o", folder, *RUN, *more], cwd=self.dir, start_new_session=True,
+                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def kill_somewhen(self, folder, duration, *more):
+        """Whether the batch came to its end before it was to be killed."""
+        process = self.start(folder, *more)
+        time.sleep(self.random.uniform(0.0, 1.1 * duration))
+        victims = [process.pid]
+        if self.random.random() < 0.3:  # sometimes a worker dies too, or first
+            victims += processes_of_session(process.pid)
+            self.random.shuffle(victims)
+        ended = process.poll() is not None
+        for victim in victims:
+            try:
+                os.kill(victim, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        process.wait()
+        deadline = time.monotonic() + 20
+        while processes_of_session(process.pid) and time.monotonic() < deadline:
+            time.sleep(0.002)
+        self.assertEqual(processes_of_session(process.pid), [], "workers survive their parent")
+        return ended
+
+    def check_folder(self, folder, records):
+        """Every result that is recorded is whole."""
+        for record in records:
+            if record["status"] == "done" and not record["duplicate_of"]:
+                files = sorted(p.name for p in (folder / "models" / record["folder"]).iterdir())
+                self.assertEqual(len(files), 7, files)
+                json.loads((folder / "models" / record["folder"] / "view.json").read_text())
+
+    def stored(self, folder):
+        if not (folder / "results.sqlite").exists():
+            return []
+        with sqlite3.connect(folder / "results.sqlite") as store:
+            store.row_factory = sqlite3.Row
+            self.assertEqual(store.execute("PRAGMA integrity_check").fetchone()[0], "ok")
+            if not store.execute("SELECT 1 FROM sqlite_master WHERE name = 'models'").fetchone():
+                return []
+            rows = [dict(row) for row in store.execute("SELECT * FROM models")]
+        store.close()
+        return rows
+
+    def undisturbed(self):
+        began = time.monotonic()
+        self.assertEqual(self.start("whole").wait(), 4)
+        duration = time.monotonic() - began
+        return duration, self.vantage("results", "export", "whole", "--format", "jsonl").out
+
+    def test_whatever_the_moment_the_run_after_it_ends_as_if_nothing_had_happened(self):
+        duration, expected = self.undisturbed()
+        rounds = 0
+        folder = self.dir / "killed-0"
+        for _ in range(KILLS):
+            ended = self.kill_somewhen(folder.name, duration)
+            records = self.stored(folder)
+            self.check_folder(folder, records)
+            if ended:  # finished in spite of all: compare and begin anew
+                self.assertEqual(self.start(folder.name).wait(), 4)
+                export = self.vantage("results", "export", folder.name, "--format", "jsonl").out
+                self.assertEqual(export, expected)
+                rounds += 1
+                folder = self.dir / f"killed-{rounds}"
+        self.assertEqual(self.start(folder.name).wait(), 4)
+        self.assertEqual(self.vantage("results", "export", folder.name, "--format", "jsonl").out, expected)
+        self.check_folder(folder, self.stored(folder))
+        left = [p.name for p in (folder / "models").iterdir()]
+        self.assertEqual(len(left), MODELS // 2, "a folder of results that no record names")
+        self.assertEqual([p.name for p in (folder / ".work").iterdir()], ["local.lock"])
+
+    def test_a_killed_shard_loses_only_what_was_in_flight(self):
+        duration, expected = self.undisturbed()
+        folder = self.dir / "shards"
+        for _ in range(KILLS // 4):
+            self.kill_somewhen(folder.name, duration / 2, "--shard", f"{self.random.randrange(2)}/2")
+            if (folder / "shards").exists():
+                self.vantage("results", "merge", folder.name)
+                self.check_folder(folder, self.stored(folder))
+        for shard in range(2):
+            self.assertIn(self.start(folder.name, "--shard", f"{shard}/2").wait(), (0, 4))
+        self.vantage("results", "merge", folder.name)
+        self.assertEqual(self.vantage("results", "export", folder.name, "--format", "jsonl").out, expected)
+
+
+if __name__ == "__main__":
+    unittest.main()
