@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "batch/entry_source.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "vantage/core/error.h"
+
+#include "scratch_folder.h"
+
+namespace vantage::batch {
+namespace {
+
+std::vector<Entry> all_of(EntrySource& source) {
+  std::vector<Entry> entries;
+  while (std::optional<Entry> entry = source.next()) {
+    entries.push_back(*entry);
+  }
+  return entries;
+}
+
+TEST(EntryFilter, TakesReadableFormatsInAnyCaseUnlessToldOtherwise) {
+  EXPECT_TRUE(EntryFilter{}.accepts("d/A.PLY"));
+  EXPECT_FALSE(EntryFilter{}.accepts("d/a.txt"));
+  EXPECT_TRUE((EntryFilter{.include = {"*.txt"}}.accepts("d/a.txt")));
+  EXPECT_FALSE((EntryFilter{.include = {}, .exclude = {"d/*"}}.accepts("d/a.ply")));
+}
+
+TEST(EntriesOfPaths, WalkFoldersByTheBytesOfNames) {
+  const ScratchFolder scratch;
+  std::filesystem::create_directory(scratch.path("b"));
+  for (const char* name : {"c.ply", "a.ply", "b/z.ply", "B.ply"}) {
+    static_cast<void>(scratch.write(name, ""));
+  }
+  const auto source = entries_of_paths({scratch.path("")}, {}, "", {});
+  std::vector<std::string> names;
+  for (const Entry& entry : all_of(*source)) {
+    EXPECT_EQ(entry.position, static_cast<std::int64_t>(names.size()));
+    names.push_back(
+        std::filesystem::path(entry.path).lexically_relative(scratch.path("")).string());
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"B.ply", "a.ply", "b/z.ply", "c.ply"}));
+}
+
+TEST(EntriesOfPaths, DoNotFollowLinksToFolders) {
+  const ScratchFolder scratch;
+  std::filesystem::create_directory_symlink(".", scratch.path("loop"));
+  static_cast<void>(scratch.write("a.ply", ""));
+  EXPECT_EQ(all_of(*entries_of_paths({scratch.path("")}, {}, "", {})).size(), 1U);
+}
+
+TEST(EntriesOfManifest, PathsAreRelativeToItsFolder) {
+  const ScratchFolder scratch;
+  const auto source = entries_of_manifest(scratch.write("list", "a.ply\n/b.ply\n"));
+  const std::vector<Entry> entries = all_of(*source);
+  ASSERT_EQ(entries.size(), 2U);
+  EXPECT_EQ(entries[0].key, "a.ply");
+  EXPECT_EQ(entries[0].path, scratch.path("a.ply"));
+  EXPECT_EQ(entries[1].path, "/b.ply");
+}
+
+TEST(EntriesOfManifest, CellsOfCsvMayHoldCommasQuotesAndLineEnds) {
+  const ScratchFolder scratch;
+  const auto source = entries_of_manifest(
+      scratch.write("list.csv", "name,path,up\n\"a \"\"b\"\"\",\"c,d\ne.ply\",-z\n"));
+  const std::vector<Entry> entries = all_of(*source);
+  ASSERT_EQ(entries.size(), 1U);
+  EXPECT_EQ(entries[0].name, "a \"b\"");
+  EXPECT_EQ(entries[0].key, "c,d\ne.ply");
+  EXPECT_EQ(entries[0].up, "-z");
+}
+
+TEST(EntriesOfManifest, OneThatIsNotThereIsRefused) {
+  EXPECT_THROW(entries_of_manifest("/nowhere/list"), IoError);
+}
+
+}  // namespace
+}  // namespace vantage::batch

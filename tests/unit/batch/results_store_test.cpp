@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "batch/results_store.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "vantage/core/error.h"
+
+#include "scratch_folder.h"
+
+namespace vantage::batch {
+namespace {
+
+ModelRecord record(const std::string& key, std::int64_t position, const std::string& content,
+                   const std::string& status = "done") {
+  ModelRecord made;
+  made.key = key;
+  made.position = position;
+  made.content = content;
+  made.status = status;
+  made.folder = status == "done" ? "of-" + key : "";
+  made.result = status == "done" ? R"({"total":)" + std::to_string(position) + "}" : "";
+  return made;
+}
+
+std::string column(ResultsStore& store, const std::string& name) {
+  Statement rows = store.select(name, "", "");
+  std::string text;
+  while (rows.step()) {
+    text += rows.text(0) + ";";
+  }
+  return text;
+}
+
+TEST(ResultsStore, ARecordReadsBackAfterReopening) {
+  const ScratchFolder scratch;
+  { ResultsStore(scratch.path(), Database::Mode::Create).put(record("k", 3, "c")); }
+  ResultsStore store(scratch.path(), Database::Mode::Read);
+  const auto read = store.find("k");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->position, 3);
+  EXPECT_EQ(read->result, R"({"total":3})");
+  EXPECT_FALSE(store.find("other"));
+}
+
+TEST(ResultsStore, EqualModelsStandForOneHoweverManyOfThemWereRun) {
+  const ScratchFolder scratch;
+  ResultsStore store(scratch.path(), Database::Mode::Create);
+  store.put(record("a", 5, "same"));
+  store.put(record("b", 1, "same"));
+  store.put(record("c", 9, "other"));
+  EXPECT_EQ(column(store, "duplicate_of"), "b;;;");
+  EXPECT_EQ(column(store, "folder"), "of-b;of-b;of-c;");
+  EXPECT_EQ(store.counts().done, 2);
+  EXPECT_EQ(store.counts().duplicates, 1);
+}
+
+TEST(ResultsStore, ModelsThatCouldNotBeReadAreNotEqual) {
+  const ScratchFolder scratch;
+  ResultsStore store(scratch.path(), Database::Mode::Create);
+  store.put(record("a", 0, "", "failed"));
+  store.put(record("b", 1, "", "failed"));
+  EXPECT_EQ(store.counts().failed, 2);
+  EXPECT_EQ(column(store, "duplicate_of"), ";;");
+}
+
+TEST(ResultsStore, MergingTwiceChangesNothing) {
+  const ScratchFolder scratch;
+  ResultsStore store(scratch.path(), Database::Mode::Create);
+  EXPECT_TRUE(store.merge(record("a", 0, "A")));
+  EXPECT_FALSE(store.merge(record("a", 0, "A")));
+  EXPECT_FALSE(store.merge(record("a", 0, "A", "failed")));
+}
+
+TEST(ResultsStore, AFolderWithoutOneIsRefusedForReading) {
+  const ScratchFolder scratch;
+  EXPECT_THROW(ResultsStore(scratch.path(), Database::Mode::Read), IoError);
+}
+
+TEST(ResultsStore, AFileThatIsNoDatabaseIsRefused) {
+  const ScratchFolder scratch;
+  const std::string path =
+      scratch.write(ResultsStore::kFileName, std::string(4096, 'x') + "no database at all");
+  EXPECT_THROW(ResultsStore(scratch.path(), Database::Mode::Create), IoError) << path;
+}
+
+TEST(ResultsStore, KeysMayHoldQuotesAndLineEnds) {
+  const ScratchFolder scratch;
+  ResultsStore store(scratch.path(), Database::Mode::Create);
+  const std::string key = "'); DROP TABLE models;--\n\"";
+  store.put(record(key, 0, "A"));
+  EXPECT_TRUE(store.find(key));
+}
+
+}  // namespace
+}  // namespace vantage::batch
