@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -17,25 +20,32 @@
 namespace vantage::cli {
 namespace {
 
+/// What the skeleton can be written as.
+constexpr std::array<std::string_view, 5> kExtensions{".json", ".obj", ".ply", ".swc", ".graphml"};
+
 struct SkeletonCommand {
   std::string model{};
   std::string file{};
   std::string levels{};
+  std::string meso{};
   bool measure = false;
   MethodFlags method{};
   std::optional<SkeletonQuality> quality{};
 
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("MODEL", model, "file to read, or -")->required();
-    app.add_option("-o,--output", file, "file to write: .json, .obj (lines) or .ply (edges)")
+    app.add_option("-o,--output", file,
+                   "file to write: .json, .obj (lines), .ply (edges), .swc (loops cut) or .graphml")
         ->required()
         ->check([](const std::string& name) {
           const std::string extension = std::filesystem::path(name).extension().string();
-          const bool known = extension == ".json" || extension == ".obj" || extension == ".ply";
-          return known ? std::string()
-                       : "the skeleton's file must end in .json, .obj or .ply, not '" + extension +
-                             "'";
+          return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end()
+                     ? std::string()
+                     : "the skeleton's file must end in .json, .obj, .ply, .swc or .graphml, not "
+                       "'" +
+                           extension + "'";
         });
+    app.add_option("--meso", meso, "file for the contracted surface of the last level, .ply");
     app.add_option("--levels", levels,
                    "folder for the contracted surface of each level: level-00.ply, …");
     app.add_flag("--measure", measure,
@@ -55,6 +65,10 @@ struct SkeletonCommand {
     if (!levels.empty()) {
       write_levels(loaded, shape);
     }
+    if (!meso.empty()) {
+      write_file(meso, level_bytes(loaded, shape, shape.history.levels.back()));
+    }
+    warn_of_cut_loops(shape);
     if (measure) {
       const double spacing = sample_spacing(shape.surface, options.skeleton);
       quality = measure_skeleton(shape.surface, shape.history.component_of_vertex, shape.skeleton,
@@ -72,22 +86,39 @@ struct SkeletonCommand {
     if (extension == ".ply") {
       return skeleton_ply(shape.skeleton.graph);
     }
-    return skeleton_json({.graph = &shape.skeleton.graph,
-                          .radius = shape.skeleton.radius,
-                          .vertex_node = nodes_of_input_vertices(shape)});
+    const std::vector<std::int64_t> vertex_node = nodes_of_input_vertices(shape);
+    const SkeletonFile content{.graph = &shape.skeleton.graph,
+                               .radius = shape.skeleton.radius,
+                               .vertex_node = vertex_node};
+    if (extension == ".swc") {
+      return skeleton_swc(content);
+    }
+    return extension == ".graphml" ? skeleton_graphml(content) : skeleton_json(content);
+  }
+
+  static std::string level_bytes(const Model& loaded, const ShapeAnalysis& shape,
+                                 const std::vector<Vec3>& positions) {
+    TriMesh level{.positions = {}, .triangles = loaded.mesh.triangles};
+    for (const std::uint32_t v : shape.surface_vertex) {
+      level.positions.push_back(positions[v]);
+    }
+    return ply_bytes(level, {}, {}, loaded.double_precision);
   }
 
   void write_levels(const Model& loaded, const ShapeAnalysis& shape) const {
     make_folder(levels);
-    TriMesh level{.positions = {}, .triangles = loaded.mesh.triangles};
     for (std::size_t j = 0; j < shape.history.levels.size(); ++j) {
-      level.positions.clear();
-      for (const std::uint32_t v : shape.surface_vertex) {
-        level.positions.push_back(shape.history.levels[j][v]);
-      }
       const std::string number = (j < 10 ? "0" : "") + std::to_string(j);
       write_file((std::filesystem::path(levels) / ("level-" + number + ".ply")).string(),
-                 ply_bytes(level, {}, {}, loaded.double_precision));
+                 level_bytes(loaded, shape, shape.history.levels[j]));
+    }
+  }
+
+  /// SWC holds trees only: says how many loops its file lacks.
+  void warn_of_cut_loops(ShapeAnalysis& shape) const {
+    const std::size_t cycles = cycle_count(shape.skeleton.graph);
+    if (std::filesystem::path(file).extension() == ".swc" && cycles > 0) {
+      shape.warnings.push_back(plural(cycles, "loop") + " cut: SWC holds trees only");
     }
   }
 
@@ -101,6 +132,14 @@ struct SkeletonCommand {
             {"farthest_over_diameter", quality->farthest / diameter},
             {"off_centre", quality->off_centre},
             {"seen_fraction", quality->seen_fraction}};
+  }
+
+  [[nodiscard]] std::string measured_text() const {
+    const double whole = quality->length > 0.0 ? quality->length : 1.0;
+    return rounded(100.0 * quality->outside_length / whole) + " % of the length outside, " +
+           rounded(100.0 * quality->seen_fraction) +
+           " % of the surface seen, every vertex within " + rounded(quality->farthest_ratio) +
+           " radii of its node";
   }
 
   void report(Session& session, const Model& loaded, const ShapeAnalysis& shape) const {
@@ -128,6 +167,9 @@ struct SkeletonCommand {
                  plural(component_count(graph), "component") + ", " +
                  plural(cycle_count(graph), "cycle") + ", length " + rounded(total_length(graph)) +
                  " → " + printable(file));
+    if (quality) {
+      session.tell(measured_text());
+    }
     for (const std::string& warning : shape.warnings) {
       session.say("note: " + warning);
     }

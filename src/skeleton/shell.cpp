@@ -17,6 +17,8 @@ constexpr int kMostCells = 2048;  // along one side
 constexpr float kSkip = 1e-4F;
 /// Parts of a segment shorter than this share of it are rounding errors of where it is cut.
 constexpr double kRounding = 1e-9;
+/// Rows of cells are taken this much wider, in cells, so that rounding loses no face.
+constexpr double kSlack = 0.01;
 
 TriMesh in_frame(const TriMesh& mesh, const UnitFrame& frame) {
   TriMesh moved = mesh;
@@ -201,11 +203,29 @@ std::vector<double> Shell::cuts(std::uint32_t component, const Vec3& a, const Ve
       places.push_back(from / (from - to));
     }
   };
+  // Row by row of cells, from where the segment enters the row to where it leaves it.
+  const int across = (up_ + 1) % 3;
+  const int along = (up_ + 2) % 3;
+  const Vec3 way = b - a;
   for (int y = first[1]; y <= last[1]; ++y) {
+    double enter = 0.0;
+    double leave = 1.0;
+    if (first[1] != last[1]) {
+      const double s = (low_[along] + (y - kSlack) * cell_size_ - a[along]) / way[along];
+      const double t = (low_[along] + (y + 1 + kSlack) * cell_size_ - a[along]) / way[along];
+      enter = std::clamp(std::min(s, t), 0.0, 1.0);
+      leave = std::clamp(std::max(s, t), 0.0, 1.0);
+    }
+    const auto [left, right] =
+        std::minmax({a[across] + enter * way[across], a[across] + leave * way[across]});
+    Vec3 at = low;
+    at[across] = left;
+    const int begin_cell = std::max(cell_of(at)[0] - 1, 0);
+    at[across] = right;
+    const int end_cell = std::min(cell_of(at)[0] + 1, cells_[0] - 1);
     const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_[0]);
-    const std::size_t begin = offsets_[row + static_cast<std::size_t>(first[0])];
-    const std::size_t end = offsets_[row + static_cast<std::size_t>(last[0]) + 1];
-    for (std::size_t i = begin; i < end; ++i) {
+    const std::size_t end = offsets_[row + static_cast<std::size_t>(end_cell) + 1];
+    for (std::size_t i = offsets_[row + static_cast<std::size_t>(begin_cell)]; i < end; ++i) {
       const Triangle& t = mesh_.triangles[faces_[i]];
       if (component_of_vertex_[t[0]] == component) {
         look_at(t);

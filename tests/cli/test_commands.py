@@ -12,7 +12,8 @@ class Skeleton(ProgramTest):
     def test_json_maps_every_vertex_to_a_node(self):
         self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json")
         skeleton = json.loads((self.dir / "s.json").read_text())
-        self.assertEqual(set(skeleton), {"nodes", "edges", "radius", "vertex_node"})
+        self.assertEqual(set(skeleton), {"nodes", "edges", "radius", "vertex_node", "degree", "branches",
+                                         "length"})
         self.assertEqual(len(skeleton["radius"]), len(skeleton["nodes"]))
         self.assertEqual(len(skeleton["vertex_node"]), 820)
         # a node that only leads the curve round a corner stands for no vertex
@@ -33,6 +34,44 @@ class Skeleton(ProgramTest):
         header = (self.dir / "s.ply").read_bytes().split(b"end_header")[0].decode()
         self.assertIn(f"element vertex {len(nodes)}", header)
         self.assertIn(f"element edge {len(edges)}", header)
+
+    def test_json_branches_cover_every_edge_once(self):
+        self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json")
+        graph = json.loads((self.dir / "s.json").read_text())
+        steps = [sorted(step) for run in graph["branches"] for step in zip(run, run[1:])]
+        self.assertEqual(sorted(steps), graph["edges"])
+        self.assertEqual(sum(graph["degree"]), 2 * len(graph["edges"]))
+
+    def test_swc_is_a_tree_and_the_cut_loop_is_reported(self):
+        done = self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.swc")
+        self.assertIn("1 loop cut", done.err)
+        lines = (self.dir / "s.swc").read_text().splitlines()
+        self.assertIn("# loops cut: 1", lines)
+        rows = [line.split() for line in lines if not line.startswith("#")]
+        self.assertEqual([int(row[0]) for row in rows], list(range(1, len(rows) + 1)))
+        self.assertTrue(all(int(row[6]) < int(row[0]) for row in rows))
+
+    def test_graphml_holds_the_same_graph(self):
+        import xml.etree.ElementTree
+        self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json")
+        self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.graphml")
+        graph = json.loads((self.dir / "s.json").read_text())
+        root = xml.etree.ElementTree.parse(self.dir / "s.graphml").getroot()
+        space = "{http://graphml.graphdrawing.org/xmlns}"
+        edges = [[int(e.get("source")[1:]), int(e.get("target")[1:])] for e in root.iter(space + "edge")]
+        self.assertEqual(edges, graph["edges"])
+        self.assertEqual(len(list(root.iter(space + "node"))), len(graph["nodes"]))
+
+    def test_meso_is_the_last_level(self):
+        self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json", "--levels", "levels", "--meso", "m.ply")
+        last = max((self.dir / "levels").iterdir())
+        self.assertEqual((self.dir / "m.ply").read_bytes(), last.read_bytes())
+
+    def test_measure_says_how_much_is_outside(self):
+        done = self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json", "--measure", "--json")
+        quality = json.loads(done.out)["quality"]
+        self.assertEqual(quality["outside_fraction"], 0)
+        self.assertGreater(quality["seen_fraction"], 0.5)
 
     def test_levels_start_with_the_model_itself(self):
         self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json", "--levels", "levels")

@@ -31,13 +31,20 @@ std::string ply_bytes(const TriMesh& mesh, std::span<const double> quality,
 /// A skeleton as written to files.
 struct SkeletonFile {
   const CurveGraph* graph = nullptr;            ///< Required.
-  std::span<const double> radius{};             ///< |N|, may be empty for .obj and .ply.
+  std::span<const double> radius{};             ///< |N|; may be empty.
   std::span<const std::int64_t> vertex_node{};  ///< Node of each input vertex, −1 if isolated.
 };
 
-std::string skeleton_json(const SkeletonFile& skeleton);  ///< nodes, edges, radius, vertex_node.
-std::string skeleton_obj(const CurveGraph& graph);        ///< v and l lines.
-std::string skeleton_ply(const CurveGraph& graph);        ///< vertices and edges, ASCII.
+/// nodes, edges, radius, vertex_node, degree, branches, length.
+std::string skeleton_json(const SkeletonFile& skeleton);
+/// SWC: a forest of rows `id type x y z radius parent`, type 5 for junctions, 6 for ends, 0 else.
+/// The format has no loops: each is cut at the edge where two shortest ways from the root meet, and
+/// a comment names the edge.
+std::string skeleton_swc(const SkeletonFile& skeleton);
+/// GraphML: nodes with x, y, z and radius, edges with length.
+std::string skeleton_graphml(const SkeletonFile& skeleton);
+std::string skeleton_obj(const CurveGraph& graph);  ///< v and l lines.
+std::string skeleton_ply(const CurveGraph& graph);  ///< vertices and edges, ASCII.
 
 /// PNG, 8 bit RGBA, compression level 3. \throw IoError
 std::string png_bytes(const Image& image);

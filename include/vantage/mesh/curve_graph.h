@@ -23,6 +23,15 @@ std::size_t component_count(const CurveGraph& graph);
 /// Number of independent cycles, |E| − |N| + components.
 std::size_t cycle_count(const CurveGraph& graph);
 
+/// Number of edges at each node.
+std::vector<std::uint32_t> node_degrees(const CurveGraph& graph);
+
+/// The graph as polylines, each a run of node indices: from an end or junction to the next, or, where
+/// a component is a plain loop, from its lowest node around to it again. Every edge is in exactly
+/// one. Each run starts at the lower of its ends (of its second nodes, where it comes back to where it
+/// began); runs are sorted. Nodes without edges are in none.
+std::vector<std::vector<std::uint32_t>> graph_branches(const CurveGraph& graph);
+
 /// Sum of the lengths of all edges.
 double total_length(const CurveGraph& graph);
 

@@ -10,6 +10,7 @@
 #include <oneapi/tbb/global_control.h>
 
 #include "vantage/contraction/contraction.h"
+#include "vantage/skeleton/quality.h"
 #include "vantage/skeleton/skeleton.h"
 
 #include "support/dense_oracles.h"
@@ -144,6 +145,49 @@ TEST_P(SkeletonProperty, RotationAndScaleKeepComponentsCyclesAndEnds) {
         GetParam().mesh, scale, 0.9, Vec3(1.0, -2.0, 0.7), scale * Vec3(3.0, 1.0, -2.0)));
     expect_topology(GetParam(), skeleton.graph);
     EXPECT_EQ(end_count(skeleton.graph), GetParam().ends) << "scale " << scale;
+  }
+}
+
+TEST_P(SkeletonProperty, IsInsideAndSeesTheWholeSurface) {
+  const TriMesh& mesh = GetParam().mesh;
+  const ContractionHistory history = contract(mesh);
+  const SkeletonQuality quality =
+      measure_skeleton(mesh, history.component_of_vertex, extract_skeleton(mesh, history), 0.0);
+  EXPECT_EQ(quality.outside_length, 0.0);
+  EXPECT_EQ(quality.seen_fraction, 1.0);
+}
+
+/// Largest distance from a node of one graph to the other, both ways.
+double node_distance(const CurveGraph& one, const CurveGraph& other) {
+  double farthest = 0.0;
+  for (const Vec3& p : one.nodes) {
+    farthest = std::max(farthest, test::brute_force_distance(other, p));
+  }
+  for (const Vec3& p : other.nodes) {
+    farthest = std::max(farthest, test::brute_force_distance(one, p));
+  }
+  return farthest;
+}
+
+TEST_P(SkeletonProperty, LiesWithinTwoSpacingsOfTheRenumberedOne) {
+  const TriMesh& mesh = GetParam().mesh;
+  const CurveGraph graph = skeleton_of(mesh).graph;
+  const CurveGraph other = skeleton_of(test::renumbered(mesh, 5)).graph;
+  EXPECT_LE(node_distance(graph, other), 2.0 * sample_spacing(mesh, {}));
+}
+
+TEST_P(SkeletonProperty, LiesWithinTwoSpacingsOfTheMovedOneMovedBack) {
+  const TriMesh& mesh = GetParam().mesh;
+  const CurveGraph graph = skeleton_of(mesh).graph;
+  for (const double scale : {1e-6, 1e6}) {
+    const Vec3 offset = scale * Vec3(3.0, 1.0, -2.0);
+    const auto place = [&](const TriMesh& shape) {
+      return test::moved(shape, scale, 0.9, Vec3(1.0, -2.0, 0.7), offset);
+    };
+    CurveGraph moved = graph;
+    moved.nodes = place({.positions = graph.nodes, .triangles = {}}).positions;
+    EXPECT_LE(node_distance(moved, skeleton_of(place(mesh)).graph),
+              2.0 * scale * sample_spacing(mesh, {}));
   }
 }
 

@@ -131,7 +131,7 @@ TEST(SkeletonFiles, PlyDeclaresEdges) {
   EXPECT_THAT(text, HasSubstr("1 0.5 0\n2 0 1e-09\n0 1\n1 2\n"));
 }
 
-TEST(SkeletonFiles, JsonHoldsAllFourLists) {
+TEST(SkeletonFiles, JsonHoldsAllLists) {
   const CurveGraph graph = two_sticks();
   const std::vector<double> radius = {1.0, 0.5, std::numeric_limits<double>::infinity()};
   const std::vector<std::int64_t> node = {0, -1};
@@ -139,6 +139,40 @@ TEST(SkeletonFiles, JsonHoldsAllFourLists) {
   EXPECT_THAT(text, HasSubstr("\"edges\": [\n    [0, 1],\n    [1, 2]\n  ]"));
   EXPECT_THAT(text, HasSubstr("\"radius\": [\n    1,\n    0.5,\n    null\n  ]"));
   EXPECT_THAT(text, HasSubstr("\"vertex_node\": [\n    0,\n    -1\n  ]"));
+  EXPECT_THAT(text, HasSubstr("\"degree\": [\n    1,\n    2,\n    1\n  ]"));
+  EXPECT_THAT(text, HasSubstr("\"branches\": [\n    [0, 1, 2]\n  ]"));
+}
+
+TEST(SkeletonFiles, JsonHoldsTheLength) {
+  const CurveGraph graph{{Vec3(0, 0, 0), Vec3(3, 0, 0), Vec3(3, 4, 0)}, {{0, 1}, {1, 2}}};
+  EXPECT_THAT(skeleton_json({.graph = &graph}), HasSubstr("\"length\": 7\n"));
+}
+
+TEST(SkeletonFiles, SwcPutsParentsFirstAndNamesEndsAndJunctions) {
+  const CurveGraph graph{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0), Vec3(1, 1, 0)},
+                         {{0, 1}, {1, 2}, {1, 3}}};
+  const std::vector<double> radius{1.0, 2.0, 3.0, 4.0};
+  EXPECT_THAT(skeleton_swc({.graph = &graph, .radius = radius}),
+              ::testing::EndsWith("# loops cut: 0\n1 6 0 0 0 1 -1\n2 5 1 0 0 2 1\n"
+                                  "3 6 2 0 0 3 2\n4 6 1 1 0 4 2\n"));
+}
+
+TEST(SkeletonFiles, SwcCutsLoopsAndSaysWhere) {
+  const CurveGraph triangle{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)},
+                            {{0, 1}, {0, 2}, {1, 2}}};
+  const std::vector<double> radius(3, 1.0);
+  EXPECT_THAT(skeleton_swc({.graph = &triangle, .radius = radius}),
+              ::testing::EndsWith("# loops cut: 1\n# cut between 2 and 3\n1 0 0 0 0 1 -1\n"
+                                  "2 0 1 0 0 1 1\n3 0 0 1 0 1 1\n"));
+}
+
+TEST(SkeletonFiles, GraphmlHoldsRadiiAndLengths) {
+  const CurveGraph graph{{Vec3(0, 0, 0), Vec3(3, 4, 0)}, {{0, 1}}};
+  const std::vector<double> radius{0.5, std::numeric_limits<double>::infinity()};
+  const std::string text = skeleton_graphml({.graph = &graph, .radius = radius});
+  EXPECT_THAT(text, HasSubstr("<data key=\"z\">0</data><data key=\"radius\">0.5</data></node>"));
+  EXPECT_THAT(text, HasSubstr("<edge source=\"n0\" target=\"n1\"><data key=\"length\">5</data>"));
+  EXPECT_EQ(text.find("null"), std::string::npos);
 }
 
 TEST(PngBytes, ReadBackAsTheSamePixels) {

@@ -92,5 +92,40 @@ TEST(ShellMiddle, IsFoundInAShellTurnedInsideOut) {
   EXPECT_LE(middle.norm(), 0.02);
 }
 
+TEST(ShellOutsideLength, OfAChordIsWhatLiesInTheHole) {
+  // A ring of 40 × 12: vertices at the x axis have the exact radii 0.75 and 1.25.
+  const TriMesh mesh = test::torus(1.0, 0.25, 40, 12);
+  const auto components = one_component(mesh);
+  const Shell shell(mesh, components);
+  EXPECT_NEAR(shell.outside_length(0, Vec3(1, 0, 0), Vec3(-1, 0, 0)), 1.5, 1e-9);
+  EXPECT_EQ(shell.outside_length(0, Vec3(1, 0, 0), Vec3(1, 0.1, 0)), 0.0);
+}
+
+TEST(ShellOutsideLength, AgreesWithSolidAnglesAlongRandomSegments) {
+  constexpr int kSamples = 400;
+  Pcg32 random(11);
+  for (const TriMesh& mesh : {test::torus(1.0, 0.3, 20, 10), test::cube_frame()}) {
+    const auto components = one_component(mesh);
+    const Shell shell(mesh, components);
+    const Box box = bounding_box(mesh.positions);
+    const auto anywhere = [&] {
+      const Vec3 share(random.uniform(), random.uniform(), random.uniform());
+      return Vec3(box.low + share.cwiseProduct(box.size()));
+    };
+    for (int i = 0; i < 30; ++i) {
+      const Vec3 a = anywhere();
+      const Vec3 b = anywhere();
+      int outside = 0;
+      for (int s = 0; s < kSamples; ++s) {
+        const double t = (s + 0.5) / kSamples;
+        outside += std::abs(test::winding_number(mesh, (1.0 - t) * a + t * b)) < 0.5 ? 1 : 0;
+      }
+      // Each of at most eight crossings is found up to one sample.
+      EXPECT_NEAR(shell.outside_length(0, a, b) / (b - a).norm(),
+                  static_cast<double>(outside) / kSamples, 8.0 / kSamples);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage
