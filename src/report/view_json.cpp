@@ -97,7 +97,7 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
                    {"genus", shape.check.genus ? Json(*shape.check.genus) : Json(nullptr)}};
   json["method"] = "kssm";
   json["preset"] = preset_name(options.preset);
-  json["weight"] = "vertex";
+  json["weight"] = weight_name(options.weight);
   json["prior"] = "none";
   json["up"] = up_name(report.up);
   json["camera"] = camera_of(report.camera);
