@@ -14,7 +14,6 @@ int main() {
     std::printf("vertex %zu is %s\n", v, visible[v] != 0 ? "visible" : "hidden");
   }
   // Only the corner at the origin is behind the face of the other three.
-  const bool as_expected =
-      visible[0] == 0 && visible[1] == 1 && visible[2] == 1 && visible[3] == 1;
+  const bool as_expected = visible[0] == 0 && visible[1] == 1 && visible[2] == 1 && visible[3] == 1;
   return as_expected ? 0 : 1;
 }

@@ -166,8 +166,8 @@ void EyeGrid::choose_cells(const std::vector<Spot>& corners, std::size_t active)
   float error = kAxisError;  // of x and y in the picture
   if (eye_.projection == Projection::Perspective) {
     const float closest = nearest + distance_;
-    const float widest = std::max({std::abs(x_low_), std::abs(x_high), std::abs(y_low_),
-                                   std::abs(y_high)});
+    const float widest =
+        std::max({std::abs(x_low_), std::abs(x_high), std::abs(y_low_), std::abs(y_high)});
     const float depth_error = kAxisError + 0x1p-23F * (distance_ + 2.0F);
     error = 2.0F * (kAxisError + widest * depth_error) / closest + 0x1p-22F * widest;
   }
@@ -328,9 +328,8 @@ inline unsigned EyeGrid::near(const Outline& o, const Probe& p, std::size_t slot
   return found;
 }
 
-void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points,
-                           std::uint32_t face, const Outline& o, const Probe& p,
-                           std::size_t slot) {
+void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points, std::uint32_t face,
+                           const Outline& o, const Probe& p, std::size_t slot) {
   // Other threads may strike out the same point meanwhile; they can only agree.
   const std::atomic_ref<std::uint8_t> hidden(hidden_[slot]);
   if (hidden.load(std::memory_order_relaxed) != 0) {
@@ -346,8 +345,8 @@ void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points,
   }
 }
 
-std::size_t EyeGrid::strike(const Surface& surface, const SurfacePoints& points,
-                            std::uint32_t face, const Outline& o) {
+std::size_t EyeGrid::strike(const Surface& surface, const SurfacePoints& points, std::uint32_t face,
+                            const Outline& o) {
   const std::uint32_t left = cell_at(o.x_low, columns_);
   const std::uint32_t right = cell_at(o.x_high, columns_);
   const std::uint32_t bottom = cell_at(o.y_high, rows_);

@@ -22,7 +22,7 @@ namespace vantage {
 /// What a score adds up.
 enum class Weight {
   Vertex,  ///< The significance of each vertex seen [paper].
-  Area,    ///< Its integral over the surface seen, over the whole area: not a matter of tessellation.
+  Area,  ///< Its integral over the surface seen, over the whole area: not a matter of tessellation.
 };
 
 /// The camera that scores: its eye stands at centre + R · direction.

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,12 +56,12 @@ Painted split_half(const Painted& shape) {
   return result;
 }
 
+/// A torus with a field that grows towards one place on it, so that its best view is no near-tie.
 Painted painted_torus() {
-  Painted shape{test::moved(test::torus(1.0, 0.4, 60, 30), 1.0, 0.7, Vec3(1.0, 2.0, 3.0),
-                            Vec3::Zero()),
-                {}};
+  Painted shape{
+      test::moved(test::torus(1.0, 0.4, 60, 30), 1.0, 0.7, Vec3(1.0, 2.0, 3.0), Vec3::Zero()), {}};
   for (const Vec3& p : shape.mesh.positions) {
-    shape.field.push_back(1.0 + std::sin(2.0 * p.x()) * std::cos(p.y()) + p.z() * p.z());
+    shape.field.push_back(std::exp(2.0 * p.x() + p.y() + 0.5 * p.z()));
   }
   return shape;
 }
@@ -79,10 +78,18 @@ std::vector<double> score_fractions(const Painted& shape, const std::vector<Vec3
 
 class SplittingHalfOfAModel : public testing::Test {
  protected:
-  std::vector<Vec3> directions = direction_set(ViewSphereBase::Icosahedron, 4).directions;
-  Painted coarse = painted_torus();
-  std::vector<double> before = score_fractions(coarse, directions);
-  std::vector<double> after = score_fractions(split_half(split_half(coarse)), directions);
+  static void SetUpTestSuite() {
+    const Painted coarse = painted_torus();
+    before = score_fractions(coarse, directions());
+    after = score_fractions(split_half(split_half(coarse)), directions());
+  }
+
+  static std::vector<Vec3> directions() {
+    return direction_set(ViewSphereBase::Icosahedron, 3).directions;
+  }
+
+  static inline std::vector<double> before{};
+  static inline std::vector<double> after{};
 };
 
 TEST_F(SplittingHalfOfAModel, MovesNoScoreByAHundredth) {
@@ -92,19 +99,18 @@ TEST_F(SplittingHalfOfAModel, MovesNoScoreByAHundredth) {
 }
 
 TEST_F(SplittingHalfOfAModel, LeavesTheBestViewWhereItIs) {
-  const auto best = [&](const std::vector<double>& scores) {
-    return directions[static_cast<std::size_t>(
-        std::max_element(scores.begin(), scores.end()) - scores.begin())];
+  const auto best = [](const std::vector<double>& scores) {
+    return std::max_element(scores.begin(), scores.end()) - scores.begin();
   };
-  // The directions are about 4.3 degrees apart: within 2 degrees is the same one.
-  EXPECT_LT((best(before) - best(after)).norm(), 2.0 * std::numbers::pi / 180.0);
+  // The directions are more than 2 degrees apart: within 2 degrees is the same one.
+  EXPECT_EQ(best(before), best(after));
 }
 
 TEST(MeanShadow, OfConvexBodiesIsAQuarterOfTheirArea) {
   const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, 4);
   const std::vector<double> weights = vertex_areas({set.directions, set.triangles});
-  for (const TriMesh& mesh : {test::box(1.0, 2.0, 3.0, 1), test::cylinder(1.0, 3.0, 40, 1),
-                              test::sphere(2)}) {
+  for (const TriMesh& mesh :
+       {test::box(1.0, 2.0, 3.0, 1), test::cylinder(1.0, 3.0, 40, 1), test::sphere(2)}) {
     const FaceVisibility visibility(mesh, {FaceSides::Front}, 0.2);
     double shadow = 0.0;
     double sphere = 0.0;
@@ -123,7 +129,8 @@ TEST(MeanShadow, OfConvexBodiesIsAQuarterOfTheirArea) {
 TEST(Sampling, HasConvergedAtTheDefaultSpacing) {
   const TriMesh two_boxes =
       test::together(test::box(1.0, 2.0, 3.0, 1), test::box(1.0, 1.0, 1.0, 1), Vec3(1.5, 0.2, 0.4));
-  for (const TriMesh& mesh : {two_boxes, test::torus(1.0, 0.4, 30, 15), test::y_of_tubes(0.2, 14)}) {
+  for (const TriMesh& mesh :
+       {two_boxes, test::torus(1.0, 0.4, 30, 15), test::y_of_tubes(0.2, 14)}) {
     const FaceVisibility coarse(mesh, {FaceSides::Front});
     const FaceVisibility fine(mesh, {FaceSides::Front}, 0.5 * FaceVisibility::kSpacing);
     std::vector<std::array<double, 4>> measures;
