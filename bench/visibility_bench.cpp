@@ -203,10 +203,9 @@ BENCHMARK(BM_VisibleArea)->Arg(1)->Arg(100)->Unit(benchmark::kMillisecond);
             "BM_VisibleVertices/" + subject.name +
             (projection == Projection::Perspective ? "/perspective/" : "/orthographic/") +
             std::to_string(threads);
-        benchmark::RegisterBenchmark(name.c_str(),
-                                     [=](benchmark::State& state) {
-                                       compare(state, subject, projection, threads);
-                                     })
+        benchmark::RegisterBenchmark(
+            name.c_str(),
+            [=](benchmark::State& state) { compare(state, subject, projection, threads); })
             ->UseManualTime()
             ->Unit(benchmark::kMillisecond);
       }

@@ -122,6 +122,19 @@ void MethodFlags::add_map_flags(CLI::App& app) {
          "listed by info")
       ->group("Method");
   app.add_option_function<std::string>(
+         "--weight",
+         [this](const std::string& name) {
+           const bool area = name == "area";
+           overrides_.emplace_back([area](ViewOptions& o) {
+             o.weight = area ? Weight::Area : Weight::Vertex;
+             o.kssm.area_weighted_mean = area;
+           });
+         },
+         "what counts: vertices, or the surface they stand for, however it is cut into faces")
+      ->check(CLI::IsMember({"vertex", "area"}))
+      ->default_str("vertex")
+      ->group("Method");
+  app.add_option_function<std::string>(
          "--suppression",
          [this](const std::string& name) {
            const auto kind = name == "mean" ? Suppression::Mean : Suppression::LocalMaxima;

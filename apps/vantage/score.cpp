@@ -2,6 +2,7 @@
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -60,9 +61,12 @@ struct ScoreCommand {
     const Model loaded = session.load(model);
     const ShapeAnalysis shape = analyse_shape(loaded, options, run.part(0.0, 0.5));
     const VertexVisibility visibility(shape.surface, shape.sides);
-    const std::vector<double> scores =
-        free_eyes ? score_eyes(shape, visibility, points, run.part(0.5, 1.0))
-                  : score_directions(shape, visibility, points, options, run.part(0.5, 1.0));
+    const std::optional<FaceVisibility> faces = faces_to_score(shape, options);
+    const ScoringCamera camera = scoring_camera(shape, options);
+    const ViewScorer scorer = faces ? ViewScorer(*faces, shape.map.of_vertex, camera)
+                                    : ViewScorer(visibility, shape.map.of_vertex, camera);
+    const std::vector<double> scores = free_eyes ? score_eyes(scorer, points, run.part(0.5, 1.0))
+                                                 : scorer.score_all(points, run.part(0.5, 1.0));
     if (!visible.empty()) {
       const VisibleSets sets = visible_sets(visibility, scoring_camera(shape, options), points,
                                             shape.surface.positions.size(), session.run());
@@ -99,23 +103,13 @@ struct ScoreCommand {
     return points;
   }
 
-  static std::vector<double> score_directions(const ShapeAnalysis& shape,
-                                              const VertexVisibility& visibility,
-                                              const std::vector<Vec3>& points,
-                                              const ViewOptions& options, const RunContext& run) {
-    const ViewScorer scorer(visibility, shape.map.of_vertex, scoring_camera(shape, options));
-    return scorer.score_all(points, run);
-  }
-
-  static std::vector<double> score_eyes(const ShapeAnalysis& shape,
-                                        const VertexVisibility& visibility,
-                                        const std::vector<Vec3>& points, const RunContext& run) {
+  static std::vector<double> score_eyes(const ViewScorer& scorer, const std::vector<Vec3>& points,
+                                        const RunContext& run) {
     std::vector<double> scores;
     for (const Vec3& eye : points) {
       run.advance("scoring",
                   static_cast<double>(scores.size()) / static_cast<double>(points.size()));
-      const Viewpoint viewpoint{.projection = Projection::Perspective, .position = eye};
-      scores.push_back(visible_sum(shape.map.of_vertex, visibility.visible_vertices(viewpoint)));
+      scores.push_back(scorer.score_from({Projection::Perspective, eye}));
     }
     return scores;
   }

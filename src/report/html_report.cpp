@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -209,7 +210,9 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, const Vi
   }
   const Frame frame{report.camera.sphere.centre, 0.5 * report.camera.sphere.diameter};
   const VertexVisibility visibility(shape.surface, shape.sides);
-  const ViewScorer scorer(visibility, shape.map.of_vertex, report.camera);
+  const std::optional<FaceVisibility> faces = faces_to_score(shape, options);
+  const ViewScorer scorer = faces ? ViewScorer(*faces, shape.map.of_vertex, report.camera)
+                                  : ViewScorer(visibility, shape.map.of_vertex, report.camera);
   const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, kSphereLevel);
   RunContext quiet = run;
   quiet.report = nullptr;

@@ -130,7 +130,7 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
   }
   json["method"] = "kssm";
   json["preset"] = preset_name(options.preset);
-  json["weight"] = "vertex";
+  json["weight"] = weight_name(options.weight);
   json["prior"] = options.prior.name;
   json["up"] = up_name(report.up);
   json["camera"] = camera_of(report.camera);

@@ -70,6 +70,10 @@ std::string_view base_name(ViewSphereBase base) {
   return base == ViewSphereBase::Cube ? "cube" : "icosahedron";
 }
 
+std::string_view weight_name(Weight weight) {
+  return weight == Weight::Area ? "area" : "vertex";
+}
+
 std::string_view preset_name(Preset preset) {
   return preset == Preset::Paper ? "paper" : "default";
 }
@@ -112,6 +116,7 @@ std::string options_hash(const ViewOptions& options) {
   json["kinematics"] = static_cast<int>(options.kssm.kinematics);
   json["area-weighted-mean"] = options.kssm.area_weighted_mean;
   echo_fields(json, options.kssm, kKssmFields);
+  json["weight"] = weight_name(options.weight);
   json["finished-graph"] = options.kssm_to_finished_graph;
   json["search"] = strategy_name(options.search.strategy);
   json["base"] = base_name(options.search.base);

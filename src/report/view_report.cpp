@@ -22,7 +22,23 @@ double visible_area_fraction(const TriMesh& surface, std::span<const std::uint8_
   return all > 0.0 ? seen / all : 0.0;
 }
 
+/// Replaces the sum over vertices by the scorer's.
+void score_again(ReportedView& view, const ViewScorer& scorer) {
+  view.score = scorer.score(view.direction);
+  view.score_fraction = scorer.total() > 0.0 ? view.score / scorer.total() : 0.0;
+  view.objective = view.score;
+}
+
 }  // namespace
+
+std::optional<FaceVisibility> faces_to_score(const ShapeAnalysis& shape,
+                                             const ViewOptions& options) {
+  std::optional<FaceVisibility> faces;
+  if (options.weight == Weight::Area) {
+    faces.emplace(shape.surface, shape.sides);
+  }
+  return faces;
+}
 
 ScoringCamera scoring_camera(const ShapeAnalysis& shape, const ViewOptions& options) {
   return {.sphere = shape.sphere,
@@ -60,7 +76,9 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
   report.camera = scoring_camera(shape, options);
   report.up = up;
   const VertexVisibility visibility(shape.surface, shape.sides);
-  const ViewScorer scorer(visibility, shape.map.of_vertex, report.camera);
+  const std::optional<FaceVisibility> faces = faces_to_score(shape, options);
+  const ViewScorer scorer = faces ? ViewScorer(*faces, shape.map.of_vertex, report.camera)
+                                  : ViewScorer(visibility, shape.map.of_vertex, report.camera);
   report.total = scorer.total();
   if (!(report.total > 0.0)) {
     report.warnings.emplace_back(
@@ -77,8 +95,12 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
   auto [best, worst] = search_under_prior(score, report.total, options.prior, frame, options.search,
                                           run.part(0.0, search_share));
   report.best = describe_view(shape, visibility, report.camera, best.direction, up, options);
-  report.best.objective = report.best.score * options.prior.factor(frame, best.direction);
   report.worst = describe_view(shape, visibility, report.camera, worst.direction, up, options);
+  if (options.weight == Weight::Area) {
+    score_again(report.best, scorer);
+    score_again(report.worst, scorer);
+  }
+  report.best.objective = report.best.score * options.prior.factor(frame, best.direction);
   if (options.view_set) {
     report.set = find_view_set(shape, visibility, report.camera, best.direction, up, options,
                                report.warnings, run.part(search_share, 1.0));

@@ -60,6 +60,20 @@ std::vector<Vec3> channel_views(const ShapeAnalysis& shape, const VertexVisibili
   return chosen;
 }
 
+/// What a vertex counts: its significance, or by area that of its third of the faces there, which
+/// is the integral of a map linear in each face wherever a face is seen whole.
+std::vector<double> significance_of(const ShapeAnalysis& shape, const ViewOptions& options) {
+  std::vector<double> significance = shape.map.of_vertex;
+  if (options.weight == Weight::Area) {
+    const std::vector<double> areas = vertex_areas(shape.surface);
+    const double whole = surface_area(shape.surface);
+    for (std::size_t v = 0; v < significance.size(); ++v) {
+      significance[v] *= areas[v] / whole;
+    }
+  }
+  return significance;
+}
+
 void warn_of(const ViewSet& set, const ViewSetRequest& request,
              std::vector<std::string>& warnings) {
   if (set.level < request.set.level) {
@@ -84,14 +98,15 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
                               const RunContext& run) {
   const ViewSetRequest& request = options.view_set.value();
   check_fields(request, kViewSetRequestFields);
+  const std::vector<double> significance = significance_of(shape, options);
   ReportedViewSet result;
   if (request.selection == ViewSelection::Kssm) {
-    result.choice = select_views(visibility, shape.map.of_vertex, camera, best, request.set, run);
+    result.choice = select_views(visibility, significance, camera, best, request.set, run);
   } else {
     const std::vector<Vec3> chosen =
         channel_views(shape, visibility, camera, request, warnings, run.part(0.0, 0.3));
-    result.choice = measure_views(visibility, shape.map.of_vertex, camera, chosen, request.set,
-                                  run.part(0.3, 1.0));
+    result.choice =
+        measure_views(visibility, significance, camera, chosen, request.set, run.part(0.3, 1.0));
   }
   warn_of(result.choice, request, warnings);
   std::vector<Vec3> directions;

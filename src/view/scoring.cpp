@@ -35,12 +35,8 @@ double visible_sum(std::span<const double> significance, std::span<const std::ui
   return sum;
 }
 
-ViewScorer::ViewScorer(const VertexVisibility& visibility, std::span<const double> significance,
-                       const ScoringCamera& camera)
-    : visibility_(&visibility),
-      significance_(significance),
-      camera_(camera),
-      total_(std::accumulate(significance.begin(), significance.end(), 0.0)) {
+ViewScorer::ViewScorer(std::span<const double> significance, const ScoringCamera& camera)
+    : significance_(significance), camera_(camera) {
   for (const double s : significance) {
     if (!(s >= 0.0) || !std::isfinite(s)) {
       throw InvalidInput("a significance map must be finite and nowhere negative");
@@ -54,11 +50,34 @@ ViewScorer::ViewScorer(const VertexVisibility& visibility, std::span<const doubl
   }
 }
 
+ViewScorer::ViewScorer(const VertexVisibility& visibility, std::span<const double> significance,
+                       const ScoringCamera& camera)
+    : ViewScorer(significance, camera) {
+  visibility_ = &visibility;
+  total_ = std::accumulate(significance.begin(), significance.end(), 0.0);
+}
+
+ViewScorer::ViewScorer(const FaceVisibility& faces, std::span<const double> significance,
+                       const ScoringCamera& camera)
+    : ViewScorer(significance, camera) {
+  faces_ = &faces;
+  of_sample_ = faces.integrals(significance);
+  const double area = faces.total_area();
+  for (double& share : of_sample_) {
+    share = area > 0.0 ? share / area : 0.0;
+  }
+  total_ = std::accumulate(of_sample_.begin(), of_sample_.end(), 0.0);
+}
+
+double ViewScorer::score_from(const Viewpoint& eye, const RunContext& run) const {
+  return faces_ != nullptr ? faces_->visible_sum(of_sample_, eye, run)
+                           : visible_sum(significance_, visibility_->visible_vertices(eye, run));
+}
+
 double ViewScorer::score(const Vec3& direction) const {
   // One thread: whoever calls this in parallel has spent them on directions.
   const RunContext alone{.max_threads = 1};
-  return visible_sum(significance_,
-                     visibility_->visible_vertices(camera_.viewpoint(direction), alone));
+  return score_from(camera_.viewpoint(direction), alone);
 }
 
 std::vector<double> ViewScorer::score_all(std::span<const Vec3> directions,

@@ -2,8 +2,11 @@
 #include "visibility/eye_grid.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include <Eigen/Geometry>
@@ -35,6 +38,8 @@ constexpr double kEdgeOn = 0x1p-46;
 // Point tests per point and face that are worth more than a hierarchy in space. [ours]
 constexpr std::size_t kPatience = 64;
 constexpr std::size_t kGrain = 4096;  // faces or points per chunk: some tenths of a millisecond
+// Points tested at a time: what baseline vector units hold.
+constexpr unsigned kLanes = 4;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 std::uint32_t cell_at(float at, std::uint32_t count) {
@@ -59,6 +64,14 @@ std::uint8_t exact_side(const Surface& surface, std::size_t f, const Viewpoint& 
 struct EyeGrid::Outline {
   Spot a, b, c;
   float x_low, x_high, y_low, y_high, nearest, farthest;
+};
+
+/// Ready to tell which points may lie behind a face.
+struct EyeGrid::Probe {
+  std::array<std::array<float, 3>, 3> sides;  // x, y, 1: positive inside, length times distance
+  float doubt;                                // error of these values
+  float least;                                // points with less than this are outside
+  Triangle keys;                              // of points that the face holds
 };
 
 bool EyeGrid::aim(const Viewpoint& eye) {
@@ -153,8 +166,8 @@ void EyeGrid::choose_cells(const std::vector<Spot>& corners, std::size_t active)
   float error = kAxisError;  // of x and y in the picture
   if (eye_.projection == Projection::Perspective) {
     const float closest = nearest + distance_;
-    const float widest = std::max({std::abs(x_low_), std::abs(x_high), std::abs(y_low_),
-                                   std::abs(y_high)});
+    const float widest =
+        std::max({std::abs(x_low_), std::abs(x_high), std::abs(y_low_), std::abs(y_high)});
     const float depth_error = kAxisError + 0x1p-23F * (distance_ + 2.0F);
     error = 2.0F * (kAxisError + widest * depth_error) / closest + 0x1p-22F * widest;
   }
@@ -170,7 +183,8 @@ void EyeGrid::to_cells(std::vector<Spot>& spots, const RunContext& run) const {
   });
 }
 
-void EyeGrid::sort_points(const std::vector<Spot>& spots, const std::vector<std::uint8_t>& seen) {
+void EyeGrid::sort_points(const std::vector<Spot>& spots, std::span<const std::uint32_t> owner,
+                          const std::vector<std::uint8_t>& seen) {
   const auto cell_of = [&](const Spot& s) {
     return std::size_t{cell_at(s.y, rows_)} * columns_ + cell_at(s.x, columns_);
   };
@@ -186,13 +200,16 @@ void EyeGrid::sort_points(const std::vector<Spot>& spots, const std::vector<std:
     count = total;  // for now the end of the cell: filling walks back to its begin
   }
   point_of_.resize(total);
-  x_.resize(total);
-  y_.resize(total);
-  depth_.resize(total);
+  hidden_.assign(total, 0);
+  for (std::vector<float>* field : {&x_, &y_, &depth_}) {
+    field->resize(total + kLanes);  // so that the last cell can be read by whole lanes
+  }
+  key_.resize(total + kLanes);
   for (std::size_t i = spots.size(); i-- > 0;) {
     if (seen[i] != 0) {
       const std::uint32_t slot = --begin_[cell_of(spots[i])];
       point_of_[slot] = static_cast<std::uint32_t>(i);
+      key_[slot] = owner.empty() ? static_cast<std::uint32_t>(i) : owner[i];
       x_[slot] = spots[i].x;
       y_[slot] = spots[i].y;
       depth_[slot] = spots[i].depth;
@@ -211,6 +228,9 @@ void EyeGrid::find_deepest() {
       const std::uint32_t high = std::min((tile + 1) << kTileShift, columns_);
       float& deepest = deepest_[std::size_t{row >> kTileShift} * tile_columns_ + tile];
       for (std::uint32_t i = begin_[first + low]; i < begin_[first + high]; ++i) {
+        if (hidden_[i] != 0) {
+          depth_[i] = -kInfinity;  // nearer than every face
+        }
         deepest = std::max(deepest, depth_[i]);
       }
     }
@@ -259,45 +279,92 @@ bool EyeGrid::blocks(const Surface& surface, const SurfacePoints& points, std::u
                surface.twice_areas[face]);
 }
 
-std::size_t EyeGrid::strike(const Surface& surface, const SurfacePoints& points,
-                            std::uint32_t face, const Outline& o) {
+EyeGrid::Probe EyeGrid::probe(const SurfacePoints& points, std::uint32_t face,
+                              const Triangle& corners, const Outline& o) const {
+  Probe p;
+  const float area = (o.b.x - o.a.x) * (o.c.y - o.b.y) - (o.b.y - o.a.y) * (o.c.x - o.b.x);
+  const float sign = area < 0.0F ? -1.0F : 1.0F;
+  const auto side = [sign](const Spot& from, const Spot& to) -> std::array<float, 3> {
+    const float x = sign * (from.y - to.y);
+    const float y = sign * (to.x - from.x);
+    return {x, y, -(x * from.x + y * from.y)};
+  };
+  p.sides = {side(o.a, o.b), side(o.b, o.c), side(o.c, o.a)};
+  // Bounds the error of a side's value at a spot: of the spots, and of a dozen roundings of
+  // products of the grid's and the outline's size, which margin_ holds a share of.
+  p.doubt = 16.0F * margin_ * std::max(o.x_high - o.x_low, o.y_high - o.y_low);
+  // A face whose sense is in doubt excludes nothing in its cells.
+  p.least = std::abs(area) > p.doubt ? -p.doubt : -kInfinity;
+  p.keys = points.owner.empty() ? corners : Triangle{face, face, face};
+  return p;
+}
+
+/// Bit i is set if the point in slot + i may lie behind the face.
+inline unsigned EyeGrid::near(const Outline& o, const Probe& p, std::size_t slot) const {
+  using Floats = float __attribute__((vector_size(4 * kLanes)));
+  using Keys = std::uint32_t __attribute__((vector_size(4 * kLanes)));
+  Floats x;
+  Floats y;
+  Floats depth;
+  Keys key;
+  std::memcpy(&x, x_.data() + slot, sizeof x);
+  std::memcpy(&y, y_.data() + slot, sizeof y);
+  std::memcpy(&depth, depth_.data() + slot, sizeof depth);
+  std::memcpy(&key, key_.data() + slot, sizeof key);
+  auto out = depth < o.nearest;
+  for (const auto& [along_x, along_y, offset] : p.sides) {
+    out |= x * along_x + y * along_y + offset < p.least;
+  }
+  out |= (key == p.keys[0]) | (key == p.keys[1]) | (key == p.keys[2]);
+  std::array<std::uint64_t, kLanes / 2> halves{};
+  std::memcpy(halves.data(), &out, sizeof halves);
+  if ((halves[0] & halves[1]) == ~std::uint64_t{0}) {
+    return 0;
+  }
+  unsigned found = 0;
+  for (unsigned lane = 0; lane < kLanes; ++lane) {
+    found |= out[lane] == 0 ? 1U << lane : 0U;
+  }
+  return found;
+}
+
+void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points, std::uint32_t face,
+                           const Outline& o, const Probe& p, std::size_t slot) {
+  // Other threads may strike out the same point meanwhile; they can only agree.
+  const std::atomic_ref<std::uint8_t> hidden(hidden_[slot]);
+  if (hidden.load(std::memory_order_relaxed) != 0) {
+    return;
+  }
+  float inside = kInfinity;
+  for (const auto& [along_x, along_y, offset] : p.sides) {
+    inside = std::min(inside, x_[slot] * along_x + y_[slot] * along_y + offset);
+  }
+  const bool clear = inside > p.doubt && depth_[slot] > o.farthest && steep_[face] != 0;
+  if (clear || blocks(surface, points, point_of_[slot], face)) {
+    hidden.store(1, std::memory_order_relaxed);
+  }
+}
+
+std::size_t EyeGrid::strike(const Surface& surface, const SurfacePoints& points, std::uint32_t face,
+                            const Outline& o) {
   const std::uint32_t left = cell_at(o.x_low, columns_);
   const std::uint32_t right = cell_at(o.x_high, columns_);
   const std::uint32_t bottom = cell_at(o.y_high, rows_);
-  const float abx = o.b.x - o.a.x;
-  const float aby = o.b.y - o.a.y;
-  const float bcx = o.c.x - o.b.x;
-  const float bcy = o.c.y - o.b.y;
-  const float cax = o.a.x - o.c.x;
-  const float cay = o.a.y - o.c.y;
-  const float sign = abx * bcy - aby * bcx < 0.0F ? -1.0F : 1.0F;
-  // Bounds the error of a cross product of two differences of spots inside the outline.
-  const float doubt = 10.0F * margin_ * std::max(o.x_high - o.x_low, o.y_high - o.y_low);
+  const Probe p = probe(points, face, surface.faces[face], o);
   std::size_t work = 1;
   for (std::uint32_t row = cell_at(o.y_low, rows_); row <= bottom; ++row) {
     const std::size_t first = std::size_t{row} * columns_;
     const std::uint32_t end = begin_[first + right + 1];
-    work += end - begin_[first + left];
-    for (std::uint32_t i = begin_[first + left]; i < end; ++i) {
-      // Other threads may strike out the same point meanwhile; they can only agree.
-      const std::atomic_ref<float> depth_here(depth_[i]);
-      const float depth = depth_here.load(std::memory_order_relaxed);
-      const float x = x_[i];
-      const float y = y_[i];
-      if ((depth < o.nearest) | (x < o.x_low) | (x > o.x_high) | (y < o.y_low) | (y > o.y_high)) {
-        continue;
+    const std::uint32_t begin = begin_[first + left];
+    work += 1 + end - begin;
+    for (std::uint32_t slot = begin; slot < end; slot += kLanes) {
+      unsigned found = near(o, p, slot);
+      if (end - slot < kLanes) {
+        found &= (1U << (end - slot)) - 1U;
       }
-      const float u = sign * (abx * (y - o.a.y) - aby * (x - o.a.x));
-      const float v = sign * (bcx * (y - o.b.y) - bcy * (x - o.b.x));
-      const float w = sign * (cax * (y - o.c.y) - cay * (x - o.c.x));
-      const float least = std::min({u, v, w});
-      // With a doubtful sign the area itself is within the doubt, and so is what can be excluded.
-      if (least < -doubt && (sign * (abx * bcy - aby * bcx) > doubt)) {
-        continue;
-      }
-      const bool clear = least > doubt && depth > o.farthest && steep_[face] != 0;
-      if (clear || blocks(surface, points, point_of_[i], face)) {
-        depth_here.store(-kInfinity, std::memory_order_relaxed);
+      for (; found != 0; found &= found - 1) {
+        strike_point(surface, points, face, o, p,
+                     slot + static_cast<std::uint32_t>(std::countr_zero(found)));
       }
     }
   }
@@ -351,7 +418,7 @@ bool EyeGrid::hide(const Surface& surface, const Viewpoint& eye, const SurfacePo
     project(*points.rounded, spots_, run);
     to_cells(spots_, run);
   }
-  sort_points(points.owner.empty() ? corners_ : spots_, seen);
+  sort_points(points.owner.empty() ? corners_ : spots_, points.owner, seen);
   // Fronts first: most of what is hidden lies behind one. The backs then have little left to do.
   bool complete = true;
   for (const std::uint8_t side : {std::uint8_t{1}, std::uint8_t{2}}) {
@@ -359,7 +426,7 @@ bool EyeGrid::hide(const Surface& surface, const Viewpoint& eye, const SurfacePo
     complete = complete && walk(surface, points, side, run);
   }
   for (std::size_t slot = 0; slot < point_of_.size(); ++slot) {
-    if (depth_[slot] == -kInfinity) {
+    if (hidden_[slot] != 0) {
       seen[point_of_[slot]] = 0;
     }
   }

@@ -57,18 +57,24 @@ class EyeGrid {
 
   /// What a query knows of one face.
   struct Outline;
-  struct Tally;
+  struct Probe;
 
   bool aim(const Viewpoint& eye);
   void project(const FloatPoints& points, std::vector<Spot>& spots, const RunContext& run) const;
   void choose_cells(const std::vector<Spot>& corners, std::size_t active);
   void to_cells(std::vector<Spot>& spots, const RunContext& run) const;
-  void sort_points(const std::vector<Spot>& spots, const std::vector<std::uint8_t>& seen);
+  void sort_points(const std::vector<Spot>& spots, std::span<const std::uint32_t> owner,
+                   const std::vector<std::uint8_t>& seen);
   void find_deepest();
   [[nodiscard]] Outline outline(const Triangle& face) const;
   [[nodiscard]] bool behind_all(const Outline& outline) const;
   bool walk(const Surface& surface, const SurfacePoints& points, std::uint8_t side,
             const RunContext& run);
+  [[nodiscard]] Probe probe(const SurfacePoints& points, std::uint32_t face,
+                            const Triangle& corners, const Outline& outline) const;
+  [[nodiscard]] unsigned near(const Outline& outline, const Probe& probe, std::size_t slot) const;
+  void strike_point(const Surface& surface, const SurfacePoints& points, std::uint32_t face,
+                    const Outline& outline, const Probe& probe, std::size_t slot);
   std::size_t strike(const Surface& surface, const SurfacePoints& points, std::uint32_t face,
                      const Outline& outline);
   [[nodiscard]] bool blocks(const Surface& surface, const SurfacePoints& points,
@@ -89,7 +95,9 @@ class EyeGrid {
   std::vector<std::uint32_t> begin_{};     // where each cell begins in the arrays below
   std::vector<std::uint32_t> point_of_{};  // points, one cell after the other
   std::vector<float> x_{}, y_{};           // of each of them
-  std::vector<float> depth_{};             // of each of them; minus infinity once hidden
+  std::vector<float> depth_{};             // of each of them; minus infinity if known hidden
+  std::vector<std::uint32_t> key_{};       // of each: the point, or the face it lies on
+  std::vector<std::uint8_t> hidden_{};     // of each
   std::vector<float> deepest_{};           // of the points left in each tile of cells
 };
 

@@ -20,7 +20,7 @@ namespace {
 // A piece below this share of the area of an equilateral one of the wanted size is not cut again,
 // however long: it bounds the number of pieces by area, and a fan of needles is still sampled in
 // proportion to its area. [ours]
-constexpr double kLeastArea = 1.0 / 16.0;
+constexpr double kLeastArea = 1.0 / 4.0;
 // Pieces grow when the surface is so folded that more than this many would be needed. [ours]
 constexpr double kMaxPieces = 4e6;
 
@@ -187,8 +187,7 @@ std::vector<SeenFace> FaceVisibility::seen_faces(const Viewpoint& eye,
       faces.push_back({.face = surface.face_of_mesh[last]});
     }
     faces.back().visible_area += samples_->areas[i];
-    faces.back().projected_area +=
-        samples_->areas[i] * samples_->shrink(i, local, centre, towards);
+    faces.back().projected_area += samples_->areas[i] * samples_->shrink(i, local, centre, towards);
   }
   std::sort(faces.begin(), faces.end(),
             [](const SeenFace& a, const SeenFace& b) { return a.face < b.face; });

@@ -39,9 +39,7 @@ class Sight {
   [[nodiscard]] const Surface& surface() const { return surface_; }
 
   /// The surface's sites as points to ask about.
-  [[nodiscard]] SurfacePoints sites() const {
-    return {surface_.sites, &surface_.rounded, {}};
-  }
+  [[nodiscard]] SurfacePoints sites() const { return {surface_.sites, &surface_.rounded, {}}; }
 
   /// 1 for each site that the eye (in the frame) sees.
   std::vector<std::uint8_t> seen_sites(const Viewpoint& eye, const RunContext& run);

@@ -124,8 +124,8 @@ Seen reaches(const std::vector<Face>& faces, std::uint32_t place, const Wide& st
 
 }  // namespace
 
-std::vector<Seen> brute_force_visibility(const TriMesh& mesh, FaceSides sides,
-                                         const Viewpoint& eye) {
+std::vector<Seen> brute_force_visibility(const TriMesh& mesh, FaceSides sides, const Viewpoint& eye,
+                                         std::size_t step) {
   const std::vector<std::uint32_t> place = places(mesh);
   const std::vector<Face> faces = faces_with_area(mesh, place);
   std::vector<std::vector<const Face*>> faces_at(mesh.positions.size());
@@ -140,8 +140,9 @@ std::vector<Seen> brute_force_visibility(const TriMesh& mesh, FaceSides sides,
   }
 
   const bool bounded = eye.projection == Projection::Perspective;
-  std::vector<Seen> result(mesh.positions.size(), Seen::No);
-  for (std::size_t v = 0; v < result.size(); ++v) {
+  std::vector<Seen> result(mesh.positions.size(), step == 1 ? Seen::No : Seen::Exactly);
+  for (std::size_t v = 0; v < result.size(); v += step) {
+    result[v] = Seen::No;
     const Wide start = mesh.positions[v].cast<long double>();
     const Wide to_eye = bounded ? Wide(eye.position.cast<long double>() - start)
                                 : Wide(eye.position.cast<long double>());

@@ -20,8 +20,9 @@ enum class Seen {
 };
 
 /// Asks about every vertex by the definition: extended precision, signed volumes, O(|V| |F|).
-/// \param sides of every face.
-std::vector<Seen> brute_force_visibility(const TriMesh& mesh, FaceSides sides,
-                                         const Viewpoint& eye);
+/// \param sides of every face. \param step asks about vertices 0, step, 2 step … only; the others
+///              are called Exactly.
+std::vector<Seen> brute_force_visibility(const TriMesh& mesh, FaceSides sides, const Viewpoint& eye,
+                                         std::size_t step = 1);
 
 }  // namespace vantage::test

@@ -51,6 +51,7 @@ struct ViewOptions {
   ContractionOptions contraction{};     ///< Of the surface.
   SkeletonOptions skeleton{};           ///< Of the graph.
   KssmOptions kssm{};                   ///< Of the map.
+  Weight weight = Weight::Vertex;       ///< What scores add up; Area also sets kssm's mean.
   bool kssm_to_finished_graph = false;  ///< Measure to the centred, pruned graph (not the raw one).
   SearchOptions search{};               ///< Of the view sphere.
   ViewPrior prior = upright_prior();    ///< Multiplies the best view's score in the search.
@@ -157,6 +158,10 @@ struct ViewReport {
 
 /// The scoring camera of a model.
 ScoringCamera scoring_camera(const ShapeAnalysis& shape, const ViewOptions& options);
+
+/// The samples that scores by area need; nothing for other weights.
+std::optional<FaceVisibility> faces_to_score(const ShapeAnalysis& shape,
+                                             const ViewOptions& options);
 
 /// Finds the best and the worst view, and a set of views if options.view_set asks for one.
 /// \pre the map is there. \throw Cancelled

@@ -11,12 +11,19 @@
 #include "vantage/core/run_context.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/tri_mesh.h"
+#include "vantage/visibility/face_visibility.h"
 #include "vantage/visibility/vertex_visibility.h"
 
 /// \file
 /// The score of a view: the significance it sees.
 
 namespace vantage {
+
+/// What a score adds up.
+enum class Weight {
+  Vertex,  ///< The significance of each vertex seen [paper].
+  Area,  ///< Its integral over the surface seen, over the whole area: not a matter of tessellation.
+};
 
 /// The camera that scores: its eye stands at centre + R · direction.
 struct ScoringCamera {
@@ -40,7 +47,15 @@ class ViewScorer {
   ViewScorer(const VertexVisibility& visibility, std::span<const double> significance,
              const ScoringCamera& camera);
 
-  /// score(vp) = Σ of the significance of the visible vertices.
+  /// Scores by area: (1/A) ∫ of the significance, linear in each face, over the visible surface.
+  /// \param faces of the surface whose vertices the significance belongs to.
+  ViewScorer(const FaceVisibility& faces, std::span<const double> significance,
+             const ScoringCamera& camera);
+
+  /// The score seen from any viewpoint. \param run how many threads it may take.
+  [[nodiscard]] double score_from(const Viewpoint& eye, const RunContext& run = {}) const;
+
+  /// score(vp) = Σ of the significance of the visible vertices, or its integral.
   [[nodiscard]] double score(const Vec3& direction) const;
 
   /// score() of each direction, in parallel over directions. \throw Cancelled
@@ -53,8 +68,12 @@ class ViewScorer {
   [[nodiscard]] const ScoringCamera& camera() const { return camera_; }  ///< As given.
 
  private:
-  const VertexVisibility* visibility_;
+  ViewScorer(std::span<const double> significance, const ScoringCamera& camera);
+
+  const VertexVisibility* visibility_ = nullptr;  // of a score by vertices
+  const FaceVisibility* faces_ = nullptr;         // of a score by area
   std::span<const double> significance_;
+  std::vector<double> of_sample_{};  // share of each sample of `faces_`
   ScoringCamera camera_;
   double total_ = 0.0;
 };

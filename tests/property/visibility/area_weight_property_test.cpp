@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// Scores by area do not depend on tessellation; Cauchy's theorem; convergence of the sampling.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "vantage/mesh/measures.h"
+#include "vantage/spatial/directions.h"
+#include "vantage/view/scoring.h"
+#include "vantage/visibility/face_visibility.h"
+
+#include "support/shapes.h"
+
+namespace vantage {
+namespace {
+
+/// A mesh and a field on its vertices.
+struct Painted {
+  TriMesh mesh{};
+  std::vector<double> field{};
+};
+
+/// Splits the faces whose centroid has x > 0 into four in their own planes; the new vertices lie on
+/// the old edges, so no gap opens. The field is carried over linearly.
+Painted split_half(const Painted& shape) {
+  Painted result = shape;
+  result.mesh.triangles.clear();
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle_of_edge;
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+    const auto [at, fresh] = middle_of_edge.try_emplace(
+        std::minmax(a, b), static_cast<std::uint32_t>(result.mesh.positions.size()));
+    if (fresh) {
+      result.mesh.positions.emplace_back(0.5 * (shape.mesh.positions[a] + shape.mesh.positions[b]));
+      result.field.push_back(0.5 * (shape.field[a] + shape.field[b]));
+    }
+    return at->second;
+  };
+  for (const auto& [a, b, c] : shape.mesh.triangles) {
+    const Vec3 sum = shape.mesh.positions[a] + shape.mesh.positions[b] + shape.mesh.positions[c];
+    if (sum.x() <= 0.0) {
+      result.mesh.triangles.push_back({a, b, c});
+      continue;
+    }
+    const std::uint32_t ab = middle(a, b);
+    const std::uint32_t bc = middle(b, c);
+    const std::uint32_t ca = middle(c, a);
+    result.mesh.triangles.insert(result.mesh.triangles.end(),
+                                 {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+  }
+  return result;
+}
+
+/// A torus with a field that grows towards one place on it, so that its best view is no near-tie.
+Painted painted_torus() {
+  Painted shape{
+      test::moved(test::torus(1.0, 0.4, 60, 30), 1.0, 0.7, Vec3(1.0, 2.0, 3.0), Vec3::Zero()), {}};
+  for (const Vec3& p : shape.mesh.positions) {
+    shape.field.push_back(std::exp(2.0 * p.x() + p.y() + 0.5 * p.z()));
+  }
+  return shape;
+}
+
+std::vector<double> score_fractions(const Painted& shape, const std::vector<Vec3>& directions) {
+  const FaceVisibility faces(shape.mesh, {FaceSides::Front});
+  const ViewScorer scorer(faces, shape.field, {.sphere = enclosing_sphere(shape.mesh.positions)});
+  std::vector<double> scores = scorer.score_all(directions);
+  for (double& score : scores) {
+    score /= scorer.total();
+  }
+  return scores;
+}
+
+class SplittingHalfOfAModel : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const Painted coarse = painted_torus();
+    before = score_fractions(coarse, directions());
+    after = score_fractions(split_half(split_half(coarse)), directions());
+  }
+
+  static std::vector<Vec3> directions() {
+    return direction_set(ViewSphereBase::Icosahedron, 3).directions;
+  }
+
+  static inline std::vector<double> before{};
+  static inline std::vector<double> after{};
+};
+
+TEST_F(SplittingHalfOfAModel, MovesNoScoreByAHundredth) {
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_NEAR(after[i], before[i], 0.01 * before[i]);
+  }
+}
+
+TEST_F(SplittingHalfOfAModel, LeavesTheBestViewWhereItIs) {
+  const auto best = [](const std::vector<double>& scores) {
+    return std::max_element(scores.begin(), scores.end()) - scores.begin();
+  };
+  // The directions are more than 2 degrees apart: within 2 degrees is the same one.
+  EXPECT_EQ(best(before), best(after));
+}
+
+TEST(MeanShadow, OfConvexBodiesIsAQuarterOfTheirArea) {
+  const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, 4);
+  const std::vector<double> weights = vertex_areas({set.directions, set.triangles});
+  for (const TriMesh& mesh :
+       {test::box(1.0, 2.0, 3.0, 1), test::cylinder(1.0, 3.0, 40, 1), test::sphere(2)}) {
+    const FaceVisibility visibility(mesh, {FaceSides::Front}, 0.2);
+    double shadow = 0.0;
+    double sphere = 0.0;
+    for (std::size_t i = 0; i < set.directions.size(); ++i) {
+      for (const SeenFace& face :
+           visibility.seen_faces({Projection::Orthographic, set.directions[i]})) {
+        shadow += weights[i] * face.projected_area;
+      }
+      sphere += weights[i];
+    }
+    EXPECT_NEAR(shadow / sphere, 0.25 * visibility.total_area(),
+                0.001 * 0.25 * visibility.total_area());
+  }
+}
+
+TEST(Sampling, HasConvergedAtTheDefaultSpacing) {
+  const TriMesh two_boxes =
+      test::together(test::box(1.0, 2.0, 3.0, 1), test::box(1.0, 1.0, 1.0, 1), Vec3(1.5, 0.2, 0.4));
+  for (const TriMesh& mesh :
+       {two_boxes, test::torus(1.0, 0.4, 30, 15), test::y_of_tubes(0.2, 14)}) {
+    const FaceVisibility coarse(mesh, {FaceSides::Front});
+    const FaceVisibility fine(mesh, {FaceSides::Front}, 0.5 * FaceVisibility::kSpacing);
+    std::vector<std::array<double, 4>> measures;
+    for (const Vec3& d : direction_set(ViewSphereBase::Icosahedron, 1).directions) {
+      std::array<double, 4> m{};
+      for (const int which : {0, 1}) {
+        const FaceVisibility& visibility = which == 0 ? coarse : fine;
+        for (const SeenFace& face : visibility.seen_faces({Projection::Orthographic, d})) {
+          m[which == 0 ? 0 : 2] += face.visible_area;
+          m[which == 0 ? 1 : 3] += face.projected_area;
+        }
+      }
+      measures.push_back(m);
+    }
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+      const auto by = [k](const auto& a, const auto& b) { return a[k + 2] < b[k + 2]; };
+      const auto [low, high] = std::minmax_element(measures.begin(), measures.end(), by);
+      const double range = (*high)[k + 2] - (*low)[k + 2];
+      for (const auto& m : measures) {
+        EXPECT_NEAR(m[k], m[k + 2], 0.01 * range) << (k == 0 ? "visible" : "projected");
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vantage

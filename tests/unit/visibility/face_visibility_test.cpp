@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/visibility/face_visibility.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "vantage/core/error.h"
+#include "vantage/mesh/measures.h"
+
+#include "support/shapes.h"
+
+namespace vantage {
+namespace {
+
+const Viewpoint kAbove{Projection::Orthographic, Vec3(0.0, 0.0, 1.0)};
+
+double visible_area(const std::vector<SeenFace>& faces) {
+  double sum = 0.0;
+  for (const SeenFace& f : faces) {
+    sum += f.visible_area;
+  }
+  return sum;
+}
+
+double projected_area(const std::vector<SeenFace>& faces) {
+  double sum = 0.0;
+  for (const SeenFace& f : faces) {
+    sum += f.projected_area;
+  }
+  return sum;
+}
+
+TEST(FaceVisibility, SeesThreeSidesOfABoxOfTwelveTriangles) {
+  const FaceVisibility box(test::box(1.0, 2.0, 3.0, 1), {FaceSides::Front});
+  const auto faces = box.seen_faces({Projection::Orthographic, Vec3(1.0, 1.0, 1.0)});
+  EXPECT_EQ(faces.size(), 6U);
+  EXPECT_NEAR(visible_area(faces), 2.0 + 3.0 + 6.0, 1e-12);
+  // Each side counts its area times the cosine 1/√3.
+  EXPECT_NEAR(projected_area(faces), 11.0 / std::numbers::sqrt3, 1e-12);
+}
+
+TEST(FaceVisibility, MeasuresPerspectiveAreasOnThePlaneThroughTheCentre) {
+  // Seen from 10 above the centre of a unit cube the top, at distance 9.5, is 10/9.5 times as wide.
+  const FaceVisibility cube(test::box(1.0, 1.0, 1.0, 1), {FaceSides::Front});
+  const auto faces = cube.seen_faces({Projection::Perspective, Vec3(0.5, 0.5, 10.5)});
+  EXPECT_EQ(faces.size(), 2U);
+  EXPECT_NEAR(projected_area(faces), std::pow(10.0 / 9.5, 2), 1e-12);
+}
+
+TEST(FaceVisibility, SplitsAFaceThatIsPartlyHidden) {
+  // A sheet of 4 × 4 under one of 2 × 4 that hides its left half.
+  const TriMesh mesh =
+      test::together(test::sheet(4.0, 4.0, 1), test::sheet(2.0, 4.0, 1), Vec3(0.0, 0.0, 1.0));
+  const auto faces = FaceVisibility(mesh, {FaceSides::Both}).seen_faces(kAbove);
+  ASSERT_EQ(faces.size(), 4U);
+  EXPECT_NEAR(faces[0].visible_area + faces[1].visible_area, 8.0, 0.01 * 8.0);
+  EXPECT_NEAR(faces[2].visible_area + faces[3].visible_area, 8.0, 1e-12);
+}
+
+TEST(FaceVisibility, SeesEveryFrontFaceOfAConvexMeshAndNoOther) {
+  const TriMesh mesh = test::sphere(7);  // 327 680 faces
+  const FaceVisibility visibility(mesh, {FaceSides::Front});
+  for (const Viewpoint& eye : {Viewpoint{Projection::Perspective, Vec3(2.0, 3.0, -1.0)},
+                               Viewpoint{Projection::Orthographic, Vec3(0.3, -0.2, 0.9)}}) {
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+      const Vec3& corner = mesh.positions[mesh.triangles[f][0]];
+      const Vec3 sight =
+          eye.projection == Projection::Perspective ? Vec3(eye.position - corner) : eye.position;
+      if (area_vector(mesh, mesh.triangles[f]).dot(sight) > 0.0) {
+        expected.push_back(f);
+      }
+    }
+    std::vector<std::uint32_t> found;
+    for (const SeenFace& face : visibility.seen_faces(eye)) {
+      found.push_back(face.face);
+    }
+    EXPECT_EQ(found, expected);
+  }
+}
+
+TEST(FaceVisibility, TakesAtLeastOneSampleAFaceAndMoreOnLargeOnes) {
+  EXPECT_EQ(FaceVisibility(test::sphere(2), {FaceSides::Front}, 1.0).sample_count(), 320U);
+  EXPECT_GT(FaceVisibility(test::box(1.0, 1.0, 1.0, 1), {FaceSides::Front}).sample_count(), 5000U);
+}
+
+TEST(FaceVisibility, BoundsTheSamplesOfNeedlesByTheirArea) {
+  // 10^5 needles as long as the cylinder is high: cut to the spacing they would be 6 million.
+  const TriMesh mesh = test::cylinder(1.0, 2.0, 50000, 1);
+  const FaceVisibility visibility(mesh, {FaceSides::Front});
+  // No piece that was cut was smaller than a quarter of an equilateral one, so no half is below an
+  // eighth of it.
+  const double side = FaceVisibility::kSpacing * enclosing_sphere(mesh.positions).diameter;
+  const double least = std::sqrt(3.0) / 4.0 * side * side / 8.0;
+  EXPECT_LT(static_cast<double>(visibility.sample_count()),
+            static_cast<double>(mesh.triangles.size()) + visibility.total_area() / least);
+}
+
+TEST(FaceVisibility, IntegratesALinearFieldExactly) {
+  // Over the top of the unit cube ∫ (1 + 2x + 3y + 5z) = 1 + 1 + 1.5 + 5.
+  const TriMesh cube = test::box(1.0, 1.0, 1.0, 1);
+  const FaceVisibility visibility(cube, {FaceSides::Front});
+  std::vector<double> field;
+  for (const Vec3& p : cube.positions) {
+    field.push_back(1.0 + 2.0 * p.x() + 3.0 * p.y() + 5.0 * p.z());
+  }
+  EXPECT_NEAR(visibility.visible_sum(visibility.integrals(field), kAbove), 8.5, 1e-12);
+}
+
+TEST(FaceVisibility, IsTheSameForAnyNumberOfThreads) {
+  const FaceVisibility visibility(test::torus(1.0, 0.4, 80, 40), {FaceSides::Front});
+  const Viewpoint eye{Projection::Perspective, Vec3(3.0, 1.0, 1.0)};
+  const auto one = visibility.seen_faces(eye, {.max_threads = 1});
+  const auto three = visibility.seen_faces(eye, {.max_threads = 3});
+  ASSERT_EQ(one.size(), three.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].face, three[i].face);
+    EXPECT_EQ(one[i].projected_area, three[i].projected_area);
+  }
+}
+
+TEST(FaceVisibility, RefusesASpacingThatIsNotAShare) {
+  EXPECT_THROW(FaceVisibility(test::sphere(0), {FaceSides::Front}, 0.0), InvalidInput);
+  EXPECT_THROW(FaceVisibility(test::sphere(0), {FaceSides::Front}, std::nan("")), InvalidInput);
+}
+
+TEST(VisibleVertices, TurnsAnInsideOutShellBeforeItLooks) {
+  const TriMesh torus = test::torus(1.0, 0.4, 24, 12);
+  const Vec3 eye(3.0, 1.0, 2.0);
+  EXPECT_EQ(visible_vertices(test::inside_out(torus), eye), visible_vertices(torus, eye));
+}
+
+TEST(VisibleVertices, SeesTheFarWallFromInsideAnOpenTube) {
+  // Both sides of an open surface count: from the axis every vertex is seen.
+  const TriMesh tube = test::open_cylinder(1.0, 2.0, 12, 4);
+  const auto visible = visible_vertices(tube, Vec3(0.0, 0.0, 1.0));
+  EXPECT_EQ(std::count(visible.begin(), visible.end(), 1),
+            static_cast<std::ptrdiff_t>(tube.positions.size()));
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Visibility on real models against brute force, in the folder that VANTAGE_DATA names.
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "vantage/io/model.h"
+#include "vantage/mesh/measures.h"
+#include "vantage/visibility/vertex_visibility.h"
+
+#include "support/visibility_oracle.h"
+
+namespace vantage {
+namespace {
+
+using test::Seen;
+
+// Vertices asked about a model and eye: brute force takes milliseconds each.
+constexpr std::size_t kAsked = 40;
+
+class VisibilityOfRealModel : public testing::TestWithParam<const char*> {};
+
+TEST_P(VisibilityOfRealModel, EqualsBruteForce) {
+  const char* folder = std::getenv("VANTAGE_DATA");
+  if (folder == nullptr) {
+    GTEST_SKIP() << "NOTHING WAS TESTED: set VANTAGE_DATA to the folder of the data pack";
+  }
+  const OrientedMesh oriented =
+      orient_shells(load_model(std::string(folder) + "/" + GetParam()).mesh);
+  const TriMesh& mesh = oriented.mesh;
+  // The oracle knows one rule for sides: that of the first component, for all.
+  const FaceSides sides = oriented.sides.front();
+  const VertexVisibility visibility(mesh, {sides});
+  const Sphere sphere = enclosing_sphere(referenced_points(mesh));
+  const std::size_t step = std::max<std::size_t>(2, mesh.positions.size() / kAsked);
+  std::size_t decided = 0;
+  for (const Viewpoint& eye :
+       {Viewpoint{Projection::Perspective, sphere.centre + sphere.diameter * Vec3(1.4, 0.9, 1.1)},
+        Viewpoint{Projection::Orthographic, Vec3(-0.2, -0.5, 0.8)}}) {
+    const auto found = visibility.visible_vertices(eye);
+    const auto expected = test::brute_force_visibility(mesh, sides, eye, step);
+    for (std::size_t v = 0; v < found.size(); v += step) {
+      if (expected[v] != Seen::Exactly) {
+        ++decided;
+        ASSERT_EQ(found[v] != 0, expected[v] == Seen::Yes) << "vertex " << v;
+      }
+    }
+  }
+  EXPECT_GT(decided, kAsked);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    DataPack, VisibilityOfRealModel,
+    testing::Values("paper/armadillo_172966_loop.ply", "paper/venus_igea_134345.ply",
+                    "paper/dinosaur_56194_loop.ply", "paper/horse_48485.obj",
+                    "paper/horse_48485_insideout.ply", "paper/rockerarm_40177.ply",
+                    "paper/cow_2904.off", "paper/dinosaur_9851_open.off",
+                    "clean/fertility_24994.off", "clean/chair.off", "clean/block.off",
+                    "clean/knot2.off", "clean/kitten.obj", "clean/homer.obj", "clean/turbine.off",
+                    "clean/scad_example009.off", "clean/springer.obj", "clean/triceratops.off",
+                    "clean/wingnut.obj", "clean/pinion.off"));
+
+}  // namespace
+}  // namespace vantage
