@@ -30,6 +30,12 @@ Model parse_with(std::string_view bytes, std::string_view name, const RunContext
         return parse_ply(bytes, name, run);
       case ModelFormat::Stl:
         return parse_stl(bytes, name, run);
+      case ModelFormat::Xyz:
+      case ModelFormat::Pts:
+      case ModelFormat::Pwn:
+        return parse_point_list(bytes, name, detected.format, run);
+      case ModelFormat::Pcd:
+        return parse_pcd(bytes, name, run);
       case ModelFormat::Gltf:
       case ModelFormat::Glb:
         break;

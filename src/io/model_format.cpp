@@ -30,7 +30,7 @@ struct ForeignMagic {
 
 using namespace std::string_view_literals;
 
-constexpr std::array<ForeignMagic, 26> kForeignMagics = {{
+constexpr std::array<ForeignMagic, 25> kForeignMagics = {{
     {"\x1F\x8B"sv, "is compressed with gzip", kUnpack, "gunzip"},
     {"BZh"sv, "is compressed with bzip2", kUnpack, "bunzip2"},
     {"\xFD"
@@ -52,8 +52,6 @@ constexpr std::array<ForeignMagic, 26> kForeignMagics = {{
     {"PXR-USDC"sv, "is a USD file", kConvertMesh, ""},
     {"#VRML"sv, "is a VRML file", kConvertMesh, ""},
     {"# vtk DataFile"sv, "is a VTK file", kConvertMesh, ""},
-    {"# .PCD"sv, "is a PCD point cloud", "; convert it to PLY first, for example with ",
-     "pcl_pcd2ply"},
     {"<?xml"sv, "is an XML file (COLLADA and X3D files are)", kConvertMesh, ""},
     {"\x89PNG"sv, "is a PNG picture", kNoModel, ""},
     {"\xFF\xD8\xFF"sv, "is a JPEG picture", kNoModel, ""},
@@ -69,7 +67,7 @@ struct ForeignExtension {
   std::string_view remedy;
 };
 
-constexpr std::array<ForeignExtension, 31> kForeignExtensions = {{
+constexpr std::array<ForeignExtension, 27> kForeignExtensions = {{
     {"3ds", "3DS", kConvertMesh},
     {"3mf", "3MF", kConvertMesh},
     {"ac", "AC3D", kConvertMesh},
@@ -89,9 +87,6 @@ constexpr std::array<ForeignExtension, 31> kForeignExtensions = {{
     {"max", "3ds Max", kConvertMesh},
     {"mesh", "Medit", kConvertMesh},
     {"msh", "Gmsh", kConvertMesh},
-    {"pcd", "PCD", kConvertMesh},
-    {"pts", "point list", "; convert it to PLY first"},
-    {"pwn", "point list", "; convert it to PLY first"},
     {"skp", "SketchUp", kConvertMesh},
     {"step", "STEP", kConvertSolid},
     {"stp", "STEP", kConvertSolid},
@@ -100,11 +95,10 @@ constexpr std::array<ForeignExtension, 31> kForeignExtensions = {{
     {"vtk", "VTK", kConvertMesh},
     {"wrl", "VRML", kConvertMesh},
     {"x3d", "X3D", kConvertMesh},
-    {"xyz", "point list", "; convert it to PLY first, for example with meshlab or CloudCompare"},
 }};
 
-constexpr std::array<std::string_view, 6> kFormatNames = {"obj", "off",  "ply",
-                                                          "stl", "gltf", "glb"};
+constexpr std::array<std::string_view, 10> kFormatNames = {"obj", "off", "ply", "stl", "gltf",
+                                                           "glb", "xyz", "pts", "pwn", "pcd"};
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -150,13 +144,17 @@ void reject_foreign_magic(std::string_view bytes, std::string_view name) {
         name, "", std::string(entry->what) + " files are not read" + std::string(entry->remedy));
   }
   throw FormatError(name, "",
-                    "cannot tell what format this is; OBJ, OFF, PLY, STL, glTF and GLB are read");
+                    "cannot tell what format this is; OBJ, OFF, PLY, STL, glTF, GLB, PCD, XYZ, PTS "
+                    "and PWN are read");
 }
 
 /// What the first bytes say beyond doubt.
 std::optional<ModelFormat> format_of_magic(std::string_view bytes) {
   if (starts_with(bytes, "glTF")) {
     return ModelFormat::Glb;
+  }
+  if (starts_with(bytes, "# .PCD")) {
+    return ModelFormat::Pcd;
   }
   const std::string_view first_line = TextCursor(bytes).next_line().value_or("");
   if (trimmed(first_line) == "ply") {

@@ -25,6 +25,14 @@ Model parse_ply(std::string_view bytes, std::string_view name, const RunContext&
 /// STL, text or binary, told apart by size and content.
 Model parse_stl(std::string_view bytes, std::string_view name, const RunContext& run);
 
+/// Point Cloud Data 0.5 to 0.7: ascii, binary or binary_compressed; x, y, z of whatever fields.
+Model parse_pcd(std::string_view bytes, std::string_view name, const RunContext& run);
+
+/// Lists of points, one a line, for .xyz, .pts and .pwn: the first three columns, or two and z = 0;
+/// the rest (normals, colours) is passed over, and so is a heading.
+Model parse_point_list(std::string_view bytes, std::string_view name, ModelFormat format,
+                       const RunContext& run);
+
 /// Gives the bytes of an external buffer named by a relative path, or throws IoError.
 using BufferSource = std::function<std::string(const std::string& relative_path)>;
 

@@ -8,6 +8,8 @@
 #include "vantage/report/focus.h"
 #include "vantage/report/view_report.h"
 
+#include "report/point_preparation.h"
+
 namespace vantage {
 namespace {
 
@@ -59,9 +61,7 @@ void list_repairs(const WeldedMesh& welded, const OrientedMesh& oriented, const 
 
 ShapeAnalysis prepare_surface(const Model& model) {
   if (model.mesh.triangles.empty()) {
-    throw InvalidInput(model.name +
-                       ": the file holds points but no faces; reconstruct a surface first, point "
-                       "clouds are not supported yet");
+    return prepare_points(model);
   }
   WeldedMesh welded = weld(model.mesh);
   ShapeAnalysis shape;
@@ -81,13 +81,21 @@ ShapeAnalysis prepare_surface(const Model& model) {
 }
 
 void add_history(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
-  shape.history = contract(shape.surface, options.contraction, run);
+  if (shape.cloud) {
+    add_point_history(shape, options, run);
+  } else {
+    shape.history = contract(shape.surface, options.contraction, run);
+  }
   shape.warnings.insert(shape.warnings.end(), shape.history.warnings.begin(),
                         shape.history.warnings.end());
 }
 
 void add_skeleton(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
-  shape.skeleton = extract_skeleton(shape.surface, shape.history, options.skeleton, run);
+  if (shape.cloud) {
+    add_point_skeleton(shape, options, run);
+  } else {
+    shape.skeleton = extract_skeleton(shape.surface, shape.history, options.skeleton, run);
+  }
   shape.warnings.insert(shape.warnings.end(), shape.skeleton.warnings.begin(),
                         shape.skeleton.warnings.end());
 }

@@ -19,7 +19,7 @@
 namespace vantage {
 
 /// File formats that can be read.
-enum class ModelFormat { Obj, Off, Ply, Stl, Gltf, Glb };
+enum class ModelFormat { Obj, Off, Ply, Stl, Gltf, Glb, Xyz, Pts, Pwn, Pcd };
 
 /// Lower-case name as used in results, e.g. "obj".
 std::string_view format_name(ModelFormat format);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vantage/contraction/contraction.h"
+#include "vantage/contraction/point_contraction.h"
 #include "vantage/core/camera.h"
 #include "vantage/core/image.h"
 #include "vantage/core/run_context.h"
@@ -88,6 +89,12 @@ struct StageSeconds {
   double total = 0.0;     ///< Of everything.
 };
 
+/// What a point cloud needs besides a surface.
+struct CloudAnalysis {
+  std::vector<std::uint8_t> outlier{};  ///< One entry per vertex of the surface.
+  PointContraction contraction{};       ///< Its history of all points moves to the analysis.
+};
+
 /// The surface as the method works on it, and what it found out about its shape.
 struct ShapeAnalysis {
   TriMesh surface{};                            ///< Welded, closed shells turned outwards.
@@ -99,11 +106,13 @@ struct ShapeAnalysis {
   Skeleton skeleton{};                          ///< Filled by add_skeleton().
   KssmMap map{};                                ///< Filled by add_map().
   std::vector<std::string> warnings{};          ///< Every repair and doubt, one sentence each.
+  std::optional<CloudAnalysis> cloud{};         ///< Set if the model has no faces.
 };
 
 /// Welds and orients the model's surface; the only place that repairs, and it lists every repair.
 /// Leaves history, skeleton and map empty.
-/// \throw InvalidInput if the model has no faces, or no extent.
+/// The points of a model without faces are joined by their local Delaunay rings.
+/// \throw InvalidInput if the model has no extent.
 ShapeAnalysis prepare_surface(const Model& model);
 
 /// Adds the contraction history to a prepared surface. \throw Cancelled

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/contraction/point_contraction.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/topology.h"
+#include "vantage/spatial/point_rings.h"
+
+#include "contraction/point_steps.h"
+#include "core/parallel.h"
+
+namespace vantage {
+namespace {
+
+/// Clouds of more points are contracted on this many samples (ours: one factorisation of 12 000
+/// points takes a tenth of a second; a skeleton at 0.02 D needs far fewer).
+constexpr std::size_t kMostSamples = 12'000;
+constexpr std::size_t kOutlierNeighbours = 16;
+/// A point whose neighbours are this many times farther than theirs are is an outlier (ours: points
+/// at the border of a scan stay below 2, a point off the surface by 4 spacings is above).
+constexpr double kOutlierRatio = 4.0;
+/// Fewer points than this are no statistics.
+constexpr std::size_t kFewPoints = 64;
+/// Pieces of fewer points than this are specks: they are left out, unless there is nothing else.
+constexpr std::size_t kSpeck = 8;
+constexpr std::size_t kGrain = 2048;
+constexpr std::uint32_t kIsolated = ContractionHistory::kIsolated;
+
+/// Labels of the components of the ring graph, numbered by lowest point.
+std::vector<std::uint32_t> label_components(const PointRings& rings, std::uint32_t& count) {
+  const std::size_t n = rings.closed.size();
+  std::vector<std::uint32_t> parent(n);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    parent[i] = i;
+  }
+  const auto root = [&parent](std::uint32_t i) {
+    while (parent[i] != i) {
+      parent[i] = parent[parent[i]];
+      i = parent[i];
+    }
+    return i;
+  };
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (const std::uint32_t j : rings.neighbours[i]) {
+      const std::uint32_t a = root(i);
+      const std::uint32_t b = root(j);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  std::vector<std::uint32_t> label(n);
+  count = 0;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    label[i] = root(i) == i ? count++ : label[root(i)];
+  }
+  return label;
+}
+
+/// One component's points, and the rings in its own numbers.
+struct Piece {
+  std::vector<std::uint32_t> members{};
+  PointRings rings{};
+};
+
+std::vector<Piece> cut(const PointRings& rings, std::vector<std::uint32_t>& label,
+                       std::uint32_t count) {
+  std::vector<std::size_t> size(count, 0);
+  for (const std::uint32_t l : label) {
+    ++size[l];
+  }
+  const bool any_large =
+      std::any_of(size.begin(), size.end(), [](std::size_t s) { return s >= kSpeck; });
+  std::vector<std::uint32_t> piece_of(count, kIsolated);
+  std::vector<Piece> pieces;
+  std::vector<std::uint32_t> local(label.size(), 0);
+  for (std::uint32_t i = 0; i < label.size(); ++i) {
+    const std::uint32_t l = label[i];
+    if (size[l] < (any_large ? kSpeck : 3)) {
+      label[i] = kIsolated;
+      continue;
+    }
+    if (piece_of[l] == kIsolated) {
+      piece_of[l] = static_cast<std::uint32_t>(pieces.size());
+      pieces.emplace_back();
+    }
+    label[i] = piece_of[l];
+    local[i] = static_cast<std::uint32_t>(pieces[label[i]].members.size());
+    pieces[label[i]].members.push_back(i);
+  }
+  for (Piece& piece : pieces) {
+    for (const std::uint32_t i : piece.members) {
+      for (const std::uint32_t j : rings.neighbours[i]) {
+        piece.rings.neighbours.values.push_back(local[j]);
+      }
+      piece.rings.neighbours.offsets.push_back(
+          static_cast<std::uint32_t>(piece.rings.neighbours.values.size()));
+      piece.rings.closed.push_back(rings.closed[i]);
+    }
+  }
+  return pieces;
+}
+
+/// Contracts a piece in its own scale and writes its levels into the history of all samples.
+ComponentHistory contract_piece(const std::vector<Vec3>& points, const Piece& piece,
+                                const ContractionOptions& options, const RunContext& run) {
+  std::vector<Vec3> scaled;
+  for (const std::uint32_t i : piece.members) {
+    scaled.push_back(points[i]);
+  }
+  const bool by_box = options.scaling == ContractionScaling::Box;
+  const Box box = bounding_box(scaled);
+  const Sphere sphere = enclosing_sphere(scaled);
+  const Vec3 centre = by_box ? Vec3(box.low + 0.5 * box.size()) : sphere.centre;
+  const double size = by_box ? box.longest_side() / 1.6 : 0.5 * sphere.diameter;
+  for (Vec3& p : scaled) {
+    p = (p - centre) / size;
+  }
+  ComponentHistory part = contract_point_component(scaled, piece.rings, options, run);
+  for (auto& level : part.levels) {
+    for (Vec3& p : level) {
+      p = p * size + centre;
+    }
+  }
+  return part;
+}
+
+ContractionHistory contract_samples(const std::vector<Vec3>& points, const PointRings& rings,
+                                    const ContractionOptions& options, const RunContext& run) {
+  ContractionHistory history;
+  std::uint32_t count = 0;
+  history.component_of_vertex = label_components(rings, count);
+  const std::vector<Piece> pieces = cut(rings, history.component_of_vertex, count);
+  history.levels.push_back(points);
+  std::vector<std::vector<double>> shrinkage;
+  double done = 0.0;
+  for (const Piece& piece : pieces) {
+    const double share =
+        static_cast<double>(piece.members.size()) / static_cast<double>(points.size());
+    const ComponentHistory part =
+        contract_piece(points, piece, options, run.part(done, std::min(1.0, done + share)));
+    done = std::min(1.0, done + share);
+    while (history.levels.size() < part.levels.size()) {
+      history.levels.push_back(history.levels.back());
+    }
+    for (std::size_t j = 1; part.levels.size() > 1 && j < history.levels.size(); ++j) {
+      const auto& from = part.levels[std::min(j, part.levels.size() - 1)];
+      for (std::size_t i = 0; i < piece.members.size(); ++i) {
+        history.levels[j][piece.members[i]] = from[i];
+      }
+    }
+    history.components.push_back(part.summary);
+    shrinkage.push_back(part.shrinkage);
+  }
+  history.shrinkage.assign(history.levels.size(), 0.0);
+  double all = 0.0;
+  for (std::size_t c = 0; c < pieces.size(); ++c) {
+    const auto weight = static_cast<double>(pieces[c].members.size());
+    all += weight;
+    for (std::size_t j = 0; j < history.levels.size(); ++j) {
+      history.shrinkage[j] += weight * shrinkage[c][std::min(j, shrinkage[c].size() - 1)];
+    }
+  }
+  for (double& a : history.shrinkage) {
+    a = all > 0.0 ? a / all : 1.0;
+  }
+  return history;
+}
+
+/// Distance from each point to the nearest of its ring, at a level; 0 without a ring.
+std::vector<double> shortest_edges(const std::vector<Vec3>& points, const PointRings& rings) {
+  std::vector<double> shortest(points.size(), 0.0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (const std::uint32_t j : rings.neighbours[i]) {
+      const double length = (points[j] - points[i]).norm();
+      shortest[i] = shortest[i] > 0.0 ? std::min(shortest[i], length) : length;
+    }
+  }
+  return shortest;
+}
+
+/// Gives every point the mean way of the three nearest samples; its offset from them shrinks as
+/// their rings do. Points of samples that were left out stay.
+void carry_back(std::span<const Vec3> points, std::span<const std::uint8_t> left_out,
+                const PointRings& rings, PointContraction& result, const RunContext& run) {
+  const std::vector<NearestThree> nearest = nearest_three(points, result.samples.positions, run);
+  const ContractionHistory& from = result.sample_history;
+  ContractionHistory& to = result.history;
+  to.shrinkage = from.shrinkage;
+  to.components = from.components;
+  for (ComponentContraction& component : to.components) {
+    component.vertices = 0;
+  }
+  result.sample_of_point.assign(points.size(), kIsolated);
+  to.component_of_vertex.assign(points.size(), kIsolated);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::uint32_t sample = nearest[i].index[0];
+    const std::uint32_t component = from.component_of_vertex[sample];
+    if (left_out[i] == 0 && component != kIsolated) {
+      result.sample_of_point[i] = sample;
+      to.component_of_vertex[i] = component;
+      ++to.components[component].vertices;
+    }
+  }
+  const std::vector<double> edge_at_start = shortest_edges(from.levels[0], rings);
+  to.levels.assign(from.levels.size(), std::vector<Vec3>(points.begin(), points.end()));
+  for (std::size_t level = 1; level < from.levels.size(); ++level) {
+    const std::vector<double> edge = shortest_edges(from.levels[level], rings);
+    parallel_for(run, points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::uint32_t sample = result.sample_of_point[i];
+        if (sample == kIsolated) {
+          continue;
+        }
+        Vec3 base = Vec3::Zero();
+        Vec3 place = Vec3::Zero();
+        double total = 0.0;
+        for (std::size_t c = 0; c < 3; ++c) {
+          const std::uint32_t s = nearest[i].index[c];
+          if (from.component_of_vertex[s] == from.component_of_vertex[sample]) {
+            base += nearest[i].weight[c] * from.levels[0][s];
+            place += nearest[i].weight[c] * from.levels[level][s];
+            total += nearest[i].weight[c];
+          }
+        }
+        const double shrunk =
+            edge_at_start[sample] > 0.0 ? std::min(1.0, edge[sample] / edge_at_start[sample]) : 1.0;
+        to.levels[level][i] = place / total + shrunk * (points[i] - base / total);
+      }
+    });
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> find_outliers(std::span<const Vec3> points, const RunContext& run) {
+  std::vector<std::uint8_t> outlier(points.size(), 0);
+  if (points.size() < kFewPoints) {
+    return outlier;
+  }
+  const NeighbourDistances near = neighbour_distances(points, kOutlierNeighbours, run);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    outlier[i] = near.mean[i] > kOutlierRatio * near.median_of_neighbours[i] ? 1 : 0;
+  }
+  return outlier;
+}
+
+PointContraction contract_points(std::span<const Vec3> points,
+                                 std::span<const std::uint8_t> left_out,
+                                 const ContractionOptions& options, const RunContext& run) {
+  check_fields(options, kContractionFields);
+  std::vector<Vec3> kept;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (left_out[i] == 0) {
+      kept.push_back(points[i]);
+    }
+  }
+  PointContraction result;
+  for (const std::uint32_t i : spread_sample(kept, kMostSamples, run)) {
+    result.samples.positions.push_back(kept[i]);
+  }
+  const std::vector<Vec3>& samples = result.samples.positions;
+  const PointRings rings = point_rings(samples, neighbourhood_size(samples.size()), run);
+  result.sample_history = contract_samples(samples, rings, options, run.part(0.1, 0.9));
+  result.samples.triangles = agreed_triangles(rings, 1);
+  std::erase_if(result.samples.triangles, [&](const Triangle& t) {
+    return result.sample_history.component_of_vertex[t[0]] == kIsolated;
+  });
+  carry_back(points, left_out, rings, result, run);
+  ContractionHistory& history = result.history;
+  if (samples.size() < kept.size()) {
+    history.warnings.push_back("the cloud was contracted on " + std::to_string(samples.size()) +
+                               " samples of its " + std::to_string(kept.size()) + " points");
+  }
+  run.advance("contracting", 1.0);
+  return result;
+}
+
+}  // namespace vantage

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "contraction/point_steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "vantage/mesh/measures.h"
+#include "vantage/operators/point_laplacian.h"
+
+#include "operators/sparse_cholesky.h"
+
+namespace vantage {
+namespace {
+
+/// A box side may grow by this factor plus a hundredth of D before a step counts as diverged.
+constexpr double kBoxGrowth = 1.2;
+constexpr double kBoxSlack = 0.01;
+/// As for meshes: steps as defined; non-negative weights and cotangents of angles above half a
+/// degree; then a shift of the diagonal too, 100 × more each time.
+constexpr int kGentlest = 0;
+constexpr int kHarshest = 5;
+constexpr double kSafeCotangent = 115.0;
+constexpr double kFirstShift = 1e-14;
+
+struct EdgeLengths {
+  std::vector<double> shortest{};  ///< Of each point's ring; 0 where it has none.
+  double mean = 0.0;               ///< Over points of the mean over the ring.
+  double sum = 0.0;                ///< Of `shortest`.
+};
+
+EdgeLengths measure(const std::vector<Vec3>& points, const PointRings& rings) {
+  EdgeLengths lengths;
+  lengths.shortest.assign(points.size(), 0.0);
+  double counted = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto ring = rings.neighbours[i];
+    double shortest = std::numeric_limits<double>::infinity();
+    double total = 0.0;
+    for (const std::uint32_t j : ring) {
+      const double length = (points[j] - points[i]).norm();
+      shortest = std::min(shortest, length);
+      total += length;
+    }
+    if (!ring.empty()) {
+      lengths.shortest[i] = shortest;
+      lengths.sum += shortest;
+      lengths.mean += total / static_cast<double>(ring.size());
+      counted += 1.0;
+    }
+  }
+  lengths.mean = counted > 0.0 ? lengths.mean / counted : 0.0;
+  return lengths;
+}
+
+/// One step by its normal equations.
+class PointStep {
+ public:
+  std::optional<std::vector<Vec3>> solve(const std::vector<Vec3>& now, const PointRings& rings,
+                                         double W_L, const std::vector<double>& W_H,
+                                         double diagonal_limit, int harshness) {
+    LaplacianLimits limits{.diagonal = diagonal_limit};
+    if (harshness > kGentlest) {
+      limits.cotangent = kSafeCotangent;
+      limits.non_negative = true;
+    }
+    const Eigen::SparseMatrix<double> L = point_laplacian(now, rings, limits);
+    Eigen::SparseMatrix<double> A = Eigen::SparseMatrix<double>(L.transpose()) * L;
+    A *= W_L * W_L;
+    const auto n = static_cast<Eigen::Index>(now.size());
+    double largest = 0.0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double w = W_H[static_cast<std::size_t>(i)];
+      largest = std::max(largest, A.coeffRef(i, i) += w * w);
+    }
+    const double shift = harshness > kGentlest + 1
+                             ? largest * kFirstShift * std::pow(100.0, harshness - kGentlest - 2)
+                             : 0.0;
+    Eigen::MatrixX3d B(n, 3);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto v = static_cast<std::size_t>(i);
+      A.coeffRef(i, i) += shift;
+      B.row(i) = (W_H[v] * W_H[v] + shift) * now[v].transpose();
+    }
+    if (!analysed_) {
+      cholesky_.analyze(A);
+      analysed_ = true;
+    }
+    if (!cholesky_.factorize(A)) {
+      return std::nullopt;
+    }
+    const Eigen::MatrixX3d X = cholesky_.solve(B);
+    if (!X.allFinite()) {
+      return std::nullopt;
+    }
+    std::vector<Vec3> positions(now.size());
+    for (Eigen::Index i = 0; i < n; ++i) {
+      positions[static_cast<std::size_t>(i)] = X.row(i).transpose();
+    }
+    return positions;
+  }
+
+ private:
+  SparseCholesky cholesky_{};
+  bool analysed_ = false;
+};
+
+}  // namespace
+
+ComponentHistory contract_point_component(const std::vector<Vec3>& scaled, const PointRings& rings,
+                                          const ContractionOptions& options,
+                                          const RunContext& run) {
+  ComponentHistory history;
+  history.summary.vertices = scaled.size();
+  history.summary.strategy = "points";
+  history.levels.push_back(scaled);
+  history.shrinkage.push_back(1.0);
+  const EdgeLengths start = measure(scaled, rings);
+  if (!(start.mean > 0.0)) {
+    return history;
+  }
+  const Vec3 bound = kBoxGrowth * bounding_box(scaled).size() +
+                     Vec3::Constant(kBoxSlack * enclosing_sphere(scaled).diameter);
+  PointStep stepper;
+  std::vector<Vec3> now = scaled;
+  double W_L = 1.0 / (5.0 * start.mean);
+  std::vector<double> W_H(scaled.size(), 1.0);
+  int harshness = kGentlest;
+  history.summary.stop = ContractionStop::StepLimit;
+  for (int step = 0; step < options.max_steps; ++step) {
+    run.advance("contracting", static_cast<double>(step) / options.max_steps);
+    std::optional<std::vector<Vec3>> next;
+    for (; harshness <= kHarshest; ++harshness) {
+      run.check();
+      next = stepper.solve(now, rings, W_L, W_H, options.diagonal_limit, harshness);
+      history.summary.stop = next ? ContractionStop::Grew : ContractionStop::SolverFailed;
+      if (next && (bounding_box(*next).size().array() > bound.array()).any()) {
+        next.reset();
+      }
+      if (next) {
+        break;
+      }
+    }
+    if (!next) {
+      break;
+    }
+    history.summary.stop = ContractionStop::StepLimit;
+    const EdgeLengths lengths = measure(*next, rings);
+    const double shrinkage = lengths.sum / start.sum;
+    // As for meshes, the rule needs a cloud that has begun to shrink.
+    const bool begun = shrinkage <= 1.0 - options.shrinkage_tolerance;
+    if (step > 0 && begun && history.shrinkage.back() - shrinkage < options.shrinkage_tolerance) {
+      history.summary.stop = ContractionStop::Shrunk;
+      break;
+    }
+    now = std::move(*next);
+    history.levels.push_back(now);
+    history.shrinkage.push_back(shrinkage);
+    ++history.summary.steps;
+    history.summary.regularised_steps += harshness > kGentlest ? 1 : 0;
+    W_L = std::min(W_L * options.contraction_growth, std::max(W_L, options.contraction_limit));
+    for (std::size_t i = 0; i < W_H.size(); ++i) {
+      const double ratio = start.shortest[i] / lengths.shortest[i];
+      W_H[i] = ratio < options.attraction_limit ? ratio : options.attraction_limit;  // NaN too
+    }
+  }
+  return history;
+}
+
+}  // namespace vantage

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vantage/spatial/point_rings.h"
+
+#include "contraction/component_contraction.h"
+
+namespace vantage {
+
+/// Contracts one component of a cloud, scaled as options.scaling says, with the weights of the
+/// specification's point column. \throw Cancelled
+ComponentHistory contract_point_component(const std::vector<Vec3>& scaled, const PointRings& rings,
+                                          const ContractionOptions& options, const RunContext& run);
+
+}  // namespace vantage
