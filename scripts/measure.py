@@ -3,6 +3,7 @@
 
     measure.py view   PROGRAM MODEL...    one row a model: sizes, cycles against genus, seconds by stage
     measure.py rapid  PROGRAM MODEL...    the paper's rapid search against 10 242 directions
+    measure.py global PROGRAM MODEL...    the global search against the dense one
     measure.py broken PROGRAM FOLDER      how every file of a folder ends, under limits
 
 Only ratios of one run mean something on a shared machine.
@@ -72,6 +73,29 @@ def rapid_table(program, models):
                 row("rapid", epsilon, search("--epsilon", epsilon))
 
 
+def global_table(program, models):
+    # Seconds of 200 evaluations are a share of the dense search's, which is timed in the same run.
+    print("| model | vertices | best / dense | worst − dense, % of range | evaluations best + worst"
+          " | seconds / those of 200 evaluations |")
+    print("| --- " * 6 + "|")
+    with tempfile.TemporaryDirectory() as folder:
+        for model in models:
+            def search(strategy):
+                return run(program, "view", model, "-o", folder, "--no-images", "--json",
+                           "--contraction", "exact", "--search", strategy)
+            dense, found = search("dense"), search("global")
+            top, low = dense["best"]["score"], dense["worst"]["score"]
+            count = dense["search"]["evaluations"] + dense["search"]["worst_evaluations"]
+            time_of_200 = dense["seconds"]["search"] / count * 200
+            if not top > low:
+                sys.exit(f"{model}: every view has the same score")
+            print(f"| {found['model']['name']} | {found['model']['vertices']} "
+                  f"| {found['best']['score'] / top:.5f} "
+                  f"| {100 * (found['worst']['score'] - low) / (top - low):.3f} "
+                  f"| {found['search']['evaluations']} + {found['search']['worst_evaluations']} "
+                  f"| {found['seconds']['search'] / time_of_200:.2f} |", flush=True)
+
+
 def broken_table(program, folder):
     endings = {}
     slowest = (0.0, "")
@@ -105,7 +129,7 @@ def broken_table(program, folder):
 
 
 def main():
-    tables = {"view": view_table, "rapid": rapid_table}
+    tables = {"view": view_table, "rapid": rapid_table, "global": global_table}
     if len(sys.argv) >= 4 and sys.argv[1] in tables:
         tables[sys.argv[1]](sys.argv[2], sys.argv[3:])
     elif len(sys.argv) == 4 and sys.argv[1] == "broken":

@@ -221,8 +221,8 @@ void MethodFlags::add_search_flags(CLI::App& app) {
       ->group(group);
   app.add_option("--search", search_,
                  "rapid: the paper's; exhaustive: a whole direction set; global: a set, then "
-                 "refinement around its peaks")
-      ->check(CLI::IsMember({"rapid", "exhaustive", "global"}))
+                 "refinement around its peaks; dense: the same from 10242 directions, slow")
+      ->check(CLI::IsMember({"rapid", "exhaustive", "global", "dense"}))
       ->default_str("global")
       ->group(group);
   app.add_option_function<std::string>(
@@ -257,8 +257,9 @@ ViewOptions MethodFlags::resolve() const {
     options.search.base = ViewSphereBase::Cube;
     options.search.subdivisions = 0;
   } else if (!search_.empty()) {
-    options.search.strategy =
-        search_ == "global" ? SearchStrategy::Global : SearchStrategy::Exhaustive;
+    options.search.strategy = search_ == "global"  ? SearchStrategy::Global
+                              : search_ == "dense" ? SearchStrategy::Dense
+                                                   : SearchStrategy::Exhaustive;
     options.search.base = ViewSphereBase::Icosahedron;
     options.search.subdivisions = SearchOptions{}.subdivisions;
   }

@@ -62,7 +62,7 @@ UpAxis default_up(ModelFormat format) {
 }
 
 std::string_view strategy_name(SearchStrategy strategy) {
-  constexpr std::array<std::string_view, 3> kNames{"rapid", "exhaustive", "global"};
+  constexpr std::array<std::string_view, 4> kNames{"rapid", "exhaustive", "global", "dense"};
   return kNames[static_cast<std::size_t>(strategy)];
 }
 

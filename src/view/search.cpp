@@ -26,6 +26,8 @@ constexpr double kFinestRingRad = 0.001 * kDegree;
 // Global search. [ours]
 constexpr int kGlobalLevel = 3;
 constexpr std::size_t kGlobalSeeds = 5;
+constexpr int kDenseLevel = 5;
+constexpr std::size_t kDenseSeeds = 3;
 constexpr int kGlobalRing = 6;
 // Half the spacing of the 642 directions, so that the first ring reaches between neighbours.
 constexpr double kGlobalFirstStepRad = 4.0 * kDegree;
@@ -110,7 +112,7 @@ Candidate rapid(const Search& search) {
 }
 
 /// Directions of the start set that none of their neighbours beats, best first; of equal
-/// neighbours the lower index counts as better. At most kGlobalSeeds.
+/// neighbours the lower index counts as better. At most kGlobalSeeds, kDenseSeeds of a dense set.
 std::vector<Candidate> peaks(const Search& search) {
   const std::vector<double>& scores = search.start.scores;
   const auto ahead = [&](std::uint32_t a, std::uint32_t b) {
@@ -126,7 +128,8 @@ std::vector<Candidate> peaks(const Search& search) {
     }
   }
   std::sort(found.begin(), found.end(), ahead);
-  found.resize(std::min(found.size(), kGlobalSeeds));
+  const bool dense = search.options.strategy == SearchStrategy::Dense;
+  found.resize(std::min(found.size(), dense ? kDenseSeeds : kGlobalSeeds));
   std::vector<Candidate> result;
   result.reserve(found.size());
   for (const std::uint32_t i : found) {
@@ -199,6 +202,7 @@ Candidate refine(const Search& search) {
     case SearchStrategy::Rapid:
       return rapid(search);
     case SearchStrategy::Global:
+    case SearchStrategy::Dense:
       return global(search);
     case SearchStrategy::Exhaustive:
       break;
@@ -209,9 +213,18 @@ Candidate refine(const Search& search) {
 
 Start evaluate_start(Evaluator& evaluator, const SearchOptions& options, const RunContext& run) {
   Start start;
-  start.set = options.strategy == SearchStrategy::Global
-                  ? direction_set(ViewSphereBase::Icosahedron, kGlobalLevel)
-                  : direction_set(options.base, options.subdivisions);
+  switch (options.strategy) {
+    case SearchStrategy::Global:
+      start.set = direction_set(ViewSphereBase::Icosahedron, kGlobalLevel);
+      break;
+    case SearchStrategy::Dense:
+      start.set = direction_set(ViewSphereBase::Icosahedron, kDenseLevel);
+      break;
+    case SearchStrategy::Rapid:
+    case SearchStrategy::Exhaustive:
+      start.set = direction_set(options.base, options.subdivisions);
+      break;
+  }
   start.scores = evaluator.scores(start.set.directions, 0, run);
   return start;
 }

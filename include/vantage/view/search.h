@@ -23,6 +23,7 @@ enum class SearchStrategy {
   Rapid,       ///< The paper's: best corner of a base, then Loop refinement around it.
   Exhaustive,  ///< Every direction of a set.
   Global,      ///< Ours: exhaustive level 3, then refinement around the best few.
+  Dense,       ///< Ours: icosahedron level 5, then refinement around the best three. Slow.
 };
 
 /// Whether the largest or the smallest score is wanted.

@@ -202,6 +202,31 @@ TEST(GlobalSearch, OfABlankMapIsTheFirstDirection) {
   EXPECT_EQ(found.direction, direction_set(ViewSphereBase::Icosahedron, 3).directions[0]);
 }
 
+// A hill of 1.2° half width at half height, between the directions of level 3 (8° apart) but within
+// reach of a direction of level 5 (2° apart), on a gentle slope that leads elsewhere.
+double needle(const Vec3& d) {
+  const Vec3 top = Vec3(0.31, 0.52, 0.79).normalized();
+  return 0.1 * (1.0 - d.z()) + std::exp(3000.0 * (d.dot(top) - 1.0));
+}
+
+// The last ring has a radius of 4°/2^8 = 0.015625°. None of its six directions is better, so that the
+// summit is at most 0.015625° / (2 cos 30°) = 0.00902° away; the slope, at most 0.1 per radian on a
+// curvature of 3000, moves it by at most 0.1/3000 rad = 0.0019° from the needle's top.
+TEST(DenseSearch, FindsANarrowPeakBetweenTheDirectionsOfACoarseSet) {
+  const Vec3 top = Vec3(0.31, 0.52, 0.79).normalized();
+  const FoundView found =
+      search_view(scoring(needle), 1.0, Goal::Best, {.strategy = SearchStrategy::Dense});
+  EXPECT_LT(degrees_between(found.direction, top), 0.011);
+}
+
+TEST(DenseSearch, StartsFromTheDirectionsOfLevelFive) {
+  const FoundView found =
+      search_view(scoring(needle), 1.0, Goal::Best, {.strategy = SearchStrategy::Dense});
+  EXPECT_EQ(std::count_if(found.trace.begin(), found.trace.end(),
+                          [](const SearchStep& step) { return step.level == 0; }),
+            10242);
+}
+
 class SearchBy : public testing::TestWithParam<SearchStrategy> {};
 
 TEST_P(SearchBy, ScoresNoDirectionTwice) {
@@ -256,7 +281,7 @@ TEST_P(SearchBy, StopsOnRequest) {
 
 INSTANTIATE_TEST_SUITE_P(Strategies, SearchBy,
                          testing::Values(SearchStrategy::Rapid, SearchStrategy::Exhaustive,
-                                         SearchStrategy::Global));
+                                         SearchStrategy::Global, SearchStrategy::Dense));
 
 TEST(SearchView, RefusesOptionsOutsideTheirRange) {
   EXPECT_THROW(search_view(scoring(hills), 1.0, Goal::Best, {.subdivisions = 9}), InvalidInput);
