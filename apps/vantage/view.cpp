@@ -104,6 +104,11 @@ struct ViewCommand {
   }
 
  private:
+  static std::string estimated(const ViewReport& report) {
+    const std::size_t count = report.best_search.estimates + report.worst_search.estimates;
+    return count > 0 ? ", " + grouped(count) + " estimated" : "";
+  }
+
   static void summarise(Session& session, const Model& loaded, const ShapeAnalysis& shape,
                         const ViewReport& report, const OutputFolder& output,
                         const StageSeconds& seconds) {
@@ -125,7 +130,7 @@ struct ViewCommand {
     }
     session.tell("  search      " +
                  plural(report.best_search.evaluations + report.worst_search.evaluations, "view") +
-                 " evaluated");
+                 " evaluated" + estimated(report));
     session.tell("  time        " + timing_line(seconds));
     session.tell("  results in  " + printable(output.path()) + "/");
     if (session.flags.verbose) {

@@ -9,29 +9,45 @@ namespace vantage {
 
 FoundViews search_under_prior(const ScoreBatch& score, double total, const ViewPrior& prior,
                               const UprightFrame& frame, const SearchOptions& options,
-                              const RunContext& run) {
+                              const RunContext& run, const ScoreBatch& estimate) {
   if (prior.is_uniform) {
-    return search_best_and_worst(score, total, options, run);
+    return search_best_and_worst(score, total, options, run, estimate);
   }
   Evaluator pure(score);
+  Evaluator estimated(estimate);
   const ScoreBatch remembered = [&](const std::vector<Vec3>& directions) {
     return pure.scores(directions, 0);
   };
-  const ScoreBatch weighted = [&](const std::vector<Vec3>& directions) {
-    std::vector<double> values = pure.scores(directions, 0);
+  const auto weigh = [&](std::vector<double> values, const std::vector<Vec3>& directions) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       values[i] *= prior.factor(frame, directions[i]);
     }
     return values;
   };
+  const ScoreBatch weighted = [&](const std::vector<Vec3>& directions) {
+    return weigh(pure.scores(directions, 0), directions);
+  };
+  ScoreBatch remembered_estimate;
+  ScoreBatch weighted_estimate;
+  if (estimate) {
+    remembered_estimate = [&](const std::vector<Vec3>& directions) {
+      return estimated.scores(directions, 0);
+    };
+    weighted_estimate = [&](const std::vector<Vec3>& directions) {
+      return weigh(estimated.scores(directions, 0), directions);
+    };
+  }
   FoundViews views;
-  views.best = search_view(weighted, total, Goal::Best, options, run.part(0.0, 0.8));
+  views.best =
+      search_view(weighted, total, Goal::Best, options, run.part(0.0, 0.8), weighted_estimate);
   for (SearchStep& step : views.best.trace) {
     step.score = pure.scores({step.direction}, 0).front();
   }
   views.best.score = pure.scores({views.best.direction}, 0).front();
   const std::size_t scored = pure.trace().size();
-  views.worst = search_view(remembered, total, Goal::Worst, options, run.part(0.8, 1.0));
+  views.worst =
+      search_view(remembered, total, Goal::Worst, options, run.part(0.8, 1.0), remembered_estimate);
+  views.worst.estimates = estimated.trace().size() - views.best.estimates;
   // What the best view had scored before is not the worst view's cost.
   std::vector<SearchStep> fresh;
   std::size_t next = scored;

@@ -148,7 +148,8 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
       {"subdivisions", search.subdivisions},
       {"epsilon", search.epsilon_is_fraction ? search.epsilon * report.total : search.epsilon},
       {"evaluations", report.best_search.evaluations},
-      {"worst_evaluations", report.worst_search.evaluations}};
+      {"worst_evaluations", report.worst_search.evaluations},
+      {"estimates", report.best_search.estimates + report.worst_search.estimates}};
   json["skeleton"] = {{"nodes", shape.skeleton.graph.nodes.size()},
                       {"edges", shape.skeleton.graph.edges.size()},
                       {"components", component_count(shape.skeleton.graph)},

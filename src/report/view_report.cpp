@@ -7,6 +7,8 @@
 #include "vantage/render/framing.h"
 
 #include "report/prior_search.h"
+#include "report/vertex_share.h"
+#include "view/proxy_scorer.h"
 
 namespace vantage {
 namespace {
@@ -38,6 +40,18 @@ std::optional<FaceVisibility> faces_to_score(const ShapeAnalysis& shape,
     faces.emplace(shape.surface, shape.sides);
   }
   return faces;
+}
+
+std::vector<double> vertex_shares(const ShapeAnalysis& shape, Weight weight) {
+  std::vector<double> shares = shape.map.of_vertex;
+  if (weight == Weight::Area) {
+    const std::vector<double> areas = vertex_areas(shape.surface);
+    const double whole = surface_area(shape.surface);
+    for (std::size_t v = 0; v < shares.size(); ++v) {
+      shares[v] *= whole > 0.0 ? areas[v] / whole : 0.0;
+    }
+  }
+  return shares;
 }
 
 ScoringCamera scoring_camera(const ShapeAnalysis& shape, const ViewOptions& options) {
@@ -90,10 +104,21 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
   const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
     return scorer.score_all(directions, batch_run);
   };
+  std::optional<ProxyScorer> proxy;
+  ScoreBatch estimate;
+  if (options.search.strategy == SearchStrategy::Global) {
+    proxy = ProxyScorer::make(shape.surface, shape.sides, vertex_shares(shape, options.weight),
+                              report.camera, batch_run);
+  }
+  if (proxy) {
+    estimate = [&](const std::vector<Vec3>& directions) {
+      return proxy->score_all(directions, batch_run);
+    };
+  }
   const double search_share = options.view_set ? 0.25 : 1.0;  // of the progress bar
   const UprightFrame frame = upright_frame(up_vector(up));
   auto [best, worst] = search_under_prior(score, report.total, options.prior, frame, options.search,
-                                          run.part(0.0, search_share));
+                                          run.part(0.0, search_share), estimate);
   report.best = describe_view(shape, visibility, report.camera, best.direction, up, options);
   report.worst = describe_view(shape, visibility, report.camera, worst.direction, up, options);
   if (options.weight == Weight::Area) {

@@ -10,6 +10,8 @@
 #include "vantage/spatial/directions.h"
 #include "vantage/view/channel.h"
 
+#include "report/vertex_share.h"
+
 namespace vantage {
 namespace {
 
@@ -60,20 +62,6 @@ std::vector<Vec3> channel_views(const ShapeAnalysis& shape, const VertexVisibili
   return chosen;
 }
 
-/// What a vertex counts: its significance, or by area that of its third of the faces there, which
-/// is the integral of a map linear in each face wherever a face is seen whole.
-std::vector<double> significance_of(const ShapeAnalysis& shape, const ViewOptions& options) {
-  std::vector<double> significance = shape.map.of_vertex;
-  if (options.weight == Weight::Area) {
-    const std::vector<double> areas = vertex_areas(shape.surface);
-    const double whole = surface_area(shape.surface);
-    for (std::size_t v = 0; v < significance.size(); ++v) {
-      significance[v] *= areas[v] / whole;
-    }
-  }
-  return significance;
-}
-
 void warn_of(const ViewSet& set, const ViewSetRequest& request,
              std::vector<std::string>& warnings) {
   if (set.level < request.set.level) {
@@ -98,7 +86,7 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
                               const RunContext& run) {
   const ViewSetRequest& request = options.view_set.value();
   check_fields(request, kViewSetRequestFields);
-  const std::vector<double> significance = significance_of(shape, options);
+  const std::vector<double> significance = vertex_shares(shape, options.weight);
   ReportedViewSet result;
   if (request.selection == ViewSelection::Kssm) {
     result.choice = select_views(visibility, significance, camera, best, request.set, run);

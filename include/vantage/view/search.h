@@ -22,7 +22,7 @@ namespace vantage {
 enum class SearchStrategy {
   Rapid,       ///< The paper's: best corner of a base, then Loop refinement around it.
   Exhaustive,  ///< Every direction of a set.
-  Global,      ///< Ours: exhaustive level 3, then refinement around the best few.
+  Global,      ///< Ours: the 642 directions of level 3, then refinement around the best few.
   Dense,       ///< Ours: icosahedron level 5, then refinement around the best three. Slow.
 };
 
@@ -57,6 +57,7 @@ struct FoundView {
   Vec3 direction = Vec3::UnitZ();   ///< Unit vector from the centre to the eye.
   double score = 0.0;               ///< As the scorer gave it.
   std::size_t evaluations = 0;      ///< Directions scored for it; none is scored twice.
+  std::size_t estimates = 0;        ///< Directions that an estimate was asked for.
   std::vector<SearchStep> trace{};  ///< Each evaluated direction.
 };
 
@@ -72,13 +73,17 @@ using ScoreBatch = std::function<std::vector<double>(const std::vector<Vec3>&)>;
 /// Searches the sphere. Ties go to the lowest index of the set, then to what was found first.
 /// \param score scores directions. \param total the score if everything were visible, ≥ 0: what
 /// `epsilon` as a fraction refers to; at 0 all views are equal and the first direction is returned.
+/// \param estimate if given, scores that are nearly right and much cheaper: the global search looks
+/// the sphere over by them, and asks for exact scores only where they lead.
 /// \throw InvalidInput, Cancelled
 FoundView search_view(const ScoreBatch& score, double total, Goal goal,
-                      const SearchOptions& options = {}, const RunContext& run = {});
+                      const SearchOptions& options = {}, const RunContext& run = {},
+                      const ScoreBatch& estimate = {});
 
 /// Both searches, sharing what they evaluate: the views are those of search_view().
 /// \throw InvalidInput, Cancelled
 FoundViews search_best_and_worst(const ScoreBatch& score, double total,
-                                 const SearchOptions& options = {}, const RunContext& run = {});
+                                 const SearchOptions& options = {}, const RunContext& run = {},
+                                 const ScoreBatch& estimate = {});
 
 }  // namespace vantage

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "vantage/view/search.h"
+#include "vantage/visibility/vertex_visibility.h"
+
+#include "support/shapes.h"
+#include "view/proxy_scorer.h"
+#include "view/sphere_angles.h"
+
+namespace vantage {
+namespace {
+
+using Field = std::function<double(const Vec3&)>;
+
+ScoreBatch batch_of(Field field, std::size_t* asked = nullptr) {
+  return [field = std::move(field), asked](const std::vector<Vec3>& directions) {
+    std::vector<double> scores;
+    for (const Vec3& d : directions) {
+      scores.push_back(field(d));
+    }
+    if (asked != nullptr) {
+      *asked += directions.size();
+    }
+    return scores;
+  };
+}
+
+const Vec3 kHigh = Vec3(0.3, -0.5, 0.8).normalized();
+const Vec3 kLow = Vec3(-0.7, 0.2, 0.1).normalized();
+
+/// Some hills, the highest around kHigh, and a pit around kLow.
+double hills(const Vec3& d) {
+  const auto hill = [&](const Vec3& centre, double height, double width) {
+    const double angle = angle_between(d, centre) / width;
+    return height * std::exp(-angle * angle);
+  };
+  return 5.0 + hill(kHigh, 3.0, 0.4) + hill(Vec3::UnitX(), 2.7, 0.4) +
+         hill(-Vec3::UnitZ(), 2.5, 0.3) - hill(kLow, 3.0, 0.5);
+}
+
+/// An estimate that is wrong by up to `error`, differently in each direction.
+Field wrong_by(double error) {
+  return [error](const Vec3& d) {
+    return hills(d) + error * std::sin(91.0 * d.x() + 57.0 * d.y() + 71.0 * d.z());
+  };
+}
+
+// The last ring is 0.05° wide; from its centre the top is no further than about that.
+constexpr double kFoundRad = 0.2 * kRadPerDeg;
+
+TEST(EstimatedSearch, FindsBothEndsWhereTheEstimateIsNearlyRight) {
+  const FoundViews views =
+      search_best_and_worst(batch_of(hills), 10.0, {}, {}, batch_of(wrong_by(0.05)));
+  EXPECT_LT(angle_between(views.best.direction, kHigh), kFoundRad);
+  EXPECT_LT(angle_between(views.worst.direction, kLow), kFoundRad);
+}
+
+TEST(EstimatedSearch, ScoresExactlyOnlyWhereTheEstimateLeads) {
+  std::size_t exact = 0;
+  std::size_t estimated = 0;
+  const FoundViews views = search_best_and_worst(batch_of(hills, &exact), 10.0, {}, {},
+                                                 batch_of(wrong_by(0.05), &estimated));
+  EXPECT_EQ(views.best.evaluations + views.worst.evaluations, exact);
+  EXPECT_EQ(views.best.estimates + views.worst.estimates, estimated);
+  EXPECT_LT(exact, 200U);
+  EXPECT_GE(estimated, 642U);
+}
+
+TEST(EstimatedSearch, LooksAtEveryPeakThatTheSeenErrorOfTheEstimateCouldHide) {
+  // The estimate ranks the highest hill below seven others that are not there at all.
+  const auto misled = [](const Vec3& d) {
+    double value = hills(d) - 1.5 * std::exp(-std::pow(angle_between(d, kHigh) / 0.4, 2));
+    for (int k = 0; k < 7; ++k) {
+      const Vec3 ghost(std::cos(0.9 * k), std::sin(0.9 * k), 0.6 - 0.2 * k);
+      value += 3.0 * std::exp(-std::pow(angle_between(d, ghost.normalized()) / 0.15, 2));
+    }
+    return value;
+  };
+  const FoundView best = search_view(batch_of(hills), 10.0, Goal::Best, {}, {}, batch_of(misled));
+  EXPECT_LT(angle_between(best.direction, kHigh), kFoundRad);
+}
+
+TEST(EstimatedSearch, ReportsExactScoresAndNoDirectionTwice) {
+  const FoundView best =
+      search_view(batch_of(hills), 10.0, Goal::Best, {}, {}, batch_of(wrong_by(0.3)));
+  EXPECT_EQ(best.score, hills(best.direction));
+  std::set<std::tuple<double, double, double>> seen;
+  for (const SearchStep& step : best.trace) {
+    EXPECT_EQ(step.score, hills(step.direction));
+    EXPECT_TRUE(seen.insert({step.direction.x(), step.direction.y(), step.direction.z()}).second);
+  }
+}
+
+TEST(EstimatedSearch, IsNotUsedByTheOtherStrategies) {
+  std::size_t estimated = 0;
+  for (const SearchStrategy strategy : {SearchStrategy::Rapid, SearchStrategy::Exhaustive}) {
+    search_view(batch_of(hills), 10.0, Goal::Best, {.strategy = strategy, .subdivisions = 1}, {},
+                batch_of(hills, &estimated));
+  }
+  EXPECT_EQ(estimated, 0U);
+}
+
+class ProxyScores : public testing::Test {
+ protected:
+  TriMesh mesh = test::torus(1.0, 0.4, 200, 60);
+  std::vector<FaceSides> sides{FaceSides::Front};
+  VertexVisibility visibility{mesh, sides};
+  std::vector<double> significance = [this] {
+    std::vector<double> values;
+    for (const Vec3& p : mesh.positions) {
+      values.push_back(1.0 + p.x() * p.x() + 0.5 * p.z());
+    }
+    return values;
+  }();
+  ScoringCamera camera{.sphere = {Vec3::Zero(), 2.8}};
+};
+
+TEST_F(ProxyScores, FollowTheExactOnes) {
+  const auto proxy = ProxyScorer::make(mesh, sides, significance, camera, {});
+  ASSERT_TRUE(proxy.has_value());
+  const ViewScorer exact(visibility, significance, camera);
+  const std::vector<Vec3> directions = direction_set(ViewSphereBase::Icosahedron, 1).directions;
+  const std::vector<double> estimates = proxy->score_all(directions, {});
+  const std::vector<double> scores = exact.score_all(directions);
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    // A torus of 2 500 vertices has about 35 around its tube: a row of them is 3 %.
+    EXPECT_NEAR(estimates[i], scores[i], 0.03 * exact.total());
+  }
+}
+
+TEST_F(ProxyScores, AreTheSameForAnyNumberOfThreads) {
+  const std::vector<Vec3> directions = direction_set(ViewSphereBase::Icosahedron, 1).directions;
+  const auto once = ProxyScorer::make(mesh, sides, significance, camera, {.max_threads = 1});
+  const auto again = ProxyScorer::make(mesh, sides, significance, camera, {.max_threads = 3});
+  EXPECT_EQ(once->score_all(directions, {.max_threads = 1}),
+            again->score_all(directions, {.max_threads = 3}));
+}
+
+TEST_F(ProxyScores, LeaveOutIsolatedVerticesAndKeepTheSidesOfComponents) {
+  // An open sheet before the torus, and a vertex of no face before both.
+  TriMesh scene;
+  scene.positions.emplace_back(9.0, 9.0, 9.0);
+  const TriMesh both = test::together(test::sheet(0.5, 0.5, 20), mesh, Vec3(0.0, 0.0, 2.0));
+  scene.positions.insert(scene.positions.end(), both.positions.begin(), both.positions.end());
+  for (Triangle t : both.triangles) {
+    scene.triangles.push_back({t[0] + 1, t[1] + 1, t[2] + 1});
+  }
+  const std::vector<FaceSides> rules{FaceSides::Front, FaceSides::Both, FaceSides::Front};
+  const std::vector<double> ones(scene.positions.size(), 1.0);
+  const ScoringCamera far{.sphere = {Vec3(0, 0, 1), 6.0}};
+  const auto proxy = ProxyScorer::make(scene, rules, ones, far, {});
+  ASSERT_TRUE(proxy.has_value());
+  const VertexVisibility sight(scene, rules);
+  const ViewScorer exact(sight, ones, far);
+  // From below, the back of the sheet counts as it does for exact scores.
+  const std::vector<Vec3> below{-Vec3::UnitZ()};
+  EXPECT_NEAR(proxy->score_all(below, {}).front(), exact.score(below.front()),
+              0.03 * exact.total());
+}
+
+TEST(ProxyScorer, IsNotMadeForSmallSurfaces) {
+  const TriMesh mesh = test::sphere(3);
+  const std::vector<double> ones(mesh.positions.size(), 1.0);
+  EXPECT_FALSE(
+      ProxyScorer::make(mesh, {FaceSides::Front}, ones, {.sphere = {Vec3::Zero(), 2.0}}, {})
+          .has_value());
+}
+
+}  // namespace
+}  // namespace vantage
