@@ -118,6 +118,16 @@ class Score(ProgramTest):
         self.assertEqual(out[0], "method,dx,dy,dz,score")
         self.assertEqual(len(out), 1 + 42)
 
+    def test_weight_area_scores_less_than_the_largest_significance(self):
+        # A mean over the surface, of which a part is seen, cannot exceed the map's largest value.
+        self.vantage("map", MODELS / "fan.ply", "--weight", "area", "-o", "map.ply")
+        _, vertices, _ = read_ply(self.dir / "map.ply")
+        values = [v["quality"] for v in vertices]
+        out = self.vantage("score", MODELS / "fan.ply", "--weight", "area", "--sphere", 0).out
+        for row in out.splitlines()[1:]:
+            self.assertGreater(float(row.split(",")[-1]), 0.0)
+            self.assertLess(float(row.split(",")[-1]), max(values))
+
     def test_an_eye_at_the_scoring_distance_scores_as_its_direction(self):
         self.vantage("view", MODELS / "fan.ply", "-o", "out", "--no-images", "--search", "rapid")
         best = json.loads((self.dir / "out" / "view.json").read_text())["best"]
