@@ -34,5 +34,33 @@ TEST(TotalLength, AddsUpTheEdges) {
   EXPECT_DOUBLE_EQ(total_length(square_with_tail_and_loner()), 4.0 * 1.0 + 2.0);
 }
 
+using Runs = std::vector<std::vector<std::uint32_t>>;
+
+TEST(GraphBranches, RunBetweenEndsAndJunctions) {
+  // A path 0-1-2 into a junction with two ends, one of them two edges away.
+  const CurveGraph graph{std::vector<Vec3>(6, Vec3::Zero()),
+                         {{0, 1}, {1, 2}, {2, 3}, {2, 4}, {4, 5}}};
+  EXPECT_EQ(graph_branches(graph), (Runs{{0, 1, 2}, {2, 3}, {2, 4, 5}}));
+}
+
+TEST(GraphBranches, GoOnceAroundAPlainLoop) {
+  const CurveGraph graph{std::vector<Vec3>(3, Vec3::Zero()), {{0, 1}, {0, 2}, {1, 2}}};
+  EXPECT_EQ(graph_branches(graph), (Runs{{0, 1, 2, 0}}));
+}
+
+TEST(GraphBranches, ComeBackToAJunctionWithALoop) {
+  const CurveGraph graph{std::vector<Vec3>(4, Vec3::Zero()), {{0, 1}, {1, 2}, {1, 3}, {2, 3}}};
+  EXPECT_EQ(graph_branches(graph), (Runs{{0, 1}, {1, 2, 3, 1}}));
+}
+
+TEST(GraphBranches, LeaveOutLonelyNodes) {
+  EXPECT_TRUE(graph_branches({{Vec3::Zero()}, {}}).empty());
+}
+
+TEST(NodeDegrees, CountEdges) {
+  const CurveGraph graph{std::vector<Vec3>(4, Vec3::Zero()), {{0, 1}, {1, 2}}};
+  EXPECT_EQ(node_degrees(graph), (std::vector<std::uint32_t>{1, 2, 1, 0}));
+}
+
 }  // namespace
 }  // namespace vantage
