@@ -54,7 +54,11 @@ class HeaderReader {
     } else if ((word == "POINTS" || word == "WIDTH" || word == "HEIGHT") && values == 1) {
       constexpr std::int64_t kMost = std::int64_t{1} << 31;
       const std::uint64_t value = whole(words[1], kMost, place, builder_);
-      (word == "POINTS" ? points : word == "WIDTH" ? width : height) = value;
+      if (word == "POINTS") {
+        points = value;
+      } else {
+        (word == "WIDTH" ? width : height) = value;
+      }
     } else if (word == "DATA" && values == 1) {
       set_data(words[1], place);
       return true;

@@ -8,6 +8,7 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 #include "vantage/mesh/weld.h"
+#include "vantage/skeleton/point_skeleton.h"
 #include "vantage/spatial/point_rings.h"
 
 namespace vantage {
@@ -80,7 +81,7 @@ void add_point_history(ShapeAnalysis& shape, const ViewOptions& options, const R
 void add_point_skeleton(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
   const PointContraction& cloud = shape.cloud->contraction;
   Skeleton& skeleton = shape.skeleton;
-  skeleton = extract_skeleton(cloud.samples, cloud.sample_history, options.skeleton, run);
+  skeleton = extract_point_skeleton(cloud.samples, cloud.sample_history, options.skeleton, run);
   for (auto* nodes : {&skeleton.node_of_vertex, &skeleton.raw_node_of_vertex}) {
     std::vector<std::uint32_t> of_point;
     of_point.reserve(cloud.sample_of_point.size());

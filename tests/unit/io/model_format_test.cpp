@@ -56,7 +56,7 @@ TEST(ModelFormat, RefusesForeignFormatsByTheirBytes) {
 
 TEST(ModelFormat, RefusesForeignFormatsByTheirExtension) {
   EXPECT_THAT(error_text("MM....", "a.3ds"), HasSubstr("3DS files are not read; convert it to"));
-  EXPECT_THAT(error_text("0 0 0\n", "a.xyz"), HasSubstr("point list files are not read"));
+  EXPECT_THAT(error_text("LASF", "a.las"), HasSubstr("LAS files are not read"));
 }
 
 TEST(ModelFormat, RefusesWhatItDoesNotKnow) {

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/contraction/point_contraction.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "vantage/mesh/measures.h"
+#include "vantage/skeleton/point_skeleton.h"
+
+#include "support/shapes.h"
+
+namespace vantage::test {
+namespace {
+
+PointContraction contracted(const std::vector<Vec3>& points, int threads = 0) {
+  return contract_points(points, find_outliers(points), {}, {.max_threads = threads});
+}
+
+TEST(PointContraction, BringsACylinderToItsAxis) {
+  const std::vector<Vec3> points = open_cylinder(0.2, 2.0, 24, 60).positions;
+  const PointContraction cloud = contracted(points);
+  double farthest = 0.0;
+  for (const Vec3& p : cloud.history.levels.back()) {
+    farthest = std::max(farthest, std::hypot(p.x(), p.y()));
+  }
+  EXPECT_LT(farthest, 0.1 * 0.2);
+}
+
+TEST(PointContraction, KeepsTheOneLoopOfATorus) {
+  const PointContraction cloud = contracted(torus(1.0, 0.3, 60, 20).positions);
+  const Skeleton skeleton = extract_point_skeleton(cloud.samples, cloud.sample_history);
+  EXPECT_EQ(component_count(skeleton.graph), 1U);
+  EXPECT_EQ(cycle_count(skeleton.graph), 1U);
+}
+
+TEST(PointContraction, KeepsTwoSpheresApart) {
+  const TriMesh one = sphere(3);
+  const PointContraction cloud = contracted(together(one, one, Vec3(3.0, 0.0, 0.0)).positions);
+  const Skeleton skeleton = extract_point_skeleton(cloud.samples, cloud.sample_history);
+  EXPECT_EQ(cloud.history.components.size(), 2U);
+  EXPECT_EQ(component_count(skeleton.graph), 2U);
+  EXPECT_EQ(cycle_count(skeleton.graph), 0U);
+}
+
+TEST(PointContraction, GivesTheSameBytesForAnyThreadCount) {
+  const std::vector<Vec3> points = y_of_tubes(0.2, 40).positions;
+  EXPECT_EQ(contracted(points, 1).history.levels, contracted(points, 3).history.levels);
+}
+
+TEST(PointContraction, CommutesWithScaling) {
+  const TriMesh shape = y_of_tubes(0.2, 30);
+  const auto small = contracted(shape.positions).history;
+  constexpr double kScale = 0x1p20;  // exact, so that only D's rounding differs
+  const TriMesh big = moved(shape, kScale, 0.0, Vec3::UnitZ(), Vec3::Zero());
+  const auto large = contracted(big.positions).history;
+  ASSERT_EQ(small.levels.size(), large.levels.size());
+  double worst = 0.0;
+  for (std::size_t i = 0; i < shape.positions.size(); ++i) {
+    worst = std::max(worst, (large.levels.back()[i] / kScale - small.levels.back()[i]).norm());
+  }
+  EXPECT_LT(worst, 1e-6);
+}
+
+TEST(PointContraction, LeavesAFarPointOutAndInItsPlace) {
+  std::vector<Vec3> points = sphere(3).positions;
+  points.emplace_back(3.0, 0.0, 0.0);
+  const PointContraction cloud = contracted(points);
+  EXPECT_EQ(cloud.history.component_of_vertex.back(), ContractionHistory::kIsolated);
+  EXPECT_EQ(cloud.history.levels.back().back(), points.back());
+}
+
+TEST(PointContraction, CarriesManyPointsToTheAxisOverSamples) {
+  const std::vector<Vec3> points = open_cylinder(0.2, 2.0, 100, 250).positions;
+  const PointContraction cloud = contracted(points);
+  EXPECT_LT(cloud.samples.positions.size(), points.size());
+  double farthest = 0.0;
+  for (const Vec3& p : cloud.history.levels.back()) {
+    farthest = std::max(farthest, std::hypot(p.x(), p.y()));
+  }
+  EXPECT_LT(farthest, 0.1 * 0.2);
+}
+
+}  // namespace
+}  // namespace vantage::test

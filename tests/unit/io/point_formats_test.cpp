@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "vantage/io/model.h"
+
+#include "io/byte_cursor.h"
+#include "io/pcd_header.h"
+#include "unit/io/error_text.h"
+
+namespace vantage::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string pcd(const std::string& points, const std::string& data) {
+  return "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z tag\nSIZE 4 4 4 1\nTYPE F F F U\nCOUNT 1 1 1 1\n"
+         "WIDTH " +
+         points + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + points + "\nDATA " + data + "\n";
+}
+
+TEST(Pcd, ReadsText) {
+  const Model model = parse_model(pcd("2", "ascii") + "1 2 3 9\n4 5 6 9\n", "a.pcd");
+  EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(1, 2, 3), Vec3(4, 5, 6)));
+}
+
+TEST(Pcd, LeavesOutPointsWithoutAPosition) {
+  const Model model = parse_model(pcd("2", "ascii") + "nan nan nan 9\n4 5 6 9\n", "a.pcd");
+  EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(4, 5, 6)));
+}
+
+TEST(Pcd, ReadsBinary) {
+  std::string bytes = pcd("2", "binary");
+  for (const float value : {1.0F, 4.0F}) {
+    for (int c = 0; c < 3; ++c) {
+      append_little_endian(bytes, value + static_cast<float>(c));
+    }
+    bytes += '\x09';
+  }
+  EXPECT_THAT(parse_model(bytes, "a.pcd").mesh.positions,
+              ElementsAre(Vec3(1, 2, 3), Vec3(4, 5, 6)));
+}
+
+TEST(Pcd, ReadsCompressedColumnsOfLiterals) {
+  std::string columns;
+  for (const float value : {1.0F, 4.0F, 2.0F, 5.0F, 3.0F, 6.0F}) {
+    append_little_endian(columns, value);
+  }
+  columns += "\x09\x09";
+  const std::string packed = '\x19' + columns;  // 26 literal bytes: control 25
+  std::string bytes = pcd("2", "binary_compressed");
+  append_little_endian(bytes, static_cast<std::uint32_t>(packed.size()));
+  append_little_endian(bytes, static_cast<std::uint32_t>(columns.size()));
+  EXPECT_THAT(parse_model(bytes + packed, "a.pcd").mesh.positions,
+              ElementsAre(Vec3(1, 2, 3), Vec3(4, 5, 6)));
+}
+
+TEST(Pcd, RefusesMorePointsThanTheFileHolds) {
+  EXPECT_THAT(error_text(pcd("2000000000", "binary") + "abc", "a.pcd"),
+              HasSubstr("more than the file holds"));
+}
+
+TEST(Lzf, UnpacksAReferenceThatOverlapsItself) {
+  std::string out;
+  // One literal, then 5 bytes from 1 back: length 3 + 2, distance 0 + 1.
+  EXPECT_TRUE(unpack_lzf(std::string("\x00"
+                                     "a\x60\x00",
+                                     4),
+                         6, out));
+  EXPECT_EQ(out, "aaaaaa");
+}
+
+TEST(Lzf, RefusesAReferenceBeforeTheBeginning) {
+  std::string out;
+  EXPECT_FALSE(unpack_lzf(std::string("\x00"
+                                      "a\x60\x01",
+                                      4),
+                          6, out));
+}
+
+TEST(PointList, PassesOverHeadingAndFurtherColumns) {
+  const Model model = parse_model("2\n1 2 3 0 0 1\n4,5,6\n", "a.pwn");
+  EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(1, 2, 3), Vec3(4, 5, 6)));
+}
+
+TEST(PointList, NamesTheLineOfAWordThatIsNoNumber) {
+  EXPECT_THAT(error_text("1 2 3\n1 x 3\n", "a.xyz"), HasSubstr("line 2"));
+}
+
+}  // namespace
+}  // namespace vantage::test
