@@ -52,9 +52,9 @@ std::vector<Place> climbed_peaks(Evaluator& estimates, Goal goal, const RunConte
 }
 
 /// Exact scores of the first places, and of all further ones that could still be better, given how
-/// wrong the estimates were where both are known.
-std::vector<Candidate> scored_places(const std::vector<Place>& places, Evaluator& exact,
-                                     Goal goal) {
+/// wrong the estimates were where both are known. Best first; those are left out that are worse than
+/// the best by more than that error, which is also what their climb by estimates can have missed.
+std::vector<Candidate> finalists(const std::vector<Place>& places, Evaluator& exact, Goal goal) {
   std::vector<Candidate> scored;
   double error = 0.0;
   const auto score_up_to = [&](std::size_t end) {
@@ -76,6 +76,15 @@ std::vector<Candidate> scored_places(const std::vector<Place>& places, Evaluator
     ++end;
   }
   score_up_to(end);
+  std::stable_sort(scored.begin(), scored.end(), [&](const Candidate& a, const Candidate& b) {
+    return is_better(goal, a.score, b.score);
+  });
+  const double bound = scored.front().score + (goal == Goal::Best ? -error : error);
+  const auto hopeless = std::find_if(scored.begin() + 1, scored.end(), [&](const Candidate& c) {
+    return is_better(goal, bound, c.score);
+  });
+  scored.erase(hopeless, scored.end());
+  scored.resize(std::min(scored.size(), kFinalists));
   return scored;
 }
 
@@ -84,14 +93,10 @@ std::vector<Candidate> scored_places(const std::vector<Place>& places, Evaluator
 Candidate search_by_estimates(Evaluator& exact, Evaluator& estimates, Goal goal,
                               const RunContext& run) {
   const std::vector<Place> places = climbed_peaks(estimates, goal, run.part(0.0, 0.4));
-  std::vector<Candidate> finalists = scored_places(places, exact, goal);
+  std::vector<Candidate> best = finalists(places, exact, goal);
   run.advance("search", 0.5);
-  std::stable_sort(finalists.begin(), finalists.end(), [&](const Candidate& a, const Candidate& b) {
-    return is_better(goal, a.score, b.score);
-  });
-  finalists.resize(std::min(finalists.size(), kFinalists));
-  climb(finalists, goal, kFinal, exact, 1, run.part(0.5, 0.8));
-  std::vector<Candidate> winner{winner_of(goal, finalists)};
+  climb(best, goal, kFinal, exact, 1, run.part(0.5, 0.8));
+  std::vector<Candidate> winner{winner_of(goal, best)};
   climb(winner, goal, kWinner, exact, 1, run.part(0.8, 1.0));
   return winner.front();
 }
