@@ -5,6 +5,7 @@ find_package(embree 3 REQUIRED)               # bounding volume hierarchy (Apach
 find_package(PNG REQUIRED)                    # pictures (libpng)
 find_package(nlohmann_json 3.11 REQUIRED)     # JSON (MIT)
 find_package(TinyGLTF REQUIRED)               # glTF and GLB (MIT)
+find_package(nanoflann 1.4 REQUIRED)          # kd-trees (BSD-2)
 find_path(METIS_INCLUDE_DIR metis.h REQUIRED) # fill-reducing ordering of large systems (Apache-2.0)
 find_library(METIS_LIBRARY metis REQUIRED)
 

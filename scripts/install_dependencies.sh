@@ -5,7 +5,7 @@
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libembree-dev libpng-dev nlohmann-json3-dev
-       libcli11-dev libtinygltf-dev libmetis-dev)
+       libcli11-dev libtinygltf-dev libmetis-dev libnanoflann-dev)
 test=(libgtest-dev libgmock-dev python3)
 check=(python3-numpy clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev libbenchmark-dev doxygen)
 
