@@ -204,11 +204,15 @@ void MethodFlags::add_camera_flags(CLI::App& app) {
   app.add_option_function<std::string>(
          "--up",
          [this](const std::string& name) {
-           const UpAxis axis = up_axes().at(name);
-           overrides_.emplace_back([axis](ViewOptions& o) { o.up = axis; });
+           const auto axis = up_axes().find(name);
+           overrides_.emplace_back([=](ViewOptions& o) {
+             o.up = axis == up_axes().end() ? std::nullopt : std::optional(axis->second);
+           });
          },
-         "up axis of the model: x y z -x -y -z; default: z for STL, y otherwise")
-      ->check(CLI::IsMember(up_axes()))
+         "up axis of the model: x y z -x -y -z, or auto: z for STL, y otherwise, unless the "
+         "model clearly stands on the other")
+      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z", "auto"}))
+      ->default_str("auto")
       ->group(group);
 }
 

@@ -116,15 +116,13 @@ struct RenderCommand {
                        const ViewOptions& options) {
     const ScoringCamera scoring = scoring_camera(shape, options);
     return frame_points(referenced_points(shape.surface), scoring.viewpoint(direction),
-                        shape.sphere.centre,
-                        up_vector(options.up.value_or(default_up(loaded.format))),
+                        shape.sphere.centre, up_vector(choose_up(loaded, shape, options).axis),
                         static_cast<double>(options.width) / options.height);
   }
 
   [[nodiscard]] Camera found(const ShapeAnalysis& shape, const Model& loaded,
                              const ViewOptions& options, const RunContext& run) const {
-    const ViewReport report =
-        find_views(shape, options.up.value_or(default_up(loaded.format)), options, run);
+    const ViewReport report = find_views(shape, choose_up(loaded, shape, options), options, run);
     return view == "best" ? report.best.picture : report.worst.picture;
   }
 

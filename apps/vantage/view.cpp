@@ -71,7 +71,7 @@ struct ViewCommand {
     OutputFolder output(folder.empty() ? loaded.name + ".vantage" : folder);
     output.check();
     const ShapeAnalysis shape = analyse_shape(loaded, options, run.part(0.02, 0.5), &seconds);
-    const UpAxis up = options.up.value_or(default_up(loaded.format));
+    const UpChoice up = choose_up(loaded, shape, options);
     const auto search_start = Clock::now();
     const ViewReport report = find_views(shape, up, options, run.part(0.5, 0.9));
     seconds.search = seconds_since(search_start);

@@ -133,12 +133,21 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
   json["weight"] = weight_name(options.weight);
   json["prior"] = options.prior.name;
   json["up"] = up_name(report.up);
+  json["up_source"] = report.up_source;
   json["camera"] = camera_of(report.camera);
   json["best"] = view_of(report.best, options.pictures ? Json("best.png") : Json(nullptr));
   json["worst"] = view_of(report.worst, options.pictures ? Json("worst.png") : Json(nullptr));
   if (report.set && options.view_set) {
     json["views"] = views_of(*report.set, options.pictures);
     json["view_set"] = set_of(*report.set, options.view_set->selection);
+  }
+  json["twins"] = Json::array();
+  for (const TwinView& twin : report.twins) {
+    json["twins"].push_back(
+        {{"direction", point(twin.direction)},
+         {"score", twin.score},
+         {"score_fraction", report.total > 0.0 ? twin.score / report.total : 0.0},
+         {"objective", twin.objective}});
   }
   json["total"] = report.total;
   const SearchOptions& search = options.search;

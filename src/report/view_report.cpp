@@ -7,6 +7,7 @@
 #include "vantage/render/framing.h"
 
 #include "report/prior_search.h"
+#include "report/twins.h"
 #include "report/vertex_share.h"
 #include "view/proxy_scorer.h"
 
@@ -119,6 +120,14 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
   const UprightFrame frame = upright_frame(up_vector(up));
   auto [best, worst] = search_under_prior(score, report.total, options.prior, frame, options.search,
                                           run.part(0.0, search_share), estimate);
+  report.twins = twins_of(best.direction, shape, scorer, options.prior, frame);
+  if (!options.prior.is_uniform) {
+    TwinView first{best.direction, best.score,
+                   best.score * options.prior.factor(frame, best.direction)};
+    settle_near_ties(first, report.twins, frame);
+    best.direction = first.direction;
+    best.score = first.score;
+  }
   report.best = describe_view(shape, visibility, report.camera, best.direction, up, options);
   report.worst = describe_view(shape, visibility, report.camera, worst.direction, up, options);
   if (options.weight == Weight::Area) {
@@ -132,6 +141,16 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
   }
   report.best_search = std::move(best);
   report.worst_search = std::move(worst);
+  return report;
+}
+
+ViewReport find_views(const ShapeAnalysis& shape, const UpChoice& up, const ViewOptions& options,
+                      const RunContext& run) {
+  ViewReport report = find_views(shape, up.axis, options, run);
+  report.up_source = up.source;
+  if (!up.note.empty()) {
+    report.warnings.push_back(up.note);
+  }
   return report;
 }
 

@@ -88,11 +88,11 @@ class Input(ProgramTest):
         self.write("part.step", "ISO-10303-21;\n")
         self.check_unreadable("part.step", "convert")
 
-    def test_points_alone_are_refused_with_a_remedy(self):
-        self.write("p.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n")
+    def test_points_on_a_line_have_no_shape(self):
+        self.write("p.off", "OFF\n4 0 0\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n")
         done = self.vantage("view", "p.off", exit_code=1)
-        self.assertIn("surface", done.err)
-        self.assertIn("3", self.vantage("info", "p.off").out)
+        self.assertIn("line", done.err)
+        self.assertIn("4", self.vantage("info", "p.off").out)
 
     def test_no_extent(self):
         self.write("dot.off", "OFF\n3 1 0\n1 1 1\n1 1 1\n1 1 1\n3 0 1 2\n")

@@ -19,7 +19,7 @@ class View(ProgramTest):
         folder = self.dir / "cat_lowpoly.vantage"
         self.assertEqual(sorted(p.name for p in folder.iterdir()), sorted([
             "best.png", "worst.png", "best-kssm.png", "worst-kssm.png", "best-skeleton.png",
-            "worst-skeleton.png", "map.ply", "skeleton.json", "view.json", "timings.json",
+            "worst-skeleton.png", "map.ply", "skeleton.json", "report.html", "view.json", "timings.json",
             "camera-best.gltf", "camera-best.transforms.json", "camera-best.f3d.txt",
             "camera-worst.gltf", "camera-worst.transforms.json", "camera-worst.f3d.txt"]))
         self.assertTrue((folder / "best.png").read_bytes().startswith(PNG))

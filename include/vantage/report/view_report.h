@@ -59,7 +59,7 @@ struct ViewOptions {
   Projection projection = Projection::Perspective;  ///< Of the scoring camera.
   double fov_y_deg = 30.0;                          ///< Of the scoring camera, in (0, 180).
   std::optional<double> distance_factor{};          ///< Eye distance over D/2, > 1.
-  std::optional<UpAxis> up{};                       ///< Unset: default_up().
+  std::optional<UpAxis> up{};                       ///< Unset: choose_up().
   int width = 800;                                  ///< Of pictures, px.
   int height = 600;                                 ///< Of pictures, px.
   bool pictures = true;                             ///< Whether view.json names pictures.
@@ -151,10 +151,30 @@ struct ReportedViewSet {
   Tour tour{};                        ///< The shortest round over the views.
 };
 
+/// The up axis that a run uses, and why.
+struct UpChoice {
+  UpAxis axis = UpAxis::Y;        ///< As used.
+  std::string source = "format";  ///< "given", "format", or "stance": how the model stands.
+  std::string note{};             ///< One sentence if it is a guess, else empty.
+};
+
+/// options.up if set; else default_up(), unless the model clearly stands with the other of y and z
+/// up and not with that one (never for glTF, whose up axis is a part of the format).
+UpChoice choose_up(const Model& model, const ShapeAnalysis& shape, const ViewOptions& options);
+
+/// A view that a mirror plane of the model makes as good as the best.
+struct TwinView {
+  Vec3 direction = Vec3::UnitZ();  ///< From the centre to the eye.
+  double score = 0.0;              ///< Pure sum of the visible significance.
+  double objective = 0.0;          ///< Times the prior.
+};
+
 /// The result of the search.
 struct ViewReport {
   ScoringCamera camera{};               ///< What scored.
   UpAxis up = UpAxis::Y;                ///< As used.
+  std::string up_source = "given";      ///< As in UpChoice.
+  std::vector<TwinView> twins{};        ///< Of the best view.
   ReportedView best{};                  ///< Of the largest score.
   ReportedView worst{};                 ///< Of the least score.
   double total = 0.0;                   ///< The score if everything were visible.
@@ -175,6 +195,10 @@ std::optional<FaceVisibility> faces_to_score(const ShapeAnalysis& shape,
 /// Finds the best and the worst view, and a set of views if options.view_set asks for one.
 /// \pre the map is there. \throw Cancelled
 ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& options,
+                      const RunContext& run = {});
+
+/// The same with an up axis that was chosen; its note joins the warnings.
+ViewReport find_views(const ShapeAnalysis& shape, const UpChoice& up, const ViewOptions& options,
                       const RunContext& run = {});
 
 /// Describes the view from a given direction. \pre the map is there.

@@ -37,8 +37,19 @@ TEST(PrepareSurface, LeavesIsolatedVerticesOutOfTheSphere) {
   EXPECT_NEAR(prepare_surface(model_of(mesh)).sphere.diameter, 2.0, 1e-9);
 }
 
-TEST(PrepareSurface, RefusesPointsWithoutFaces) {
-  TriMesh points{.positions = sphere(1).positions, .triangles = {}};
+TEST(PrepareSurface, JoinsPointsWithoutFacesByTheirNeighbourhoods) {
+  const TriMesh points{.positions = sphere(3).positions, .triangles = {}};
+  const ShapeAnalysis shape = prepare_surface(model_of(points));
+  ASSERT_TRUE(shape.cloud.has_value());
+  EXPECT_EQ(shape.surface.positions.size(), points.positions.size());
+  EXPECT_FALSE(shape.surface.triangles.empty());
+}
+
+TEST(PrepareSurface, RefusesPointsOnALine) {
+  TriMesh points;
+  for (int i = 0; i < 20; ++i) {
+    points.positions.emplace_back(i, 0.0, 0.0);
+  }
   EXPECT_THROW(prepare_surface(model_of(points)), InvalidInput);
 }
 

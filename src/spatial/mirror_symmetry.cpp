@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/spatial/mirror_symmetry.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <nanoflann.hpp>
+
+#include "vantage/mesh/measures.h"
+
+namespace vantage {
+namespace {
+
+constexpr double kSamePlaneRad = 5.0 * std::numbers::pi / 180.0;
+// As many as four reflections can make; the products of planes that are not exactly symmetric
+// directions could otherwise grow without end.
+constexpr std::size_t kMostImages = 16;
+// Side of the samples over the surface's reach, finer than the tolerance; coarser where many
+// layers would need more than about kSamples of them.
+constexpr double kSpacing = 0.03;
+constexpr double kSamples = 20000.0;
+// Of larger meshes every n-th face is sampled: their faces are smaller than the spacing by far.
+constexpr std::size_t kMostFaces = 50000;
+// Samples whose mirror image is looked up: 2 % of the area are 80 of them.
+constexpr std::size_t kQueries = 4000;
+
+/// Points that stand for the surface, each with its share of the area.
+struct SurfacePoints {
+  std::vector<Vec3> points{};
+  std::vector<double> shares{};
+
+  // What nanoflann asks of a point set.
+  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
+
+  [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
+    return points[i][static_cast<Eigen::Index>(axis)];
+  }
+
+  template <class Box>
+  bool kdtree_get_bbox(Box& /*box*/) const {
+    return false;
+  }
+};
+
+using Tree =
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, SurfacePoints, double>,
+                                        SurfacePoints, 3, std::size_t>;
+
+/// Bisects a triangle at its longest side until that is at most `spacing`; adds the centres.
+void add_samples(const std::array<Vec3, 3>& corners, double spacing, SurfacePoints& set) {
+  std::vector<std::array<Vec3, 3>> pending{corners};
+  while (!pending.empty()) {
+    const std::array<Vec3, 3> t = pending.back();
+    pending.pop_back();
+    std::size_t longest = 0;
+    for (std::size_t i = 1; i < 3; ++i) {
+      if ((t[(i + 1) % 3] - t[i]).norm() > (t[(longest + 1) % 3] - t[longest]).norm()) {
+        longest = i;
+      }
+    }
+    const Vec3& a = t[longest];
+    const Vec3& b = t[(longest + 1) % 3];
+    const Vec3& c = t[(longest + 2) % 3];
+    if ((b - a).norm() > spacing) {
+      const Vec3 middle = 0.5 * (a + b);
+      pending.push_back({a, middle, c});
+      pending.push_back({middle, b, c});
+    } else {
+      set.points.emplace_back((a + b + c) / 3.0);
+      set.shares.push_back(0.5 * (b - a).cross(c - a).norm());
+    }
+  }
+}
+
+/// Area-weighted centroid of the faces, and the longest distance of a corner from it.
+Sphere centroid_sphere(const TriMesh& surface, const std::vector<double>& areas, double total) {
+  Sphere sphere;
+  for (std::size_t f = 0; f < areas.size(); ++f) {
+    const auto& [a, b, c] = surface.triangles[f];
+    sphere.centre += areas[f] / total / 3.0 *
+                     (surface.positions[a] + surface.positions[b] + surface.positions[c]);
+  }
+  for (const Triangle& t : surface.triangles) {
+    for (const std::uint32_t v : t) {
+      sphere.diameter =
+          std::max(sphere.diameter, 2.0 * (surface.positions[v] - sphere.centre).norm());
+    }
+  }
+  return sphere;
+}
+
+/// Samples of the surface relative to the centroid, over the longest distance from it (`reach`).
+/// \param spacing receives the largest side of what a sample stands for, over reach.
+SurfacePoints normalised_points(const TriMesh& surface, Vec3& centroid, double& spacing) {
+  SurfacePoints set;
+  const std::vector<double> areas = face_areas(surface);
+  const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
+  if (!(total > 0.0)) {
+    return set;
+  }
+  const Sphere around = centroid_sphere(surface, areas, total);
+  const double reach = 0.5 * around.diameter;
+  centroid = around.centre;
+  spacing = std::max(kSpacing, std::sqrt(total / (reach * reach) / kSamples));
+  const std::size_t stride = 1 + surface.triangles.size() / kMostFaces;
+  for (std::size_t f = 0; f < surface.triangles.size(); f += stride) {
+    const auto& [a, b, c] = surface.triangles[f];
+    const auto local = [&](std::uint32_t v) {
+      return Vec3((surface.positions[v] - centroid) / reach);
+    };
+    add_samples({local(a), local(b), local(c)}, spacing, set);
+  }
+  const double sampled = std::accumulate(set.shares.begin(), set.shares.end(), 0.0);
+  for (double& share : set.shares) {
+    share /= sampled;
+  }
+  return set;
+}
+
+/// Share of the area whose mirror image is farther from the surface than the tolerance.
+double asymmetric_share(const SurfacePoints& set, const Tree& tree, const Vec3& normal,
+                        double spacing, double tolerance) {
+  // Reach is half an extent, the tolerance is of the whole one; samples of the two halves may lie
+  // where they like within their spacing.
+  const double limit = 2.0 * tolerance + 0.6 * spacing;
+  const std::size_t stride = 1 + set.points.size() / kQueries;
+  double beyond = 0.0;
+  double all = 0.0;
+  for (std::size_t i = 0; i < set.points.size(); i += stride) {
+    const Vec3 image = set.points[i] - 2.0 * normal.dot(set.points[i]) * normal;
+    std::size_t nearest = 0;
+    double squared = 0.0;
+    tree.knnSearch(image.data(), 1, &nearest, &squared);
+    all += set.shares[i];
+    beyond += squared > limit * limit ? set.shares[i] : 0.0;
+  }
+  return all > 0.0 ? beyond / all : 1.0;
+}
+
+std::vector<Vec3> candidate_normals(const SurfacePoints& set) {
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < set.points.size(); ++i) {
+    spread += set.shares[i] * set.points[i] * set.points[i].transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  std::vector<Vec3> normals;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    Vec3 axis = axes.eigenvectors().col(i);
+    Eigen::Index largest = 0;
+    axis.cwiseAbs().maxCoeff(&largest);
+    normals.emplace_back(axis[largest] < 0.0 ? Vec3(-axis) : axis);
+  }
+  for (int i = 0; i < 3; ++i) {
+    normals.emplace_back(Vec3::Unit(i));
+  }
+  return normals;
+}
+
+}  // namespace
+
+std::vector<MirrorPlane> mirror_planes(const TriMesh& surface, const MirrorOptions& options) {
+  Vec3 centroid = Vec3::Zero();
+  double spacing = kSpacing;
+  const SurfacePoints set = normalised_points(surface, centroid, spacing);
+  std::vector<MirrorPlane> planes;
+  if (set.points.empty()) {
+    return planes;
+  }
+  const Tree tree(3, set);
+  const double same = std::cos(kSamePlaneRad);
+  for (const Vec3& normal : candidate_normals(set)) {
+    const bool known = std::any_of(planes.begin(), planes.end(), [&](const MirrorPlane& plane) {
+      return std::abs(plane.normal.dot(normal)) > same;
+    });
+    if (!known &&
+        asymmetric_share(set, tree, normal, spacing, options.tolerance) <= options.outlier_share) {
+      planes.push_back({normal, centroid});
+    }
+  }
+  return planes;
+}
+
+std::vector<Vec3> mirror_images(const Vec3& direction, std::span<const MirrorPlane> planes,
+                                double apart_rad) {
+  const double near = std::cos(apart_rad);
+  std::vector<Vec3> images{direction};
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    for (const MirrorPlane& plane : planes) {
+      const Vec3 image = images[i] - 2.0 * plane.normal.dot(images[i]) * plane.normal;
+      const bool known = std::any_of(images.begin(), images.end(),
+                                     [&](const Vec3& other) { return other.dot(image) > near; });
+      if (!known && images.size() < kMostImages) {
+        images.emplace_back(image.normalized());
+      }
+    }
+  }
+  return images;
+}
+
+}  // namespace vantage

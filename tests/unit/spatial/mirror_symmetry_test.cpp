@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/spatial/mirror_symmetry.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "support/shapes.h"
+
+namespace vantage::test {
+namespace {
+
+bool has_normal(const std::vector<MirrorPlane>& planes, const Vec3& normal) {
+  for (const MirrorPlane& plane : planes) {
+    if (std::abs(plane.normal.dot(normal)) > 1.0 - 1e-6) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// A box of unequal sides with a small one on its top, off centre in x: it mirrors in y alone.
+TriMesh box_with_a_bump() {
+  return together(box(2.0, 1.0, 3.0, 8), box(0.4, 0.4, 0.4, 4), Vec3(1.5, 0.3, 3.0));
+}
+
+TEST(MirrorPlanes, OfABoxAreItsThree) {
+  const auto planes = mirror_planes(box(2.0, 1.0, 3.0, 8));
+  ASSERT_EQ(planes.size(), 3U);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_TRUE(has_normal(planes, Vec3::Unit(axis)));
+  }
+  EXPECT_NEAR((planes.front().point - Vec3(1.0, 0.5, 1.5)).norm(), 0.0, 1e-9);
+}
+
+TEST(MirrorPlanes, OfABoxWithABumpIsTheOneThroughTheBump) {
+  const auto planes = mirror_planes(box_with_a_bump());
+  ASSERT_EQ(planes.size(), 1U);
+  EXPECT_NEAR(planes.front().normal.y(), 1.0, 1e-6);
+}
+
+TEST(MirrorPlanes, TurnAndScaleWithTheSurface) {
+  for (const double scale : {1e-8, 1.0, 1e8}) {
+    const TriMesh surface = moved(box_with_a_bump(), scale, 0.7, Vec3(1.0, 2.0, 3.0).normalized(),
+                                  Vec3(5, 6, 7) * scale);
+    const TriMesh axis = moved({.positions = {Vec3::UnitY()}}, 1.0, 0.7,
+                               Vec3(1.0, 2.0, 3.0).normalized(), Vec3::Zero());
+    const auto planes = mirror_planes(surface);
+    ASSERT_EQ(planes.size(), 1U) << scale;
+    EXPECT_TRUE(has_normal(planes, axis.positions.front())) << scale;
+  }
+}
+
+TEST(MirrorPlanes, OfNothingAreNone) {
+  EXPECT_TRUE(mirror_planes({}).empty());
+}
+
+TEST(MirrorImages, OfTwoOrthogonalPlanesAreFour) {
+  const std::vector<MirrorPlane> planes{{Vec3::UnitX(), Vec3::Zero()},
+                                        {Vec3::UnitZ(), Vec3::Zero()}};
+  const Vec3 d = Vec3(1.0, 2.0, 3.0).normalized();
+  const auto images = mirror_images(d, planes, 0.01);
+  ASSERT_EQ(images.size(), 4U);
+  EXPECT_EQ(images.front(), d);
+  EXPECT_NEAR((images.back() - Vec3(-d.x(), d.y(), -d.z())).norm(), 0.0, 1e-15);
+}
+
+TEST(MirrorImages, InThePlaneAreNoTwins) {
+  const std::vector<MirrorPlane> planes{{Vec3::UnitX(), Vec3::Zero()}};
+  EXPECT_EQ(mirror_images(Vec3::UnitZ(), planes, 0.01).size(), 1U);
+}
+
+}  // namespace
+}  // namespace vantage::test
