@@ -170,7 +170,7 @@ struct BatchWorkerCommand {
       options.up = up_axis(own_up);
     }
     const ShapeAnalysis shape = analyse_shape(model, options, run);
-    const UpAxis up = options.up.value_or(default_up(model.format));
+    const UpChoice up = choose_up(model, shape, options);
     const ViewReport report = find_views(shape, up, options, run);
     OutputFolder output(batch::path_of_key(order.at("staging").get<std::string>()));
     if (const auto best = add_pictures(output, kinds, shape, report, options, run)) {

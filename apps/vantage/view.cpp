@@ -85,7 +85,7 @@ struct ViewCommand {
                    run.part(0.94, 0.98));
       }
     }
-    several.write(output, shape, report, up, options, run.part(0.98, 1.0));
+    several.write(output, shape, report, up.axis, options, run.part(0.98, 1.0));
     seconds.render = seconds_since(render_start);
     add_data(output, OutputKinds::all(), loaded, shape, report, options,
              std::filesystem::path(model).filename().string());
