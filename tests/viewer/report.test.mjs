@@ -49,12 +49,7 @@ const distance = (a, b) => Math.hypot(...a.map((x, i) => x - b[i]));
 const unit = (v) => v.map((x) => x / Math.hypot(...v));
 
 async function waitForFlight(page) {
-  await page.waitForFunction(() => {
-    const now = window.vantage.model.camera.position.toArray().join();
-    const still = now === window.lastSeen;
-    window.lastSeen = now;
-    return still;
-  }, null, { polling: 250 });
+  await page.waitForFunction(() => window.vantage.model.flight === undefined);
 
 }
 

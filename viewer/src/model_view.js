@@ -187,6 +187,7 @@ export class ModelView {
 
   stop() {
     cancelAnimationFrame(this.flight);
+    this.flight = undefined;
   }
 
   /** The picture's field of view, widened where the window is narrower than the picture. */
