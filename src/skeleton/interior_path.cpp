@@ -24,20 +24,19 @@ constexpr std::uint32_t kNowhere = std::numeric_limits<std::uint32_t>::max();
 /// what costs.
 class Search {
  public:
-  Search(const TriMesh& mesh, const Shell& shell, const IndexLists& neighbours,
-         std::uint32_t component, std::span<const std::uint32_t> vertices)
-      : shell_(shell), neighbours_(neighbours), component_(component) {
-    for (const std::uint32_t v : vertices) {
-      if (const std::optional<Vec3> wall = shell.wall_at(v)) {
-        vertices_.push_back(v);
-        for (const double depth : kDepths) {
-          places_.push_back(mesh.positions[v] + depth * *wall);
-        }
-      }
+  Search(const Shell& shell, const IndexLists& neighbours, std::uint32_t component)
+      : shell_(shell), neighbours_(neighbours), component_(component) {}
+
+  /// Adds the points below a vertex. \pre ascending.
+  void add(std::uint32_t vertex, const Vec3& position, const Vec3& wall) {
+    vertices_.push_back(vertex);
+    for (const double depth : kDepths) {
+      places_.push_back(position + depth * wall);
     }
   }
 
-  std::optional<std::vector<Vec3>> run(const Vec3& a, const Vec3& b) {
+  /// \param looks steps that may be looked at; what is left of them is given back.
+  std::optional<std::vector<Vec3>> run(const Vec3& a, const Vec3& b, std::size_t& looks) {
     start_ = static_cast<std::uint32_t>(places_.size());
     goal_ = start_ + 1;
     places_.push_back(a);
@@ -50,7 +49,14 @@ class Search {
     while (!queue_.empty()) {
       const auto [cost, to, from] = queue_.top();
       queue_.pop();
-      if (came_from_[to] != kNowhere || !shell_.inside(component_, places_[from], places_[to])) {
+      if (came_from_[to] != kNowhere) {
+        continue;
+      }
+      if (looks == 0) {
+        return std::nullopt;
+      }
+      --looks;
+      if (!shell_.inside(component_, places_[from], places_[to])) {
         continue;
       }
       came_from_[to] = from;
@@ -125,14 +131,37 @@ class Search {
 }  // namespace
 
 InteriorPaths::InteriorPaths(const TriMesh& mesh, const Shell& shell)
-    : mesh_(mesh), shell_(shell), neighbours_(vertex_neighbours(mesh)) {}
+    : mesh_(mesh),
+      shell_(shell),
+      neighbours_(vertex_neighbours(mesh)),
+      wall_is_(mesh.positions.size(), Wall::Unknown),
+      wall_(mesh.positions.size(), Vec3::Zero()) {}
 
-std::optional<std::vector<Vec3>> InteriorPaths::find(
-    std::uint32_t component, const Vec3& a, const Vec3& b,
-    std::span<const std::uint32_t> vertices) const {
+const Vec3* InteriorPaths::wall_at(std::uint32_t vertex) {
+  if (wall_is_[vertex] == Wall::Unknown) {
+    const std::optional<Vec3> wall = shell_.wall_at(vertex);
+    wall_is_[vertex] = wall ? Wall::Known : Wall::None;
+    wall_[vertex] = wall.value_or(Vec3::Zero());
+  }
+  return wall_is_[vertex] == Wall::Known ? &wall_[vertex] : nullptr;
+}
+
+std::optional<std::vector<Vec3>> InteriorPaths::find(std::uint32_t component, const Vec3& a,
+                                                     const Vec3& b,
+                                                     std::span<const std::uint32_t> vertices) {
   std::vector<std::uint32_t> sorted(vertices.begin(), vertices.end());
   std::sort(sorted.begin(), sorted.end());
-  return Search(mesh_, shell_, neighbours_, component, sorted).run(a, b);
+  const std::size_t allowed = std::min(kMostLooks, looks_left_);
+  std::size_t left = allowed;
+  Search search(shell_, neighbours_, component);
+  for (const std::uint32_t v : sorted) {
+    if (const Vec3* wall = wall_at(v)) {
+      search.add(v, mesh_.positions[v], *wall);
+    }
+  }
+  auto way = search.run(a, b, left);
+  looks_left_ -= allowed - left;
+  return way;
 }
 
 }  // namespace vantage

@@ -23,15 +23,26 @@ class InteriorPaths {
 
   /// Points to go through on a short way from a to b, without a and b; every step is inside.
   /// \param vertices below which the way may go, all of one component.
-  /// \return nothing if there is no such way.
-  [[nodiscard]] std::optional<std::vector<Vec3>> find(
-      std::uint32_t component, const Vec3& a, const Vec3& b,
-      std::span<const std::uint32_t> vertices) const;
+  /// \return nothing if there is no such way, or it would take more looks than are left.
+  [[nodiscard]] std::optional<std::vector<Vec3>> find(std::uint32_t component, const Vec3& a,
+                                                      const Vec3& b,
+                                                      std::span<const std::uint32_t> vertices);
 
  private:
+  /// Steps that may be looked at for one way, and for all ways of a surface [ours]: on parts like
+  /// the insides of a car, where hardly any point sees another, each search would look at millions.
+  static constexpr std::size_t kMostLooks = 20'000;
+  static constexpr std::size_t kMostLooksInAll = 100'000;
+
   const TriMesh& mesh_;
   const Shell& shell_;
   IndexLists neighbours_;
+  std::size_t looks_left_ = kMostLooksInAll;
+  enum class Wall : std::uint8_t { Unknown, None, Known };
+  std::vector<Wall> wall_is_{};  ///< Of each vertex: many ways ask for the same walls.
+  std::vector<Vec3> wall_{};     ///< Across it, where known.
+
+  [[nodiscard]] const Vec3* wall_at(std::uint32_t vertex);
 };
 
 }  // namespace vantage

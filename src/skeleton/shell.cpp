@@ -253,7 +253,18 @@ double Shell::outside_length(std::uint32_t component, const Vec3& a, const Vec3&
 }
 
 bool Shell::inside(std::uint32_t component, const Vec3& a, const Vec3& b) const {
-  return outside_length(component, a, b) == 0.0;
+  if (is_open(component)) {
+    return true;
+  }
+  // As outside_length(), but the first piece outside decides.
+  const std::vector<double> places = cuts(component, a, b);
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const double s = 0.5 * (places[i] + places[i - 1]);
+    if (places[i] - places[i - 1] > kRounding && !inside(component, (1.0 - s) * a + s * b)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 std::optional<Vec3> Shell::wall_at(std::uint32_t vertex) const {

@@ -50,7 +50,6 @@ const unit = (v) => v.map((x) => x / Math.hypot(...v));
 
 async function waitForFlight(page) {
   await page.waitForFunction(() => window.vantage.model.flight === undefined);
-
 }
 
 test('opens from disk without errors, warnings or requests', async () => {

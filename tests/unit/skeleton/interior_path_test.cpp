@@ -28,7 +28,7 @@ struct Ring {
 };
 
 TEST(InteriorPaths, LeadAroundAHoleInside) {
-  const Ring ring;
+  Ring ring;
   const auto corners = ring.paths.find(0, ring.a, ring.b, ring.all);
   ASSERT_TRUE(corners);
   std::vector<Vec3> way{ring.a};
@@ -47,7 +47,7 @@ TEST(InteriorPaths, LeadAroundAHoleInside) {
 }
 
 TEST(InteriorPaths, KeepToTheVerticesGiven) {
-  const Ring ring;
+  Ring ring;
   // The half of the ring with y >= 0.
   std::vector<std::uint32_t> upper;
   for (const std::uint32_t v : ring.all) {
@@ -63,12 +63,12 @@ TEST(InteriorPaths, KeepToTheVerticesGiven) {
 }
 
 TEST(InteriorPaths, FindNothingWithoutVertices) {
-  const Ring ring;
+  Ring ring;
   EXPECT_FALSE(ring.paths.find(0, ring.a, ring.b, {}));
 }
 
 TEST(InteriorPaths, FindNothingFromOutside) {
-  const Ring ring;
+  Ring ring;
   EXPECT_FALSE(ring.paths.find(0, Vec3::Zero(), ring.b, ring.all));
 }
 
