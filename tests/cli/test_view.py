@@ -58,7 +58,8 @@ class View(ProgramTest):
         even = reports["even.json"]["best"]
         self.assertEqual(even["objective"], even["score"])
         self.assertGreaterEqual(even["score"], 0.99 * reports["none"]["best"]["score"])
-        self.assertGreaterEqual(even["direction"][2], reports["none"]["best"]["direction"][2])
+        # The last ring of the search is 0.01° wide, so that equal views differ by that.
+        self.assertGreater(even["direction"][2], reports["none"]["best"]["direction"][2] - 2e-4)
         self.assertLessEqual(reports["default"]["best"]["score"], reports["none"]["best"]["score"])
         self.assertEqual(reports["default"]["worst"], reports["none"]["worst"])
         self.assertEqual(reports["default"]["total"], reports["none"]["total"])
