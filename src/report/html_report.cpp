@@ -178,6 +178,7 @@ Json view_part(const char* name, const ReportedView& view, const ShapeAnalysis& 
 
 std::string colour_table() {
   std::vector<Rgb8> table;
+  table.reserve(256);
   for (int i = 0; i < 256; ++i) {
     table.push_back(cool_warm(i / 255.0));
   }

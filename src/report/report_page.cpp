@@ -18,8 +18,11 @@ __asm__(
     ".byte 0\n"
     ".previous\n");
 
+// Symbols of the assembler: C's spelling, not ours.
+// NOLINTBEGIN(readability-identifier-naming)
 extern "C" const char vantage_report_page_begin[];
 extern "C" const char vantage_report_page_end[];
+// NOLINTEND(readability-identifier-naming)
 
 namespace vantage {
 

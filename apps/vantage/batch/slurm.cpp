@@ -113,7 +113,7 @@ std::string submit_slurm(const SlurmRequest& request, const std::vector<std::uin
   command.push_back(script);
   const ProgramResult result = call_program(command);
   // "1234" or "1234;cluster"
-  const std::string id = result.output.substr(0, result.output.find_first_of(";\n"));
+  std::string id = result.output.substr(0, result.output.find_first_of(";\n"));
   const bool number = !id.empty() && std::all_of(id.begin(), id.end(), [](unsigned char c) {
     return std::isdigit(c) != 0;
   });
