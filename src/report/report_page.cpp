@@ -22,6 +22,7 @@ __asm__(
 // NOLINTBEGIN(readability-identifier-naming)
 extern "C" const char vantage_report_page_begin[];
 extern "C" const char vantage_report_page_end[];
+
 // NOLINTEND(readability-identifier-naming)
 
 namespace vantage {
