@@ -27,6 +27,7 @@
 #include "output_folder.h"
 #include "terminal.h"
 #include "view_outputs.h"
+#include "view_set_flags.h"
 
 namespace vantage::cli {
 namespace {
@@ -88,6 +89,7 @@ struct BatchCommand {
   double output_limit_mb = 1024.0;
   batch::RunnerOptions runner{};
   MethodFlags method{};
+  ViewSetFlags several{};
   SlurmFlags slurm{};
   std::vector<CLI::Option*> method_options{};
   std::vector<CLI::Option*> shard_options{};  ///< That a shard takes over as they are.
@@ -119,6 +121,7 @@ struct BatchCommand {
     slurm.add_to(app);
     const std::vector<CLI::Option*> before = app.get_options();
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
+    several.add_set_to(app);
     for (CLI::Option* option : app.get_options()) {
       if (std::find(before.begin(), before.end(), option) == before.end()) {
         method_options.push_back(option);
@@ -246,7 +249,7 @@ struct BatchCommand {
       runner.work_name =
           "shard-" + std::to_string(part->index) + "-of-" + std::to_string(part->count);
     }
-    const ViewOptions options = method.resolve();
+    const ViewOptions options = view_options_of(method, several, kinds);
     runner.options_hash = [options, kinds](const std::string& up) {
       ViewOptions own = options;
       own.up = up.empty() ? options.up : up_axis(up);

@@ -23,6 +23,7 @@
 #include "method_flags.h"
 #include "output_folder.h"
 #include "view_outputs.h"
+#include "view_set_flags.h"
 
 /// \file
 /// The worker of a batch: `vantage batch-worker`, started by `vantage batch` and by nobody else.
@@ -83,23 +84,25 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 struct BatchWorkerCommand {
   std::string write{};
   MethodFlags method{};
+  ViewSetFlags several{};
 
   void add_flags(CLI::App& app, Session& session) {
     app.group("");  // not for people
     app.add_option("--write", write);
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
+    several.add_set_to(app);
     add_common_flags(app, session.flags);
   }
 
   void run(Session& session) {
-    const ViewOptions options = method.resolve();
-    const OutputKinds kinds = OutputKinds::parse(write);
+    kinds = OutputKinds::parse(write);
+    options = view_options_of(method, several, kinds);
     // Whatever a library prints must not be taken for an answer.
     const int answers = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
     ::dup2(STDERR_FILENO, STDOUT_FILENO);
     session.flags.quiet = true;
     for (std::string line; std::getline(std::cin, line);) {
-      const Json answer = answer_to(Json::parse(line), options, kinds, session, answers);
+      const Json answer = answer_to(Json::parse(line), session, answers);
       if (!answer.is_null()) {
         say(answers, answer);
       }
@@ -119,8 +122,7 @@ struct BatchWorkerCommand {
   }
 
   /// Null if the model is not to be done after all.
-  static Json answer_to(const Json& order, const ViewOptions& options, const OutputKinds& kinds,
-                        Session& session, int answers) {
+  [[nodiscard]] Json answer_to(const Json& order, Session& session, int answers) const {
     const std::string path = batch::path_of_key(order.at("path").get<std::string>());
     const auto key = order.at("key").get<std::string>();
     bool reading = true;
@@ -140,7 +142,7 @@ struct BatchWorkerCommand {
       Model model = load_model(path, run);
       reading = false;
       model.name = batch::path_of_key(order.at("name").get<std::string>());
-      return result_of(order, model, options, kinds, run);
+      return result_of(order, model, run);
     } catch (const Cancelled&) {
       throw;
     } catch (const IoError& error) {
@@ -163,28 +165,26 @@ struct BatchWorkerCommand {
     }
   }
 
-  static Json result_of(const Json& order, const Model& model, ViewOptions options,
-                        const OutputKinds& kinds, const RunContext& run) {
+  [[nodiscard]] Json result_of(const Json& order, const Model& model, const RunContext& run) const {
+    ViewOptions own = options;
     const auto own_up = order.at("up").get<std::string>();
     if (!own_up.empty()) {
-      options.up = up_axis(own_up);
+      own.up = up_axis(own_up);
     }
-    const ShapeAnalysis shape = analyse_shape(model, options, run);
-    const UpChoice up = choose_up(model, shape, options);
-    const ViewReport report = find_views(shape, up, options, run);
+    const ShapeAnalysis shape = analyse_shape(model, own, run);
+    const UpChoice up = choose_up(model, shape, own);
+    const ViewReport report = find_views(shape, up, own, run);
     OutputFolder output(batch::path_of_key(order.at("staging").get<std::string>()));
-    if (const auto best = add_pictures(output, kinds, shape, report, options, run)) {
+    if (const auto best = add_pictures(output, kinds, shape, report, own, run)) {
       output.add(batch::kThumbnailFile, png_bytes(batch::thumbnail_of(*best)));
     }
-    add_report(output, kinds, model, shape, report, options, run);
-    add_data(output, kinds, model, shape, report, options,
-             batch::path_of_key(order.at("file").get<std::string>()));
-    Json view = Json::parse(view_json(model, shape, report, options));
-    for (const char* side : {"best", "worst"}) {
-      if (!kinds.has(side)) {
-        view[side]["image"] = nullptr;
-      }
+    if (kinds.has("views")) {
+      several.write(output, shape, report, up.axis, own, run);
     }
+    add_report(output, kinds, model, shape, report, own, run);
+    add_data(output, kinds, model, shape, report, own,
+             batch::path_of_key(order.at("file").get<std::string>()));
+    const Json view = without_missing_images(Json::parse(view_json(model, shape, report, own)));
     output.add("view.json", view.dump(2) + "\n");
     output.write();
 
@@ -197,6 +197,24 @@ struct BatchWorkerCommand {
     }
     return {{"result", result.dump()}, {"peak_bytes", peak_bytes()}};
   }
+
+  /// Pictures that were not asked for are not named either.
+  [[nodiscard]] Json without_missing_images(Json view) const {
+    for (const char* side : {"best", "worst"}) {
+      if (!kinds.has(side)) {
+        view[side]["image"] = nullptr;
+      }
+    }
+    if (!kinds.has("views") && view.contains("views")) {
+      for (Json& one : view["views"]) {
+        one["image"] = nullptr;
+      }
+    }
+    return view;
+  }
+
+  OutputKinds kinds{};
+  ViewOptions options{};
 };
 
 struct BatchUnpackCommand {

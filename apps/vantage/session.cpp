@@ -62,12 +62,25 @@ RunContext Session::run() {
   RunContext context;
   context.stop = stop_.get_token();
   context.max_threads = flags.threads;
+  limit_threads();
   if (!flags.quiet && !flags.json) {
     context.report = [this](std::string_view stage, double fraction) {
       progress_.show(stage, fraction);
     };
   }
   return context;
+}
+
+void Session::limit_threads() {
+  if (flags.threads == limited_to_) {
+    return;
+  }
+  thread_limit_.reset();  // of two limits the smaller one would count
+  if (flags.threads > 0) {
+    thread_limit_ = std::make_unique<tbb::global_control>(
+        tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(flags.threads));
+  }
+  limited_to_ = flags.threads;
 }
 
 Model Session::load(const std::string& path) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <stop_token>
 #include <string>
+
+#include <oneapi/tbb/global_control.h>
 
 #include "vantage/core/run_context.h"
 #include "vantage/io/model.h"
@@ -72,7 +75,12 @@ class Session {
  private:
   std::stop_source stop_{};
   Progress progress_{};
+  void limit_threads();
+
   bool reading_input_ = false;
+  /// Holds libraries that start threads of their own (Embree) to --threads too.
+  std::unique_ptr<tbb::global_control> thread_limit_{};
+  int limited_to_ = 0;
 };
 
 }  // namespace vantage::cli

@@ -11,7 +11,6 @@
 #include "vantage/io/write.h"
 #include "vantage/render/render.h"
 
-#include "method_flags.h"
 #include "terminal.h"
 
 namespace vantage::cli {
@@ -30,6 +29,8 @@ constexpr int kTourSamples = 9;
 constexpr int kTourAmbientRays = 0;
 constexpr int kMostFrames = 4000;
 constexpr double kMostSeconds = 600.0;
+constexpr int kViewsOfBatch = 6;  // with --write views alone: as many as a box has sides
+constexpr const char* kGroup = "Several views";  // in the help
 
 std::string numbered(std::size_t i) {
   return (i < 9 ? "view-0" : "view-") + std::to_string(i + 1);
@@ -50,8 +51,8 @@ std::string check_tour_name(const std::string& file) {
 
 }  // namespace
 
-void ViewSetFlags::add_to(CLI::App& app) {
-  const std::string group = "Several views";
+void ViewSetFlags::add_set_to(CLI::App& app) {
+  const std::string group = kGroup;
   app.add_option("--views", views_, "this many views that together see most")
       ->check(CLI::Range(1, 1000))
       ->group(group);
@@ -77,6 +78,11 @@ void ViewSetFlags::add_to(CLI::App& app) {
       ->group(group);
   app.add_flag("--no-refine", no_refine_, "leave the views on the 2562 candidate directions")
       ->group(group);
+}
+
+void ViewSetFlags::add_to(CLI::App& app) {
+  add_set_to(app);
+  const std::string group = kGroup;
   app.add_option("--tour", tour_, "moving picture of the round over the views: .webp or .png")
       ->check(check_tour_name)
       ->group(group);
@@ -125,6 +131,14 @@ std::optional<ViewSetRequest> ViewSetFlags::request() const {
                                "--coverage C");
   }
   return std::nullopt;
+}
+
+ViewSetRequest ViewSetFlags::request_or(int views) const {
+  ViewSetFlags numbered = *this;
+  if (!views_ && !coverage_ && !(request_.information > 0.0)) {
+    numbered.views_ = views;
+  }
+  return numbered.request().value();
 }
 
 double ViewSetFlags::seconds(const Tour& tour) const {
@@ -197,6 +211,13 @@ void ViewSetFlags::write_tour(OutputFolder& output, const ShapeAnalysis& shape,
     done = next;
   }
   write_file(tour_, encoder.finish());
+}
+
+ViewOptions view_options_of(const MethodFlags& method, const ViewSetFlags& several,
+                            const OutputKinds& kinds) {
+  ViewOptions options = method.resolve();
+  options.view_set = kinds.has("views") ? several.request_or(kViewsOfBatch) : several.request();
+  return options;
 }
 
 std::string view_set_table(const ReportedViewSet& set) {

@@ -8,18 +8,24 @@
 
 #include "vantage/report/view_report.h"
 
+#include "method_flags.h"
 #include "output_folder.h"
+#include "view_outputs.h"
 
 namespace vantage::cli {
 
 /// The flags of several views and the tour over them, and the files these make.
 class ViewSetFlags {
  public:
-  /// Adds the flags.
+  /// Adds the flags of the set, and those of the moving picture.
   void add_to(CLI::App& app);
+  /// Adds the flags of the set alone.
+  void add_set_to(CLI::App& app);
 
   /// What was asked for, if anything. \throw CLI::ValidationError if the flags do not fit together.
   [[nodiscard]] std::optional<ViewSetRequest> request() const;
+  /// What was asked for, or `views` of them where no flag says how many.
+  [[nodiscard]] ViewSetRequest request_or(int views) const;
 
   /// Adds pictures and cameras of the set, and the moving camera, to the folder; writes --tour.
   void write(OutputFolder& output, const ShapeAnalysis& shape, const ViewReport& report, UpAxis up,
@@ -41,6 +47,11 @@ class ViewSetFlags {
   int width_ = 480;
   int height_ = 360;
 };
+
+/// The options of a model of a batch: those of the method, and a set of views if one is asked for
+/// or `kinds` has pictures of one.
+ViewOptions view_options_of(const MethodFlags& method, const ViewSetFlags& several,
+                            const OutputKinds& kinds);
 
 /// One line a view: where from, what it adds, how much is seen by then.
 std::string view_set_table(const ReportedViewSet& set);

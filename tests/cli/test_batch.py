@@ -92,10 +92,44 @@ class Inputs(BatchTest):
         self.vantage("batch", "a.off", "--manifest", "m", "-o", "out", exit_code=2)
         self.vantage("batch", "-o", "out", exit_code=2)
 
-    def test_pictures_of_later_versions_are_refused_by_name(self):
-        for kind in ("views", "nonsense"):
-            done = self.vantage("batch", "a.off", "-o", "out", "--write", kind, exit_code=2)
-            self.assertIn(kind, done.err)
+    def test_kinds_of_output_that_do_not_exist_are_refused_by_name(self):
+        done = self.vantage("batch", "a.off", "-o", "out", "--write", "best,nonsense", exit_code=2)
+        self.assertIn("nonsense", done.err)
+
+    def test_point_clouds_are_models_too(self):
+        (self.dir / "in").mkdir()
+        grid = [(x / 9, y / 9, z / 9) for x in range(10) for y in range(10) for z in range(10)
+                if 0 in (x, y, z) or 9 in (x, y, z)]
+        self.write("in/shell.xyz", "".join(f"{x} {y} {z}\n" for x, y, z in grid))
+        self.batch("in")
+        self.assertEqual(self.rows()["in/shell.xyz"]["status"], "done")
+
+
+class SeveralViews(BatchTest):
+
+    def views_of(self, *arguments):
+        """view.json of the one model, and the numbered pictures beside it."""
+        self.write("a.off", box(1))
+        self.vantage("batch", "a.off", "-o", "out", "--search", "rapid", "--size", "64", "-q", *arguments)
+        [folder] = (self.dir / "out/models").iterdir()
+        return json.loads((folder / "view.json").read_text()), sorted(p.name for p in folder.glob("view-*.png"))
+
+    def test_as_many_as_asked_for_are_drawn_and_named(self):
+        view, pictures = self.views_of("--write", "best,views", "--views", "2")
+        self.assertEqual(pictures, ["view-01.png", "view-02.png"])
+        self.assertEqual([one["image"] for one in view["views"]], pictures)
+
+    def test_without_a_number_there_are_at_most_six(self):
+        view, pictures = self.views_of("--write", "views")
+        self.assertEqual(pictures, [one["image"] for one in view["views"]])
+        # two opposite corners of a box show everything there is
+        self.assertTrue(2 <= len(pictures) <= 6)
+        self.assertIsNone(view["best"]["image"])
+
+    def test_a_set_without_pictures_names_none(self):
+        view, pictures = self.views_of("--write", "json", "--views", "2")
+        self.assertEqual(pictures, [])
+        self.assertEqual([one["image"] for one in view["views"]], [None, None])
 
 
 class Archives(BatchTest):

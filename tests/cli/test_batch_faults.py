@@ -8,6 +8,7 @@ import signal
 import subprocess
 import time
 import unittest
+import zipfile
 
 from program import PROGRAM, ProgramTest
 from shapes import box
@@ -126,7 +127,7 @@ class OneModel(FaultTest):
 
 class WholeBatch(FaultTest):
 
-    def start(self, *arguments, fault):
+    def start(self, *arguments, fault=""):
         return subprocess.Popen([PROGRAM, "batch", *arguments, "-o", "out", *FAST], cwd=self.dir,
                                 stderr=subprocess.PIPE, env={**os.environ, "VANTAGE_TEST_FAULT": fault})
 
@@ -150,6 +151,22 @@ class WholeBatch(FaultTest):
                 self.assertEqual(list((self.dir / "out/.work").glob("local/*")), [])
                 self.assertEqual(len(self.rows()), 5)
         self.assertEqual(self.run_with(*self.names)["m4.off"]["status"], "done")
+
+    def test_a_stop_while_an_archive_is_unpacked_is_no_failure_of_its_model(self):
+        with zipfile.ZipFile(self.dir / "m.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+            comment = "#" * 999 + "\n"
+            with archive.open("slow.obj", "w", force_zip64=True) as entry:  # 1.5 GB once unpacked
+                for _ in range(1500):
+                    entry.write(comment.encode() * 1000)
+        process = self.start("m.zip")
+        deadline = time.monotonic() + 60
+        while not list((self.dir / "out").glob(".work/local/in-*/*")) and time.monotonic() < deadline:
+            time.sleep(0.001)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        self.assertEqual(self.rows(), {})
+        self.assertEqual(list((self.dir / "out/.work").glob("local/*")), [])
 
     def test_a_second_batch_into_the_same_folder_is_refused(self):
         process = self.start(*self.names, fault="hang:m4")

@@ -144,6 +144,10 @@ class Runner {
     if (kept.entry.problem.empty() && !kept.entry.member.empty()) {
       fetch(kept);
     }
+    if (stop_.stop_requested()) {  // what was being unpacked is not known to be broken
+      remove(kept);
+      return;
+    }
     if (!kept.entry.problem.empty()) {
       fail(kept, "input", kept.entry.problem);
     } else {
