@@ -23,7 +23,9 @@ except ImportError:
     print("NOTHING WAS TESTED: this script needs numpy (Debian: python3-numpy)", file=sys.stderr)
     sys.exit(77)
 
-FRONT_SHARE = 0.08  # exponent of the front term, see docs/prior.md; chosen, not fitted
+# Exponents of the front and the side term, see docs/prior.md; chosen, not fitted.
+FRONT_SHARE = 0.08
+SIDE_SHARE = 0.04
 STRENGTHS = (1.0, 1.5, 2.0, 3.0, 4.0)  # candidates, chosen by the training models
 START = np.array([3.0, 5.0, 8.0, 1.0])  # of the likelihood's ascent; the result does not hang on it
 RIDGE = 1e-2  # keeps a weight finite that no row speaks about
@@ -94,9 +96,8 @@ class Study:
         self.people = people
         self.directions = fields[0][0]
         side, up, front = self.directions.T
-        self.front = front
-        # Near-ties in the prior alone fall toward the front, then toward the right.
-        self.tie = 1e-6 * (2 * front + side)
+        # Near-ties fall toward the front, then toward the right.
+        self.tie = FRONT_SHARE * front + SIDE_SHARE * side
         self.shape = np.stack([up, -up * up, 4 * side**2 * front**2], 1)
         self.log_score = [np.log(np.maximum(score, FLOOR)) for _, score in fields]
         self.features = [np.column_stack([log, self.shape]) for log in self.log_score]
@@ -134,7 +135,7 @@ class Study:
         return np.log(p[self.near[m]].mean(1) * len(p)).mean()
 
     def log_prior(self, w, strength):
-        return strength * (self.shape @ w[1:]) / w[0] + FRONT_SHARE * self.front + self.tie
+        return strength * (self.shape @ w[1:]) / w[0] + self.tie
 
     def pick(self, m, w, strength):
         return int((self.log_score[m] + self.log_prior(w, strength)).argmax())
@@ -145,9 +146,10 @@ class Study:
 
 
 def constants(w, strength):
-    """The exponents of src/view/prior.cpp: sine of the elevation, its strength, corners, front."""
+    """The constants of include/vantage/view/prior.h."""
     return {"elevation_sine": w[1] / (2 * w[2]), "elevation_strength": strength * w[2] / w[0],
-            "corner_strength": strength * w[3] / w[0], "front_strength": FRONT_SHARE}
+            "corner_strength": strength * w[3] / w[0], "front_strength": FRONT_SHARE,
+            "side_strength": SIDE_SHARE}
 
 
 def cross_validate(study):

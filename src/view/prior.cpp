@@ -26,7 +26,8 @@ double ViewPrior::factor(const UprightFrame& frame, const Vec3& direction) const
   const double corner = 2.0 * local.x() * local.z();
   const double value = std::exp(-upright.elevation_strength * rise * rise -
                                 upright.corner_strength * (1.0 - corner * corner) -
-                                upright.front_strength * (1.0 - local.z()));
+                                upright.front_strength * (1.0 - local.z()) -
+                                upright.side_strength * (1.0 - local.x()));
   double favour = 1.0;
   for (const PriorLobe& lobe : lobes) {
     favour += lobe.weight *

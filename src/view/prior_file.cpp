@@ -41,7 +41,8 @@ class PriorReader {
     prior.upright = {.elevation_sine = 0.0,
                      .elevation_strength = 0.0,
                      .corner_strength = 0.0,
-                     .front_strength = 0.0};
+                     .front_strength = 0.0,
+                     .side_strength = 0.0};
     if (root_.contains("upright")) {
       read_upright(root_.at("upright"), prior.upright);
     }
@@ -78,8 +79,8 @@ class PriorReader {
     if (!object.is_object()) {
       fail("upright is not an object");
     }
-    refuse_others(object,
-                  {"elevation_sine", "elevation_strength", "corner_strength", "front_strength"});
+    refuse_others(object, {"elevation_sine", "elevation_strength", "corner_strength",
+                           "front_strength", "side_strength"});
     for_each_field(kUprightPriorFields, [&](const auto& field) {
       const std::string member(field.name);
       if (object.contains(member)) {

@@ -39,10 +39,11 @@ std::string problem_of(std::string_view text) {
 TEST(UprightPrior, HasTheConstantsOfTheDocumentedTable) {
   // docs/prior.md, "Constants, fitted on all models"; scripts/fit_prior.py computes them.
   const UprightPrior prior;
-  EXPECT_DOUBLE_EQ(prior.elevation_sine, 0.320);
-  EXPECT_DOUBLE_EQ(prior.elevation_strength, 6.765);
-  EXPECT_DOUBLE_EQ(prior.corner_strength, 0.920);
+  EXPECT_DOUBLE_EQ(prior.elevation_sine, 0.315);
+  EXPECT_DOUBLE_EQ(prior.elevation_strength, 8.481);
+  EXPECT_DOUBLE_EQ(prior.corner_strength, 1.171);
   EXPECT_DOUBLE_EQ(prior.front_strength, 0.080);
+  EXPECT_DOUBLE_EQ(prior.side_strength, 0.040);
 }
 
 TEST(UprightPrior, IsPositiveAndAtMostOne) {
@@ -53,19 +54,19 @@ TEST(UprightPrior, IsPositiveAndAtMostOne) {
   }
 }
 
-TEST(UprightPrior, IsSymmetricInLeftAndRight) {
+TEST(UprightPrior, PrefersTheRightByItsSideTermAlone) {
   for (const Vec3& d : sphere()) {
-    EXPECT_NEAR(upright_prior().factor(kFrame, d),
-                upright_prior().factor(kFrame, Vec3(-d.x(), d.y(), d.z())), 1e-15);
+    const double left = upright_prior().factor(kFrame, Vec3(-d.x(), d.y(), d.z()));
+    EXPECT_NEAR(upright_prior().factor(kFrame, d) / left, std::exp(2.0 * d.x() * 0.040), 1e-12);
   }
 }
 
 TEST(UprightPrior, IsSmooth) {
   // The exponent is a polynomial of degree 4 in the direction: with q the corner term's 2sf, its
-  // gradient on the unit sphere is at most 2·K·(1 + |u0|) + C·2|q|·2 + T, for |q| ≤ 1.
+  // gradient on the unit sphere is at most 2·K·(1 + |u0|) + C·2|q|·2 + T + S, for |q| ≤ 1.
   const UprightPrior c;
   const double steepest = 2.0 * c.elevation_strength * (1.0 + std::abs(c.elevation_sine)) +
-                          4.0 * c.corner_strength + c.front_strength;
+                          4.0 * c.corner_strength + c.front_strength + c.side_strength;
   const double step = 1e-4;
   for (const Vec3& d : sphere()) {
     const Vec3 near = (d + step * d.unitOrthogonal()).normalized();
@@ -136,8 +137,8 @@ TEST(NoPrior, IsOneEverywhere) {
 
 TEST(PriorFile, OfConstantsAloneIsTheUprightPriorWithThem) {
   const ViewPrior read = parse_prior(
-      R"({"vantage_prior": 1, "upright": {"elevation_sine": 0.320, "elevation_strength": 6.765,
-          "corner_strength": 0.920, "front_strength": 0.08}})",
+      R"({"vantage_prior": 1, "upright": {"elevation_sine": 0.315, "elevation_strength": 8.481,
+          "corner_strength": 1.171, "front_strength": 0.08, "side_strength": 0.04}})",
       "folder/my.json");
   EXPECT_EQ(read.name, "my.json");
   for (const Vec3& d : sphere()) {
