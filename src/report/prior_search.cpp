@@ -9,12 +9,12 @@ namespace vantage {
 
 FoundViews search_under_prior(const ScoreBatch& score, double total, const ViewPrior& prior,
                               const UprightFrame& frame, const SearchOptions& options,
-                              const RunContext& run, const ScoreBatch& estimate) {
+                              const RunContext& run, const SearchHints& hints) {
   if (prior.is_uniform) {
-    return search_best_and_worst(score, total, options, run, estimate);
+    return search_best_and_worst(score, total, options, run, hints);
   }
   Evaluator pure(score);
-  Evaluator estimated(estimate);
+  Evaluator estimated(hints.estimate);
   const ScoreBatch remembered = [&](const std::vector<Vec3>& directions) {
     return pure.scores(directions, 0);
   };
@@ -27,26 +27,24 @@ FoundViews search_under_prior(const ScoreBatch& score, double total, const ViewP
   const ScoreBatch weighted = [&](const std::vector<Vec3>& directions) {
     return weigh(pure.scores(directions, 0), directions);
   };
-  ScoreBatch remembered_estimate;
-  ScoreBatch weighted_estimate;
-  if (estimate) {
-    remembered_estimate = [&](const std::vector<Vec3>& directions) {
+  SearchHints plain{.landmarks = hints.landmarks};
+  SearchHints weighty = plain;
+  if (hints.estimate) {
+    plain.estimate = [&](const std::vector<Vec3>& directions) {
       return estimated.scores(directions, 0);
     };
-    weighted_estimate = [&](const std::vector<Vec3>& directions) {
+    weighty.estimate = [&](const std::vector<Vec3>& directions) {
       return weigh(estimated.scores(directions, 0), directions);
     };
   }
   FoundViews views;
-  views.best =
-      search_view(weighted, total, Goal::Best, options, run.part(0.0, 0.8), weighted_estimate);
+  views.best = search_view(weighted, total, Goal::Best, options, run.part(0.0, 0.8), weighty);
   for (SearchStep& step : views.best.trace) {
     step.score = pure.scores({step.direction}, 0).front();
   }
   views.best.score = pure.scores({views.best.direction}, 0).front();
   const std::size_t scored = pure.trace().size();
-  views.worst =
-      search_view(remembered, total, Goal::Worst, options, run.part(0.8, 1.0), remembered_estimate);
+  views.worst = search_view(remembered, total, Goal::Worst, options, run.part(0.8, 1.0), plain);
   views.worst.estimates = estimated.trace().size() - views.best.estimates;
   // What the best view had scored before is not the worst view's cost.
   std::vector<SearchStep> fresh;

@@ -5,6 +5,7 @@
 
 #include "vantage/mesh/measures.h"
 #include "vantage/render/framing.h"
+#include "vantage/view/landmarks.h"
 
 #include "report/prior_search.h"
 #include "report/twins.h"
@@ -106,20 +107,21 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
     return scorer.score_all(directions, batch_run);
   };
   std::optional<ProxyScorer> proxy;
-  ScoreBatch estimate;
+  SearchHints hints;
   if (options.search.strategy == SearchStrategy::Global) {
     proxy = ProxyScorer::make(shape.surface, shape.sides, vertex_shares(shape, options.weight),
                               report.camera, batch_run);
   }
   if (proxy) {
-    estimate = [&](const std::vector<Vec3>& directions) {
+    hints.estimate = [&](const std::vector<Vec3>& directions) {
       return proxy->score_all(directions, batch_run);
     };
   }
   const double search_share = options.view_set ? 0.25 : 1.0;  // of the progress bar
   const UprightFrame frame = upright_frame(up_vector(up));
+  hints.landmarks = landmark_directions(shape.surface);
   auto [best, worst] = search_under_prior(score, report.total, options.prior, frame, options.search,
-                                          run.part(0.0, search_share), estimate);
+                                          run.part(0.0, search_share), hints);
   report.twins = twins_of(best.direction, shape, scorer, options.prior, frame);
   if (!options.prior.is_uniform) {
     TwinView first{best.direction, best.score,

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kProxyVertices = 2500;
 /// A surface of fewer vertices is scored exactly throughout; so is one of which more than this
 /// share is left. [ours]
-constexpr std::size_t kWorthwhile = 8000;
+constexpr std::size_t kWorthwhile = 6000;
 constexpr double kLargestShare = 0.5;
 
 /// A surface without isolated vertices and broken faces.

@@ -10,8 +10,8 @@
 #include "vantage/core/error.h"
 
 #include "view/climb.h"
-#include "view/estimated_search.h"
 #include "view/evaluator.h"
+#include "view/global_search.h"
 #include "view/loop_patch.h"
 #include "view/sphere_angles.h"
 
@@ -22,13 +22,10 @@ namespace {
 constexpr double kNarrowRingRad = 2.0 * kRadPerDeg;
 // Rapid search ends here in any case. [ours]
 constexpr double kFinestRingRad = 0.001 * kRadPerDeg;
-// Global search. [ours]
-constexpr int kGlobalLevel = 3;
-constexpr std::size_t kGlobalSeeds = 5;
+// Dense search. [ours]
 constexpr int kDenseLevel = 5;
 constexpr std::size_t kDenseSeeds = 3;
-// The first ring is half the spacing of the 642 directions, so that it reaches between neighbours.
-constexpr RingSteps kGlobalSteps{4.0 * kRadPerDeg, 0.01 * kRadPerDeg};
+constexpr RingSteps kDenseSteps{4.0 * kRadPerDeg, 0.01 * kRadPerDeg};
 // Share of the progress bar that the start set takes.
 constexpr double kStartShare = 0.7;
 
@@ -85,15 +82,14 @@ Candidate rapid(const Search& search) {
   return v0;
 }
 
-/// Climbs from the best few peaks of the start set, all by exact scores.
-Candidate global(const Search& search) {
+/// Climbs from the best few peaks of the start set.
+Candidate dense(const Search& search) {
   if (search.is_blank()) {
     return {search.start.set.directions.front(), search.start.scores.front()};
   }
-  const bool dense = search.options.strategy == SearchStrategy::Dense;
-  std::vector<Candidate> seeds = local_peaks(search.goal, search.start.set, search.start.scores,
-                                             dense ? kDenseSeeds : kGlobalSeeds);
-  climb(seeds, search.goal, kGlobalSteps, search.evaluator, 1, search.run);
+  std::vector<Candidate> seeds =
+      local_peaks(search.goal, search.start.set, search.start.scores, kDenseSeeds);
+  climb(seeds, search.goal, kDenseSteps, search.evaluator, 1, search.run);
   return winner_of(search.goal, seeds);
 }
 
@@ -101,9 +97,9 @@ Candidate refine(const Search& search) {
   switch (search.options.strategy) {
     case SearchStrategy::Rapid:
       return rapid(search);
-    case SearchStrategy::Global:
     case SearchStrategy::Dense:
-      return global(search);
+      return dense(search);
+    case SearchStrategy::Global:  // has nothing to look for: every view is as good
     case SearchStrategy::Exhaustive:
       break;
   }
@@ -114,14 +110,12 @@ Candidate refine(const Search& search) {
 Start evaluate_start(Evaluator& evaluator, const SearchOptions& options, const RunContext& run) {
   Start start;
   switch (options.strategy) {
-    case SearchStrategy::Global:
-      start.set = direction_set(ViewSphereBase::Icosahedron, kGlobalLevel);
-      break;
     case SearchStrategy::Dense:
       start.set = direction_set(ViewSphereBase::Icosahedron, kDenseLevel);
       break;
     case SearchStrategy::Rapid:
     case SearchStrategy::Exhaustive:
+    case SearchStrategy::Global:
       start.set = direction_set(options.base, options.subdivisions);
       break;
   }
@@ -151,22 +145,23 @@ FoundView report(const Candidate& found, const Evaluator& exact, std::size_t beg
   return view;
 }
 
-/// Whether the sphere is looked over by an estimate of the score.
-bool uses_estimates(const ScoreBatch& estimate, double total, const SearchOptions& options) {
-  return estimate && total > 0.0 && options.strategy == SearchStrategy::Global;
+/// Whether the global search has anything to look for.
+bool is_global(double total, const SearchOptions& options) {
+  return total > 0.0 && options.strategy == SearchStrategy::Global;
 }
 
 }  // namespace
 
 FoundView search_view(const ScoreBatch& score, double total, Goal goal,
                       const SearchOptions& options, const RunContext& run,
-                      const ScoreBatch& estimate) {
+                      const SearchHints& hints) {
   check_options(total, options);
   Evaluator evaluator(score);
-  Evaluator estimates(estimate);
+  Evaluator estimates(hints.estimate);
   Candidate found;
-  if (uses_estimates(estimate, total, options)) {
-    found = search_by_estimates(evaluator, estimates, goal, run);
+  if (is_global(total, options)) {
+    found = search_globally(evaluator, hints.estimate ? estimates : evaluator, goal,
+                            hints.landmarks, run);
   } else {
     const Start start = evaluate_start(evaluator, options, run.part(0.0, kStartShare));
     found = refine({evaluator, start, options, total, goal, run.part(kStartShare, 1.0)});
@@ -177,17 +172,18 @@ FoundView search_view(const ScoreBatch& score, double total, Goal goal,
 
 FoundViews search_best_and_worst(const ScoreBatch& score, double total,
                                  const SearchOptions& options, const RunContext& run,
-                                 const ScoreBatch& estimate) {
+                                 const SearchHints& hints) {
   check_options(total, options);
   Evaluator evaluator(score);
-  Evaluator estimates(estimate);
+  Evaluator estimates(hints.estimate);
   FoundViews views;
-  if (uses_estimates(estimate, total, options)) {
+  if (is_global(total, options)) {
+    Evaluator& guide = hints.estimate ? estimates : evaluator;
     const Candidate best =
-        search_by_estimates(evaluator, estimates, Goal::Best, run.part(0.0, 0.6));
+        search_globally(evaluator, guide, Goal::Best, hints.landmarks, run.part(0.0, 0.6));
     views.best = report(best, evaluator, 0, estimates, 0);
     const Candidate worst =
-        search_by_estimates(evaluator, estimates, Goal::Worst, run.part(0.6, 1.0));
+        search_globally(evaluator, guide, Goal::Worst, hints.landmarks, run.part(0.6, 1.0));
     views.worst = report(worst, evaluator, views.best.evaluations, estimates, views.best.estimates);
     run.advance("search", 1.0);
     return views;

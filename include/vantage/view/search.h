@@ -22,7 +22,7 @@ namespace vantage {
 enum class SearchStrategy {
   Rapid,       ///< The paper's: best corner of a base, then Loop refinement around it.
   Exhaustive,  ///< Every direction of a set.
-  Global,      ///< Ours: the 642 directions of level 3, then refinement around the best few.
+  Global,      ///< Ours: finds what Dense finds by a fraction of its scores; docs/search.md.
   Dense,       ///< Ours: icosahedron level 5, then refinement around the best three. Slow.
 };
 
@@ -70,20 +70,27 @@ struct FoundViews {
 /// Scores a batch of directions; must be a pure function of each direction.
 using ScoreBatch = std::function<std::vector<double>(const std::vector<Vec3>&)>;
 
+/// What helps the global search and does not change what it looks for.
+struct SearchHints {
+  /// If given, scores that are nearly right and much cheaper: the sphere is looked over by them, and
+  /// exact scores are asked for only where they lead.
+  ScoreBatch estimate{};
+  /// Directions to look at whatever their neighbours say, such as landmark_directions().
+  std::vector<Vec3> landmarks{};
+};
+
 /// Searches the sphere. Ties go to the lowest index of the set, then to what was found first.
 /// \param score scores directions. \param total the score if everything were visible, ≥ 0: what
 /// `epsilon` as a fraction refers to; at 0 all views are equal and the first direction is returned.
-/// \param estimate if given, scores that are nearly right and much cheaper: the global search looks
-/// the sphere over by them, and asks for exact scores only where they lead.
 /// \throw InvalidInput, Cancelled
 FoundView search_view(const ScoreBatch& score, double total, Goal goal,
                       const SearchOptions& options = {}, const RunContext& run = {},
-                      const ScoreBatch& estimate = {});
+                      const SearchHints& hints = {});
 
 /// Both searches, sharing what they evaluate: the views are those of search_view().
 /// \throw InvalidInput, Cancelled
 FoundViews search_best_and_worst(const ScoreBatch& score, double total,
                                  const SearchOptions& options = {}, const RunContext& run = {},
-                                 const ScoreBatch& estimate = {});
+                                 const SearchHints& hints = {});
 
 }  // namespace vantage

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "vantage/core/vec3.h"
+#include "vantage/mesh/tri_mesh.h"
+
+/// \file
+/// Directions from which made things look special.
+
+namespace vantage {
+
+/// Directions along which the score of a part with flat sides has narrow peaks and pits: both ways
+/// along the coordinate axes, the surface's principal axes, and the normals of its largest flat
+/// parts (at least 2 % of the area each, at most twelve). [ours]
+/// \return unit vectors, at most 36, no two of them nearer than 0.1°, in an order that depends on
+/// the surface alone; none for a surface without area.
+std::vector<Vec3> landmark_directions(const TriMesh& surface);
+
+}  // namespace vantage
