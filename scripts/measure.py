@@ -29,6 +29,17 @@ def run(program, *arguments):
     return json.loads(done.stdout)
 
 
+def searcher(program, model, folder, *fixed):
+    """A function of further flags that gives the result of `view` with them and the fixed ones."""
+    return lambda *flags: run(program, "view", model, "-o", folder, "--no-images", "--json", *fixed, *flags)
+
+
+def worst_gap(found, dense):
+    """How far the worst view's score is above the dense search's, % of the dense search's range."""
+    top, low = dense["best"]["score"], dense["worst"]["score"]
+    return 100 * (found["worst"]["score"] - low) / (top - low)
+
+
 def paper_seconds(name):
     return next((s for key, s in PAPER_SECONDS.items() if name.startswith(key)), None)
 
@@ -39,7 +50,7 @@ def view_table(program, models):
     print("| --- " * 14 + "|")
     with tempfile.TemporaryDirectory() as folder:
         for model in models:
-            r = run(program, "view", model, "-o", folder, "--no-images", "--json")
+            r = searcher(program, model, folder)()
             s, best = r["seconds"], r["best"]
             paper = paper_seconds(r["model"]["name"])
             stages = " | ".join(f"{s[k]:.2f}" for k in ("load", "contract", "skeleton", "map", "search"))
@@ -57,16 +68,13 @@ def rapid_table(program, models):
     print("| --- " * 7 + "|")
     with tempfile.TemporaryDirectory() as folder:
         for model in models:
-            def search(*flags):
-                return run(program, "view", model, "-o", folder, "--no-images", "--json",
-                           "--preset", "paper", *flags)
+            search = searcher(program, model, folder, "--preset", "paper")
             dense = search("--search", "exhaustive", "--subdivisions", "5")
-            top, low = dense["best"]["score"], dense["worst"]["score"]
+            top = dense["best"]["score"]
 
             def row(label, epsilon, r):
-                gap = 100 * (r["worst"]["score"] - low) / (top - low)
                 print(f"| {r['model']['name']} | {label} | {epsilon} | {r['best']['score'] / top:.4f} "
-                      f"| {gap:.2f} | {r['search']['evaluations']} + {r['search']['worst_evaluations']} "
+                      f"| {worst_gap(r, dense):.2f} | {r['search']['evaluations']} + {r['search']['worst_evaluations']} "
                       f"| {r['seconds']['search']:.2f} |", flush=True)
             row("dense", "–", dense)
             for epsilon in EPSILONS:
@@ -80,10 +88,8 @@ def global_table(program, models):
     print("| --- " * 6 + "|")
     with tempfile.TemporaryDirectory() as folder:
         for model in models:
-            def search(strategy):
-                return run(program, "view", model, "-o", folder, "--no-images", "--json",
-                           "--contraction", "exact", "--search", strategy)
-            dense, found = search("dense"), search("global")
+            search = searcher(program, model, folder, "--contraction", "exact")
+            dense, found = search("--search", "dense"), search("--search", "global")
             top, low = dense["best"]["score"], dense["worst"]["score"]
             count = dense["search"]["evaluations"] + dense["search"]["worst_evaluations"]
             time_of_200 = dense["seconds"]["search"] / count * 200
@@ -91,7 +97,7 @@ def global_table(program, models):
                 sys.exit(f"{model}: every view has the same score")
             print(f"| {found['model']['name']} | {found['model']['vertices']} "
                   f"| {found['best']['score'] / top:.5f} "
-                  f"| {100 * (found['worst']['score'] - low) / (top - low):.3f} "
+                  f"| {worst_gap(found, dense):.3f} "
                   f"| {found['search']['evaluations']} + {found['search']['worst_evaluations']} "
                   f"| {found['seconds']['search'] / time_of_200:.2f} |", flush=True)
 
