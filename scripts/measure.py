@@ -32,6 +32,17 @@ def run(program, *arguments):
     return json.loads(done.stdout)
 
 
+def searcher(program, model, folder, *fixed):
+    """A function of further flags that gives the result of `view` with them and the fixed ones."""
+    return lambda *flags: run(program, "view", model, "-o", folder, "--no-images", "--json", *fixed, *flags)
+
+
+def worst_gap(found, dense):
+    """How far the worst view's score is above the dense search's, % of the dense search's range."""
+    top, low = dense["best"]["score"], dense["worst"]["score"]
+    return 100 * (found["worst"]["score"] - low) / (top - low)
+
+
 def paper_seconds(name):
     return next((s for key, s in PAPER_SECONDS.items() if name.startswith(key)), None)
 
@@ -42,7 +53,7 @@ def view_table(program, models):
     print("| --- " * 14 + "|")
     with tempfile.TemporaryDirectory() as folder:
         for model in models:
-            r = run(program, "view", model, "-o", folder, "--no-images", "--json")
+            r = searcher(program, model, folder)()
             s, best = r["seconds"], r["best"]
             paper = paper_seconds(r["model"]["name"])
             stages = " | ".join(f"{s[k]:.2f}" for k in ("load", "contract", "skeleton", "map", "search"))
@@ -60,16 +71,13 @@ def rapid_table(program, models):
     print("| --- " * 7 + "|")
     with tempfile.TemporaryDirectory() as folder:
         for model in models:
-            def search(*flags):
-                return run(program, "view", model, "-o", folder, "--no-images", "--json",
-                           "--preset", "paper", *flags)
+            search = searcher(program, model, folder, "--preset", "paper")
             dense = search("--search", "exhaustive", "--subdivisions", "5")
-            top, low = dense["best"]["score"], dense["worst"]["score"]
+            top = dense["best"]["score"]
 
             def row(label, epsilon, r):
-                gap = 100 * (r["worst"]["score"] - low) / (top - low)
                 print(f"| {r['model']['name']} | {label} | {epsilon} | {r['best']['score'] / top:.4f} "
-                      f"| {gap:.2f} | {r['search']['evaluations']} + {r['search']['worst_evaluations']} "
+                      f"| {worst_gap(r, dense):.2f} | {r['search']['evaluations']} + {r['search']['worst_evaluations']} "
                       f"| {r['seconds']['search']:.2f} |", flush=True)
             row("dense", "–", dense)
             for epsilon in EPSILONS:
@@ -84,9 +92,7 @@ def global_table(program, models):
     ratios, gaps, costs = [], [], []
     with tempfile.TemporaryDirectory() as folder:
         for model in models:
-            def search(*flags):
-                return run(program, "view", model, "-o", folder, "--no-images", "--json",
-                           "--prior", "none", "--threads", "1", "--search", *flags)
+            search = searcher(program, model, folder, "--prior", "none", "--threads", "1", "--search")
             dense = once(kept, pathlib.Path(model).name, lambda: search("dense"))
             found, coarse = search("global"), search("exhaustive", "--subdivisions", "2")
             top, low = dense["best"]["score"], dense["worst"]["score"]
@@ -94,7 +100,7 @@ def global_table(program, models):
                 sys.exit(f"{model}: every view has the same score")
             time_of_200 = coarse["seconds"]["search"] / coarse["search"]["evaluations"] * 200
             ratios.append(found["best"]["score"] / top)
-            gaps.append(100 * (found["worst"]["score"] - low) / (top - low))
+            gaps.append(worst_gap(found, dense))
             costs.append(found["seconds"]["search"] / time_of_200)
             print(f"| {found['model']['name']} | {found['model']['vertices']} | {ratios[-1]:.5f} | {gaps[-1]:.3f} "
                   f"| {found['search']['evaluations']} + {found['search']['worst_evaluations']} "

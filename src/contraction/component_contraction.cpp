@@ -12,7 +12,8 @@
 #include "vantage/mesh/topology.h"
 #include "vantage/operators/cotangent_laplacian.h"
 
-#include "operators/sparse_cholesky.h"
+#include "contraction/step_limits.h"
+#include "operators/position_solver.h"
 #include "operators/step_matrix.h"
 
 namespace vantage {
@@ -20,18 +21,9 @@ namespace {
 
 /// Faces that begin smaller than this fraction of the mean area say nothing by their ratio.
 constexpr double kTinyFace = 1e-6;
-/// A box side may grow by this factor plus a hundredth of D before a step counts as diverged.
-constexpr double kBoxGrowth = 1.2;
-constexpr double kBoxSlack = 0.01;
 /// A vertex may get this far from the first enclosing sphere's centre, in radii. The box does not
 /// see one vertex that flies off while the others shrink, and what it sees depends on the axes.
 constexpr double kFarthest = 1.2;
-/// Ways to make an ill-conditioned step solvable, tried in order: as defined; non-negative weights
-/// and cotangents of angles above half a degree; then also a growing shift of the diagonal.
-constexpr int kGentlest = 0;
-constexpr int kHarshest = 5;
-constexpr double kSafeCotangent = 115.0;
-constexpr double kFirstShift = 1e-14;  // relative to the largest diagonal entry; × 100 a level
 
 /// Area ratios of faces, then of vertices, against the start.
 class AreaRatios {
@@ -87,15 +79,6 @@ class AreaRatios {
   double mean_area_ = 0.0;
 };
 
-LaplacianLimits limits_of(const ContractionOptions& options, int harshness) {
-  LaplacianLimits limits{.diagonal = options.diagonal_limit};
-  if (harshness > kGentlest) {
-    limits.cotangent = kSafeCotangent;
-    limits.non_negative = true;
-  }
-  return limits;
-}
-
 /// One step of the iteration: minimise |W_L L X'|² + Σ W_H,i² |x'_i − x_i|² by its normal equations.
 class StepSolver {
  public:
@@ -110,8 +93,7 @@ class StepSolver {
                                          const RunContext& run) {
     const Eigen::SparseMatrix<double>& L =
         laplacian_.assemble(now.positions, limits_of(options, harshness));
-    const bool first = !normal_;
-    if (first) {
+    if (!normal_) {
       normal_.emplace(L);
     }
     const auto n = static_cast<Eigen::Index>(now.positions.size());
@@ -127,47 +109,32 @@ class StepSolver {
     }
     Eigen::SparseMatrix<double>& A = normal_->assemble(L, rows, held);
     const double largest = A.diagonal().maxCoeff();
-    if (harshness > kGentlest + 1) {
-      const double shift = largest * kFirstShift * std::pow(100.0, harshness - kGentlest - 2);
+    const double shift = shift_of(largest, harshness);
+    if (shift > 0.0) {
       for (Eigen::Index i = 0; i < n; ++i) {
         A.coeffRef(i, i) += shift;
         B.row(i) += shift * now.positions[static_cast<std::size_t>(i)].transpose();
       }
     }
-    if (first) {
-      cholesky_.analyze(A, run);
-    }
-    if (!cholesky_.factorize(A, run)) {
-      return std::nullopt;
-    }
-    const Eigen::MatrixX3d X = cholesky_.solve(B);
-    if (!X.allFinite()) {
-      return std::nullopt;
-    }
-    std::vector<Vec3> positions(now.positions.size());
-    for (Eigen::Index i = 0; i < n; ++i) {
-      positions[static_cast<std::size_t>(i)] = X.row(i).transpose();
-    }
-    return positions;
+    return positions_.solve(A, B, run);
   }
 
  private:
   const FineShares& shares_;
   LaplacianAssembler laplacian_;
   std::optional<NormalMatrix> normal_{};
-  SparseCholesky cholesky_{};
+  PositionSolver positions_{};
 };
 
 /// What a step must not outgrow.
 class Bounds {
  public:
   explicit Bounds(const std::vector<Vec3>& start)
-      : size_(bounding_box(start).size()), sphere_(enclosing_sphere(start)) {}
+      : sphere_(enclosing_sphere(start)), largest_(largest_box(start, sphere_.diameter)) {}
 
   /// True if a step of this harshness that ends at `now` has diverged.
   [[nodiscard]] bool exceeded_by(const std::vector<Vec3>& now, int harshness) const {
-    const Vec3 bound = kBoxGrowth * size_ + Vec3::Constant(kBoxSlack * sphere_.diameter);
-    return (bounding_box(now).size().array() > bound.array()).any() ||
+    return (bounding_box(now).size().array() > largest_.array()).any() ||
            (harshness == kGentlest && strayed(now));
   }
 
@@ -179,8 +146,8 @@ class Bounds {
     });
   }
 
-  Vec3 size_;
   Sphere sphere_;
+  Vec3 largest_;
 };
 
 /// What one attempt at a step gave.

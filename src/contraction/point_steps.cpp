@@ -10,20 +10,11 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/operators/point_laplacian.h"
 
-#include "operators/sparse_cholesky.h"
+#include "contraction/step_limits.h"
+#include "operators/position_solver.h"
 
 namespace vantage {
 namespace {
-
-/// A box side may grow by this factor plus a hundredth of D before a step counts as diverged.
-constexpr double kBoxGrowth = 1.2;
-constexpr double kBoxSlack = 0.01;
-/// As for meshes: steps as defined; non-negative weights and cotangents of angles above half a
-/// degree; then a shift of the diagonal too, 100 × more each time.
-constexpr int kGentlest = 0;
-constexpr int kHarshest = 5;
-constexpr double kSafeCotangent = 115.0;
-constexpr double kFirstShift = 1e-14;
 
 struct EdgeLengths {
   std::vector<double> shortest{};  ///< Of each point's ring; 0 where it has none.
@@ -60,13 +51,10 @@ class PointStep {
  public:
   std::optional<std::vector<Vec3>> solve(const std::vector<Vec3>& now, const PointRings& rings,
                                          double W_L, const std::vector<double>& W_H,
-                                         double diagonal_limit, int harshness) {
-    LaplacianLimits limits{.diagonal = diagonal_limit};
-    if (harshness > kGentlest) {
-      limits.cotangent = kSafeCotangent;
-      limits.non_negative = true;
-    }
-    const Eigen::SparseMatrix<double> L = point_laplacian(now, rings, limits);
+                                         const ContractionOptions& options, int harshness,
+                                         const RunContext& run) {
+    const Eigen::SparseMatrix<double> L =
+        point_laplacian(now, rings, limits_of(options, harshness));
     Eigen::SparseMatrix<double> A = Eigen::SparseMatrix<double>(L.transpose()) * L;
     A *= W_L * W_L;
     const auto n = static_cast<Eigen::Index>(now.size());
@@ -75,36 +63,18 @@ class PointStep {
       const double w = W_H[static_cast<std::size_t>(i)];
       largest = std::max(largest, A.coeffRef(i, i) += w * w);
     }
-    const double shift = harshness > kGentlest + 1
-                             ? largest * kFirstShift * std::pow(100.0, harshness - kGentlest - 2)
-                             : 0.0;
+    const double shift = shift_of(largest, harshness);
     Eigen::MatrixX3d B(n, 3);
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto v = static_cast<std::size_t>(i);
       A.coeffRef(i, i) += shift;
       B.row(i) = (W_H[v] * W_H[v] + shift) * now[v].transpose();
     }
-    if (!analysed_) {
-      cholesky_.analyze(A);
-      analysed_ = true;
-    }
-    if (!cholesky_.factorize(A)) {
-      return std::nullopt;
-    }
-    const Eigen::MatrixX3d X = cholesky_.solve(B);
-    if (!X.allFinite()) {
-      return std::nullopt;
-    }
-    std::vector<Vec3> positions(now.size());
-    for (Eigen::Index i = 0; i < n; ++i) {
-      positions[static_cast<std::size_t>(i)] = X.row(i).transpose();
-    }
-    return positions;
+    return positions_.solve(A, B, run);
   }
 
  private:
-  SparseCholesky cholesky_{};
-  bool analysed_ = false;
+  PositionSolver positions_{};
 };
 
 }  // namespace
@@ -121,8 +91,7 @@ ComponentHistory contract_point_component(const std::vector<Vec3>& scaled, const
   if (!(start.mean > 0.0)) {
     return history;
   }
-  const Vec3 bound = kBoxGrowth * bounding_box(scaled).size() +
-                     Vec3::Constant(kBoxSlack * enclosing_sphere(scaled).diameter);
+  const Vec3 bound = largest_box(scaled, enclosing_sphere(scaled).diameter);
   PointStep stepper;
   std::vector<Vec3> now = scaled;
   double W_L = 1.0 / (5.0 * start.mean);
@@ -134,7 +103,7 @@ ComponentHistory contract_point_component(const std::vector<Vec3>& scaled, const
     std::optional<std::vector<Vec3>> next;
     for (; harshness <= kHarshest; ++harshness) {
       run.check();
-      next = stepper.solve(now, rings, W_L, W_H, options.diagonal_limit, harshness);
+      next = stepper.solve(now, rings, W_L, W_H, options, harshness, run);
       history.summary.stop = next ? ContractionStop::Grew : ContractionStop::SolverFailed;
       if (next && (bounding_box(*next).size().array() > bound.array()).any()) {
         next.reset();

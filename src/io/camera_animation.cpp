@@ -8,6 +8,7 @@
 #include "vantage/core/error.h"
 #include "vantage/io/animation.h"
 
+#include "io/base64.h"
 #include "io/byte_cursor.h"
 
 namespace vantage {
@@ -17,23 +18,6 @@ using Json = nlohmann::ordered_json;
 
 // glTF's codes: 32-bit float.
 constexpr int kFloat = 5126;
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      group = group << 8U | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= count ? kDigits[(group >> (18 - 6 * k)) & 63U] : '=';
-    }
-  }
-  return text;
-}
 
 /// Rotation of a node whose −z looks at the target and whose y is up.
 Eigen::Quaterniond rotation_of(const Camera& camera) {

@@ -5,50 +5,34 @@
 #include <string>
 
 #include <Eigen/Geometry>
-#include <nlohmann/json.hpp>
 
-#include "vantage/core/error.h"
 #include "vantage/io/camera_files.h"
+
+#include "core/json_reader.h"
 
 namespace vantage {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
-class CameraReader {
+class CameraReader : private JsonReader {
  public:
-  CameraReader(std::string_view bytes, std::string_view name) : name_(name) {
-    try {
-      root_ = Json::parse(bytes.begin(), bytes.end());
-    } catch (const Json::exception&) {
-      fail("is not well formed JSON");
-    }
-  }
+  using JsonReader::JsonReader;
 
   Camera read() const {
-    if (has(root_, "cameras") && has(root_, "nodes")) {
+    if (has(root(), "cameras") && has(root(), "nodes")) {
       return checked(from_gltf());
     }
-    if (has(root_, "frames")) {
+    if (has(root(), "frames")) {
       return checked(from_transforms());
     }
-    if (has(root_, "best")) {
+    if (has(root(), "best")) {
       return checked(from_view());
     }
     fail("holds no camera: expected a glTF with a camera, a transforms.json or a view.json");
   }
 
  private:
-  [[noreturn]] void fail(const std::string& problem) const {
-    throw FormatError(name_, "", problem);
-  }
-
-  static bool has(const Json& object, const char* member) {
-    return object.is_object() && object.contains(member);
-  }
-
   const Json& member(const Json& object, const char* name) const {
     if (!has(object, name)) {
       fail(std::string("lacks the member ") + name);
@@ -72,14 +56,12 @@ class CameraReader {
   }
 
   Vec3 vector(const Json& value, const char* what) const {
-    if (!value.is_array() || value.size() != 3) {
-      fail(std::string(what) + " is not a list of 3 numbers");
-    }
+    require_list_of_3(value, what);
     return {number(value[0], what), number(value[1], what), number(value[2], what)};
   }
 
   Camera from_gltf() const {
-    const Json& nodes = member(root_, "nodes");
+    const Json& nodes = member(root(), "nodes");
     for (const Json& node : nodes) {
       if (!has(node, "camera")) {
         continue;
@@ -88,7 +70,7 @@ class CameraReader {
       if (!index.is_number_unsigned()) {
         fail("the camera of a node is not an index");
       }
-      const Json& lens = entry(root_.at("cameras"), index.get<std::size_t>(), "camera");
+      const Json& lens = entry(root().at("cameras"), index.get<std::size_t>(), "camera");
       const Json& matrix = member(node, "matrix");
       Eigen::Matrix4d world;
       for (Eigen::Index i = 0; i < 16; ++i) {  // column by column
@@ -114,7 +96,7 @@ class CameraReader {
   }
 
   Camera from_transforms() const {
-    const Json& frame = entry(root_.at("frames"), 0, "frame");
+    const Json& frame = entry(root().at("frames"), 0, "frame");
     const Json& rows = member(frame, "transform_matrix");
     Eigen::Matrix4d world;
     for (Eigen::Index r = 0; r < 4; ++r) {
@@ -125,15 +107,16 @@ class CameraReader {
       }
     }
     Camera camera = camera_at(world, frame);
-    if (has(root_, "orthographic_height")) {
+    if (has(root(), "orthographic_height")) {
       camera.projection = Projection::Orthographic;
-      camera.height = number(root_.at("orthographic_height"), "orthographic_height");
-    } else if (has(root_, "camera_angle_y")) {
-      camera.fov_y_deg = number(root_.at("camera_angle_y"), "camera_angle_y") * kDegPerRad;
+      camera.height = number(root().at("orthographic_height"), "orthographic_height");
+    } else if (has(root(), "camera_angle_y")) {
+      camera.fov_y_deg = number(root().at("camera_angle_y"), "camera_angle_y") * kDegPerRad;
     } else {
-      const double width = number(member(root_, "w"), "w");
-      const double height = number(member(root_, "h"), "h");
-      const double half = std::tan(0.5 * number(member(root_, "camera_angle_x"), "camera_angle_x"));
+      const double width = number(member(root(), "w"), "w");
+      const double height = number(member(root(), "h"), "h");
+      const double half =
+          std::tan(0.5 * number(member(root(), "camera_angle_x"), "camera_angle_x"));
       camera.fov_y_deg = 2.0 * std::atan(half * height / width) * kDegPerRad;
     }
     return camera;
@@ -152,8 +135,8 @@ class CameraReader {
 
   /// The picture's camera of the best view.
   Camera from_view() const {
-    const Json& best = root_.at("best");
-    const Json& scoring = member(root_, "camera");
+    const Json& best = root().at("best");
+    const Json& scoring = member(root(), "camera");
     Camera camera;
     camera.eye = vector(member(best, "eye"), "best.eye");
     camera.up = vector(member(best, "up"), "best.up");
@@ -186,9 +169,6 @@ class CameraReader {
     }
     return camera;
   }
-
-  std::string name_;
-  Json root_{};
 };
 
 }  // namespace

@@ -5,25 +5,13 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Geometry>
-
+#include "operators/cotangent.h"
 #include "operators/step_matrix.h"
 
 namespace vantage {
 namespace {
 
 using Entry = Eigen::Triplet<double, int>;
-
-/// Cotangent of the angle at `apex` in the triangle apex, p, q; 0 if the triangle has no area.
-double cotangent(const Vec3& apex, const Vec3& p, const Vec3& q, double limit) {
-  const Vec3 u = p - apex;
-  const Vec3 v = q - apex;
-  const double twice_area = u.cross(v).norm();
-  if (!(twice_area > 0.0)) {
-    return 0.0;
-  }
-  return std::clamp(u.dot(v) / twice_area, -limit, limit);
-}
 
 void scale_down_rows(Eigen::SparseMatrix<double>& L, double limit) {
   Eigen::VectorXd factor = Eigen::VectorXd::Ones(L.rows());

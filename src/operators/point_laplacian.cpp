@@ -7,20 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Geometry>
+#include "operators/cotangent.h"
 
 namespace vantage {
-namespace {
-
-/// Cotangent of the angle at `apex`; 0 if the triangle has no area.
-double cotangent_at(const Vec3& apex, const Vec3& p, const Vec3& q, double limit) {
-  const Vec3 u = p - apex;
-  const Vec3 v = q - apex;
-  const double sine = u.cross(v).norm();
-  return sine > 0.0 ? std::clamp(u.dot(v) / sine, -limit, limit) : 0.0;
-}
-
-}  // namespace
 
 Eigen::SparseMatrix<double, Eigen::RowMajor> point_laplacian(std::span<const Vec3> positions,
                                                              const PointRings& rings,
@@ -42,8 +31,8 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> point_laplacian(std::span<const Vec
     };
     rings.each_triangle(i, [&](std::uint32_t a, std::uint32_t b) {
       const Vec3& p = positions[i];
-      add(a, cotangent_at(positions[b], p, positions[a], limits.cotangent));
-      add(b, cotangent_at(positions[a], p, positions[b], limits.cotangent));
+      add(a, cotangent(positions[b], p, positions[a], limits.cotangent));
+      add(b, cotangent(positions[a], p, positions[b], limits.cotangent));
     });
     double sum = 0.0;
     for (auto& [j, w] : row) {

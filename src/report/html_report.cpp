@@ -15,6 +15,7 @@
 #include "vantage/render/colour_map.h"
 #include "vantage/spatial/directions.h"
 
+#include "io/base64.h"
 #include "report/display_mesh.h"
 #include "report/report_page.h"
 
@@ -36,28 +37,11 @@ constexpr double kReach = 1.25;
 constexpr int kStripWidth = 288;
 constexpr int kStripHeight = 216;
 
-std::string base64(const void* data, std::size_t size) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const auto* bytes = static_cast<const unsigned char*>(data);
-  std::string text;
-  text.reserve((size + 2) / 3 * 4);
-  for (std::size_t i = 0; i < size; i += 3) {
-    const std::size_t left = std::min<std::size_t>(3, size - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      group = group << 8U | (k < left ? bytes[i + k] : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= left ? kDigits[group >> (18U - 6U * k) & 63U] : '=';
-    }
-  }
-  return text;
-}
-
+/// The values' bytes as they are in memory.
 template <class Value>
-std::string base64(const std::vector<Value>& values) {
-  return base64(values.data(), values.size() * sizeof(Value));
+std::string base64_of(const std::vector<Value>& values) {
+  const auto* bytes = static_cast<const char*>(static_cast<const void*>(values.data()));
+  return base64({bytes, values.size() * sizeof(Value)});
 }
 
 /// Model coordinates to radii of the enclosing sphere around its centre, which the page works in.
@@ -83,7 +67,7 @@ std::string packed_positions(const std::vector<Vec3>& positions,
       packed.push_back(static_cast<std::uint16_t>(std::lround(65535.0 * share)));
     }
   }
-  return base64(packed);
+  return base64_of(packed);
 }
 
 std::string packed_significance(const std::vector<double>& map,
@@ -95,12 +79,12 @@ std::string packed_significance(const std::vector<double>& map,
     const double share = highest > 0.0 ? map[v] / highest : 0.0;
     packed.push_back(static_cast<std::uint8_t>(std::lround(255.0 * share)));
   }
-  return base64(packed);
+  return base64_of(packed);
 }
 
 Json surface_part(const DisplayMesh& display, const ShapeAnalysis& shape) {
   return {{"faces", display.triangles.size()},
-          {"indices", base64(display.triangles)},
+          {"indices", base64_of(display.triangles)},
           {"significance", packed_significance(shape.map.of_vertex, display.vertex_of_row)}};
 }
 
@@ -168,7 +152,7 @@ Json view_part(const char* name, const ReportedView& view, const ShapeAnalysis& 
           {"up", numbers(view.picture.up)},
           {"fov_y_deg", view.picture.fov_y_deg},
           {"aspect", static_cast<double>(options.width) / options.height},
-          {"picture", "data:image/png;base64," + base64(png.data(), png.size())},
+          {"picture", "data:image/png;base64," + base64(png)},
           {"cameras",
            {{"glTF", camera_gltf(view.picture, size, shape.sphere.diameter)},
             {"NeRF transforms.json",
@@ -182,7 +166,7 @@ std::string colour_table() {
   for (int i = 0; i < 256; ++i) {
     table.push_back(cool_warm(i / 255.0));
   }
-  return base64(table);
+  return base64_of(table);
 }
 
 /// Text that may stand inside a script element: no "<" can end it.

@@ -10,6 +10,7 @@
 #include "vantage/mesh/topology.h"
 
 #include "core/parallel.h"
+#include "significance/feature_map.h"
 #include "spatial/graph_distance.h"
 
 namespace vantage {
@@ -18,39 +19,6 @@ namespace {
 /// A level whose displacement spans less than this fraction of D is flat: rounding, not shape.
 constexpr double kFlat = 1e-6;
 constexpr std::size_t kGrain = 2048;  // vertices a task
-
-/// One level of the map: values d, of which only the referenced vertices count.
-struct Level {
-  std::vector<double> normalised{};  ///< D^(j) in [0, 1] for referenced vertices.
-  std::size_t maximum = 0;           ///< Lowest-index vertex that attains 1.
-  bool flat = true;
-};
-
-Level normalise(const std::vector<double>& d, const std::vector<bool>& referenced,
-                double diameter) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  Level level;
-  for (std::size_t v = 0; v < d.size(); ++v) {
-    if (referenced[v]) {
-      low = std::min(low, d[v]);
-      if (d[v] > high) {
-        high = d[v];
-        level.maximum = v;
-      }
-    }
-  }
-  level.normalised.assign(d.size(), 0.0);
-  level.flat = !(high - low > kFlat * diameter);
-  if (!level.flat) {
-    for (std::size_t v = 0; v < d.size(); ++v) {
-      if (referenced[v]) {
-        level.normalised[v] = (d[v] - low) / (high - low);
-      }
-    }
-  }
-  return level;
-}
 
 /// Difference of the largest and the smallest value of the referenced vertices.
 double span_of(const std::vector<double>& d, const std::vector<bool>& referenced) {
@@ -63,39 +31,6 @@ double span_of(const std::vector<double>& d, const std::vector<bool>& referenced
     }
   }
   return high - low;
-}
-
-/// Weighted mean over the referenced vertices other than the one that attains the maximum.
-double mean_without_maximum(const Level& level, const std::vector<bool>& referenced,
-                            const std::vector<double>& weight) {
-  double sum = 0.0;
-  double weights = 0.0;
-  for (std::size_t v = 0; v < level.normalised.size(); ++v) {
-    if (referenced[v] && v != level.maximum) {
-      sum += weight[v] * level.normalised[v];
-      weights += weight[v];
-    }
-  }
-  return weights > 0.0 ? sum / weights : 0.0;
-}
-
-/// Weighted mean over the strict local maxima over one-rings, the global maximum left out.
-double mean_of_local_maxima(const Level& level, const IndexLists& rings,
-                            const std::vector<double>& weight) {
-  double sum = 0.0;
-  double weights = 0.0;
-  for (std::size_t v = 0; v < level.normalised.size(); ++v) {
-    const double value = level.normalised[v];
-    const auto ring = rings[v];
-    const bool peak = !ring.empty() && std::all_of(ring.begin(), ring.end(), [&](std::uint32_t u) {
-      return level.normalised[u] < value;
-    });
-    if (peak && v != level.maximum) {
-      sum += weight[v] * value;
-      weights += weight[v];
-    }
-  }
-  return weights > 0.0 ? sum / weights : 0.0;
 }
 
 std::vector<std::vector<double>> displacements(const ContractionHistory& history,
@@ -157,7 +92,8 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
       map.level_factor.push_back(0.0);
       continue;
     }
-    const Level level = normalise(velocity ? moved : map.displacement[j], referenced, diameter);
+    const NormalisedField level =
+        normalised(velocity ? moved : map.displacement[j], referenced, kFlat * diameter);
     if (level.flat) {
       map.level_factor.push_back(0.0);
       continue;
@@ -168,7 +104,7 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
     const double factor = (1.0 - mean) * (1.0 - mean);  // Φ of the paper, on normalised values
     map.level_factor.push_back(factor);
     for (std::size_t v = 0; v < vertex_count; ++v) {
-      map.of_vertex[v] += factor * level.normalised[v];
+      map.of_vertex[v] += factor * level.values[v];
     }
   }
   return map;

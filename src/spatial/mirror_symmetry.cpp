@@ -9,9 +9,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <nanoflann.hpp>
 
 #include "vantage/mesh/measures.h"
+
+#include "spatial/point_tree.h"
 
 namespace vantage {
 namespace {
@@ -33,23 +34,7 @@ constexpr std::size_t kQueries = 4000;
 struct SurfacePoints {
   std::vector<Vec3> points{};
   std::vector<double> shares{};
-
-  // What nanoflann asks of a point set.
-  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
-
-  [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return points[i][static_cast<Eigen::Index>(axis)];
-  }
-
-  template <class Box>
-  bool kdtree_get_bbox(Box& /*box*/) const {
-    return false;
-  }
 };
-
-using Tree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, SurfacePoints, double>,
-                                        SurfacePoints, 3, std::size_t>;
 
 /// Bisects a triangle at its longest side until that is at most `spacing`; adds the centres.
 void add_samples(const std::array<Vec3, 3>& corners, double spacing, SurfacePoints& set) {
@@ -123,7 +108,7 @@ SurfacePoints normalised_points(const TriMesh& surface, Vec3& centroid, double& 
 }
 
 /// Share of the area whose mirror image is farther from the surface than the tolerance.
-double asymmetric_share(const SurfacePoints& set, const Tree& tree, const Vec3& normal,
+double asymmetric_share(const SurfacePoints& set, const PointTree& tree, const Vec3& normal,
                         double spacing, double tolerance) {
   // Reach is half an extent, the tolerance is of the whole one; samples of the two halves may lie
   // where they like within their spacing.
@@ -135,7 +120,7 @@ double asymmetric_share(const SurfacePoints& set, const Tree& tree, const Vec3& 
     const Vec3 image = set.points[i] - 2.0 * normal.dot(set.points[i]) * normal;
     std::size_t nearest = 0;
     double squared = 0.0;
-    tree.knnSearch(image.data(), 1, &nearest, &squared);
+    tree.nearest(image, {&nearest, 1}, {&squared, 1});
     all += set.shares[i];
     beyond += squared > limit * limit ? set.shares[i] : 0.0;
   }
@@ -171,7 +156,7 @@ std::vector<MirrorPlane> mirror_planes(const TriMesh& surface, const MirrorOptio
   if (set.points.empty()) {
     return planes;
   }
-  const Tree tree(3, set);
+  const PointTree tree(set.points);
   const double same = std::cos(kSamePlaneRad);
   for (const Vec3& normal : candidate_normals(set)) {
     const bool known = std::any_of(planes.begin(), planes.end(), [&](const MirrorPlane& plane) {

@@ -4,59 +4,47 @@
 #include <initializer_list>
 #include <numbers>
 
-#include <nlohmann/json.hpp>
-
-#include "vantage/core/error.h"
 #include "vantage/view/prior.h"
+
+#include "core/json_reader.h"
 
 namespace vantage {
 namespace {
-
-using Json = nlohmann::json;
 
 // More lobes than anybody writes by hand; each costs an exponential a direction.
 constexpr std::size_t kMostLobes = 10000;
 constexpr double kHighestLobe = 1e6;
 
-class PriorReader {
+class PriorReader : private JsonReader {
  public:
-  PriorReader(std::string_view bytes, std::string_view name) : name_(name) {
-    root_ = Json::parse(bytes.begin(), bytes.end(), nullptr, false);
-    if (root_.is_discarded()) {
-      fail("is not well formed JSON");
-    }
-  }
+  using JsonReader::JsonReader;
 
   [[nodiscard]] ViewPrior read() const {
-    if (!root_.is_object() || !root_.contains("vantage_prior")) {
+    if (!has(root(), "vantage_prior")) {
       fail("is no prior: expected an object with \"vantage_prior\": 1");
     }
-    if (root_.at("vantage_prior") != 1) {
+    if (root().at("vantage_prior") != 1) {
       fail("has a vantage_prior other than 1, the only version there is");
     }
-    refuse_others(root_, {"vantage_prior", "upright", "lobes"});
+    refuse_others(root(), {"vantage_prior", "upright", "lobes"});
     ViewPrior prior;
-    prior.name = std::string(name_.substr(name_.find_last_of('/') + 1));
+    prior.name = name().substr(name().find_last_of('/') + 1);
     prior.is_uniform = false;
     prior.upright = {.elevation_sine = 0.0,
                      .elevation_strength = 0.0,
                      .corner_strength = 0.0,
                      .front_strength = 0.0,
                      .side_strength = 0.0};
-    if (root_.contains("upright")) {
-      read_upright(root_.at("upright"), prior.upright);
+    if (root().contains("upright")) {
+      read_upright(root().at("upright"), prior.upright);
     }
-    if (root_.contains("lobes")) {
-      read_lobes(root_.at("lobes"), prior.lobes);
+    if (root().contains("lobes")) {
+      read_lobes(root().at("lobes"), prior.lobes);
     }
     return prior;
   }
 
  private:
-  [[noreturn]] void fail(const std::string& problem) const {
-    throw FormatError(name_, "", problem);
-  }
-
   void refuse_others(const Json& object, std::initializer_list<std::string_view> known) const {
     for (const auto& [member, value] : object.items()) {
       if (std::find(known.begin(), known.end(), member) == known.end()) {
@@ -100,15 +88,13 @@ class PriorReader {
   }
 
   [[nodiscard]] PriorLobe lobe(const Json& object, const std::string& what) const {
-    if (!object.is_object() || !object.contains("direction")) {
+    if (!has(object, "direction")) {
       fail(what + " is not an object with a direction");
     }
     refuse_others(object, {"direction", "weight", "width_deg"});
     PriorLobe result;
     const Json& direction = object.at("direction");
-    if (!direction.is_array() || direction.size() != 3) {
-      fail(what + ".direction is not a list of 3 numbers");
-    }
+    require_list_of_3(direction, what + ".direction");
     for (std::size_t axis = 0; axis < 3; ++axis) {
       result.direction[static_cast<Eigen::Index>(axis)] =
           number(direction[axis], what + ".direction", -1e100, 1e100);
@@ -127,9 +113,6 @@ class PriorReader {
     }
     return result;
   }
-
-  std::string_view name_;
-  Json root_{};
 };
 
 }  // namespace

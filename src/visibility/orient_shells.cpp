@@ -14,6 +14,7 @@
 #include "vantage/visibility/vertex_visibility.h"
 
 #include "mesh/disjoint_sets.h"
+#include "mesh/triangle_corners.h"
 #include "spatial/ray_scene.h"
 
 namespace vantage {
@@ -39,10 +40,6 @@ struct Shells {
   std::vector<std::uint8_t> closed{};  // of each shell: as many faces run along each edge one
                                        // way as the other
 };
-
-bool names_a_vertex_twice(const Triangle& t) {
-  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
 
 /// +1 if the face runs along the edge from its lower to its higher vertex, −1 otherwise.
 int sense(const Triangle& face, const std::array<std::uint32_t, 2>& edge) {

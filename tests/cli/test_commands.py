@@ -105,10 +105,14 @@ class Map(ProgramTest):
         self.assertGreater(ordered[-1]["red"], ordered[-1]["blue"])
         self.assertGreater(ordered[0]["blue"], ordered[0]["red"])
 
-    def test_local_maxima_give_another_map(self):
-        self.vantage("map", MODELS / "fan.ply", "-o", "a.ply")
-        self.vantage("map", MODELS / "fan.ply", "-o", "b.ply", "--suppression", "local-maxima")
-        self.assertNotEqual((self.dir / "a.ply").read_bytes(), (self.dir / "b.ply").read_bytes())
+    def test_every_choice_of_method_gives_another_map(self):
+        maps = set()
+        choices = ((), ("--suppression", "local-maxima"), ("--kinematics", "velocity"), ("--graph", "finished"),
+                   ("--flat-level", "0"))
+        for flags in choices:
+            self.vantage("map", MODELS / "deer.ply", "-o", "map.ply", *flags)
+            maps.add((self.dir / "map.ply").read_bytes())
+        self.assertEqual(len(maps), len(choices))
 
 
 class Score(ProgramTest):
@@ -117,6 +121,11 @@ class Score(ProgramTest):
         out = self.vantage("score", MODELS / "fan.ply", "--sphere", 1).out.splitlines()
         self.assertEqual(out[0], "method,dx,dy,dz,score")
         self.assertEqual(len(out), 1 + 42)
+
+    def test_a_file_of_scores_holds_what_standard_output_gets(self):
+        out = self.vantage("score", MODELS / "fan.ply", "--sphere", 0).out
+        self.assertEqual(self.vantage("score", MODELS / "fan.ply", "--sphere", 0, "-o", "s.csv").out, "")
+        self.assertEqual((self.dir / "s.csv").read_text(), out)
 
     def test_weight_area_scores_less_than_the_largest_significance(self):
         # A mean over the surface, of which a part is seen, cannot exceed the map's largest value.
@@ -152,13 +161,16 @@ class Render(ProgramTest):
         size = ("--size", "96x72")
         self.vantage("view", MODELS / "fan.ply", "-o", "out", "--search", "rapid", *size)
         for name, source in (("a.png", ("--view", "best", "--search", "rapid")),
-                             ("b.png", ("--camera", "out/camera-best.gltf")),
+                             ("b.png", ("--camera", "out/view.json")),
+                             ("g.png", ("--camera", "out/camera-best.gltf")),
+                             ("t.png", ("--camera", "out/camera-best.transforms.json")),
                              ("c.png", ("--direction", "1,0.5,1"))):
             self.vantage("render", MODELS / "fan.ply", "-o", name, *source, *size)
         best = (self.dir / "out" / "best.png").read_bytes()
         self.assertEqual((self.dir / "a.png").read_bytes(), best)
+        for name in ("b.png", "g.png", "t.png"):
+            self.assertEqual((self.dir / name).read_bytes(), best, name)
         self.assertNotEqual((self.dir / "c.png").read_bytes(), best)
-        self.assertEqual((self.dir / "b.png").read_bytes()[:8], best[:8])
 
     def test_needs_one_place_to_look_from(self):
         self.vantage("render", MODELS / "fan.ply", "-o", "a.png", exit_code=2)
@@ -191,11 +203,14 @@ class Help(ProgramTest):
 
     def test_every_command_explains_itself_with_an_example(self):
         out = self.vantage("--help").out
-        for command in ("view", "skeleton", "map", "score", "render", "info"):
-            self.assertIn(command, out)
-            page = self.vantage(command, "--help").out
+        listed = out[out.index("Subcommands:"):].split("\n\n")[0].splitlines()[1:]
+        commands = [line.split()[0] for line in listed]
+        self.assertEqual(commands, ["view", "skeleton", "map", "score", "render", "info", "batch", "results"])
+        commands.remove("results")
+        for command in (*commands, *(f"results {verb}" for verb in ("query", "export", "diff", "merge"))):
+            page = self.vantage(*command.split(), "--help").out
             self.assertIn("Examples:", page)
-            self.assertIn(f"vantage {command}", page)
+            self.assertIn(f"vantage {command}", page[page.index("Examples:"):])
 
     def test_version_names_the_program_and_its_libraries(self):
         out = self.vantage("--version").out

@@ -10,22 +10,17 @@
 #include "vantage/contraction/contraction.h"
 #include "vantage/mesh/measures.h"
 
+#include "support/named_mesh.h"
 #include "support/shapes.h"
 
 namespace vantage {
 namespace {
 
-struct Shape {
-  std::string name;
-  TriMesh mesh;
+struct Shape : test::NamedMesh {
   /// How far levels may differ for inputs that differ by rounding, in diameters: late systems have
   /// condition 10¹² and more.
   double rounding = 1e-5;
 };
-
-std::ostream& operator<<(std::ostream& out, const Shape& shape) {
-  return out << shape.name;
-}
 
 std::vector<Shape> shapes() {
   return {{"Sphere", test::sphere(3)},

@@ -55,6 +55,11 @@ double brute_force_diameter(const std::vector<Vec3>& points) {
 
 class EnclosingSphereOfSeed : public ::testing::TestWithParam<unsigned> {};
 
+void expect_the_smallest(const std::vector<Vec3>& points) {
+  const double expected = brute_force_diameter(points);
+  EXPECT_NEAR(enclosing_sphere(points).diameter, expected, 1e-9 * expected);
+}
+
 double random_coordinate(Pcg32& random) {
   return 2.0 * random.uniform() - 1.0;
 }
@@ -67,8 +72,7 @@ TEST_P(EnclosingSphereOfSeed, IsTheSmallestThatTriesOfAllSupportsFind) {
     points.emplace_back(random_coordinate(random), random_coordinate(random),
                         random_coordinate(random));
   }
-  const double expected = brute_force_diameter(points);
-  EXPECT_NEAR(enclosing_sphere(points).diameter, expected, 1e-9 * expected);
+  expect_the_smallest(points);
 }
 
 TEST_P(EnclosingSphereOfSeed, HandlesLatticePointsWithTheirManyTies) {
@@ -78,8 +82,7 @@ TEST_P(EnclosingSphereOfSeed, HandlesLatticePointsWithTheirManyTies) {
   for (int i = 0; i < 9; ++i) {
     points.emplace_back(random.below(3), random.below(3), random.below(3));
   }
-  const double expected = brute_force_diameter(points);
-  EXPECT_NEAR(enclosing_sphere(points).diameter, expected, 1e-9 * expected);
+  expect_the_smallest(points);
 }
 
 TEST_P(EnclosingSphereOfSeed, HandlesPointsInAPlane) {
@@ -91,8 +94,7 @@ TEST_P(EnclosingSphereOfSeed, HandlesPointsInAPlane) {
   for (int i = 0; i < 9; ++i) {
     points.emplace_back(random_coordinate(random) * u + random_coordinate(random) * v);
   }
-  const double expected = brute_force_diameter(points);
-  EXPECT_NEAR(enclosing_sphere(points).diameter, expected, 1e-9 * expected);
+  expect_the_smallest(points);
 }
 
 TEST_P(EnclosingSphereOfSeed, HoldsEveryPointOfALargeCosphericalCloudFarFromTheOrigin) {

@@ -12,19 +12,13 @@
 #include "vantage/skeleton/skeleton.h"
 
 #include "support/dense_oracles.h"
+#include "support/named_mesh.h"
 #include "support/shapes.h"
 
 namespace vantage {
 namespace {
 
-struct Shape {
-  std::string name;
-  TriMesh mesh;
-};
-
-std::ostream& operator<<(std::ostream& out, const Shape& shape) {
-  return out << shape.name;
-}
+using test::NamedMesh;
 
 TriMesh with_isolated_vertex(TriMesh mesh) {
   mesh.positions.insert(mesh.positions.begin() + 3, Vec3(40, 50, 60));
@@ -38,9 +32,9 @@ TriMesh with_isolated_vertex(TriMesh mesh) {
 
 /// Moves every vertex a little: on symmetric shapes, rounding alone would decide which of several
 /// equal vertices is a strict local maximum.
-std::vector<Shape> uneven(std::vector<Shape> shapes) {
+std::vector<NamedMesh> uneven(std::vector<NamedMesh> shapes) {
   Pcg32 random(17);
-  for (Shape& shape : shapes) {
+  for (NamedMesh& shape : shapes) {
     for (Vec3& p : shape.mesh.positions) {
       p += 0.01 * Vec3(random.uniform(), random.uniform(), random.uniform());
     }
@@ -48,7 +42,7 @@ std::vector<Shape> uneven(std::vector<Shape> shapes) {
   return shapes;
 }
 
-std::vector<Shape> shapes() {
+std::vector<NamedMesh> shapes() {
   return uneven({{"Torus", test::torus(1.0, 0.3, 30, 12)},
                  {"Box", test::box(1.0, 2.0, 3.0, 6)},
                  {"OpenCylinder", test::open_cylinder(0.3, 3.0, 12, 24)},
@@ -71,7 +65,7 @@ std::vector<KssmOptions> all_options() {
   return all;
 }
 
-class KssmOf : public ::testing::TestWithParam<Shape> {
+class KssmOf : public ::testing::TestWithParam<NamedMesh> {
  protected:
   const TriMesh shape_mesh = GetParam().mesh;
   const ContractionHistory shape_history = contract(shape_mesh);

@@ -15,11 +15,14 @@
 
 #include "support/dense_oracles.h"
 #include "support/shapes.h"
+#include "support/skeletons.h"
 #include "support/voxel_surface.h"
 #include "unit/skeleton/genus_two.h"
 
 namespace vantage {
 namespace {
+
+using test::skeleton_of;
 
 struct Shape {
   std::string name;
@@ -51,10 +54,6 @@ std::vector<Shape> blocky_shapes() {
           {"plate_with_two_holes", test::plate_with_holes(2), 1, 2, 0},
           {"plate_with_five_holes", test::plate_with_holes(5), 1, 5, 0},
           {"cube_frame", test::cube_frame(), 1, 5, 0}};
-}
-
-Skeleton skeleton_of(const TriMesh& mesh, const SkeletonOptions& options = {}) {
-  return extract_skeleton(mesh, contract(mesh), options);
 }
 
 std::size_t end_count(const CurveGraph& graph) {

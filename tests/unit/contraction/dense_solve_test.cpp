@@ -8,6 +8,7 @@
 
 #include "contraction/component_contraction.h"
 #include "support/dense_oracles.h"
+#include "support/named_mesh.h"
 #include "support/shapes.h"
 
 /// \file
@@ -17,14 +18,7 @@
 namespace vantage {
 namespace {
 
-struct Shape {
-  std::string name;
-  TriMesh mesh;
-};
-
-std::ostream& operator<<(std::ostream& out, const Shape& shape) {
-  return out << shape.name;
-}
+using test::NamedMesh;
 
 /// Brings the enclosing sphere to diameter 2 around the origin.
 TriMesh scaled(TriMesh mesh) {
@@ -35,7 +29,7 @@ TriMesh scaled(TriMesh mesh) {
   return mesh;
 }
 
-std::vector<Shape> small_shapes() {
+std::vector<NamedMesh> small_shapes() {
   return {{"Sphere", scaled(test::sphere(2))},
           {"Torus", scaled(test::torus(1.0, 0.35, 16, 8))},
           {"Cylinder", scaled(test::cylinder(0.3, 3.0, 10, 12))},
@@ -44,7 +38,7 @@ std::vector<Shape> small_shapes() {
           {"YOfTubes", scaled(test::y_of_tubes(0.35, 9))}};
 }
 
-class Against : public ::testing::TestWithParam<Shape> {};
+class Against : public ::testing::TestWithParam<NamedMesh> {};
 
 TEST_P(Against, TheFirstStepAgreesWithADenseLeastSquaresSolve) {
   const TriMesh& mesh = GetParam().mesh;

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
-#include <ostream>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -9,6 +7,7 @@
 #include "vantage/contraction/contraction.h"
 #include "vantage/mesh/measures.h"
 
+#include "support/named_mesh.h"
 #include "support/shapes.h"
 
 /// \file
@@ -17,14 +16,7 @@
 namespace vantage {
 namespace {
 
-struct Surface {
-  std::string name;
-  TriMesh mesh;
-};
-
-std::ostream& operator<<(std::ostream& out, const Surface& surface) {
-  return out << surface.name;
-}
+using test::NamedMesh;
 
 TriMesh tetrahedron() {
   return {.positions = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
@@ -43,7 +35,7 @@ TriMesh fan_of_needles() {
   return mesh;
 }
 
-std::vector<Surface> surfaces() {
+std::vector<NamedMesh> surfaces() {
   return {{"Triangle", {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}}},
           {"NeedleOfOneToAMillion",
            {.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1e-6, 0}}, .triangles = {{0, 1, 2}}}},
@@ -62,7 +54,7 @@ std::vector<Surface> surfaces() {
           {"FanOfNeedles", fan_of_needles()}};
 }
 
-class SmallSurface : public ::testing::TestWithParam<Surface> {};
+class SmallSurface : public ::testing::TestWithParam<NamedMesh> {};
 
 TEST_P(SmallSurface, GivesFinitePositions) {
   for (const auto& level : contract(GetParam().mesh).levels) {

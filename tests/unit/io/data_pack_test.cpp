@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Real and hostile models in a folder named by the environment variable VANTAGE_DATA, listed in its
 // MANIFEST.tsv with their numbers of vertices and faces (before triangulation).
+#include "support/data_pack.h"
+
 #include <array>
 #include <charconv>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -21,21 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class DataPack : public testing::Test {
- protected:
-  void SetUp() override {
-    const char* folder = std::getenv("VANTAGE_DATA");
-    if (folder == nullptr) {
-      GTEST_SKIP() << "NOTHING WAS TESTED: set VANTAGE_DATA to the folder of the data pack";
-    }
-    root_ = folder;
-  }
-
-  [[nodiscard]] const fs::path& root() const { return root_; }
-
- private:
-  fs::path root_{};
-};
+using DataPack = DataPackTest<>;
 
 struct Entry {
   std::string file;

@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: MIT
 // The whole method on real models, in the folder that the environment variable VANTAGE_DATA names.
-#include <cstdlib>
-#include <string>
 
 #include <gtest/gtest.h>
 
 #include "vantage/report/view_report.h"
 
+#include "support/data_pack.h"
 #include "support/visibility_oracle.h"
 
 namespace vantage::test {
 namespace {
 
-class RealModel : public testing::TestWithParam<const char*> {
+class RealModel : public DataPackTest<testing::TestWithParam<const char*>> {
  protected:
   void SetUp() override {
-    const char* folder = std::getenv("VANTAGE_DATA");
-    if (folder == nullptr) {
-      GTEST_SKIP() << "NOTHING WAS TESTED: set VANTAGE_DATA to the folder of the data pack";
+    DataPackTest::SetUp();
+    if (!IsSkipped()) {
+      model_ = load_model((root() / GetParam()).string());
     }
-    model_ = load_model(std::string(folder) + "/" + GetParam());
   }
 
   Model model_{};

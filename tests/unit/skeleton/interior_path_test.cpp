@@ -9,6 +9,7 @@
 
 #include "support/dense_oracles.h"
 #include "support/shapes.h"
+#include "support/skeletons.h"
 
 namespace vantage {
 namespace {
@@ -16,8 +17,7 @@ namespace {
 /// A ring, and two places inside it across the hole from each other.
 struct Ring {
   TriMesh mesh = test::torus(1.0, 0.2, 40, 12);
-  std::vector<std::uint32_t> component_of_vertex =
-      std::vector<std::uint32_t>(mesh.positions.size(), 0);
+  std::vector<std::uint32_t> component_of_vertex = test::one_component(mesh);
   Shell shell{mesh, component_of_vertex};
   InteriorPaths paths{mesh, shell};
   std::vector<std::uint32_t> all = std::vector<std::uint32_t>(mesh.positions.size());

@@ -7,6 +7,7 @@
 
 #include "support/dense_oracles.h"
 #include "support/shapes.h"
+#include "support/skeletons.h"
 
 namespace vantage {
 namespace {
@@ -14,8 +15,7 @@ namespace {
 /// A torus of 40 × 12 vertices, cut into four quarters, each with a node.
 struct Quarters {
   TriMesh mesh = test::torus(1.0, 0.2, 40, 12);
-  std::vector<std::uint32_t> component_of_vertex =
-      std::vector<std::uint32_t>(mesh.positions.size(), 0);
+  std::vector<std::uint32_t> component_of_vertex = test::one_component(mesh);
   Shell shell{mesh, component_of_vertex};
   Routing routing{mesh, component_of_vertex, shell};
   std::vector<std::uint32_t> node_of_vertex{};

@@ -12,34 +12,14 @@
 
 #include "support/dense_oracles.h"
 #include "support/shapes.h"
+#include "support/skeletons.h"
 #include "support/voxel_surface.h"
 
 namespace vantage {
 namespace {
 
-Skeleton skeleton_of(const TriMesh& mesh, const SkeletonOptions& options = {}) {
-  return extract_skeleton(mesh, contract(mesh), options);
-}
-
-std::vector<std::size_t> degrees(const CurveGraph& graph) {
-  std::vector<std::size_t> degree(graph.nodes.size(), 0);
-  for (const auto& [a, b] : graph.edges) {
-    ++degree[a];
-    ++degree[b];
-  }
-  return degree;
-}
-
-std::vector<Vec3> ends_of(const CurveGraph& graph) {
-  const auto degree = degrees(graph);
-  std::vector<Vec3> ends;
-  for (std::size_t i = 0; i < degree.size(); ++i) {
-    if (degree[i] == 1) {
-      ends.push_back(graph.nodes[i]);
-    }
-  }
-  return ends;
-}
+using test::ends_of;
+using test::skeleton_of;
 
 TEST(ExtractSkeleton, OfATorusIsOneCycleNearItsCoreCircle) {
   const double minor = 0.25;
@@ -77,7 +57,7 @@ TEST(ExtractSkeleton, OfACylinderIsAPathOnItsAxis) {
   const double radius = 0.25;
   const Skeleton skeleton = skeleton_of(test::cylinder(radius, 4.0, 24, 48));
   EXPECT_EQ(ends_of(skeleton.graph).size(), 2U);
-  EXPECT_THAT(degrees(skeleton.graph), ::testing::Each(::testing::Le(2U)));
+  EXPECT_THAT(node_degrees(skeleton.graph), ::testing::Each(::testing::Le(2U)));
   for (const Vec3& p : skeleton.graph.nodes) {
     EXPECT_LE(std::hypot(p.x(), p.y()), 0.05 * radius);
   }
@@ -105,7 +85,7 @@ TEST(ExtractSkeleton, OfAnOpenCylinderIsAPath) {
 TEST(ExtractSkeleton, OfAYHasOneJunctionAndThreeEndsNearItsTips) {
   const double radius = 0.2;
   const Skeleton skeleton = skeleton_of(test::y_of_tubes(radius, 28));
-  const auto degree = degrees(skeleton.graph);
+  const auto degree = node_degrees(skeleton.graph);
   EXPECT_EQ(std::count(degree.begin(), degree.end(), 3U), 1);
   EXPECT_EQ(std::count_if(degree.begin(), degree.end(), [](std::size_t d) { return d > 3; }), 0);
   const std::vector<Vec3> ends = ends_of(skeleton.graph);

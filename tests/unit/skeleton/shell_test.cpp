@@ -11,14 +11,13 @@
 
 #include "support/dense_oracles.h"
 #include "support/shapes.h"
+#include "support/skeletons.h"
 #include "support/voxel_surface.h"
 
 namespace vantage {
 namespace {
 
-std::vector<std::uint32_t> one_component(const TriMesh& mesh) {
-  return std::vector<std::uint32_t>(mesh.positions.size(), 0);
-}
+using test::one_component;
 
 TEST(ShellInside, AgreesWithSolidAnglesAtRandomPoints) {
   Pcg32 random(3);

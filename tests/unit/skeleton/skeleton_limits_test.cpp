@@ -13,23 +13,14 @@
 #include "vantage/skeleton/skeleton.h"
 
 #include "support/shapes.h"
+#include "support/skeletons.h"
 #include "support/voxel_surface.h"
 
 namespace vantage {
 namespace {
 
-Skeleton skeleton_of(const TriMesh& mesh, const SkeletonOptions& options = {}) {
-  return extract_skeleton(mesh, contract(mesh), options);
-}
-
-std::vector<std::size_t> degrees(const CurveGraph& graph) {
-  std::vector<std::size_t> degree(graph.nodes.size(), 0);
-  for (const auto& [a, b] : graph.edges) {
-    ++degree[a];
-    ++degree[b];
-  }
-  return degree;
-}
+using test::ends_of;
+using test::skeleton_of;
 
 TEST(SkeletonOfASingleTriangle, IsOneComponent) {
   const TriMesh triangle{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}};
@@ -58,15 +49,13 @@ TEST(SkeletonOfAYOfTubes, EndsWithinATubeRadiusOfTheTips) {
   // Tips are the far points of the round ends, a radius beyond the axes.
   const double radius = 0.2;
   const Skeleton skeleton = skeleton_of(test::y_of_tubes(radius, 28));
-  const std::vector<std::size_t> degree = degrees(skeleton.graph);
+  const std::vector<Vec3> ends = ends_of(skeleton.graph);
   for (const double degrees : {90.0, 210.0, 330.0}) {
     const double angle = degrees * std::numbers::pi / 180.0;
     const Vec3 tip = (1.0 + radius) * Vec3(std::cos(angle), std::sin(angle), 0.0);
     double nearest = 1e9;
-    for (std::size_t i = 0; i < degree.size(); ++i) {
-      if (degree[i] == 1) {
-        nearest = std::min(nearest, (skeleton.graph.nodes[i] - tip).norm());
-      }
+    for (const Vec3& end : ends) {
+      nearest = std::min(nearest, (end - tip).norm());
     }
     EXPECT_LE(nearest, radius) << degrees;
   }
@@ -79,11 +68,10 @@ TEST(SkeletonWithoutPruning, KeepsTheBranchOfABumpThatPruningCuts) {
     return k < 4 || (i >= 14 && i < 16 && j >= 1 && j < 3);
   });
   const auto ends = [&](const SkeletonOptions& options) {
-    const std::vector<std::size_t> degree = degrees(skeleton_of(mesh, options).graph);
-    return std::count(degree.begin(), degree.end(), 1U);
+    return ends_of(skeleton_of(mesh, options).graph).size();
   };
-  EXPECT_EQ(ends({.prune_ratio = 2.0}), 2);
-  EXPECT_EQ(ends({.prune_ratio = 2.0, .prune = false}), 3);
+  EXPECT_EQ(ends({.prune_ratio = 2.0}), 2U);
+  EXPECT_EQ(ends({.prune_ratio = 2.0, .prune = false}), 3U);
 }
 
 TEST(SkeletonHistory, WithAnEarlierLevelOfAnotherSizeIsRefused) {

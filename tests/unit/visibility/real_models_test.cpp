@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Visibility on real models against brute force, in the folder that VANTAGE_DATA names.
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -10,6 +9,7 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/visibility/vertex_visibility.h"
 
+#include "support/data_pack.h"
 #include "support/visibility_oracle.h"
 
 namespace vantage {
@@ -20,15 +20,10 @@ using test::Seen;
 // Vertices asked about a model and eye: brute force takes milliseconds each.
 constexpr std::size_t kAsked = 40;
 
-class VisibilityOfRealModel : public testing::TestWithParam<const char*> {};
+class VisibilityOfRealModel : public test::DataPackTest<testing::TestWithParam<const char*>> {};
 
 TEST_P(VisibilityOfRealModel, EqualsBruteForce) {
-  const char* folder = std::getenv("VANTAGE_DATA");
-  if (folder == nullptr) {
-    GTEST_SKIP() << "NOTHING WAS TESTED: set VANTAGE_DATA to the folder of the data pack";
-  }
-  const OrientedMesh oriented =
-      orient_shells(load_model(std::string(folder) + "/" + GetParam()).mesh);
+  const OrientedMesh oriented = orient_shells(load_model((root() / GetParam()).string()).mesh);
   const TriMesh& mesh = oriented.mesh;
   // The oracle knows one rule for sides: that of the first component, for all.
   const FaceSides sides = oriented.sides.front();

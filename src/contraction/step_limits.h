@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "vantage/contraction/contraction.h"
+#include "vantage/operators/cotangent_laplacian.h"
+
+/// \file
+/// What the steps of meshes and of point clouds share: how an ill-conditioned one is made solvable
+/// and how far a solved one may reach.
+
+namespace vantage {
+
+/// Ways to make an ill-conditioned step solvable, tried in order: as defined; non-negative weights
+/// and cotangents of angles above half a degree; then also a growing shift of the diagonal.
+constexpr int kGentlest = 0;
+constexpr int kHarshest = 5;
+
+/// How the Laplacian of a step of this harshness is kept finite.
+LaplacianLimits limits_of(const ContractionOptions& options, int harshness);
+
+/// What is added to the diagonal at this harshness. \param largest entry of the diagonal.
+double shift_of(double largest, int harshness);
+
+/// Sides of the bounding box that a step from `start` has diverged beyond.
+/// \param diameter of the smallest enclosing sphere of `start`.
+Vec3 largest_box(const std::vector<Vec3>& start, double diameter);
+
+}  // namespace vantage

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include "core/json_reader.h"
+
+#include "vantage/core/error.h"
+
+namespace vantage {
+
+JsonReader::JsonReader(std::string_view bytes, std::string_view name)
+    : name_(name), root_(Json::parse(bytes.begin(), bytes.end(), nullptr, false)) {
+  if (root_.is_discarded()) {
+    fail("is not well formed JSON");
+  }
+}
+
+void JsonReader::fail(const std::string& problem) const {
+  throw FormatError(name_, "", problem);
+}
+
+bool JsonReader::has(const Json& object, const char* member) {
+  return object.is_object() && object.contains(member);
+}
+
+void JsonReader::require_list_of_3(const Json& value, const std::string& what) const {
+  if (!value.is_array() || value.size() != 3) {
+    fail(what + " is not a list of 3 numbers");
+  }
+}
+
+}  // namespace vantage

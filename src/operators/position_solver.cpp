@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "operators/position_solver.h"
+
+namespace vantage {
+
+std::optional<std::vector<Vec3>> PositionSolver::solve(const Eigen::SparseMatrix<double>& A,
+                                                       const Eigen::MatrixX3d& B,
+                                                       const RunContext& run) {
+  if (!analysed_) {
+    cholesky_.analyze(A, run);
+    analysed_ = true;
+  }
+  if (!cholesky_.factorize(A, run)) {
+    return std::nullopt;
+  }
+  const Eigen::MatrixX3d X = cholesky_.solve(B);
+  if (!X.allFinite()) {
+    return std::nullopt;
+  }
+  std::vector<Vec3> positions(static_cast<std::size_t>(X.rows()));
+  for (Eigen::Index i = 0; i < X.rows(); ++i) {
+    positions[static_cast<std::size_t>(i)] = X.row(i).transpose();
+  }
+  return positions;
+}
+
+}  // namespace vantage
