@@ -5,12 +5,16 @@
     measure.py rapid  PROGRAM MODEL...    the paper's rapid search against 10 242 directions
     measure.py global PROGRAM MODEL...    the global search against the dense one, whose results are kept in the
                                           folder that VANTAGE_DENSE names, if it does, and taken from there
+    measure.py smooth PROGRAM MODEL...    the largest change of score per degree between neighbouring directions
     measure.py broken PROGRAM FOLDER      how every file of a folder ends, under limits
 
 Only ratios of one run mean something on a shared machine.
 """
 
+import csv
+import itertools
 import json
+import math
 import os
 import pathlib
 import resource
@@ -110,6 +114,33 @@ def global_table(program, models):
           f"{sum(g <= 0.5 for g in gaps)}; median cost {statistics.median(costs):.2f} × 200 evaluations")
 
 
+def smooth_table(program, models):
+    """Is there "no sudden change"? Neighbours are the directions within 2.5° of the 10 242, 2° apart."""
+    print("| model | vertices | largest change per degree, % of the range | median, % of the range |")
+    print("| --- " * 4 + "|")
+    for model in models:
+        done = subprocess.run([program, "score", model, "--sphere", "5", "-q"], capture_output=True, text=True,
+                              check=True)
+        rows = list(csv.DictReader(done.stdout.splitlines()))
+        cells = {}
+        for row in rows:  # buckets of the unit cube, wider than the distance of neighbours
+            d = tuple(float(row[c]) for c in ("dx", "dy", "dz"))
+            cells.setdefault(tuple(int(x * 20 + 40) for x in d), []).append((d, float(row["score"])))
+        scores = [float(row["score"]) for row in rows]
+        spread = max(scores) - min(scores)
+        slopes = [abs(s - t) / angle / spread * 100
+                  for cell, members in cells.items() for d, s in members
+                  for near in neighbours_of(cell) for e, t in cells.get(near, [])
+                  if 0 < (angle := math.degrees(2 * math.asin(min(1, math.dist(d, e) / 2)))) < 2.5]
+        vertices = run(program, "info", model, "--json")["vertices"]
+        print(f"| {pathlib.Path(model).stem} | {vertices} | {max(slopes):.2f} | {statistics.median(slopes):.2f} |",
+              flush=True)
+
+
+def neighbours_of(cell):
+    return itertools.product(*((c - 1, c, c + 1) for c in cell))
+
+
 def once(folder, name, compute):
     """What a long computation gave, kept under its name if there is a folder for it."""
     if folder is None:
@@ -153,7 +184,7 @@ def broken_table(program, folder):
 
 
 def main():
-    tables = {"view": view_table, "rapid": rapid_table, "global": global_table}
+    tables = {"view": view_table, "rapid": rapid_table, "global": global_table, "smooth": smooth_table}
     if len(sys.argv) >= 4 and sys.argv[1] in tables:
         tables[sys.argv[1]](sys.argv[2], sys.argv[3:])
     elif len(sys.argv) == 4 and sys.argv[1] == "broken":

@@ -223,9 +223,10 @@ void MethodFlags::add_search_flags(CLI::App& app) {
                  "things; the default), or a JSON file")
       ->default_str("upright; none with --preset paper")
       ->group(group);
-  app.add_option("--search", search_,
-                 "rapid: the paper's; exhaustive: a whole direction set; global: a set, then "
-                 "refinement around its peaks; dense: the same from 10242 directions, slow")
+  app.add_option(
+         "--search", search_,
+         "global: finds what dense finds, by a fraction of its scores; dense: 10242 "
+         "directions, then refinement, slow; rapid: the paper's; exhaustive: a direction set")
       ->check(CLI::IsMember({"rapid", "exhaustive", "global", "dense"}))
       ->default_str("global")
       ->group(group);
@@ -251,6 +252,10 @@ void MethodFlags::add_search_flags(CLI::App& app) {
          },
          "rapid search stops when a ring gains less: a raw sum, or a share of the total with %")
       ->default_str("0.1%")
+      ->group(group);
+  app.add_flag_callback(
+         "--certify", [this] { overrides_.emplace_back([](ViewOptions& o) { o.certify = true; }); },
+         "search densely as well, and report how far the views found are behind; slow")
       ->group(group);
 }
 

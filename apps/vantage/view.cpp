@@ -131,6 +131,11 @@ struct ViewCommand {
     session.tell("  search      " +
                  plural(report.best_search.evaluations + report.worst_search.evaluations, "view") +
                  " evaluated" + estimated(report));
+    if (const auto& gap = report.dense_gap) {
+      session.tell("  certified   best " + rounded(100.0 * gap->best_ratio, 5) +
+                   " % of a dense search's, worst " + rounded(100.0 * gap->worst_above, 3) +
+                   " % of the range above its");
+    }
     session.tell("  time        " + timing_line(seconds));
     session.tell("  results in  " + printable(output.path()) + "/");
     if (session.flags.verbose) {

@@ -132,6 +132,9 @@ std::string options_hash(const ViewOptions& options) {
   json["up"] = options.up ? std::string(up_name(*options.up)) : "auto";
   json["size"] = {options.width, options.height};
   json["pictures"] = options.pictures;
+  if (options.certify) {
+    json["certify"] = true;
+  }
   if (!options.focus.empty()) {
     json["focus"] = options.focus;
   }

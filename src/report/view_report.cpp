@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/report/view_report.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "vantage/mesh/measures.h"
@@ -85,6 +86,33 @@ ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& v
   return view;
 }
 
+namespace {
+
+/// Compares what was found with a dense search of the same objective.
+DenseGap gap_to_dense(const FoundViews& found, const ScoreBatch& score, double total,
+                      const ViewPrior& prior, const UprightFrame& frame, const RunContext& run) {
+  const FoundViews dense =
+      search_under_prior(score, total, prior, frame, {.strategy = SearchStrategy::Dense}, run);
+  const auto objective = [&](const FoundView& view) {
+    return view.score * prior.factor(frame, view.direction);
+  };
+  double highest = dense.best.score;
+  for (const SearchStep& step : dense.best.trace) {
+    highest = std::max(highest, step.score);
+  }
+  DenseGap gap;
+  gap.evaluations = dense.best.evaluations + dense.worst.evaluations;
+  if (objective(dense.best) > 0.0) {
+    gap.best_ratio = objective(found.best) / objective(dense.best);
+  }
+  if (highest > dense.worst.score) {
+    gap.worst_above = (found.worst.score - dense.worst.score) / (highest - dense.worst.score);
+  }
+  return gap;
+}
+
+}  // namespace
+
 ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& options,
                       const RunContext& run) {
   check_fields(options, kViewFields);
@@ -117,11 +145,16 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
       return proxy->score_all(directions, batch_run);
     };
   }
-  const double search_share = options.view_set ? 0.25 : 1.0;  // of the progress bar
+  const double search_share = options.view_set || options.certify ? 0.25 : 1.0;  // of the bar
   const UprightFrame frame = upright_frame(up_vector(up));
   hints.landmarks = landmark_directions(shape.surface);
-  auto [best, worst] = search_under_prior(score, report.total, options.prior, frame, options.search,
-                                          run.part(0.0, search_share), hints);
+  FoundViews found = search_under_prior(score, report.total, options.prior, frame, options.search,
+                                        run.part(0.0, search_share), hints);
+  if (options.certify) {
+    report.dense_gap = gap_to_dense(found, score, report.total, options.prior, frame,
+                                    run.part(search_share, options.view_set ? 0.6 : 1.0));
+  }
+  auto& [best, worst] = found;
   report.twins = twins_of(best.direction, shape, scorer, options.prior, frame);
   if (!options.prior.is_uniform) {
     TwinView first{best.direction, best.score,
@@ -138,8 +171,9 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
   }
   report.best.objective = report.best.score * options.prior.factor(frame, best.direction);
   if (options.view_set) {
-    report.set = find_view_set(shape, visibility, report.camera, best.direction, up, options,
-                               report.warnings, run.part(search_share, 1.0));
+    report.set =
+        find_view_set(shape, visibility, report.camera, best.direction, up, options,
+                      report.warnings, run.part(options.certify ? 0.6 : search_share, 1.0));
   }
   report.best_search = std::move(best);
   report.worst_search = std::move(worst);

@@ -55,6 +55,7 @@ struct ViewOptions {
   Weight weight = Weight::Vertex;       ///< What scores add up; Area also sets kssm's mean.
   bool kssm_to_finished_graph = false;  ///< Measure to the centred, pruned graph (not the raw one).
   SearchOptions search{};               ///< Of the view sphere.
+  bool certify = false;                 ///< Also search densely and report the gap to that.
   ViewPrior prior = upright_prior();    ///< Multiplies the best view's score in the search.
   Projection projection = Projection::Perspective;  ///< Of the scoring camera.
   double fov_y_deg = 30.0;                          ///< Of the scoring camera, in (0, 180).
@@ -169,6 +170,13 @@ struct TwinView {
   double objective = 0.0;          ///< Times the prior.
 };
 
+/// How far a search stayed behind the dense one, which is slow. [ours]
+struct DenseGap {
+  double best_ratio = 1.0;      ///< Objective of the best view found over the dense search's.
+  double worst_above = 0.0;     ///< Worst score found above the dense search's, share of the range.
+  std::size_t evaluations = 0;  ///< Directions that the dense search scored.
+};
+
 /// The result of the search.
 struct ViewReport {
   ScoringCamera camera{};               ///< What scored.
@@ -180,6 +188,7 @@ struct ViewReport {
   double total = 0.0;                   ///< The score if everything were visible.
   FoundView best_search{};              ///< How it was found.
   FoundView worst_search{};             ///< Evaluations beyond the best view's.
+  std::optional<DenseGap> dense_gap{};  ///< If options.certify.
   std::vector<std::string> warnings{};  ///< One sentence each.
   /// If several views were asked for.
   std::optional<ReportedViewSet> set{};
