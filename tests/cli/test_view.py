@@ -99,6 +99,20 @@ class View(ProgramTest):
         self.assertEqual(found["search"]["evaluations"], len(scores))
         self.assertEqual((found["best"]["score"], found["worst"]["score"]), (max(scores), min(scores)))
 
+    def test_a_certificate_compares_both_views_with_a_dense_search(self):
+        flags = ("view", MODELS / "fan.ply", "-o", "out", "--no-images", "--json", "--prior", "none")
+        dense = json.loads(self.vantage(*flags, "--search", "dense").out)
+        rapid = json.loads(self.vantage(*flags, "--search", "rapid", "--certify").out)
+        gap = rapid["search"]["dense"]
+        self.assertEqual(gap["evaluations"],
+                         dense["search"]["evaluations"] + dense["search"]["worst_evaluations"])
+        self.assertAlmostEqual(gap["best_ratio"], rapid["best"]["score"] / dense["best"]["score"], places=12)
+        # the range is that of the directions scored, which ends at or just below the refined best
+        span = dense["best"]["score"] - dense["worst"]["score"]
+        self.assertAlmostEqual(gap["worst_above"],
+                               (rapid["worst"]["score"] - dense["worst"]["score"]) / span, places=12)
+        self.assertNotIn("dense", json.loads(self.vantage(*flags).out)["search"])
+
     def test_epsilon_is_a_raw_sum_or_a_share_of_the_total(self):
         share = self.report("--epsilon", "2%")
         self.assertAlmostEqual(share["search"]["epsilon"] / share["total"], 0.02, places=15)
