@@ -266,8 +266,11 @@ struct BatchCommand {
                            const std::vector<CLI::Option*>& options) {
     for (const CLI::Option* option : options) {
       for (const std::string& value : option->results()) {
-        const std::string name = "--" + option->get_lnames().front();
-        command.push_back(option->get_type_size() == 0 ? name : name + "=" + value);
+        std::string flag = "--" + option->get_lnames().front();
+        if (option->get_type_size() != 0) {
+          flag.append("=").append(value);
+        }
+        command.push_back(std::move(flag));
       }
     }
   }

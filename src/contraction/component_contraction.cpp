@@ -157,6 +157,29 @@ struct Attempt {
   bool accepted = false;
 };
 
+/// Ill-conditioned steps are repeated more gently, and so is one that diverges, because obtuse
+/// slivers push apart what they join. If it diverges all the same the contraction ends, except at
+/// the first step: a surface that can be contracted must not be left at level 0.
+/// \param solve the step at the harshness that is current.
+template <class Solve>
+Attempt attempt_step(bool first, int& harshness, const Bounds& bounds, const RunContext& run,
+                     const Solve& solve) {
+  Attempt attempt;
+  for (; harshness <= kHarshest; ++harshness) {
+    run.check();
+    std::optional<std::vector<Vec3>> solved = solve();
+    attempt.failure = solved ? ContractionStop::Grew : ContractionStop::SolverFailed;
+    if (solved) {
+      attempt.positions = std::move(*solved);
+      attempt.accepted = !bounds.exceeded_by(attempt.positions, harshness);
+      if (attempt.accepted || (!first && harshness > kGentlest)) {
+        break;
+      }
+    }
+  }
+  return attempt;
+}
+
 }  // namespace
 
 ComponentHistory contract_component(const TriMesh& scaled, const ContractionOptions& options,
@@ -180,23 +203,10 @@ ComponentHistory contract_component(const TriMesh& scaled, const ContractionOpti
 
   for (int step = 0; step < options.max_steps; ++step) {
     run.advance("contracting", static_cast<double>(step) / options.max_steps);
-    Attempt attempt;
     const bool first = history.summary.steps == 0;
-    // Ill-conditioned steps are repeated more gently, and so is one that diverges, because obtuse
-    // slivers push apart what they join. If it diverges all the same the contraction ends, except
-    // at the first step: a surface that can be contracted must not be left at level 0.
-    for (; harshness <= kHarshest; ++harshness) {
-      run.check();
-      auto solved = solver.solve(now, W_L, W_H, options, harshness, run);
-      attempt.failure = solved ? ContractionStop::Grew : ContractionStop::SolverFailed;
-      if (solved) {
-        attempt.positions = std::move(*solved);
-        attempt.accepted = !bounds.exceeded_by(attempt.positions, harshness);
-        if (attempt.accepted || (!first && harshness > kGentlest)) {
-          break;
-        }
-      }
-    }
+    Attempt attempt = attempt_step(first, harshness, bounds, run, [&] {
+      return solver.solve(now, W_L, W_H, options, harshness, run);
+    });
     if (!attempt.accepted) {
       history.summary.stop = attempt.failure;
       break;

@@ -179,6 +179,25 @@ std::vector<double> shortest_edges(const std::vector<Vec3>& points, const PointR
   return shortest;
 }
 
+/// Where a point is at a level: with the samples around it that are of its own component, at its
+/// offset from them, shrunk.
+Vec3 carried(const Vec3& point, const NearestThree& nearest, const ContractionHistory& from,
+             std::size_t level, double shrunk) {
+  const std::uint32_t component = from.component_of_vertex[nearest.index[0]];
+  Vec3 base = Vec3::Zero();
+  Vec3 place = Vec3::Zero();
+  double total = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::uint32_t s = nearest.index[c];
+    if (from.component_of_vertex[s] == component) {
+      base += nearest.weight[c] * from.levels[0][s];
+      place += nearest.weight[c] * from.levels[level][s];
+      total += nearest.weight[c];
+    }
+  }
+  return place / total + shrunk * (point - base / total);
+}
+
 /// Gives every point the mean way of the three nearest samples; its offset from them shrinks as
 /// their rings do. Points of samples that were left out stay.
 void carry_back(std::span<const Vec3> points, std::span<const std::uint8_t> left_out,
@@ -212,20 +231,9 @@ void carry_back(std::span<const Vec3> points, std::span<const std::uint8_t> left
         if (sample == kIsolated) {
           continue;
         }
-        Vec3 base = Vec3::Zero();
-        Vec3 place = Vec3::Zero();
-        double total = 0.0;
-        for (std::size_t c = 0; c < 3; ++c) {
-          const std::uint32_t s = nearest[i].index[c];
-          if (from.component_of_vertex[s] == from.component_of_vertex[sample]) {
-            base += nearest[i].weight[c] * from.levels[0][s];
-            place += nearest[i].weight[c] * from.levels[level][s];
-            total += nearest[i].weight[c];
-          }
-        }
         const double shrunk =
             edge_at_start[sample] > 0.0 ? std::min(1.0, edge[sample] / edge_at_start[sample]) : 1.0;
-        to.levels[level][i] = place / total + shrunk * (points[i] - base / total);
+        to.levels[level][i] = carried(points[i], nearest[i], from, level, shrunk);
       }
     });
   }

@@ -101,16 +101,14 @@ ComponentHistory contract_point_component(const std::vector<Vec3>& scaled, const
   for (int step = 0; step < options.max_steps; ++step) {
     run.advance("contracting", static_cast<double>(step) / options.max_steps);
     std::optional<std::vector<Vec3>> next;
-    for (; harshness <= kHarshest; ++harshness) {
+    while (!next && harshness <= kHarshest) {
       run.check();
       next = stepper.solve(now, rings, W_L, W_H, options, harshness, run);
       history.summary.stop = next ? ContractionStop::Grew : ContractionStop::SolverFailed;
       if (next && (bounding_box(*next).size().array() > bound.array()).any()) {
         next.reset();
       }
-      if (next) {
-        break;
-      }
+      harshness += next ? 0 : 1;
     }
     if (!next) {
       break;

@@ -50,21 +50,27 @@ std::vector<std::vector<double>> displacements(const ContractionHistory& history
   return d;
 }
 
-}  // namespace
-
-KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
-                     const CurveGraph& skeleton, const KssmOptions& options,
-                     const RunContext& run) {
+void check_input(const TriMesh& mesh, const ContractionHistory& history, const CurveGraph& skeleton,
+                 const KssmOptions& options) {
   check_fields(options, kKssmFields);
-  const std::size_t vertex_count = mesh.positions.size();
-  const bool fits = std::all_of(history.levels.begin(), history.levels.end(),
-                                [&](const auto& level) { return level.size() == vertex_count; });
+  const bool fits =
+      std::all_of(history.levels.begin(), history.levels.end(),
+                  [&](const auto& level) { return level.size() == mesh.positions.size(); });
   if (history.levels.empty() || !fits) {
     throw InvalidInput("the contraction history does not belong to this mesh");
   }
   if (skeleton.nodes.empty()) {
     throw InvalidInput("the skeleton has no nodes to measure distances to");
   }
+}
+
+}  // namespace
+
+KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
+                     const CurveGraph& skeleton, const KssmOptions& options,
+                     const RunContext& run) {
+  check_input(mesh, history, skeleton, options);
+  const std::size_t vertex_count = mesh.positions.size();
   const IndexLists rings = vertex_neighbours(mesh);
   std::vector<bool> referenced(vertex_count);
   for (std::size_t v = 0; v < vertex_count; ++v) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
@@ -145,6 +146,22 @@ std::vector<ChannelPick> greedy_entropy_views(const ViewChannel& channel, std::s
   return picks;
 }
 
+namespace {
+
+/// The usable view of least information; the first of equals, empty if none is usable.
+std::optional<std::size_t> least_informed(const std::vector<double>& information,
+                                          const std::vector<std::uint8_t>& usable) {
+  std::optional<std::size_t> best;
+  for (std::size_t v = 0; v < usable.size(); ++v) {
+    if (usable[v] != 0 && (!best || information[v] < information[*best])) {
+      best = v;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
 MergedViews merge_views(const ViewChannel& channel, std::size_t count, double ratio,
                         const RunContext& run) {
   if (!(ratio >= 0.0 && ratio <= 1.0)) {
@@ -172,20 +189,15 @@ MergedViews merge_views(const ViewChannel& channel, std::size_t count, double ra
         result.channel_information += seen[v] > 0.0 ? seen[v] / all * information[v] : 0.0;
       }
     }
-    std::size_t best = seen.size();
-    for (std::size_t v = 0; v < seen.size(); ++v) {
-      if (usable[v] != 0 && (best == seen.size() || information[v] < information[best])) {
-        best = v;
-      }
-    }
-    if (best == seen.size()) {
+    const std::optional<std::size_t> best = least_informed(information, usable);
+    if (!best) {
       break;
     }
-    usable[best] = 0;
-    merged.merge(best);
+    usable[*best] = 0;
+    merged.merge(*best);
     // Less than nothing is rounding.
-    result.picks.push_back({static_cast<std::uint32_t>(best), std::max(0.0, information[best])});
-    if (ratio > 0.0 && information[best] <= ratio * result.channel_information) {
+    result.picks.push_back({static_cast<std::uint32_t>(*best), std::max(0.0, information[*best])});
+    if (ratio > 0.0 && information[*best] <= ratio * result.channel_information) {
       break;
     }
   }

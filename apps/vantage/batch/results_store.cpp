@@ -161,7 +161,7 @@ std::optional<ModelRecord> ResultsStore::find_content(const ModelRecord& like) {
 std::string ResultsStore::owner_of(const std::string& folder) {
   Statement& owner = statements_->owner;
   owner.bind(1, folder);
-  const std::string key = owner.step() ? owner.text(0) : std::string();
+  std::string key = owner.step() ? owner.text(0) : std::string();
   owner.reset();
   return key;
 }

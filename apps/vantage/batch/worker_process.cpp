@@ -59,6 +59,7 @@ WorkerProcess::WorkerProcess(const std::vector<std::string>& arguments, const Wo
   std::vector<std::string> words = arguments;
   words.insert(words.begin(), "vantage");
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) {
     pointers.push_back(word.data());
   }
@@ -95,7 +96,7 @@ WorkerProcess::~WorkerProcess() {
   end();
 }
 
-void WorkerProcess::send(const std::string& line) {
+void WorkerProcess::send(const std::string& line) const {
   const std::string text = line + "\n";
   std::string_view rest = text;
   while (!rest.empty()) {

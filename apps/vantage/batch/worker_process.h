@@ -33,7 +33,7 @@ class WorkerProcess {
   [[nodiscard]] int descriptor() const { return from_worker_; }
 
   /// Sends one line; a worker that has died is noticed when reading.
-  void send(const std::string& line);
+  void send(const std::string& line) const;
 
   /// Reads what is there. \return false once the worker has closed its end.
   bool receive();

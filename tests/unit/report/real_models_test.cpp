@@ -16,17 +16,17 @@ class RealModel : public DataPackTest<testing::TestWithParam<const char*>> {
   void SetUp() override {
     DataPackTest::SetUp();
     if (!IsSkipped()) {
-      model_ = load_model((root() / GetParam()).string());
+      model = load_model((root() / GetParam()).string());
     }
   }
 
-  Model model_{};
+  Model model{};
 };
 
 using RealClosedModel = RealModel;
 
 TEST_P(RealClosedModel, HasAsManySkeletonCyclesAsGenus) {
-  const ShapeAnalysis shape = analyse_shape(model_, {});
+  const ShapeAnalysis shape = analyse_shape(model, {});
   ASSERT_TRUE(shape.check.genus.has_value());
   EXPECT_EQ(cycle_count(shape.skeleton.raw), *shape.check.genus);
   EXPECT_EQ(cycle_count(shape.skeleton.graph), *shape.check.genus);
@@ -45,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(DataPack, RealClosedModel,
 using RealSmallModel = RealModel;
 
 TEST_P(RealSmallModel, VisibleVerticesAreThoseOfBruteForce) {
-  const ShapeAnalysis shape = prepare_surface(model_);
+  const ShapeAnalysis shape = prepare_surface(model);
   const VertexVisibility visibility(shape.surface, shape.sides);
   const ScoringCamera camera = scoring_camera(shape, {});
   for (const Vec3& direction : direction_set(ViewSphereBase::Cube, 0).directions) {
