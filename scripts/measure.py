@@ -4,12 +4,14 @@
     measure.py view   PROGRAM MODEL...    one row a model: sizes, cycles against genus, seconds by stage
     measure.py rapid  PROGRAM MODEL...    the paper's rapid search against 10 242 directions
     measure.py global PROGRAM MODEL...    the global search against the dense one
+    measure.py thumb  PROGRAM MODEL...    thumbnails: seconds, and their view against the best one
     measure.py broken PROGRAM FOLDER      how every file of a folder ends, under limits
 
 Only ratios of one run mean something on a shared machine.
 """
 
 import json
+import math
 import pathlib
 import resource
 import subprocess
@@ -96,6 +98,38 @@ def global_table(program, models):
                   f"| {found['seconds']['search'] / time_of_200:.2f} |", flush=True)
 
 
+def upright_prior(direction, up):
+    """The default prior of docs/prior.md for a model with y or z up."""
+    x, y, z = direction
+    side, rise, front = (x, y, z) if up == "y" else (x, z, -y)
+    return math.exp(-6.765 * (rise - 0.320) ** 2 - 0.920 * (1 - 4 * side ** 2 * front ** 2)
+                    - 0.08 * (1 - front))
+
+
+def thumb_table(program, models):
+    """The view of a thumbnail: its objective under the whole method's own map against the best one's."""
+    print("| model | vertices | wall s | CPU s | up as in view | objective / the best | angle to the best |")
+    print("| --- " * 7 + "|")
+    with tempfile.TemporaryDirectory() as folder:
+        for model in models:
+            before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+            thumb = run(program, "thumb", model, f"{folder}/thumb.png", "--json")
+            wall = time.monotonic() - start
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+            view = run(program, "view", model, "-o", f"{folder}/view", "--no-images", "--json")
+            directions = pathlib.Path(folder, "directions.csv")
+            directions.write_text("dx,dy,dz\n" + ",".join(map(repr, thumb["direction"])) + "\n")
+            rows = subprocess.run([program, "score", model, "--directions", directions],
+                                  capture_output=True, text=True, check=True).stdout.splitlines()
+            best = view["best"]
+            objective = float(rows[1].split(",")[-1]) * upright_prior(thumb["direction"], view["up"])
+            cosine = sum(a * b for a, b in zip(thumb["direction"], best["direction"]))
+            print(f"| {view['model']['name']} | {view['model']['vertices']} | {wall:.2f} | {cpu:.2f} "
+                  f"| {'yes' if thumb['up'] == view['up'] else 'no'} | {objective / best['objective']:.3f} "
+                  f"| {math.degrees(math.acos(min(1.0, cosine))):.0f}° |", flush=True)
+
+
 def broken_table(program, folder):
     endings = {}
     slowest = (0.0, "")
@@ -129,7 +163,8 @@ def broken_table(program, folder):
 
 
 def main():
-    tables = {"view": view_table, "rapid": rapid_table, "global": global_table}
+    tables = {"view": view_table, "rapid": rapid_table, "global": global_table,
+              "thumb": thumb_table}
     if len(sys.argv) >= 4 and sys.argv[1] in tables:
         tables[sys.argv[1]](sys.argv[2], sys.argv[3:])
     elif len(sys.argv) == 4 and sys.argv[1] == "broken":

@@ -18,6 +18,7 @@ void add_skeleton_command(CLI::App& program, Session& session);
 void add_map_command(CLI::App& program, Session& session);
 void add_score_command(CLI::App& program, Session& session);
 void add_render_command(CLI::App& program, Session& session);
+void add_thumb_command(CLI::App& program, Session& session);
 void add_info_command(CLI::App& program, Session& session);
 void add_batch_command(CLI::App& program, Session& session);
 void add_batch_worker_commands(CLI::App& program, Session& session);

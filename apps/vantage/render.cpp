@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <charconv>
 #include <map>
 
 #include <nlohmann/json.hpp>
@@ -13,36 +12,13 @@
 
 #include "commands.h"
 #include "input_text.h"
+#include "look_flags.h"
 #include "method_flags.h"
+#include "picture_file.h"
 #include "terminal.h"
 
 namespace vantage::cli {
 namespace {
-
-/// "white", "black", "transparent" or "#rrggbb".
-std::optional<Rgb8> parse_background(const std::string& text) {
-  if (text == "transparent") {
-    return std::nullopt;
-  }
-  if (text == "white") {
-    return Rgb8{255, 255, 255};
-  }
-  if (text == "black") {
-    return Rgb8{0, 0, 0};
-  }
-  Rgb8 colour{};
-  bool good = text.size() == 7 && text.front() == '#';
-  for (std::size_t i = 0; good && i < 3; ++i) {
-    const char* first = text.data() + 1 + 2 * i;
-    const auto [end, error] = std::from_chars(first, first + 2, colour[i], 16);
-    good = error == std::errc{} && end == first + 2;
-  }
-  if (!good) {
-    throw CLI::ValidationError(
-        "--background", "expected white, black, transparent or #rrggbb, found '" + text + "'");
-  }
-  return colour;
-}
 
 struct RenderCommand {
   std::string model{};
@@ -51,12 +27,15 @@ struct RenderCommand {
   std::string camera_file{};
   std::string view{};
   std::string show = "plain";
-  std::optional<Rgb8> background{};
+  LookFlags look{};
   MethodFlags method{};
 
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("MODEL", model, "file to read, or -")->required();
-    app.add_option("-o,--output", file, "PNG file to write")->required();
+    app.add_option_function<std::string>(
+           "-o,--output", [this](const std::string& path) { file = checked_picture_name(path); },
+           "picture to write: WebP if it ends in .webp, else PNG")
+        ->required();
     CLI::Option_group* from = app.add_option_group("From", "where to look from: one of");
     from->add_option("--direction", direction_text, "x,y,z: from the model's centre to the eye");
     from->add_option("--camera", camera_file,
@@ -68,11 +47,7 @@ struct RenderCommand {
         ->check(CLI::IsMember({"plain", "kssm", "skeleton"}))
         ->capture_default_str()
         ->group("Pictures");
-    app.add_option_function<std::string>(
-           "--background", [this](const std::string& text) { background = parse_background(text); },
-           "white, black, transparent or #rrggbb")
-        ->default_str("transparent")
-        ->group("Pictures");
+    look.add_to(app, Quality::Normal);
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
     add_common_flags(app, session.flags);
   }
@@ -98,8 +73,8 @@ struct RenderCommand {
     const std::map<std::string, Picture> pictures{
         {"plain", Picture::Plain}, {"kssm", Picture::Map}, {"skeleton", Picture::Skeleton}};
     const Image image =
-        take_picture(shape, *camera, pictures.at(show), options, background, run.part(0.9, 1.0));
-    write_file(file, png_bytes(image));
+        draw_picture(shape, *camera, pictures.at(show), options, look.look(), run.part(0.9, 1.0));
+    write_picture(file, image);
     report(session, *camera, options);
   }
 

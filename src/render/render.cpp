@@ -324,6 +324,12 @@ void check_input(const TriMesh& mesh, std::span<const Rgb8> vertex_colours,
 
 }  // namespace
 
+void set_quality(RenderOptions& options, Quality quality) {
+  constexpr std::array<std::array<int, 2>, 3> kRays{{{9, 2}, {16, 2}, {64, 4}}};
+  options.samples = kRays[static_cast<std::size_t>(quality)][0];
+  options.ambient_rays = kRays[static_cast<std::size_t>(quality)][1];
+}
+
 Image render(const TriMesh& mesh, const Camera& camera, std::span<const Rgb8> vertex_colours,
              const TubeOverlay& overlay, const RenderOptions& options, const RunContext& run) {
   check_input(mesh, vertex_colours, overlay, options);

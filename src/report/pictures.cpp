@@ -8,8 +8,6 @@ namespace {
 
 /// Radius of the skeleton's tubes over D: thin enough for fingers, thick enough to see.
 constexpr double kTubeRadius = 0.004;
-/// With sixteen samples a pixel, two occlusion rays each leave no grain at usual sizes.
-constexpr int kAmbientRays = 2;
 
 }  // namespace
 
@@ -17,10 +15,15 @@ Image take_picture(const ShapeAnalysis& shape, const Camera& camera, Picture pic
                    const ViewOptions& options, const std::optional<Rgb8>& background,
                    const RunContext& run) {
   RenderOptions look;
+  set_quality(look, Quality::Normal);
+  look.background = background;
+  return draw_picture(shape, camera, picture, options, look, run);
+}
+
+Image draw_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
+                   const ViewOptions& options, RenderOptions look, const RunContext& run) {
   look.width = options.width;
   look.height = options.height;
-  look.background = background;
-  look.ambient_rays = kAmbientRays;
   std::vector<Rgb8> colours;
   TubeOverlay overlay;
   if (picture == Picture::Map) {

@@ -19,6 +19,13 @@
 
 namespace vantage {
 
+/// How much work goes into a picture.
+enum class Quality {
+  Draft,   ///< 9 rays a pixel, 2 occlusion rays each: thumbnails.
+  Normal,  ///< 16 and 2: pictures on a screen.
+  Fine,    ///< 64 and 4: print.
+};
+
 /// What is drawn and how.
 struct RenderOptions {
   int width = 800;                   ///< px
@@ -34,6 +41,9 @@ inline constexpr auto kRenderFields = std::tuple{
     Field{"samples", &RenderOptions::samples, 1, 1024, "rays per pixel"},
     Field{"ambient-rays", &RenderOptions::ambient_rays, 0, 1024, "occlusion rays per sample"},
 };
+
+/// Sets the numbers of rays.
+void set_quality(RenderOptions& options, Quality quality);
 
 /// A curve drawn as tubes through the surface, which then becomes translucent.
 struct TubeOverlay {

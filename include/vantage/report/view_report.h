@@ -14,6 +14,7 @@
 #include "vantage/io/model.h"
 #include "vantage/mesh/mesh_check.h"
 #include "vantage/mesh/tri_mesh.h"
+#include "vantage/render/render.h"
 #include "vantage/report/view_set_request.h"
 #include "vantage/significance/kssm.h"
 #include "vantage/skeleton/skeleton.h"
@@ -229,6 +230,10 @@ enum class Picture { Plain, Map, Skeleton };
 Image take_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
                    const ViewOptions& options, const std::optional<Rgb8>& background = {},
                    const RunContext& run = {});
+
+/// The same with any look; its size is that of `options`. \throw Cancelled
+Image draw_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
+                   const ViewOptions& options, RenderOptions look, const RunContext& run = {});
 
 /// view.json: the same bytes for the same input, options and version.
 /// \param seconds adds the times, for `--json`; null for the file.

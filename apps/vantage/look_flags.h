@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "vantage/render/render.h"
+
+/// \file
+/// Flags for how a picture looks, the same for every command that makes one.
+
+namespace vantage::cli {
+
+/// Turns flags into RenderOptions.
+class LookFlags {
+ public:
+  /// Adds the flags. \param quality what is used unless given.
+  void add_to(CLI::App& app, Quality quality);
+
+  /// The look that was asked for; the size is left alone.
+  [[nodiscard]] const RenderOptions& look() const { return look_; }
+
+ private:
+  RenderOptions look_{};
+};
+
+}  // namespace vantage::cli
