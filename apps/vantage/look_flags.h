@@ -21,8 +21,15 @@ class LookFlags {
   /// The look that was asked for; the size is left alone.
   [[nodiscard]] const RenderOptions& look() const { return look_; }
 
+  /// The same on the ground of a model whose up axis is known.
+  [[nodiscard]] RenderOptions look(const Vec3& up) const;
+
+  /// Empty border as a fraction of the picture's shorter side.
+  [[nodiscard]] double margin() const { return margin_per_cent_ / 100.0; }
+
  private:
   RenderOptions look_{};
+  double margin_per_cent_ = 4.0;
 };
 
 }  // namespace vantage::cli

@@ -53,7 +53,8 @@ struct RenderCommand {
   }
 
   void run(Session& session) {
-    const ViewOptions options = session.reading([&] { return method.resolve(); });
+    ViewOptions options = session.reading([&] { return method.resolve(); });
+    options.margin = look.margin();
     const RunContext run = session.run();
     const Vec3 direction =
         direction_text.empty() ? Vec3::UnitZ() : unit(parse_vector(direction_text, "--direction"));
@@ -70,10 +71,12 @@ struct RenderCommand {
       camera = view.empty() ? framed(shape, loaded, direction, options)
                             : found(shape, loaded, options, run.part(0.5, 0.9));
     }
+    const Vec3 up =
+        look.look().ground ? up_vector(choose_up(loaded, shape, options).axis) : RenderOptions{}.up;
     const std::map<std::string, Picture> pictures{
         {"plain", Picture::Plain}, {"kssm", Picture::Map}, {"skeleton", Picture::Skeleton}};
     const Image image =
-        draw_picture(shape, *camera, pictures.at(show), options, look.look(), run.part(0.9, 1.0));
+        draw_picture(shape, *camera, pictures.at(show), options, look.look(up), run.part(0.9, 1.0));
     write_picture(file, image);
     report(session, *camera, options);
   }
@@ -92,7 +95,7 @@ struct RenderCommand {
     const ScoringCamera scoring = scoring_camera(shape, options);
     return frame_points(referenced_points(shape.surface), scoring.viewpoint(direction),
                         shape.sphere.centre, up_vector(choose_up(loaded, shape, options).axis),
-                        static_cast<double>(options.width) / options.height);
+                        static_cast<double>(options.width) / options.height, options.margin);
   }
 
   [[nodiscard]] Camera found(const ShapeAnalysis& shape, const Model& loaded,

@@ -49,6 +49,7 @@ struct ThumbCommand {
     }
     ViewOptions options;
     options.width = options.height = size;
+    options.margin = look.margin();
     if (up != "auto") {
       options.up = up_axis(up);
     }
@@ -56,8 +57,8 @@ struct ThumbCommand {
     const Model loaded = session.load(model);
     const ShapeAnalysis shape = prepare_surface(loaded);
     const QuickView view = find_quick_view(loaded, shape, options, run.part(0.1, 0.7));
-    const Image image =
-        draw_picture(shape, view.picture, Picture::Plain, options, look.look(), run.part(0.7, 1.0));
+    const Image image = draw_picture(shape, view.picture, Picture::Plain, options,
+                                     look.look(up_vector(view.up.axis)), run.part(0.7, 1.0));
     write_picture(file, image);
     report(session, view);
   }

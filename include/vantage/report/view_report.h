@@ -63,6 +63,7 @@ struct ViewOptions {
   std::optional<UpAxis> up{};                       ///< Unset: choose_up().
   int width = 800;                                  ///< Of pictures, px.
   int height = 600;                                 ///< Of pictures, px.
+  double margin = 0.04;                             ///< Of pictures, of the shorter side, [0, 0.5).
   bool pictures = true;                             ///< Whether view.json names pictures.
   /// Several views besides best and worst.
   std::optional<ViewSetRequest> view_set{};
