@@ -10,6 +10,7 @@
 #include "look_flags.h"
 #include "method_flags.h"
 #include "picture_file.h"
+#include "preview_flag.h"
 #include "terminal.h"
 
 namespace vantage::cli {
@@ -23,6 +24,7 @@ struct ThumbCommand {
   int size = 256;
   std::string up = "auto";
   LookFlags look{};
+  PreviewFlag preview{};
 
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("MODEL", model, "file to read, or -")->required();
@@ -40,6 +42,7 @@ struct ThumbCommand {
         ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z", "auto"}))
         ->capture_default_str();
     look.add_to(app, Quality::Draft);
+    preview.add_to(app);
     add_common_flags(app, session.flags);
   }
 
@@ -60,6 +63,9 @@ struct ThumbCommand {
     const Image image = draw_picture(shape, view.picture, Picture::Plain, options,
                                      look.look(up_vector(view.up.axis)), run.part(0.7, 1.0));
     write_picture(file, image);
+    if (file != "-") {
+      preview.show(session, shape, view.picture, options, look.look(up_vector(view.up.axis)), run);
+    }
     report(session, view);
   }
 

@@ -341,9 +341,8 @@ Light Scene::sample(const PictureRay& ray, int x, int y, std::size_t index,
 }
 
 Vec3 Scene::background(int y) const {
-  const Vec3 top = linear_of_srgb(*options_.background);
   if (!options_.background_bottom) {
-    return top;
+    return linear_of_srgb(*options_.background);
   }
   // In sRGB, where equal steps look about equal.
   const double share = (y + 0.5) / options_.height;

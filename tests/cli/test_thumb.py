@@ -1,6 +1,8 @@
 """Thumbnails and the look of pictures: what file managers and catalogues rely on."""
 
+import base64
 import json
+import re
 import unittest
 
 from png import read_png
@@ -112,6 +114,58 @@ class Thumb(ProgramTest):
             done = subprocess.run([os.environ["VANTAGE"], "thumb", "-", "-o", "-", "-s", "32"],
                                   stdin=model, capture_output=True, timeout=300, check=True)
         self.assertEqual(read_png(done.stdout)[:2], (32, 32))
+
+
+class Preview(ProgramTest):
+
+    def preview(self, *flags, **environment):
+        import os
+        import subprocess
+        clean = {k: v for k, v in os.environ.items() if k not in ("NO_COLOR", "COLORTERM")}
+        done = subprocess.run([os.environ["VANTAGE"], "thumb", FAN, "t.png", *flags], cwd=self.dir,
+                              env={**clean, **environment}, capture_output=True, timeout=300, check=True)
+        return done.stdout.decode()
+
+    def test_half_blocks_fit_a_terminal_of_usual_size(self):
+        text = self.preview("--preview", COLORTERM="truecolor")
+        lines = re.sub("\033\\[[0-9;]*m", "", text).splitlines()
+        self.assertLessEqual(max(map(len, lines)), 80)
+        self.assertLessEqual(len(lines), 24)
+        self.assertEqual(set("".join(lines)), set(" ▀▄"))
+        self.assertIn("\033[38;2;", text)
+
+    def test_every_colour_is_taken_back(self):
+        for line in self.preview("--preview", COLORTERM="truecolor").splitlines():
+            self.assertTrue(line == "" or line.endswith(("\033[0m", " ")), line[-20:])
+
+    def test_terminals_of_256_colours_and_none(self):
+        self.assertIn("\033[38;5;", self.preview("--preview=blocks"))
+        self.assertNotIn("\033", self.preview("--preview", NO_COLOR="1"))
+
+    def test_kitty_gets_the_picture_in_chunks_that_are_a_png(self):
+        chunks = re.findall("\033_G([^;]*);([^\033]*)\033\\\\", self.preview("--preview=kitty"))
+        self.assertIn("f=100", chunks[0][0])
+        self.assertEqual([c[0][-3:] for c in chunks], ["m=1"] * (len(chunks) - 1) + ["m=0"])
+        self.assertTrue(all(len(c[1]) <= 4096 for c in chunks))
+        self.assertEqual(read_png(base64.b64decode("".join(c[1] for c in chunks)))[:2], (480, 480))
+
+    def test_iterm_gets_a_png_of_the_size_that_is_said(self):
+        size, data = re.search("File=inline=1;size=([0-9]+);width=480px:([^\a]*)\a",
+                               self.preview("--preview=iterm")).groups()
+        self.assertEqual(len(base64.b64decode(data, validate=True)), int(size))
+
+    def test_sixels_have_as_many_columns_and_bands_as_the_picture(self):
+        text = self.preview("--preview=sixel")
+        self.assertTrue(text.startswith("\033P0;1q\"1;1;480;480#0;2;0;0;0"))
+        bands = text[text.index("#215;2;100;100;100") + 18:text.rindex("\033\\")].split("-")[:-1]
+        self.assertEqual(len(bands), 480 / 6)
+        for row in bands[40].split("$")[:-1]:
+            runs = re.findall("!([0-9]+)(.)|(.)", re.sub("^#[0-9]+", "", row))
+            self.assertEqual(sum(int(count or 1) for count, _, _ in runs), 480)
+
+    def test_json_and_quiet_runs_show_nothing(self):
+        json.loads(self.preview("--preview", "--json"))
+        self.assertEqual(self.preview("--preview", "-q"), "")
 
 
 if __name__ == "__main__":
