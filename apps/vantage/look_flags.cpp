@@ -84,9 +84,11 @@ void LookFlags::add_to(CLI::App& app, Quality quality) {
          "--style",
          [this](const std::string& name) {
            look_.style = name == "technical" ? Style::Technical : Style::Clay;
+           asset_ = name == "asset";
          },
-         "clay: matt and softly lit; technical: a drawing with outlines and sharp edges")
-      ->check(CLI::IsMember({"clay", "technical"}))
+         "clay: matt and softly lit; asset: the same in the file's own colours, without textures; "
+         "technical: a drawing with outlines and sharp edges")
+      ->check(CLI::IsMember({"clay", "asset", "technical"}))
       ->default_str("clay")
       ->group(group);
   app.add_flag("--ground", look_.ground, "a soft shadow on the ground under the model")

@@ -24,11 +24,15 @@ class LookFlags {
   /// The same on the ground of a model whose up axis is known.
   [[nodiscard]] RenderOptions look(const Vec3& up) const;
 
+  /// Whether the colours of the file are wanted.
+  [[nodiscard]] bool of_asset() const { return asset_; }
+
   /// Empty border as a fraction of the picture's shorter side.
   [[nodiscard]] double margin() const { return margin_per_cent_ / 100.0; }
 
  private:
   RenderOptions look_{};
+  bool asset_ = false;
   double margin_per_cent_ = 4.0;
 };
 

@@ -75,8 +75,10 @@ struct RenderCommand {
         look.look().ground ? up_vector(choose_up(loaded, shape, options).axis) : RenderOptions{}.up;
     const std::map<std::string, Picture> pictures{
         {"plain", Picture::Plain}, {"kssm", Picture::Map}, {"skeleton", Picture::Skeleton}};
-    const Image image =
-        draw_picture(shape, *camera, pictures.at(show), options, look.look(up), run.part(0.9, 1.0));
+    const std::vector<Rgb8> colours =
+        look.of_asset() ? asset_colours(loaded, shape) : std::vector<Rgb8>{};
+    const Image image = draw_picture(shape, *camera, pictures.at(show), options, look.look(up),
+                                     run.part(0.9, 1.0), colours);
     write_picture(file, image);
     report(session, *camera, options);
   }

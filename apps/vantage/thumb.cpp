@@ -60,8 +60,11 @@ struct ThumbCommand {
     const Model loaded = session.load(model);
     const ShapeAnalysis shape = prepare_surface(loaded);
     const QuickView view = find_quick_view(loaded, shape, options, run.part(0.1, 0.7));
-    const Image image = draw_picture(shape, view.picture, Picture::Plain, options,
-                                     look.look(up_vector(view.up.axis)), run.part(0.7, 1.0));
+    const std::vector<Rgb8> colours =
+        look.of_asset() ? asset_colours(loaded, shape) : std::vector<Rgb8>{};
+    const Image image =
+        draw_picture(shape, view.picture, Picture::Plain, options,
+                     look.look(up_vector(view.up.axis)), run.part(0.7, 1.0), colours);
     write_picture(file, image);
     if (file != "-") {
       preview.show(session, shape, view.picture, options, look.look(up_vector(view.up.axis)), run);

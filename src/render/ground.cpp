@@ -68,8 +68,10 @@ Ground::Ground(const TriMesh& mesh, const RayScene& scene, const Vec3& up, doubl
       Pcg32 random(i);
       const double first = random.uniform();
       const HemisphereRays rays{.count = kRays, .total = kRays, .shift = {first, random.uniform()}};
-      const Vec3 point = (left_ + (static_cast<double>(i % kCells) + 0.5) * cell_) * across_ +
-                         (bottom_ + (static_cast<double>(i / kCells) + 0.5) * cell_) * along_ +
+      const std::size_t column = i % kCells;
+      const std::size_t row = i / kCells;
+      const Vec3 point = (left_ + (static_cast<double>(column) + 0.5) * cell_) * across_ +
+                         (bottom_ + (static_cast<double>(row) + 0.5) * cell_) * along_ +
                          floor_.height * up;
       shadows_[i] = 1.0 - occlusion.openness(point, up, up, rays);
     }

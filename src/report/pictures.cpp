@@ -21,10 +21,11 @@ Image take_picture(const ShapeAnalysis& shape, const Camera& camera, Picture pic
 }
 
 Image draw_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
-                   const ViewOptions& options, RenderOptions look, const RunContext& run) {
+                   const ViewOptions& options, RenderOptions look, const RunContext& run,
+                   std::span<const Rgb8> surface_colours) {
   look.width = options.width;
   look.height = options.height;
-  std::vector<Rgb8> colours;
+  std::vector<Rgb8> colours(surface_colours.begin(), surface_colours.end());
   TubeOverlay overlay;
   if (picture == Picture::Map) {
     colours = colour_map(shape.map.of_vertex);
@@ -33,6 +34,17 @@ Image draw_picture(const ShapeAnalysis& shape, const Camera& camera, Picture pic
     overlay.radius = kTubeRadius * shape.sphere.diameter;
   }
   return render(shape.surface, camera, colours, overlay, look, run);
+}
+
+std::vector<Rgb8> asset_colours(const Model& model, const ShapeAnalysis& shape) {
+  if (model.vertex_colours.empty()) {
+    return {};
+  }
+  std::vector<Rgb8> colours(shape.surface.positions.size());
+  for (std::size_t v = shape.surface_vertex.size(); v-- > 0;) {
+    colours[shape.surface_vertex[v]] = model.vertex_colours[v];
+  }
+  return colours;
 }
 
 }  // namespace vantage

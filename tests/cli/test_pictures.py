@@ -77,6 +77,18 @@ class Looks(ProgramTest):
                       ("--style", "baroque"), ("--quality", "best"), ("--margin", "50"), ("--crease", "81")):
             self.vantage("render", MODELS / "fan.ply", "-o", "p.png", "--direction", "1,0,0", *flags, exit_code=2)
 
+    def test_an_asset_shows_the_colours_of_its_file(self):
+        corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+        text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n" \
+               "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n" \
+               "property list uchar int vertex_indices\nend_header\n"
+        text += "".join(f"{x} {y} {z} 200 20 20\n" for x, y, z in corners) + "4 0 1 2 3\n"
+        self.write("red.ply", text)
+        for style, red in (("asset", True), ("clay", False)):
+            self.vantage("render", "red.ply", "-o", "p.png", "--size", "32x32", "--direction", "0,0,1", "--style", style)
+            r, g, _, a = read_png((self.dir / "p.png").read_bytes())[2][16][64:68]
+            self.assertEqual((a, r > 3 * g), (255, red), style)
+
     def test_the_map_can_be_drawn_too(self):
         rows = self.picture("--show", "kssm", "--style", "technical")[2]
         colourful = [p for row in rows for p in zip(row[0::4], row[1::4], row[2::4], row[3::4])

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -232,9 +233,15 @@ Image take_picture(const ShapeAnalysis& shape, const Camera& camera, Picture pic
                    const ViewOptions& options, const std::optional<Rgb8>& background = {},
                    const RunContext& run = {});
 
+/// The colours that the file gives to the surface's vertices; of vertices at one position the first
+/// counts. Empty if it gives none.
+std::vector<Rgb8> asset_colours(const Model& model, const ShapeAnalysis& shape);
+
 /// The same with any look; its size is that of `options`. \throw Cancelled
+/// \param surface_colours of a plain picture, one per vertex of the surface; may be empty.
 Image draw_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
-                   const ViewOptions& options, RenderOptions look, const RunContext& run = {});
+                   const ViewOptions& options, RenderOptions look, const RunContext& run = {},
+                   std::span<const Rgb8> surface_colours = {});
 
 /// view.json: the same bytes for the same input, options and version.
 /// \param seconds adds the times, for `--json`; null for the file.
