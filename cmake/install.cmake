@@ -10,4 +10,8 @@ install(FILES ${PROJECT_BINARY_DIR}/vantage-config.cmake ${PROJECT_BINARY_DIR}/v
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vantage)
 if(TARGET vantage_program)
   install(TARGETS vantage_program)
+  # File managers show models: run update-mime-database on share/mime afterwards, as packages do.
+  install(FILES apps/vantage/desktop/vantage.thumbnailer DESTINATION ${CMAKE_INSTALL_DATADIR}/thumbnailers)
+  install(FILES apps/vantage/desktop/vantage-mime.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages
+    RENAME vantage.xml)
 endif()

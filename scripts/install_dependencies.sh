@@ -6,7 +6,8 @@ set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libembree-dev libpng-dev nlohmann-json3-dev
        libcli11-dev libtinygltf-dev libmetis-dev libnanoflann-dev libmeshoptimizer-dev
-       libwebp-dev zlib1g-dev libsqlite3-dev libarchive-dev libsodium-dev)
+       libwebp-dev zlib1g-dev libsqlite3-dev libarchive-dev libsodium-dev
+       libcpp-httplib-dev libssl-dev libbrotli-dev)
 test=(libgtest-dev libgmock-dev python3 chromium slurm-wlm munge parallel)
 check=(python3-numpy clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev libbenchmark-dev doxygen)
 

@@ -6,6 +6,7 @@
     measure.py global PROGRAM MODEL...    the global search against the dense one, whose results are kept in the
                                           folder that VANTAGE_DENSE names, if it does, and taken from there
     measure.py smooth PROGRAM MODEL...    the largest change of score per degree between neighbouring directions
+    measure.py thumb  PROGRAM MODEL...    thumbnails: seconds, and their view against the best one
     measure.py broken PROGRAM FOLDER      how every file of a folder ends, under limits
 
 Only ratios of one run mean something on a shared machine.
@@ -149,6 +150,38 @@ def once(folder, name, compute):
     if not path.exists():
         path.write_text(json.dumps(compute()), encoding="utf-8")
     return json.loads(path.read_text(encoding="utf-8"))
+
+
+def upright_prior(direction, up):
+    """The default prior of docs/prior.md for a model with y or z up."""
+    x, y, z = direction
+    side, rise, front = (x, y, z) if up == "y" else (x, z, -y)
+    return math.exp(-8.481 * (rise - 0.315) ** 2 - 1.171 * (1 - 4 * side ** 2 * front ** 2)
+                    - 0.08 * (1 - front) - 0.04 * (1 - side))
+
+
+def thumb_table(program, models):
+    """The view of a thumbnail: its objective under the whole method's own map against the best one's."""
+    print("| model | vertices | wall s | CPU s | up as in view | objective / the best | angle to the best |")
+    print("| --- " * 7 + "|")
+    with tempfile.TemporaryDirectory() as folder:
+        for model in models:
+            before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+            thumb = run(program, "thumb", model, f"{folder}/thumb.png", "--json")
+            wall = time.monotonic() - start
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+            view = run(program, "view", model, "-o", f"{folder}/view", "--no-images", "--json")
+            directions = pathlib.Path(folder, "directions.csv")
+            directions.write_text("dx,dy,dz\n" + ",".join(map(repr, thumb["direction"])) + "\n")
+            rows = subprocess.run([program, "score", model, "--directions", directions],
+                                  capture_output=True, text=True, check=True).stdout.splitlines()
+            best = view["best"]
+            objective = float(rows[1].split(",")[-1]) * upright_prior(thumb["direction"], view["up"])
+            cosine = sum(a * b for a, b in zip(thumb["direction"], best["direction"]))
+            print(f"| {view['model']['name']} | {view['model']['vertices']} | {wall:.2f} | {cpu:.2f} "
+                  f"| {'yes' if thumb['up'] == view['up'] else 'no'} | {objective / best['objective']:.3f} "
+                  f"| {math.degrees(math.acos(min(1.0, cosine))):.0f}° |", flush=True)
 
 
 def broken_table(program, folder):

@@ -18,10 +18,12 @@ void add_skeleton_command(CLI::App& program, Session& session);
 void add_map_command(CLI::App& program, Session& session);
 void add_score_command(CLI::App& program, Session& session);
 void add_render_command(CLI::App& program, Session& session);
+void add_thumb_command(CLI::App& program, Session& session);
 void add_info_command(CLI::App& program, Session& session);
 void add_batch_command(CLI::App& program, Session& session);
 void add_batch_worker_commands(CLI::App& program, Session& session);
 void add_results_command(CLI::App& program, Session& session);
+void add_serve_command(CLI::App& program, Session& session);
 
 /// Adds a command that keeps its flags in a `Command` and runs its `run(session)`.
 template <class Command>

@@ -52,10 +52,12 @@ int main(int argc, char** argv) {
     add_map_command(program, session);
     add_score_command(program, session);
     add_render_command(program, session);
+    add_thumb_command(program, session);
     add_info_command(program, session);
     add_batch_command(program, session);
     add_batch_worker_commands(program, session);
     add_results_command(program, session);
+    add_serve_command(program, session);
     program.parse(argc, argv);
     session.end_progress();
     if (std::fflush(stdout) != 0) {

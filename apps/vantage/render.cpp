@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <charconv>
 #include <map>
 
 #include <nlohmann/json.hpp>
@@ -13,36 +12,13 @@
 
 #include "commands.h"
 #include "input_text.h"
+#include "look_flags.h"
 #include "method_flags.h"
+#include "picture_file.h"
 #include "terminal.h"
 
 namespace vantage::cli {
 namespace {
-
-/// "white", "black", "transparent" or "#rrggbb".
-std::optional<Rgb8> parse_background(const std::string& text) {
-  if (text == "transparent") {
-    return std::nullopt;
-  }
-  if (text == "white") {
-    return Rgb8{255, 255, 255};
-  }
-  if (text == "black") {
-    return Rgb8{0, 0, 0};
-  }
-  Rgb8 colour{};
-  bool good = text.size() == 7 && text.front() == '#';
-  for (std::size_t i = 0; good && i < 3; ++i) {
-    const char* first = text.data() + 1 + 2 * i;
-    const auto [end, error] = std::from_chars(first, first + 2, colour[i], 16);
-    good = error == std::errc{} && end == first + 2;
-  }
-  if (!good) {
-    throw CLI::ValidationError(
-        "--background", "expected white, black, transparent or #rrggbb, found '" + text + "'");
-  }
-  return colour;
-}
 
 struct RenderCommand {
   std::string model{};
@@ -51,12 +27,15 @@ struct RenderCommand {
   std::string camera_file{};
   std::string view{};
   std::string show = "plain";
-  std::optional<Rgb8> background{};
+  LookFlags look{};
   MethodFlags method{};
 
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("MODEL", model, "file to read, or -")->required();
-    app.add_option("-o,--output", file, "PNG file to write")->required();
+    app.add_option_function<std::string>(
+           "-o,--output", [this](const std::string& path) { file = checked_picture_name(path); },
+           "picture to write: WebP if it ends in .webp, else PNG")
+        ->required();
     CLI::Option_group* from = app.add_option_group("From", "where to look from: one of");
     from->add_option("--direction", direction_text, "x,y,z: from the model's centre to the eye");
     from->add_option("--camera", camera_file,
@@ -68,17 +47,14 @@ struct RenderCommand {
         ->check(CLI::IsMember({"plain", "kssm", "skeleton"}))
         ->capture_default_str()
         ->group("Pictures");
-    app.add_option_function<std::string>(
-           "--background", [this](const std::string& text) { background = parse_background(text); },
-           "white, black, transparent or #rrggbb")
-        ->default_str("transparent")
-        ->group("Pictures");
+    look.add_to(app, Quality::Normal);
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
     add_common_flags(app, session.flags);
   }
 
   void run(Session& session) {
-    const ViewOptions options = session.reading([&] { return method.resolve(); });
+    ViewOptions options = session.reading([&] { return method.resolve(); });
+    options.margin = look.margin();
     const RunContext run = session.run();
     const Vec3 direction =
         direction_text.empty() ? Vec3::UnitZ() : unit(parse_vector(direction_text, "--direction"));
@@ -95,11 +71,15 @@ struct RenderCommand {
       camera = view.empty() ? framed(shape, loaded, direction, options)
                             : found(shape, loaded, options, run.part(0.5, 0.9));
     }
+    const Vec3 up =
+        look.look().ground ? up_vector(choose_up(loaded, shape, options).axis) : RenderOptions{}.up;
     const std::map<std::string, Picture> pictures{
         {"plain", Picture::Plain}, {"kssm", Picture::Map}, {"skeleton", Picture::Skeleton}};
-    const Image image =
-        take_picture(shape, *camera, pictures.at(show), options, background, run.part(0.9, 1.0));
-    write_file(file, png_bytes(image));
+    const std::vector<Rgb8> colours =
+        look.of_asset() ? asset_colours(loaded, shape) : std::vector<Rgb8>{};
+    const Image image = draw_picture(shape, *camera, pictures.at(show), options, look.look(up),
+                                     run.part(0.9, 1.0), colours);
+    write_picture(file, image);
     report(session, *camera, options);
   }
 
@@ -117,7 +97,7 @@ struct RenderCommand {
     const ScoringCamera scoring = scoring_camera(shape, options);
     return frame_points(referenced_points(shape.surface), scoring.viewpoint(direction),
                         shape.sphere.centre, up_vector(choose_up(loaded, shape, options).axis),
-                        static_cast<double>(options.width) / options.height);
+                        static_cast<double>(options.width) / options.height, options.margin);
   }
 
   [[nodiscard]] Camera found(const ShapeAnalysis& shape, const Model& loaded,

@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "method_flags.h"
 #include "output_folder.h"
+#include "preview_flag.h"
 #include "terminal.h"
 #include "view_outputs.h"
 #include "view_set_flags.h"
@@ -46,6 +47,7 @@ struct ViewCommand {
   bool no_report = false;
   MethodFlags method{};
   ViewSetFlags several{};
+  PreviewFlag preview{};
 
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("MODEL", model, "file to read, or -")->required();
@@ -55,6 +57,7 @@ struct ViewCommand {
     app.add_flag("--no-report", no_report, "no report.html, the page to explore the result in");
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
     several.add_to(app);
+    preview.add_to(app);
     add_common_flags(app, session.flags);
   }
 
@@ -99,6 +102,7 @@ struct ViewCommand {
     if (session.flags.json) {
       write_file("-", view_json(loaded, shape, report, options, &seconds));
     } else {
+      preview.show(session, shape, report.best.picture, options, {}, session.run());
       summarise(session, loaded, shape, report, output, seconds);
     }
   }
@@ -158,6 +162,7 @@ void add_view_command(CLI::App& program, Session& session) {
       program, session, "view", "best and worst view: pictures, cameras, map, skeleton, report",
       "Examples:\n"
       "  vantage view horse.ply\n"
+      "  vantage view horse.ply --preview\n"
       "  vantage view part.stl -o out --size 1024 --up z\n"
       "  vantage view horse.ply --views 6 --tour horse.webp\n"
       "  vantage view scene.obj --focus lamp --coverage 0.95\n"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -44,7 +45,8 @@ class SceneReader {
     for (const tinygltf::Mesh& mesh : gltf_.meshes) {
       for (const tinygltf::Primitive& primitive : mesh.primitives) {
         has_triangles_ = has_triangles_ || primitive.mode >= TINYGLTF_MODE_TRIANGLES;
-        has_colours_ = has_colours_ || primitive.attributes.count("COLOR_0") > 0;
+        has_colours_ = has_colours_ || primitive.attributes.count("COLOR_0") > 0 ||
+                       base_colour(primitive) != std::array{1.0, 1.0, 1.0};
       }
     }
   }
@@ -233,10 +235,13 @@ class SceneReader {
     if (!has_colours_) {
       return;
     }
+    // What a vertex looks like is the product of both, in linear light; textures are not read.
+    const std::array<double, 3> base = base_colour(primitive);
     const auto colour = primitive.attributes.find("COLOR_0");
     if (colour == primitive.attributes.end()) {
       for (std::size_t i = 0; i < count; ++i) {
-        builder_.add_colour(1.0, 1.0, 1.0);
+        builder_.add_colour(srgb_of_linear(base[0]), srgb_of_linear(base[1]),
+                            srgb_of_linear(base[2]));
       }
       return;
     }
@@ -245,9 +250,18 @@ class SceneReader {
       builder_.fail("the colours of a primitive do not fit its positions");
     }
     for (std::size_t i = 0; i < count; ++i) {
-      builder_.add_colour(srgb_of_linear(colours.value(i, 0)), srgb_of_linear(colours.value(i, 1)),
-                          srgb_of_linear(colours.value(i, 2)));
+      builder_.add_colour(srgb_of_linear(base[0] * colours.value(i, 0)),
+                          srgb_of_linear(base[1] * colours.value(i, 1)),
+                          srgb_of_linear(base[2] * colours.value(i, 2)));
     }
+  }
+
+  /// Base colour factor of the primitive's material, linear, in [0, 1]; white without one.
+  [[nodiscard]] std::array<double, 3> base_colour(const tinygltf::Primitive& primitive) const {
+    const auto material = static_cast<std::size_t>(primitive.material);
+    return primitive.material < 0 || material >= document_.base_colours.size()
+               ? std::array{1.0, 1.0, 1.0}
+               : document_.base_colours[material];
   }
 
   /// The corners of a primitive in drawing order, counted from 0 within the primitive.

@@ -8,6 +8,7 @@
 #define TINYGLTF_NO_EXTERNAL_IMAGE
 #define TINYGLTF_NO_FS
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -243,6 +244,30 @@ tinygltf::Model parse_structure(const Json& root, const ModelBuilder& builder) {
   return model;
 }
 
+/// A member of an object; null if it is none or has none.
+Json member_of(const Json& object, const char* name) {
+  const auto found = object.is_object() ? object.find(name) : object.end();
+  return found == object.end() ? Json() : *found;
+}
+
+/// The colour of each material; white where the file says nothing that makes sense.
+std::vector<std::array<double, 3>> base_colours(const Json& root) {
+  std::vector<std::array<double, 3>> colours;
+  const auto list = root.find("materials");
+  if (list == root.end() || !list->is_array()) {
+    return colours;
+  }
+  for (const Json& material : *list) {
+    std::array<double, 3> colour{1.0, 1.0, 1.0};
+    const Json factor = member_of(member_of(material, "pbrMetallicRoughness"), "baseColorFactor");
+    for (std::size_t c = 0; factor.is_array() && c < std::min<std::size_t>(3, factor.size()); ++c) {
+      colour[c] = factor[c].is_number() ? std::clamp(factor[c].get<double>(), 0.0, 1.0) : 1.0;
+    }
+    colours.push_back(colour);
+  }
+  return colours;
+}
+
 }  // namespace
 
 GltfDocument read_gltf_document(std::string_view bytes, const BufferSource& source,
@@ -257,6 +282,7 @@ GltfDocument read_gltf_document(std::string_view bytes, const BufferSource& sour
   GltfDocument document;
   document.structure = parse_structure(root, builder);
   document.has_draco = names(root, "extensionsUsed", kDraco);
+  document.base_colours = base_colours(root);
   document.total_bytes = bytes.size();
   if (const auto list = root.find("buffers"); list != root.end() && list->is_array()) {
     for (std::size_t i = 0; i < list->size(); ++i) {

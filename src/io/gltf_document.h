@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -17,8 +18,10 @@ namespace vantage {
 struct GltfDocument {
   tinygltf::Model structure{};         ///< Scenes, nodes, meshes, accessors, buffer views.
   std::vector<std::string> buffers{};  ///< All bytes of each buffer.
-  std::size_t total_bytes = 0;         ///< Of the file and its buffers.
-  bool has_draco = false;              ///< KHR_draco_mesh_compression is used somewhere.
+  /// Of each material, linear, in [0, 1].
+  std::vector<std::array<double, 3>> base_colours{};
+  std::size_t total_bytes = 0;  ///< Of the file and its buffers.
+  bool has_draco = false;       ///< KHR_draco_mesh_compression is used somewhere.
 };
 
 /// Reads the container, the JSON and the buffers. tinygltf sees only the part of the JSON that

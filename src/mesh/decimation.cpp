@@ -406,12 +406,26 @@ class Decimator {
   std::vector<std::uint32_t> ring_b_{};
 };
 
+/// Costs are fourth powers of lengths, held in float: they need lengths of about 1. A power of two
+/// never rounds.
+void scale_by_power(TriMesh& mesh, int exponent) {
+  for (Vec3& p : mesh.positions) {
+    p = {std::ldexp(p.x(), exponent), std::ldexp(p.y(), exponent), std::ldexp(p.z(), exponent)};
+  }
+}
+
 }  // namespace
 
 Decimation decimate(const TriMesh& fine, std::size_t target, const RunContext& run) {
-  Decimator decimator(fine, ByQuadric(fine), run);
+  const int exponent = std::ilogb(std::max(bounding_box(fine.positions).longest_side(),
+                                           std::numeric_limits<double>::min()));
+  TriMesh scaled = fine;
+  scale_by_power(scaled, -exponent);
+  Decimator decimator(scaled, ByQuadric(scaled), run);
   decimator.reduce_to(target, std::numeric_limits<double>::infinity());
-  return decimator.result();
+  Decimation coarse = decimator.result();
+  scale_by_power(coarse.mesh, exponent);
+  return coarse;
 }
 
 Decimation merge_short_edges(const TriMesh& fine, const std::vector<double>& weights,

@@ -10,19 +10,18 @@
 namespace vantage {
 namespace {
 
+/// A face at an edge whose lower end is known.
 struct EdgeUse {
-  std::uint32_t a, b, face;
+  std::uint32_t b, face;
 
   bool operator<(const EdgeUse& other) const {
-    return std::tie(a, b, face) < std::tie(other.a, other.b, other.face);
+    return std::tie(b, face) < std::tie(other.b, other.face);
   }
 };
 
-}  // namespace
-
-EdgeTable build_edge_table(const TriMesh& mesh) {
-  std::vector<EdgeUse> uses;
-  uses.reserve(3 * mesh.triangles.size());
+/// Calls visit(a, b, face) for each side of each face, a < b.
+template <class Visit>
+void for_each_side(const TriMesh& mesh, Visit&& visit) {
   for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
     const Triangle& t = mesh.triangles[f];
     if (names_a_vertex_twice(t)) {
@@ -31,21 +30,43 @@ EdgeTable build_edge_table(const TriMesh& mesh) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const std::uint32_t a = t[corner];
       const std::uint32_t b = t[(corner + 1) % 3];
-      uses.push_back({std::min(a, b), std::max(a, b), f});
+      visit(std::min(a, b), std::max(a, b), f);
     }
   }
-  std::sort(uses.begin(), uses.end());
+}
+
+}  // namespace
+
+EdgeTable build_edge_table(const TriMesh& mesh) {
+  std::uint32_t vertices = 0;  // the positions may be missing
+  for (const Triangle& t : mesh.triangles) {
+    vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
+  }
+  // By counting into one list per lower end; sorting all at once takes several times as long.
+  std::vector<std::uint32_t> offsets(std::size_t{vertices} + 1, 0);
+  for_each_side(mesh, [&](std::uint32_t a, std::uint32_t, std::uint32_t) { ++offsets[a + 1]; });
+  for (std::size_t v = 1; v < offsets.size(); ++v) {
+    offsets[v] += offsets[v - 1];
+  }
+  std::vector<EdgeUse> uses(offsets.back());
+  std::vector<std::uint32_t> cursor(offsets.begin(), offsets.end() - 1);
+  for_each_side(mesh, [&](std::uint32_t a, std::uint32_t b, std::uint32_t f) {
+    uses[cursor[a]++] = {b, f};
+  });
 
   EdgeTable table;
   table.faces_of_edge.values.reserve(uses.size());
-  for (std::size_t i = 0; i < uses.size(); ++i) {
-    if (i == 0 || uses[i].a != uses[i - 1].a || uses[i].b != uses[i - 1].b) {
-      if (i > 0) {
-        table.faces_of_edge.offsets.push_back(static_cast<std::uint32_t>(i));
+  for (std::uint32_t a = 0; a < vertices; ++a) {
+    std::sort(uses.begin() + offsets[a], uses.begin() + offsets[a + 1]);
+    for (std::size_t i = offsets[a]; i < offsets[a + 1]; ++i) {
+      if (i == offsets[a] || uses[i].b != uses[i - 1].b) {
+        if (i > 0) {
+          table.faces_of_edge.offsets.push_back(static_cast<std::uint32_t>(i));
+        }
+        table.edges.push_back({a, uses[i].b});
       }
-      table.edges.push_back({uses[i].a, uses[i].b});
+      table.faces_of_edge.values.push_back(uses[i].face);
     }
-    table.faces_of_edge.values.push_back(uses[i].face);
   }
   if (!uses.empty()) {
     table.faces_of_edge.offsets.push_back(static_cast<std::uint32_t>(uses.size()));

@@ -26,6 +26,10 @@ constexpr double kFaceOpacity = 0.56;
 constexpr double kOutlineOpacity = 0.94;
 constexpr double kVeil = 0.45;  ///< Share of its opacity that a surface keeps in front of a tube.
 constexpr double kOutlinePower = 2.2;
+const Vec3 kDrawingPaper(0.97, 0.975, 0.98);
+const Vec3 kDrawingShade(0.30, 0.335, 0.39);
+constexpr double kDrawingOcclusion = 0.45;
+constexpr double kDarkestTint = 0.05;  ///< Albedos below this stay dark.
 constexpr double kTubeOutline = 0.45;  ///< Cosine to the viewer below which tubes darken.
 
 double wrapped(double cosine, double wrap) {
@@ -69,6 +73,14 @@ Vec3 shade_surface(const SurfacePoint& point) {
   const Vec3 lit = point.albedo.cwiseProduct(diffuse_light(point) + Vec3::Constant(rim));
   const double gloss = (kSheen * sheen(point, kSheenPower) + 0.25 * rim) * point.openness;
   return compress(lit + Vec3::Constant(gloss));
+}
+
+Vec3 shade_drawing(const SurfacePoint& point) {
+  const double key = 0.5 + 0.5 * point.normal.dot(kKeyDirection);
+  const double lit = key * (1.0 - kDrawingOcclusion * (1.0 - point.openness));
+  const Vec3 wash = (1.0 - lit) * kDrawingShade + lit * kDrawingPaper;
+  // Colours of a map tint the paper; what is not coloured is paper.
+  return wash.cwiseProduct(point.albedo / std::max(point.albedo.maxCoeff(), kDarkestTint));
 }
 
 Vec3 shade_tube(const SurfacePoint& point) {

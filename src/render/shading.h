@@ -18,6 +18,9 @@ struct SurfacePoint {
 /// the camera: every view is well lit. Bright colours are compressed towards 1 with hue kept.
 Vec3 shade_surface(const SurfacePoint& point);
 
+/// Linear colour of paper with a wash of shade, for drawings whose lines carry the form.
+Vec3 shade_drawing(const SurfacePoint& point);
+
 /// The same light on the smoother, outlined material of overlaid tubes.
 Vec3 shade_tube(const SurfacePoint& point);
 

@@ -12,13 +12,16 @@ namespace {
 std::array<double, 256> decode_table() {
   std::array<double, 256> table{};
   for (std::size_t byte = 0; byte < table.size(); ++byte) {
-    const double value = static_cast<double>(byte) / 255.0;
-    table[byte] = value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+    table[byte] = linear_of_encoded(static_cast<double>(byte) / 255.0);
   }
   return table;
 }
 
 }  // namespace
+
+double linear_of_encoded(double value) {
+  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
 
 double linear_of_srgb(std::uint8_t byte) {
   static const std::array<double, 256> table = decode_table();

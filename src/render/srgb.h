@@ -11,6 +11,9 @@
 
 namespace vantage {
 
+/// Linear light of an sRGB value, both in [0, 1].
+double linear_of_encoded(double value);
+
 /// Linear light in [0, 1] of an sRGB byte.
 double linear_of_srgb(std::uint8_t byte);
 

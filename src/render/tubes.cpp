@@ -20,8 +20,8 @@ PixelBox join(const PixelBox& a, const PixelBox& b) {
 
 }  // namespace
 
-Tubes::Tubes(const CurveGraph& graph, double radius, const PictureRays& rays, int width,
-             int height) {
+Tubes::Tubes(const CurveGraph& graph, double radius, const PictureRays& rays, int width, int height,
+             double joint_thickness) {
   std::vector<std::uint32_t> degree(graph.nodes.size(), 0);
   for (const auto& edge : graph.edges) {
     capsules_.push_back({graph.nodes[edge[0]], graph.nodes[edge[1]], radius});
@@ -30,7 +30,7 @@ Tubes::Tubes(const CurveGraph& graph, double radius, const PictureRays& rays, in
   }
   for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
     if (degree[n] != 2) {
-      capsules_.push_back({graph.nodes[n], graph.nodes[n], kJointThickness * radius});
+      capsules_.push_back({graph.nodes[n], graph.nodes[n], joint_thickness * radius});
     }
   }
   tiles_across_ = (width + kTilePx - 1) / kTilePx;

@@ -31,7 +31,9 @@ class Tubes {
   static constexpr int kTilePx = 16;  ///< Side of a tile.
 
   /// \param graph in the frame of the rays. \param radius of the tubes, > 0.
-  Tubes(const CurveGraph& graph, double radius, const PictureRays& rays, int width, int height);
+  /// \param joint_thickness radius of the balls over that of the tubes.
+  Tubes(const CurveGraph& graph, double radius, const PictureRays& rays, int width, int height,
+        double joint_thickness = kJointThickness);
 
   /// Nearest hit of a ray that belongs to pixel (x, y). Ties go to the lower index.
   [[nodiscard]] TubeHit closest_hit(const PictureRay& ray, int x, int y) const;

@@ -8,8 +8,6 @@ namespace {
 
 /// Radius of the skeleton's tubes over D: thin enough for fingers, thick enough to see.
 constexpr double kTubeRadius = 0.004;
-/// With sixteen samples a pixel, two occlusion rays each leave no grain at usual sizes.
-constexpr int kAmbientRays = 2;
 
 }  // namespace
 
@@ -17,11 +15,17 @@ Image take_picture(const ShapeAnalysis& shape, const Camera& camera, Picture pic
                    const ViewOptions& options, const std::optional<Rgb8>& background,
                    const RunContext& run) {
   RenderOptions look;
+  set_quality(look, Quality::Normal);
+  look.background = background;
+  return draw_picture(shape, camera, picture, options, look, run);
+}
+
+Image draw_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
+                   const ViewOptions& options, RenderOptions look, const RunContext& run,
+                   std::span<const Rgb8> surface_colours) {
   look.width = options.width;
   look.height = options.height;
-  look.background = background;
-  look.ambient_rays = kAmbientRays;
-  std::vector<Rgb8> colours;
+  std::vector<Rgb8> colours(surface_colours.begin(), surface_colours.end());
   TubeOverlay overlay;
   if (picture == Picture::Map) {
     colours = colour_map(shape.map.of_vertex);
@@ -30,6 +34,17 @@ Image take_picture(const ShapeAnalysis& shape, const Camera& camera, Picture pic
     overlay.radius = kTubeRadius * shape.sphere.diameter;
   }
   return render(shape.surface, camera, colours, overlay, look, run);
+}
+
+std::vector<Rgb8> asset_colours(const Model& model, const ShapeAnalysis& shape) {
+  if (model.vertex_colours.empty()) {
+    return {};
+  }
+  std::vector<Rgb8> colours(shape.surface.positions.size());
+  for (std::size_t v = shape.surface_vertex.size(); v-- > 0;) {
+    colours[shape.surface_vertex[v]] = model.vertex_colours[v];
+  }
+  return colours;
 }
 
 }  // namespace vantage

@@ -131,6 +131,9 @@ std::string options_hash(const ViewOptions& options) {
                                              : nlohmann::ordered_json(nullptr);
   json["up"] = options.up ? std::string(up_name(*options.up)) : "auto";
   json["size"] = {options.width, options.height};
+  if (options.margin != ViewOptions{}.margin) {
+    json["margin"] = options.margin;
+  }
   json["pictures"] = options.pictures;
   if (options.certify) {
     json["certify"] = true;

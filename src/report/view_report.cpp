@@ -82,7 +82,7 @@ ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& v
   view.visible_area_fraction = visible_area_fraction(shape.surface, visible);
   view.picture = frame_points(referenced_points(shape.surface), camera.viewpoint(direction),
                               camera.sphere.centre, up_vector(up),
-                              static_cast<double>(options.width) / options.height);
+                              static_cast<double>(options.width) / options.height, options.margin);
   return view;
 }
 

@@ -3,9 +3,8 @@
 
 #include <utility>
 
-#include "vantage/mesh/topology.h"
-
 #include "mesh/decimation.h"
+#include "view/compact_surface.h"
 
 namespace vantage {
 namespace {
@@ -16,48 +15,6 @@ constexpr std::size_t kProxyVertices = 2500;
 /// share is left. [ours]
 constexpr std::size_t kWorthwhile = 6000;
 constexpr double kLargestShare = 0.5;
-
-/// A surface without isolated vertices and broken faces.
-struct Compact {
-  TriMesh mesh{};
-  std::vector<std::uint32_t> vertex_of_row{};
-  std::vector<FaceSides> sides{};
-};
-
-Compact compact(const TriMesh& surface, const std::vector<FaceSides>& sides) {
-  constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  std::vector<std::uint32_t> row(surface.positions.size(), kNone);
-  std::vector<bool> named(surface.positions.size(), false);
-  Compact result;
-  for (const Triangle& t : surface.triangles) {
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) {
-      named[t[0]] = named[t[1]] = named[t[2]] = true;
-      result.mesh.triangles.push_back(t);
-    }
-  }
-  for (std::uint32_t v = 0; v < row.size(); ++v) {
-    if (named[v]) {
-      row[v] = static_cast<std::uint32_t>(result.vertex_of_row.size());
-      result.vertex_of_row.push_back(v);
-      result.mesh.positions.push_back(surface.positions[v]);
-    }
-  }
-  for (Triangle& t : result.mesh.triangles) {
-    t = {row[t[0]], row[t[1]], row[t[2]]};
-  }
-  if (sides.size() == 1) {
-    result.sides = sides;
-    return result;
-  }
-  // Components are numbered by their lowest vertex, so that those left keep their order.
-  const Components before = connected_components(surface);
-  const Components after = connected_components(result.mesh);
-  result.sides.resize(after.count, FaceSides::Both);
-  for (std::size_t r = 0; r < result.vertex_of_row.size(); ++r) {
-    result.sides[after.of_vertex[r]] = sides[before.of_vertex[result.vertex_of_row[r]]];
-  }
-  return result;
-}
 
 }  // namespace
 
@@ -76,7 +33,7 @@ std::optional<ProxyScorer> ProxyScorer::make(const TriMesh& surface,
   if (surface.positions.size() < kWorthwhile) {
     return std::nullopt;
   }
-  const Compact whole = compact(surface, sides);
+  const CompactSurface whole = compact_surface(surface, sides);
   const Decimation coarse = decimate(whole.mesh, kProxyVertices, run);
   const auto left = static_cast<double>(coarse.mesh.positions.size());
   if (left > kLargestShare * static_cast<double>(whole.mesh.positions.size())) {

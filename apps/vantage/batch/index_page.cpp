@@ -91,8 +91,8 @@ function card(row) {
   const box = text("article", row.status, "");
   box.title = row.key;
   const path = "models/" + row.folder.split("/").map(encodeURIComponent).join("/") + "/";
-  const frame = text(row.has & 2 ? "a" : "div", "picture", row.has & 1 ? "" : row.status === "failed" ? "failed" : "no picture");
-  if (row.has & 2) frame.href = path + "best.png";
+  const frame = text(row.has & 6 ? "a" : "div", "picture", row.has & 1 ? "" : row.status === "failed" ? "failed" : "no picture");
+  if (row.has & 6) frame.href = path + (row.has & 4 ? "report.html" : "best.png");
   if (row.has & 1) {
     const image = document.createElement("img");
     image.loading = "lazy";

@@ -9,12 +9,17 @@
 
 namespace vantage::batch {
 
+// What a row's last cell adds up: what there is to show.
+inline constexpr int kHasThumbnail = 1;
+inline constexpr int kHasPicture = 2;
+inline constexpr int kHasReport = 4;
+
 /// JSON text that may stand inside a script element: it cannot end it.
 std::string script_safe(const std::string& json);
 
 /// The page. \param rows JSON arrays joined by commas, script_safe(): key, name, status, key of the
-/// equal model, error, folder, best fraction, best score, vertices, and 1 for a thumbnail plus 2
-/// for a picture. \param pages names of all pages. \param page which of them this is.
+/// equal model, error, folder, best fraction, best score, vertices, and what it
+/// has. \param pages names of all pages. \param page which of them this is.
 std::string index_page(const std::string& rows, const std::vector<std::string>& pages,
                        std::size_t page, const StatusCounts& counts);
 

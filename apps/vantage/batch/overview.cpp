@@ -108,13 +108,38 @@ class ContactSheets {
 };
 
 /// One row of the page's table; see kIndexScript for the order of its cells.
-Json row_of(const Statement& row, bool has_thumbnail, bool has_picture) {
+Json row_of(const Statement& row, const fs::path& place) {
+  std::error_code error;
+  const bool has_folder = !row.text(5).empty();
+  const auto shown = [&](const char* file, int bit) {
+    return has_folder && fs::exists(place / file, error) ? bit : 0;
+  };
   const auto number = [&](int column) {
     return row.is_null(column) ? Json(nullptr) : Json(row.number(column));
   };
   return Json::array({row.text(0), row.text(1), row.text(2), row.text(3), row.text(4), row.text(5),
                       number(6), number(7), row.is_null(8) ? Json(nullptr) : Json(row.integer(8)),
-                      (has_thumbnail ? 1 : 0) + (has_picture ? 2 : 0)});
+                      shown(kThumbnailFile, kHasThumbnail) | shown("best.png", kHasPicture) |
+                          shown("report.html", kHasReport)});
+}
+
+Statement table_rows(ResultsStore& store) {
+  return store.select(
+      "key, name, status, duplicate_of, error, folder, best_fraction, best_score, vertices", "",
+      "");
+}
+
+std::size_t page_count(const StatusCounts& counts) {
+  const auto total = static_cast<std::size_t>(counts.done + counts.failed + counts.duplicates);
+  return std::max<std::size_t>(1, (total + kRowsPerPage - 1) / kRowsPerPage);
+}
+
+std::vector<std::string> page_names(std::size_t pages) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < pages; ++i) {
+    names.push_back(page_name(i));
+  }
+  return names;
 }
 
 }  // namespace
@@ -123,39 +148,47 @@ Overview write_overview(const std::string& folder, ResultsStore& store, const Ru
   ContactSheets sheets(folder);
   const StatusCounts counts = store.counts();
   const auto total = static_cast<std::size_t>(counts.done + counts.failed + counts.duplicates);
-  const std::size_t pages = std::max<std::size_t>(1, (total + kRowsPerPage - 1) / kRowsPerPage);
-  Statement rows = store.select(
-      "key, name, status, duplicate_of, error, folder, best_fraction, best_score, vertices", "",
-      "");
+  const std::size_t pages = page_count(counts);
+  Statement rows = table_rows(store);
   std::size_t done = 0;
   for (std::size_t page = 0; page < pages; ++page) {
     std::string data;
     for (std::size_t i = 0; i < kRowsPerPage && rows.step(); ++i) {
       run.advance("index", static_cast<double>(done++) / static_cast<double>(total + 1));
       const fs::path place = fs::path(models_folder(folder)) / rows.text(5);
-      std::error_code error;
-      const bool has_folder = !rows.text(5).empty();
-      const auto thumbnail = has_folder && rows.text(3).empty()
+      const auto thumbnail = !rows.text(5).empty() && rows.text(3).empty()
                                  ? read_png((place / kThumbnailFile).string(), kThumbnailSide)
                                  : std::nullopt;
       if (thumbnail) {
         sheets.add(*thumbnail);
       }
-      const bool small = has_folder && fs::exists(place / kThumbnailFile, error);
-      const bool large = has_folder && fs::exists(place / "best.png", error);
-      data += (data.empty() ? "" : ",\n") + script_safe(row_of(rows, small, large).dump());
-    }
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < pages; ++i) {
-      names.push_back(page_name(i));
+      data += (data.empty() ? "" : ",\n") + script_safe(row_of(rows, place).dump());
     }
     write_file((fs::path(folder) / page_name(page)).string(),
-               index_page(data, names, page, counts));
+               index_page(data, page_names(pages), page, counts));
   }
   std::error_code error;
   for (std::size_t old = pages; fs::remove(fs::path(folder) / page_name(old), error); ++old) {
   }
   return {pages, sheets.finish()};
+}
+
+std::optional<std::string> overview_page(const std::string& folder, ResultsStore& store,
+                                         std::size_t page) {
+  const StatusCounts counts = store.counts();
+  const std::size_t pages = page_count(counts);
+  if (page >= pages) {
+    return std::nullopt;
+  }
+  Statement rows = table_rows(store);
+  for (std::size_t i = 0; i < page * kRowsPerPage && rows.step(); ++i) {
+  }
+  std::string data;
+  for (std::size_t i = 0; i < kRowsPerPage && rows.step(); ++i) {
+    const fs::path place = fs::path(models_folder(folder)) / rows.text(5);
+    data += (data.empty() ? "" : ",\n") + script_safe(row_of(rows, place).dump());
+  }
+  return index_page(data, page_names(pages), page, counts);
 }
 
 }  // namespace vantage::batch

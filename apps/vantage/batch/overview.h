@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "vantage/core/run_context.h"
@@ -21,5 +22,9 @@ struct Overview {
 /// the table's order, for the first 20 000 models) into the batch's folder.
 /// \throw IoError, Cancelled
 Overview write_overview(const std::string& folder, ResultsStore& store, const RunContext& run);
+
+/// One page of the table as the store is now; nothing beyond the last page. \throw IoError
+std::optional<std::string> overview_page(const std::string& folder, ResultsStore& store,
+                                         std::size_t page);
 
 }  // namespace vantage::batch

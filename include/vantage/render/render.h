@@ -11,6 +11,7 @@
 #include "vantage/core/fields.h"
 #include "vantage/core/image.h"
 #include "vantage/core/run_context.h"
+#include "vantage/core/vec3.h"
 #include "vantage/mesh/curve_graph.h"
 #include "vantage/mesh/tri_mesh.h"
 
@@ -19,6 +20,19 @@
 
 namespace vantage {
 
+/// How much work goes into a picture.
+enum class Quality {
+  Draft,   ///< 9 rays a pixel, 2 occlusion rays each: thumbnails.
+  Normal,  ///< 16 and 2: pictures on a screen.
+  Fine,    ///< 64 and 4: print.
+};
+
+/// How surfaces look.
+enum class Style {
+  Clay,       ///< Matt, softly lit from the viewer's left.
+  Technical,  ///< A shaded drawing: outlines and sharp edges as lines, hidden ones left out.
+};
+
 /// What is drawn and how.
 struct RenderOptions {
   int width = 800;                   ///< px
@@ -26,14 +40,25 @@ struct RenderOptions {
   int samples = 16;                  ///< Rays per pixel, rounded up to a square.
   int ambient_rays = 0;              ///< Occlusion rays per sample; 0 switches them off.
   std::optional<Rgb8> background{};  ///< Unset: transparent.
-  Rgb8 colour{{196, 192, 186}};      ///< Of the surface where no vertex colours are given.
+  /// The background turns to this colour towards the bottom. Looked at if `background` is set.
+  std::optional<Rgb8> background_bottom{};
+  Rgb8 colour{{196, 192, 186}};  ///< Of the surface where no vertex colours are given.
+  Style style = Style::Clay;     ///< How it looks.
+  double crease_deg = 40.0;  ///< Edges that bend by more are sharp, softly over ± 10°; 0: facets.
+  bool ground = false;       ///< A soft shadow on a level ground that touches the model.
+  Vec3 up = Vec3::UnitY();   ///< Of the ground.
 };
 
 /// Names, ranges and help of the numbers in RenderOptions.
 inline constexpr auto kRenderFields = std::tuple{
     Field{"samples", &RenderOptions::samples, 1, 1024, "rays per pixel"},
     Field{"ambient-rays", &RenderOptions::ambient_rays, 0, 1024, "occlusion rays per sample"},
+    Field{"crease", &RenderOptions::crease_deg, 0.0, 80.0,
+          "edges that bend by more are sharp, degrees"},
 };
+
+/// Sets the numbers of rays.
+void set_quality(RenderOptions& options, Quality quality);
 
 /// A curve drawn as tubes through the surface, which then becomes translucent.
 struct TubeOverlay {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "vantage/io/model.h"
 #include "vantage/mesh/mesh_check.h"
 #include "vantage/mesh/tri_mesh.h"
+#include "vantage/render/render.h"
 #include "vantage/report/view_set_request.h"
 #include "vantage/significance/kssm.h"
 #include "vantage/skeleton/skeleton.h"
@@ -63,6 +65,7 @@ struct ViewOptions {
   std::optional<UpAxis> up{};                       ///< Unset: choose_up().
   int width = 800;                                  ///< Of pictures, px.
   int height = 600;                                 ///< Of pictures, px.
+  double margin = 0.04;                             ///< Of pictures, of the shorter side, [0, 0.5).
   bool pictures = true;                             ///< Whether view.json names pictures.
   /// Several views besides best and worst.
   std::optional<ViewSetRequest> view_set{};
@@ -238,6 +241,16 @@ enum class Picture { Plain, Map, Skeleton };
 Image take_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
                    const ViewOptions& options, const std::optional<Rgb8>& background = {},
                    const RunContext& run = {});
+
+/// The colours that the file gives to the surface's vertices; of vertices at one position the first
+/// counts. Empty if it gives none.
+std::vector<Rgb8> asset_colours(const Model& model, const ShapeAnalysis& shape);
+
+/// The same with any look; its size is that of `options`. \throw Cancelled
+/// \param surface_colours of a plain picture, one per vertex of the surface; may be empty.
+Image draw_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
+                   const ViewOptions& options, RenderOptions look, const RunContext& run = {},
+                   std::span<const Rgb8> surface_colours = {});
 
 /// view.json: the same bytes for the same input, options and version.
 /// \param seconds adds the times, for `--json`; null for the file.

@@ -54,6 +54,27 @@ TEST(RenderedPixels, AreTheSameForAnyNumberOfThreads) {
   }
 }
 
+TEST(RenderedPixels, AreTheSameForAnyNumberOfThreadsInEveryStyle) {
+  const tbb::global_control more_threads_than_cores(tbb::global_control::max_allowed_parallelism,
+                                                    8);
+  const TriMesh mesh = test::torus(1.0, 0.35, 48, 24);
+  const Viewpoint eye{Projection::Perspective, 6.0 * kDirection};
+  const Camera camera = frame_points(mesh.positions, eye, Vec3::Zero(), Vec3::UnitZ(), 1.2);
+  for (const Style style : {Style::Clay, Style::Technical}) {
+    const RenderOptions look{.width = 120,
+                             .height = 100,
+                             .samples = 4,
+                             .ambient_rays = 2,
+                             .style = style,
+                             .ground = true,
+                             .up = Vec3::UnitZ()};
+    const Image one = render(mesh, camera, {}, {}, look, {.max_threads = 1});
+    for (const int threads : {2, 3, 8}) {
+      EXPECT_EQ(render(mesh, camera, {}, {}, look, {.max_threads = threads}).rgba, one.rgba);
+    }
+  }
+}
+
 class Similarity : public testing::TestWithParam<std::array<double, 2>> {};
 
 TEST_P(Similarity, LeavesThePictureAsItIs) {

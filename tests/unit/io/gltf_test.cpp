@@ -131,6 +131,32 @@ TEST(Gltf, ReadsSparseAccessors) {
   EXPECT_EQ(scene.parsed().mesh.positions[1], Vec3(1, 0, 0));
 }
 
+TEST(Gltf, TakesTheBaseColourOfAMaterialWhereVerticesHaveNone) {
+  Scene scene;
+  scene.primitive = R"({"attributes":{"POSITION":0},"indices":1,"mode":5,"material":0})";
+  scene.more =
+      R"(,"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0.50196078431,1]}}])";
+  EXPECT_EQ(scene.parsed().vertex_colours[3], (Rgb8{255, 0, 188}));  // as below
+}
+
+TEST(Gltf, MaterialsThatMakeNoSenseAreWhite) {
+  Scene scene;
+  scene.primitive = R"({"attributes":{"POSITION":0},"indices":1,"mode":5,"material":0})";
+  for (const char* material : {"1", "[]", R"({"pbrMetallicRoughness":[]})",
+                               R"({"pbrMetallicRoughness":{"baseColorFactor":3}})",
+                               R"({"pbrMetallicRoughness":{"baseColorFactor":["a",[],{}]}})"}) {
+    scene.more = R"(,"materials":[)" + std::string(material) + "]";
+    EXPECT_TRUE(scene.parsed().vertex_colours.empty()) << material;
+  }
+}
+
+TEST(Gltf, AWhiteMaterialGivesNoColours) {
+  Scene scene;
+  scene.primitive = R"({"attributes":{"POSITION":0},"indices":1,"mode":5,"material":0})";
+  scene.more = R"(,"materials":[{"name":"white"}])";
+  EXPECT_TRUE(scene.parsed().vertex_colours.empty());
+}
+
 TEST(Gltf, TurnsLinearColoursIntoSrgb) {
   Scene scene;
   scene.binary += std::string("\xFF\0\x80\xFF", 4) + std::string(12, '\0');

@@ -114,5 +114,16 @@ TEST(SplitLongEdges, KeepsNeighboursOfChosenFacesFitting) {
   EXPECT_EQ(border_edges(split_long_edges(box, chosen, 0.4, {})), 0U);
 }
 
+TEST(Decimate, DoesNotDependOnTheUnitOfLength) {
+  const TriMesh mesh = test::torus(1.0, 0.4, 40, 20);
+  const Decimation whole = decimate(mesh, 200, {});
+  for (const double scale : {0x1p100, 0x1p-100}) {  // powers of two never round
+    const Decimation scaled =
+        decimate(test::moved(mesh, scale, 0.0, Vec3::UnitX(), Vec3::Zero()), 200, {});
+    ASSERT_EQ(scaled.of_vertex, whole.of_vertex) << scale;
+    EXPECT_EQ(scaled.mesh.positions[7], Vec3(scale * whole.mesh.positions[7])) << scale;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+/// \file
+/// A folder of results as a web site: which path shows what. Knows nothing of HTTP.
+
+namespace vantage::batch {
+
+/// What stands at a path.
+struct SitePage {
+  std::string type{};            ///< Media type.
+  std::string body{};            ///< Whole, if `file` is empty.
+  std::filesystem::path file{};  ///< A regular file inside the folder.
+};
+
+/// The folder of a batch (a page of its store, made anew each time, so that a batch that still runs
+/// can be watched), or any folder with results of `view` in it, four levels deep.
+class FolderSite {
+ public:
+  /// \throw IoError if it is no folder, or there are no results in it.
+  explicit FolderSite(const std::string& folder);
+
+  /// What stands at the decoded path of a request ("/", "/models/x/best.png"); nothing for what does
+  /// not exist, is hidden, lies outside the folder (links are followed first), or is of a kind that
+  /// results never are. \throw IoError if the store cannot be read.
+  [[nodiscard]] std::optional<SitePage> find(std::string_view path) const;
+
+ private:
+  [[nodiscard]] std::optional<SitePage> index(std::size_t page) const;
+  [[nodiscard]] std::string results_index() const;
+  [[nodiscard]] std::optional<std::filesystem::path> inside(
+      const std::filesystem::path& file) const;
+
+  std::filesystem::path root_;
+  bool is_batch_ = false;
+};
+
+}  // namespace vantage::batch

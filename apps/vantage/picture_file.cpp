@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "picture_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+#include "vantage/io/write.h"
+
+namespace vantage::cli {
+namespace {
+
+constexpr std::array<std::string_view, 12> kOtherFormats{".jpg",  ".jpeg", ".gif",  ".tif",
+                                                         ".tiff", ".bmp",  ".avif", ".svg",
+                                                         ".pdf",  ".exr",  ".tga",  ".ppm"};
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+}  // namespace
+
+std::string checked_picture_name(const std::string& path) {
+  const std::string extension = extension_of(path);
+  if (std::find(kOtherFormats.begin(), kOtherFormats.end(), extension) != kOtherFormats.end()) {
+    throw CLI::ValidationError("--output", "pictures are written as .png or .webp, not " +
+                                               extension + "; convert one of these");
+  }
+  return path;
+}
+
+void write_picture(const std::string& path, const Image& image) {
+  write_file(path, extension_of(path) == ".webp" ? webp_bytes(image) : png_bytes(image));
+}
+
+}  // namespace vantage::cli

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "vantage/core/image.h"
+
+/// \file
+/// Pictures under the name that the user gave.
+
+namespace vantage::cli {
+
+/// Refuses names of picture formats that are not written: anything but .webp becomes a PNG, because
+/// file managers ask for thumbnails under temporary names. \throw CLI::ValidationError
+std::string checked_picture_name(const std::string& path);
+
+/// Writes a WebP if the name ends so, else a PNG. \throw IoError, InvalidInput
+void write_picture(const std::string& path, const Image& image);
+
+}  // namespace vantage::cli

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/error.h"
+#include "vantage/io/write.h"
+#include "vantage/report/quick_view.h"
+#include "vantage/report/view_report.h"
+
+#include "commands.h"
+#include "look_flags.h"
+#include "method_flags.h"
+#include "picture_file.h"
+#include "preview_flag.h"
+#include "terminal.h"
+
+namespace vantage::cli {
+namespace {
+
+constexpr int kLargestThumbnail = 4096;
+
+struct ThumbCommand {
+  std::string model{};
+  std::string file{};
+  int size = 256;
+  std::string up = "auto";
+  LookFlags look{};
+  PreviewFlag preview{};
+
+  void add_flags(CLI::App& app, Session& session) {
+    app.add_option("MODEL", model, "file to read, or -")->required();
+    const auto name = [this](const std::string& path) { file = checked_picture_name(path); };
+    CLI::Option* place =
+        app.add_option_function<std::string>("FILE", name, "picture to write, unless named by -o");
+    app.add_option_function<std::string>(
+           "-o,--output", name,
+           "the same; WebP if it ends in .webp, else PNG, - for standard output")
+        ->excludes(place);
+    app.add_option("-s,--size", size, "width and height, pixels")
+        ->check(CLI::Range(1, kLargestThumbnail))
+        ->capture_default_str();
+    app.add_option("--up", up, "up axis of the model: x y z -x -y -z, or auto, as in view")
+        ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z", "auto"}))
+        ->capture_default_str();
+    look.add_to(app, Quality::Draft);
+    preview.add_to(app);
+    add_common_flags(app, session.flags);
+  }
+
+  void run(Session& session) {
+    if (file.empty()) {
+      throw CLI::RequiredError("FILE");
+    }
+    ViewOptions options;
+    options.width = options.height = size;
+    options.margin = look.margin();
+    if (up != "auto") {
+      options.up = up_axis(up);
+    }
+    const RunContext run = session.run();
+    const Model loaded = session.load(model);
+    const ShapeAnalysis shape = prepare_surface(loaded);
+    const QuickView view = find_quick_view(loaded, shape, options, run.part(0.1, 0.7));
+    const std::vector<Rgb8> colours =
+        look.of_asset() ? asset_colours(loaded, shape) : std::vector<Rgb8>{};
+    const Image image =
+        draw_picture(shape, view.picture, Picture::Plain, options,
+                     look.look(up_vector(view.up.axis)), run.part(0.7, 1.0), colours);
+    write_picture(file, image);
+    if (file != "-") {
+      preview.show(session, shape, view.picture, options, look.look(up_vector(view.up.axis)), run);
+    }
+    report(session, view);
+  }
+
+ private:
+  void report(Session& session, const QuickView& view) const {
+    session.end_progress();
+    if (session.flags.json && file != "-") {
+      const Vec3& d = view.direction;
+      const nlohmann::ordered_json json = {{"file", file},
+                                           {"size", size},
+                                           {"direction", {d.x(), d.y(), d.z()}},
+                                           {"up", up_name(view.up.axis)},
+                                           {"vertices", view.vertices},
+                                           {"evaluations", view.evaluations}};
+      write_file("-", json.dump(2) + "\n");
+    }
+  }
+};
+
+}  // namespace
+
+void add_thumb_command(CLI::App& program, Session& session) {
+  add_command<ThumbCommand>(program, session, "thumb",
+                            "a thumbnail of the best view, fast; for file managers and catalogues",
+                            "Examples:\n"
+                            "  vantage thumb horse.ply horse.png\n"
+                            "  vantage thumb part.stl -o part.webp --size 512 --background white");
+}
+
+}  // namespace vantage::cli

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "render/feature_edges.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/topology.h"
+#include "vantage/mesh/weld.h"
+
+#include "mesh/disjoint_sets.h"
+
+namespace vantage {
+namespace {
+
+using Edge = std::array<std::uint32_t, 2>;
+
+/// Whether the triangle goes round from a to b.
+bool runs_along(const Triangle& t, const Edge& edge) {
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    if (t[corner] == edge[0]) {
+      return t[(corner + 1) % 3] == edge[1];
+    }
+  }
+  return false;
+}
+
+/// Whether the faces at an edge make a feature of it. A face without area says nothing.
+bool is_feature(const TriMesh& mesh, const Edge& edge, std::span<const std::uint32_t> faces,
+                double crease_cosine) {
+  if (faces.size() != 2) {
+    return true;
+  }
+  const Vec3 a = area_vector(mesh, mesh.triangles[faces[0]]);
+  const Vec3 b = area_vector(mesh, mesh.triangles[faces[1]]);
+  const double lengths = a.norm() * b.norm();
+  const bool against = runs_along(mesh.triangles[faces[0]], edge) ==
+                       runs_along(mesh.triangles[faces[1]], edge);  // wound against each other
+  return lengths > 0.0 && (against ? -a.dot(b) : a.dot(b)) < crease_cosine * lengths;
+}
+
+/// The edges whose connected piece is long enough in all.
+std::vector<Edge> long_pieces(const TriMesh& mesh, const std::vector<Edge>& edges,
+                              double least_length) {
+  const auto length_of = [&](const Edge& edge) {
+    return (mesh.positions[edge[0]] - mesh.positions[edge[1]]).norm();
+  };
+  DisjointSets sets(mesh.positions.size());
+  for (const Edge& edge : edges) {
+    sets.join(edge[0], edge[1]);
+  }
+  std::vector<double> length(mesh.positions.size(), 0.0);
+  for (const Edge& edge : edges) {
+    length[sets.root(edge[0])] += length_of(edge);
+  }
+  std::vector<Edge> kept;
+  for (const Edge& edge : edges) {
+    if (length[sets.root(edge[0])] >= least_length) {
+      kept.push_back(edge);
+    }
+  }
+  return kept;
+}
+
+void add_split(CurveGraph& graph, const Vec3& from, const Vec3& to, double longest_piece) {
+  constexpr double kMostPieces = 1000.0;
+  const double wanted = std::ceil((to - from).norm() / longest_piece);
+  const auto pieces = static_cast<std::uint32_t>(std::clamp(wanted, 1.0, kMostPieces));
+  const auto first = static_cast<std::uint32_t>(graph.nodes.size());
+  for (std::uint32_t i = 0; i <= pieces; ++i) {
+    graph.nodes.push_back(from + (to - from) * (static_cast<double>(i) / pieces));
+    if (i > 0) {
+      graph.edges.push_back({first + i - 1, first + i});
+    }
+  }
+}
+
+}  // namespace
+
+CurveGraph feature_edges(const TriMesh& mesh, double crease_rad, double least_length,
+                         double longest_piece) {
+  const WeldedMesh welded = weld(mesh);
+  const EdgeTable table = build_edge_table(welded.mesh);
+  const double crease_cosine = std::cos(crease_rad);
+  std::vector<Edge> edges;
+  for (std::size_t e = 0; e < table.edges.size(); ++e) {
+    if (is_feature(welded.mesh, table.edges[e], table.faces_of_edge[e], crease_cosine)) {
+      edges.push_back(table.edges[e]);
+    }
+  }
+  edges = long_pieces(welded.mesh, edges, least_length);
+  CurveGraph graph;
+  if (edges.size() > kMostFeatureEdges) {
+    return graph;
+  }
+  for (const Edge& edge : edges) {
+    add_split(graph, welded.mesh.positions[edge[0]], welded.mesh.positions[edge[1]], longest_piece);
+  }
+  return graph;
+}
+
+}  // namespace vantage

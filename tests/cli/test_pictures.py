@@ -1,0 +1,100 @@
+"""How pictures look: against golden ones, and what the flags for them promise."""
+
+import json
+import pathlib
+import sys
+import unittest
+
+from png import read_png
+from program import MODELS, ProgramTest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+from update_goldens import GOLDENS, picture_arguments  # noqa: E402
+
+# The ladder: what a difference means, as root mean square over all bytes, of 255; 0: equal.
+INDISTINGUISHABLE = 1.0  # another compiler or processor: rounding moves a few samples across edges
+SMALL = 8.0              # a light or a line has changed: nobody may do that by accident
+
+
+def difference(a, b):
+    """Root mean square over all bytes of two PNGs of one size."""
+    (width, height, rows), (other_width, other_height, other_rows) = read_png(a), read_png(b)
+    assert (width, height) == (other_width, other_height)
+    squares = sum((p - q) ** 2 for row, other in zip(rows, other_rows) for p, q in zip(row, other))
+    return (squares / (4 * width * height)) ** 0.5
+
+
+class Goldens(ProgramTest):
+
+    def test_pictures_are_those_of_the_goldens(self):
+        wanted = json.loads((GOLDENS / "pictures.json").read_text())
+        self.assertEqual({p.stem for p in GOLDENS.glob("*.png")}, set(wanted))
+        for name, flags in wanted.items():
+            with self.subTest(name):
+                self.vantage(*picture_arguments(flags, self.dir / "new.png"))
+                self.assertLessEqual(difference((self.dir / "new.png").read_bytes(),
+                                                (GOLDENS / f"{name}.png").read_bytes()), INDISTINGUISHABLE)
+
+    def test_the_ladder_tells_one_look_from_another(self):
+        clay, drawing = ((GOLDENS / f"{name}.png").read_bytes() for name in ("clay", "drawing"))
+        self.assertGreater(difference(clay, drawing), SMALL)
+
+
+class Looks(ProgramTest):
+
+    def picture(self, *flags, size="90x60"):
+        self.vantage("render", MODELS / "fan.ply", "-o", "p.png", "--size", size, "--quality", "draft",
+                     "--direction", "1,0.5,1", *flags)
+        return read_png((self.dir / "p.png").read_bytes())
+
+    def box_of(self, *flags):
+        """Distances of what is drawn from the four borders, px."""
+        width, height, rows = self.picture(*flags, size="200x150")
+        alphas = [row[3::4] for row in rows]
+        ys = [y for y, a in enumerate(alphas) if max(a) > 8]
+        xs = [x for x in range(width) if max(a[x] for a in alphas) > 8]
+        return xs[0], width - 1 - xs[-1], ys[0], height - 1 - ys[-1]
+
+    def test_the_margin_is_kept_to_a_pixel_on_two_opposite_sides_and_by_all(self):
+        for per_cent in (0, 4, 20):
+            left, right, top, bottom = self.box_of("--margin", per_cent)
+            margin = per_cent / 100 * 150
+            self.assertGreaterEqual(min(left, right, top, bottom), margin - 1.5)
+            across = abs(left - margin) <= 1 and abs(right - margin) <= 1
+            along = abs(top - margin) <= 1 and abs(bottom - margin) <= 1
+            self.assertTrue(across or along, (per_cent, left, right, top, bottom))
+
+    def test_backgrounds(self):
+        for text, top, bottom in (("white", (255, 255, 255), (255, 255, 255)),
+                                  ("#102030", (16, 32, 48), (16, 32, 48)),
+                                  ("#000000:#ffffff", (2, 2, 2), (253, 253, 253)),
+                                  ("white:black", (253, 253, 253), (2, 2, 2))):
+            rows = self.picture("--background", text)[2]
+            self.assertEqual((tuple(rows[0][:4]), tuple(rows[-1][:4])), (top + (255,), bottom + (255,)), text)
+
+    def test_unknown_looks_are_wrong_usage(self):
+        for flags in (("--background", "mauve"), ("--background", "white:"), ("--background", "#12345"),
+                      ("--style", "baroque"), ("--quality", "best"), ("--margin", "50"), ("--crease", "81")):
+            self.vantage("render", MODELS / "fan.ply", "-o", "p.png", "--direction", "1,0,0", *flags, exit_code=2)
+
+    def test_an_asset_shows_the_colours_of_its_file(self):
+        corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+        text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n" \
+               "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n" \
+               "property list uchar int vertex_indices\nend_header\n"
+        text += "".join(f"{x} {y} {z} 200 20 20\n" for x, y, z in corners) + "4 0 1 2 3\n"
+        self.write("red.ply", text)
+        for style, red in (("asset", True), ("clay", False)):
+            self.vantage("render", "red.ply", "-o", "p.png", "--size", "32x32", "--direction", "0,0,1", "--style", style)
+            r, g, _, a = read_png((self.dir / "p.png").read_bytes())[2][16][64:68]
+            self.assertEqual((a, r > 3 * g), (255, red), style)
+
+    def test_the_map_can_be_drawn_too(self):
+        rows = self.picture("--show", "kssm", "--style", "technical")[2]
+        colourful = [p for row in rows for p in zip(row[0::4], row[1::4], row[2::4], row[3::4])
+                     if p[3] == 255 and max(p[:3]) - min(p[:3]) > 100]
+        self.assertGreater(len(colourful), 100)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "render/shading.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "vantage/spatial/directions.h"
+
+namespace vantage {
+namespace {
+
+std::vector<SurfacePoint> points(double albedo, double openness) {
+  std::vector<SurfacePoint> result;
+  for (const Vec3& normal : direction_set(ViewSphereBase::Icosahedron, 3).directions) {
+    if (normal.z() > 0.02) {
+      result.push_back({normal, Vec3::UnitZ(), Vec3::Constant(albedo), openness});
+    }
+  }
+  return result;
+}
+
+using Shade = Vec3 (*)(const SurfacePoint&);
+constexpr std::array<Shade, 2> kShades{shade_surface, shade_drawing};
+
+TEST(Shading, NeverGivesMoreLightThanWhiteNorLessThanNone) {
+  for (const Shade shade : kShades) {
+    for (const double albedo : {0.0, 0.5, 1.0}) {
+      for (const double openness : {0.0, 0.3, 1.0}) {
+        for (const SurfacePoint& point : points(albedo, openness)) {
+          const Vec3 colour = shade(point);
+          ASSERT_TRUE((colour.array() >= 0.0).all() && (colour.array() <= 1.0).all());
+        }
+      }
+    }
+  }
+}
+
+TEST(Shading, OcclusionOnlyDarkens) {
+  for (const Shade shade : kShades) {
+    const std::vector<SurfacePoint> open = points(0.6, 1.0);
+    const std::vector<SurfacePoint> closed = points(0.6, 0.4);
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      ASSERT_LT(shade(closed[i]).sum(), shade(open[i]).sum());
+    }
+  }
+}
+
+TEST(Shading, ABlackSurfaceShowsNothingButItsSheen) {
+  for (const SurfacePoint& point : points(0.0, 1.0)) {
+    ASSERT_LT(shade_surface(point).maxCoeff(), 0.12);
+  }
+}
+
+TEST(Shading, EveryDirectionStaysReadable) {
+  for (const SurfacePoint& point : points(0.55, 1.0)) {
+    ASSERT_GT(shade_surface(point).minCoeff(), 0.02);  // sRGB 39 of 255
+  }
+}
+
+}  // namespace
+}  // namespace vantage
