@@ -29,7 +29,7 @@ struct FiguresCommand {
     add_common_flags(app, session.flags);
   }
 
-  void run(Session& session) {
+  void run(Session& session) const {
     const ViewOptions options = session.reading([&] { return method.resolve(); });
     const RunContext run = session.run();
     const Model loaded = session.load(model);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/report/figures.h"
 
-#include <set>
-#include <string>
+#include <algorithm>
 
 #include <gtest/gtest.h>
 
@@ -45,21 +44,15 @@ TEST(PaperFigures, ShowEachLevelAndEndWithTheMap) {
   const ViewReport report = find_views(shape, UpAxis::Y, options);
   const std::vector<Figure> figures = paper_figures(shape, report, options);
   ASSERT_EQ(figures.size(), 6U);
-  std::set<std::string> names;
-  for (const Figure& figure : figures) {
-    names.insert(figure.name);
-  }
-  EXPECT_EQ(names.size(), 6U);
   const auto panels = [](const Image& image) { return (image.width - 8) / (48 + 8); };
   const int levels = std::min<int>(6, static_cast<int>(shape.history.level_count()) + 1);
   EXPECT_EQ(panels(figures[0].image), levels);
   EXPECT_EQ(panels(figures[2].image), levels + 1);
   EXPECT_EQ(panels(figures[3].image), 3);
   // The first panel of the contraction is the model as figure 5 shows it.
-  for (int y = 0; y < 36; ++y) {
-    for (int x = 0; x < 48; ++x) {
-      ASSERT_EQ(figures[0].image.pixel(8 + x, 8 + y)[1], figures[3].image.pixel(8 + x, 8 + y)[1]);
-    }
+  for (int y = 8; y < 8 + 36; ++y) {
+    EXPECT_TRUE(std::equal(figures[0].image.pixel(8, y), figures[0].image.pixel(8 + 48, y),
+                           figures[3].image.pixel(8, y)));
   }
 }
 
