@@ -24,6 +24,7 @@ void add_batch_command(CLI::App& program, Session& session);
 void add_batch_worker_commands(CLI::App& program, Session& session);
 void add_results_command(CLI::App& program, Session& session);
 void add_serve_command(CLI::App& program, Session& session);
+void add_figures_command(CLI::App& program, Session& session);
 
 /// Adds a command that keeps its flags in a `Command` and runs its `run(session)`.
 template <class Command>

@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
     add_batch_worker_commands(program, session);
     add_results_command(program, session);
     add_serve_command(program, session);
+    add_figures_command(program, session);
     program.parse(argc, argv);
     session.end_progress();
     if (std::fflush(stdout) != 0) {

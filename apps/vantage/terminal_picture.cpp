@@ -188,7 +188,7 @@ std::string iterm_picture(const Image& image) {
 }
 
 /// One row of six pixels' bits as sixels; four or more equal ones as "!count".
-void append_runs(std::string& text, const std::vector<char>& bits) {
+void append_runs(std::string& text, const std::vector<std::uint8_t>& bits) {
   for (std::size_t at = 0; at < bits.size();) {
     std::size_t end = at + 1;
     while (end < bits.size() && bits[end] == bits[at]) {
@@ -207,6 +207,7 @@ void append_runs(std::string& text, const std::vector<char>& bits) {
 /// Colours are a cube of 6 × 6 × 6; what is transparent is not drawn.
 std::string sixel_picture(const Image& image) {
   constexpr int kLevels = 6;
+  constexpr std::size_t kColours = 216;  // kLevels cubed
   constexpr int kNone = -1;
   const auto colour_at = [&](int x, int y) {
     if (!solid(image, x, y)) {
@@ -228,14 +229,15 @@ std::string sixel_picture(const Image& image) {
             std::to_string(i / 6 % 6 * 20) + ";" + std::to_string(i % 6 * 20);
   }
   for (int y = 0; y < image.height; y += 6) {
-    std::array<std::vector<char>, kLevels * kLevels * kLevels> planes{};
+    std::array<std::vector<std::uint8_t>, kColours> planes{};
     for (int x = 0; x < image.width; ++x) {
       for (int row = 0; row < 6; ++row) {
         const int colour = colour_at(x, y + row);
         if (colour != kNone) {
-          std::vector<char>& plane = planes[static_cast<std::size_t>(colour)];
+          std::vector<std::uint8_t>& plane = planes[static_cast<std::size_t>(colour)];
           plane.resize(static_cast<std::size_t>(image.width), 0);
-          plane[static_cast<std::size_t>(x)] |= static_cast<char>(1 << row);
+          plane[static_cast<std::size_t>(x)] |=
+              static_cast<std::uint8_t>(1U << static_cast<unsigned>(row));
         }
       }
     }

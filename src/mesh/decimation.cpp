@@ -417,8 +417,8 @@ void scale_by_power(TriMesh& mesh, int exponent) {
 }  // namespace
 
 Decimation decimate(const TriMesh& fine, std::size_t target, const RunContext& run) {
-  const int exponent = std::ilogb(std::max(bounding_box(fine.positions).longest_side(),
-                                           std::numeric_limits<double>::min()));
+  const int exponent = std::ilogb(
+      std::max(bounding_box(fine.positions).longest_side(), std::numeric_limits<double>::min()));
   TriMesh scaled = fine;
   scale_by_power(scaled, -exponent);
   Decimator decimator(scaled, ByQuadric(scaled), run);

@@ -96,5 +96,20 @@ class Looks(ProgramTest):
         self.assertGreater(len(colourful), 100)
 
 
+class Figures(ProgramTest):
+
+    def test_all_are_written_and_named(self):
+        done = self.vantage("figures", MODELS / "fan.ply", "-o", "f", "--size", "40x30", "--json")
+        files = json.loads(done.out)["files"]
+        self.assertEqual(sorted(pathlib.Path(f).name for f in files), sorted(p.name for p in (self.dir / "f").iterdir()))
+        self.assertEqual([pathlib.Path(f).name[:8] for f in files], [f"figure-{n}" for n in "123578"])
+        self.assertEqual(read_png((self.dir / "f" / "figure-8-worst.png").read_bytes())[:2], (2 * 48 + 8, 46))
+
+    def test_points_have_none_and_leave_no_folder(self):
+        self.write("cloud.xyz", "\n".join(f"{x} {y} {x * y * 0.1}" for x in range(12) for y in range(12)))
+        self.vantage("figures", "cloud.xyz", "-o", "f", exit_code=1)
+        self.assertFalse((self.dir / "f").exists())
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/report/figures.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "vantage/core/error.h"
+
+#include "support/shapes.h"
+#include "unit/report/model_of.h"
+
+namespace vantage::test {
+namespace {
+
+Image of_colour(std::uint8_t value, int width, int height) {
+  return {width, height,
+          std::vector<std::uint8_t>(4 * static_cast<std::size_t>(width * height), value)};
+}
+
+TEST(SideBySide, PutsPanelsInOrderOnWhite) {
+  const Image figure = side_by_side({of_colour(10, 5, 3), of_colour(20, 5, 3)});
+  EXPECT_EQ(figure.width, 2 * 5 + 3 * 8);
+  EXPECT_EQ(figure.height, 3 + 2 * 8);
+  EXPECT_EQ(figure.pixel(8, 8)[0], 10);
+  EXPECT_EQ(figure.pixel(12, 10)[0], 10);
+  EXPECT_EQ(figure.pixel(13, 10)[0], 255);
+  EXPECT_EQ(figure.pixel(8 + 5 + 8, 8)[0], 20);
+  EXPECT_EQ(figure.pixel(0, 0)[0], 255);
+}
+
+TEST(SideBySide, RefusesPanelsOfDifferentSizesAndNone) {
+  EXPECT_THROW(side_by_side({of_colour(1, 5, 3), of_colour(1, 5, 4)}), InvalidInput);
+  EXPECT_THROW(side_by_side({}), InvalidInput);
+}
+
+TEST(PaperFigures, ShowEachLevelAndEndWithTheMap) {
+  ViewOptions options;
+  options.width = 48;
+  options.height = 36;
+  options.search.strategy = SearchStrategy::Exhaustive;
+  options.search.subdivisions = 1;
+  const ShapeAnalysis shape = analyse_shape(model_of(y_of_tubes(0.2, 24)), options);
+  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  const std::vector<Figure> figures = paper_figures(shape, report, options);
+  ASSERT_EQ(figures.size(), 6U);
+  const auto panels = [](const Image& image) { return (image.width - 8) / (48 + 8); };
+  const int levels = std::min<int>(6, static_cast<int>(shape.history.level_count()) + 1);
+  EXPECT_EQ(panels(figures[0].image), levels);
+  EXPECT_EQ(panels(figures[2].image), levels + 1);
+  EXPECT_EQ(panels(figures[3].image), 3);
+  // The first panel of the contraction is the model as figure 5 shows it.
+  for (int y = 8; y < 8 + 36; ++y) {
+    EXPECT_TRUE(std::equal(figures[0].image.pixel(8, y), figures[0].image.pixel(8 + 48, y),
+                           figures[3].image.pixel(8, y)));
+  }
+}
+
+TEST(PaperFigures, NeedASurface) {
+  ShapeAnalysis cloud;
+  cloud.cloud.emplace();
+  EXPECT_THROW(paper_figures(cloud, {}, {}), InvalidInput);
+}
+
+}  // namespace
+}  // namespace vantage::test
