@@ -217,7 +217,8 @@ def broken_table(program, folder):
 
 
 def main():
-    tables = {"view": view_table, "rapid": rapid_table, "global": global_table, "smooth": smooth_table}
+    tables = {"view": view_table, "rapid": rapid_table, "global": global_table, "smooth": smooth_table,
+              "thumb": thumb_table}
     if len(sys.argv) >= 4 and sys.argv[1] in tables:
         tables[sys.argv[1]](sys.argv[2], sys.argv[3:])
     elif len(sys.argv) == 4 and sys.argv[1] == "broken":
