@@ -11,17 +11,13 @@
 #include "vantage/mesh/topology.h"
 
 #include "core/parallel.h"
+#include "core/shannon.h"
 
 namespace vantage {
 namespace {
 
 constexpr std::size_t kGrain = 256;  // faces a task
 constexpr double kNever = std::numeric_limits<double>::infinity();
-
-/// x log x, 0 at 0.
-double x_log_x(double x) {
-  return x > 0.0 ? x * std::log2(x) : 0.0;
-}
 
 /// The channel by face: which views see it, and how much of it.
 struct FaceRows {
