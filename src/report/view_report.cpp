@@ -5,6 +5,7 @@
 
 #include "vantage/mesh/measures.h"
 #include "vantage/render/framing.h"
+#include "vantage/report/measured_shape.h"
 
 #include "report/prior_search.h"
 #include "report/twins.h"
@@ -87,6 +88,9 @@ ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& v
 ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& options,
                       const RunContext& run) {
   check_fields(options, kViewFields);
+  if (!sums_a_map(options.method)) {
+    return find_views_by_measure(shape, up, options, run);
+  }
   ViewReport report;
   report.camera = scoring_camera(shape, options);
   report.up = up;
