@@ -19,7 +19,7 @@ namespace {
 
 // Rings around a view of the set, whose directions are about 9° apart at level 3. [ours]
 constexpr double kFirstRing_rad = 4.0 * kRadPerDeg;
-constexpr double kLastRing_rad = 0.5 * kRadPerDeg;
+constexpr double kLastRing_rad = 1.0 * kRadPerDeg;
 
 /// Values of any directions as scores that grow with how good the view is, at least 0.
 class GrowingScore {
@@ -78,7 +78,7 @@ MeasuredView climbed(const ViewMeasurer& measurer, std::size_t m, MeasuredView v
   const Measure& measure = measurer.measures()[m];
   for (double step = kFirstRing_rad; step >= kLastRing_rad; step *= 0.5) {
     const std::vector<Vec3> ring = ring_around(view.direction, step);
-    const std::vector<double> values = measurer.values(ring, run)[m];
+    const std::vector<double> values = measurer.values_of(m, ring, run);
     evaluations += ring.size();
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const bool moves = goal == Goal::Best ? measure.is_better(values[i], view.value)

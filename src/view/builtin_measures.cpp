@@ -9,7 +9,6 @@
 #include "vantage/view/measure.h"
 
 #include "core/shannon.h"
-#include "view/skeleton_sight.h"
 
 namespace vantage {
 namespace {
@@ -60,35 +59,25 @@ double visibility_ratio(const MeasuredModel& model, const SightTable& sight) {
 }
 
 double viewpoint_entropy(const MeasuredModel& /*model*/, const SightTable& sight) {
-  double logs = 0.0;
-  for (const FaceArea& a : sight.faces) {
-    logs += x_log_x(a.area);
-  }
-  return std::max(0.0, std::log2(sight.projected_area) - logs / sight.projected_area);
+  return std::max(0.0, std::log2(sight.projected_area) - sight.area_logs / sight.projected_area);
 }
 
 /// The background is one more face: −Σ p log p = log A − Σ a log a / A over both.
 double viewpoint_entropy_2001(const MeasuredModel& /*model*/, const SightTable& sight) {
   const double square = kSquareOverDisc * sight.disc_area;
   const double picture = std::max(square, sight.projected_area);
-  double logs = x_log_x(picture - sight.projected_area);
-  for (const FaceArea& a : sight.faces) {
-    logs += x_log_x(a.area);
-  }
+  const double logs = sight.area_logs + x_log_x(picture - sight.projected_area);
   return std::max(0.0, std::log2(picture) - logs / picture);
 }
 
 double kullback_leibler(const MeasuredModel& model, const SightTable& sight) {
-  double sum = 0.0;
+  // Σ p log (p A_t / A_z), with Σ p log p = −H.
+  double logs = 0.0;
   for (const FaceArea& a : sight.faces) {
-    sum += a.area / sight.projected_area *
-           std::log2(a.area / sight.projected_area * model.surface_area / model.face_areas[a.face]);
+    logs += a.area * model.log_face_areas[a.face];
   }
-  return std::max(0.0, sum);
-}
-
-ChannelMeasures of_channel(const MeasuredModel& model, const SightTable& sight) {
-  return channel_measures(sight.faces, model.terms, model.face_areas);
+  return std::max(0.0, std::log2(model.surface_area) - viewpoint_entropy(model, sight) -
+                           logs / sight.projected_area);
 }
 
 double instability_of(const MeasuredModel& model, const SightTable& sight) {
@@ -156,14 +145,12 @@ void add_surface_measures(std::vector<Measure>& all) {
                      visible_triangles));
   all.push_back(more("projected-area", "area of the picture over that of the enclosing sphere's",
                      "Plemenos, Benayada 1996", kFaces, projected_area));
-  all.push_back(more("skeleton-visibility", "share of the skeleton's length that is shown", "ours",
-                     kSkeleton, [](const MeasuredModel& model, const SightTable& sight) {
-                       return skeleton_sight(model, sight).share;
-                     }));
-  all.push_back(more("skeleton-limbs", "branches of the skeleton that are shown", "ours", kSkeleton,
-                     [](const MeasuredModel& model, const SightTable& sight) {
-                       return skeleton_sight(model, sight).limbs;
-                     }));
+  all.push_back(
+      more("skeleton-visibility", "share of the skeleton's length that is shown", "ours", kSkeleton,
+           [](const MeasuredModel&, const SightTable& sight) { return sight.skeleton.share; }));
+  all.push_back(
+      more("skeleton-limbs", "branches of the skeleton that are shown", "ours", kSkeleton,
+           [](const MeasuredModel&, const SightTable& sight) { return sight.skeleton.limbs; }));
   all.push_back(more("principal-axis", "spread of the surface across the line of sight",
                      "after Weinshall, Werman 1997", kVertices, principal_axis));
   all.push_back(more("plemenos", "share of faces seen plus share of the picture covered",
@@ -181,8 +168,8 @@ void add_channel_measures(std::vector<Measure>& all) {
   all.push_back(less("kullback-leibler", "divergence of projected from true areas, bits",
                      "Sbert et al. 2005", kFaces, kullback_leibler));
   all.push_back(less("vmi", "viewpoint mutual information, bits", "Feixas, Sbert, González 2009",
-                     kChannel, [](const MeasuredModel& model, const SightTable& sight) {
-                       return std::max(0.0, of_channel(model, sight).vmi);
+                     kChannel, [](const MeasuredModel&, const SightTable& sight) {
+                       return std::max(0.0, sight.channel.vmi);
                      }));
   all.back().alias = "i1";
   all.push_back(less("i2",
@@ -191,26 +178,21 @@ void add_channel_measures(std::vector<Measure>& all) {
                      [](const MeasuredModel& model, const SightTable& sight) {
                        return model.terms.entropy_of_faces - viewpoint_entropy(model, sight);
                      }));
-  all.push_back(more("i3",
-                     "stimulus-specific information: mean of what its faces tell of views, bits",
-                     "Butts 2003; Bonaventura et al. 2011", kChannel,
-                     [](const MeasuredModel& model, const SightTable& sight) {
-                       return of_channel(model, sight).i3;
-                     }));
-  MeasureNeeds next = kChannel;
-  next.neighbours = true;
+  all.push_back(
+      more("i3", "stimulus-specific information: mean of what its faces tell of views, bits",
+           "Butts 2003; Bonaventura et al. 2011", kChannel,
+           [](const MeasuredModel&, const SightTable& sight) { return sight.channel.i3; }));
+  const MeasureNeeds next{.faces = true, .neighbours = true};
   all.push_back(less("instability", "how much the picture changes to the neighbouring views, bits",
                      "Feixas, Sbert, González 2009", next, instability_of));
-  all.push_back(more("pmi-saliency",
-                     "saliency of faces by how their visibility differs from theirs around",
-                     "Feixas, Sbert, González 2009", kChannel,
-                     [](const MeasuredModel& model, const SightTable& sight) {
-                       return of_channel(model, sight).pmi_saliency;
-                     }));
+  all.push_back(more(
+      "pmi-saliency", "saliency of faces by how their visibility differs from theirs around",
+      "Feixas, Sbert, González 2009", kChannel,
+      [](const MeasuredModel&, const SightTable& sight) { return sight.channel.pmi_saliency; }));
   all.push_back(less("evmi", "mutual information with salient faces weighted, bits",
                      "Feixas, Sbert, González 2009", kChannel,
-                     [](const MeasuredModel& model, const SightTable& sight) {
-                       return std::max(0.0, of_channel(model, sight).evmi);
+                     [](const MeasuredModel&, const SightTable& sight) {
+                       return std::max(0.0, sight.channel.evmi);
                      }));
 }
 

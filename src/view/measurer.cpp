@@ -18,6 +18,8 @@
 #include "vantage/significance/mesh_saliency.h"
 
 #include "core/parallel.h"
+#include "core/shannon.h"
+#include "view/skeleton_sight.h"
 
 namespace vantage {
 namespace {
@@ -92,8 +94,10 @@ struct ViewMeasurer::State {
 void ViewMeasurer::State::prepare(const RunContext& run) {
   const TriMesh& mesh = *model.given.surface;
   model.face_areas = face_areas(mesh);
+  model.log_face_areas.reserve(model.face_areas.size());
   for (const double area : model.face_areas) {
     model.surface_area += area;
+    model.log_face_areas.push_back(area > 0.0 ? std::log2(area) : 0.0);
   }
   if (!(model.surface_area > 0.0) || !(model.given.camera.sphere.diameter > 0.0)) {
     throw InvalidInput("a surface without area cannot be measured");
@@ -168,6 +172,7 @@ SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& w
       if (area > 0.0F && std::isfinite(area)) {
         sight.faces.push_back({face.face, area});
         sight.projected_area += area;
+        sight.area_logs += x_log_x(area);
       }
     }
     sight.faces.shrink_to_fit();
@@ -181,6 +186,12 @@ SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& w
         sight.deepest = std::max(sight.deepest, 0.5 - p.dot(sight.towards) / sphere.diameter);
       }
     }
+  }
+  if (wanted.skeleton) {
+    sight.skeleton = skeleton_sight(model, sight);
+  }
+  if (wanted.channel && !model.set_views.empty()) {
+    sight.channel = channel_measures(sight.faces, model.terms, model.face_areas);
   }
   if (wanted.outline) {
     sight.outline = measure_outline(outlines->trace(eye));
@@ -276,6 +287,10 @@ void ViewMeasurer::State::survey(const RunContext& run) {
       sight.faces = model.set_views[i];
       for (const FaceArea& a : sight.faces) {
         sight.projected_area += a.area;
+        sight.area_logs += x_log_x(a.area);
+      }
+      if (needs.channel) {
+        sight.channel = channel_measures(sight.faces, model.terms, model.face_areas);
       }
       for (std::size_t m = 0; m < measures.size(); ++m) {
         if (is_late(m)) {
@@ -347,6 +362,20 @@ MeasureValues ViewMeasurer::values(std::span<const Vec3> directions, const RunCo
     eyes.push_back(state_->model.given.camera.viewpoint(direction));
   }
   return values(eyes, run);
+}
+
+std::vector<double> ViewMeasurer::values_of(std::size_t m, std::span<const Vec3> directions,
+                                            const RunContext& run) const {
+  MeasureNeeds needs = state_->measures[m].needs;
+  needs.faces |= state_->model.given.weight == Weight::Area && (needs.kssm || needs.saliency);
+  std::vector<double> values(directions.size(), 0.0);
+  parallel_for(run, directions.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Viewpoint eye = state_->model.given.camera.viewpoint(directions[i]);
+      values[i] = state_->value(m, state_->look(eye, needs, kNotOfSet));
+    }
+  });
+  return values;
 }
 
 }  // namespace vantage

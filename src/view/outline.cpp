@@ -18,6 +18,8 @@
 namespace vantage {
 namespace {
 
+// No face, or not just one, beyond an edge.
+constexpr std::uint32_t kOpen = ~std::uint32_t{0};
 // Empty lines around the disc, so that every outline closes inside the grid.
 constexpr int kBorder = 2;
 // Bins of turning angles: odd, so that straight on falls into the middle of one. [Page 2003]
@@ -44,9 +46,12 @@ class ShapeGrid {
         along_y_(inside_.size()) {}
 
   /// Adds a triangle given in grid units.
-  void add(const std::array<PicturePoint, 3>& corners) {
+  /// \param at_edge whether the shape may end at one of its edges.
+  void add(const std::array<PicturePoint, 3>& corners, bool at_edge) {
     scan<0>(corners);
-    scan<1>(corners);
+    if (at_edge) {
+      scan<1>(corners);
+    }
   }
 
   [[nodiscard]] Outline outline() const;
@@ -148,11 +153,6 @@ class ShapeGrid {
 /// corners are inside, that joins them.
 void ShapeGrid::add_steps(int x, int y, std::vector<Step>& steps) const {
   const std::array<std::size_t, 4> corner{at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)};
-  const int count =
-      inside_[corner[0]] + inside_[corner[1]] + inside_[corner[2]] + inside_[corner[3]];
-  if (count == 0 || count == 4) {
-    return;
-  }
   const std::array<std::size_t, 4> edge{2 * corner[0], 2 * corner[1] + 1, 2 * corner[3],
                                         2 * corner[0] + 1};
   const auto is_in = [&](std::size_t k) { return inside_[corner[k % 4]] != 0; };
@@ -170,8 +170,12 @@ void ShapeGrid::add_steps(int x, int y, std::vector<Step>& steps) const {
 Outline ShapeGrid::outline() const {
   std::vector<Step> steps;
   for (int y = 0; y + 1 < side_; ++y) {
+    const std::uint8_t* low = &inside_[at(0, y)];
+    const std::uint8_t* high = &inside_[at(0, y + 1)];
     for (int x = 0; x + 1 < side_; ++x) {
-      add_steps(x, y, steps);
+      if (((low[x] + low[x + 1] + high[x] + high[x + 1]) & 3) != 0) {
+        add_steps(x, y, steps);
+      }
     }
   }
   const auto before = [](const Step& a, const Step& b) { return a.from < b.from; };
@@ -290,6 +294,19 @@ OutlineTracer::OutlineTracer(const TriMesh& mesh, std::span<const FaceSides> sid
     const FaceSides side = sides.size() == 1 ? sides[0] : sides[components.of_vertex[face[0]]];
     two_sided_.push_back(side == FaceSides::Both ? 1 : 0);
   }
+  const EdgeTable table = build_edge_table(mesh);
+  std::vector<std::uint8_t> known(mesh.triangles.size(), 0);
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    beyond_.push_back({kOpen, kOpen, kOpen});
+  }
+  for (std::size_t e = 0; e < table.edges.size(); ++e) {
+    const auto faces = table.faces_of_edge[e];
+    if (faces.size() == 2) {
+      for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+        beyond_[faces[k]][known[faces[k]]++] = faces[1 - k];
+      }
+    }
+  }
 }
 
 Outline OutlineTracer::trace(const Viewpoint& eye) const {
@@ -313,14 +330,25 @@ Outline OutlineTracer::trace(const Viewpoint& eye) const {
     places.emplace_back(middle + scale * shrink * p.dot(right),
                         middle + scale * shrink * p.dot(up));
   }
-  ShapeGrid grid(lines_);
+  std::vector<std::uint8_t> drawn(mesh_->triangles.size(), 0);
   for (std::size_t f = 0; f < mesh_->triangles.size(); ++f) {
     const auto& [a, b, c] = mesh_->triangles[f];
     const PicturePoint ab = places[b] - places[a];
     const PicturePoint ac = places[c] - places[a];
     const double twice = ab.x() * ac.y() - ab.y() * ac.x();
-    if ((two_sided_[f] != 0 || twice > 0.0) && ahead[a] != 0 && ahead[b] != 0 && ahead[c] != 0) {
-      grid.add({places[a], places[b], places[c]});
+    const bool is_turned = two_sided_[f] != 0 || twice > 0.0;
+    drawn[f] = is_turned && ahead[a] != 0 && ahead[b] != 0 && ahead[c] != 0 ? 1 : 0;
+  }
+  ShapeGrid grid(lines_);
+  for (std::size_t f = 0; f < mesh_->triangles.size(); ++f) {
+    if (drawn[f] != 0) {
+      // Of surfaces with one side the shape ends only where a face that is drawn meets one that is
+      // not; with two sides it may be folded anywhere.
+      const bool is_inner = std::all_of(beyond_[f].begin(), beyond_[f].end(), [&](std::uint32_t g) {
+        return g != kOpen && drawn[g] != 0;
+      });
+      const auto& [a, b, c] = mesh_->triangles[f];
+      grid.add({places[a], places[b], places[c]}, !is_inner || two_sided_[f] != 0);
     }
   }
   Outline outline = grid.outline();

@@ -8,13 +8,6 @@
 
 namespace vantage {
 
-/// What a view shows of a skeleton.
-struct SkeletonSight {
-  double share =
-      0.0;  ///< Of its length, in [0, 1]; what crosses behind another branch counts half.
-  double limbs = 0.0;  ///< Branches of which at least half the length is shown.
-};
-
 /// A node is shown if the eye sees at least half of the area that its part of the surface turns to
 /// the eye; an edge as its nodes are, on average. Nodes that stand for no surface are left out.
 /// \pre the model has a skeleton, the table vertices.

@@ -201,8 +201,20 @@ SeenSurface FaceVisibility::seen_surface(const Viewpoint& eye, const RunContext&
     result.depths[static_cast<std::size_t>(std::min(depth * kBins, kBins - 1.0))] += area;
     result.deepest = std::max(result.deepest, depth);
   }
-  std::sort(faces.begin(), faces.end(),
-            [](const SeenFace& a, const SeenFace& b) { return a.face < b.face; });
+  // Into the mesh's order; quicker than sorting, as about half of all faces are seen.
+  constexpr std::uint32_t kUnseen = ~std::uint32_t{0};
+  std::vector<std::uint32_t> place(samples_->triangles.size(), kUnseen);
+  for (std::uint32_t k = 0; k < faces.size(); ++k) {
+    place[faces[k].face] = k;
+  }
+  std::vector<SeenFace> ordered;
+  ordered.reserve(faces.size());
+  for (const std::uint32_t k : place) {
+    if (k != kUnseen) {
+      ordered.push_back(faces[k]);
+    }
+  }
+  faces = std::move(ordered);
   return result;
 }
 

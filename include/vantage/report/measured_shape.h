@@ -42,7 +42,7 @@ struct MeasuredViews {
   std::size_t evaluations = 0;  ///< Views beyond the set that were looked at.
 };
 
-/// Best and worst view of the set, then by rings of six directions that halve from 4° to 0.5° as
+/// Best and worst view of the set, then by rings of six directions that halve from 4° to 1° as
 /// long as one of them is better. \param m index into measurer.measures().
 MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m, const RunContext& run = {});
 

@@ -28,6 +28,13 @@
 
 namespace vantage {
 
+/// What a view shows of a skeleton.
+struct SkeletonSight {
+  double share =
+      0.0;  ///< Of its length, in [0, 1]; what crosses behind another branch counts half.
+  double limbs = 0.0;  ///< Branches of which at least half the length is shown.
+};
+
 /// What a view sees. Parts that no measure asked for are empty.
 struct SightTable {
   Viewpoint eye{};                       ///< Where it is seen from.
@@ -42,6 +49,9 @@ struct SightTable {
   std::array<double, SeenSurface::kDepthBins> depths{};
   double deepest = 0.0;                     ///< Greatest depth seen over the sphere's diameter.
   OutlineMeasures outline{};                ///< Of the outline.
+  double area_logs = 0.0;                   ///< Σ a_z log a_z.
+  ChannelMeasures channel{};                ///< If the channel was asked for.
+  SkeletonSight skeleton{};                 ///< If the skeleton was asked for.
   std::vector<std::uint32_t> neighbours{};  ///< Views of the set next to this one.
 };
 
@@ -74,6 +84,7 @@ struct MeasureNeeds {
 struct MeasuredModel {
   MeasureSubject given{};                            ///< As handed in.
   std::vector<double> face_areas{};                  ///< [A_z] model units squared.
+  std::vector<double> log_face_areas{};              ///< Their logarithms to base 2.
   double surface_area = 0.0;                         ///< [A_t]
   std::vector<double> saliency{};                    ///< Mesh saliency of each vertex.
   std::vector<double> angle_deficits{};              ///< Of each vertex, radians.

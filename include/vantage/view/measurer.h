@@ -44,6 +44,10 @@ class ViewMeasurer {
   [[nodiscard]] MeasureValues values(std::span<const Vec3> directions,
                                      const RunContext& run = {}) const;
 
+  /// Values of one measure alone, which looks at no more than it needs. \throw Cancelled
+  [[nodiscard]] std::vector<double> values_of(std::size_t m, std::span<const Vec3> directions,
+                                              const RunContext& run = {}) const;
+
  private:
   struct State;
   std::unique_ptr<State> state_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -71,6 +73,8 @@ class OutlineTracer {
   Sphere sphere_;
   int lines_;
   std::vector<std::uint8_t> two_sided_{};  // of each face
+  /// Of each face those beyond its edges; a face without three such has itself somewhere.
+  std::vector<std::array<std::uint32_t, 3>> beyond_{};
 };
 
 }  // namespace vantage
