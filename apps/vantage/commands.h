@@ -18,6 +18,7 @@ void add_skeleton_command(CLI::App& program, Session& session);
 void add_map_command(CLI::App& program, Session& session);
 void add_score_command(CLI::App& program, Session& session);
 void add_compare_command(CLI::App& program, Session& session);
+void add_eval_command(CLI::App& program, Session& session);
 void add_measures_command(CLI::App& program, Session& session);
 void add_render_command(CLI::App& program, Session& session);
 void add_info_command(CLI::App& program, Session& session);

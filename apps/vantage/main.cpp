@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
     add_map_command(program, session);
     add_score_command(program, session);
     add_compare_command(program, session);
+    add_eval_command(program, session);
     add_measures_command(program, session);
     add_render_command(program, session);
     add_info_command(program, session);

@@ -120,7 +120,7 @@ double depth_distribution(const MeasuredModel& /*model*/, const SightTable& sigh
 
 constexpr MeasureNeeds kVertices{.vertices = true};
 constexpr MeasureNeeds kFaces{.faces = true};
-constexpr MeasureNeeds kOutline{.vertices = true, .outline = true};
+constexpr MeasureNeeds kOutline{.outline = true};
 constexpr MeasureNeeds kChannel{.faces = true, .channel = true};
 constexpr MeasureNeeds kSkeleton{.vertices = true, .skeleton = true};
 
