@@ -3,8 +3,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <locale>
 #include <map>
 #include <sstream>
@@ -12,18 +10,12 @@
 #include "vantage/core/error.h"
 #include "vantage/report/evaluation.h"
 
+#include "io/files.h"
+
 namespace vantage {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    throw IoError(file.string(), "cannot be read");
-  }
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 double number_of(const std::string& text, const fs::path& file, std::size_t line) {
   std::istringstream stream(text);
@@ -40,7 +32,7 @@ double number_of(const std::string& text, const fs::path& file, std::size_t line
 class Table {
  public:
   explicit Table(const fs::path& file) : file_(file) {
-    std::istringstream lines(text_of(file));
+    std::istringstream lines(read_file(file.string()));
     std::string line;
     for (std::size_t number = 1; std::getline(lines, line); ++number) {
       if (!line.empty() && line.back() == '\r') {
@@ -132,7 +124,7 @@ void read_gaze(const fs::path& folder, std::vector<RecordedModel>& records) {
       continue;
     }
     RecordedModel record{.name = mesh.filename().string(), .path = mesh.string()};
-    std::istringstream lines(text_of(file));
+    std::istringstream lines(read_file(file.string()));
     std::size_t number = 0;
     for (std::string line; std::getline(lines, line);) {
       record.gaze.push_back(number_of(line, file, ++number));
