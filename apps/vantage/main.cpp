@@ -51,6 +51,9 @@ int main(int argc, char** argv) {
     add_skeleton_command(program, session);
     add_map_command(program, session);
     add_score_command(program, session);
+    add_compare_command(program, session);
+    add_eval_command(program, session);
+    add_measures_command(program, session);
     add_render_command(program, session);
     add_thumb_command(program, session);
     add_info_command(program, session);

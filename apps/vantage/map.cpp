@@ -6,9 +6,10 @@
 
 #include "vantage/io/write.h"
 #include "vantage/render/colour_map.h"
-#include "vantage/report/view_report.h"
+#include "vantage/report/measured_shape.h"
 
 #include "commands.h"
+#include "measure_flags.h"
 #include "method_flags.h"
 #include "output_folder.h"
 #include "terminal.h"
@@ -27,27 +28,40 @@ struct MapCommand {
   std::string file{};
   std::string levels{};
   std::string name = "kssm";
+  SaliencyFlags saliency{};
   MethodFlags method{};
 
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("MODEL", model, "file to read, or -")->required();
     app.add_option("-o,--output", file, "PLY file to write, with property quality and colours")
         ->required();
-    app.add_option("--method", name,
-                   "kssm: significance; thickness: distance to the skeleton, in the model's units")
-        ->check(CLI::IsMember({"kssm", "thickness"}))
+    app.add_option(
+           "--method", name,
+           "kssm: significance; mesh-saliency, pmi-saliency: other measures' maps; thickness: "
+           "distance to the skeleton, in the model's units")
+        ->check(CLI::IsMember({"kssm", "mesh-saliency", "pmi-saliency", "thickness"}))
         ->capture_default_str();
     app.add_option("--levels", levels,
                    "folder for the displacement of each contraction level: level-00.ply, …");
-    method.add_to(app, {.map = true});
+    saliency.add_to(app);
+    method.add_to(app, {.map = true, .camera = true});
     add_common_flags(app, session.flags);
   }
 
   void run(Session& session) {
-    const ViewOptions options = method.resolve();
+    ViewOptions options = method.resolve();
+    saliency.apply(options);
+    const bool by_skeleton = name == "kssm" || name == "thickness";
+    if (!by_skeleton && (!levels.empty() || !options.focus.empty())) {
+      throw CLI::ValidationError(levels.empty() ? "--focus" : "--levels",
+                                 "goes with --method kssm or thickness only");
+    }
     const Model loaded = session.load(model);
-    const ShapeAnalysis shape = analyse_shape(loaded, options, session.run());
-    const std::vector<double>& field = name == "kssm" ? shape.map.of_vertex : shape.map.thickness();
+    const ShapeAnalysis shape =
+        by_skeleton ? analyse_shape(loaded, options, session.run()) : prepare_surface(loaded);
+    const std::vector<double> field = name == "thickness"
+                                          ? shape.map.thickness()
+                                          : vertex_map(shape, options, name, session.run());
     write_file(file, map_bytes(loaded, shape, field));
     if (!levels.empty()) {
       make_folder(levels);
@@ -75,9 +89,11 @@ struct MapCommand {
       write_file("-", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
       return;
     }
-    session.tell(printable(loaded.name) + ": " + name + " from " + rounded(*low) + " to " +
-                 rounded(*high) + " over " + plural(field.size(), "vertex") + ", " +
-                 plural(shape.history.level_count(), "level") + " → " + printable(file));
+    session.tell(
+        printable(loaded.name) + ": " + name + " from " + rounded(*low) + " to " + rounded(*high) +
+        " over " + plural(field.size(), "vertex") +
+        (shape.history.levels.empty() ? "" : ", " + plural(shape.history.level_count(), "level")) +
+        " → " + printable(file));
     for (const std::string& warning : shape.warnings) {
       session.say("note: " + warning);
     }
@@ -91,6 +107,7 @@ void add_map_command(CLI::App& program, Session& session) {
                           "Examples:\n"
                           "  vantage map horse.ply -o map.ply\n"
                           "  vantage map horse.ply -o thick.ply --method thickness\n"
+                          "  vantage map horse.ply -o saliency.ply --method mesh-saliency\n"
                           "  vantage map horse.ply -o map.ply --levels levels");
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "output_folder.h"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -17,16 +19,21 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What tells a folder of ours from somebody else's.
-constexpr std::string_view kMarker = "view.json";
+constexpr std::array<std::string_view, 2> kMarkers{"view.json", "compare.json"};
 
-bool is_ours(const fs::path& folder) {
-  std::ifstream stream(folder / kMarker, std::ios::binary);
+bool holds(const fs::path& folder, std::string_view marker) {
+  std::ifstream stream(folder / marker, std::ios::binary);
   if (!stream) {
     return false;
   }
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   const auto json = nlohmann::json::parse(text, nullptr, false);
   return json.is_object() && json.contains("vantage") && json.contains("options_hash");
+}
+
+bool is_ours(const fs::path& folder) {
+  return std::any_of(kMarkers.begin(), kMarkers.end(),
+                     [&](std::string_view marker) { return holds(folder, marker); });
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <iterator>
@@ -9,11 +10,12 @@
 #include "vantage/core/error.h"
 #include "vantage/io/csv.h"
 #include "vantage/io/write.h"
-#include "vantage/report/view_report.h"
+#include "vantage/report/measured_shape.h"
 #include "vantage/spatial/directions.h"
 
 #include "commands.h"
 #include "input_text.h"
+#include "measure_flags.h"
 #include "method_flags.h"
 #include "terminal.h"
 #include "visible_table.h"
@@ -29,6 +31,8 @@ struct ScoreCommand {
   std::string measure = "kssm";
   std::string visible{};
   int sphere = -1;
+  int view_set = 3;
+  SaliencyFlags saliency{};
   MethodFlags method{};
 
   void add_flags(CLI::App& app, Session& session) {
@@ -39,19 +43,28 @@ struct ScoreCommand {
     what->add_option("--sphere", sphere, "all directions of the icosahedron split this many times")
         ->check(CLI::Range(0, 8));
     what->require_option(1);
-    app.add_option("--method", measure, "what to score by")
-        ->check(CLI::IsMember({"kssm"}))
+    app.add_option(
+           "--method", measure,
+           "what to score by: one or several, joined by commas, of vantage measures, or all")
+        ->capture_default_str();
+    app.add_option("--view-set", view_set,
+                   "views that the measures built on a set are defined over: the icosahedron split "
+                   "this many times")
+        ->check(CLI::Range(0, 5))
         ->capture_default_str();
     app.add_option("-o,--output", file, "CSV file to write; - is standard output")
         ->capture_default_str();
     app.add_option("--visible", visible,
                    "also write which direction sees which vertex to this .npy file (NumPy)");
+    saliency.add_to(app);
     method.add_to(app, {.map = true, .camera = true});
     add_common_flags(app, session.flags);
   }
 
   void run(Session& session) {
-    const ViewOptions options = method.resolve();
+    ViewOptions options = method.resolve();
+    saliency.apply(options);
+    const std::vector<Measure> measures = parse_measures(measure, "--method");
     const RunContext run = session.run();
     const bool free_eyes = !eyes.empty();
     if (free_eyes && !visible.empty()) {
@@ -59,6 +72,11 @@ struct ScoreCommand {
     }
     const std::vector<Vec3> points = session.reading([&] { return points_to_score(); });
     const Model loaded = session.load(model);
+    if (measures.size() > 1 || measures.front().name != "kssm") {
+      score_measures(session, loaded, options, measures, points);
+      return;
+    }
+    measure = "kssm";
     const ShapeAnalysis shape = analyse_shape(loaded, options, run.part(0.0, 0.5));
     const VertexVisibility visibility(shape.surface, shape.sides);
     const std::optional<FaceVisibility> faces = faces_to_score(shape, options);
@@ -73,15 +91,55 @@ struct ScoreCommand {
       write_file(visible, visible_table(sets, shape.map.of_vertex));
     }
     session.end_progress();
-    write_file(session.flags.json && file == "-" ? "-" : file,
-               session.flags.json && file == "-" ? json(points, scores, free_eyes)
-                                                 : csv(points, scores, free_eyes));
+    write(session, measures, points, {scores});
     for (const std::string& warning : shape.warnings) {
       session.say("note: " + warning);
     }
   }
 
  private:
+  /// Scores by any measures; the map is made only if one of them, or --visible, needs it.
+  void score_measures(Session& session, const Model& loaded, const ViewOptions& options,
+                      const std::vector<Measure>& measures, const std::vector<Vec3>& points) const {
+    if (!visible.empty()) {
+      throw CLI::ValidationError("--visible", "goes with --method kssm only");
+    }
+    const RunContext run = session.run();
+    const ShapeAnalysis shape = analyse_for(loaded, options, measures, run.part(0.0, 0.4));
+    MeasureSubject subject = measure_subject(shape, options);
+    const std::vector<double> map =
+        needs_saliency(measures) ? vertex_map(shape, options, "mesh-saliency", run.part(0.4, 0.5))
+                                 : std::vector<double>{};
+    subject.saliency = map;
+    ViewMeasurer measurer(subject, measures, view_set, run.part(0.5, 0.9));
+    if (!eyes.empty()) {
+      std::vector<Viewpoint> places;
+      for (const Vec3& eye : points) {
+        places.push_back({Projection::Perspective, eye});
+      }
+      write(session, measures, points, measurer.values(places, run.part(0.9, 1.0)));
+    } else if (sphere == view_set) {
+      write(session, measures, points, measurer.set_values(run.part(0.9, 1.0)));
+    } else {
+      write(session, measures, points, measurer.values(points, run.part(0.9, 1.0)));
+    }
+    for (const std::string& warning : shape.warnings) {
+      session.say("note: " + warning);
+    }
+  }
+
+  static bool needs_saliency(const std::vector<Measure>& measures) {
+    return std::any_of(measures.begin(), measures.end(),
+                       [](const Measure& m) { return m.needs.saliency; });
+  }
+
+  void write(Session& session, const std::vector<Measure>& measures,
+             const std::vector<Vec3>& points, const MeasureValues& values) const {
+    session.end_progress();
+    const bool as_json = session.flags.json && file == "-";
+    write_file(file, as_json ? json(measures, points, values) : csv(measures, points, values));
+  }
+
   [[nodiscard]] std::vector<Vec3> points_to_score() const {
     if (sphere >= 0) {
       return direction_set(ViewSphereBase::Icosahedron, sphere).directions;
@@ -114,28 +172,34 @@ struct ScoreCommand {
     return scores;
   }
 
-  [[nodiscard]] std::string csv(const std::vector<Vec3>& points, const std::vector<double>& scores,
-                                bool free_eyes) const {
-    std::string text = free_eyes ? "method,x,y,z,score\n" : "method,dx,dy,dz,score\n";
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      text += measure;
-      for (const double value : {points[i].x(), points[i].y(), points[i].z(), scores[i]}) {
-        text += ',' + number_text(value);
+  [[nodiscard]] std::string csv(const std::vector<Measure>& measures,
+                                const std::vector<Vec3>& points,
+                                const MeasureValues& values) const {
+    std::string text = eyes.empty() ? "method,dx,dy,dz,score\n" : "method,x,y,z,score\n";
+    for (std::size_t m = 0; m < measures.size(); ++m) {
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        text += measures[m].name;
+        for (const double value : {points[i].x(), points[i].y(), points[i].z(), values[m][i]}) {
+          text += ',' + number_text(value);
+        }
+        text += '\n';
       }
-      text += '\n';
     }
     return text;
   }
 
-  [[nodiscard]] std::string json(const std::vector<Vec3>& points, const std::vector<double>& scores,
-                                 bool free_eyes) const {
+  [[nodiscard]] std::string json(const std::vector<Measure>& measures,
+                                 const std::vector<Vec3>& points,
+                                 const MeasureValues& values) const {
     auto rows = nlohmann::ordered_json::array();
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      rows.push_back(
-          {{"method", measure},
-           {free_eyes ? "eye" : "direction",
-            nlohmann::ordered_json::array({points[i].x(), points[i].y(), points[i].z()})},
-           {"score", scores[i]}});
+    for (std::size_t m = 0; m < measures.size(); ++m) {
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        rows.push_back(
+            {{"method", measures[m].name},
+             {eyes.empty() ? "direction" : "eye",
+              nlohmann::ordered_json::array({points[i].x(), points[i].y(), points[i].z()})},
+             {"score", values[m][i]}});
+      }
     }
     return rows.dump(2) + "\n";
   }
@@ -144,11 +208,12 @@ struct ScoreCommand {
 }  // namespace
 
 void add_score_command(CLI::App& program, Session& session) {
-  add_command<ScoreCommand>(program, session, "score", "score given views",
-                            "Examples:\n"
-                            "  vantage score horse.ply --sphere 3 -o scores.csv\n"
-                            "  vantage score horse.ply --directions views.csv\n"
-                            "  vantage score room.obj --eyes cameras.csv");
+  add_command<ScoreCommand>(
+      program, session, "score", "score given views",
+      "Examples:\n"
+      "  vantage score horse.ply --sphere 3 -o scores.csv\n"
+      "  vantage score horse.ply --directions views.csv --method kssm,vmi,silhouette-length\n"
+      "  vantage score room.obj --eyes cameras.csv");
 }
 
 }  // namespace vantage::cli

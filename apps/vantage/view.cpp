@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 
 #include "vantage/io/write.h"
+#include "vantage/report/measured_shape.h"
 #include "vantage/report/view_report.h"
 
 #include "commands.h"
+#include "measure_flags.h"
 #include "method_flags.h"
 #include "output_folder.h"
 #include "preview_flag.h"
@@ -27,6 +30,9 @@ std::string direction_text(const Vec3& d) {
 }
 
 std::string view_line(const ReportedView& view) {
+  if (!std::isfinite(view.score_fraction)) {  // a measure that has no total
+    return "from " + direction_text(view.direction) + ", score " + rounded(view.score, 5);
+  }
   return "from " + direction_text(view.direction) + ", sees " +
          rounded(100.0 * view.score_fraction, 3) + " % of the significance, " +
          rounded(100.0 * view.visible_area_fraction, 3) + " % of the surface";
@@ -45,6 +51,7 @@ struct ViewCommand {
   std::string trace{};
   bool no_images = false;
   bool no_report = false;
+  MeasureFlags measure{};
   MethodFlags method{};
   ViewSetFlags several{};
   PreviewFlag preview{};
@@ -55,6 +62,7 @@ struct ViewCommand {
     app.add_option("--trace", trace, "also write each evaluated direction to this CSV file");
     app.add_flag("--no-images", no_images, "no pictures and no report");
     app.add_flag("--no-report", no_report, "no report.html, the page to explore the result in");
+    measure.add_to(app);
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
     several.add_to(app);
     preview.add_to(app);
@@ -66,6 +74,7 @@ struct ViewCommand {
     ViewOptions options = session.reading([&] { return method.resolve(); });
     options.pictures = !no_images;
     options.view_set = several.request();
+    measure.apply(options);
     const RunContext run = session.run();
 
     StageSeconds seconds;
@@ -83,7 +92,7 @@ struct ViewCommand {
     output.add("view.json", view_json(loaded, shape, report, options));
     if (!no_images) {
       add_pictures(output, OutputKinds::all(), shape, report, options, run.part(0.9, 0.94));
-      if (!no_report) {
+      if (!no_report && sums_a_map(options.method)) {
         add_report(output, OutputKinds::all(), loaded, shape, report, options,
                    run.part(0.94, 0.98));
       }
@@ -164,6 +173,7 @@ void add_view_command(CLI::App& program, Session& session) {
       "  vantage view horse.ply\n"
       "  vantage view horse.ply --preview\n"
       "  vantage view part.stl -o out --size 1024 --up z\n"
+      "  vantage view horse.ply --method viewpoint-entropy --prior none\n"
       "  vantage view horse.ply --views 6 --tour horse.webp\n"
       "  vantage view scene.obj --focus lamp --coverage 0.95\n"
       "  vantage view horse.ply --preset paper --epsilon 1 --trace search.csv\n"

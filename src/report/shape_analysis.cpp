@@ -104,6 +104,9 @@ void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext&
   const CurveGraph& graph =
       options.kssm_to_finished_graph ? shape.skeleton.graph : shape.skeleton.raw;
   shape.map = compute_kssm(shape.surface, shape.history, graph, options.kssm, run);
+  if (options.method == "mesh-saliency") {
+    shape.map.of_vertex = compute_mesh_saliency(shape.surface, options.saliency, run).of_vertex;
+  }
 }
 
 ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options, const RunContext& run,

@@ -128,7 +128,7 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
   if (!options.focus.empty()) {
     json["focus"] = options.focus;
   }
-  json["method"] = "kssm";
+  json["method"] = options.method;
   json["preset"] = preset_name(options.preset);
   json["weight"] = weight_name(options.weight);
   json["prior"] = options.prior.name;

@@ -116,6 +116,12 @@ std::string options_hash(const ViewOptions& options) {
   json["kinematics"] = static_cast<int>(options.kssm.kinematics);
   json["area-weighted-mean"] = options.kssm.area_weighted_mean;
   echo_fields(json, options.kssm, kKssmFields);
+  if (options.method != "kssm") {
+    json["method"] = options.method;
+    echo_fields(json, options.saliency, kMeshSaliencyFields);
+    json["saliency-signed"] = options.saliency.signed_curvature;
+    json["saliency-area"] = options.saliency.area_kernel;
+  }
   json["weight"] = weight_name(options.weight);
   json["finished-graph"] = options.kssm_to_finished_graph;
   json["search"] = strategy_name(options.search.strategy);

@@ -6,6 +6,7 @@
 
 #include "vantage/mesh/measures.h"
 #include "vantage/render/framing.h"
+#include "vantage/report/measured_shape.h"
 #include "vantage/view/landmarks.h"
 
 #include "report/prior_search.h"
@@ -116,6 +117,9 @@ DenseGap gap_to_dense(const FoundViews& found, const ScoreBatch& score, double t
 ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& options,
                       const RunContext& run) {
   check_fields(options, kViewFields);
+  if (!sums_a_map(options.method)) {
+    return find_views_by_measure(shape, up, options, run);
+  }
   ViewReport report;
   report.camera = scoring_camera(shape, options);
   report.up = up;

@@ -11,6 +11,7 @@
 #include "vantage/mesh/topology.h"
 
 #include "core/parallel.h"
+#include "core/shannon.h"
 
 namespace vantage {
 namespace {
@@ -18,16 +19,12 @@ namespace {
 constexpr std::size_t kGrain = 256;  // faces a task
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// x log x, 0 at 0.
-double x_log_x(double x) {
-  return x > 0.0 ? x * std::log2(x) : 0.0;
-}
-
 /// The channel by face: which views see it, and how much of it.
 struct FaceRows {
   std::vector<std::size_t> offsets{};
   std::vector<std::uint32_t> view{};
   std::vector<float> area{};
+  std::vector<double> area_log{};  // a log a
 };
 
 FaceRows rows_by_face(const ViewChannel& channel) {
@@ -41,10 +38,12 @@ FaceRows rows_by_face(const ViewChannel& channel) {
   std::partial_sum(rows.offsets.begin(), rows.offsets.end(), rows.offsets.begin());
   rows.view.resize(rows.offsets.back());
   rows.area.resize(rows.offsets.back());
+  rows.area_log.resize(rows.offsets.back());
   std::vector<std::size_t> next(rows.offsets.begin(), rows.offsets.end() - 1);
   for (std::uint32_t v = 0; v < channel.views.size(); ++v) {
     for (const FaceArea& a : channel.views[v]) {
       rows.view[next[a.face]] = v;
+      rows.area_log[next[a.face]] = x_log_x(a.area);
       rows.area[next[a.face]++] = a.area;
     }
   }
@@ -79,41 +78,73 @@ double face_divergence(const FaceRows& rows, const std::vector<double>& area_of_
     } else if (rows.view[j] < rows.view[i]) {
       ++j;
     } else {
-      shared += shared_term(rows.area[i++], rows.area[j++]);
+      const double both = static_cast<double>(rows.area[i]) + static_cast<double>(rows.area[j]);
+      shared += x_log_x(both) - rows.area_log[i++] - rows.area_log[j++];
     }
   }
   return divergence(area_of_face[a], area_of_face[b], shared);
 }
 
-std::vector<double> face_saliency(const FaceRows& rows, const std::vector<double>& area_of_face,
-                                  const TriMesh& mesh, const RunContext& run) {
+/// Around a vertex of more faces than this only those count that share an edge: the tip of a fan
+/// would make every face the neighbour of every other. [ours]
+constexpr std::size_t kMostAtVertex = 256;
+
+/// For each face the faces that share a vertex with it, ascending, itself left out.
+IndexLists faces_around(const TriMesh& mesh) {
   const IndexLists at_vertex = vertex_faces(mesh);
-  std::vector<double> saliency(area_of_face.size(), 0.0);
-  const auto one = [&](std::uint32_t face, std::vector<std::uint32_t>& around) {
+  IndexLists lists;
+  std::vector<std::uint32_t> around;
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
     around.clear();
-    for (const std::uint32_t v : mesh.triangles[face]) {
-      around.insert(around.end(), at_vertex[v].begin(), at_vertex[v].end());
+    for (const std::uint32_t v : mesh.triangles[f]) {
+      if (at_vertex[v].size() <= kMostAtVertex) {
+        around.insert(around.end(), at_vertex[v].begin(), at_vertex[v].end());
+      }
     }
     std::sort(around.begin(), around.end());
     around.erase(std::unique(around.begin(), around.end()), around.end());
-    double sum = 0.0;
-    std::size_t count = 0;
     for (const std::uint32_t other : around) {
-      if (other != face) {
-        sum += face_divergence(rows, area_of_face, face, other);
-        ++count;
+      if (other != f) {
+        lists.values.push_back(other);
       }
     }
-    return count > 0 ? sum / static_cast<double>(count) : 0.0;
-  };
-  parallel_for(run, saliency.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t> around;
+    lists.offsets.push_back(static_cast<std::uint32_t>(lists.values.size()));
+  }
+  return lists;
+}
+
+std::vector<double> face_saliency(const FaceRows& rows, const std::vector<double>& area_of_face,
+                                  const TriMesh& mesh, const RunContext& run) {
+  const IndexLists around = faces_around(mesh);
+  // Each pair once, at the lower face.
+  std::vector<double> of_pair(around.values.size(), 0.0);
+  parallel_for(run, around.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
-      if (area_of_face[f] > 0.0) {
-        saliency[f] = one(static_cast<std::uint32_t>(f), around);
+      for (std::uint32_t k = around.offsets[f]; k < around.offsets[f + 1]; ++k) {
+        if (around.values[k] > f) {
+          of_pair[k] =
+              face_divergence(rows, area_of_face, static_cast<std::uint32_t>(f), around.values[k]);
+        }
       }
     }
   });
+  std::vector<double> saliency(area_of_face.size(), 0.0);
+  for (std::uint32_t f = 0; f < saliency.size(); ++f) {
+    double sum = 0.0;
+    for (std::uint32_t k = around.offsets[f]; k < around.offsets[f + 1]; ++k) {
+      const std::uint32_t other = around.values[k];
+      if (other > f) {
+        sum += of_pair[k];
+      } else {
+        const auto row = around[other];
+        const auto at = std::lower_bound(row.begin(), row.end(), f) - row.begin();
+        sum += of_pair[around.offsets[other] + static_cast<std::size_t>(at)];
+      }
+    }
+    if (area_of_face[f] > 0.0 && !around[f].empty()) {
+      saliency[f] = sum / static_cast<double>(around[f].size());
+    }
+  }
   return saliency;
 }
 
@@ -178,7 +209,7 @@ ChannelTerms channel_terms(const ViewChannel& channel, const TriMesh& mesh, cons
     double logs = 0.0;
     for (std::size_t k = rows.offsets[z]; k < rows.offsets[z + 1]; ++k) {
       area += rows.area[k];
-      logs += x_log_x(rows.area[k]);
+      logs += rows.area_log[k];
     }
     if (area > 0.0) {
       // H(V|z) = log A − (1/A) Σ a log a

@@ -169,29 +169,53 @@ std::size_t FaceVisibility::sample_count() const {
 
 std::vector<SeenFace> FaceVisibility::seen_faces(const Viewpoint& eye,
                                                  const RunContext& run) const {
+  return seen_surface(eye, run).faces;
+}
+
+SeenSurface FaceVisibility::seen_surface(const Viewpoint& eye, const RunContext& run) const {
   const Surface& surface = samples_->sight.surface();
   const Viewpoint local = eye_in_frame(eye, surface.frame);
-  const std::vector<std::uint8_t> seen = samples_->seen(local, run);
   const Vec3 centre = surface.frame.to_frame(samples_->sphere.centre);
   const Vec3 towards = local.projection == Projection::Perspective
                            ? Vec3((local.position - centre).normalized())
                            : local.position;
-  std::vector<SeenFace> faces;
+  const double diameter = samples_->sphere.diameter * surface.frame.scale;
+  SeenSurface result;
+  result.samples = samples_->seen(local, run);
+  std::vector<SeenFace>& faces = result.faces;
   std::uint32_t last = Surface::kNoSite;
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (seen[i] == 0) {
+  for (std::size_t i = 0; i < result.samples.size(); ++i) {
+    if (result.samples[i] == 0) {
       continue;
     }
     if (samples_->owner[i] != last) {
       last = samples_->owner[i];
       faces.push_back({.face = surface.face_of_mesh[last]});
     }
+    const double area = samples_->areas[i] * samples_->shrink(i, local, centre, towards);
     faces.back().visible_area += samples_->areas[i];
-    faces.back().projected_area += samples_->areas[i] * samples_->shrink(i, local, centre, towards);
+    faces.back().projected_area += area;
+    const double depth =
+        std::clamp(0.5 - (samples_->places[i] - centre).dot(towards) / diameter, 0.0, 1.0);
+    constexpr auto kBins = static_cast<double>(SeenSurface::kDepthBins);
+    result.depths[static_cast<std::size_t>(std::min(depth * kBins, kBins - 1.0))] += area;
+    result.deepest = std::max(result.deepest, depth);
   }
-  std::sort(faces.begin(), faces.end(),
-            [](const SeenFace& a, const SeenFace& b) { return a.face < b.face; });
-  return faces;
+  // Into the mesh's order; quicker than sorting, as about half of all faces are seen.
+  constexpr std::uint32_t kUnseen = ~std::uint32_t{0};
+  std::vector<std::uint32_t> place(samples_->triangles.size(), kUnseen);
+  for (std::uint32_t k = 0; k < faces.size(); ++k) {
+    place[faces[k].face] = k;
+  }
+  std::vector<SeenFace> ordered;
+  ordered.reserve(faces.size());
+  for (const std::uint32_t k : place) {
+    if (k != kUnseen) {
+      ordered.push_back(faces[k]);
+    }
+  }
+  faces = std::move(ordered);
+  return result;
 }
 
 std::vector<double> FaceVisibility::integrals(std::span<const double> of_vertex) const {

@@ -18,6 +18,7 @@
 #include "vantage/render/render.h"
 #include "vantage/report/view_set_request.h"
 #include "vantage/significance/kssm.h"
+#include "vantage/significance/mesh_saliency.h"
 #include "vantage/skeleton/skeleton.h"
 #include "vantage/view/prior.h"
 #include "vantage/view/scoring.h"
@@ -54,6 +55,8 @@ struct ViewOptions {
   ContractionOptions contraction{};     ///< Of the surface.
   SkeletonOptions skeleton{};           ///< Of the graph.
   KssmOptions kssm{};                   ///< Of the map.
+  MeshSaliencyOptions saliency{};       ///< Of the map, if `method` is mesh-saliency.
+  std::string method = "kssm";          ///< The measure of a view: see find_measure().
   Weight weight = Weight::Vertex;       ///< What scores add up; Area also sets kssm's mean.
   bool kssm_to_finished_graph = false;  ///< Measure to the centred, pruned graph (not the raw one).
   SearchOptions search{};               ///< Of the view sphere.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -23,6 +24,18 @@ struct SeenFace {
   std::uint32_t face = 0;       ///< Of the mesh.
   double visible_area = 0.0;    ///< Of the surface, model units squared; > 0, at most the face's.
   double projected_area = 0.0;  ///< Of its picture, model units squared; see FaceVisibility.
+};
+
+/// Everything that one look at the samples of a surface tells.
+struct SeenSurface {
+  /// Bins of `depths`, over the diameter of the enclosing sphere. [Secord 2011 leaves them open]
+  static constexpr std::size_t kDepthBins = 64;
+
+  std::vector<SeenFace> faces{};        ///< As seen_faces() gives them.
+  std::vector<std::uint8_t> samples{};  ///< 1 for each sample seen.
+  /// Projected area by depth: bin 0 begins where the enclosing sphere does, the last ends with it.
+  std::array<double, kDepthBins> depths{};
+  double deepest = 0.0;  ///< Depth of the deepest sample seen over the diameter, in [0, 1].
 };
 
 /// Samples a surface and asks which samples an eye sees: every face is cut into pieces, and each
@@ -54,6 +67,9 @@ class FaceVisibility {
   /// The faces of which something is seen, by index. \throw Cancelled
   [[nodiscard]] std::vector<SeenFace> seen_faces(const Viewpoint& eye,
                                                  const RunContext& run = {}) const;
+
+  /// The same faces with the samples and depths that they were made of. \throw Cancelled
+  [[nodiscard]] SeenSurface seen_surface(const Viewpoint& eye, const RunContext& run = {}) const;
 
   /// The integral over each sample's piece of a field that is given at the vertices and linear in
   /// each face. \pre one finite value per vertex.

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "vantage/io/write.h"
+#include "vantage/report/comparison.h"
+
+#include "commands.h"
+#include "measure_flags.h"
+#include "method_flags.h"
+#include "output_folder.h"
+#include "terminal.h"
+
+namespace vantage::cli {
+namespace {
+
+struct CompareCommand {
+  std::string model{};
+  std::string folder{};
+  std::string names = "all";
+  bool no_images = false;
+  SaliencyFlags saliency{};
+  MethodFlags method{};
+
+  void add_flags(CLI::App& app, Session& session) {
+    app.add_option("MODEL", model, "file to read, or -")->required();
+    app.add_option("-o,--output", folder, "folder for the results; default: NAME.compare");
+    app.add_option("--method", names, "methods of vantage measures, joined by commas, or all")
+        ->capture_default_str();
+    app.add_flag("--no-images", no_images, "no contact sheet and no page");
+    saliency.add_to(app);
+    method.add_to(app, {.map = true, .camera = true});
+    add_common_flags(app, session.flags);
+  }
+
+  void run(Session& session) {
+    ViewOptions options = method.resolve();
+    saliency.apply(options);
+    const std::vector<Measure> measures = parse_measures(names, "--method");
+    const RunContext run = session.run();
+    const Model loaded = session.load(model);
+    OutputFolder output(folder.empty() ? loaded.name + ".compare" : folder);
+    output.check();
+    const ShapeAnalysis shape = analyse_for(loaded, options, measures, run.part(0.0, 0.2));
+    const UpChoice up = choose_up(loaded, shape, options);
+    const Comparison comparison = compare_methods(shape, options, measures, run.part(0.2, 0.9));
+    const std::string json = comparison_json(loaded, comparison, up.axis, options);
+    output.add("compare.json", json);
+    output.add("compare.csv", comparison_csv(comparison));
+    output.add("agreement.csv", agreement_csv(comparison));
+    if (!no_images) {
+      output.add("sheet.png", png_bytes(comparison_sheet(shape, comparison, up.axis, options,
+                                                         run.part(0.9, 1.0))));
+      output.add("index.html", comparison_html(loaded, comparison));
+    }
+    output.write();
+    session.end_progress();
+    if (session.flags.json) {
+      write_file("-", json);
+      return;
+    }
+    summarise(session, comparison, output.path());
+    for (const std::string& warning : shape.warnings) {
+      session.say("note: " + warning);
+    }
+  }
+
+ private:
+  static std::string direction_text(const Vec3& d) {
+    return rounded(d.x(), 3) + " " + rounded(d.y(), 3) + " " + rounded(d.z(), 3);
+  }
+
+  static void summarise(Session& session, const Comparison& comparison, const std::string& path) {
+    constexpr std::size_t kName = 30;
+    constexpr std::size_t kView = 24;
+    const auto padded = [](std::string text, std::size_t width) {
+      text.resize(std::max(text.size(), width), ' ');
+      return text;
+    };
+    const std::string& first = comparison.methods.front().measure.name;
+    session.tell(padded("method", kName) + padded("best from", kView) +
+                 padded("worst from", kView) + "best and worst from " + first +
+                 "'s, folded; rank; seconds");
+    for (std::size_t m = 0; m < comparison.methods.size(); ++m) {
+      const ComparedMethod& method = comparison.methods[m];
+      const Agreement& with = comparison.agreement.front()[m];
+      session.tell(padded(method.measure.name, kName) +
+                   padded(direction_text(method.views.best.direction), kView) +
+                   padded(direction_text(method.views.worst.direction), kView) +
+                   rounded(with.best_folded_deg, 3) + "°, " + rounded(with.worst_folded_deg, 3) +
+                   "°, " + rounded(with.rank_correlation, 2) + ", " + rounded(method.seconds, 2));
+    }
+    session.tell("all views of the set: " + rounded(comparison.survey_seconds, 3) +
+                 " s; results in " + printable(path) + "/");
+  }
+};
+
+}  // namespace
+
+void add_compare_command(CLI::App& program, Session& session) {
+  add_command<CompareCommand>(program, session, "compare",
+                              "methods side by side: best and worst views, agreement",
+                              "Examples:\n"
+                              "  vantage compare horse.ply -o methods\n"
+                              "  vantage compare horse.ply -o two --method kssm,mesh-saliency\n"
+                              "  vantage compare part.stl --method all --no-images --json");
+}
+
+}  // namespace vantage::cli

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "vantage/report/view_report.h"
+#include "vantage/view/measure.h"
+
+namespace vantage::cli {
+
+/// Parses "kssm,vmi" or "all". \throw CLI::ValidationError naming what there is.
+std::vector<Measure> parse_measures(const std::string& text, const std::string& flag);
+
+/// Flags of mesh saliency.
+class SaliencyFlags {
+ public:
+  void add_to(CLI::App& app);
+
+  void apply(ViewOptions& options) const { options.saliency = options_; }
+
+ private:
+  MeshSaliencyOptions options_{};
+};
+
+/// --method NAME of one measure, and what it depends on.
+class MeasureFlags {
+ public:
+  void add_to(CLI::App& app);
+  /// \throw CLI::ValidationError for a name that does not exist.
+  void apply(ViewOptions& options) const;
+
+ private:
+  std::string name_ = "kssm";
+  SaliencyFlags saliency_{};
+};
+
+}  // namespace vantage::cli

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "vantage/io/write.h"
+#include "vantage/view/measure.h"
+
+#include "commands.h"
+#include "method_flags.h"
+
+namespace vantage::cli {
+namespace {
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(width, text.size()), ' ');
+  return text;
+}
+
+struct MeasuresCommand {
+  void add_flags(CLI::App& app, Session& session) { add_common_flags(app, session.flags); }
+
+  void run(Session& session) {
+    if (session.flags.json) {
+      auto rows = nlohmann::ordered_json::array();
+      for (const Measure& m : builtin_measures()) {
+        rows.push_back({{"name", m.name},
+                        {"alias", m.alias.empty() ? nlohmann::ordered_json(nullptr)
+                                                  : nlohmann::ordered_json(m.alias)},
+                        {"best", m.better == Better::More ? "max" : "min"},
+                        {"cost", m.cost()},
+                        {"meaning", m.meaning},
+                        {"source", m.source}});
+      }
+      write_file("-", rows.dump(2) + "\n");
+      return;
+    }
+    constexpr std::size_t kName = 30;
+    constexpr std::size_t kCost = 14;
+    session.tell(padded("name", kName) + "best  " + padded("looks at", kCost) + "meaning; source");
+    for (const Measure& m : builtin_measures()) {
+      session.tell(padded(m.name, kName) + (m.better == Better::More ? "max   " : "min   ") +
+                   padded(std::string(m.cost()), kCost) + m.meaning + "; " + m.source +
+                   (m.alias.empty() ? "" : "; also " + m.alias));
+    }
+  }
+};
+
+}  // namespace
+
+void add_measures_command(CLI::App& program, Session& session) {
+  add_command<MeasuresCommand>(program, session, "measures", "list the measures of a view",
+                               "Examples:\n"
+                               "  vantage measures\n"
+                               "  vantage measures --json | jq '.[].name'");
+}
+
+}  // namespace vantage::cli

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vantage/core/image.h"
+#include "vantage/report/measured_shape.h"
+#include "vantage/spatial/mirror_symmetry.h"
+
+/// \file
+/// Measures side by side on one model: their extreme views, and how far they agree.
+
+namespace vantage {
+
+/// One measure on the model.
+struct ComparedMethod {
+  Measure measure{};
+  MeasuredViews views{};
+  std::vector<double> values{};  ///< Of the set of views.
+  double seconds = 0.0;  ///< Of its own search beyond the set; not in files meant to repeat.
+};
+
+/// How far two measures agree. Angles in degrees; folded: the smallest over mirror images.
+struct Agreement {
+  double best_deg = 0.0;
+  double best_folded_deg = 0.0;
+  double worst_deg = 0.0;
+  double worst_folded_deg = 0.0;
+  double rank_correlation = 0.0;  ///< Spearman's over the set of how good views are; NaN if flat.
+};
+
+/// Result of compare_methods().
+struct Comparison {
+  DirectionSet set{};                               ///< The views all values are of.
+  std::vector<MirrorPlane> planes{};                ///< Of the model.
+  std::vector<ComparedMethod> methods{};            ///< As asked for.
+  std::vector<std::vector<Agreement>> agreement{};  ///< Of each with each; symmetric.
+  double survey_seconds = 0.0;  ///< Looking at the set, for all of them at once.
+};
+
+/// Angle between two directions, degrees.
+double angle_deg(const Vec3& a, const Vec3& b);
+
+/// The smallest angle from `a` to `b` or one of its mirror images, degrees.
+double folded_angle_deg(const Vec3& a, const Vec3& b, std::span<const MirrorPlane> planes);
+
+/// Spearman's rank correlation, ties at their mean rank; NaN if one of both is flat.
+/// \pre equal sizes, no NaN.
+double rank_correlation(std::span<const double> a, std::span<const double> b);
+
+/// Compares measures on a model. \pre shape is analyse_for() them. \throw InvalidInput, Cancelled
+Comparison compare_methods(const ShapeAnalysis& shape, const ViewOptions& options,
+                           std::vector<Measure> measures, const RunContext& run = {});
+
+/// For each method its best view, its worst, and the sphere of all views, cool where bad and warm
+/// where good, seen from a corner in front. \throw Cancelled
+Image comparison_sheet(const ShapeAnalysis& shape, const Comparison& comparison, UpAxis up,
+                       const ViewOptions& options, const RunContext& run = {});
+
+/// compare.json: everything but the seconds, and the same bytes for the same input.
+std::string comparison_json(const Model& model, const Comparison& comparison, UpAxis up,
+                            const ViewOptions& options);
+/// compare.csv: method,best,dx,dy,dz,score,worst_dx,worst_dy,worst_dz,worst_score,evaluations.
+std::string comparison_csv(const Comparison& comparison);
+/// agreement.csv: one row a pair of methods.
+std::string agreement_csv(const Comparison& comparison);
+/// A page with sheet.png and both tables.
+std::string comparison_html(const Model& model, const Comparison& comparison);
+
+}  // namespace vantage

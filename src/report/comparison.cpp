@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/report/comparison.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "view/sphere_angles.h"
+
+namespace vantage {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Mirror images nearer to each other than this are one. [ours]
+constexpr double kApart_rad = 1e-6;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Mean ranks.
+std::vector<double> ranks(std::span<const double> values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return values[a] < values[b] || (values[a] == values[b] && a < b);
+  });
+  std::vector<double> rank(values.size(), 0.0);
+  for (std::size_t begin = 0; begin < order.size();) {
+    std::size_t end = begin + 1;
+    while (end < order.size() && values[order[end]] == values[order[begin]]) {
+      ++end;
+    }
+    for (std::size_t k = begin; k < end; ++k) {
+      rank[order[k]] = 0.5 * static_cast<double>(begin + end - 1);
+    }
+    begin = end;
+  }
+  return rank;
+}
+
+Agreement agreement_of(const ComparedMethod& a, const ComparedMethod& b,
+                       std::span<const MirrorPlane> planes) {
+  Agreement agreement;
+  agreement.best_deg = angle_deg(a.views.best.direction, b.views.best.direction);
+  agreement.best_folded_deg =
+      folded_angle_deg(a.views.best.direction, b.views.best.direction, planes);
+  agreement.worst_deg = angle_deg(a.views.worst.direction, b.views.worst.direction);
+  agreement.worst_folded_deg =
+      folded_angle_deg(a.views.worst.direction, b.views.worst.direction, planes);
+  agreement.rank_correlation = rank_correlation(a.values, b.values);
+  if (a.measure.better != b.measure.better) {
+    agreement.rank_correlation = -agreement.rank_correlation;
+  }
+  return agreement;
+}
+
+}  // namespace
+
+double angle_deg(const Vec3& a, const Vec3& b) {
+  return angle_between(a, b) / kRadPerDeg;
+}
+
+double folded_angle_deg(const Vec3& a, const Vec3& b, std::span<const MirrorPlane> planes) {
+  double least = angle_deg(a, b);
+  for (const Vec3& image : mirror_images(b, planes, kApart_rad)) {
+    least = std::min(least, angle_deg(a, image));
+  }
+  return least;
+}
+
+double rank_correlation(std::span<const double> a, std::span<const double> b) {
+  const std::vector<double> x = ranks(a);
+  const std::vector<double> y = ranks(b);
+  const double mean = 0.5 * (static_cast<double>(x.size()) - 1.0);
+  double xy = 0.0;
+  double xx = 0.0;
+  double yy = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xy += (x[i] - mean) * (y[i] - mean);
+    xx += (x[i] - mean) * (x[i] - mean);
+    yy += (y[i] - mean) * (y[i] - mean);
+  }
+  return xx > 0.0 && yy > 0.0 ? std::clamp(xy / std::sqrt(xx * yy), -1.0, 1.0)
+                              : std::numeric_limits<double>::quiet_NaN();
+}
+
+Comparison compare_methods(const ShapeAnalysis& shape, const ViewOptions& options,
+                           std::vector<Measure> measures, const RunContext& run) {
+  constexpr int kLevel = 3;
+  const auto start = Clock::now();
+  MeasureSubject subject = measure_subject(shape, options);
+  std::vector<double> saliency;
+  if (std::any_of(measures.begin(), measures.end(),
+                  [](const Measure& m) { return m.needs.saliency; })) {
+    saliency = vertex_map(shape, options, "mesh-saliency", run.part(0.0, 0.1));
+    subject.saliency = saliency;
+  }
+  ViewMeasurer measurer(subject, std::move(measures), kLevel, run.part(0.1, 0.6));
+  const MeasureValues& values = measurer.set_values(run.part(0.1, 0.6));
+  Comparison comparison;
+  comparison.set = measurer.set();
+  comparison.planes = mirror_planes(shape.surface);
+  comparison.survey_seconds = seconds_since(start);
+  const RunContext searching = run.part(0.6, 1.0);
+  for (std::size_t m = 0; m < measurer.measures().size(); ++m) {
+    searching.advance("views",
+                      static_cast<double>(m) / static_cast<double>(measurer.measures().size()));
+    const auto begun = Clock::now();
+    comparison.methods.push_back(
+        {measurer.measures()[m], extreme_views(measurer, m, run), values[m], 0.0});
+    comparison.methods.back().seconds = seconds_since(begun);
+  }
+  for (const ComparedMethod& a : comparison.methods) {
+    auto& row = comparison.agreement.emplace_back();
+    for (const ComparedMethod& b : comparison.methods) {
+      row.push_back(agreement_of(a, b, comparison.planes));
+    }
+  }
+  return comparison;
+}
+
+}  // namespace vantage

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <locale>
+#include <map>
+#include <sstream>
+
+#include "vantage/core/error.h"
+#include "vantage/report/evaluation.h"
+
+#include "io/files.h"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+double number_of(const std::string& text, const fs::path& file, std::size_t line) {
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  double value = 0.0;
+  if (!(stream >> value) || !std::isfinite(value)) {
+    throw FormatError(file.string(), "line " + std::to_string(line),
+                      "expected a number, found '" + text.substr(0, 40) + "'");
+  }
+  return value;
+}
+
+/// Rows of a CSV file without quotes, by the names of its header.
+class Table {
+ public:
+  explicit Table(const fs::path& file) : file_(file) {
+    std::istringstream lines(read_file(file.string()));
+    std::string line;
+    for (std::size_t number = 1; std::getline(lines, line); ++number) {
+      if (!line.empty() && line.back() == '\r') {
+        line.pop_back();
+      }
+      std::vector<std::string> cells;
+      std::istringstream stream(line);
+      for (std::string cell; std::getline(stream, cell, ',');) {
+        cells.push_back(cell);
+      }
+      if (number == 1) {
+        header_ = cells;
+      } else if (!cells.empty()) {
+        rows_.push_back({number, cells});
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+
+  [[nodiscard]] const std::string& text(std::size_t row, const std::string& column) const {
+    const auto at = std::find(header_.begin(), header_.end(), column);
+    const auto index = static_cast<std::size_t>(at - header_.begin());
+    if (at == header_.end() || index >= rows_[row].cells.size()) {
+      throw FormatError(file_.string(), "line " + std::to_string(rows_[row].line),
+                        "has no column '" + column + "'");
+    }
+    return rows_[row].cells[index];
+  }
+
+  [[nodiscard]] Vec3 direction(std::size_t row, const std::array<const char*, 3>& columns) const {
+    Vec3 v = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      v[static_cast<Eigen::Index>(k)] = number_of(text(row, columns[k]), file_, rows_[row].line);
+    }
+    const double length = v.stableNorm();
+    if (!(length > 0.0)) {
+      throw FormatError(file_.string(), "line " + std::to_string(rows_[row].line),
+                        "a direction must not be zero");
+    }
+    return v / length;
+  }
+
+ private:
+  struct Row {
+    std::size_t line = 0;
+    std::vector<std::string> cells{};
+  };
+
+  fs::path file_;
+  std::vector<std::string> header_{};
+  std::vector<Row> rows_{};
+};
+
+void read_views(const fs::path& folder, std::vector<RecordedModel>& records) {
+  std::map<std::string, RecordedModel> by_name;
+  const Table views(folder / "views.csv");
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    by_name[views.text(i, "model")].views.push_back(
+        {views.direction(i, {"vx", "vy", "vz"}), views.text(i, "status") == "moved"});
+  }
+  if (fs::exists(folder / "mirror_planes.csv")) {
+    const Table planes(folder / "mirror_planes.csv");
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      const auto found = by_name.find(planes.text(i, "model"));
+      if (found != by_name.end()) {
+        found->second.planes.push_back({.normal = planes.direction(i, {"nx", "ny", "nz"})});
+      }
+    }
+  }
+  for (auto& [name, record] : by_name) {
+    record.name = name;
+    record.path = (folder / "models" / name).string();
+    if (fs::exists(record.path)) {
+      records.push_back(std::move(record));
+    }
+  }
+}
+
+void read_gaze(const fs::path& folder, std::vector<RecordedModel>& records) {
+  std::vector<fs::path> meshes;
+  for (const auto& entry : fs::directory_iterator(folder / "meshes")) {
+    meshes.push_back(entry.path());
+  }
+  std::sort(meshes.begin(), meshes.end());
+  for (const fs::path& mesh : meshes) {
+    const fs::path file = folder / "gaze" / (mesh.stem().string() + ".vertex");
+    if (!fs::exists(file)) {
+      continue;
+    }
+    RecordedModel record{.name = mesh.filename().string(), .path = mesh.string()};
+    std::istringstream lines(read_file(file.string()));
+    std::size_t number = 0;
+    for (std::string line; std::getline(lines, line);) {
+      record.gaze.push_back(number_of(line, file, ++number));
+    }
+    records.push_back(std::move(record));
+  }
+}
+
+bool read_folder(const fs::path& folder, std::vector<RecordedModel>& records) {
+  if (fs::exists(folder / "views.csv")) {
+    read_views(folder, records);
+    return true;
+  }
+  if (fs::is_directory(folder / "gaze") && fs::is_directory(folder / "meshes")) {
+    read_gaze(folder, records);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<RecordedModel> read_records(const std::string& folder) {
+  std::vector<RecordedModel> records;
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    throw IoError(folder, "is not a folder with recorded views or gaze");
+  }
+  if (!read_folder(folder, records)) {
+    std::vector<fs::path> parts;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.is_directory()) {
+        parts.push_back(entry.path());
+      }
+    }
+    std::sort(parts.begin(), parts.end());
+    for (const fs::path& part : parts) {
+      read_folder(part, records);
+    }
+  }
+  if (records.empty()) {
+    throw InvalidInput(
+        folder +
+        ": holds no models with views.csv or gaze/; docs/evidence.md says what a data set "
+        "looks like");
+  }
+  return records;
+}
+
+}  // namespace vantage

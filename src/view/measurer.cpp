@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/view/measurer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "vantage/core/error.h"
+#include "vantage/mesh/curvature.h"
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/topology.h"
+#include "vantage/significance/mesh_saliency.h"
+
+#include "core/parallel.h"
+#include "core/shannon.h"
+#include "view/skeleton_sight.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t kNotOfSet = ~std::size_t{0};
+
+MeasureNeeds both(MeasureNeeds a, const MeasureNeeds& b) {
+  a.vertices |= b.vertices;
+  a.faces |= b.faces;
+  a.outline |= b.outline;
+  a.channel |= b.channel;
+  a.neighbours |= b.neighbours;
+  a.kssm |= b.kssm;
+  a.saliency |= b.saliency;
+  a.skeleton |= b.skeleton;
+  return a;
+}
+
+/// Second moment of the surface about its centroid over its area, in closed form.
+Eigen::Matrix3d spread_of(const TriMesh& mesh, const std::vector<double>& areas, double total) {
+  Vec3 centre = Vec3::Zero();
+  for (std::size_t f = 0; f < areas.size(); ++f) {
+    for (const std::uint32_t v : mesh.triangles[f]) {
+      centre += areas[f] / 3.0 * (mesh.positions[v] - mesh.positions[0]);
+    }
+  }
+  centre = mesh.positions[0] + centre / total;
+  Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
+  for (std::size_t f = 0; f < areas.size(); ++f) {
+    // ∫ x xᵀ over a triangle: area / 12 times (Σ of the corners' own products + that of their sum).
+    Vec3 sum = Vec3::Zero();
+    for (const std::uint32_t v : mesh.triangles[f]) {
+      const Vec3 p = mesh.positions[v] - centre;
+      moment += areas[f] / 12.0 * p * p.transpose();
+      sum += p;
+    }
+    moment += areas[f] / 12.0 * sum * sum.transpose();
+  }
+  return moment / total;
+}
+
+/// Whether all that a measure looks at is among what is kept of the set's views.
+bool is_kept(const MeasureNeeds& needs) {
+  return !needs.vertices && !needs.outline;
+}
+
+RunContext quiet(const RunContext& run) {
+  return {.stop = run.stop, .max_threads = run.max_threads};
+}
+
+}  // namespace
+
+struct ViewMeasurer::State {
+  MeasuredModel model{};
+  std::vector<Measure> measures{};
+  MeasureNeeds needs{};
+  IndexLists next_views{};
+  std::optional<VertexVisibility> vertices{};
+  std::optional<FaceVisibility> faces{};
+  std::optional<OutlineTracer> outlines{};
+  MeasureValues of_set{};
+
+  void prepare(const RunContext& run);
+  void prepare_maps(const RunContext& run);
+  void survey(const RunContext& run);
+  [[nodiscard]] SightTable look(const Viewpoint& eye, const MeasureNeeds& wanted,
+                                std::size_t set_index) const;
+  [[nodiscard]] std::vector<std::uint32_t> neighbours(const Vec3& towards) const;
+  [[nodiscard]] double value(std::size_t m, const SightTable& sight) const;
+};
+
+void ViewMeasurer::State::prepare(const RunContext& run) {
+  const TriMesh& mesh = *model.given.surface;
+  model.face_areas = face_areas(mesh);
+  model.log_face_areas.reserve(model.face_areas.size());
+  for (const double area : model.face_areas) {
+    model.surface_area += area;
+    model.log_face_areas.push_back(area > 0.0 ? std::log2(area) : 0.0);
+  }
+  if (!(model.surface_area > 0.0) || !(model.given.camera.sphere.diameter > 0.0)) {
+    throw InvalidInput("a surface without area cannot be measured");
+  }
+  if ((needs.kssm && model.given.kssm.size() != mesh.positions.size()) ||
+      (needs.skeleton && (model.given.skeleton == nullptr ||
+                          model.given.node_of_vertex.size() != mesh.positions.size()))) {
+    throw InvalidInput("a measure needs a map or a skeleton that the model was not given");
+  }
+  const bool by_area = model.given.weight == Weight::Area && (needs.kssm || needs.saliency);
+  const std::vector<FaceSides> sides(model.given.sides.begin(), model.given.sides.end());
+  needs.faces |= needs.channel || needs.neighbours || by_area;
+  if (needs.faces) {
+    faces.emplace(mesh, sides);
+  }
+  if (needs.vertices) {
+    vertices.emplace(mesh, sides);
+    model.angle_deficits = angle_deficits(mesh);
+  }
+  if (needs.outline) {
+    outlines.emplace(mesh, sides, model.given.camera.sphere);
+  }
+  model.spread = spread_of(mesh, model.face_areas, model.surface_area);
+  if (needs.neighbours) {
+    next_views = vertex_neighbours({model.set.directions, model.set.triangles});
+  }
+  prepare_maps(run);
+}
+
+void ViewMeasurer::State::prepare_maps(const RunContext& run) {
+  const TriMesh& mesh = *model.given.surface;
+  if (needs.saliency) {
+    model.saliency.assign(model.given.saliency.begin(), model.given.saliency.end());
+    if (model.saliency.size() != mesh.positions.size()) {
+      model.saliency = compute_mesh_saliency(mesh, {}, quiet(run)).of_vertex;
+    }
+  }
+  if (model.given.weight == Weight::Area) {
+    const auto shares = [&](std::span<const double> of_vertex) {
+      std::vector<double> of_sample = faces->integrals(of_vertex);
+      for (double& share : of_sample) {
+        share /= faces->total_area();
+      }
+      return of_sample;
+    };
+    if (needs.kssm) {
+      model.kssm_of_sample = shares(model.given.kssm);
+    }
+    if (needs.saliency) {
+      model.saliency_of_sample = shares(model.saliency);
+    }
+  }
+}
+
+SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& wanted,
+                                     std::size_t set_index) const {
+  const RunContext alone{.max_threads = 1};
+  const SilhouetteDisc disc = silhouette_disc(model.given.camera.sphere, eye);
+  SightTable sight;
+  sight.eye = eye;
+  sight.towards = disc.towards;
+  sight.disc_area = 0.25 * std::numbers::pi * disc.diameter * disc.diameter;
+  if (wanted.vertices) {
+    sight.vertices = vertices->visible_vertices(eye, alone);
+    sight.sees_vertices =
+        std::find(sight.vertices.begin(), sight.vertices.end(), 1) != sight.vertices.end();
+  }
+  if (wanted.faces) {
+    SeenSurface seen = faces->seen_surface(eye, alone);
+    for (const SeenFace& face : seen.faces) {
+      const auto area = static_cast<float>(face.projected_area);
+      if (area > 0.0F && std::isfinite(area)) {
+        sight.faces.push_back({face.face, area});
+        sight.projected_area += area;
+        sight.area_logs += x_log_x(area);
+      }
+    }
+    sight.faces.shrink_to_fit();
+    sight.samples = std::move(seen.samples);
+    sight.depths = seen.depths;
+    sight.deepest = seen.deepest;
+    const Sphere& sphere = model.given.camera.sphere;
+    for (std::size_t v = 0; v < sight.vertices.size(); ++v) {
+      if (sight.vertices[v] != 0) {
+        const Vec3 p = model.given.surface->positions[v] - sphere.centre;
+        sight.deepest = std::max(sight.deepest, 0.5 - p.dot(sight.towards) / sphere.diameter);
+      }
+    }
+  }
+  if (wanted.skeleton) {
+    sight.skeleton = skeleton_sight(model, sight);
+  }
+  if (wanted.channel && !model.set_views.empty()) {
+    sight.channel = channel_measures(sight.faces, model.terms, model.face_areas);
+  }
+  if (wanted.outline) {
+    sight.outline = measure_outline(outlines->trace(eye));
+  }
+  if (wanted.neighbours) {
+    if (set_index != kNotOfSet) {
+      const auto row = next_views[set_index];
+      sight.neighbours.assign(row.begin(), row.end());
+    } else {
+      sight.neighbours = neighbours(sight.towards);
+    }
+  }
+  return sight;
+}
+
+/// The corners of the set's triangle that the direction falls in; of a direction that is one of the
+/// set's, its neighbours.
+std::vector<std::uint32_t> ViewMeasurer::State::neighbours(const Vec3& towards) const {
+  const std::vector<Vec3>& all = model.set.directions;
+  constexpr double kSame = 1e-9;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if ((all[i] - towards).norm() < kSame) {
+      const auto row = next_views[i];
+      return {row.begin(), row.end()};
+    }
+  }
+  const Triangle* best = nullptr;
+  double inside = -std::numeric_limits<double>::infinity();
+  for (const Triangle& t : model.set.triangles) {
+    const Vec3 &a = all[t[0]], &b = all[t[1]], &c = all[t[2]];
+    const double least =
+        std::min({towards.dot(a.cross(b)), towards.dot(b.cross(c)), towards.dot(c.cross(a))});
+    if (least > inside) {
+      inside = least;
+      best = &t;
+    }
+  }
+  return best == nullptr ? std::vector<std::uint32_t>{}
+                         : std::vector<std::uint32_t>(best->begin(), best->end());
+}
+
+double ViewMeasurer::State::value(std::size_t m, const SightTable& sight) const {
+  // What else was looked at for other measures must not matter.
+  const MeasureNeeds& own = measures[m].needs;
+  if (own.faces ? sight.faces.empty() : own.vertices && !sight.sees_vertices) {
+    return measures[m].worst();
+  }
+  const double value = measures[m].value(model, sight);
+  return std::isnan(value) ? measures[m].worst() : value;
+}
+
+/// Looks at all views of the set once.
+void ViewMeasurer::State::survey(const RunContext& run) {
+  const std::size_t count = model.set.directions.size();
+  const bool keeps_faces = needs.channel || needs.neighbours;
+  of_set.assign(measures.size(), std::vector<double>(count, 0.0));
+  std::vector<std::vector<FaceArea>> kept(keeps_faces ? count : 0);
+  const auto is_late = [&](std::size_t m) {
+    return measures[m].needs.channel || measures[m].needs.neighbours;
+  };
+  // In a few batches, so that progress can be told and a stop be heard.
+  constexpr std::size_t kBatch = 64;
+  for (std::size_t start = 0; start < count; start += kBatch) {
+    run.advance("views", 0.8 * static_cast<double>(start) / static_cast<double>(count));
+    parallel_for(quiet(run), std::min(kBatch, count - start), 1,
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t i = start + begin; i < start + end; ++i) {
+                     SightTable sight =
+                         look(model.given.camera.viewpoint(model.set.directions[i]), needs, i);
+                     for (std::size_t m = 0; m < measures.size(); ++m) {
+                       of_set[m][i] = is_late(m) ? 0.0 : value(m, sight);
+                     }
+                     if (keeps_faces) {
+                       kept[i] = std::move(sight.faces);
+                     }
+                   }
+                 });
+  }
+  if (!keeps_faces) {
+    return;
+  }
+  run.advance("views", 0.8);
+  ViewChannel channel{model.face_areas.size(), std::move(kept)};
+  if (needs.channel) {
+    model.terms = channel_terms(channel, *model.given.surface, quiet(run));
+  }
+  model.set_views = std::move(channel.views);
+  run.advance("views", 0.9);
+  parallel_for(quiet(run), count, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Viewpoint eye = model.given.camera.viewpoint(model.set.directions[i]);
+      SightTable sight = look(eye, {.neighbours = needs.neighbours}, i);
+      sight.faces = model.set_views[i];
+      for (const FaceArea& a : sight.faces) {
+        sight.projected_area += a.area;
+        sight.area_logs += x_log_x(a.area);
+      }
+      if (needs.channel) {
+        sight.channel = channel_measures(sight.faces, model.terms, model.face_areas);
+      }
+      for (std::size_t m = 0; m < measures.size(); ++m) {
+        if (is_late(m)) {
+          of_set[m][i] = value(m, is_kept(measures[m].needs) ? sight : look(eye, needs, i));
+        }
+      }
+    }
+  });
+}
+
+ViewMeasurer::ViewMeasurer(const MeasureSubject& subject, std::vector<Measure> measures, int level,
+                           const RunContext& run)
+    : state_(std::make_unique<State>()) {
+  if (subject.surface == nullptr || level < 0 || level > 6) {
+    throw InvalidInput("measuring needs a surface and a set of views of level 0 to 6");
+  }
+  state_->model.given = subject;
+  state_->model.set = direction_set(ViewSphereBase::Icosahedron, level);
+  state_->measures = std::move(measures);
+  for (const Measure& measure : state_->measures) {
+    state_->needs = both(state_->needs, measure.needs);
+  }
+  state_->prepare(run);
+  if (state_->needs.channel || state_->needs.neighbours) {
+    state_->survey(run);
+  }
+}
+
+ViewMeasurer::~ViewMeasurer() = default;
+ViewMeasurer::ViewMeasurer(ViewMeasurer&&) noexcept = default;
+ViewMeasurer& ViewMeasurer::operator=(ViewMeasurer&&) noexcept = default;
+
+const std::vector<Measure>& ViewMeasurer::measures() const {
+  return state_->measures;
+}
+
+const MeasuredModel& ViewMeasurer::model() const {
+  return state_->model;
+}
+
+const DirectionSet& ViewMeasurer::set() const {
+  return state_->model.set;
+}
+
+const MeasureValues& ViewMeasurer::set_values(const RunContext& run) {
+  if (state_->of_set.empty()) {
+    state_->survey(run);
+  }
+  return state_->of_set;
+}
+
+MeasureValues ViewMeasurer::values(std::span<const Viewpoint> eyes, const RunContext& run) const {
+  MeasureValues values(state_->measures.size(), std::vector<double>(eyes.size(), 0.0));
+  parallel_for(run, eyes.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const SightTable sight = state_->look(eyes[i], state_->needs, kNotOfSet);
+      for (std::size_t m = 0; m < values.size(); ++m) {
+        values[m][i] = state_->value(m, sight);
+      }
+    }
+  });
+  return values;
+}
+
+MeasureValues ViewMeasurer::values(std::span<const Vec3> directions, const RunContext& run) const {
+  std::vector<Viewpoint> eyes;
+  eyes.reserve(directions.size());
+  for (const Vec3& direction : directions) {
+    eyes.push_back(state_->model.given.camera.viewpoint(direction));
+  }
+  return values(eyes, run);
+}
+
+std::vector<double> ViewMeasurer::values_of(std::size_t m, std::span<const Vec3> directions,
+                                            const RunContext& run) const {
+  MeasureNeeds needs = state_->measures[m].needs;
+  needs.faces |= state_->model.given.weight == Weight::Area && (needs.kssm || needs.saliency);
+  std::vector<double> values(directions.size(), 0.0);
+  parallel_for(run, directions.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Viewpoint eye = state_->model.given.camera.viewpoint(directions[i]);
+      values[i] = state_->value(m, state_->look(eye, needs, kNotOfSet));
+    }
+  });
+  return values;
+}
+
+}  // namespace vantage

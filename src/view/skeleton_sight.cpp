@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "view/skeleton_sight.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "vantage/mesh/measures.h"
+
+namespace vantage {
+namespace {
+
+// What crosses behind another branch is still there, but not where it leads. [ours]
+constexpr double kCrossed = 0.5;
+// A branch is a limb seen from this share of its length on. [ours]
+constexpr double kLimbShare = 0.5;
+constexpr double kHalf = 0.5;
+
+/// For each node 1 if shown, 0 if not, −1 if it stands for no surface that faces the eye.
+std::vector<double> shown_nodes(const MeasuredModel& model, const SightTable& sight) {
+  const TriMesh& mesh = *model.given.surface;
+  const std::size_t count = model.given.skeleton->nodes.size();
+  const bool is_perspective = sight.eye.projection == Projection::Perspective;
+  std::vector<double> facing(count, 0.0);
+  std::vector<double> seen(count, 0.0);
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& face = mesh.triangles[f];
+    const Vec3 line =
+        is_perspective ? Vec3(sight.eye.position - mesh.positions[face[0]]) : sight.eye.position;
+    const bool is_turned = area_vector(mesh, face).dot(line) > 0.0;
+    for (const std::uint32_t v : face) {
+      const std::uint32_t node = model.given.node_of_vertex[v];
+      // From behind counts where the vertex is seen: on surfaces with two sides.
+      if (node < count && (is_turned || sight.vertices[v] != 0)) {
+        facing[node] += model.face_areas[f];
+        seen[node] += sight.vertices[v] != 0 ? model.face_areas[f] : 0.0;
+      }
+    }
+  }
+  std::vector<double> shown(count, -1.0);
+  for (std::size_t n = 0; n < count; ++n) {
+    if (facing[n] > 0.0) {
+      shown[n] = seen[n] >= kHalf * facing[n] ? 1.0 : 0.0;
+    }
+  }
+  return shown;
+}
+
+struct Bone {
+  std::uint32_t a = 0, b = 0;           // nodes
+  std::uint32_t branch = 0;             // of graph_branches()
+  double length = 0.0;                  // in space
+  PicturePoint from{}, to{};            // in the picture
+  double depth_a = 0.0, depth_b = 0.0;  // of both ends, larger is farther
+};
+
+std::vector<Bone> bones_of(const CurveGraph& graph, const Sphere& sphere, const SightTable& sight) {
+  const Vec3 right = sight.towards.unitOrthogonal();
+  const Vec3 up = sight.towards.cross(right);
+  const bool is_perspective = sight.eye.projection == Projection::Perspective;
+  const double distance = (sight.eye.position - sphere.centre).norm();
+  std::vector<PicturePoint> places;
+  std::vector<double> depths;
+  for (const Vec3& node : graph.nodes) {
+    const Vec3 p = node - sphere.centre;
+    const double depth = p.dot(sight.towards);
+    const double left = distance - depth;
+    const double shrink = !is_perspective ? 1.0 : left > 0.0 ? distance / left : 0.0;
+    places.emplace_back(shrink * p.dot(right), shrink * p.dot(up));
+    depths.push_back(-depth);
+  }
+  std::vector<Bone> bones;
+  const auto branches = graph_branches(graph);
+  for (std::uint32_t k = 0; k < branches.size(); ++k) {
+    for (std::size_t i = 0; i + 1 < branches[k].size(); ++i) {
+      const std::uint32_t a = branches[k][i];
+      const std::uint32_t b = branches[k][i + 1];
+      bones.push_back({a, b, k, (graph.nodes[a] - graph.nodes[b]).norm(), places[a], places[b],
+                       depths[a], depths[b]});
+    }
+  }
+  return bones;
+}
+
+double cross(const PicturePoint& a, const PicturePoint& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Marks the farther of each two bones of different branches that cross in the picture.
+std::vector<std::uint8_t> crossed_bones(const std::vector<Bone>& bones) {
+  std::vector<std::uint8_t> crossed(bones.size(), 0);
+  for (std::size_t i = 0; i < bones.size(); ++i) {
+    const Bone& p = bones[i];
+    const PicturePoint low = p.from.cwiseMin(p.to);
+    const PicturePoint high = p.from.cwiseMax(p.to);
+    const PicturePoint along = p.to - p.from;
+    for (std::size_t j = i + 1; j < bones.size(); ++j) {
+      const Bone& q = bones[j];
+      if (std::max(q.from.x(), q.to.x()) < low.x() || std::min(q.from.x(), q.to.x()) > high.x() ||
+          std::max(q.from.y(), q.to.y()) < low.y() || std::min(q.from.y(), q.to.y()) > high.y() ||
+          p.branch == q.branch || p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b) {
+        continue;
+      }
+      const PicturePoint other = q.to - q.from;
+      const double area = cross(along, other);
+      if (area == 0.0) {
+        continue;
+      }
+      const double s = cross(q.from - p.from, other) / area;
+      const double t = cross(q.from - p.from, along) / area;
+      if (s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0) {
+        const bool is_p_farther =
+            p.depth_a + s * (p.depth_b - p.depth_a) > q.depth_a + t * (q.depth_b - q.depth_a);
+        crossed[is_p_farther ? i : j] = 1;
+      }
+    }
+  }
+  return crossed;
+}
+
+}  // namespace
+
+SkeletonSight skeleton_sight(const MeasuredModel& model, const SightTable& sight) {
+  const CurveGraph& graph = *model.given.skeleton;
+  const std::vector<double> shown = shown_nodes(model, sight);
+  const std::vector<Bone> bones = bones_of(graph, model.given.camera.sphere, sight);
+  const std::vector<std::uint8_t> crossed = crossed_bones(bones);
+  SkeletonSight result;
+  double all = 0.0;
+  double all_shown = 0.0;
+  double branch = 0.0;
+  double branch_shown = 0.0;
+  for (std::size_t i = 0; i < bones.size(); ++i) {
+    const Bone& bone = bones[i];
+    // An end without surface of its own goes with the other end.
+    const double a = shown[bone.a] < 0.0 ? shown[bone.b] : shown[bone.a];
+    const double b = shown[bone.b] < 0.0 ? shown[bone.a] : shown[bone.b];
+    const double share = std::max(0.0, 0.5 * (a + b)) * (crossed[i] != 0 ? kCrossed : 1.0);
+    branch += bone.length;
+    branch_shown += share * bone.length;
+    if (i + 1 == bones.size() || bones[i + 1].branch != bone.branch) {
+      all += branch;
+      all_shown += branch_shown;
+      result.limbs += branch > 0.0 && branch_shown >= kLimbShare * branch ? 1.0 : 0.0;
+      branch = branch_shown = 0.0;
+    }
+  }
+  result.share = all > 0.0 ? all_shown / all : 0.0;
+  return result;
+}
+
+}  // namespace vantage

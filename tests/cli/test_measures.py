@@ -1,0 +1,162 @@
+"""Measures of a view through the real program: measures, score, view, map, compare, eval."""
+
+import csv
+import io
+import json
+import unittest
+
+from program import MODELS, ProgramTest, read_ply
+from shapes import box
+
+FAN = MODELS / "fan.ply"
+
+
+class Measures(ProgramTest):
+    def scores(self, *arguments):
+        rows = list(csv.DictReader(io.StringIO(self.vantage("score", *arguments).out)))
+        by_method = {}
+        for row in rows:
+            by_method.setdefault(row["method"], []).append(float(row["score"]))
+        return by_method
+
+    def test_every_listed_measure_scores_every_view_with_a_finite_number(self):
+        listed = json.loads(self.vantage("measures", "--json").out)
+        scores = self.scores(FAN, "--sphere", 1, "--method", "all")
+        self.assertEqual([m["name"] for m in listed], list(scores))
+        for values in scores.values():
+            self.assertEqual(len(values), 42)
+            self.assertTrue(all(abs(v) < 1e9 for v in values))
+        self.assertEqual({m["best"] for m in listed}, {"max", "min"})
+
+    def test_a_cube_from_a_corner_shows_three_sides(self):
+        self.write("cube.off", box(1))
+        self.write("views.csv", "dx,dy,dz\n1,1,1\n")
+        scores = self.scores("cube.off", "--directions", "views.csv", "--projection", "orthographic",
+                             "--method", "visible-triangles,visibility-ratio")
+        self.assertEqual(scores["visible-triangles"], [6.0])
+        self.assertAlmostEqual(scores["visibility-ratio"][0], 0.5, places=12)
+
+    def test_kssm_among_others_is_kssm_alone(self):
+        alone = self.scores(FAN, "--sphere", 1)
+        among = self.scores(FAN, "--sphere", 1, "--method", "kssm,projected-area")
+        self.assertEqual(alone["kssm"], among["kssm"])
+
+    def test_weight_by_area_is_that_of_kssm_alone(self):
+        alone = self.scores(FAN, "--sphere", 0, "--weight", "area")["kssm"]
+        among = self.scores(FAN, "--sphere", 0, "--weight", "area", "--method", "kssm,plemenos")["kssm"]
+        for a, b in zip(alone, among):
+            self.assertAlmostEqual(a, b, delta=1e-12 * abs(a))
+
+    def test_an_alias_is_the_measure(self):
+        self.assertEqual(list(self.scores(FAN, "--sphere", 0, "--method", "i1")), ["vmi"])
+
+    def test_an_eye_inside_a_closed_shell_sees_nothing_and_scores_worst(self):
+        self.write("cube.off", box(1))
+        self.write("eyes.csv", "x,y,z\n0.4,0.5,0.6\n")
+        out = self.vantage("score", "cube.off", "--eyes", "eyes.csv", "--method", "vmi,max-depth").out
+        self.assertEqual([line.split(",")[-1] for line in out.splitlines()[1:]], ["null", "0"])
+
+    def test_an_unknown_method_is_named_with_what_there_is(self):
+        for command in (["score", FAN, "--sphere", 0], ["view", FAN], ["compare", FAN]):
+            error = self.vantage(*command, "--method", "beauty", exit_code=2).err
+            self.assertIn("beauty", error)
+            self.assertIn("viewpoint-entropy", error)
+            self.assertEqual(len(error.strip().splitlines()), 1)
+
+    def test_a_method_named_twice_is_refused(self):
+        self.assertIn("twice", self.vantage("score", FAN, "--sphere", 0, "--method", "vmi,i1",
+                                            exit_code=2).err)
+
+    def test_view_finds_what_score_calls_best(self):
+        self.vantage("view", FAN, "-o", "out", "--method", "vmi", "--prior", "none", "--no-images")
+        report = json.loads((self.dir / "out" / "view.json").read_text())
+        self.assertEqual(report["method"], "vmi")
+        self.assertIsNone(report["total"])
+        of_set = self.scores(FAN, "--sphere", 3, "--method", "vmi")["vmi"]
+        self.assertLessEqual(report["best"]["score"], min(of_set) + 1e-12)
+        self.assertGreaterEqual(report["worst"]["score"], max(of_set) - 1e-12)
+
+    def test_view_by_mesh_saliency_sums_that_map(self):
+        self.vantage("view", FAN, "-o", "out", "--method", "mesh-saliency", "--no-images")
+        report = json.loads((self.dir / "out" / "view.json").read_text())
+        self.vantage("map", FAN, "-o", "map.ply", "--method", "mesh-saliency")
+        _, vertices, _ = read_ply(self.dir / "map.ply")
+        self.assertAlmostEqual(report["total"], sum(v["quality"] for v in vertices), delta=1e-4 * report["total"])
+
+    def test_several_views_by_a_measure_without_a_map_are_refused(self):
+        self.assertIn("--views", self.vantage("view", FAN, "-o", "out", "--method", "vmi", "--views", 3,
+                                              exit_code=1).err)
+
+    def test_the_map_of_polygonal_mutual_information_is_not_negative(self):
+        self.vantage("map", FAN, "-o", "map.ply", "--method", "pmi-saliency")
+        _, vertices, _ = read_ply(self.dir / "map.ply")
+        values = [v["quality"] for v in vertices]
+        self.assertGreaterEqual(min(values), 0.0)
+        self.assertGreater(max(values), 0.0)
+
+    def test_levels_go_with_the_skeletons_maps_only(self):
+        self.vantage("map", FAN, "-o", "map.ply", "--method", "mesh-saliency", "--levels", "l", exit_code=2)
+
+    def test_compare_writes_sheet_tables_and_the_same_bytes_again(self):
+        for folder, threads in (("a", 1), ("b", 2)):
+            self.vantage("compare", FAN, "-o", folder, "--method", "kssm,mesh-saliency,i2",
+                         "--threads", threads)
+        names = {"sheet.png", "index.html", "compare.csv", "agreement.csv", "compare.json"}
+        self.assertEqual({p.name for p in (self.dir / "a").iterdir()}, names)
+        for name in names:
+            self.assertEqual((self.dir / "a" / name).read_bytes(), (self.dir / "b" / name).read_bytes(), name)
+        report = json.loads((self.dir / "a" / "compare.json").read_text())
+        self.assertEqual(len(report["agreement"]), 3)
+        for pair in report["agreement"]:
+            self.assertLessEqual(pair["best_folded_deg"], pair["best_deg"])
+
+    def test_compare_replaces_its_own_folder_but_no_other(self):
+        self.vantage("compare", FAN, "-o", "out", "--method", "plemenos", "--no-images")
+        self.vantage("compare", FAN, "-o", "out", "--method", "plemenos", "--no-images")
+        (self.dir / "mine").mkdir()
+        self.write("mine/notes.txt", "mine")
+        self.vantage("compare", FAN, "-o", "mine", "--method", "plemenos", exit_code=1)
+        self.assertEqual([p.name for p in (self.dir / "mine").iterdir()], ["notes.txt"])
+
+    def test_eval_scores_a_camera_that_people_chose_with_no_error(self):
+        (self.dir / "set" / "models").mkdir(parents=True)
+        self.write("set/models/box.off", box(2))
+        self.write("set/views.csv", "model,subject,status,vx,vy,vz\n" +
+                   "".join(f"box.off,S{i},moved,0,0,5\n" for i in range(3)))
+        self.vantage("eval", "set", "--method", "projected-area", "--views-csv", "rows.csv")
+        text = (self.dir / "rows.csv").read_text()
+        rows = {r["method"]: r for r in csv.DictReader(io.StringIO(text))}
+        self.assertEqual(float(rows["straight front"]["mean_deg"]), 0.0)
+        self.assertEqual(float(rows["another person"]["mean_deg"]), 0.0)
+        # Over the sphere the mean angle to a fixed direction is a right one.
+        self.assertAlmostEqual(float(rows["random"]["mean_deg"]), 90.0, delta=0.5)
+
+    def test_eval_writes_its_tables_between_the_marks_of_a_page(self):
+        (self.dir / "set" / "models").mkdir(parents=True)
+        self.write("set/models/box.off", box(2))
+        self.write("set/views.csv", "model,subject,status,vx,vy,vz\nbox.off,A,moved,1,1,1\nbox.off,B,moved,0,1,1\n")
+        self.write("page.md", "before\n<!-- vantage eval begins -->\nstale\n<!-- vantage eval ends -->\nafter\n")
+        self.vantage("eval", "set", "--method", "plemenos", "--page", "page.md")
+        page = (self.dir / "page.md").read_text()
+        self.assertTrue(page.startswith("before\n") and page.endswith("after\n"))
+        self.assertNotIn("stale", page)
+        self.assertIn("| plemenos |", page)
+
+    def test_eval_says_what_is_wrong_with_a_data_set(self):
+        (self.dir / "empty").mkdir()
+        self.vantage("eval", "empty", exit_code=3)
+        (self.dir / "bad").mkdir()
+        self.write("bad/views.csv", "model,subject,status,vx,vy,vz\nbox.off,A,moved,1,1,up\n")
+        self.assertIn("line 2", self.vantage("eval", "bad", exit_code=3).err)
+        self.vantage("eval", "nowhere", exit_code=3)
+
+    def test_eval_refuses_gaze_of_another_mesh(self):
+        (self.dir / "set" / "gaze").mkdir(parents=True)
+        (self.dir / "set" / "meshes").mkdir()
+        self.write("set/meshes/box.off", box(2))
+        self.write("set/gaze/box.vertex", "1\n2\n")
+        self.assertIn("8 vertices", self.vantage("eval", "set", exit_code=1).err)
+
+
+if __name__ == "__main__":
+    unittest.main()
