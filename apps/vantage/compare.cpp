@@ -32,7 +32,7 @@ struct CompareCommand {
     add_common_flags(app, session.flags);
   }
 
-  void run(Session& session) {
+  void run(Session& session) const {
     ViewOptions options = method.resolve();
     saliency.apply(options);
     const std::vector<Measure> measures = parse_measures(names, "--method");

@@ -35,7 +35,7 @@ struct EvalCommand {
     add_common_flags(app, session.flags);
   }
 
-  void run(Session& session) {
+  void run(Session& session) const {
     const ViewOptions options = method.resolve();
     const std::vector<Measure> measures = parse_measures(names, "--method");
     const auto records = session.reading([&] { return read_records(folder); });

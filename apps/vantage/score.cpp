@@ -114,6 +114,7 @@ struct ScoreCommand {
     ViewMeasurer measurer(subject, measures, view_set, run.part(0.5, 0.9));
     if (!eyes.empty()) {
       std::vector<Viewpoint> places;
+      places.reserve(points.size());
       for (const Vec3& eye : points) {
         places.push_back({Projection::Perspective, eye});
       }

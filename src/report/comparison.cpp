@@ -16,7 +16,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Mirror images nearer to each other than this are one. [ours]
-constexpr double kApart_rad = 1e-6;
+constexpr double kApartRad = 1e-6;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -67,7 +67,7 @@ double angle_deg(const Vec3& a, const Vec3& b) {
 
 double folded_angle_deg(const Vec3& a, const Vec3& b, std::span<const MirrorPlane> planes) {
   double least = angle_deg(a, b);
-  for (const Vec3& image : mirror_images(b, planes, kApart_rad)) {
+  for (const Vec3& image : mirror_images(b, planes, kApartRad)) {
     least = std::min(least, angle_deg(a, image));
   }
   return least;

@@ -15,7 +15,7 @@ namespace vantage {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kNear_deg = 45.0;
+constexpr double kNearDeg = 45.0;
 
 double mean_of(std::span<const double> values) {
   double sum = 0.0;
@@ -37,7 +37,7 @@ ViewAgreement agreement(const std::string& method, const RecordedModel& record,
     if (view.moved) {
       plain.push_back(angle_deg(direction, view.direction));
       folded.push_back(all.back());
-      near += folded.back() < kNear_deg ? 1.0 : 0.0;
+      near += folded.back() < kNearDeg ? 1.0 : 0.0;
     }
   }
   return {method,         record.name,

@@ -18,8 +18,8 @@ namespace vantage {
 namespace {
 
 // Rings around a view of the set, whose directions are about 9° apart at level 3. [ours]
-constexpr double kFirstRing_rad = 4.0 * kRadPerDeg;
-constexpr double kLastRing_rad = 1.0 * kRadPerDeg;
+constexpr double kFirstRingRad = 4.0 * kRadPerDeg;
+constexpr double kLastRingRad = 1.0 * kRadPerDeg;
 
 /// Values of any directions as scores that grow with how good the view is, at least 0.
 class GrowingScore {
@@ -76,7 +76,7 @@ class GrowingScore {
 MeasuredView climbed(const ViewMeasurer& measurer, std::size_t m, MeasuredView view, Goal goal,
                      std::size_t& evaluations, const RunContext& run) {
   const Measure& measure = measurer.measures()[m];
-  for (double step = kFirstRing_rad; step >= kLastRing_rad; step *= 0.5) {
+  for (double step = kFirstRingRad; step >= kLastRingRad; step *= 0.5) {
     const std::vector<Vec3> ring = ring_around(view.direction, step);
     const std::vector<double> values = measurer.values_of(m, ring, run);
     evaluations += ring.size();

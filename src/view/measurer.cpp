@@ -85,6 +85,9 @@ struct ViewMeasurer::State {
   void prepare(const RunContext& run);
   void prepare_maps(const RunContext& run);
   void survey(const RunContext& run);
+  [[nodiscard]] bool is_late(std::size_t m) const;
+  std::vector<FaceArea> measure_early(std::size_t i);
+  void measure_late(std::size_t i);
   [[nodiscard]] SightTable look(const Viewpoint& eye, const MeasureNeeds& wanted,
                                 std::size_t set_index) const;
   [[nodiscard]] std::vector<std::uint32_t> neighbours(const Vec3& towards) const;
@@ -243,15 +246,45 @@ double ViewMeasurer::State::value(std::size_t m, const SightTable& sight) const 
   return std::isnan(value) ? measures[m].worst() : value;
 }
 
+/// Whether a measure has to wait until all views of the set were looked at.
+bool ViewMeasurer::State::is_late(std::size_t m) const {
+  return measures[m].needs.channel || measures[m].needs.neighbours;
+}
+
+/// First look at a view of the set. \return the faces it sees.
+std::vector<FaceArea> ViewMeasurer::State::measure_early(std::size_t i) {
+  SightTable sight = look(model.given.camera.viewpoint(model.set.directions[i]), needs, i);
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    of_set[m][i] = is_late(m) ? 0.0 : value(m, sight);
+  }
+  return std::move(sight.faces);
+}
+
+/// Values of a view of the set that need all the others. \pre terms and set_views are there.
+void ViewMeasurer::State::measure_late(std::size_t i) {
+  const Viewpoint eye = model.given.camera.viewpoint(model.set.directions[i]);
+  SightTable sight = look(eye, {.neighbours = needs.neighbours}, i);
+  sight.faces = model.set_views[i];
+  for (const FaceArea& a : sight.faces) {
+    sight.projected_area += a.area;
+    sight.area_logs += x_log_x(a.area);
+  }
+  if (needs.channel) {
+    sight.channel = channel_measures(sight.faces, model.terms, model.face_areas);
+  }
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    if (is_late(m)) {
+      of_set[m][i] = value(m, is_kept(measures[m].needs) ? sight : look(eye, needs, i));
+    }
+  }
+}
+
 /// Looks at all views of the set once.
 void ViewMeasurer::State::survey(const RunContext& run) {
   const std::size_t count = model.set.directions.size();
   const bool keeps_faces = needs.channel || needs.neighbours;
   of_set.assign(measures.size(), std::vector<double>(count, 0.0));
   std::vector<std::vector<FaceArea>> kept(keeps_faces ? count : 0);
-  const auto is_late = [&](std::size_t m) {
-    return measures[m].needs.channel || measures[m].needs.neighbours;
-  };
   // In a few batches, so that progress can be told and a stop be heard.
   constexpr std::size_t kBatch = 64;
   for (std::size_t start = 0; start < count; start += kBatch) {
@@ -259,13 +292,9 @@ void ViewMeasurer::State::survey(const RunContext& run) {
     parallel_for(quiet(run), std::min(kBatch, count - start), 1,
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t i = start + begin; i < start + end; ++i) {
-                     SightTable sight =
-                         look(model.given.camera.viewpoint(model.set.directions[i]), needs, i);
-                     for (std::size_t m = 0; m < measures.size(); ++m) {
-                       of_set[m][i] = is_late(m) ? 0.0 : value(m, sight);
-                     }
+                     std::vector<FaceArea> faces_seen = measure_early(i);
                      if (keeps_faces) {
-                       kept[i] = std::move(sight.faces);
+                       kept[i] = std::move(faces_seen);
                      }
                    }
                  });
@@ -282,21 +311,7 @@ void ViewMeasurer::State::survey(const RunContext& run) {
   run.advance("views", 0.9);
   parallel_for(quiet(run), count, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Viewpoint eye = model.given.camera.viewpoint(model.set.directions[i]);
-      SightTable sight = look(eye, {.neighbours = needs.neighbours}, i);
-      sight.faces = model.set_views[i];
-      for (const FaceArea& a : sight.faces) {
-        sight.projected_area += a.area;
-        sight.area_logs += x_log_x(a.area);
-      }
-      if (needs.channel) {
-        sight.channel = channel_measures(sight.faces, model.terms, model.face_areas);
-      }
-      for (std::size_t m = 0; m < measures.size(); ++m) {
-        if (is_late(m)) {
-          of_set[m][i] = value(m, is_kept(measures[m].needs) ? sight : look(eye, needs, i));
-        }
-      }
+      measure_late(i);
     }
   });
 }

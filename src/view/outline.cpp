@@ -24,6 +24,9 @@ constexpr std::uint32_t kOpen = ~std::uint32_t{0};
 constexpr int kBorder = 2;
 // Bins of turning angles: odd, so that straight on falls into the middle of one. [Page 2003]
 constexpr std::size_t kTurningBins = 9;
+// Where along a step the resampling begins: a corner turns at once or in two steps by chance, so the
+// mean of several is taken. [ours]
+constexpr int kPhases = 8;
 // An eye this much nearer than the sphere's radius is inside, over the radius.
 constexpr double kInside = 1e-6;
 
@@ -124,8 +127,10 @@ class ShapeGrid {
     const std::size_t sample = crossing / 2;
     const bool is_along_y = crossing % 2 == 1;
     const Reach& reach = is_along_y ? along_y_ : along_x_;
-    const auto x = static_cast<double>(sample % static_cast<std::size_t>(side_));
-    const auto y = static_cast<double>(sample / static_cast<std::size_t>(side_));
+    const std::size_t column = sample % static_cast<std::size_t>(side_);
+    const std::size_t row = sample / static_cast<std::size_t>(side_);
+    const auto x = static_cast<double>(column);
+    const auto y = static_cast<double>(row);
     const double start = is_along_y ? y : x;
     const double found = inside_[sample] != 0 ? reach.end[sample] : reach.begin[sample];
     // The two scans may differ by rounding about a sample; nothing found is nothing beyond it.
@@ -205,9 +210,9 @@ double loop_length(const std::vector<PicturePoint>& loop) {
   return length;
 }
 
-/// `count` points at equal distances along the loop.
+/// `count` points at equal distances along the loop, the first `phase` of a distance after its start.
 std::vector<PicturePoint> resampled(const std::vector<PicturePoint>& loop, double length,
-                                    std::size_t count) {
+                                    std::size_t count, double phase) {
   std::vector<PicturePoint> points;
   points.reserve(count);
   double passed = 0.0;
@@ -216,7 +221,7 @@ std::vector<PicturePoint> resampled(const std::vector<PicturePoint>& loop, doubl
     const double step = way.norm();
     while (points.size() < count) {
       const double wanted =
-          length * static_cast<double>(points.size()) / static_cast<double>(count);
+          length * (static_cast<double>(points.size()) + phase) / static_cast<double>(count);
       if (wanted > passed + step || !(step > 0.0)) {
         break;
       }
@@ -232,6 +237,22 @@ std::vector<PicturePoint> resampled(const std::vector<PicturePoint>& loop, doubl
 
 double turning(const PicturePoint& before, const PicturePoint& after) {
   return std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after));
+}
+
+using TurningBins = std::array<double, kTurningBins>;
+
+/// Adds the turning angles of a closed polyline.
+void add_turning(const std::vector<PicturePoint>& points, TurningBins& bins,
+                 OutlineMeasures& measures) {
+  const std::size_t count = points.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const PicturePoint& here = points[(i + 1) % count];
+    const double angle = turning(here - points[i], points[(i + 2) % count] - here);
+    const double bin = (angle / (2.0 * std::numbers::pi) + 0.5) * kTurningBins;
+    bins[std::min(kTurningBins - 1, static_cast<std::size_t>(bin))] += 1.0;
+    measures.curvature += std::abs(angle);
+    measures.curvature_extrema += angle * angle;
+  }
 }
 
 }  // namespace
@@ -253,7 +274,7 @@ SilhouetteDisc silhouette_disc(const Sphere& sphere, const Viewpoint& eye) {
 
 OutlineMeasures measure_outline(const Outline& outline) {
   OutlineMeasures measures;
-  std::array<double, kTurningBins> bins{};
+  TurningBins bins{};
   double steps = 0.0;
   for (const auto& loop : outline) {
     const double length = loop_length(loop);
@@ -262,16 +283,11 @@ OutlineMeasures measure_outline(const Outline& outline) {
     if (count < 3) {
       continue;
     }
-    const std::vector<PicturePoint> points = resampled(loop, length, count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const PicturePoint& here = points[(i + 1) % count];
-      const double angle = turning(here - points[i], points[(i + 2) % count] - here);
-      const double bin = (angle / (2.0 * std::numbers::pi) + 0.5) * kTurningBins;
-      bins[std::min(kTurningBins - 1, static_cast<std::size_t>(bin))] += 1.0;
-      measures.curvature += std::abs(angle);
-      measures.curvature_extrema += angle * angle;
-      steps += 1.0;
+    for (int phase = 0; phase < kPhases; ++phase) {
+      add_turning(resampled(loop, length, count, static_cast<double>(phase) / kPhases), bins,
+                  measures);
     }
+    steps += static_cast<double>(count) * kPhases;
   }
   if (steps > 0.0) {
     measures.curvature /= steps;

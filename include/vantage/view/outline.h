@@ -56,8 +56,8 @@ OutlineMeasures measure_outline(const Outline& outline);
 class OutlineTracer {
  public:
   /// Lines of the grid across the disc. Where the shape ends on a grid line is found exactly, so
-  /// that this is no pixel size: only what is thinner than a cell can be lost. At twice as many no
-  /// measure changes by 1 % of its range on the models tried (docs/measures.md). [ours]
+  /// that this is no pixel size: only what is thinner than a cell can be lost. Lengths are converged
+  /// to 1 % of their range, turning at corners is not (docs/measures.md). [ours]
   static constexpr int kLines = 512;
 
   /// \param sides as for VertexVisibility. \param sphere of the mesh. \param lines at least 8.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/mesh/measures.h"
 
+#include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <numbers>
 #include <set>
 
@@ -146,6 +147,29 @@ TEST(Measures, OutlineTheHoleOfATorusToo) {
   const Subject ring(test::torus(1.0, 0.25, 128, 48));
   // Circles of radius 1.25 and 0.75, the sphere has diameter 2.5.
   EXPECT_NEAR(ring.value("silhouette-length", Vec3::UnitZ()), std::numbers::pi * 1.6, 5e-3);
+}
+
+/// Largest change of a measure of the outline on a grid twice as fine, over its range.
+double change_when_halved(double OutlineMeasures::*member) {
+  const Subject tubes(test::y_of_tubes(0.2, 40), Projection::Perspective);
+  const ScoringCamera& camera = tubes.given.camera;
+  const OutlineTracer used(tubes.mesh, tubes.sides, camera.sphere);
+  const OutlineTracer finer(tubes.mesh, tubes.sides, camera.sphere, 2 * OutlineTracer::kLines);
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0.0;
+  double change = 0.0;
+  for (const Vec3& d : direction_set(ViewSphereBase::Icosahedron, 2).directions) {
+    const double value = measure_outline(used.trace(camera.viewpoint(d))).*member;
+    const double exact = measure_outline(finer.trace(camera.viewpoint(d))).*member;
+    low = std::min(low, exact);
+    high = std::max(high, exact);
+    change = std::max(change, std::abs(value - exact));
+  }
+  return change / (high - low);
+}
+
+TEST(Measures, HaveTheOutlinesLengthConvergedAtTheGridUsed) {
+  EXPECT_LT(change_when_halved(&OutlineMeasures::length), 0.01);
 }
 
 TEST(Measures, SpreadASphereEvenly) {
