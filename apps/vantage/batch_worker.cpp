@@ -95,8 +95,8 @@ struct BatchWorkerCommand {
   }
 
   void run(Session& session) {
-    kinds = OutputKinds::parse(write);
-    options = view_options_of(method, several, kinds);
+    kinds_ = OutputKinds::parse(write);
+    options_ = view_options_of(method, several, kinds_);
     // Whatever a library prints must not be taken for an answer.
     const int answers = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
     ::dup2(STDERR_FILENO, STDOUT_FILENO);
@@ -166,7 +166,7 @@ struct BatchWorkerCommand {
   }
 
   [[nodiscard]] Json result_of(const Json& order, const Model& model, const RunContext& run) const {
-    ViewOptions own = options;
+    ViewOptions own = options_;
     const auto own_up = order.at("up").get<std::string>();
     if (!own_up.empty()) {
       own.up = up_axis(own_up);
@@ -175,14 +175,14 @@ struct BatchWorkerCommand {
     const UpChoice up = choose_up(model, shape, own);
     const ViewReport report = find_views(shape, up, own, run);
     OutputFolder output(batch::path_of_key(order.at("staging").get<std::string>()));
-    if (const auto best = add_pictures(output, kinds, shape, report, own, run)) {
+    if (const auto best = add_pictures(output, kinds_, shape, report, own, run)) {
       output.add(batch::kThumbnailFile, png_bytes(batch::thumbnail_of(*best)));
     }
-    if (kinds.has("views")) {
+    if (kinds_.has("views")) {
       several.write(output, shape, report, up.axis, own, run);
     }
-    add_report(output, kinds, model, shape, report, own, run);
-    add_data(output, kinds, model, shape, report, own,
+    add_report(output, kinds_, model, shape, report, own, run);
+    add_data(output, kinds_, model, shape, report, own,
              batch::path_of_key(order.at("file").get<std::string>()));
     const Json view = without_missing_images(Json::parse(view_json(model, shape, report, own)));
     output.add("view.json", view.dump(2) + "\n");
@@ -201,11 +201,11 @@ struct BatchWorkerCommand {
   /// Pictures that were not asked for are not named either.
   [[nodiscard]] Json without_missing_images(Json view) const {
     for (const char* side : {"best", "worst"}) {
-      if (!kinds.has(side)) {
+      if (!kinds_.has(side)) {
         view[side]["image"] = nullptr;
       }
     }
-    if (!kinds.has("views") && view.contains("views")) {
+    if (!kinds_.has("views") && view.contains("views")) {
       for (Json& one : view["views"]) {
         one["image"] = nullptr;
       }
@@ -213,8 +213,8 @@ struct BatchWorkerCommand {
     return view;
   }
 
-  OutputKinds kinds{};
-  ViewOptions options{};
+  OutputKinds kinds_{};
+  ViewOptions options_{};
 };
 
 struct BatchUnpackCommand {

@@ -36,7 +36,7 @@ std::string numbered(std::size_t i) {
   return (i < 9 ? "view-0" : "view-") + std::to_string(i + 1);
 }
 
-std::string padded(std::string text, std::size_t width) {
+std::string padded(const std::string& text, std::size_t width) {
   return std::string(width > text.size() ? width - text.size() : 0, ' ') + text;
 }
 

@@ -77,6 +77,23 @@ class PointStep {
   PositionSolver positions_{};
 };
 
+/// Repeats a step more gently while it fails or outgrows its box.
+/// \param stop why there is no result, if there is none.
+template <class Solve>
+std::optional<std::vector<Vec3>> attempt_step(const Vec3& bound, int& harshness,
+                                              ContractionStop& stop, const RunContext& run,
+                                              const Solve& solve) {
+  for (; harshness <= kHarshest; ++harshness) {
+    run.check();
+    std::optional<std::vector<Vec3>> next = solve();
+    stop = next ? ContractionStop::Grew : ContractionStop::SolverFailed;
+    if (next && !(bounding_box(*next).size().array() > bound.array()).any()) {
+      return next;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 ComponentHistory contract_point_component(const std::vector<Vec3>& scaled, const PointRings& rings,
@@ -100,16 +117,9 @@ ComponentHistory contract_point_component(const std::vector<Vec3>& scaled, const
   history.summary.stop = ContractionStop::StepLimit;
   for (int step = 0; step < options.max_steps; ++step) {
     run.advance("contracting", static_cast<double>(step) / options.max_steps);
-    std::optional<std::vector<Vec3>> next;
-    while (!next && harshness <= kHarshest) {
-      run.check();
-      next = stepper.solve(now, rings, W_L, W_H, options, harshness, run);
-      history.summary.stop = next ? ContractionStop::Grew : ContractionStop::SolverFailed;
-      if (next && (bounding_box(*next).size().array() > bound.array()).any()) {
-        next.reset();
-      }
-      harshness += next ? 0 : 1;
-    }
+    const std::optional<std::vector<Vec3>> next =
+        attempt_step(bound, harshness, history.summary.stop, run,
+                     [&] { return stepper.solve(now, rings, W_L, W_H, options, harshness, run); });
     if (!next) {
       break;
     }
@@ -122,7 +132,7 @@ ComponentHistory contract_point_component(const std::vector<Vec3>& scaled, const
       history.summary.stop = ContractionStop::Shrunk;
       break;
     }
-    now = std::move(*next);
+    now = *next;
     history.levels.push_back(now);
     history.shrinkage.push_back(shrinkage);
     ++history.summary.steps;

@@ -148,6 +148,16 @@ std::vector<ChannelPick> greedy_entropy_views(const ViewChannel& channel, std::s
 
 namespace {
 
+/// Mean of the views' information by what they see of all.
+double mean_information(const std::vector<double>& seen, double all,
+                        const std::vector<double>& information) {
+  double mean = 0.0;
+  for (std::size_t v = 0; v < seen.size(); ++v) {
+    mean += seen[v] > 0.0 ? seen[v] / all * information[v] : 0.0;
+  }
+  return mean;
+}
+
 /// The usable view of least information; the first of equals, empty if none is usable.
 std::optional<std::size_t> least_informed(const std::vector<double>& information,
                                           const std::vector<std::uint8_t>& usable) {
@@ -175,6 +185,8 @@ MergedViews merge_views(const ViewChannel& channel, std::size_t count, double ra
   MergedView merged(channel, seen);
   std::vector<double> information(channel.views.size(), 0.0);
   std::vector<std::uint8_t> usable(channel.views.size(), 0);
+  std::transform(seen.begin(), seen.end(), usable.begin(),
+                 [](double area) { return area > 0.0 ? std::uint8_t{1} : std::uint8_t{0}; });
   MergedViews result;
   while (result.picks.size() < count) {
     parallel_for(without_progress(run), information.size(), kGrain,
@@ -184,10 +196,7 @@ MergedViews merge_views(const ViewChannel& channel, std::size_t count, double ra
                    }
                  });
     if (result.picks.empty()) {
-      for (std::size_t v = 0; v < seen.size(); ++v) {
-        usable[v] = seen[v] > 0.0 ? 1 : 0;
-        result.channel_information += seen[v] > 0.0 ? seen[v] / all * information[v] : 0.0;
-      }
+      result.channel_information = mean_information(seen, all, information);
     }
     const std::optional<std::size_t> best = least_informed(information, usable);
     if (!best) {

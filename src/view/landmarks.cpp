@@ -97,6 +97,7 @@ std::vector<Vec3> landmark_directions(const TriMesh& surface) {
     return {};
   }
   std::vector<Vec3> lines;
+  lines.reserve(6 + kMostFlats);
   for (int axis = 0; axis < 3; ++axis) {
     lines.emplace_back(Vec3::Unit(axis));
   }

@@ -205,7 +205,8 @@ class Help(ProgramTest):
         out = self.vantage("--help").out
         listed = out[out.index("Subcommands:"):].split("\n\n")[0].splitlines()[1:]
         commands = [line.split()[0] for line in listed]
-        self.assertEqual(commands, ["view", "skeleton", "map", "score", "render", "info", "batch", "results"])
+        self.assertEqual(commands, ["view", "skeleton", "map", "score", "compare", "eval", "measures", "render", "thumb",
+                                    "info", "batch", "results", "serve", "figures"])
         commands.remove("results")
         for command in (*commands, *(f"results {verb}" for verb in ("query", "export", "diff", "merge"))):
             page = self.vantage(*command.split(), "--help").out

@@ -22,6 +22,7 @@ using Field = std::function<double(const Vec3&)>;
 ScoreBatch batch_of(Field field, std::size_t* asked = nullptr) {
   return [field = std::move(field), asked](const std::vector<Vec3>& directions) {
     std::vector<double> scores;
+    scores.reserve(directions.size());
     for (const Vec3& d : directions) {
       scores.push_back(field(d));
     }
