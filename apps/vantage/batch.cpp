@@ -281,9 +281,12 @@ struct BatchCommand {
     request.cpus = std::max(1, jobs) * runner.threads;
     const double task_gb = std::max(1, jobs) * (memory_gb > 0.0 ? memory_gb : kSlurmMemoryGb);
     request.memory_mb = static_cast<int>((task_gb + kParentMemoryGb) * 1e3);
-    request.command = {fs::read_symlink("/proc/self/exe").string(), "batch",
+    request.command = {fs::read_symlink("/proc/self/exe").string(),
+                       "batch",
                        "--manifest=" + request.folder + "/slurm/plan.jsonl",
-                       "--output=" + request.folder, "--quiet"};
+                       "--output=" + request.folder,
+                       "--quiet",
+                       "--config=none"};
     append_flags(request.command, shard_options);
     append_flags(request.command, method_options);
     if (jobs == 0) {

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "session.h"
+#include "settings.h"
 
 /// \file
 /// One function a command: it adds the command's flags and, when the command line names it, does
@@ -28,6 +29,8 @@ void add_batch_worker_commands(CLI::App& program, Session& session);
 void add_results_command(CLI::App& program, Session& session);
 void add_serve_command(CLI::App& program, Session& session);
 void add_figures_command(CLI::App& program, Session& session);
+void add_completion_command(CLI::App& program, Session& session);
+void add_manual_command(CLI::App& program, Session& session);
 
 /// Adds a command that keeps its flags in a `Command` and runs its `run(session)`.
 template <class Command>
@@ -37,7 +40,10 @@ Command& add_command(CLI::App& program, Session& session, const char* name, cons
   auto command = std::make_shared<Command>();
   command->add_flags(*app, session);
   app->footer(examples);
-  app->final_callback([command, &session] { command->run(session); });
+  app->final_callback([command, app, &session] {
+    apply_settings(*app);
+    command->run(session);
+  });
   return *command;
 }
 

@@ -7,6 +7,7 @@
 #include "vantage/core/version.h"
 
 #include "commands.h"
+#include "option_text.h"
 #include "session.h"
 
 namespace {
@@ -33,7 +34,8 @@ int report_usage(const CLI::ParseError& error) {
   for (char& c : problem) {
     c = c == '\n' ? ' ' : c;
   }
-  std::fprintf(stderr, "vantage: %s; see --help\n", problem.c_str());
+  const char* remedy = problem.find("; ") == std::string::npos ? "; see --help" : "";
+  std::fprintf(stderr, "vantage: %s%s\n", problem.c_str(), remedy);
   return vantage::cli::kWrongUsage;
 }
 
@@ -46,8 +48,10 @@ int main(int argc, char** argv) {
   CLI::App program{kAbout, "vantage"};
   program.set_version_flag("--version", "vantage " + std::string(vantage::version()) + "\n" +
                                             vantage::library_versions());
+  program.set_help_flag("-h,--help", "print this help and exit");
   program.require_subcommand(1);
   program.footer(kFooter);
+  program.formatter(help_formatter());  // commands inherit it
   try {
     add_view_command(program, session);
     add_skeleton_command(program, session);
@@ -64,6 +68,8 @@ int main(int argc, char** argv) {
     add_results_command(program, session);
     add_serve_command(program, session);
     add_figures_command(program, session);
+    add_completion_command(program, session);
+    add_manual_command(program, session);
     program.parse(argc, argv);
     session.end_progress();
     if (std::fflush(stdout) != 0) {

@@ -7,6 +7,7 @@
 
 #include "input_text.h"
 #include "session.h"
+#include "settings.h"
 #include "terminal.h"
 
 namespace vantage::cli {
@@ -316,6 +317,7 @@ void add_common_flags(CLI::App& app, CommonFlags& flags) {
   app.add_option("--seed", flags.seed, "start of random sequences; this version draws none")
       ->capture_default_str()
       ->group(group);
+  add_config_flag(app);
 }
 
 std::pair<int, int> parse_size(const std::string& text) {

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "settings.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "option_text.h"
+
+namespace vantage::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kConfig = "config";
+
+/// A value and where it stands.
+struct Setting {
+  std::string value{};
+  std::string origin{};
+};
+
+const CLI::App& program_of(const CLI::App& command) {
+  return command.get_parent() == nullptr ? command : program_of(*command.get_parent());
+}
+
+bool any_command_has(const CLI::App& app, const std::string& option) {
+  const auto below = commands_below(app);
+  return (app.get_option_no_throw("--" + option) != nullptr) ||
+         std::any_of(below.begin(), below.end(),
+                     [&](const CLI::App* command) { return any_command_has(*command, option); });
+}
+
+const CLI::App* command_named(const CLI::App& app, const std::string& name) {
+  const auto below = commands_below(app);
+  const auto found = std::find_if(below.begin(), below.end(), [&](const CLI::App* command) {
+    return command->get_name() == name;
+  });
+  return found == below.end() ? nullptr : *found;
+}
+
+/// Refuses keys that no command knows, so that a slip of the pen is not passed over.
+void check_keys(const Json& settings, const CLI::App& app, const std::string& file) {
+  for (const auto& [key, value] : settings.items()) {
+    const CLI::App* command = command_named(app, key);
+    if (value.is_object() && command != nullptr) {
+      check_keys(value, *command, file);
+    } else if (value.is_object()) {
+      throw CLI::ValidationError(file, "'" + key + "' is not a command; see vantage --help");
+    } else if (!any_command_has(app, key)) {
+      const std::string call = call_of(app);
+      throw CLI::ValidationError(
+          file, "'" + key + "' is not an option of " +
+                    (call.empty() ? "any command; see --help of the command it is meant for"
+                                  : call + "; see vantage " + call + " --help"));
+    }
+  }
+}
+
+Json read_settings(const std::string& file, const CLI::App& program) {
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) {
+    throw CLI::ValidationError(file, "cannot be read; --config names a JSON file of options");
+  }
+  Json settings;
+  try {
+    settings = Json::parse(text.str(), nullptr, true, true);
+  } catch (const Json::parse_error& error) {
+    throw CLI::ValidationError(file, "not JSON at byte " + std::to_string(error.byte) +
+                                         "; write {\"threads\": 2, \"view\": {\"size\": 600}}");
+  }
+  if (!settings.is_object()) {
+    throw CLI::ValidationError(file, "holds no JSON object; write {\"threads\": 2}");
+  }
+  check_keys(settings, program, file);
+  return settings;
+}
+
+std::string value_of(const Json& value, const std::string& origin) {
+  if (value.is_string()) {
+    return value.get<std::string>();
+  }
+  if (value.is_array()) {
+    std::vector<std::string> parts;
+    for (const Json& part : value) {
+      parts.push_back(value_of(part, origin));
+    }
+    return CLI::detail::join(parts, ",");
+  }
+  if (value.is_number() || value.is_boolean()) {
+    return value.dump();
+  }
+  throw CLI::ValidationError(origin, "has no value; give a string, a number, true or false");
+}
+
+std::optional<Setting> from_file(const Json& settings, const CLI::App& command,
+                                 const std::string& option, const std::string& file) {
+  std::vector<const Json*> tables{&settings};  // the most general first
+  for (const std::string& word : CLI::detail::split(call_of(command), ' ')) {
+    if (!tables.back()->contains(word)) {
+      break;
+    }
+    tables.push_back(&tables.back()->at(word));
+  }
+  for (auto table = tables.rbegin(); table != tables.rend(); ++table) {
+    if ((*table)->is_object() && (*table)->contains(option)) {
+      const std::string origin = file + ": " + option;
+      return Setting{value_of((*table)->at(option), origin), origin};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Setting> from_environment(const CLI::App& command, const std::string& option) {
+  for (const std::string& words : {call_of(command) + " " + option, option}) {
+    std::string name = "VANTAGE_" + words;
+    for (char& c : name) {
+      c = c == ' ' || c == '-' ? '_'
+                               : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    }
+    const char* value = std::getenv(name.c_str());
+    if (value != nullptr && *value != '\0') {
+      return Setting{value, name};
+    }
+  }
+  return std::nullopt;
+}
+
+/// The command line goes first, also where it names an option that excludes this one.
+bool is_open(const CLI::Option& option) {
+  const auto& excluded = option.get_excludes();
+  return option.count() == 0 && option.get_configurable() && !option.get_lnames().empty() &&
+         std::none_of(excluded.begin(), excluded.end(),
+                      [](const CLI::Option* other) { return other->count() > 0; });
+}
+
+void set(CLI::Option& option, const Setting& setting) {
+  try {
+    if (option.get_expected_max() == 0 && CLI::detail::to_flag_value(setting.value) < 1) {
+      return;  // a flag that is said to be off
+    }
+    option.add_result(option.get_expected_max() == 0 ? "true" : setting.value);
+    option.run_callback();
+  } catch (const CLI::ParseError& error) {
+    throw CLI::ValidationError(setting.origin, error.what());
+  } catch (const std::invalid_argument&) {
+    throw CLI::ValidationError(setting.origin, "is a flag; say true or false");
+  }
+}
+
+}  // namespace
+
+void add_config_flag(CLI::App& command) {
+  command
+      .add_option(std::string("--") + kConfig,
+                  "JSON file of options, for those not given here; none: no such file, and no "
+                  "VANTAGE_* variables")
+      ->type_name("FILE")
+      ->configurable(false)
+      ->group("Common");
+}
+
+void apply_settings(CLI::App& command) {
+  const CLI::Option* config = command.get_option_no_throw(std::string("--") + kConfig);
+  if (config == nullptr) {
+    return;  // a worker: its parent passes on what is set
+  }
+  const char* named = std::getenv("VANTAGE_CONFIG");
+  const std::string file =
+      config->count() > 0 ? config->as<std::string>() : (named == nullptr ? "" : named);
+  if (file == "none") {
+    return;
+  }
+  const Json settings = file.empty() ? Json::object() : read_settings(file, program_of(command));
+  for (CLI::Option* option : command.get_options({})) {
+    if (!is_open(*option)) {
+      continue;
+    }
+    const std::string& name = option->get_lnames().front();
+    std::optional<Setting> setting = from_environment(command, name);
+    if (!setting) {
+      setting = from_file(settings, command, name, file);
+    }
+    if (setting) {
+      set(*option, *setting);
+    }
+  }
+}
+
+}  // namespace vantage::cli

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+/// \file
+/// Options from the environment and from a file, for those that the command line leaves open.
+
+namespace vantage::cli {
+
+/// Adds --config FILE to a command.
+void add_config_flag(CLI::App& command);
+
+/// Sets every option of a command that the command line left open and that the environment
+/// (VANTAGE_VIEW_SIZE, else VANTAGE_SIZE, for `--size` of `view`) or else the file of --config or
+/// VANTAGE_CONFIG has a value for. The file holds a JSON object, comments allowed: keys are the
+/// options' long names, and an object named like a command holds what is for that command alone.
+/// \throw CLI::ValidationError names the variable or the file and what is wrong with it.
+void apply_settings(CLI::App& command);
+
+}  // namespace vantage::cli

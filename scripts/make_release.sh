@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# Builds what a release consists of into build/dist: two Debian packages, a tarball that runs from any folder with
+# its libraries inside (glibc 2.34 or newer), the bill of materials, and checksums. The same commit gives the same bytes.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/install_dependencies.sh build
+command -v patchelf >/dev/null || { echo "make_release.sh: install patchelf" >&2; exit 1; }
+SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}
+export SOURCE_DATE_EPOCH
+build=build/dist
+cmake -G Ninja -B $build -DCMAKE_BUILD_TYPE=Release -DVANTAGE_BUILD_TESTS=OFF >/dev/null
+cmake --build $build
+(cd $build && cpack -G DEB >/dev/null)
+
+name=vantage-$($build/apps/vantage/vantage --version | sed -n '1s/vantage //p')-linux-$(uname -m)
+stage=$build/stage/$name
+rm -rf $build/stage
+cmake --install $build --prefix "$PWD/$stage" --component program --strip >/dev/null
+mkdir -p "$stage/lib/vantage"
+ldd "$stage/bin/vantage" | sed -n 's/.* => \(\/[^ ]*\) .*/\1/p' |
+  grep -vE '/(libc|libm|libdl|libpthread|librt|libresolv|ld-linux[^/]*)\.so' | sort |
+  xargs -I{} cp -L {} "$stage/lib/vantage/"
+patchelf --set-rpath "\$ORIGIN/../lib/vantage" "$stage/bin/vantage"
+for library in "$stage"/lib/vantage/*; do
+  patchelf --set-rpath "\$ORIGIN" "$library"
+done
+python3 scripts/make_sbom.py $build/apps/vantage/vantage --epoch "$SOURCE_DATE_EPOCH" >"$stage/vantage.spdx.json"
+cp LICENSE "$stage/"
+tar --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner -C $build/stage -cf - "$name" |
+  gzip -9n >"$build/packages/$name.tar.gz"
+cp "$stage/vantage.spdx.json" $build/packages/
+(cd $build/packages && rm -rf _CPack_Packages && sha256sum -- *.deb *.tar.gz *.json | tee SHA256SUMS)

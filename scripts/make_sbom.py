@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Software bill of materials of a built program, as SPDX 2.3 JSON on standard output.
+
+    make_sbom.py build/release/apps/vantage/vantage [--epoch SECONDS] > vantage.spdx.json
+
+Lists what the program loads (Debian packages of its shared libraries, by dpkg), what was compiled into it (header-only
+libraries that cmake/dependencies.cmake names) and the npm packages bundled into report.html. Same input, same bytes.
+"""
+import argparse
+import datetime
+import json
+import pathlib
+import re
+import subprocess
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+COMPILED_IN = ["libeigen3-dev", "libnanoflann-dev", "nlohmann-json3-dev", "libtinygltf-dev", "libcli11-dev"]
+LICENCES = {"libeigen3-dev": "MPL-2.0", "libnanoflann-dev": "BSD-2-Clause", "nlohmann-json3-dev": "MIT",
+            "libtinygltf-dev": "MIT", "libcli11-dev": "BSD-3-Clause"}
+
+
+def output_of(*command):
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def loaded_packages(program):
+    """Debian packages of every shared library that the loader finds for the program."""
+    paths = sorted(set(re.findall(r"=> (/\S+)", output_of("ldd", program))))
+    packages = set()
+    for path in paths:
+        for candidate in (path, str(pathlib.Path(path).resolve()), "/usr" + path):
+            found = subprocess.run(["dpkg", "-S", candidate], capture_output=True, text=True, check=False)
+            if found.returncode == 0:
+                packages.add(found.stdout.split(": ")[0].split(",")[0])
+                break
+        else:
+            raise SystemExit(f"make_sbom: {path} belongs to no package")
+    return sorted(packages)
+
+
+def debian_entry(package):
+    name, version = output_of("dpkg-query", "-W", "-f=${Package} ${Version}", package).split()
+    return {"SPDXID": "SPDXRef-deb-" + re.sub(r"[^A-Za-z0-9.-]", "-", name), "name": name, "versionInfo": version,
+            "downloadLocation": "NOASSERTION", "filesAnalyzed": False,
+            "licenseConcluded": "NOASSERTION", "licenseDeclared": LICENCES.get(name, "NOASSERTION"),
+            "externalRefs": [{"referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl",
+                              "referenceLocator": f"pkg:deb/debian/{name}@{version}?distro=bookworm"}]}
+
+
+def bundled_npm():
+    lock = json.loads((ROOT / "viewer/package-lock.json").read_text())
+    for path, package in sorted(lock["packages"].items()):
+        if path and not package.get("dev"):
+            name = path.removeprefix("node_modules/")
+            yield {"SPDXID": f"SPDXRef-npm-{name.replace('/', '-')}", "name": name, "versionInfo": package["version"],
+                   "downloadLocation": "NOASSERTION", "filesAnalyzed": False,
+                   "licenseConcluded": package["license"], "licenseDeclared": package["license"],
+                   "externalRefs": [{"referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl",
+                                     "referenceLocator": f"pkg:npm/{name}@{package['version']}"}]}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("--epoch", type=int, default=0, help="seconds since 1970 to state as the time of creation")
+    options = parser.parse_args()
+    version = output_of(options.program, "--version").split()[1]
+    parts = [debian_entry(package) for package in sorted({*loaded_packages(options.program), *COMPILED_IN})]
+    parts += bundled_npm()
+    created = datetime.datetime.fromtimestamp(options.epoch, datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
+    own = {"SPDXID": "SPDXRef-vantage", "name": "vantage", "versionInfo": version, "downloadLocation": "NOASSERTION",
+           "filesAnalyzed": False, "licenseConcluded": "MIT", "licenseDeclared": "MIT"}
+    print(json.dumps({
+        "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT",
+        "name": f"vantage-{version}", "documentNamespace": f"https://spdx.org/spdxdocs/vantage-{version}",
+        "creationInfo": {"created": created, "creators": ["Tool: make_sbom.py"]},
+        "documentDescribes": ["SPDXRef-vantage"],
+        "packages": [own, *parts],
+        "relationships": [{"spdxElementId": "SPDXRef-vantage", "relationshipType": "DEPENDS_ON",
+                           "relatedSpdxElement": part["SPDXID"]} for part in parts]}, indent=1))
+
+
+if __name__ == "__main__":
+    main()
