@@ -16,3 +16,8 @@ for target in build/fuzz/fuzz/*_fuzz; do
   rm -r "$corpus"
 done
 scripts/build_docs.sh
+if [[ $(id -u) -eq 0 ]] && command -v debootstrap >/dev/null; then
+  scripts/test_packages.sh
+else
+  echo "packages are not tested: needs root and debootstrap"
+fi

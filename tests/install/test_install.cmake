@@ -19,6 +19,26 @@ if(NOT EXISTS ${SCRATCH}/fan.png)
   message(FATAL_ERROR "the consumer wrote no picture")
 endif()
 
+# The same by pkg-config, and what shells and readers of manuals look for.
+set(ENV{PKG_CONFIG_PATH} ${SCRATCH}/prefix/${LIBDIR}/pkgconfig)
+find_program(PKG_CONFIG NAMES pkg-config pkgconf)
+if(PKG_CONFIG)
+  execute_process(COMMAND ${PKG_CONFIG} --cflags --libs vantage OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE
+                  COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCHALL "[^ ]+" flags "${flags}")
+  run(c++ ${SOURCE}/examples/best_view.cpp ${flags} -o ${SCRATCH}/by_pkg_config)
+  run(${SCRATCH}/by_pkg_config ${SOURCE}/models/fan.ply ${SCRATCH}/again.png)
+  run(${CMAKE_COMMAND} -E compare_files ${SCRATCH}/fan.png ${SCRATCH}/again.png)
+else()
+  message("pkg-config is not installed: vantage.pc is not tested")
+endif()
+foreach(file IN ITEMS man/man1/vantage.1.gz man/man1/vantage-view.1.gz bash-completion/completions/vantage
+        zsh/vendor-completions/_vantage fish/vendor_completions.d/vantage.fish doc/vantage/copyright)
+  if(NOT EXISTS ${SCRATCH}/prefix/share/${file})
+    message(FATAL_ERROR "share/${file} is not installed")
+  endif()
+endforeach()
+
 # The thumbnailer's own command line, as a file manager fills it in.
 file(STRINGS ${SCRATCH}/prefix/share/thumbnailers/vantage.thumbnailer exec REGEX "^Exec=")
 string(REGEX REPLACE "^Exec=vantage " "" exec "${exec}")
