@@ -1,0 +1,132 @@
+"""The pages and help texts hold: commands run, code compiles, links lead somewhere."""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = os.environ.get("VANTAGE", "")
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+COMMANDS = ("view", "skeleton", "map", "score", "compare", "eval", "measures", "render", "thumb", "info", "batch",
+            "results query", "results export", "results diff", "results merge", "figures", "completion")
+# What a reader puts in for the words in capitals.
+STANDS_FOR = {"MODEL": "horse.ply", "FILE": "out.png", "DIR1": "results", "DIR2": "results2", "DIR…": "results",
+              "DIR": "results", "MODELS": "models", "INPUT…": "models", "SAMPLE": "models", "ALL": "all",
+              "PART1": "results", "PART2": "results2", "A": "results", "B": "results2", "SIZE": "64"}
+# Commands that change the machine, wait for a visitor, or need a cluster; each has a test of its own elsewhere.
+ELSEWHERE = re.compile(r"/etc/|fpath|~/|vantage serve|slurm|--shard|--manifest (FILE|-)|view horse.ply --preset paper")
+
+
+def commands_of_pages():
+    for page in PAGES:
+        for line in re.findall(r"^ {4}(vantage .*)$", page.read_text(encoding="utf-8"), re.MULTILINE):
+            yield page.name, re.split(r"  +|  #", line)[0]
+
+
+def commands_of_help():
+    for command in COMMANDS:
+        text = subprocess.run([PROGRAM, *command.split(), "--help"], capture_output=True, check=True, text=True).stdout
+        for line in re.findall(r"^ {2}(.*vantage .*)$", text.partition("Examples:")[2], re.MULTILINE):
+            yield f"{command} --help", line
+
+
+def filled_in(command):
+    command = re.sub(r" \[[^]]*\]", "", command)
+    words = [STANDS_FOR.get(word, word) for word in command.split(" ")]
+    return " ".join(words).replace("jq ", "cat # ") if shutil.which("jq") is None else " ".join(words)
+
+
+class Commands(unittest.TestCase):
+    """Runs them in one folder that holds what they name, a small model under each name."""
+
+    @classmethod
+    def setUpClass(cls):
+        scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(scratch.cleanup)
+        cls.dir = pathlib.Path(scratch.name)
+        small = ROOT / "models/cat_lowpoly.ply"
+        for name in ("horse.ply", "model.ply", "scan.ply", "a.ply", "models/cat.ply", "b/cat.ply"):
+            (cls.dir / name).parent.mkdir(exist_ok=True)
+            shutil.copy(small, cls.dir / name)
+        shutil.copy(ROOT / "models/fan.ply", cls.dir / "models")
+        corners = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))
+        faces = ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))
+        facets = "".join("facet normal 0 0 0\nouter loop\n" +
+                         "".join("vertex %g %g %g\n" % corners[i] for i in face) + "endloop\nendfacet\n"
+                         for face in faces)
+        (cls.dir / "part.stl").write_text(f"solid part\n{facets}endsolid part\n")
+        scene = "".join(f"o {name}\n" + "".join("v %g %g %g\n" % (x + shift, y, z) for x, y, z in corners) +
+                        "".join("f %d %d %d\n" % tuple(i + 1 + first for i in face) for face in faces)
+                        for name, shift, first in (("lamp", 0, 0), ("table", 3, 4)))
+        (cls.dir / "scene.obj").write_text(scene)
+        (cls.dir / "room.obj").write_text(scene)
+        (cls.dir / "views.csv").write_text("dx,dy,dz\n1,0,0\n0,1,1\n")
+        (cls.dir / "cameras.csv").write_text("x,y,z\n5,5,5\n")
+        (cls.dir / "people/views").mkdir(parents=True)
+        for other in ("results2", "all"):
+            subprocess.run([PROGRAM, "batch", "models", "-o", other, "--write", "json", "-q"], cwd=cls.dir, check=True)
+
+    def run_all(self, commands):
+        folder = self.dir / "bin"
+        folder.mkdir(exist_ok=True)
+        if not (folder / "vantage").exists():
+            (folder / "vantage").symlink_to(PROGRAM)
+        env = {**os.environ, "PATH": f"{folder}:{os.environ['PATH']}",
+               # small pictures: what counts here is that the words are right
+               "VANTAGE_SIZE": "48", "VANTAGE_TOUR_SIZE": "48", "VANTAGE_FPS": "2"}
+        count = 0
+        for where, command in commands:
+            if ELSEWHERE.search(command) or command.startswith("vantage eval"):
+                continue
+            count += 1
+            with self.subTest(where=where, command=command):
+                done = subprocess.run(["bash", "-o", "pipefail", "-c", filled_in(command)], cwd=self.dir, env=env,
+                                      capture_output=True, check=False, text=True, timeout=300)
+                self.assertEqual(done.returncode, 0, done.stderr)
+        return count
+
+    def test_commands_of_pages_and_help_run(self):
+        # collections first: later commands ask them
+        first = [("README.md", "vantage batch models/ -o results"), ("docs", "vantage batch models -o sample --jobs 1")]
+        every = dict.fromkeys(command for _, command in [*commands_of_pages(), *commands_of_help()])
+        self.assertGreater(self.run_all(first + [("", command) for command in every]), 30)
+
+    def test_help_shows_an_example_for_every_command(self):
+        self.assertEqual({where.removesuffix(" --help") for where, _ in commands_of_help()}, set(COMMANDS))
+
+
+class Pages(unittest.TestCase):
+
+    def test_links_and_file_names_lead_somewhere(self):
+        for page in PAGES:
+            text = page.read_text(encoding="utf-8")
+            for target in re.findall(r"\]\(([^)#]+)[^)]*\)", text):
+                if not re.match(r"[a-z]+:", target):
+                    self.assertTrue((page.parent / target).exists(), f"{page.name}: {target}")
+            for name in re.findall(r"`((?:docs|scripts|models|examples|bench|tests|src|include)/[a-z0-9_./-]+)`", text):
+                self.assertTrue((ROOT / name).exists(), f"{page.name}: {name}")
+
+    def test_code_compiles(self):
+        blocks = 0
+        for page in PAGES:
+            for code in re.findall(r"^```cpp\n(.*?)^```", page.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL):
+                if "#include" not in code:
+                    continue
+                blocks += 1
+                done = subprocess.run(["c++", "-std=c++20", "-fsyntax-only", "-x", "c++", "-I", ROOT / "include",
+                                       "-isystem", "/usr/include/eigen3", "-"],
+                                      input=code, capture_output=True, check=False, text=True)
+                self.assertEqual(done.returncode, 0, f"{page.name}:\n{code}\n{done.stderr}")
+        self.assertGreater(blocks, 0)
+
+    def test_every_page_is_reached_from_the_readme(self):
+        linked = set(re.findall(r"docs/([\w-]+\.md)", (ROOT / "README.md").read_text(encoding="utf-8")))
+        self.assertEqual({page.name for page in PAGES[1:]} - linked, set())
+
+
+if __name__ == "__main__":
+    unittest.main()
