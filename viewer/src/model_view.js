@@ -153,6 +153,7 @@ export class ModelView {
     this.controls.enablePan = false;
     this.controls.minDistance = 0.2;
     this.controls.maxDistance = 20;
+    this.controls.addEventListener('start', () => this.stop());
     this.controls.addEventListener('change', () => this.moved());
     this.controls.update();
     this.moved();
@@ -185,9 +186,34 @@ export class ModelView {
     this.flight = requestAnimationFrame(step);
   }
 
+  /** Flies a closed round of cameras until it is stopped. */
+  tour(poses, roundMs, onEnd) {
+    this.touring = onEnd;
+    const start = performance.now();
+    const mix = (a, b, share) => new THREE.Vector3(...a).lerp(new THREE.Vector3(...b), share);
+    const step = (now) => {
+      const place = ((((now - start) / roundMs) % 1) + 1) % 1 * poses.length;
+      const from = poses[Math.floor(place) % poses.length];
+      const to = poses[(Math.floor(place) + 1) % poses.length];
+      const share = place - Math.floor(place);
+      const distance = new THREE.Vector3(...from.eye).length();
+      this.view = from;
+      this.camera.position.copy(mix(from.eye, to.eye, share)).setLength(distance);
+      this.camera.up.copy(mix(from.up, to.up, share)).normalize();
+      this.controls.target.copy(mix(from.target, to.target, share));
+      this.setLens(from);
+      this.camera.lookAt(this.controls.target);
+      this.moved();
+      this.flight = requestAnimationFrame(step);
+    };
+    this.flight = requestAnimationFrame(step);
+  }
+
   stop() {
     cancelAnimationFrame(this.flight);
     this.flight = undefined;
+    this.touring?.();
+    this.touring = undefined;
   }
 
   /** The picture's field of view, widened where the window is narrower than the picture. */
@@ -209,6 +235,7 @@ export class ModelView {
       return;
     }
     event.preventDefault();
+    this.stop();
     const offset = this.camera.position.clone().sub(this.controls.target);
     const side = new THREE.Vector3().crossVectors(this.camera.up, offset).normalize();
     offset.applyAxisAngle(this.camera.up, turn[0] * KEY_STEP_RAD).applyAxisAngle(side, turn[1] * KEY_STEP_RAD);
