@@ -102,7 +102,7 @@ std::vector<Channel> drawn(const TriMesh& mesh, const Camera& camera, const Pain
 }  // namespace
 
 void set_quality(RenderOptions& options, Quality quality) {
-  constexpr std::array<std::array<int, 2>, 3> kRays{{{9, 2}, {16, 2}, {64, 4}}};
+  constexpr std::array<std::array<int, 2>, 3> kRays{{{9, 1}, {16, 2}, {64, 4}}};
   options.samples = kRays[static_cast<std::size_t>(quality)][0];
   options.ambient_rays = kRays[static_cast<std::size_t>(quality)][1];
 }

@@ -127,9 +127,25 @@ std::string percent_text(double share) {
 
 /// What mesh saliency makes of the shape.
 struct SaliencyView {
-  ShapeAnalysis shape;
+  std::vector<double> map;  ///< In full.
+  ShapeAnalysis shape;      ///< With the map as it is shown.
   ViewReport report;
 };
+
+/// Saliency has few very high values, beside which all else would be blue: past this share of the
+/// vertices everything is red. [ours]
+constexpr double kShownShare = 0.98;
+
+void clip_for_colours(std::vector<double>& values) {
+  std::vector<double> sorted = values;
+  const auto last = static_cast<std::ptrdiff_t>(kShownShare * static_cast<double>(sorted.size()));
+  const auto place = sorted.begin() + std::min<std::ptrdiff_t>(last, std::ssize(sorted) - 1);
+  std::nth_element(sorted.begin(), place, sorted.end());
+  const double most = *place;
+  for (double& value : values) {
+    value = std::min(value, most);
+  }
+}
 
 SaliencyView saliency_view(const ShapeAnalysis& shape, const ViewReport& report,
                            const ViewOptions& options, const RunContext& run) {
@@ -137,8 +153,10 @@ SaliencyView saliency_view(const ShapeAnalysis& shape, const ViewReport& report,
   ViewOptions other = options;
   other.method = method;
   other.view_set.reset();
-  SaliencyView result{with_map(shape, vertex_map(shape, options, method, run.part(0.0, 0.3))), {}};
+  SaliencyView result{vertex_map(shape, options, method, run.part(0.0, 0.3)), {}, {}};
+  result.shape = with_map(shape, result.map);
   result.report = find_views(result.shape, report.up, other, run.part(0.3, 1.0));
+  clip_for_colours(result.shape.map.of_vertex);
   return result;
 }
 
@@ -230,9 +248,10 @@ std::vector<Figure> paper_figures(const ShapeAnalysis& shape, const ViewReport& 
   look.background = Rgb8{255, 255, 255};
   RunContext quiet = run;
   quiet.report = nullptr;
-  const auto sphere = [&](const ShapeAnalysis& of, const char* name) {
+  const auto sphere = [&](const std::vector<double>& values, const std::vector<double>& shown,
+                          const char* name) {
     return with_caption(
-        sphere_panel(of, of.map.of_vertex, report.best.direction, report.up, options, look, quiet),
+        sphere_panel(shape, values, shown, report.best.direction, report.up, options, look, quiet),
         std::string(name) + " seen from each direction");
   };
   std::vector<Figure> figures;
@@ -246,9 +265,11 @@ std::vector<Figure> paper_figures(const ShapeAnalysis& shape, const ViewReport& 
        side_by_side({with_caption(plain, "model"), with_caption(map, "KSSM"),
                      with_caption(best.plain(Picture::Skeleton, options), "skeleton")}),
        {}});
-  figures.push_back({"figure-6-spheres",
-                     side_by_side({sphere(shape, "KSSM"), sphere(saliency.shape, "mesh saliency")}),
-                     {}});
+  figures.push_back(
+      {"figure-6-spheres",
+       side_by_side({sphere(shape.map.of_vertex, shape.map.of_vertex, "KSSM"),
+                     sphere(saliency.map, saliency.shape.map.of_vertex, "mesh saliency")}),
+       {}});
   run.advance("figures", 0.9);
   const auto add_choices = [&](const char* name, const char* kind, const Panels& kssm,
                                const ReportedView& ours, const ReportedView& theirs) {

@@ -96,15 +96,16 @@ class Ball {
 
   /// Draws the visible part of the arc from a to b.
   void arc(LineDrawing& drawing, const Vec3& a, const Vec3& b, double width, Rgb8 colour) const {
-    constexpr int kPieces = 12;
+    constexpr double kPieceRad = 0.12;  // straight pieces of an arc; a fiftieth of a turn
+    const int pieces = 1 + static_cast<int>((b - a).norm() / kPieceRad);
     std::vector<Spot> piece;
-    for (int i = 0; i <= kPieces; ++i) {
-      const double share = static_cast<double>(i) / kPieces;
+    for (int i = 0; i <= pieces; ++i) {
+      const double share = static_cast<double>(i) / pieces;
       const Vec3 d = ((1.0 - share) * a + share * b).normalized();
       if (shows(d)) {
         piece.push_back(at(d));
       }
-      if (piece.size() > 1 && (!shows(d) || i == kPieces)) {
+      if (piece.size() > 1 && (!shows(d) || i == pieces)) {
         drawing.line(piece, width, colour);
       }
       if (!shows(d)) {

@@ -22,7 +22,7 @@ namespace {
 constexpr int kLevel = 3;
 /// Lengths over the radius of the enclosing sphere. [ours]
 constexpr double kSphere = 1.12;  ///< Of the worst direction.
-constexpr double kRaise = 0.45;   ///< How much further out the best one is.
+constexpr double kRaise = 0.32;   ///< How much further out the best one is.
 constexpr double kWire = 0.0065;  ///< Half the thickness of a wire.
 constexpr double kDistance = 7.0;
 constexpr std::size_t kSides = 5;  ///< Of a wire.
@@ -53,9 +53,9 @@ void add_wire(TriMesh& mesh, std::vector<Rgb8>& colours, const std::array<Vec3, 
 
 }  // namespace
 
-Image sphere_panel(const ShapeAnalysis& shape, std::span<const double> map, const Vec3& from,
-                   UpAxis up, const ViewOptions& options, const RenderOptions& look,
-                   const RunContext& run) {
+Image sphere_panel(const ShapeAnalysis& shape, std::span<const double> map,
+                   std::span<const double> shown, const Vec3& from, UpAxis up,
+                   const ViewOptions& options, const RenderOptions& look, const RunContext& run) {
   const VertexVisibility visibility(shape.surface, shape.sides);
   const ScoringCamera camera = scoring_camera(shape, options);
   const ViewScorer scorer(visibility, map, camera);
@@ -70,7 +70,7 @@ Image sphere_panel(const ShapeAnalysis& shape, std::span<const double> map, cons
     nodes.push_back(shape.sphere.centre + radius * (kSphere + kRaise * height) * set.directions[i]);
   }
   TriMesh mesh = shape.surface;
-  std::vector<Rgb8> colours = colour_map(map);
+  std::vector<Rgb8> colours = colour_map(shown);
   const std::vector<Rgb8> of_node = colour_map(scores);
   for (const Triangle& t : set.triangles) {
     for (std::size_t c = 0; c < 3; ++c) {

@@ -10,7 +10,7 @@ const PLAIN = new THREE.Color(0xc4c0ba);
 const BONE = new THREE.Color(0xc81e28);
 // Creases are worth splitting vertices for on coarse models, CAD parts mostly.
 const CREASE_LIMIT = 60000;
-const CREASE_RAD = Math.PI / 5;
+const CREASE_RAD = (50 * Math.PI) / 180; // bends of scans up to this stay smooth, right angles sharp
 const FLIGHT_MS = 700;
 const KEY_STEP_RAD = Math.PI / 36;
 

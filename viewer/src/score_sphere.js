@@ -5,7 +5,7 @@ import { asBytes } from './decode.js';
 
 const RAISE = 0.25; // of the radius, for the best score
 const SIZE = 170; // px
-const MARKS = { best: 0x1a9641, worst: 0xd7191c, other: 0x333333 };
+const MARKS = { best: 0x1a9641, worst: 0xd7191c, other: 0x8a8f98 };
 
 export class ScoreSphere {
   constructor(canvas, data, onPick) {
