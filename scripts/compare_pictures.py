@@ -60,6 +60,7 @@ scene.world.node_tree.nodes['Background'].inputs[0].default_value = (1, 1, 1, 1)
 scene.world.node_tree.nodes['Background'].inputs[1].default_value = 0.6
 scene.render.engine = 'CYCLES'
 scene.cycles.samples = 32
+scene.cycles.use_denoising = False  # Debian builds it without a denoiser
 scene.view_settings.view_transform = 'Standard'
 scene.render.film_transparent = True
 scene.render.resolution_x = scene.render.resolution_y = {side}

@@ -177,6 +177,7 @@ Scene::Scene(const TriMesh& mesh, const Camera& camera, const Paint& paint,
   }
   run.check();
   surface_.emplace(mesh_, std::move(opacity));
+  mask_.emplace(mesh_, *rays_, pixel_, options.width, options.height);
   std::optional<Floor> floor;
   if (options.ground) {
     ground_.emplace(mesh_, *surface_, options.up.normalized(), kOcclusionReach * reach, run);
@@ -230,6 +231,12 @@ SceneBand Scene::band(int first_row, int rows, const RunContext& run) const {
   return band;
 }
 
+RayHit Scene::nearest(const PictureRay& ray, int x, int y) const {
+  return ray.can_hit && mask_->may_show(x, y)
+             ? surface_->closest_hit(ray.origin.cast<float>(), ray.direction.cast<float>())
+             : RayHit{};
+}
+
 Vec3 Scene::to_camera(const Vec3& vector) const {
   return {vector.dot(rays_->right()), vector.dot(rays_->up()), vector.dot(rays_->back())};
 }
@@ -277,9 +284,7 @@ std::size_t Scene::band_index(int x, int y, const SceneBand& band) const {
 SurfaceProbe Scene::probe(int x, int y) const {
   SurfaceProbe probe;
   const PictureRay ray = rays_->ray(x + 0.5, y + 0.5);
-  const RayHit hit =
-      ray.can_hit ? surface_->closest_hit(ray.origin.cast<float>(), ray.direction.cast<float>())
-                  : RayHit{};
+  const RayHit hit = nearest(ray, x, y);
   if (hit) {
     const Place place = place_of(ray, hit);
     const std::size_t rays = static_cast<std::size_t>(options_.ambient_rays) * pattern_.size();
@@ -344,7 +349,7 @@ Light Scene::sample(const PictureRay& ray, int x, int y, std::size_t index,
   if (!ray.can_hit) {
     return light;
   }
-  const RayHit hit = surface_->closest_hit(ray.origin.cast<float>(), ray.direction.cast<float>());
+  const RayHit hit = nearest(ray, x, y);
   const double hit_t = hit ? static_cast<double>(hit.t) : std::numeric_limits<double>::infinity();
   const double crease_t =
       creases_ ? creases_->closest_hit(ray, x, y).t : std::numeric_limits<double>::infinity();
@@ -398,7 +403,8 @@ Vec3 Scene::background(int y) const {
 
 Light Scene::pixel(int x, int y, const SceneBand& band) const {
   Light sum;
-  for (std::size_t index = 0; index < pattern_.size(); ++index) {
+  const bool is_empty = !mask_->may_show(x, y) && !tubes_ && !creases_ && !ground_;
+  for (std::size_t index = 0; index < pattern_.size() && !is_empty; ++index) {
     const PictureRay ray = rays_->ray(x + 0.5 + pattern_[index][0], y + 0.5 + pattern_[index][1]);
     const Light light = sample(ray, x, y, index, band);
     sum.colour += light.colour;

@@ -17,6 +17,7 @@
 #include "render/picture_rays.h"
 #include "render/shading.h"
 #include "render/skin.h"
+#include "render/tile_mask.h"
 #include "render/tubes.h"
 #include "spatial/ray_scene.h"
 
@@ -74,6 +75,7 @@ class Scene {
                                 const SceneBand& band) const;
   [[nodiscard]] std::size_t band_index(int x, int y, const SceneBand& band) const;
   [[nodiscard]] double shadow(const PictureRay& ray, double t, int x, int y) const;
+  [[nodiscard]] RayHit nearest(const PictureRay& ray, int x, int y) const;
   [[nodiscard]] Vec3 to_camera(const Vec3& vector) const;
   [[nodiscard]] Skin::Shown shown_at(const RayHit& hit) const;
   [[nodiscard]] Light surface_light(const PictureRay& ray, const RayHit& hit, int x, int y,
@@ -90,6 +92,7 @@ class Scene {
   std::vector<std::array<double, 2>> pattern_;
   std::optional<Skin> skin_{};
   std::optional<RayScene> surface_{};
+  std::optional<TileMask> mask_{};
   std::optional<PictureRays> rays_{};
   std::optional<Occlusion> occlusion_{};
   std::optional<Ground> ground_{};

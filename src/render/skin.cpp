@@ -56,25 +56,38 @@ Uv transformed(const std::array<double, 6>& rows, const std::array<float, 2>& uv
 Skin::Skin(const Appearance& appearance, const TriMesh& mesh, double spacing)
     : appearance_(&appearance), mesh_(&mesh), spacing_(spacing) {
   check_fit(appearance, mesh);
-  pyramids_.reserve(appearance.textures.size());
-  for (const Texture& texture : appearance.textures) {
-    pyramids_.emplace_back(texture);
+  pyramids_.resize(2 * appearance.textures.size());
+  for (const Material& material : appearance.materials) {
+    if (material.texture && !pyramids_[pyramid_of(material)]) {
+      pyramids_[pyramid_of(material)].emplace(appearance.textures[*material.texture],
+                                              material.alpha == AlphaMode::Opaque);
+    }
   }
   has_openings_ =
       std::any_of(appearance.materials.begin(), appearance.materials.end(),
                   [](const Material& material) { return material.alpha != AlphaMode::Opaque; });
 }
 
+/// A texture may be shared by materials that mean its opacity and others that do not.
+std::size_t Skin::pyramid_of(const Material& material) {
+  return 2 * std::size_t{*material.texture} + (material.alpha == AlphaMode::Opaque ? 1 : 0);
+}
+
 Texel Skin::texel(const Material& material, std::uint32_t face, float u, float v) const {
+  // Faces without coordinates show the mean of the picture: wood is still brown.
+  constexpr float kCoarsest = 100.0F;
+  const TexturePyramid& pyramid = *pyramids_[pyramid_of(material)];
+  if (appearance_->uv_of_triangle.empty()) {
+    return pyramid.at(0.5F, 0.5F, kCoarsest);
+  }
   const Triangle& corners = appearance_->uv_of_triangle[face];
   std::array<Uv, 3> uvs{};
   for (std::size_t c = 0; c < 3; ++c) {
     if (corners[c] == Appearance::kNone) {
-      return {Vec3f::Ones(), 1.0F};
+      return pyramid.at(0.5F, 0.5F, kCoarsest);
     }
     uvs[c] = transformed(material.uv_transform, appearance_->uvs[corners[c]]);
   }
-  const TexturePyramid& pyramid = pyramids_[*material.texture];
   // Texels across a sample: the root of the texels that lie on the face's area.
   const double texels = std::abs((uvs[1][0] - uvs[0][0]) * (uvs[2][1] - uvs[0][1]) -
                                  (uvs[2][0] - uvs[0][0]) * (uvs[1][1] - uvs[0][1])) *
@@ -103,7 +116,7 @@ Skin::Shown Skin::at(std::uint32_t face, float u, float v) const {
   shown.unlit = material.unlit;
   shown.colour = {material.colour[0], material.colour[1], material.colour[2]};
   double opacity = material.opacity;
-  if (material.texture && !appearance_->uv_of_triangle.empty()) {
+  if (material.texture) {
     const Texel texel = this->texel(material, face, u, v);
     shown.colour = shown.colour.cwiseProduct(texel.colour.cast<double>());
     opacity *= static_cast<double>(texel.opacity);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "vantage/core/vec3.h"
@@ -40,7 +42,9 @@ class Skin {
   const TriMesh* mesh_;
   double spacing_;
   bool has_openings_ = false;
-  std::vector<TexturePyramid> pyramids_{};
+  [[nodiscard]] static std::size_t pyramid_of(const Material& material);
+
+  std::vector<std::optional<TexturePyramid>> pyramids_{};  ///< See pyramid_of().
 };
 
 }  // namespace vantage

@@ -44,7 +44,8 @@ float near_origin(float u, TextureWrap wrap) {
 
 }  // namespace
 
-TexturePyramid::TexturePyramid(const Texture& texture) : texture_(&texture) {
+TexturePyramid::TexturePyramid(const Texture& texture, bool opaque)
+    : texture_(&texture), opaque_(opaque) {
   while (halves_.empty() ? std::max(width(), height()) > 1
                          : std::max(halves_.back().width, halves_.back().height) > 1) {
     add_half();
@@ -86,7 +87,7 @@ TexturePyramid::Premultiplied TexturePyramid::fetch(std::size_t level, int x, in
   if (level == 0) {
     const std::uint8_t* pixel = texture_->image.pixel(x, y);
     const std::array<float, 256>& table = linear_table();
-    const float alpha = static_cast<float>(pixel[3]) / 255.0F;
+    const float alpha = opaque_ ? 1.0F : static_cast<float>(pixel[3]) / 255.0F;
     return {alpha * table[pixel[0]], alpha * table[pixel[1]], alpha * table[pixel[2]], alpha};
   }
   const Level& half = halves_[level - 1];

@@ -22,8 +22,9 @@ struct Texel {
 /// Colours are weighted by opacity on the way: what cannot be seen has no say.
 class TexturePyramid {
  public:
-  /// \param texture must outlive this; at least one pixel.
-  explicit TexturePyramid(const Texture& texture);
+  /// \param texture must outlive this; at least one pixel. \param opaque the texture's opacity means
+  /// nothing: files hide other things in it, and colours where it is 0.
+  explicit TexturePyramid(const Texture& texture, bool opaque = false);
 
   /// What is seen at (u, v) by a sample that covers 2^level texels across, mixed between texels and
   /// between sizes; level ≤ 0 is a single texel or less.
@@ -48,6 +49,7 @@ class TexturePyramid {
   void add_half();
 
   const Texture* texture_;
+  bool opaque_;
   std::vector<Level> halves_{};  ///< Level 1, 2, …; level 0 is the image.
 };
 

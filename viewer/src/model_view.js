@@ -11,6 +11,8 @@ const BONE = new THREE.Color(0xc81e28);
 // Creases are worth splitting vertices for on coarse models, CAD parts mostly.
 const CREASE_LIMIT = 60000;
 const CREASE_RAD = (50 * Math.PI) / 180; // bends of scans up to this stay smooth, right angles sharp
+// Contracted surfaces are drawn thicker by so much on all sides, lest limbs that have become lines vanish.
+const THICKENING = 0.006;
 const FLIGHT_MS = 700;
 const KEY_STEP_RAD = Math.PI / 36;
 
@@ -76,7 +78,9 @@ export class ModelView {
   addHistory(data) {
     const levels = data.history.levels.map(asPositions);
     const geometry = surface(data.history, levels[0].slice(), asBytes(data.colours));
-    this.history = { levels, mesh: new THREE.Mesh(geometry, this.material) };
+    geometry.computeVertexNormals();
+    const normals = geometry.attributes.normal.array.slice();
+    this.history = { levels, normals, mesh: new THREE.Mesh(geometry, this.material) };
     this.history.mesh.visible = false;
     this.scene.add(this.history.mesh);
   }
@@ -121,7 +125,8 @@ export class ModelView {
 
   /** @param level between two levels the positions are mixed. */
   setLevel(level) {
-    const { levels, mesh } = this.history;
+    const { levels, normals, mesh } = this.history;
+    const thickness = THICKENING * Math.min(1, level);
     mesh.visible = level > 0;
     this.mesh.visible = !mesh.visible;
     if (mesh.visible) {
@@ -130,7 +135,7 @@ export class ModelView {
       const share = level - low;
       const to = mesh.geometry.attributes.position;
       for (let i = 0; i < to.array.length; ++i) {
-        to.array[i] = levels[low][i] * (1 - share) + levels[high][i] * share;
+        to.array[i] = levels[low][i] * (1 - share) + levels[high][i] * share + thickness * normals[i];
       }
       to.needsUpdate = true;
       mesh.geometry.computeVertexNormals();

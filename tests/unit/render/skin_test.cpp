@@ -132,6 +132,12 @@ TEST(Skin, VertexColoursMultiplyTheMaterial) {
   EXPECT_THAT(pixel_of(image, 16, 16), ElementsAre(0, srgb_of_linear(0.5), 0, kOn));
 }
 
+TEST(Skin, FacesWithoutCoordinatesShowTheMeanOfTheTexture) {
+  Square square({kOn, 0, 0, kOn, kOn, 0, 0, kOn, 0, 0, 0, kOn, 0, 0, 0, kOn});
+  square.appearance.uv_of_triangle.clear();
+  EXPECT_NEAR(picture(square, small()).pixel(4, 28)[0], srgb_of_linear(0.5), 1);
+}
+
 TEST(Skin, RefusesMaterialsOfAnotherMesh) {
   Square square(std::vector<std::uint8_t>(16, kOn));
   square.appearance.material_of_triangle = {0, 7};
