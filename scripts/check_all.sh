@@ -15,4 +15,5 @@ for target in build/fuzz/fuzz/*_fuzz; do
   "$target" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=10 "$corpus" "fuzz/corpus/${name%%_*}"
   rm -r "$corpus"
 done
+scripts/check_without_npm.sh
 scripts/build_docs.sh

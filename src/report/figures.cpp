@@ -174,6 +174,47 @@ Image choices(const Panels& kssm, const Panels& saliency, const ViewOptions& opt
        with_caption(saliency.plain(Picture::Map, options), "mesh saliency")});
 }
 
+/// Figures 1, 2 and 3; the last panel is the map.
+std::vector<Figure> sequences(const ShapeAnalysis& shape, const Panels& best, const Image& map,
+                              const RunContext& run) {
+  std::vector<Image> contraction;
+  std::vector<Image> displacement;
+  std::vector<Image> shares;
+  const std::vector<std::size_t> levels = chosen_levels(shape.history.level_count());
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    run.advance("figures", static_cast<double>(i) / static_cast<double>(levels.size()));
+    const std::string level = "level " + std::to_string(levels[i]);
+    contraction.push_back(with_caption(best.level(levels[i], {}), level));
+    displacement.push_back(
+        with_caption(best.level(levels[i], shape.map.displacement[levels[i]]), level));
+    shares.push_back(with_caption(best.field(share_of_level(shape.map, levels[i])), level));
+  }
+  shares.push_back(with_caption(map, "KSSM, the sum of all levels"));
+  return {{"figure-1-contraction", side_by_side(contraction), {}},
+          {"figure-2-displacement", side_by_side(displacement), {}},
+          {"figure-3-levels", side_by_side(shares), {}}};
+}
+
+/// Figure 6.
+Figure sphere_figure(const ShapeAnalysis& shape, const SaliencyView& saliency,
+                     const ViewReport& report, const ViewOptions& options, const RunContext& run) {
+  RenderOptions look;
+  set_quality(look, Quality::Normal);
+  look.width = options.width;
+  look.height = options.height;
+  look.background = Rgb8{255, 255, 255};
+  const auto panel = [&](const std::vector<double>& values, const std::vector<double>& shown,
+                         const char* name) {
+    return with_caption(
+        sphere_panel(shape, values, shown, report.best.direction, report.up, options, look, run),
+        std::string(name) + " seen from each direction");
+  };
+  return {"figure-6-spheres",
+          side_by_side({panel(shape.map.of_vertex, shape.map.of_vertex, "KSSM"),
+                        panel(saliency.map, saliency.shape.map.of_vertex, "mesh saliency")}),
+          {}};
+}
+
 Figure rapid_figure(const ShapeAnalysis& shape, const ViewReport& report,
                     const ViewOptions& options, const RunContext& run) {
   const VertexVisibility visibility(shape.surface, shape.sides);
@@ -225,51 +266,20 @@ std::vector<Figure> paper_figures(const ShapeAnalysis& shape, const ViewReport& 
   }
   const Panels best(shape, report.best.picture, options, run);
   const Panels worst(shape, report.worst.picture, options, run);
-  std::vector<Image> contraction;
-  std::vector<Image> displacement;
-  std::vector<Image> shares;
-  const std::vector<std::size_t> levels = chosen_levels(shape.history.level_count());
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    run.advance("figures", 0.5 * static_cast<double>(i) / static_cast<double>(levels.size()));
-    const std::string level = "level " + std::to_string(levels[i]);
-    contraction.push_back(with_caption(best.level(levels[i], {}), level));
-    displacement.push_back(
-        with_caption(best.level(levels[i], shape.map.displacement[levels[i]]), level));
-    shares.push_back(with_caption(best.field(share_of_level(shape.map, levels[i])), level));
-  }
-  const Image plain = best.plain(Picture::Plain, options);
   const Image map = best.plain(Picture::Map, options);
-  shares.push_back(with_caption(map, "KSSM, the sum of all levels"));
+  std::vector<Figure> figures = sequences(shape, best, map, run.part(0.0, 0.5));
   const SaliencyView saliency = saliency_view(shape, report, options, run.part(0.5, 0.7));
-  RenderOptions look;
-  set_quality(look, Quality::Normal);
-  look.width = options.width;
-  look.height = options.height;
-  look.background = Rgb8{255, 255, 255};
   RunContext quiet = run;
   quiet.report = nullptr;
-  const auto sphere = [&](const std::vector<double>& values, const std::vector<double>& shown,
-                          const char* name) {
-    return with_caption(
-        sphere_panel(shape, values, shown, report.best.direction, report.up, options, look, quiet),
-        std::string(name) + " seen from each direction");
-  };
-  std::vector<Figure> figures;
-  figures.push_back({"figure-1-contraction", side_by_side(contraction), {}});
-  figures.push_back({"figure-2-displacement", side_by_side(displacement), {}});
-  figures.push_back({"figure-3-levels", side_by_side(shares), {}});
-  figures.push_back(rapid_figure(shape, report, options, run));
+  figures.push_back(rapid_figure(shape, report, options, quiet));
   run.advance("figures", 0.8);
   figures.push_back(
       {"figure-5-skeleton",
-       side_by_side({with_caption(plain, "model"), with_caption(map, "KSSM"),
+       side_by_side({with_caption(best.plain(Picture::Plain, options), "model"),
+                     with_caption(map, "KSSM"),
                      with_caption(best.plain(Picture::Skeleton, options), "skeleton")}),
        {}});
-  figures.push_back(
-      {"figure-6-spheres",
-       side_by_side({sphere(shape.map.of_vertex, shape.map.of_vertex, "KSSM"),
-                     sphere(saliency.map, saliency.shape.map.of_vertex, "mesh saliency")}),
-       {}});
+  figures.push_back(sphere_figure(shape, saliency, report, options, quiet));
   run.advance("figures", 0.9);
   const auto add_choices = [&](const char* name, const char* kind, const Panels& kssm,
                                const ReportedView& ours, const ReportedView& theirs) {

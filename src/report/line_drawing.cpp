@@ -119,41 +119,52 @@ std::string LineDrawing::svg() const {
   return text + "</g>\n</svg>\n";
 }
 
+double LineDrawing::distance(const Spot& spot, const Shape& shape) {
+  if (shape.width == 0.0) {
+    return distance_to_area(spot, shape.points);
+  }
+  // A joint of two pieces is covered by both; the nearer one counts.
+  double nearest = distance_to(spot, shape.points.front(), shape.points.front());
+  for (std::size_t i = 1; i < shape.points.size(); ++i) {
+    nearest = std::min(nearest, distance_to(spot, shape.points[i - 1], shape.points[i]));
+  }
+  return nearest;
+}
+
+void LineDrawing::draw(const Shape& shape, Image& image) const {
+  const double reach = 0.5 * shape.width + 1.0;
+  const auto low = [&](std::size_t axis) {
+    double least = shape.points.front()[axis];
+    for (const Spot& point : shape.points) {
+      least = std::min(least, point[axis]);
+    }
+    return std::max(0, static_cast<int>(std::floor(least - reach)));
+  };
+  const auto high = [&](std::size_t axis, int end) {
+    double most = shape.points.front()[axis];
+    for (const Spot& point : shape.points) {
+      most = std::max(most, point[axis]);
+    }
+    return std::min(end, static_cast<int>(std::ceil(most + reach)));
+  };
+  const int right = high(0, width_);
+  const int bottom = high(1, height_);
+  for (int y = low(1); y < bottom; ++y) {
+    for (int x = low(0); x < right; ++x) {
+      const double inside = 0.5 * shape.width - distance({x + 0.5, y + 0.5}, shape);
+      const double coverage = std::clamp(inside + 0.5, 0.0, 1.0);
+      if (coverage > 0.0) {
+        blend(image.rgba.data() + (image.pixel(x, y) - image.rgba.data()), shape.colour, coverage);
+      }
+    }
+  }
+}
+
 Image LineDrawing::image() const {
   const auto pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   Image image{width_, height_, std::vector<std::uint8_t>(4 * pixels, 255)};
   for (const Shape& shape : shapes_) {
-    const bool is_area = shape.width == 0.0;
-    const std::size_t pieces = is_area ? 1 : std::max<std::size_t>(1, shape.points.size() - 1);
-    // A joint of two pieces is covered by both: the larger coverage counts, so the pieces of a
-    // stroke are looked at together within its box.
-    Spot low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    Spot high{-low[0], -low[1]};
-    for (const Spot& point : shape.points) {
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        low[axis] = std::min(low[axis], point[axis]);
-        high[axis] = std::max(high[axis], point[axis]);
-      }
-    }
-    const double reach = 0.5 * shape.width + 1.0;
-    const auto from = [&](double value) { return static_cast<int>(std::floor(value - reach)); };
-    const auto to = [&](double value) { return static_cast<int>(std::ceil(value + reach)); };
-    for (int y = std::max(0, from(low[1])); y < std::min(height_, to(high[1])); ++y) {
-      for (int x = std::max(0, from(low[0])); x < std::min(width_, to(high[0])); ++x) {
-        const Spot spot{x + 0.5, y + 0.5};
-        double distance = is_area ? distance_to_area(spot, shape.points)
-                                  : std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; !is_area && i < pieces; ++i) {
-          const Spot& end = shape.points[std::min(i + 1, shape.points.size() - 1)];
-          distance = std::min(distance, distance_to(spot, shape.points[i], end));
-        }
-        const double coverage = std::clamp(0.5 * shape.width - distance + 0.5, 0.0, 1.0);
-        if (coverage > 0.0) {
-          blend(image.rgba.data() + (image.pixel(x, y) - image.rgba.data()), shape.colour,
-                std::min(1.0, coverage));
-        }
-      }
-    }
+    draw(shape, image);
   }
   return image;
 }

@@ -47,6 +47,10 @@ class LineDrawing {
     Rgb8 colour{};
   };
 
+  /// Distance of a spot from a line's middle or an area's border, below 0 inside the latter.
+  [[nodiscard]] static double distance(const Spot& spot, const Shape& shape);
+  void draw(const Shape& shape, Image& image) const;
+
   int width_;
   int height_;
   std::vector<Shape> shapes_{};
