@@ -52,6 +52,25 @@ TexturePyramid::TexturePyramid(const Texture& texture, bool opaque)
   }
 }
 
+std::array<std::uint16_t, 4> TexturePyramid::mean(std::size_t level, int x0, int x1, int y0,
+                                                  int y1) const {
+  Premultiplied sum{};
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) {
+      const Premultiplied texel = fetch(level, x, y);
+      for (std::size_t c = 0; c < 4; ++c) {
+        sum[c] += texel[c];
+      }
+    }
+  }
+  const float share = kFull / static_cast<float>((x1 - x0) * (y1 - y0));
+  std::array<std::uint16_t, 4> rounded{};
+  for (std::size_t c = 0; c < 4; ++c) {
+    rounded[c] = static_cast<std::uint16_t>(std::min(kFull, share * sum[c] + 0.5F));
+  }
+  return rounded;
+}
+
 void TexturePyramid::add_half() {
   const std::size_t above = halves_.size();
   const int wide = above == 0 ? width() : halves_.back().width;
@@ -61,23 +80,8 @@ void TexturePyramid::add_half() {
   for (int y = 0; y < half.height; ++y) {
     for (int x = 0; x < half.width; ++x) {
       // An odd last row or column is shared by what is beside it.
-      const int x1 = x + 1 == half.width ? wide : 2 * x + 2;
-      const int y1 = y + 1 == half.height ? high : 2 * y + 2;
-      Premultiplied sum{};
-      for (int j = 2 * y; j < y1; ++j) {
-        for (int i = 2 * x; i < x1; ++i) {
-          const Premultiplied texel = fetch(above, i, j);
-          for (std::size_t c = 0; c < 4; ++c) {
-            sum[c] += texel[c];
-          }
-        }
-      }
-      const float share = kFull / static_cast<float>((x1 - 2 * x) * (y1 - 2 * y));
-      std::array<std::uint16_t, 4> mean{};
-      for (std::size_t c = 0; c < 4; ++c) {
-        mean[c] = static_cast<std::uint16_t>(std::min(kFull, share * sum[c] + 0.5F));
-      }
-      half.texels.push_back(mean);
+      half.texels.push_back(mean(above, 2 * x, x + 1 == half.width ? wide : 2 * x + 2, 2 * y,
+                                 y + 1 == half.height ? high : 2 * y + 2));
     }
   }
   halves_.push_back(std::move(half));

@@ -46,6 +46,9 @@ class TexturePyramid {
 
   [[nodiscard]] Premultiplied fetch(std::size_t level, int x, int y) const;
   [[nodiscard]] Premultiplied bilinear(std::size_t level, float u, float v, bool nearest) const;
+  /// Mean over columns [x0, x1) and rows [y0, y1) of a level.
+  [[nodiscard]] std::array<std::uint16_t, 4> mean(std::size_t level, int x0, int x1, int y0,
+                                                  int y1) const;
   void add_half();
 
   const Texture* texture_;
