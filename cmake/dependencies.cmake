@@ -3,6 +3,7 @@ find_package(Eigen3 3.4 REQUIRED NO_MODULE)   # linear algebra, sparse Cholesky 
 find_package(TBB REQUIRED)                    # threads (Apache-2.0)
 find_package(embree 3 REQUIRED)               # bounding volume hierarchy (Apache-2.0)
 find_package(PNG REQUIRED)                    # pictures (libpng)
+find_package(JPEG REQUIRED)                   # textures (IJG, BSD-3: libjpeg-turbo)
 find_package(ZLIB REQUIRED)                   # checksums of APNG (zlib)
 find_library(WEBP_LIBRARY webp REQUIRED)      # moving pictures (BSD-3)
 find_library(WEBP_MUX_LIBRARY webpmux REQUIRED)

@@ -11,8 +11,9 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    const vantage::Model model = vantage::parse_model(
-        std::string_view(reinterpret_cast<const char*>(data), size), VANTAGE_FUZZ_NAME);
+    const vantage::Model model =
+        vantage::parse_model(std::string_view(reinterpret_cast<const char*>(data), size),
+                             VANTAGE_FUZZ_NAME, {}, {.appearance = true});
     for (const vantage::Triangle& triangle : model.mesh.triangles) {
       for (const std::uint32_t v : triangle) {
         if (v >= model.mesh.positions.size()) {

@@ -15,6 +15,7 @@ for target in build/fuzz/fuzz/*_fuzz; do
   "$target" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=10 "$corpus" "fuzz/corpus/${name%%_*}"
   rm -r "$corpus"
 done
+scripts/check_without_npm.sh
 scripts/build_docs.sh
 if [[ $(id -u) -eq 0 ]] && command -v debootstrap >/dev/null; then
   scripts/test_packages.sh

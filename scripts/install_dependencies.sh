@@ -4,7 +4,7 @@
 #   check  also formatter, linter, sanitizer runtimes, Doxygen
 set -euo pipefail
 
-build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libembree-dev libpng-dev nlohmann-json3-dev
+build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libembree-dev libpng-dev libjpeg-dev nlohmann-json3-dev
        libcli11-dev libtinygltf-dev libmetis-dev libnanoflann-dev libmeshoptimizer-dev
        libwebp-dev zlib1g-dev libsqlite3-dev libarchive-dev libsodium-dev
        libcpp-httplib-dev libssl-dev libbrotli-dev)

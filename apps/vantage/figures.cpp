@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/report/figures.h"
 
+#include <chrono>
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -13,42 +16,90 @@
 #include "method_flags.h"
 #include "output_folder.h"
 #include "terminal.h"
+#include "view_set_flags.h"
 
 namespace vantage::cli {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Views on the sheet unless said otherwise. [ours]
+constexpr int kSheetViews = 6;
+
 struct FiguresCommand {
-  std::string model{};
+  std::vector<std::string> models{};
   std::string folder{};
   MethodFlags method{};
+  ViewSetFlags several{};
+  nlohmann::ordered_json files = nlohmann::ordered_json::array();
 
   void add_flags(CLI::App& app, Session& session) {
-    app.add_option("MODEL", model, "file to read, or -")->required();
+    app.add_option("MODEL", models, "files to read, or -; several get a folder each")->required();
     app.add_option("-o,--output", folder, "folder for the figures")->required();
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
+    several.add_set_to(app);
     add_common_flags(app, session.flags);
   }
 
-  void run(Session& session) const {
-    const ViewOptions options = session.reading([&] { return method.resolve(); });
-    const RunContext run = session.run();
-    const Model loaded = session.load(model);
-    const ShapeAnalysis shape = analyse_shape(loaded, options, run.part(0.0, 0.4));
-    const ViewReport report =
-        find_views(shape, choose_up(loaded, shape, options), options, run.part(0.4, 0.6));
-    const std::vector<Figure> figures = paper_figures(shape, report, options, run.part(0.6, 1.0));
-    make_folder(folder);
-    nlohmann::ordered_json files = nlohmann::ordered_json::array();
-    for (const Figure& figure : figures) {
-      const std::string file = (std::filesystem::path(folder) / (figure.name + ".png")).string();
-      write_file(file, png_bytes(figure.image));
-      files.push_back(file);
-      session.tell(printable(file));
+  void run(Session& session) {
+    ViewOptions options = session.reading([&] { return method.resolve(); });
+    options.view_set = several.request_or(kSheetViews);
+    std::vector<StageTimes> times;
+    for (const std::string& model : models) {
+      times.push_back(draw(session, model, options));
     }
+    write(session, std::filesystem::path(folder) / "table-1-times.csv", times_csv(times));
+    write(session, std::filesystem::path(folder) / "table-1-times.md", times_markdown(times));
     session.end_progress();
     if (session.flags.json) {
       write_file("-", nlohmann::ordered_json{{"files", files}}.dump(2) + "\n");
     }
+  }
+
+ private:
+  StageTimes draw(Session& session, const std::string& model, const ViewOptions& options) {
+    const RunContext run = session.run();
+    const auto start = Clock::now();
+    StageTimes times;
+    const Model loaded = session.load(model);
+    times.seconds.load = seconds_since(start);
+    const ShapeAnalysis shape = analyse_shape(loaded, options, run.part(0.0, 0.4), &times.seconds);
+    const UpChoice up = choose_up(loaded, shape, options);
+    // The times are those of the best and the worst view, as the paper's are.
+    ViewOptions alone = options;
+    alone.view_set.reset();
+    const auto search = Clock::now();
+    ViewReport report = find_views(shape, up, alone, run.part(0.4, 0.5));
+    times.seconds.search = seconds_since(search);
+    report.set =
+        find_view_set(shape, VertexVisibility(shape.surface, shape.sides), report.camera,
+                      report.best.direction, up.axis, options, report.warnings, run.part(0.5, 0.6));
+    const std::vector<Figure> figures = paper_figures(shape, report, options, run.part(0.6, 1.0));
+    const std::filesystem::path place = models.size() == 1
+                                            ? std::filesystem::path(folder)
+                                            : std::filesystem::path(folder) / loaded.name;
+    make_folder(folder);
+    make_folder(place.string());
+    for (const Figure& figure : figures) {
+      write(session, place / (figure.name + ".png"), png_bytes(figure.image));
+      if (!figure.svg.empty()) {
+        write(session, place / (figure.name + ".svg"), figure.svg);
+      }
+    }
+    times.model = loaded.name;
+    times.vertices = shape.check.vertices;
+    times.faces = shape.check.faces;
+    return times;
+  }
+
+  void write(Session& session, const std::filesystem::path& path, std::string_view bytes) {
+    write_file(path.string(), bytes);
+    files.push_back(path.string());
+    session.tell(printable(path.string()));
   }
 };
 
@@ -59,6 +110,7 @@ void add_figures_command(CLI::App& program, Session& session) {
       program, session, "figures", "the paper's figures for this model",
       "Examples:\n"
       "  vantage figures horse.ply -o figures\n"
+      "  vantage figures models/*.ply -o figures --views 9\n"
       "  vantage figures horse.ply -o figures --preset paper --size 400x300");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "look_flags.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <optional>
@@ -59,7 +60,8 @@ void set_background(RenderOptions& look, const std::string& text) {
 
 }  // namespace
 
-void LookFlags::add_to(CLI::App& app, Quality quality) {
+void LookFlags::add_to(CLI::App& app, Quality quality, bool asset) {
+  asset_ = asset;
   const std::string group = "Pictures";
   set_quality(look_, quality);
   app.add_option_function<std::string>(
@@ -86,10 +88,10 @@ void LookFlags::add_to(CLI::App& app, Quality quality) {
            look_.style = name == "technical" ? Style::Technical : Style::Clay;
            asset_ = name == "asset";
          },
-         "clay: matt and softly lit; asset: the same in the file's own colours, without textures; "
+         "clay: matt and softly lit; asset: the same in the file's own colours and materials; "
          "technical: a drawing with outlines and sharp edges")
       ->check(CLI::IsMember({"clay", "asset", "technical"}))
-      ->default_str("clay")
+      ->default_str(asset ? "asset" : "clay")
       ->group(group);
   app.add_flag("--ground", look_.ground, "a soft shadow on the ground under the model")
       ->group(group);
@@ -98,11 +100,32 @@ void LookFlags::add_to(CLI::App& app, Quality quality) {
       ->check(CLI::Range(0.0, 80.0))
       ->capture_default_str()
       ->group(group);
+  app.add_option("--depth", depth_, "bits a channel of a PNG: 8 or 16")
+      ->check(CLI::IsMember({8, 16}))
+      ->capture_default_str()
+      ->group(group);
   app.add_option("--margin", margin_per_cent_,
                  "empty border around the model, per cent of the picture's shorter side")
       ->check(CLI::Range(0.0, 45.0))
       ->capture_default_str()
       ->group(group);
+}
+
+ReadOptions LookFlags::reading(int width, int height) const {
+  // A model shows most of a texture across it, or a part of it closer by. [ours]
+  constexpr int kTexelsPerPixel = 4;
+  return {.appearance = asset_, .texture_side = kTexelsPerPixel * std::max(width, height)};
+}
+
+void LookFlags::write(const std::string& path, const Model& model, const ShapeAnalysis& shape,
+                      const Camera& camera, Picture picture, const ViewOptions& options,
+                      const Vec3& up, const RunContext& run) const {
+  const Model* asset = asset_ ? &model : nullptr;
+  if (depth_ == 8) {
+    write_picture(path, draw_picture(shape, camera, picture, options, look(up), run, asset));
+  } else {
+    write_picture(path, draw_picture_deep(shape, camera, picture, options, look(up), run, asset));
+  }
 }
 
 RenderOptions LookFlags::look(const Vec3& up) const {

@@ -5,7 +5,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "vantage/io/model.h"
 #include "vantage/render/render.h"
+#include "vantage/report/view_report.h"
+
+#include "picture_file.h"
 
 /// \file
 /// Flags for how a picture looks, the same for every command that makes one.
@@ -15,8 +19,9 @@ namespace vantage::cli {
 /// Turns flags into RenderOptions.
 class LookFlags {
  public:
-  /// Adds the flags. \param quality what is used unless given.
-  void add_to(CLI::App& app, Quality quality);
+  /// Adds the flags. \param quality what is used unless given. \param asset whether the file's own
+  /// colours are used unless said otherwise.
+  void add_to(CLI::App& app, Quality quality, bool asset);
 
   /// The look that was asked for; the size is left alone.
   [[nodiscard]] const RenderOptions& look() const { return look_; }
@@ -24,8 +29,20 @@ class LookFlags {
   /// The same on the ground of a model whose up axis is known.
   [[nodiscard]] RenderOptions look(const Vec3& up) const;
 
-  /// Whether the colours of the file are wanted.
+  /// Whether the colours and materials of the file are wanted.
   [[nodiscard]] bool of_asset() const { return asset_; }
+
+  /// Refuses what a picture of this name cannot hold; before any work. \throw CLI::ValidationError
+  void check(const std::string& path) const { check_depth(path, depth_); }
+
+  /// What to read of the file for a picture of that size.
+  [[nodiscard]] ReadOptions reading(int width, int height) const;
+
+  /// Takes the picture that was asked for and writes it, in as many bits as were asked for.
+  /// \throw IoError, InvalidInput, Cancelled
+  void write(const std::string& path, const Model& model, const ShapeAnalysis& shape,
+             const Camera& camera, Picture picture, const ViewOptions& options, const Vec3& up,
+             const RunContext& run) const;
 
   /// Empty border as a fraction of the picture's shorter side.
   [[nodiscard]] double margin() const { return margin_per_cent_ / 100.0; }
@@ -33,6 +50,7 @@ class LookFlags {
  private:
   RenderOptions look_{};
   bool asset_ = false;
+  int depth_ = 8;
   double margin_per_cent_ = 4.0;
 };
 

@@ -47,12 +47,13 @@ struct RenderCommand {
         ->check(CLI::IsMember({"plain", "kssm", "skeleton"}))
         ->capture_default_str()
         ->group("Pictures");
-    look.add_to(app, Quality::Normal);
+    look.add_to(app, Quality::Normal, /*asset=*/false);
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
     add_common_flags(app, session.flags);
   }
 
   void run(Session& session) {
+    look.check(file);
     ViewOptions options = session.reading([&] { return method.resolve(); });
     options.margin = look.margin();
     const RunContext run = session.run();
@@ -62,7 +63,7 @@ struct RenderCommand {
     if (!camera_file.empty()) {
       camera = session.reading([&] { return parse_camera(read_text(camera_file), camera_file); });
     }
-    const Model loaded = session.load(model);
+    const Model loaded = session.load(model, look.reading(options.width, options.height));
     ShapeAnalysis shape = prepare_surface(loaded);
     if (!view.empty() || show != "plain") {
       shape = analyse_shape(loaded, options, run.part(0.0, 0.5));
@@ -75,12 +76,13 @@ struct RenderCommand {
         look.look().ground ? up_vector(choose_up(loaded, shape, options).axis) : RenderOptions{}.up;
     const std::map<std::string, Picture> pictures{
         {"plain", Picture::Plain}, {"kssm", Picture::Map}, {"skeleton", Picture::Skeleton}};
-    const std::vector<Rgb8> colours =
-        look.of_asset() ? asset_colours(loaded, shape) : std::vector<Rgb8>{};
-    const Image image = draw_picture(shape, *camera, pictures.at(show), options, look.look(up),
-                                     run.part(0.9, 1.0), colours);
-    write_picture(file, image);
+    look.write(file, loaded, shape, *camera, pictures.at(show), options, up, run.part(0.9, 1.0));
     report(session, *camera, options);
+    if (look.of_asset()) {
+      for (const std::string& note : loaded.notes) {
+        session.say("note: " + note);
+      }
+    }
   }
 
  private:

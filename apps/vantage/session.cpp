@@ -83,8 +83,8 @@ void Session::limit_threads() {
   limited_to_ = flags.threads;
 }
 
-Model Session::load(const std::string& path) {
-  return reading([&] { return load_model(path, run()); });
+Model Session::load(const std::string& path, const ReadOptions& options) {
+  return reading([&] { return load_model(path, run(), options); });
 }
 
 void Session::say(const std::string& text) {

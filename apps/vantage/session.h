@@ -50,7 +50,7 @@ class Session {
   [[nodiscard]] RunContext run();
 
   /// Reads a model; a failure in here means exit code 3.
-  Model load(const std::string& path);
+  Model load(const std::string& path, const ReadOptions& options = {});
 
   /// Runs a step that reads the user's input; a failure in here means exit code 3.
   template <class Step>

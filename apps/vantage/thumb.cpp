@@ -41,7 +41,7 @@ struct ThumbCommand {
     app.add_option("--up", up, "up axis of the model: x y z -x -y -z, or auto, as in view")
         ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z", "auto"}))
         ->capture_default_str();
-    look.add_to(app, Quality::Draft);
+    look.add_to(app, Quality::Draft, /*asset=*/true);
     preview.add_to(app);
     add_common_flags(app, session.flags);
   }
@@ -50,6 +50,7 @@ struct ThumbCommand {
     if (file.empty()) {
       throw CLI::RequiredError("FILE");
     }
+    look.check(file);
     ViewOptions options;
     options.width = options.height = size;
     options.margin = look.margin();
@@ -57,19 +58,20 @@ struct ThumbCommand {
       options.up = up_axis(up);
     }
     const RunContext run = session.run();
-    const Model loaded = session.load(model);
+    const Model loaded = session.load(model, look.reading(size, size));
     const ShapeAnalysis shape = prepare_surface(loaded);
     const QuickView view = find_quick_view(loaded, shape, options, run.part(0.1, 0.7));
-    const std::vector<Rgb8> colours =
-        look.of_asset() ? asset_colours(loaded, shape) : std::vector<Rgb8>{};
-    const Image image =
-        draw_picture(shape, view.picture, Picture::Plain, options,
-                     look.look(up_vector(view.up.axis)), run.part(0.7, 1.0), colours);
-    write_picture(file, image);
+    look.write(file, loaded, shape, view.picture, Picture::Plain, options, up_vector(view.up.axis),
+               run.part(0.7, 1.0));
     if (file != "-") {
       preview.show(session, shape, view.picture, options, look.look(up_vector(view.up.axis)), run);
     }
     report(session, view);
+    for (const std::string& note : loaded.notes) {
+      if (session.flags.verbose) {
+        session.say("note: " + note);
+      }
+    }
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "vantage/io/write.h"
+#include "vantage/report/html_report.h"
 #include "vantage/report/measured_shape.h"
 #include "vantage/report/view_report.h"
 
@@ -104,6 +105,9 @@ struct ViewCommand {
     seconds.total = seconds_since(start);
     output.add("timings.json", timings_json(seconds));
     output.write();
+    if (!no_images && !no_report && !has_report_page()) {
+      session.say("note: this program was built without npm, so that there is no report.html");
+    }
     if (!trace.empty()) {
       write_file(trace, trace_csv(report));
     }

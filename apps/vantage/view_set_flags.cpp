@@ -10,6 +10,7 @@
 #include "vantage/io/animation.h"
 #include "vantage/io/write.h"
 #include "vantage/render/render.h"
+#include "vantage/report/figures.h"
 
 #include "terminal.h"
 
@@ -145,6 +146,18 @@ double ViewSetFlags::seconds(const Tour& tour) const {
   return seconds_ > 0.0 ? seconds_ : std::max(1.0, tour.length_rad * kDegPerRad / kDegPerSecond);
 }
 
+namespace {
+
+/// The views on one sheet, small.
+Image contact_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, ViewOptions options) {
+  constexpr int kTileWidth = 320;  // px
+  options.height = std::max(1, kTileWidth * options.height / options.width);
+  options.width = kTileWidth;
+  return view_sheet(shape, set, options);
+}
+
+}  // namespace
+
 void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, const ViewReport& report,
                          UpAxis up, const ViewOptions& options, const RunContext& run) const {
   if (!report.set) {
@@ -168,6 +181,9 @@ void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, const
     cameras.push_back({views[i].picture, name + ".png"});
   }
   output.add("views.transforms.json", views_transforms_json(cameras, size));
+  if (options.pictures) {
+    output.add("views.png", png_bytes(contact_sheet(shape, *report.set, options)));
+  }
   if (report.set->tour.length_rad > 0.0) {
     write_tour(output, shape, report, up, run.part(stills_share, 1.0));
   } else if (!tour_.empty()) {

@@ -9,6 +9,9 @@
 
 #include <Eigen/Geometry>
 
+#include "vantage/core/error.h"
+
+#include "core/srgb.h"
 #include "io/gltf_accessor.h"
 #include "io/gltf_document.h"
 #include "io/model_builder.h"
@@ -27,12 +30,6 @@ constexpr std::size_t kMostInSmallFile = 1'000'000;
 /// Nodes may be visited this often, and once more for each byte of the file. A valid file visits
 /// each node once; some exporters share subtrees, and a malicious one doubles at every level.
 constexpr std::size_t kMostVisitsInSmallFile = 10'000;
-
-/// sRGB value of a linear one, both in [0, 1] (IEC 61966-2-1).
-double srgb_of_linear(double linear) {
-  linear = linear > 0.0 ? std::min(linear, 1.0) : 0.0;
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
 
 class SceneReader {
  public:
@@ -226,6 +223,7 @@ class SceneReader {
       builder_.advance(first + i, first + points.count());
     }
     read_colours(primitive, points.count());
+    read_uvs(primitive, points.count());
     if (primitive.mode != TINYGLTF_MODE_POINTS) {
       read_faces(primitive, first, points.count(), world.topLeftCorner<3, 3>().determinant() < 0.0);
     }
@@ -235,13 +233,13 @@ class SceneReader {
     if (!has_colours_) {
       return;
     }
-    // What a vertex looks like is the product of both, in linear light; textures are not read.
+    // What a vertex looks like is the product of both, in linear light; textures are the material's.
     const std::array<double, 3> base = base_colour(primitive);
     const auto colour = primitive.attributes.find("COLOR_0");
     if (colour == primitive.attributes.end()) {
       for (std::size_t i = 0; i < count; ++i) {
-        builder_.add_colour(srgb_of_linear(base[0]), srgb_of_linear(base[1]),
-                            srgb_of_linear(base[2]));
+        builder_.add_colour(encoded_of_linear(base[0]), encoded_of_linear(base[1]),
+                            encoded_of_linear(base[2]));
       }
       return;
     }
@@ -250,9 +248,35 @@ class SceneReader {
       builder_.fail("the colours of a primitive do not fit its positions");
     }
     for (std::size_t i = 0; i < count; ++i) {
-      builder_.add_colour(srgb_of_linear(base[0] * colours.value(i, 0)),
-                          srgb_of_linear(base[1] * colours.value(i, 1)),
-                          srgb_of_linear(base[2] * colours.value(i, 2)));
+      builder_.add_colour(encoded_of_linear(base[0] * colours.value(i, 0)),
+                          encoded_of_linear(base[1] * colours.value(i, 1)),
+                          encoded_of_linear(base[2] * colours.value(i, 2)));
+    }
+  }
+
+  /// Material and coordinates on its texture; one for each vertex, also where there are none.
+  void read_uvs(const tinygltf::Primitive& primitive, std::size_t count) {
+    if (!builder_.keeps_appearance()) {
+      return;
+    }
+    const auto material = static_cast<std::size_t>(primitive.material);
+    const bool known = primitive.material >= 0 && material < document_.texcoord_sets.size();
+    builder_.begin_material(known ? static_cast<std::uint32_t>(material) : Appearance::kNone);
+    const auto uv = primitive.attributes.find(
+        "TEXCOORD_" + std::to_string(known ? document_.texcoord_sets[material] : 0));
+    std::vector<std::array<double, 2>> values(count);
+    if (known && uv != primitive.attributes.end()) {
+      try {
+        const GltfAccessor uvs(document_, uv->second, count, builder_);
+        for (std::size_t i = 0; i < count && uvs.count() == count && uvs.components() > 1; ++i) {
+          values[i] = {uvs.value(i, 0), uvs.value(i, 1)};
+        }
+      } catch (const FormatError&) {  // the shape is sound without them
+        builder_.note("texture coordinates of a primitive left out: they are not in the file");
+      }
+    }
+    for (const auto& [u, v] : values) {
+      builder_.add_uv(u, v);
     }
   }
 
@@ -338,9 +362,12 @@ class SceneReader {
 }  // namespace
 
 Model parse_gltf(std::string_view bytes, std::string_view name, const RunContext& run,
-                 const BufferSource& source) {
+                 const Surroundings& surroundings) {
   ModelBuilder builder(ModelFormat::Gltf, name, run, 0);
-  const GltfDocument document = read_gltf_document(bytes, source, builder);
+  if (surroundings.options.appearance) {
+    builder.keep_appearance(/*of_vertices=*/true);
+  }
+  const GltfDocument document = read_gltf_document(bytes, surroundings, builder);
   SceneReader(document, builder).read();
   return builder.finish();
 }

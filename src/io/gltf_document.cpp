@@ -16,6 +16,7 @@
 
 #include "io/byte_cursor.h"
 #include "io/gltf_document.h"
+#include "io/gltf_materials.h"
 #include "io/gltf_uri.h"
 #include "io/number_parsing.h"
 #include "io/text_cursor.h"
@@ -244,33 +245,9 @@ tinygltf::Model parse_structure(const Json& root, const ModelBuilder& builder) {
   return model;
 }
 
-/// A member of an object; null if it is none or has none.
-Json member_of(const Json& object, const char* name) {
-  const auto found = object.is_object() ? object.find(name) : object.end();
-  return found == object.end() ? Json() : *found;
-}
-
-/// The colour of each material; white where the file says nothing that makes sense.
-std::vector<std::array<double, 3>> base_colours(const Json& root) {
-  std::vector<std::array<double, 3>> colours;
-  const auto list = root.find("materials");
-  if (list == root.end() || !list->is_array()) {
-    return colours;
-  }
-  for (const Json& material : *list) {
-    std::array<double, 3> colour{1.0, 1.0, 1.0};
-    const Json factor = member_of(member_of(material, "pbrMetallicRoughness"), "baseColorFactor");
-    for (std::size_t c = 0; factor.is_array() && c < std::min<std::size_t>(3, factor.size()); ++c) {
-      colour[c] = factor[c].is_number() ? std::clamp(factor[c].get<double>(), 0.0, 1.0) : 1.0;
-    }
-    colours.push_back(colour);
-  }
-  return colours;
-}
-
 }  // namespace
 
-GltfDocument read_gltf_document(std::string_view bytes, const BufferSource& source,
+GltfDocument read_gltf_document(std::string_view bytes, const Surroundings& surroundings,
                                 ModelBuilder& builder) {
   constexpr std::string_view kMagic = "glTF";
   const Chunks chunks = bytes.substr(0, kMagic.size()) == kMagic
@@ -282,13 +259,17 @@ GltfDocument read_gltf_document(std::string_view bytes, const BufferSource& sour
   GltfDocument document;
   document.structure = parse_structure(root, builder);
   document.has_draco = names(root, "extensionsUsed", kDraco);
-  document.base_colours = base_colours(root);
+  document.base_colours = gltf_base_colours(root);
+  document.texcoord_sets = gltf_texcoord_sets(root);
   document.total_bytes = bytes.size();
   if (const auto list = root.find("buffers"); list != root.end() && list->is_array()) {
     for (std::size_t i = 0; i < list->size(); ++i) {
-      document.buffers.push_back(read_buffer((*list)[i], i, chunks, source, builder));
+      document.buffers.push_back(read_buffer((*list)[i], i, chunks, surroundings.buffers, builder));
       document.total_bytes += document.buffers.back().size();
     }
+  }
+  if (builder.keeps_appearance()) {
+    read_gltf_materials(root, document, surroundings, builder);
   }
   return document;
 }

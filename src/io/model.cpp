@@ -17,13 +17,13 @@ namespace {
 namespace fs = std::filesystem;
 
 Model parse_with(std::string_view bytes, std::string_view name, const RunContext& run,
-                 const BufferSource& buffers) {
+                 const Surroundings& surroundings) {
   run.advance("read", 0.0);
   const DetectedFormat detected = detect_format(bytes, name);
   Model model = [&] {
     switch (detected.format) {
       case ModelFormat::Obj:
-        return parse_obj(bytes, name, run);
+        return parse_obj(bytes, name, run, surroundings);
       case ModelFormat::Off:
         return parse_off(bytes, name, run);
       case ModelFormat::Ply:
@@ -40,7 +40,7 @@ Model parse_with(std::string_view bytes, std::string_view name, const RunContext
       case ModelFormat::Glb:
         break;
     }
-    return parse_gltf(bytes, name, run, buffers);
+    return parse_gltf(bytes, name, run, surroundings);
   }();
   model.format = detected.format;
   model.name = model_name(name);
@@ -50,37 +50,64 @@ Model parse_with(std::string_view bytes, std::string_view name, const RunContext
   return model;
 }
 
-/// Reads `relative` below the folder of `model_path`; links that lead out of it are refused.
-std::string read_beside(const std::string& model_path, const std::string& relative) {
-  std::error_code error;
+/// Where a file beside the model is; empty if it lies outside the model's folder, also by links.
+fs::path place_beside(const std::string& model_path, const std::string& relative,
+                      std::error_code& error) {
   const fs::path folder = fs::canonical(fs::absolute(model_path).parent_path(), error);
   const fs::path wanted = error ? fs::path() : fs::canonical(folder / relative, error);
+  const fs::path inside = wanted.lexically_relative(folder);
+  return inside.empty() || *inside.begin() == ".." ? fs::path() : wanted;
+}
+
+/// Reads the buffer `relative` below the folder of `model_path`.
+std::string read_beside(const std::string& model_path, const std::string& relative) {
+  std::error_code error;
+  const fs::path wanted = place_beside(model_path, relative, error);
   if (error) {
     throw IoError(model_path, "names the buffer " + relative + ", which cannot be opened",
                   error.value());
   }
-  const fs::path inside = wanted.lexically_relative(folder);
-  if (inside.empty() || *inside.begin() == "..") {
+  if (wanted.empty()) {
     throw FormatError(model_path, "",
                       "names the buffer " + relative + ", which lies outside the model's folder");
   }
   return read_file(wanted.string());
 }
 
-}  // namespace
-
-Model parse_model(std::string_view bytes, std::string_view name, const RunContext& run) {
-  return parse_with(bytes, name, run, {});
+/// The same for a file that the model can do without.
+SideFile side_file(const std::string& model_path, const std::string& relative) {
+  std::error_code error;
+  const fs::path wanted = place_beside(model_path, relative, error);
+  if (error) {
+    return {std::nullopt, "cannot be opened"};
+  }
+  if (wanted.empty()) {
+    return {std::nullopt, "lies outside the model's folder"};
+  }
+  try {
+    return {read_file(wanted.string()), {}};
+  } catch (const IoError&) {  // the model is sound without it
+    return {std::nullopt, "cannot be read"};
+  }
 }
 
-Model load_model(const std::string& path, const RunContext& run) {
+}  // namespace
+
+Model parse_model(std::string_view bytes, std::string_view name, const RunContext& run,
+                  const ReadOptions& options) {
+  return parse_with(bytes, name, run, {{}, {}, options});
+}
+
+Model load_model(const std::string& path, const RunContext& run, const ReadOptions& options) {
   try {
     const std::string bytes = read_file(path);
     if (path == "-") {
-      return parse_with(bytes, "standard input", run, {});
+      return parse_with(bytes, "standard input", run, {{}, {}, options});
     }
-    return parse_with(bytes, path, run,
-                      [&path](const std::string& relative) { return read_beside(path, relative); });
+    const Surroundings surroundings{
+        [&path](const std::string& relative) { return read_beside(path, relative); },
+        [&path](const std::string& relative) { return side_file(path, relative); }, options};
+    return parse_with(bytes, path, run, surroundings);
   } catch (const std::bad_alloc&) {
     throw IoError(path, "does not fit into memory");
   }

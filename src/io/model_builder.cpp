@@ -2,6 +2,7 @@
 #include "io/model_builder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -61,13 +62,49 @@ void ModelBuilder::add_corner(std::uint64_t vertex, Place place) {
     highest_place_ = place;
   }
   corners_.push_back(index);
+  if (keeps_appearance_ && !uvs_are_of_vertices_) {
+    corner_uvs_.push_back(Appearance::kNone);
+  }
   ++open_corners_;
+}
+
+void ModelBuilder::keep_appearance(bool of_vertices) {
+  keeps_appearance_ = true;
+  uvs_are_of_vertices_ = of_vertices;
+}
+
+void ModelBuilder::begin_material(std::uint32_t material) {
+  if (!material_starts_.empty() && material_starts_.back().first_polygon == corner_counts_.size()) {
+    material_starts_.back().material = material;
+  } else {
+    material_starts_.push_back({material, corner_counts_.size()});
+  }
+}
+
+void ModelBuilder::add_uv(double u, double v) {
+  const auto finite = [](double value) {
+    const auto narrow = static_cast<float>(value);
+    return std::isfinite(narrow) ? narrow : 0.0F;
+  };
+  model_.appearance.uvs.push_back({finite(u), finite(v)});
+}
+
+void ModelBuilder::set_corner_uv(std::uint64_t uv) {
+  if (!corner_uvs_.empty() && uv < Appearance::kNone) {
+    corner_uvs_.back() = static_cast<std::uint32_t>(uv);
+  }
+}
+
+void ModelBuilder::set_materials(std::vector<Material> materials, std::vector<Texture> textures) {
+  model_.appearance.materials = std::move(materials);
+  model_.appearance.textures = std::move(textures);
 }
 
 void ModelBuilder::end_polygon() {
   const std::uint32_t count = std::exchange(open_corners_, 0);
   if (count < 3) {
     corners_.resize(corners_.size() - count);
+    corner_uvs_.resize(std::min(corner_uvs_.size(), corners_.size()));
     ++model_.skipped_faces;
     return;
   }
@@ -137,6 +174,8 @@ void ModelBuilder::check_extent() const {
 void ModelBuilder::triangulate() {
   std::vector<std::size_t> triangle_of_part_start;
   std::size_t next_part = 0;
+  std::size_t next_material = 0;
+  std::uint32_t material = Appearance::kNone;
   std::size_t first_corner = 0;
   std::vector<Triangle>& triangles = model_.mesh.triangles;
   triangles.reserve(corners_.size() - 2 * corner_counts_.size());
@@ -148,8 +187,16 @@ void ModelBuilder::triangulate() {
   };
   for (std::size_t p = 0; p < corner_counts_.size(); ++p) {
     mark_parts(p);
+    const std::size_t first_triangle = triangles.size();
     triangulate_polygon({corners_.data() + first_corner, corner_counts_[p]}, model_.mesh.positions,
                         triangles);
+    if (keeps_appearance_) {
+      triangulate_uvs(first_corner, corner_counts_[p], first_triangle);
+      const bool next = next_material < material_starts_.size() &&
+                        material_starts_[next_material].first_polygon == p;
+      material = next ? material_starts_[next_material++].material : material;
+      model_.appearance.material_of_triangle.resize(triangles.size(), material);
+    }
     first_corner += corner_counts_[p];
     if (p % 4096 == 0) {
       run_.check();
@@ -157,6 +204,46 @@ void ModelBuilder::triangulate() {
   }
   mark_parts(corner_counts_.size());
   finish_parts(triangle_of_part_start);
+}
+
+void ModelBuilder::triangulate_uvs(std::size_t first_corner, std::size_t count,
+                                   std::size_t first_triangle) {
+  if (corner_uvs_.empty()) {
+    return;
+  }
+  // Triangles name vertices, not corners. A polygon that meets a vertex twice takes its first uv.
+  std::vector<std::array<std::uint32_t, 2>> uv_of_vertex;
+  for (std::size_t c = first_corner; c < first_corner + count; ++c) {
+    const std::uint32_t uv = corner_uvs_[c];
+    uv_of_vertex.push_back({corners_[c], uv < uv_count() ? uv : Appearance::kNone});
+  }
+  const auto by_vertex = [](const auto& a, const auto& b) { return a[0] < b[0]; };
+  std::stable_sort(uv_of_vertex.begin(), uv_of_vertex.end(), by_vertex);
+  const std::vector<Triangle>& triangles = model_.mesh.triangles;
+  for (std::size_t t = first_triangle; t < triangles.size(); ++t) {
+    Triangle uvs{};
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::array<std::uint32_t, 2> key{triangles[t][corner], 0};
+      uvs[corner] =
+          (*std::lower_bound(uv_of_vertex.begin(), uv_of_vertex.end(), key, by_vertex))[1];
+    }
+    model_.appearance.uv_of_triangle.push_back(uvs);
+  }
+}
+
+void ModelBuilder::finish_appearance() {
+  Appearance& appearance = model_.appearance;
+  if (appearance.materials.empty()) {
+    appearance = {};
+    return;
+  }
+  const bool complete = uvs_are_of_vertices_ && uv_count() == point_count();
+  if (complete) {
+    appearance.uv_of_triangle = model_.mesh.triangles;
+  }
+  if (appearance.uv_of_triangle.empty()) {
+    appearance.uvs.clear();
+  }
 }
 
 void ModelBuilder::finish_parts(const std::vector<std::size_t>& triangle_of_part_start) {
@@ -207,6 +294,7 @@ Model ModelBuilder::finish() {
   }
   check_extent();
   triangulate();
+  finish_appearance();
   finish_colours();
   finish_notes();
   run_.advance("read", 1.0);

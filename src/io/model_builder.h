@@ -47,6 +47,26 @@ class ModelBuilder {
   /// What follows belongs to a part of this name; a part without faces disappears.
   void begin_part(std::string_view part_name);
 
+  /// From here on what faces look like is kept too. \param of_vertices the coordinates on textures
+  /// are those of the vertices, one for each; else those of corners, see set_corner_uv().
+  void keep_appearance(bool of_vertices);
+
+  [[nodiscard]] bool keeps_appearance() const { return keeps_appearance_; }
+
+  /// What follows is of this material, an index into those of set_materials() or Appearance::kNone.
+  void begin_material(std::uint32_t material);
+
+  /// Adds coordinates on textures; what is not finite becomes 0.
+  void add_uv(double u, double v);
+
+  /// The last corner that was added has these coordinates, counted from 0. Those that do not exist
+  /// in the end count as none.
+  void set_corner_uv(std::uint64_t uv);
+
+  void set_materials(std::vector<Material> materials, std::vector<Texture> textures);
+
+  [[nodiscard]] std::size_t uv_count() const { return model_.appearance.uvs.size(); }
+
   void note(std::string text) { model_.notes.push_back(std::move(text)); }
 
   void coordinates_need_double() { model_.double_precision = true; }
@@ -85,6 +105,8 @@ class ModelBuilder {
   void check_extent() const;
   void triangulate();
   void finish_parts(const std::vector<std::size_t>& triangle_of_part_start);
+  void triangulate_uvs(std::size_t first_corner, std::size_t count, std::size_t first_triangle);
+  void finish_appearance();
   void finish_colours();
   void finish_notes();
 
@@ -99,6 +121,16 @@ class ModelBuilder {
   Place highest_place_{};
   std::vector<ColourValue> colours_{};
   std::vector<PartStart> part_starts_{};
+
+  struct MaterialStart {
+    std::uint32_t material;
+    std::size_t first_polygon;
+  };
+
+  bool keeps_appearance_ = false;
+  bool uvs_are_of_vertices_ = false;
+  std::vector<MaterialStart> material_starts_{};
+  std::vector<std::uint32_t> corner_uvs_{};  ///< Beside corners_, if they have their own.
   std::size_t ticks_ = 0;
 };
 

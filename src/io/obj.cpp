@@ -7,6 +7,7 @@
 
 #include "io/model_builder.h"
 #include "io/number_parsing.h"
+#include "io/obj_materials.h"
 #include "io/readers.h"
 #include "io/text_cursor.h"
 
@@ -24,10 +25,16 @@ constexpr std::array<std::string_view, 45> kSilentKeywords = {
 
 class ObjReader {
  public:
-  ObjReader(std::string_view bytes, std::string_view name, const RunContext& run)
+  ObjReader(std::string_view bytes, std::string_view name, const RunContext& run,
+            const Surroundings& surroundings)
       : cursor_(without_bom(bytes)),
         size_(bytes.size()),
-        builder_(ModelFormat::Obj, name, run, 1) {}
+        builder_(ModelFormat::Obj, name, run, 1),
+        materials_(surroundings, builder_) {
+    if (surroundings.options.appearance) {
+      builder_.keep_appearance(/*of_vertices=*/false);
+    }
+  }
 
   Model read() {
     while (std::optional<std::string_view> line = next_logical_line()) {
@@ -35,6 +42,9 @@ class ObjReader {
       builder_.advance(cursor_.offset(), size_);
     }
     finish_notes();
+    if (builder_.keeps_appearance()) {
+      materials_.finish();
+    }
     return builder_.finish();
   }
 
@@ -66,6 +76,8 @@ class ObjReader {
       read_face(rest);
     } else if (keyword == "g" || keyword == "o") {
       builder_.begin_part(trimmed(rest));
+    } else if (builder_.keeps_appearance() && is_of_appearance(keyword)) {
+      read_appearance(keyword, rest);
     } else if (keyword == "l" || keyword == "p") {
       ++lines_and_points_;
     } else if (keyword.substr(0, 4) == "curv" || keyword == "surf") {
@@ -75,6 +87,22 @@ class ObjReader {
       if (unknown_++ == 0) {
         first_unknown_ = in_quotes(keyword) + " in " + place_.text();
       }
+    }
+  }
+
+  static bool is_of_appearance(std::string_view keyword) {
+    return keyword == "vt" || keyword == "usemtl" || keyword == "mtllib";
+  }
+
+  void read_appearance(std::string_view keyword, std::string_view rest) {
+    if (keyword == "vt") {
+      // No reason to refuse a shape: what is no number is 0.
+      const double u = number_from(take_token(rest)).value_or(0.0);
+      builder_.add_uv(u, number_from(take_token(rest)).value_or(0.0));
+    } else if (keyword == "usemtl") {
+      materials_.use(trimmed(rest));
+    } else {
+      materials_.add_library(trimmed(rest));
     }
   }
 
@@ -120,8 +148,27 @@ class ObjReader {
     for (std::string_view token = take_token(rest); !token.empty() && token.front() != '#';
          token = take_token(rest)) {
       builder_.add_corner(corner_vertex(token), place_);
+      if (builder_.keeps_appearance()) {
+        read_corner_uv(token);
+      }
     }
     builder_.end_polygon();
+  }
+
+  /// The second number of a corner such as "7/2/5"; what is not there or makes no sense is none.
+  void read_corner_uv(std::string_view token) {
+    const std::size_t slash = std::min(token.find('/'), token.size());
+    token.remove_prefix(std::min(slash + 1, token.size()));
+    const std::optional<std::int64_t> index = integer_from(token.substr(0, token.find('/')));
+    if (!index || *index == 0) {
+      return;
+    }
+    const auto seen = static_cast<std::int64_t>(builder_.uv_count());
+    if (*index > 0) {
+      builder_.set_corner_uv(static_cast<std::uint64_t>(*index) - 1);
+    } else if (*index >= -seen) {
+      builder_.set_corner_uv(static_cast<std::uint64_t>(seen + *index));
+    }
   }
 
   /// The vertex, from 0, of a corner such as "7", "7/2", "7//5" or "-1/-1/-1".
@@ -165,6 +212,7 @@ class ObjReader {
   TextCursor cursor_;
   std::size_t size_;
   ModelBuilder builder_;
+  ObjMaterials materials_;
   Place place_{};
   std::string joined_{};
   std::size_t weights_ = 0;
@@ -176,8 +224,9 @@ class ObjReader {
 
 }  // namespace
 
-Model parse_obj(std::string_view bytes, std::string_view name, const RunContext& run) {
-  return ObjReader(bytes, name, run).read();
+Model parse_obj(std::string_view bytes, std::string_view name, const RunContext& run,
+                const Surroundings& surroundings) {
+  return ObjReader(bytes, name, run, surroundings).read();
 }
 
 }  // namespace vantage

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <csetjmp>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -35,9 +36,15 @@ void flush_nothing(png_structp /*png*/) {}
 
 void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
+struct PngSize {
+  std::size_t width = 0;
+  std::size_t height = 0;
+  int depth = 8;  ///< Bits a channel.
+};
+
 /// Writes the picture; false after an error. Holds no object with a destructor, because libpng
 /// leaves it by a long jump.
-bool encode(png_structp png, png_infop info, const Image& image, png_bytepp rows,
+bool encode(png_structp png, png_infop info, const PngSize& size, png_bytepp rows,
             PngOutput* output) {
   if (setjmp(png_jmpbuf(png)) != 0) {
     return false;
@@ -45,8 +52,8 @@ bool encode(png_structp png, png_infop info, const Image& image, png_bytepp rows
   png_set_write_fn(png, output, append_bytes, flush_nothing);
   png_set_compression_level(png, kCompressionLevel);
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
-               static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB_ALPHA,
+  png_set_IHDR(png, info, static_cast<png_uint_32>(size.width),
+               static_cast<png_uint_32>(size.height), size.depth, PNG_COLOR_TYPE_RGB_ALPHA,
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_write_info(png, info);
@@ -55,28 +62,50 @@ bool encode(png_structp png, png_infop info, const Image& image, png_bytepp rows
   return true;
 }
 
-}  // namespace
-
-std::string png_bytes(const Image& image) {
-  const auto width = static_cast<std::size_t>(image.width > 0 ? image.width : 0);
-  const auto height = static_cast<std::size_t>(image.height > 0 ? image.height : 0);
-  if (width == 0 || height == 0 || image.rgba.size() != 4 * width * height) {
-    throw InvalidInput("a picture must have at least one pixel and four bytes for each");
-  }
-  std::vector<png_bytep> rows(height);
-  for (std::size_t y = 0; y < height; ++y) {
-    rows[y] = const_cast<png_bytep>(image.rgba.data() + 4 * width * y);  // libpng only reads them
+/// \param samples big-endian if they are of 16 bit.
+std::string png_of(const PngSize& size, const png_byte* samples) {
+  const std::size_t stride = 4 * size.width * static_cast<std::size_t>(size.depth) / 8;
+  std::vector<png_bytep> rows(size.height);
+  for (std::size_t y = 0; y < size.height; ++y) {
+    rows[y] = const_cast<png_bytep>(samples + stride * y);  // libpng only reads them
   }
   PngOutput output;
   png_structp png =
       png_create_write_struct(PNG_LIBPNG_VER_STRING, &output, keep_error, ignore_warning);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
-  const bool done = info != nullptr && encode(png, info, image, rows.data(), &output);
+  const bool done = info != nullptr && encode(png, info, size, rows.data(), &output);
   png_destroy_write_struct(&png, &info);
   if (!done) {
     throw IoError("picture", "cannot be encoded: " + output.problem);
   }
   return std::move(output.bytes);
+}
+
+template <class AnyImage>
+PngSize checked_size(const AnyImage& image, int depth) {
+  const auto width = static_cast<std::size_t>(image.width > 0 ? image.width : 0);
+  const auto height = static_cast<std::size_t>(image.height > 0 ? image.height : 0);
+  if (width == 0 || height == 0 || image.rgba.size() != 4 * width * height) {
+    throw InvalidInput("a picture must have at least one pixel and four values for each");
+  }
+  return {width, height, depth};
+}
+
+}  // namespace
+
+std::string png_bytes(const Image& image) {
+  return png_of(checked_size(image, 8), image.rgba.data());
+}
+
+std::string png_bytes(const DeepImage& image) {
+  const PngSize size = checked_size(image, 16);
+  std::vector<png_byte> samples;
+  samples.reserve(2 * image.rgba.size());
+  for (const std::uint16_t value : image.rgba) {
+    samples.push_back(static_cast<png_byte>(value >> 8U));
+    samples.push_back(static_cast<png_byte>(value & 0xFFU));
+  }
+  return png_of(size, samples.data());
 }
 
 }  // namespace vantage

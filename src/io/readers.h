@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,8 +14,29 @@
 
 namespace vantage {
 
-/// Wavefront OBJ: v (with colours), f, g, o; the rest does not shape the surface and is passed over.
-Model parse_obj(std::string_view bytes, std::string_view name, const RunContext& run);
+/// Gives the bytes of an external buffer named by a relative path, or throws IoError.
+using BufferSource = std::function<std::string(const std::string& relative_path)>;
+
+/// A file beside the model that it can do without: its bytes, or why there are none.
+struct SideFile {
+  std::optional<std::string> bytes{};
+  std::string problem{};  ///< Continues "NAME …".
+};
+
+/// Gives a file named by a relative path; does not throw.
+using SideFileSource = std::function<SideFile(const std::string& relative_path)>;
+
+/// What a reader may ask for besides the bytes of the model.
+struct Surroundings {
+  BufferSource buffers{};       ///< Empty: there are none.
+  SideFileSource side_files{};  ///< Material libraries and textures; empty: there are none.
+  ReadOptions options{};        ///< What is wanted.
+};
+
+/// Wavefront OBJ: v (with colours), f, g, o, and if materials are wanted vt, usemtl and mtllib; the
+/// rest does not shape the surface and is passed over.
+Model parse_obj(std::string_view bytes, std::string_view name, const RunContext& run,
+                const Surroundings& surroundings);
 
 /// Geomview OFF with any of the prefixes ST C N 4 n, text or binary.
 Model parse_off(std::string_view bytes, std::string_view name, const RunContext& run);
@@ -33,12 +55,9 @@ Model parse_pcd(std::string_view bytes, std::string_view name, const RunContext&
 Model parse_point_list(std::string_view bytes, std::string_view name, ModelFormat format,
                        const RunContext& run);
 
-/// Gives the bytes of an external buffer named by a relative path, or throws IoError.
-using BufferSource = std::function<std::string(const std::string& relative_path)>;
-
-/// glTF 2.0 as JSON or as GLB. \param source where external buffers come from; empty: nowhere.
+/// glTF 2.0 as JSON or as GLB.
 Model parse_gltf(std::string_view bytes, std::string_view name, const RunContext& run,
-                 const BufferSource& source);
+                 const Surroundings& surroundings);
 
 /// Whether the bytes are a binary STL by their size: 84 bytes and 50 for each declared triangle.
 bool has_binary_stl_size(std::string_view bytes);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -57,6 +58,16 @@ struct Quadric {
     weight += w;
   }
 
+  Quadric& operator*=(double factor) {
+    for (double& a : A) {
+      a *= factor;
+    }
+    b *= factor;
+    c *= factor;
+    weight *= factor;
+    return *this;
+  }
+
   Quadric& operator+=(const Quadric& other) {
     for (std::size_t i = 0; i < A.size(); ++i) {
       A[i] += other.A[i];
@@ -99,7 +110,8 @@ class ByQuadric {
   static constexpr bool kMayTurn = false;
   static constexpr std::size_t kLargestRing = 14;  // neighbours a collapse may leave
 
-  explicit ByQuadric(const TriMesh& mesh) : quadrics_(mesh.positions.size()) {
+  ByQuadric(const TriMesh& mesh, std::span<const double> weights)
+      : quadrics_(mesh.positions.size()) {
     for (const Triangle& t : mesh.triangles) {
       const Vec3 normal = area_vector(mesh, t);
       const double twice = normal.norm();
@@ -114,6 +126,9 @@ class ByQuadric {
       if (table.faces_of_edge[e].size() == 1) {
         add_border(table.edges[e], mesh.triangles[table.faces_of_edge[e][0]], mesh);
       }
+    }
+    for (std::size_t v = 0; v < weights.size(); ++v) {
+      quadrics_[v] *= weights[v];
     }
   }
 
@@ -416,12 +431,13 @@ void scale_by_power(TriMesh& mesh, int exponent) {
 
 }  // namespace
 
-Decimation decimate(const TriMesh& fine, std::size_t target, const RunContext& run) {
+Decimation decimate(const TriMesh& fine, std::size_t target, const RunContext& run,
+                    std::span<const double> weights) {
   const int exponent = std::ilogb(
       std::max(bounding_box(fine.positions).longest_side(), std::numeric_limits<double>::min()));
   TriMesh scaled = fine;
   scale_by_power(scaled, -exponent);
-  Decimator decimator(scaled, ByQuadric(scaled), run);
+  Decimator decimator(scaled, ByQuadric(scaled, weights), run);
   decimator.reduce_to(target, std::numeric_limits<double>::infinity());
   Decimation coarse = decimator.result();
   scale_by_power(coarse.mesh, exponent);

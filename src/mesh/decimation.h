@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "vantage/core/run_context.h"
@@ -24,8 +25,10 @@ struct Decimation {
 /// An edge may go if its ends have no common neighbour but the apexes of its faces (so that genus,
 /// borders and components stay) and no face turns over. Cost is the quadric error plus a share of
 /// what keeps triangles even. Deterministic; ties go to the lower index.
+/// \param weights |V| factors > 0 of the cost, so that more is left where they are large; empty: 1.
 /// \pre every vertex belongs to a face, no face names a vertex twice. \throw Cancelled
-Decimation decimate(const TriMesh& fine, std::size_t target, const RunContext& run);
+Decimation decimate(const TriMesh& fine, std::size_t target, const RunContext& run,
+                    std::span<const double> weights = {});
 
 /// Collapses edges shorter than `longest`, shortest first, under the same condition on neighbours;
 /// faces may turn over. Merged vertices stand at their weighted mean.

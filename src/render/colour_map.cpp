@@ -8,7 +8,7 @@
 
 #include <Eigen/LU>
 
-#include "render/srgb.h"
+#include "core/srgb.h"
 
 namespace vantage {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "vantage/mesh/measures.h"
@@ -66,6 +67,32 @@ std::vector<Edge> long_pieces(const TriMesh& mesh, const std::vector<Edge>& edge
   return kept;
 }
 
+/// Without faces that lie on others, as the two sides of a leaf do in some files: they would make
+/// each of their edges a branch.
+TriMesh without_doubles(TriMesh mesh) {
+  std::vector<std::array<std::uint32_t, 4>> keys;  // sorted corners, then the face
+  keys.reserve(mesh.triangles.size());
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    Triangle corners = mesh.triangles[f];
+    std::sort(corners.begin(), corners.end());
+    keys.push_back({corners[0], corners[1], corners[2], f});
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::uint32_t> kept;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (i == 0 || !std::equal(keys[i].begin(), keys[i].begin() + 3, keys[i - 1].begin())) {
+      kept.push_back(keys[i][3]);
+    }
+  }
+  std::sort(kept.begin(), kept.end());
+  std::vector<Triangle> triangles;
+  for (const std::uint32_t f : kept) {
+    triangles.push_back(mesh.triangles[f]);
+  }
+  mesh.triangles = std::move(triangles);
+  return mesh;
+}
+
 void add_split(CurveGraph& graph, const Vec3& from, const Vec3& to, double longest_piece) {
   constexpr double kMostPieces = 1000.0;
   const double wanted = std::ceil((to - from).norm() / longest_piece);
@@ -83,22 +110,22 @@ void add_split(CurveGraph& graph, const Vec3& from, const Vec3& to, double longe
 
 CurveGraph feature_edges(const TriMesh& mesh, double crease_rad, double least_length,
                          double longest_piece) {
-  const WeldedMesh welded = weld(mesh);
-  const EdgeTable table = build_edge_table(welded.mesh);
+  const TriMesh joined = without_doubles(weld(mesh).mesh);
+  const EdgeTable table = build_edge_table(joined);
   const double crease_cosine = std::cos(crease_rad);
   std::vector<Edge> edges;
   for (std::size_t e = 0; e < table.edges.size(); ++e) {
-    if (is_feature(welded.mesh, table.edges[e], table.faces_of_edge[e], crease_cosine)) {
+    if (is_feature(joined, table.edges[e], table.faces_of_edge[e], crease_cosine)) {
       edges.push_back(table.edges[e]);
     }
   }
-  edges = long_pieces(welded.mesh, edges, least_length);
+  edges = long_pieces(joined, edges, least_length);
   CurveGraph graph;
   if (edges.size() > kMostFeatureEdges) {
     return graph;
   }
   for (const Edge& edge : edges) {
-    add_split(graph, welded.mesh.positions[edge[0]], welded.mesh.positions[edge[1]], longest_piece);
+    add_split(graph, joined.positions[edge[0]], joined.positions[edge[1]], longest_piece);
   }
   return graph;
 }

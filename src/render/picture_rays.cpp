@@ -63,6 +63,17 @@ PictureRay PictureRays::ray(double x, double y) const {
   return ray;
 }
 
+std::optional<std::array<double, 2>> PictureRays::place_of(const Vec3& point) const {
+  constexpr double kLeastDepth = 1e-3;  // over the scene's radius
+  const Vec3 offset = point - eye_;
+  const double depth = perspective_ ? -offset.dot(back_) : 1.0;
+  if (!(depth > kLeastDepth * reach_) && perspective_) {
+    return std::nullopt;
+  }
+  return std::array{0.5 * width_ * (1.0 + offset.dot(right_) / (depth * half_width_)),
+                    0.5 * height_ * (1.0 - offset.dot(up_) / (depth * half_height_))};
+}
+
 PixelBox PictureRays::ball_bounds(const Vec3& centre, double radius) const {
   const Vec3 offset = centre - eye_;
   const double depth = -offset.dot(back_);

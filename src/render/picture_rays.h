@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "vantage/core/camera.h"
 #include "vantage/core/vec3.h"
@@ -36,6 +37,9 @@ class PictureRays {
   /// where it can first meet the scene, so that single precision holds however far the eye is; an
   /// orthographic one starts before the model even if that is behind the eye.
   [[nodiscard]] PictureRay ray(double x, double y) const;
+
+  /// Where a point falls, pixels from the top left corner; nothing if it is not well before the eye.
+  [[nodiscard]] std::optional<std::array<double, 2>> place_of(const Vec3& point) const;
 
   /// Pixels that a ball may touch; never too few, and the whole picture if it is beside the eye.
   [[nodiscard]] PixelBox ball_bounds(const Vec3& centre, double radius) const;

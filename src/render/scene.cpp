@@ -6,15 +6,16 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Geometry>
 
 #include "vantage/mesh/measures.h"
 
 #include "core/parallel.h"
+#include "core/srgb.h"
 #include "render/corner_normals.h"
 #include "render/feature_edges.h"
-#include "render/srgb.h"
 
 namespace vantage {
 namespace {
@@ -53,6 +54,11 @@ constexpr double kPiecePx = 32.0;
 constexpr double kSamePatchPx = 2.0;
 /// Most samples across a pixel of outlines: enough for 16 steps of coverage.
 constexpr int kMostOutlineSamples = 4;
+/// Layers of glass and leaves that are looked through. [ours]
+constexpr int kMostLayers = 16;
+/// What lies behind a layer is looked for so much further, in units of the frame: more than float
+/// rounding (1e-7 at distances up to 8).
+constexpr float kLayerGap = 1e-5F;
 const Vec3 kInk(0.012, 0.014, 0.018);
 
 /// Places of the samples of a pixel, relative to its centre: a square grid turned so that no two
@@ -123,13 +129,14 @@ double pixel_size(const Camera& camera, const UnitFrame& frame, int height_px) {
 
 }  // namespace
 
-Scene::Scene(const TriMesh& mesh, const Camera& camera, std::span<const Rgb8> vertex_colours,
-             const TubeOverlay& overlay, const RenderOptions& options, const RunContext& run)
+Scene::Scene(const TriMesh& mesh, const Camera& camera, const Paint& paint,
+             const RenderOptions& options, const RunContext& run)
     : options_(options),
       mesh_(mesh),
       colour_(linear_of_srgb(options.colour)),
       pattern_(sample_pattern(options.samples)),
-      tube_colour_(linear_of_srgb(overlay.colour)) {
+      tube_colour_(linear_of_srgb(paint.overlay.colour)) {
+  const TubeOverlay& overlay = paint.overlay;
   CurveGraph graph = overlay.graph == nullptr ? CurveGraph{} : *overlay.graph;
   std::vector<Vec3> points = referenced_points(mesh);
   points.insert(points.end(), graph.nodes.begin(), graph.nodes.end());
@@ -149,7 +156,7 @@ Scene::Scene(const TriMesh& mesh, const Camera& camera, std::span<const Rgb8> ve
   if (overlay.graph != nullptr) {
     tubes_.emplace(graph, tube_radius, *rays_, options.width, options.height);
   }
-  for (const Rgb8& colour : vertex_colours) {
+  for (const Rgb8& colour : paint.vertex_colours) {
     colour_of_vertex_.emplace_back(linear_of_srgb(colour).cast<float>());
   }
   if (options.crease_deg > 0.0) {
@@ -158,7 +165,19 @@ Scene::Scene(const TriMesh& mesh, const Camera& camera, std::span<const Rgb8> ve
     normals_.assign(mesh_.triangles.size(), {Vec3f::Zero(), Vec3f::Zero(), Vec3f::Zero()});
   }
   run.check();
-  surface_.emplace(mesh_);
+  OpacityOfHit opacity;
+  if (paint.appearance != nullptr && !paint.appearance->materials.empty()) {
+    skin_.emplace(*paint.appearance, mesh_,
+                  pixel_ / std::sqrt(static_cast<double>(options.samples)));
+    if (skin_->has_openings()) {
+      opacity = [this](std::uint32_t face, float u, float v) {
+        return skin_->at(face, u, v).opacity;
+      };
+    }
+  }
+  run.check();
+  surface_.emplace(mesh_, std::move(opacity));
+  mask_.emplace(mesh_, *rays_, pixel_, options.width, options.height);
   std::optional<Floor> floor;
   if (options.ground) {
     ground_.emplace(mesh_, *surface_, options.up.normalized(), kOcclusionReach * reach, run);
@@ -212,18 +231,30 @@ SceneBand Scene::band(int first_row, int rows, const RunContext& run) const {
   return band;
 }
 
+RayHit Scene::nearest(const PictureRay& ray, int x, int y) const {
+  return ray.can_hit && mask_->may_show(x, y)
+             ? surface_->closest_hit(ray.origin.cast<float>(), ray.direction.cast<float>())
+             : RayHit{};
+}
+
 Vec3 Scene::to_camera(const Vec3& vector) const {
   return {vector.dot(rays_->right()), vector.dot(rays_->up()), vector.dot(rays_->back())};
 }
 
-Vec3 Scene::albedo(const RayHit& hit) const {
+Skin::Shown Scene::shown_at(const RayHit& hit) const {
+  Skin::Shown shown;
+  if (skin_) {
+    shown = skin_->at(hit.face, hit.u, hit.v);
+  }
   if (colour_of_vertex_.empty()) {
-    return colour_;
+    shown.colour = shown.has_material ? shown.colour : colour_;
+    return shown;
   }
   const Triangle& t = mesh_.triangles[hit.face];
   const Vec3f colour = (1.0F - hit.u - hit.v) * colour_of_vertex_[t[0]] +
                        hit.u * colour_of_vertex_[t[1]] + hit.v * colour_of_vertex_[t[2]];
-  return colour.cast<double>().cwiseMax(0.0).cwiseMin(1.0);
+  shown.colour = shown.colour.cwiseProduct(colour.cast<double>().cwiseMax(0.0).cwiseMin(1.0));
+  return shown;
 }
 
 Scene::Place Scene::place_of(const PictureRay& ray, const RayHit& hit) const {
@@ -253,9 +284,7 @@ std::size_t Scene::band_index(int x, int y, const SceneBand& band) const {
 SurfaceProbe Scene::probe(int x, int y) const {
   SurfaceProbe probe;
   const PictureRay ray = rays_->ray(x + 0.5, y + 0.5);
-  const RayHit hit =
-      ray.can_hit ? surface_->closest_hit(ray.origin.cast<float>(), ray.direction.cast<float>())
-                  : RayHit{};
+  const RayHit hit = nearest(ray, x, y);
   if (hit) {
     const Place place = place_of(ray, hit);
     const std::size_t rays = static_cast<std::size_t>(options_.ambient_rays) * pattern_.size();
@@ -297,13 +326,30 @@ double Scene::shadow(const PictureRay& ray, double t, int x, int y) const {
   return kShadowOpacity * dark * fade * fade * (3.0 - 2.0 * fade);
 }
 
+Light Scene::surface_light(const PictureRay& ray, const RayHit& hit, int x, int y,
+                           std::size_t index, const SceneBand& band, bool before_tube) const {
+  const Skin::Shown shown = shown_at(hit);
+  if (shown.unlit) {
+    return {shown.colour, shown.opacity};
+  }
+  const Place place = place_of(ray, hit);
+  SurfacePoint point;
+  point.albedo = shown.colour;
+  point.normal = to_camera(place.normal);
+  point.to_viewer = to_camera(-ray.direction);
+  point.openness = openness(place, x, y, index, band);
+  const Vec3 colour =
+      options_.style == Style::Technical ? shade_drawing(point) : shade_surface(point);
+  return {colour, shown.opacity * (tubes_ ? translucent_opacity(point, before_tube) : 1.0)};
+}
+
 Light Scene::sample(const PictureRay& ray, int x, int y, std::size_t index,
                     const SceneBand& band) const {
   Light light;
   if (!ray.can_hit) {
     return light;
   }
-  const RayHit hit = surface_->closest_hit(ray.origin.cast<float>(), ray.direction.cast<float>());
+  const RayHit hit = nearest(ray, x, y);
   const double hit_t = hit ? static_cast<double>(hit.t) : std::numeric_limits<double>::infinity();
   const double crease_t =
       creases_ ? creases_->closest_hit(ray, x, y).t : std::numeric_limits<double>::infinity();
@@ -313,16 +359,16 @@ Light Scene::sample(const PictureRay& ray, int x, int y, std::size_t index,
   }
   const TubeHit tube = tubes_ ? tubes_->closest_hit(ray, x, y) : TubeHit{};
   const bool has_tube = std::isfinite(tube.t);
-  if (hit && hit_t <= tube.t) {
-    const Place place = place_of(ray, hit);
-    SurfacePoint point;
-    point.albedo = albedo(hit);
-    point.normal = to_camera(place.normal);
-    point.to_viewer = to_camera(-ray.direction);
-    point.openness = openness(place, x, y, index, band);
-    const Vec3 colour =
-        options_.style == Style::Technical ? shade_drawing(point) : shade_surface(point);
-    light.behind(colour, tubes_ ? translucent_opacity(point, has_tube) : 1.0);
+  RayHit layer = hit;
+  for (int count = 0; layer && static_cast<double>(layer.t) <= tube.t && count < kMostLayers;
+       ++count) {
+    const Light seen = surface_light(ray, layer, x, y, index, band, has_tube);
+    light.behind(seen.colour, seen.alpha);
+    if (!skin_ || !skin_->has_openings() || seen.alpha >= 1.0) {
+      break;
+    }
+    layer = surface_->closest_hit(ray.origin.cast<float>(), ray.direction.cast<float>(),
+                                  layer.t + kLayerGap);
   }
   if (has_tube) {
     SurfacePoint point;
@@ -355,9 +401,10 @@ Vec3 Scene::background(int y) const {
   return mixed;
 }
 
-std::array<std::uint8_t, 4> Scene::pixel(int x, int y, const SceneBand& band) const {
+Light Scene::pixel(int x, int y, const SceneBand& band) const {
   Light sum;
-  for (std::size_t index = 0; index < pattern_.size(); ++index) {
+  const bool is_empty = !mask_->may_show(x, y) && !tubes_ && !creases_ && !ground_;
+  for (std::size_t index = 0; index < pattern_.size() && !is_empty; ++index) {
     const PictureRay ray = rays_->ray(x + 0.5 + pattern_[index][0], y + 0.5 + pattern_[index][1]);
     const Light light = sample(ray, x, y, index, band);
     sum.colour += light.colour;
@@ -370,13 +417,9 @@ std::array<std::uint8_t, 4> Scene::pixel(int x, int y, const SceneBand& band) co
   if (options_.background) {
     sum.behind(background(y), 1.0);
   }
-  const auto alpha = static_cast<std::uint8_t>(std::lround(255.0 * std::min(sum.alpha, 1.0)));
-  if (alpha == 0) {
-    return {0, 0, 0, 0};
-  }
   // The mean of light times opacity over the mean opacity: edges keep the surface's own colour.
-  const Rgb8 colour = srgb_of_linear(Vec3(sum.colour / sum.alpha));
-  return {colour[0], colour[1], colour[2], alpha};
+  return {sum.alpha > 0.0 ? Vec3(sum.colour / sum.alpha) : Vec3(Vec3::Zero()),
+          std::min(sum.alpha, 1.0)};
 }
 
 }  // namespace vantage

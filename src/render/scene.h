@@ -16,6 +16,8 @@
 #include "render/openness_filter.h"
 #include "render/picture_rays.h"
 #include "render/shading.h"
+#include "render/skin.h"
+#include "render/tile_mask.h"
 #include "render/tubes.h"
 #include "spatial/ray_scene.h"
 
@@ -45,16 +47,16 @@ struct SceneBand {
 class Scene {
  public:
   /// \throw InvalidInput, Cancelled
-  Scene(const TriMesh& mesh, const Camera& camera, std::span<const Rgb8> vertex_colours,
-        const TubeOverlay& overlay, const RenderOptions& options, const RunContext& run);
+  Scene(const TriMesh& mesh, const Camera& camera, const Paint& paint, const RenderOptions& options,
+        const RunContext& run);
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
   /// Prepares some rows. \throw Cancelled
   [[nodiscard]] SceneBand band(int first_row, int rows, const RunContext& run) const;
 
-  /// The four bytes of a pixel of a band.
-  [[nodiscard]] std::array<std::uint8_t, 4> pixel(int x, int y, const SceneBand& band) const;
+  /// Light and opacity of a pixel of a band: the colour is not multiplied by the opacity.
+  [[nodiscard]] Light pixel(int x, int y, const SceneBand& band) const;
 
  private:
   /// A place of the surface that is seen.
@@ -73,8 +75,12 @@ class Scene {
                                 const SceneBand& band) const;
   [[nodiscard]] std::size_t band_index(int x, int y, const SceneBand& band) const;
   [[nodiscard]] double shadow(const PictureRay& ray, double t, int x, int y) const;
+  [[nodiscard]] RayHit nearest(const PictureRay& ray, int x, int y) const;
   [[nodiscard]] Vec3 to_camera(const Vec3& vector) const;
-  [[nodiscard]] Vec3 albedo(const RayHit& hit) const;
+  [[nodiscard]] Skin::Shown shown_at(const RayHit& hit) const;
+  [[nodiscard]] Light surface_light(const PictureRay& ray, const RayHit& hit, int x, int y,
+                                    std::size_t index, const SceneBand& band,
+                                    bool before_tube) const;
   [[nodiscard]] Vec3 background(int y) const;
 
   RenderOptions options_;
@@ -84,7 +90,9 @@ class Scene {
   Vec3 colour_;
   double pixel_ = 0.0;  // size of a pixel at the middle of the scene
   std::vector<std::array<double, 2>> pattern_;
+  std::optional<Skin> skin_{};
   std::optional<RayScene> surface_{};
+  std::optional<TileMask> mask_{};
   std::optional<PictureRays> rays_{};
   std::optional<Occlusion> occlusion_{};
   std::optional<Ground> ground_{};

@@ -3,9 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "vantage/core/run_context.h"
 #include "vantage/mesh/tri_mesh.h"
+#include "vantage/visibility/vertex_visibility.h"
 
 /// \file
 /// A smaller copy of a surface, to look at.
@@ -19,8 +22,11 @@ struct DisplayMesh {
 };
 
 /// At most about `max_faces` faces and at most `max_vertices` vertices of `surface`, chosen so that
-/// it looks alike; vertices stay where they are. The surface itself, less vertices without faces, if
-/// it is small enough.
-DisplayMesh display_mesh(const TriMesh& surface, std::size_t max_faces, std::size_t max_vertices);
+/// it looks alike and more of it is left where the significance is large; vertices stay where they
+/// are. The surface itself, less vertices without faces, if it is small enough.
+/// \param significance |V| finite values ≥ 0. \param sides one per component. \throw Cancelled
+DisplayMesh display_mesh(const TriMesh& surface, std::span<const double> significance,
+                         const std::vector<FaceSides>& sides, std::size_t max_faces,
+                         std::size_t max_vertices, const RunContext& run = {});
 
 }  // namespace vantage

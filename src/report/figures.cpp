@@ -2,22 +2,29 @@
 #include "vantage/report/figures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/render/colour_map.h"
 #include "vantage/render/render.h"
+#include "vantage/report/measured_shape.h"
+
+#include "report/panels.h"
+#include "report/search_figure.h"
+#include "report/sphere_figure.h"
 
 namespace vantage {
 namespace {
 
 /// Panels of a sequence of levels; more are too small to compare. [ours]
 constexpr std::size_t kMostLevels = 6;
-constexpr int kGapPx = 8;
 /// Contracted surfaces are drawn thicker by this share of D on all sides, lest limbs that have become
 /// lines vanish between the samples. [ours]
 constexpr double kThickening = 0.004;
@@ -107,31 +114,149 @@ std::vector<double> share_of_level(const KssmMap& map, std::size_t level) {
   return values;
 }
 
+/// The same shape with another map.
+ShapeAnalysis with_map(ShapeAnalysis shape, std::vector<double> map) {
+  shape.map.of_vertex = std::move(map);
+  return shape;
+}
+
+std::string percent_text(double share) {
+  const long tenths = std::lround(1000.0 * share);
+  return std::to_string(tenths / 10) + "." + std::to_string(std::abs(tenths % 10)) + " %";
+}
+
+/// What mesh saliency makes of the shape.
+struct SaliencyView {
+  std::vector<double> map;  ///< In full.
+  ShapeAnalysis shape;      ///< With the map as it is shown.
+  ViewReport report;
+};
+
+/// Saliency has few very high values, beside which all else would be blue: past this share of the
+/// vertices everything is red. [ours]
+constexpr double kShownShare = 0.98;
+
+void clip_for_colours(std::vector<double>& values) {
+  std::vector<double> sorted = values;
+  const auto last = static_cast<std::ptrdiff_t>(kShownShare * static_cast<double>(sorted.size()));
+  const auto place = sorted.begin() + std::min<std::ptrdiff_t>(last, std::ssize(sorted) - 1);
+  std::nth_element(sorted.begin(), place, sorted.end());
+  const double most = *place;
+  for (double& value : values) {
+    value = std::min(value, most);
+  }
+}
+
+SaliencyView saliency_view(const ShapeAnalysis& shape, const ViewReport& report,
+                           const ViewOptions& options, const RunContext& run) {
+  const std::string method = "mesh-saliency";
+  ViewOptions other = options;
+  other.method = method;
+  other.view_set.reset();
+  SaliencyView result{vertex_map(shape, options, method, run.part(0.0, 0.3)), {}, {}};
+  result.shape = with_map(shape, result.map);
+  result.report = find_views(result.shape, report.up, other, run.part(0.3, 1.0));
+  clip_for_colours(result.shape.map.of_vertex);
+  return result;
+}
+
+/// Figures 7 and 8: a view of KSSM's and one of saliency's choice, plain and with their maps.
+Image choices(const Panels& kssm, const Panels& saliency, const ViewOptions& options,
+              std::string_view kind, double kssm_share, double saliency_share) {
+  const auto caption = [&](const char* method, double share) {
+    return std::string(kind) + " by " + method + ": sees " + percent_text(share) + " of it";
+  };
+  return side_by_side(
+      {with_caption(kssm.plain(Picture::Plain, options), caption("KSSM", kssm_share)),
+       with_caption(kssm.plain(Picture::Map, options), "KSSM"),
+       with_caption(saliency.plain(Picture::Plain, options),
+                    caption("mesh saliency", saliency_share)),
+       with_caption(saliency.plain(Picture::Map, options), "mesh saliency")});
+}
+
+/// Figures 1, 2 and 3; the last panel is the map.
+std::vector<Figure> sequences(const ShapeAnalysis& shape, const Panels& best, const Image& map,
+                              const RunContext& run) {
+  std::vector<Image> contraction;
+  std::vector<Image> displacement;
+  std::vector<Image> shares;
+  const std::vector<std::size_t> levels = chosen_levels(shape.history.level_count());
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    run.advance("figures", static_cast<double>(i) / static_cast<double>(levels.size()));
+    const std::string level = "level " + std::to_string(levels[i]);
+    contraction.push_back(with_caption(best.level(levels[i], {}), level));
+    displacement.push_back(
+        with_caption(best.level(levels[i], shape.map.displacement[levels[i]]), level));
+    shares.push_back(with_caption(best.field(share_of_level(shape.map, levels[i])), level));
+  }
+  shares.push_back(with_caption(map, "KSSM, the sum of all levels"));
+  return {{"figure-1-contraction", side_by_side(contraction), {}},
+          {"figure-2-displacement", side_by_side(displacement), {}},
+          {"figure-3-levels", side_by_side(shares), {}}};
+}
+
+/// Figure 6.
+Figure sphere_figure(const ShapeAnalysis& shape, const SaliencyView& saliency,
+                     const ViewReport& report, const ViewOptions& options, const RunContext& run) {
+  RenderOptions look;
+  set_quality(look, Quality::Normal);
+  look.width = options.width;
+  look.height = options.height;
+  look.background = Rgb8{255, 255, 255};
+  const auto panel = [&](const std::vector<double>& values, const std::vector<double>& shown,
+                         const char* name) {
+    return with_caption(
+        sphere_panel(shape, values, shown, report.best.direction, report.up, options, look, run),
+        std::string(name) + " seen from each direction");
+  };
+  return {"figure-6-spheres",
+          side_by_side({panel(shape.map.of_vertex, shape.map.of_vertex, "KSSM"),
+                        panel(saliency.map, saliency.shape.map.of_vertex, "mesh saliency")}),
+          {}};
+}
+
+Figure rapid_figure(const ShapeAnalysis& shape, const ViewReport& report,
+                    const ViewOptions& options, const RunContext& run) {
+  const VertexVisibility visibility(shape.surface, shape.sides);
+  const ViewScorer scorer(visibility, shape.map.of_vertex, report.camera);
+  RunContext quiet = run;
+  quiet.report = nullptr;
+  const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
+    return scorer.score_all(directions, quiet);
+  };
+  const SearchOptions search = preset_options(Preset::Paper).search;
+  const FoundView found = search_view(score, scorer.total(), Goal::Best, search, quiet);
+  const LineDrawing drawing =
+      search_figure(found.trace, search.base, Goal::Best, scorer.total(), options.height);
+  return {"figure-4-search", drawing.image(), drawing.svg()};
+}
+
 }  // namespace
 
 Image side_by_side(const std::vector<Image>& panels) {
-  if (panels.empty()) {
-    throw InvalidInput("a figure needs a panel");
+  return in_rows(panels, panels.size());
+}
+
+Image view_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, const ViewOptions& options,
+                 const RunContext& run) {
+  RenderOptions look;
+  set_quality(look, Quality::Normal);
+  look.background = Rgb8{255, 255, 255};
+  std::vector<Image> panels;
+  const auto count = static_cast<double>(set.views.size());
+  for (std::size_t i = 0; i < set.views.size(); ++i) {
+    run.advance("pictures", static_cast<double>(i) / count);
+    const ReportedView& view = set.views[i];
+    const ChosenView& chosen = set.choice.views[i];
+    RunContext quiet = run;
+    quiet.report = nullptr;
+    panels.push_back(
+        with_caption(draw_picture(shape, view.picture, Picture::Plain, options, look, quiet),
+                     std::to_string(i + 1) + ": sees " + percent_text(view.score_fraction) +
+                         ", together " + percent_text(chosen.coverage)));
   }
-  const int width = panels.front().width;
-  const int height = panels.front().height;
-  Image figure;
-  figure.width = static_cast<int>(panels.size()) * (width + kGapPx) + kGapPx;
-  figure.height = height + 2 * kGapPx;
-  figure.rgba.assign(
-      4 * static_cast<std::size_t>(figure.width) * static_cast<std::size_t>(figure.height), 255);
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    if (panels[i].width != width || panels[i].height != height) {
-      throw InvalidInput("the panels of a figure must be of one size");
-    }
-    const int left = kGapPx + static_cast<int>(i) * (width + kGapPx);
-    for (int y = 0; y < height; ++y) {
-      const auto at = figure.pixel(left, kGapPx + y) - figure.rgba.data();
-      std::copy_n(panels[i].pixel(0, y), std::size_t{4} * static_cast<std::size_t>(width),
-                  figure.rgba.begin() + at);
-    }
-  }
-  return figure;
+  run.advance("pictures", 1.0);
+  return in_rows(panels, static_cast<std::size_t>(std::ceil(std::sqrt(count))));
 }
 
 std::vector<Figure> paper_figures(const ShapeAnalysis& shape, const ViewReport& report,
@@ -141,29 +266,34 @@ std::vector<Figure> paper_figures(const ShapeAnalysis& shape, const ViewReport& 
   }
   const Panels best(shape, report.best.picture, options, run);
   const Panels worst(shape, report.worst.picture, options, run);
-  std::vector<Image> contraction;
-  std::vector<Image> displacement;
-  std::vector<Image> shares;
-  const std::vector<std::size_t> levels = chosen_levels(shape.history.level_count());
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    run.advance("figures", 0.8 * static_cast<double>(i) / static_cast<double>(levels.size()));
-    contraction.push_back(best.level(levels[i], {}));
-    displacement.push_back(best.level(levels[i], shape.map.displacement[levels[i]]));
-    shares.push_back(best.field(share_of_level(shape.map, levels[i])));
-  }
-  shares.push_back(best.plain(Picture::Map, options));
+  const Image map = best.plain(Picture::Map, options);
+  std::vector<Figure> figures = sequences(shape, best, map, run.part(0.0, 0.5));
+  const SaliencyView saliency = saliency_view(shape, report, options, run.part(0.5, 0.7));
+  RunContext quiet = run;
+  quiet.report = nullptr;
+  figures.push_back(rapid_figure(shape, report, options, quiet));
   run.advance("figures", 0.8);
-  std::vector<Figure> figures;
-  figures.push_back({"figure-1-contraction", side_by_side(contraction)});
-  figures.push_back({"figure-2-displacement", side_by_side(displacement)});
-  figures.push_back({"figure-3-levels", side_by_side(shares)});
   figures.push_back(
-      {"figure-5-skeleton", side_by_side({best.plain(Picture::Plain, options), shares.back(),
-                                          best.plain(Picture::Skeleton, options)})});
-  figures.push_back(
-      {"figure-7-best", side_by_side({best.plain(Picture::Plain, options), shares.back()})});
-  figures.push_back({"figure-8-worst", side_by_side({worst.plain(Picture::Plain, options),
-                                                     worst.plain(Picture::Map, options)})});
+      {"figure-5-skeleton",
+       side_by_side({with_caption(best.plain(Picture::Plain, options), "model"),
+                     with_caption(map, "KSSM"),
+                     with_caption(best.plain(Picture::Skeleton, options), "skeleton")}),
+       {}});
+  figures.push_back(sphere_figure(shape, saliency, report, options, quiet));
+  run.advance("figures", 0.9);
+  const auto add_choices = [&](const char* name, const char* kind, const Panels& kssm,
+                               const ReportedView& ours, const ReportedView& theirs) {
+    const Panels other(saliency.shape, theirs.picture, options, run);
+    figures.push_back(
+        {name,
+         choices(kssm, other, options, kind, ours.score_fraction, theirs.score_fraction),
+         {}});
+  };
+  add_choices("figure-7-best", "best", best, report.best, saliency.report.best);
+  add_choices("figure-8-worst", "worst", worst, report.worst, saliency.report.worst);
+  if (report.set) {
+    figures.push_back({"views", view_sheet(shape, *report.set, options, quiet), {}});
+  }
   run.advance("figures", 1.0);
   return figures;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <optional>
 
 #include <nlohmann/json.hpp>
@@ -33,6 +34,10 @@ constexpr int kSphereLevel = 3;
 /// Coordinates, in radii of the enclosing sphere, are stored as 16 bits over [-1.25, 1.25]: a
 /// contracted surface may reach a little beyond the sphere.
 constexpr double kReach = 1.25;
+/// Most views of a set in the filmstrip: each adds a picture of about 40 KB. [ours]
+constexpr std::size_t kMostStripViews = 24;
+/// Cameras of the tour stand so far apart, degrees; between them the page mixes. [ours]
+constexpr double kTourStepDeg = 4.0;
 /// Size of the pictures in the filmstrip, px.
 constexpr int kStripWidth = 288;
 constexpr int kStripHeight = 216;
@@ -88,15 +93,17 @@ Json surface_part(const DisplayMesh& display, const ShapeAnalysis& shape) {
           {"significance", packed_significance(shape.map.of_vertex, display.vertex_of_row)}};
 }
 
-Json mesh_part(const ShapeAnalysis& shape, const Frame& frame) {
-  const DisplayMesh display = display_mesh(shape.surface, kDisplayFaces, 2 * kDisplayFaces);
+Json mesh_part(const ShapeAnalysis& shape, const Frame& frame, const RunContext& run) {
+  const DisplayMesh display = display_mesh(shape.surface, shape.map.of_vertex, shape.sides,
+                                           kDisplayFaces, 2 * kDisplayFaces, run);
   Json part = surface_part(display, shape);
   part["positions"] = packed_positions(shape.surface.positions, display.vertex_of_row, frame);
   return part;
 }
 
-Json history_part(const ShapeAnalysis& shape, const Frame& frame) {
-  const DisplayMesh display = display_mesh(shape.surface, kDisplayFaces, kHistoryVertices);
+Json history_part(const ShapeAnalysis& shape, const Frame& frame, const RunContext& run) {
+  const DisplayMesh display = display_mesh(shape.surface, shape.map.of_vertex, shape.sides,
+                                           kDisplayFaces, kHistoryVertices, run);
   Json part = surface_part(display, shape);
   part["levels"] = Json::array();
   for (const auto& level : shape.history.levels) {
@@ -160,6 +167,36 @@ Json view_part(const char* name, const ReportedView& view, const ShapeAnalysis& 
             {"f3d", camera_f3d(view.picture, model.name)}}}};
 }
 
+/// The views of a set after the first, which is the best one, and the round over all of them.
+void add_set(Json& data, const ViewReport& report, const ShapeAnalysis& shape, const Model& model,
+             const ViewOptions& options, const Frame& frame, const RunContext& run) {
+  const std::vector<ReportedView>& views = report.set->views;
+  const std::size_t shown = std::min(views.size(), kMostStripViews);
+  for (std::size_t i = 1; i < shown; ++i) {
+    const std::string name = std::to_string(i + 1);
+    data["views"].push_back(view_part(name.c_str(), views[i], shape, model, options, frame, run));
+  }
+  if (shown < views.size()) {
+    data["warnings"].push_back("Of the " + std::to_string(views.size()) + " views the first " +
+                               std::to_string(shown) + " are shown here.");
+  }
+  if (!(report.set->tour.length_rad > 0.0)) {
+    return;
+  }
+  const double degrees = report.set->tour.length_rad * 180.0 / std::numbers::pi;
+  const auto count = static_cast<std::size_t>(std::max(12.0, std::ceil(degrees / kTourStepDeg)));
+  Json poses = Json::array();
+  for (const Camera& camera :
+       tour_cameras(shape, *report.set, report.camera, report.up, 1.0, count)) {
+    poses.push_back({{"eye", numbers(frame.to(camera.eye))},
+                     {"target", numbers(frame.to(camera.target))},
+                     {"up", numbers(camera.up)},
+                     {"fov_y_deg", camera.fov_y_deg},
+                     {"aspect", 1.0}});
+  }
+  data["tour"] = {{"degrees", degrees}, {"poses", poses}};
+}
+
 std::string colour_table() {
   std::vector<Rgb8> table;
   table.reserve(256);
@@ -213,8 +250,8 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, const Vi
                  {"aspect", 1.0}}},
                {"colours", colour_table()}};
   run.advance("report", 0.0);
-  data["mesh"] = mesh_part(shape, frame);
-  data["history"] = history_part(shape, frame);
+  data["mesh"] = mesh_part(shape, frame, quiet);
+  data["history"] = history_part(shape, frame, quiet);
   data["skeleton"] = skeleton_part(shape.skeleton.graph, frame);
   run.advance("report", 0.2);
   data["sphere"] = sphere_part(set, score(set.directions));
@@ -225,6 +262,9 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, const Vi
   data["views"] = {view_part("best", report.best, shape, model, options, frame, quiet),
                    view_part("worst", report.worst, shape, model, options, frame, quiet)};
   data["warnings"] = data["view"]["warnings"];
+  if (report.set) {
+    add_set(data, report, shape, model, options, frame, quiet);
+  }
 
   constexpr std::string_view kMark = "<!--VANTAGE-DATA-->";
   std::string page(report_page());

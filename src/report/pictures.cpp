@@ -9,6 +9,39 @@ namespace {
 /// Radius of the skeleton's tubes over D: thin enough for fingers, thick enough to see.
 constexpr double kTubeRadius = 0.004;
 
+/// What a picture shows, and in which colours.
+class Canvas {
+ public:
+  /// Sets the size of `look`.
+  Canvas(const ShapeAnalysis& shape, Picture picture, const ViewOptions& options,
+         RenderOptions& look, const Model* asset)
+      : mesh_(&shape.surface) {
+    look.width = options.width;
+    look.height = options.height;
+    if (picture == Picture::Map) {
+      colours_ = colour_map(shape.map.of_vertex);
+    } else if (picture == Picture::Skeleton) {
+      overlay_.graph = &shape.skeleton.graph;
+      overlay_.radius = kTubeRadius * shape.sphere.diameter;
+    } else if (asset != nullptr && !asset->mesh.triangles.empty()) {
+      // The file's own faces: welding would mix colours and materials that meet at an edge.
+      mesh_ = &asset->mesh;
+      colours_ = asset->vertex_colours;
+      appearance_ = &asset->appearance;
+    }
+  }
+
+  [[nodiscard]] const TriMesh& mesh() const { return *mesh_; }
+
+  [[nodiscard]] Paint paint() const { return {colours_, overlay_, appearance_}; }
+
+ private:
+  const TriMesh* mesh_;
+  std::vector<Rgb8> colours_{};
+  TubeOverlay overlay_{};
+  const Appearance* appearance_ = nullptr;
+};
+
 }  // namespace
 
 Image take_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
@@ -22,29 +55,16 @@ Image take_picture(const ShapeAnalysis& shape, const Camera& camera, Picture pic
 
 Image draw_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
                    const ViewOptions& options, RenderOptions look, const RunContext& run,
-                   std::span<const Rgb8> surface_colours) {
-  look.width = options.width;
-  look.height = options.height;
-  std::vector<Rgb8> colours(surface_colours.begin(), surface_colours.end());
-  TubeOverlay overlay;
-  if (picture == Picture::Map) {
-    colours = colour_map(shape.map.of_vertex);
-  } else if (picture == Picture::Skeleton) {
-    overlay.graph = &shape.skeleton.graph;
-    overlay.radius = kTubeRadius * shape.sphere.diameter;
-  }
-  return render(shape.surface, camera, colours, overlay, look, run);
+                   const Model* asset) {
+  const Canvas canvas(shape, picture, options, look, asset);
+  return render_painted(canvas.mesh(), camera, canvas.paint(), look, run);
 }
 
-std::vector<Rgb8> asset_colours(const Model& model, const ShapeAnalysis& shape) {
-  if (model.vertex_colours.empty()) {
-    return {};
-  }
-  std::vector<Rgb8> colours(shape.surface.positions.size());
-  for (std::size_t v = shape.surface_vertex.size(); v-- > 0;) {
-    colours[shape.surface_vertex[v]] = model.vertex_colours[v];
-  }
-  return colours;
+DeepImage draw_picture_deep(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
+                            const ViewOptions& options, RenderOptions look, const RunContext& run,
+                            const Model* asset) {
+  const Canvas canvas(shape, picture, options, look, asset);
+  return render_deep(canvas.mesh(), camera, canvas.paint(), look, run);
 }
 
 }  // namespace vantage

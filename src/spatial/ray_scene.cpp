@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <embree3/rtcore.h>
@@ -105,9 +106,26 @@ UnitFrame unit_frame(std::span<const Vec3> points) {
 
 struct RayScene::Scene {
   Embree embree{};
+  OpacityOfHit opacity{};
+
+  static double opacity_of(const RTCFilterFunctionNArguments* query) {
+    RTCHitN* hit = query->hit;
+    return static_cast<const Scene*>(query->geometryUserPtr)
+        ->opacity(RTCHitN_primID(hit, query->N, 0), RTCHitN_u(hit, query->N, 0),
+                  RTCHitN_v(hit, query->N, 0));
+  }
+
+  static void pass_holes(const RTCFilterFunctionNArguments* query) {
+    query->valid[0] = query->valid[0] != 0 && opacity_of(query) > 0.0 ? query->valid[0] : 0;
+  }
+
+  static void pass_glass(const RTCFilterFunctionNArguments* query) {
+    query->valid[0] = query->valid[0] != 0 && opacity_of(query) >= 0.5 ? query->valid[0] : 0;
+  }
 };
 
-RayScene::RayScene(const TriMesh& mesh) : scene_(std::make_unique<Scene>()) {
+RayScene::RayScene(const TriMesh& mesh, OpacityOfHit opacity) : scene_(std::make_unique<Scene>()) {
+  scene_->opacity = std::move(opacity);
   const RTCGeometry geometry = rtcNewGeometry(scene_->embree.device, RTC_GEOMETRY_TYPE_TRIANGLE);
   if (!mesh.triangles.empty()) {
     auto* vertices = static_cast<float*>(
@@ -126,6 +144,11 @@ RayScene::RayScene(const TriMesh& mesh) : scene_(std::make_unique<Scene>()) {
     for (const Triangle& t : mesh.triangles) {
       indices = std::copy(t.begin(), t.end(), indices);
     }
+  }
+  if (scene_->opacity) {
+    rtcSetGeometryUserData(geometry, scene_.get());
+    rtcSetGeometryIntersectFilterFunction(geometry, &Scene::pass_holes);
+    rtcSetGeometryOccludedFilterFunction(geometry, &Scene::pass_glass);
   }
   scene_->embree.commit(geometry);
 }

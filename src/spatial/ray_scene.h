@@ -44,12 +44,17 @@ struct RayHit {
   explicit operator bool() const { return face != kNone; }
 };
 
+/// How opaque a place of a surface is, in [0, 1]; called from many threads at once.
+using OpacityOfHit = std::function<double(std::uint32_t face, float u, float v)>;
+
 /// Triangles in single precision, for pictures. Rays pass no shared edge unnoticed.
 class RayScene {
  public:
   /// \param mesh positions in the frame of the rays; bring them near the origin and to order 1
   ///             first (UnitFrame), because they are rounded to float.
-  explicit RayScene(const TriMesh& mesh);
+  /// \param opacity closest_hit() passes through places where it is 0, occluded() through those
+  ///             where it is below a half; empty: all is solid.
+  explicit RayScene(const TriMesh& mesh, OpacityOfHit opacity = {});
   ~RayScene();
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;

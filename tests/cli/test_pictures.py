@@ -45,7 +45,7 @@ class Looks(ProgramTest):
     def picture(self, *flags, size="90x60"):
         self.vantage("render", MODELS / "fan.ply", "-o", "p.png", "--size", size, "--quality", "draft",
                      "--direction", "1,0.5,1", *flags)
-        return read_png((self.dir / "p.png").read_bytes())
+        return None if "--depth" in flags else read_png((self.dir / "p.png").read_bytes())
 
     def box_of(self, *flags):
         """Distances of what is drawn from the four borders, px."""
@@ -89,6 +89,26 @@ class Looks(ProgramTest):
             r, g, _, a = read_png((self.dir / "p.png").read_bytes())[2][16][64:68]
             self.assertEqual((a, r > 3 * g), (255, red), style)
 
+    def test_an_asset_shows_its_texture_and_the_seam_of_two_materials_stays_sharp(self):
+        self.write("two.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n")
+        self.write("two.obj", "mtllib two.mtl\nv -1 -1 0\nv 0 -1 0\nv 0 1 0\nv -1 1 0\nv 1 -1 0\nv 1 1 0\n"
+                              "usemtl red\nf 1 2 3 4\nusemtl blue\nf 2 5 6 3\n")
+        self.vantage("render", "two.obj", "-o", "p.png", "--size", "32x32", "--direction", "0,0,1", "--style", "asset",
+                     "--margin", "0")
+        row = read_png((self.dir / "p.png").read_bytes())[2][16]
+        left, right = row[4 * 12:4 * 12 + 3], row[4 * 20:4 * 20 + 3]
+        self.assertGreater(left[0], 3 * left[2])
+        self.assertGreater(right[2], 3 * right[0])
+
+    def test_depth_of_16_bit_is_for_pngs_and_the_same_for_any_number_of_threads(self):
+        deep = []
+        for threads in (1, 2):
+            self.picture("--depth", 16, "--threads", threads)
+            deep.append((self.dir / "p.png").read_bytes())
+        self.assertEqual((deep[0] == deep[1], deep[0][24]), (True, 16))
+        for command in (("render", "--direction", "1,0,0"), ("thumb",)):
+            self.vantage(command[0], MODELS / "fan.ply", "-o", "p.webp", "--depth", "16", *command[1:], exit_code=2)
+
     def test_the_map_can_be_drawn_too(self):
         rows = self.picture("--show", "kssm", "--style", "technical")[2]
         colourful = [p for row in rows for p in zip(row[0::4], row[1::4], row[2::4], row[3::4])
@@ -102,8 +122,18 @@ class Figures(ProgramTest):
         done = self.vantage("figures", MODELS / "fan.ply", "-o", "f", "--size", "40x30", "--json")
         files = json.loads(done.out)["files"]
         self.assertEqual(sorted(pathlib.Path(f).name for f in files), sorted(p.name for p in (self.dir / "f").iterdir()))
-        self.assertEqual([pathlib.Path(f).name[:8] for f in files], [f"figure-{n}" for n in "123578"])
-        self.assertEqual(read_png((self.dir / "f" / "figure-8-worst.png").read_bytes())[:2], (2 * 48 + 8, 46))
+        self.assertEqual([pathlib.Path(f).name[:8] for f in files], [f"figure-{n}" for n in "12344567"] + ["figure-8", "views.pn", "table-1-", "table-1-"])
+        # Four panels of 40 × 30 with 12 px of text below, and gaps of 8 px.
+        self.assertEqual(read_png((self.dir / "f" / "figure-8-worst.png").read_bytes())[:2], (4 * 48 + 8, 30 + 12 + 16))
+        rows = (self.dir / "f" / "table-1-times.csv").read_text().splitlines()
+        self.assertEqual((len(rows), rows[1].split(",")[:2]), (2, ['"fan"', "820"]))
+
+    def test_several_models_get_a_folder_each_and_one_table(self):
+        self.vantage("figures", MODELS / "fan.ply", MODELS / "cat_lowpoly.ply", "-o", "f", "--size", "40x30", "-q",
+                     "--search", "rapid", "--views", "2")
+        self.assertTrue((self.dir / "f/fan/figure-4-search.svg").exists())
+        self.assertTrue((self.dir / "f/cat_lowpoly/figure-6-spheres.png").exists())
+        self.assertEqual(len((self.dir / "f/table-1-times.csv").read_text().splitlines()), 3)
 
     def test_points_have_none_and_leave_no_folder(self):
         self.write("cloud.xyz", "\n".join(f"{x} {y} {x * y * 0.1}" for x in range(12) for y in range(12)))

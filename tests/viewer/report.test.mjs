@@ -18,7 +18,7 @@ const vantage = (...args) => execFileSync(process.env.VANTAGE, args, { cwd: fold
 const report = path.join(out, 'report.html');
 
 before(async () => {
-  vantage('view', path.join(models, 'horse.ply'), '-o', out, '--search', 'rapid');
+  vantage('view', path.join(models, 'horse.ply'), '-o', out, '--search', 'rapid', '--views', '4');
   view = JSON.parse(fs.readFileSync(path.join(out, 'view.json'), 'utf8'));
   browser = await launch();
 });
@@ -56,7 +56,7 @@ test('opens from disk without errors, warnings or requests', async () => {
   const page = await open(browser, report);
   assert.deepEqual(page.complaints, []);
   assert.equal(await page.textContent('#name'), 'horse');
-  assert.equal(await page.locator('.view').count(), 2);
+  assert.equal(await page.locator('.view').count(), 2 + 3); // the best is the first of the four
   await page.context().close();
 });
 
@@ -198,6 +198,56 @@ test('keys turn the model, pick views and toggle what is shown', async () => {
   await page.context().close();
 });
 
+test('a further view of the set brings its camera', async () => {
+  const page = await open(browser, report);
+  await page.click('.view[data-view="3"]');
+  await waitForFlight(page);
+  const seen = await camera(page);
+  assert.ok(distance(seen.eye, view.views[2].eye) < 1e-5 * seen.radius);
+  await page.context().close();
+});
+
+test('the tour goes on until something else is asked for', async () => {
+  const page = await open(browser, report);
+  await page.click('#tour');
+  await page.waitForFunction(() => window.vantage.model.touring);
+  const first = (await camera(page)).eye;
+  await page.waitForFunction((eye) => {
+    const { position } = window.vantage.model.camera;
+    return Math.hypot(position.x - eye[0], position.y - eye[1], position.z - eye[2]) > 0.1;
+  }, await page.evaluate(() => window.vantage.model.camera.position.toArray()));
+  assert.ok(distance(first, (await camera(page)).eye) > 0);
+  await page.click('.view[data-view=worst]');
+  await page.waitForFunction(() => !window.vantage.model.touring && window.vantage.model.flight === undefined);
+  assert.ok(distance((await camera(page)).eye, view.worst.eye) < 1e-4 * (await camera(page)).radius);
+  assert.match(await page.textContent('#tour'), /▶/);
+  await page.context().close();
+});
+
+test('every camera format of the result folder is in the box', async () => {
+  const page = await open(browser, report);
+  const files = { glTF: 'gltf', 'NeRF transforms.json': 'transforms.json', f3d: 'f3d.txt' };
+  const formats = await page.locator('#format option').evaluateAll((all) => all.map((o) => o.value));
+  assert.deepEqual(formats.sort(), Object.keys(files).sort());
+  await page.context().close();
+});
+
+test('a finger turns the model', async () => {
+  const page = await open(browser, report, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  const before = (await camera(page)).eye;
+  const box = await page.locator('#model').boundingBox();
+  const client = await page.context().newCDPSession(page);
+  const touch = (type, x) => client.send('Input.dispatchTouchEvent', {
+    type, touchPoints: type === 'touchEnd' ? [] : [{ x, y: box.y + box.height / 2 }] });
+  await touch('touchStart', box.x + 100);
+  for (let x = 110; x <= 200; x += 10) {
+    await touch('touchMove', box.x + x);
+  }
+  await touch('touchEnd', 0);
+  assert.ok(distance(before, (await camera(page)).eye) > 0.05 * (await camera(page)).radius);
+  await page.context().close();
+});
+
 test('the camera box holds the file that view wrote', async () => {
   const page = await open(browser, report);
   await page.selectOption('#format', 'NeRF transforms.json');
@@ -230,6 +280,8 @@ test('shows a large model within seconds', { skip: process.env.VANTAGE_DATA ? fa
   const page = await open(browser, path.join(large, 'report.html'));
   assert.deepEqual(page.complaints, []);
   assert.match(await page.textContent('#numbers'), /shown here/);
+  assert.match(await page.textContent('#numbers'), /more where significance is high/);
+  assert.ok(fs.statSync(path.join(large, 'report.html')).size < 40e6);
   console.log(`# 173 000 vertices loaded in ${page.loadSeconds} s`);
   await page.context().close();
 });

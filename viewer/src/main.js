@@ -101,6 +101,27 @@ for (const input of document.querySelectorAll('input[name=goal], #epsilon')) {
 element('replay').addEventListener('click', () => replay(true));
 replay(false);
 
+// The round over all views, again and again until something else is asked for.
+const TOUR_DEG_PER_S = 36;
+if (data.tour) {
+  const { degrees, poses } = data.tour;
+  element('tour-text').textContent = `${Math.round(degrees)}° over ${data.views.length - 1} views`;
+  element('tour').addEventListener('click', () => {
+    const button = element('tour');
+    if (model.touring) {
+      model.stop();
+      return;
+    }
+    press('');
+    model.fly(poses[0], () => {
+      button.textContent = '❚❚ Tour';
+      model.tour(poses, (degrees / TOUR_DEG_PER_S) * 1000, () => { button.textContent = '▶ Tour'; });
+    });
+  });
+} else {
+  element('tour-box').remove();
+}
+
 // Light and dark.
 function setTheme(dark) {
   document.documentElement.dataset.theme = dark ? 'dark' : 'light';
@@ -122,7 +143,7 @@ document.addEventListener('keydown', (event) => {
     event.preventDefault();
     play();
   } else {
-    ({ d: toggleTheme, k: () => toggle('show-map'), s: () => toggle('show-skeleton') })[event.key]?.();
+    ({ t: () => element('tour')?.click(), d: toggleTheme, k: () => toggle('show-map'), s: () => toggle('show-skeleton') })[event.key]?.();
   }
 });
 

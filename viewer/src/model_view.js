@@ -10,7 +10,9 @@ const PLAIN = new THREE.Color(0xc4c0ba);
 const BONE = new THREE.Color(0xc81e28);
 // Creases are worth splitting vertices for on coarse models, CAD parts mostly.
 const CREASE_LIMIT = 60000;
-const CREASE_RAD = Math.PI / 5;
+const CREASE_RAD = (50 * Math.PI) / 180; // bends of scans up to this stay smooth, right angles sharp
+// Contracted surfaces are drawn thicker by so much on all sides, lest limbs that have become lines vanish.
+const THICKENING = 0.006;
 const FLIGHT_MS = 700;
 const KEY_STEP_RAD = Math.PI / 36;
 
@@ -76,7 +78,9 @@ export class ModelView {
   addHistory(data) {
     const levels = data.history.levels.map(asPositions);
     const geometry = surface(data.history, levels[0].slice(), asBytes(data.colours));
-    this.history = { levels, mesh: new THREE.Mesh(geometry, this.material) };
+    geometry.computeVertexNormals();
+    const normals = geometry.attributes.normal.array.slice();
+    this.history = { levels, normals, mesh: new THREE.Mesh(geometry, this.material) };
     this.history.mesh.visible = false;
     this.scene.add(this.history.mesh);
   }
@@ -121,7 +125,8 @@ export class ModelView {
 
   /** @param level between two levels the positions are mixed. */
   setLevel(level) {
-    const { levels, mesh } = this.history;
+    const { levels, normals, mesh } = this.history;
+    const thickness = THICKENING * Math.min(1, level);
     mesh.visible = level > 0;
     this.mesh.visible = !mesh.visible;
     if (mesh.visible) {
@@ -130,7 +135,7 @@ export class ModelView {
       const share = level - low;
       const to = mesh.geometry.attributes.position;
       for (let i = 0; i < to.array.length; ++i) {
-        to.array[i] = levels[low][i] * (1 - share) + levels[high][i] * share;
+        to.array[i] = levels[low][i] * (1 - share) + levels[high][i] * share + thickness * normals[i];
       }
       to.needsUpdate = true;
       mesh.geometry.computeVertexNormals();
@@ -153,6 +158,7 @@ export class ModelView {
     this.controls.enablePan = false;
     this.controls.minDistance = 0.2;
     this.controls.maxDistance = 20;
+    this.controls.addEventListener('start', () => this.stop());
     this.controls.addEventListener('change', () => this.moved());
     this.controls.update();
     this.moved();
@@ -185,9 +191,34 @@ export class ModelView {
     this.flight = requestAnimationFrame(step);
   }
 
+  /** Flies a closed round of cameras until it is stopped. */
+  tour(poses, roundMs, onEnd) {
+    this.touring = onEnd;
+    const start = performance.now();
+    const mix = (a, b, share) => new THREE.Vector3(...a).lerp(new THREE.Vector3(...b), share);
+    const step = (now) => {
+      const place = ((((now - start) / roundMs) % 1) + 1) % 1 * poses.length;
+      const from = poses[Math.floor(place) % poses.length];
+      const to = poses[(Math.floor(place) + 1) % poses.length];
+      const share = place - Math.floor(place);
+      const distance = new THREE.Vector3(...from.eye).length();
+      this.view = from;
+      this.camera.position.copy(mix(from.eye, to.eye, share)).setLength(distance);
+      this.camera.up.copy(mix(from.up, to.up, share)).normalize();
+      this.controls.target.copy(mix(from.target, to.target, share));
+      this.setLens(from);
+      this.camera.lookAt(this.controls.target);
+      this.moved();
+      this.flight = requestAnimationFrame(step);
+    };
+    this.flight = requestAnimationFrame(step);
+  }
+
   stop() {
     cancelAnimationFrame(this.flight);
     this.flight = undefined;
+    this.touring?.();
+    this.touring = undefined;
   }
 
   /** The picture's field of view, widened where the window is narrower than the picture. */
@@ -209,6 +240,7 @@ export class ModelView {
       return;
     }
     event.preventDefault();
+    this.stop();
     const offset = this.camera.position.clone().sub(this.controls.target);
     const side = new THREE.Vector3().crossVectors(this.camera.up, offset).normalize();
     offset.applyAxisAngle(this.camera.up, turn[0] * KEY_STEP_RAD).applyAxisAngle(side, turn[1] * KEY_STEP_RAD);

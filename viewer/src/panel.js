@@ -32,7 +32,7 @@ export function fillViews(views, onPick) {
     picture.src = view.picture;
     picture.alt = `${view.name} view`;
     button.append(picture);
-    make('span', view.name, button);
+    make('span', /^\d/.test(view.name) ? `view ${view.name}` : view.name, button);
     make('small', `${short(view.score)} · ${percent(view.score_fraction)}`, button);
     button.addEventListener('click', () => onPick(view));
     element('views').append(button);
@@ -54,7 +54,7 @@ export function fillNumbers(data) {
     ['version', view.vantage],
   ];
   if (data.mesh.faces < view.model.faces) {
-    rows.push(['shown here', `${data.mesh.faces.toLocaleString('en')} of ${view.model.faces.toLocaleString('en')} faces`]);
+    rows.push(['shown here', `${data.mesh.faces.toLocaleString('en')} of ${view.model.faces.toLocaleString('en')} faces, more where significance is high`]);
   }
   for (const [name, value] of rows) {
     const row = document.createElement('tr');

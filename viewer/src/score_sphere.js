@@ -5,7 +5,8 @@ import { asBytes } from './decode.js';
 
 const RAISE = 0.25; // of the radius, for the best score
 const SIZE = 170; // px
-const MARKS = { best: 0x1a9641, worst: 0xd7191c, other: 0x333333 };
+const PATH_PIECES = 8;
+const MARKS = { best: 0x1a9641, worst: 0xd7191c, other: 0x8a8f98 };
 
 export class ScoreSphere {
   constructor(canvas, data, onPick) {
@@ -69,7 +70,10 @@ export class ScoreSphere {
       this.scene.remove(this.path);
       this.path.geometry.dispose();
     }
-    const points = directions.map((d) => new THREE.Vector3(...d).multiplyScalar(1 + RAISE));
+    // Along great circles above the highest place, so that no part of the way is hidden.
+    const stops = directions.map((d) => new THREE.Vector3(...d));
+    const points = stops.flatMap((d, i) => (i === 0 ? [d] : Array.from({ length: PATH_PIECES }, (_, k) =>
+      stops[i - 1].clone().lerp(d, (k + 1) / PATH_PIECES)))).map((d) => d.setLength(1.01 + RAISE));
     this.path = new THREE.Line(new THREE.BufferGeometry().setFromPoints(points), new THREE.LineBasicMaterial({ color: 0x000000 }));
     this.scene.add(this.path);
     this.draw();

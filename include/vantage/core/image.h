@@ -24,4 +24,11 @@ struct Image {
   }
 };
 
+/// The same in 16 bit: what is left when a picture is brightened or graded.
+struct DeepImage {
+  int width = 0;                      ///< px
+  int height = 0;                     ///< px
+  std::vector<std::uint16_t> rgba{};  ///< 4 · width · height values.
+};
+
 }  // namespace vantage

@@ -9,6 +9,7 @@
 
 #include "vantage/core/image.h"
 #include "vantage/core/run_context.h"
+#include "vantage/mesh/appearance.h"
 #include "vantage/mesh/tri_mesh.h"
 
 /// \file
@@ -38,6 +39,7 @@ struct Model {
   TriMesh mesh{};                         ///< Polygons already triangulated. Faces may be absent.
   std::vector<Rgb8> vertex_colours{};     ///< |V| sRGB colours, or empty.
   std::vector<ModelPart> parts{};         ///< In file order; may be empty.
+  Appearance appearance{};                ///< Materials, if asked for and there.
   bool double_precision = false;          ///< Coordinates carry more digits than float holds.
   std::size_t polygons = 0;               ///< Faces in the file before triangulation.
   std::size_t quads = 0;                  ///< Of these, with four corners.
@@ -46,16 +48,29 @@ struct Model {
   std::vector<std::string> notes{};       ///< What was read in an unusual way, one sentence each.
 };
 
+/// What is wanted of a file besides its shape.
+struct ReadOptions {
+  /// Also the materials of glTF and OBJ with their textures, which may be large. What cannot be had
+  /// of them is left out, with a note: it is no reason to refuse the shape.
+  bool appearance = false;
+  /// Textures are looked at no closer than that many pixels on their longer side, so that large JPEGs
+  /// may be read at a half, a quarter or an eighth; 0: always whole.
+  int texture_side = 0;
+};
+
 /// Parses the bytes of a model.
 /// \param bytes  the whole file. \param name shown in messages; its extension picks the format
 ///               unless the bytes plainly say otherwise (magic numbers win, with a note).
 /// \throw FormatError with file, place, problem and remedy.
 /// \throw Cancelled
-Model parse_model(std::string_view bytes, std::string_view name, const RunContext& run = {});
+Model parse_model(std::string_view bytes, std::string_view name, const RunContext& run = {},
+                  const ReadOptions& options = {});
 
-/// Reads a model from disk; glTF may name buffers in the model's own folder, and nowhere else.
+/// Reads a model from disk; it may name buffers, material libraries and textures in its own folder,
+/// and nowhere else.
 /// \param path a file, or "-" for standard input.
 /// \throw IoError, FormatError, Cancelled
-Model load_model(const std::string& path, const RunContext& run = {});
+Model load_model(const std::string& path, const RunContext& run = {},
+                 const ReadOptions& options = {});
 
 }  // namespace vantage

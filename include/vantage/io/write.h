@@ -48,6 +48,8 @@ std::string skeleton_ply(const CurveGraph& graph);  ///< vertices and edges, ASC
 
 /// PNG, 8 bit RGBA, compression level 3. \throw IoError
 std::string png_bytes(const Image& image);
+/// PNG, 16 bit RGBA. \throw IoError
+std::string png_bytes(const DeepImage& image);
 
 /// WebP: colour at quality 90 of 100, alpha without loss; a third of the size of the PNG.
 /// \throw InvalidInput for a side that the format cannot hold (16383 px). \throw IoError

@@ -12,6 +12,7 @@
 #include "vantage/core/image.h"
 #include "vantage/core/run_context.h"
 #include "vantage/core/vec3.h"
+#include "vantage/mesh/appearance.h"
 #include "vantage/mesh/curve_graph.h"
 #include "vantage/mesh/tri_mesh.h"
 
@@ -73,5 +74,21 @@ struct TubeOverlay {
 Image render(const TriMesh& mesh, const Camera& camera, std::span<const Rgb8> vertex_colours = {},
              const TubeOverlay& overlay = {}, const RenderOptions& options = {},
              const RunContext& run = {});
+
+/// What a surface is coloured by, and what is drawn through it.
+struct Paint {
+  std::span<const Rgb8> vertex_colours{};  ///< |V|, or empty.
+  TubeOverlay overlay{};                   ///< Curves through the surface.
+  /// Materials of the mesh; null or none at all: `options.colour`. Times the vertices' colours.
+  const Appearance* appearance = nullptr;
+};
+
+/// Renders `mesh` from `camera`. \throw InvalidInput, Cancelled
+Image render_painted(const TriMesh& mesh, const Camera& camera, const Paint& paint,
+                     const RenderOptions& options = {}, const RunContext& run = {});
+
+/// The same picture in 16 bit a channel. \throw InvalidInput, Cancelled
+DeepImage render_deep(const TriMesh& mesh, const Camera& camera, const Paint& paint,
+                      const RenderOptions& options = {}, const RunContext& run = {});
 
 }  // namespace vantage

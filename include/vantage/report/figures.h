@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -13,17 +14,37 @@
 
 namespace vantage {
 
-/// A picture of several panels from left to right, on white.
+/// A picture of several panels, on white.
 struct Figure {
   std::string name{};  ///< File name without extension, e.g. "figure-1-contraction".
-  Image image{};       ///< Panels of the options' size.
+  Image image{};       ///< Panels of the options' size, each with a line of text below.
+  std::string svg{};   ///< The same as lines, where lines matter; else empty.
 };
 
-/// Figures 1, 2, 3, 5, 7 and 8 of the paper; all but 8 from the best view's camera.
-/// \param shape of a surface, with history, skeleton and map.
+/// Figures 1 to 8 of the paper; all but 8 from the best view's camera. 6, 7 and 8 show mesh saliency
+/// beside KSSM, with a search of its own. If the report has several views, they are on a sheet.
+/// \param shape of a surface, with history, skeleton and map (kssm).
 /// \throw InvalidInput for a cloud of points, which has no surface to contract. \throw Cancelled
 std::vector<Figure> paper_figures(const ShapeAnalysis& shape, const ViewReport& report,
                                   const ViewOptions& options, const RunContext& run = {});
+
+/// The views of a set in their order, each with what it sees and what it adds.
+/// \param size of each picture in `options`. \throw Cancelled
+Image view_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, const ViewOptions& options,
+                 const RunContext& run = {});
+
+/// One row of Table 1: what each stage took.
+struct StageTimes {
+  std::string model{};       ///< Name.
+  std::size_t vertices = 0;  ///< Of the welded surface.
+  std::size_t faces = 0;     ///< Of the same.
+  StageSeconds seconds{};    ///< `load`, `contract`, `skeleton`, `map` and `search` are shown.
+};
+
+/// Table 1 as CSV: model,vertices,faces,load_s,contract_s,skeleton_s,map_s,search_s,total_s.
+std::string times_csv(const std::vector<StageTimes>& rows);
+/// The same as a Markdown table.
+std::string times_markdown(const std::vector<StageTimes>& rows);
 
 /// The pictures side by side on white, a gap between them and around. \pre all are of one size.
 /// \throw InvalidInput if they are not, or there are none.

@@ -245,15 +245,17 @@ Image take_picture(const ShapeAnalysis& shape, const Camera& camera, Picture pic
                    const ViewOptions& options, const std::optional<Rgb8>& background = {},
                    const RunContext& run = {});
 
-/// The colours that the file gives to the surface's vertices; of vertices at one position the first
-/// counts. Empty if it gives none.
-std::vector<Rgb8> asset_colours(const Model& model, const ShapeAnalysis& shape);
-
 /// The same with any look; its size is that of `options`. \throw Cancelled
-/// \param surface_colours of a plain picture, one per vertex of the surface; may be empty.
+/// \param asset what the shape was made from: a plain picture shows it in its own colours and
+/// materials; null for clay.
 Image draw_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
                    const ViewOptions& options, RenderOptions look, const RunContext& run = {},
-                   std::span<const Rgb8> surface_colours = {});
+                   const Model* asset = nullptr);
+
+/// The same in 16 bit a channel. \throw Cancelled
+DeepImage draw_picture_deep(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
+                            const ViewOptions& options, RenderOptions look,
+                            const RunContext& run = {}, const Model* asset = nullptr);
 
 /// view.json: the same bytes for the same input, options and version.
 /// \param seconds adds the times, for `--json`; null for the file.

@@ -15,6 +15,8 @@
 #include "vantage/mesh/mesh_check.h"
 
 #include "io/files.h"
+#include "io/mtl.h"
+#include "io/picture_decoding.h"
 
 namespace vantage::test {
 namespace {
@@ -58,7 +60,7 @@ TEST_P(CorpusReplay, GivesAModelWithValidIndicesOrAFormatError) {
   const std::string name = std::string("fuzz.") + GetParam();
   EXPECT_GT(replay(GetParam(),
                    [&](const std::string& bytes) {
-                     const Model model = parse_model(bytes, name);
+                     const Model model = parse_model(bytes, name, {}, {.appearance = true});
                      EXPECT_TRUE(has_valid_indices(model.mesh));
                      EXPECT_EQ(check_mesh(model.mesh).faces, model.mesh.triangles.size());
                    }),
@@ -82,6 +84,26 @@ TEST(CorpusReplay, PointsGiveAResultOrAFormatError) {
                      EXPECT_FALSE(parse_points_csv(bytes, "fuzz.csv", {"dx", "dy", "dz"}).empty());
                    }),
             0);
+}
+
+TEST(PictureReplay, GivesAPictureOrAProblem) {
+  int read = 0;
+  for (const fs::path& file : files_of("picture")) {
+    const DecodedPicture picture = decode_picture(read_file(file.string()));
+    EXPECT_NE(picture.image.has_value(), !picture.problem.empty()) << file;
+    read += picture.image ? 1 : 0;
+  }
+  EXPECT_GT(read, 5);
+}
+
+TEST(MtlReplay, GivesNumbersInTheirRanges) {
+  for (const fs::path& file : files_of("mtl")) {
+    const auto materials = parse_mtl(read_file(file.string()));
+    EXPECT_FALSE(materials.empty()) << file;
+    for (const auto& [name, material] : materials) {
+      EXPECT_TRUE(material.opacity >= 0.0 && material.opacity <= 1.0) << name;
+    }
+  }
 }
 
 }  // namespace

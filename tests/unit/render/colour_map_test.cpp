@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/srgb.h"
+#include "core/srgb.h"
 
 namespace vantage {
 namespace {

@@ -43,17 +43,46 @@ TEST(PaperFigures, ShowEachLevelAndEndWithTheMap) {
   const ShapeAnalysis shape = analyse_shape(model_of(y_of_tubes(0.2, 24)), options);
   const ViewReport report = find_views(shape, UpAxis::Y, options);
   const std::vector<Figure> figures = paper_figures(shape, report, options);
-  ASSERT_EQ(figures.size(), 6U);
+  ASSERT_EQ(figures.size(), 8U);
   const auto panels = [](const Image& image) { return (image.width - 8) / (48 + 8); };
   const int levels = std::min<int>(6, static_cast<int>(shape.history.level_count()) + 1);
   EXPECT_EQ(panels(figures[0].image), levels);
   EXPECT_EQ(panels(figures[2].image), levels + 1);
-  EXPECT_EQ(panels(figures[3].image), 3);
+  EXPECT_EQ(panels(figures[4].image), 3);
+  EXPECT_EQ(panels(figures[5].image), 2);
+  EXPECT_EQ(panels(figures[6].image), 4);
   // The first panel of the contraction is the model as figure 5 shows it.
   for (int y = 8; y < 8 + 36; ++y) {
     EXPECT_TRUE(std::equal(figures[0].image.pixel(8, y), figures[0].image.pixel(8 + 48, y),
-                           figures[3].image.pixel(8, y)));
+                           figures[4].image.pixel(8, y)));
   }
+}
+
+TEST(PaperFigures, DrawTheSearchAsLinesAndAsPixels) {
+  ViewOptions options;
+  options.width = 48;
+  options.height = 36;
+  options.search.strategy = SearchStrategy::Rapid;
+  const ShapeAnalysis shape = analyse_shape(model_of(y_of_tubes(0.2, 16)), options);
+  for (const Figure& figure :
+       paper_figures(shape, find_views(shape, UpAxis::Y, options), options)) {
+    EXPECT_EQ(figure.svg.empty(), figure.name != "figure-4-search") << figure.name;
+    if (!figure.svg.empty()) {  // at least a panel a level of the sphere, and the closer look
+      EXPECT_GE(figure.image.width, 2 * 36);
+      EXPECT_NE(figure.svg.find("<svg"), std::string::npos);
+    }
+  }
+}
+
+TEST(TimesTable, HasOneRowAModelAndAddsUp) {
+  StageTimes row{"a|b", 10, 16, {}};
+  row.seconds.contract = 1.25;
+  row.seconds.search = 0.5;
+  EXPECT_EQ(times_csv({row}),
+            "model,vertices,faces,load_s,contract_s,skeleton_s,map_s,search_s,total_s\n"
+            "\"a|b\",10,16,0,1.25,0,0,0.5,1.75\n");
+  EXPECT_NE(times_markdown({row}).find("| a\\|b | 10 | 16 | 0 | 1.25 | 0 | 0 | 0.5 | 1.75 |\n"),
+            std::string::npos);
 }
 
 TEST(PaperFigures, NeedASurface) {

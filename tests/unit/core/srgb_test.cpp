@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "render/srgb.h"
+#include "core/srgb.h"
 
 #include <cmath>
 #include <cstdint>

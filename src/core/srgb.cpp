@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "render/srgb.h"
+#include "core/srgb.h"
 
 #include <algorithm>
 #include <array>
@@ -23,6 +23,11 @@ double linear_of_encoded(double value) {
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
+double encoded_of_linear(double value) {
+  const double clamped = value > 0.0 ? std::min(value, 1.0) : 0.0;
+  return clamped <= 0.0031308 ? 12.92 * clamped : 1.055 * std::pow(clamped, 1.0 / 2.4) - 0.055;
+}
+
 double linear_of_srgb(std::uint8_t byte) {
   static const std::array<double, 256> table = decode_table();
   return table[byte];
@@ -33,10 +38,7 @@ Vec3 linear_of_srgb(const Rgb8& colour) {
 }
 
 std::uint8_t srgb_of_linear(double value) {
-  const double clamped = std::clamp(value, 0.0, 1.0);
-  const double encoded =
-      clamped <= 0.0031308 ? 12.92 * clamped : 1.055 * std::pow(clamped, 1.0 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
+  return static_cast<std::uint8_t>(std::lround(255.0 * encoded_of_linear(value)));
 }
 
 Rgb8 srgb_of_linear(const Vec3& colour) {

@@ -14,6 +14,9 @@ namespace vantage {
 /// Linear light of an sRGB value, both in [0, 1].
 double linear_of_encoded(double value);
 
+/// The reverse; clamped to [0, 1], NaN is 0.
+double encoded_of_linear(double value);
+
 /// Linear light in [0, 1] of an sRGB byte.
 double linear_of_srgb(std::uint8_t byte);
 

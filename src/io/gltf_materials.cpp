@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include "io/gltf_materials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "io/gltf_uri.h"
+#include "io/texture_loader.h"
+
+namespace vantage {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Stands for what a file does not have.
+const Json kNothing{};
+
+/// A member of an object; nothing if it is none or has none.
+const Json& member(const Json& object, const char* name) {
+  const auto found = object.is_object() ? object.find(name) : object.end();
+  return found == object.end() ? kNothing : *found;
+}
+
+/// An item of a list in the root; nothing if there is none.
+const Json& item(const Json& root, const char* list, const Json& index) {
+  const Json& items = member(root, list);
+  return items.is_array() && index.is_number_unsigned() && index.get<std::size_t>() < items.size()
+             ? items[index.get<std::size_t>()]
+             : kNothing;
+}
+
+double number(const Json& value, double otherwise) {
+  return value.is_number() && std::isfinite(value.get<double>()) ? value.get<double>() : otherwise;
+}
+
+double share(const Json& list, std::size_t index, double otherwise) {
+  return list.is_array() && index < list.size()
+             ? std::clamp(number(list[index], otherwise), 0.0, 1.0)
+             : otherwise;
+}
+
+const Json& extension(const Json& object, const char* name) {
+  return member(member(object, "extensions"), name);
+}
+
+/// Where a material says its colour: its factor and its texture have other names in the extension of
+/// specular and glossiness, which counts if there is no metal and roughness.
+struct ColourSource {
+  const Json& factor;
+  const Json& texture;
+};
+
+ColourSource colour_source(const Json& material) {
+  const Json& metal = member(material, "pbrMetallicRoughness");
+  const Json& gloss = extension(material, "KHR_materials_pbrSpecularGlossiness");
+  const bool has_metal = metal.contains("baseColorFactor") || metal.contains("baseColorTexture");
+  return has_metal || !gloss.is_object()
+             ? ColourSource{member(metal, "baseColorFactor"), member(metal, "baseColorTexture")}
+             : ColourSource{member(gloss, "diffuseFactor"), member(gloss, "diffuseTexture")};
+}
+
+/// KHR_texture_transform: scale, then turn counter-clockwise in the picture, then shift.
+std::array<double, 6> uv_transform(const Json& texture_info) {
+  const Json& transform = extension(texture_info, "KHR_texture_transform");
+  const auto pair = [&](const char* name, std::size_t index, double otherwise) {
+    const Json& list = member(transform, name);
+    return list.is_array() && index < list.size() ? number(list[index], otherwise) : otherwise;
+  };
+  const double turn = number(member(transform, "rotation"), 0.0);
+  const double su = pair("scale", 0, 1.0);
+  const double sv = pair("scale", 1, 1.0);
+  return {su * std::cos(turn),  sv * std::sin(turn), pair("offset", 0, 0.0),
+          -su * std::sin(turn), sv * std::cos(turn), pair("offset", 1, 0.0)};
+}
+
+int texcoord_set(const Json& texture_info) {
+  const Json& moved = member(extension(texture_info, "KHR_texture_transform"), "texCoord");
+  const Json& set = moved.is_number_unsigned() ? moved : member(texture_info, "texCoord");
+  constexpr unsigned kMostSets = 1000;
+  return set.is_number_unsigned() && set.get<std::size_t>() < kMostSets ? set.get<int>() : 0;
+}
+
+TextureWrap wrap_of(const Json& sampler, const char* name) {
+  const double mode = number(member(sampler, name), 0.0);
+  constexpr double kClampToEdge = 33071.0;
+  constexpr double kMirroredRepeat = 33648.0;
+  return mode == kClampToEdge      ? TextureWrap::Clamp
+         : mode == kMirroredRepeat ? TextureWrap::Mirror
+                                   : TextureWrap::Repeat;
+}
+
+/// The bytes of a buffer view; nothing if it leaves its buffer.
+std::optional<std::string_view> view_bytes(const Json& root, const Json& index,
+                                           const GltfDocument& document) {
+  const Json& view = item(root, "bufferViews", index);
+  const Json& buffer = member(view, "buffer");
+  if (!buffer.is_number_unsigned() || buffer.get<std::size_t>() >= document.buffers.size()) {
+    return std::nullopt;
+  }
+  const std::string_view bytes = document.buffers[buffer.get<std::size_t>()];
+  const Json& offset = member(view, "byteOffset");
+  const Json& length = member(view, "byteLength");
+  const std::size_t from = offset.is_number_unsigned() ? offset.get<std::size_t>() : 0;
+  const std::size_t size = length.is_number_unsigned() ? length.get<std::size_t>() : 0;
+  if (from > bytes.size() || size > bytes.size() - from) {
+    return std::nullopt;
+  }
+  return bytes.substr(from, size);
+}
+
+class MaterialReader {
+ public:
+  MaterialReader(const Json& root, const GltfDocument& document, const Surroundings& surroundings,
+                 ModelBuilder& builder)
+      : root_(root), document_(document), loader_(surroundings, builder) {}
+
+  void read(ModelBuilder& builder) {
+    std::vector<Material> materials;
+    const Json& list = member(root_, "materials");
+    for (std::size_t m = 0; list.is_array() && m < list.size(); ++m) {
+      materials.push_back(material(list[m]));
+    }
+    loader_.finish();
+    builder.set_materials(std::move(materials), std::move(textures_));
+  }
+
+ private:
+  Material material(const Json& source) {
+    const ColourSource colour = colour_source(source);
+    Material result;
+    const Json& mode = member(source, "alphaMode");
+    result.alpha = mode == "MASK"    ? AlphaMode::Mask
+                   : mode == "BLEND" ? AlphaMode::Blend
+                                     : AlphaMode::Opaque;
+    result.opacity = share(colour.factor, 3, 1.0);
+    result.alpha_cutoff = std::clamp(number(member(source, "alphaCutoff"), 0.5), 0.0, 1.0);
+    result.unlit = extension(source, "KHR_materials_unlit").is_object();
+    if (colour.texture.is_object()) {
+      result.texture = texture(member(colour.texture, "index"));
+      result.uv_transform = uv_transform(colour.texture);
+    }
+    return result;
+  }
+
+  /// Index among the textures that were read; a texture is an image and how it is wrapped.
+  std::optional<std::uint32_t> texture(const Json& index) {
+    const Json& source = item(root_, "textures", index);
+    if (!source.is_object()) {
+      return std::nullopt;
+    }
+    const auto key = index.get<std::size_t>();
+    if (const auto known = known_.find(key); known != known_.end()) {
+      return known->second;
+    }
+    std::optional<std::uint32_t>& place = known_[key];
+    const Json& plain = member(source, "source");
+    const Json& image_index = plain.is_number_unsigned()
+                                  ? plain
+                                  : member(extension(source, "EXT_texture_webp"), "source");
+    std::optional<Image> image = picture(image_index);
+    if (image) {
+      const Json& sampler = item(root_, "samplers", member(source, "sampler"));
+      constexpr double kNearest = 9728.0;
+      place = static_cast<std::uint32_t>(textures_.size());
+      textures_.push_back({std::move(*image), wrap_of(sampler, "wrapS"), wrap_of(sampler, "wrapT"),
+                           number(member(sampler, "magFilter"), 0.0) == kNearest});
+    }
+    return place;
+  }
+
+  std::optional<Image> picture(const Json& index) {
+    const Json& image = item(root_, "images", index);
+    if (!image.is_object()) {
+      loader_.complain("of an unknown kind", "is not a PNG, JPEG or WebP");
+      return std::nullopt;
+    }
+    const std::string label = "image " + std::to_string(index.get<std::size_t>());
+    const Json& uri = member(image, "uri");
+    if (!uri.is_string()) {
+      const auto bytes = view_bytes(root_, member(image, "bufferView"), document_);
+      if (!bytes) {
+        loader_.complain(label, "is not in the file");
+        return std::nullopt;
+      }
+      return loader_.embedded(*bytes, label);
+    }
+    const auto& text = uri.get_ref<const std::string&>();
+    if (text.substr(0, 5) == "data:") {
+      const std::optional<std::string> data = decode_data_uri(text);
+      if (!data) {
+        loader_.complain(label, "is not well formed base64");
+        return std::nullopt;
+      }
+      return loader_.embedded(*data, label);
+    }
+    const std::optional<std::string> path = relative_path_of_uri(text);
+    if (!path) {
+      loader_.complain(label, "is not in the model's own folder");
+      return std::nullopt;
+    }
+    return loader_.beside(*path);
+  }
+
+  const Json& root_;
+  const GltfDocument& document_;
+  TextureLoader loader_;
+  std::vector<Texture> textures_{};
+  std::map<std::size_t, std::optional<std::uint32_t>> known_{};
+};
+
+}  // namespace
+
+std::vector<std::array<double, 3>> gltf_base_colours(const Json& root) {
+  std::vector<std::array<double, 3>> colours;
+  const Json& list = member(root, "materials");
+  for (std::size_t m = 0; list.is_array() && m < list.size(); ++m) {
+    const Json& factor = colour_source(list[m]).factor;
+    colours.push_back({share(factor, 0, 1.0), share(factor, 1, 1.0), share(factor, 2, 1.0)});
+  }
+  return colours;
+}
+
+std::vector<int> gltf_texcoord_sets(const Json& root) {
+  std::vector<int> sets;
+  const Json& list = member(root, "materials");
+  for (std::size_t m = 0; list.is_array() && m < list.size(); ++m) {
+    sets.push_back(texcoord_set(colour_source(list[m]).texture));
+  }
+  return sets;
+}
+
+void read_gltf_materials(const Json& root, const GltfDocument& document,
+                         const Surroundings& surroundings, ModelBuilder& builder) {
+  MaterialReader(root, document, surroundings, builder).read(builder);
+}
+
+}  // namespace vantage

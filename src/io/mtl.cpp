@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "io/mtl.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "io/number_parsing.h"
+#include "io/text_cursor.h"
+
+namespace vantage {
+namespace {
+
+/// The next number of a line; nothing, and the line left as it is, if no number comes next.
+std::optional<double> next_number(std::string_view& rest) {
+  std::string_view line = rest;
+  const std::optional<double> value = number_from(take_token(line));
+  if (!value || !std::isfinite(*value)) {
+    return std::nullopt;
+  }
+  rest = line;
+  return value;
+}
+
+double share(std::optional<double> value, double otherwise) {
+  return value ? std::clamp(*value, 0.0, 1.0) : otherwise;
+}
+
+/// One to three numbers after an option; the third is of no use to pictures.
+void read_pair(std::string_view& rest, std::array<double, 2>& pair) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::optional<double> value = next_number(rest);
+    if (value && i < 2) {
+      pair[i] = *value;
+    }
+  }
+}
+
+/// Reads the options of a map line into the material; what is left is the file's name, which may
+/// hold spaces.
+std::string_view after_options(std::string_view rest, MtlMaterial& material) {
+  while (!trimmed(rest).empty() && trimmed(rest).front() == '-') {
+    std::string_view line = rest;
+    const std::string_view option = take_token(line);
+    if (option == "-s") {
+      read_pair(line, material.scale);
+    } else if (option == "-o") {
+      read_pair(line, material.offset);
+    } else if (option == "-t") {
+      std::array<double, 2> turbulence{};
+      read_pair(line, turbulence);
+    } else if (option == "-mm") {
+      take_token(line);
+      take_token(line);
+    } else {
+      const std::string_view value = take_token(line);
+      material.clamp = option == "-clamp" ? value == "on" : material.clamp;
+    }
+    rest = line;
+  }
+  return trimmed(rest);
+}
+
+void read_line(std::string_view keyword, std::string_view rest, MtlMaterial& material) {
+  if (keyword == "Kd") {
+    std::array<double, 3> colour{1.0, 1.0, 1.0};
+    colour[0] = share(next_number(rest), -1.0);
+    if (colour[0] >= 0.0) {  // not a spectral file
+      colour[1] = share(next_number(rest), colour[0]);
+      colour[2] = share(next_number(rest), colour[0]);
+      material.colour = colour;
+    }
+  } else if (keyword == "d") {
+    material.opacity = share(next_number(rest), material.opacity);
+  } else if (keyword == "Tr") {
+    material.opacity = 1.0 - share(next_number(rest), 1.0 - material.opacity);
+  } else if (keyword == "map_Kd") {
+    material.picture = after_options(rest, material);
+  } else if (keyword == "map_d") {
+    MtlMaterial unused;
+    material.mask = after_options(rest, unused);
+  }
+}
+
+}  // namespace
+
+std::map<std::string, MtlMaterial, std::less<>> parse_mtl(std::string_view text) {
+  std::map<std::string, MtlMaterial, std::less<>> materials;
+  TextCursor cursor(without_bom(text));
+  MtlMaterial ignored;
+  MtlMaterial* current = &ignored;
+  while (const std::optional<std::string_view> line = cursor.next_line()) {
+    std::string_view rest = *line;
+    const std::string_view keyword = take_token(rest);
+    if (keyword == "newmtl") {
+      const auto [entry, is_new] = materials.try_emplace(std::string(trimmed(rest)));
+      current = is_new ? &entry->second : &ignored;
+    } else if (!keyword.empty()) {
+      read_line(keyword, rest, *current);
+    }
+  }
+  return materials;
+}
+
+}  // namespace vantage

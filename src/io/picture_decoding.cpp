@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "io/picture_decoding.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include <png.h>
+#include <webp/decode.h>
+
+namespace vantage {
+namespace {
+
+/// A transparent picture of a size that was checked.
+Image blank(std::size_t width, std::size_t height) {
+  return {static_cast<int>(width), static_cast<int>(height),
+          std::vector<std::uint8_t>(4 * width * height)};
+}
+
+bool starts_with(std::string_view bytes, std::string_view magic) {
+  return bytes.substr(0, magic.size()) == magic;
+}
+
+}  // namespace
+
+std::string picture_size_problem(std::size_t width, std::size_t height, std::size_t most_pixels) {
+  constexpr std::size_t kSide = kLargestPictureSide;
+  if (width == 0 || height == 0) {
+    return "is empty";
+  }
+  if (width > kSide || height > kSide || width * height > most_pixels) {
+    return "is too large with " + std::to_string(width) + " × " + std::to_string(height) +
+           " pixels";
+  }
+  return {};
+}
+
+DecodedPicture decode_png(std::string_view bytes, std::size_t most_pixels) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) {
+    return {std::nullopt, std::string("is not a sound PNG: ") + png.message};
+  }
+  if (std::string problem = picture_size_problem(png.width, png.height, most_pixels);
+      !problem.empty()) {
+    png_image_free(&png);
+    return {std::nullopt, std::move(problem)};
+  }
+  png.format = PNG_FORMAT_RGBA;
+  Image image = blank(png.width, png.height);
+  if (png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr) == 0) {
+    return {std::nullopt, std::string("is not a sound PNG: ") + png.message};
+  }
+  return {std::move(image), {}};
+}
+
+DecodedPicture decode_webp(std::string_view bytes, std::size_t most_pixels) {
+  const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  int width = 0;
+  int height = 0;
+  if (WebPGetInfo(data, bytes.size(), &width, &height) == 0 || width < 1 || height < 1) {
+    return {std::nullopt, "is not a sound WebP"};
+  }
+  const auto columns = static_cast<std::size_t>(width);
+  const auto rows = static_cast<std::size_t>(height);
+  if (std::string problem = picture_size_problem(columns, rows, most_pixels); !problem.empty()) {
+    return {std::nullopt, std::move(problem)};
+  }
+  Image image = blank(columns, rows);
+  if (WebPDecodeRGBAInto(data, bytes.size(), image.rgba.data(), image.rgba.size(), 4 * width) ==
+      nullptr) {
+    return {std::nullopt, "is not a sound WebP"};
+  }
+  return {std::move(image), {}};
+}
+
+DecodedPicture decode_picture(std::string_view bytes, std::size_t most_pixels, int wanted_side) {
+  if (starts_with(bytes, "\x89PNG")) {
+    return decode_png(bytes, most_pixels);
+  }
+  if (starts_with(bytes, "\xFF\xD8")) {
+    return decode_jpeg(bytes, most_pixels, wanted_side);
+  }
+  if (starts_with(bytes, "RIFF") &&
+      bytes.substr(std::min<std::size_t>(8, bytes.size()), 4) == "WEBP") {
+    return decode_webp(bytes, most_pixels);
+  }
+  return {std::nullopt, "is neither PNG nor JPEG nor WebP; convert it to one of these"};
+}
+
+}  // namespace vantage

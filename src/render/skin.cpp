@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "render/skin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "vantage/core/error.h"
+#include "vantage/mesh/measures.h"
+
+namespace vantage {
+namespace {
+
+using Uv = std::array<double, 2>;
+
+void check_fit(const Appearance& appearance, const TriMesh& mesh) {
+  const std::size_t faces = mesh.triangles.size();
+  const bool sizes =
+      appearance.material_of_triangle.size() == faces &&
+      (appearance.uv_of_triangle.empty() || appearance.uv_of_triangle.size() == faces);
+  const auto is_material = [&](std::uint32_t m) {
+    return m == Appearance::kNone || m < appearance.materials.size();
+  };
+  const auto are_uvs = [&](const Triangle& uvs) {
+    return std::all_of(uvs.begin(), uvs.end(), [&](std::uint32_t uv) {
+      return uv == Appearance::kNone || uv < appearance.uvs.size();
+    });
+  };
+  const auto has_texture = [&](const Material& material) {
+    return !material.texture || *material.texture < appearance.textures.size();
+  };
+  const auto has_pixels = [](const Texture& texture) {
+    return texture.image.width > 0 && texture.image.height > 0 &&
+           texture.image.rgba.size() == std::size_t{4} *
+                                            static_cast<std::size_t>(texture.image.width) *
+                                            static_cast<std::size_t>(texture.image.height);
+  };
+  const auto all = [](const auto& items, const auto& test) {
+    return std::all_of(items.begin(), items.end(), test);
+  };
+  if (!sizes || !all(appearance.material_of_triangle, is_material) ||
+      !all(appearance.uv_of_triangle, are_uvs) || !all(appearance.materials, has_texture) ||
+      !all(appearance.textures, has_pixels)) {
+    throw InvalidInput("the materials belong to another mesh: their indices do not fit");
+  }
+}
+
+Uv transformed(const std::array<double, 6>& rows, const std::array<float, 2>& uv) {
+  const double u = static_cast<double>(uv[0]);
+  const double v = static_cast<double>(uv[1]);
+  return {rows[0] * u + rows[1] * v + rows[2], rows[3] * u + rows[4] * v + rows[5]};
+}
+
+}  // namespace
+
+Skin::Skin(const Appearance& appearance, const TriMesh& mesh, double spacing)
+    : appearance_(&appearance), mesh_(&mesh), spacing_(spacing) {
+  check_fit(appearance, mesh);
+  pyramids_.resize(2 * appearance.textures.size());
+  for (const Material& material : appearance.materials) {
+    if (material.texture && !pyramids_[pyramid_of(material)]) {
+      pyramids_[pyramid_of(material)].emplace(appearance.textures[*material.texture],
+                                              material.alpha == AlphaMode::Opaque);
+    }
+  }
+  has_openings_ =
+      std::any_of(appearance.materials.begin(), appearance.materials.end(),
+                  [](const Material& material) { return material.alpha != AlphaMode::Opaque; });
+}
+
+/// A texture may be shared by materials that mean its opacity and others that do not.
+std::size_t Skin::pyramid_of(const Material& material) {
+  return 2 * std::size_t{*material.texture} + (material.alpha == AlphaMode::Opaque ? 1 : 0);
+}
+
+Texel Skin::texel(const Material& material, std::uint32_t face, float u, float v) const {
+  // Faces without coordinates show the mean of the picture: wood is still brown.
+  constexpr float kCoarsest = 100.0F;
+  const TexturePyramid& pyramid = *pyramids_[pyramid_of(material)];
+  if (appearance_->uv_of_triangle.empty()) {
+    return pyramid.at(0.5F, 0.5F, kCoarsest);
+  }
+  const Triangle& corners = appearance_->uv_of_triangle[face];
+  std::array<Uv, 3> uvs{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (corners[c] == Appearance::kNone) {
+      return pyramid.at(0.5F, 0.5F, kCoarsest);
+    }
+    uvs[c] = transformed(material.uv_transform, appearance_->uvs[corners[c]]);
+  }
+  // Texels across a sample: the root of the texels that lie on the face's area.
+  const double texels = std::abs((uvs[1][0] - uvs[0][0]) * (uvs[2][1] - uvs[0][1]) -
+                                 (uvs[2][0] - uvs[0][0]) * (uvs[1][1] - uvs[0][1])) *
+                        pyramid.width() * pyramid.height();
+  const double area = area_vector(*mesh_, mesh_->triangles[face]).norm();
+  const double covered = area > 0.0 ? spacing_ * std::sqrt(texels / area) : 0.0;
+  const double w = 1.0 - static_cast<double>(u) - static_cast<double>(v);
+  const auto mix = [&](std::size_t axis) {
+    const double sum = w * uvs[0][axis] + static_cast<double>(u) * uvs[1][axis] +
+                       static_cast<double>(v) * uvs[2][axis];
+    return static_cast<float>(sum);
+  };
+  constexpr double kLeastCovered = 1e-6;
+  return pyramid.at(mix(0), mix(1),
+                    static_cast<float>(std::log2(std::max(covered, kLeastCovered))));
+}
+
+Skin::Shown Skin::at(std::uint32_t face, float u, float v) const {
+  Shown shown;
+  const std::uint32_t index = appearance_->material_of_triangle[face];
+  if (index == Appearance::kNone) {
+    return shown;
+  }
+  const Material& material = appearance_->materials[index];
+  shown.has_material = true;
+  shown.unlit = material.unlit;
+  shown.colour = {material.colour[0], material.colour[1], material.colour[2]};
+  double opacity = material.opacity;
+  if (material.texture) {
+    const Texel texel = this->texel(material, face, u, v);
+    shown.colour = shown.colour.cwiseProduct(texel.colour.cast<double>());
+    opacity *= static_cast<double>(texel.opacity);
+  }
+  if (material.alpha == AlphaMode::Mask) {
+    shown.opacity = opacity >= material.alpha_cutoff ? 1.0 : 0.0;
+  } else if (material.alpha == AlphaMode::Blend) {
+    shown.opacity = opacity;
+  }
+  return shown;
+}
+
+}  // namespace vantage

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "vantage/core/vec3.h"
+#include "vantage/mesh/appearance.h"
+#include "vantage/mesh/tri_mesh.h"
+
+#include "render/texture_pyramid.h"
+#include "spatial/ray_scene.h"
+
+namespace vantage {
+
+/// What the materials of a mesh show at places of its surface.
+class Skin {
+ public:
+  /// What is seen at a place.
+  struct Shown {
+    Vec3 colour = Vec3::Ones();  ///< Linear, to be multiplied by the vertices' colour.
+    double opacity = 1.0;        ///< In [0, 1]; exactly 0 in a hole.
+    bool unlit = false;          ///< No light falls on it.
+    bool has_material = false;   ///< Else white.
+  };
+
+  /// All must outlive this. \param spacing distance of samples on the surface, in the mesh's units.
+  /// \throw InvalidInput if `appearance` does not fit the mesh.
+  Skin(const Appearance& appearance, const TriMesh& mesh, double spacing);
+
+  [[nodiscard]] Shown at(std::uint32_t face, float u, float v) const;
+
+  /// Whether any place may be seen through.
+  [[nodiscard]] bool has_openings() const { return has_openings_; }
+
+ private:
+  [[nodiscard]] Texel texel(const Material& material, std::uint32_t face, float u, float v) const;
+
+  const Appearance* appearance_;
+  const TriMesh* mesh_;
+  double spacing_;
+  bool has_openings_ = false;
+  [[nodiscard]] static std::size_t pyramid_of(const Material& material);
+
+  std::vector<std::optional<TexturePyramid>> pyramids_{};  ///< See pyramid_of().
+};
+
+}  // namespace vantage

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// What files say about how their surface looks.
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "vantage/io/model.h"
+#include "vantage/io/write.h"
+
+#include "io/base64.h"
+#include "unit/io/temporary_folder.h"
+
+namespace vantage::test {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr ReadOptions kAll{.appearance = true};
+
+std::string green_png() {
+  return png_bytes(Image{1, 1, {0, 255, 0, 255}});
+}
+
+/// A square with texture coordinates as data URIs; `material` is what the test is about.
+std::string gltf(const std::string& material, const std::string& more) {
+  std::string numbers;
+  const auto append = [&](std::initializer_list<float> values) {
+    for (const float value : values) {
+      numbers.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+  };
+  append({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0});  // positions
+  append({0, 0, 1, 0, 0, 1, 1, 0.5F});           // coordinates
+  return R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"mode":5,"material":0}]}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},
+                 {"bufferView":1,"componentType":5126,"count":4,"type":"VEC2"}],
+    "bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":32}],
+    "buffers":[{"byteLength":80,"uri":"data:;base64,)" +
+         base64(numbers) + R"("}],"materials":[)" + material + "]" + more + "}";
+}
+
+/// A texture 0 that shows an image given by members of it.
+std::string image_part(const std::string& image) {
+  return R"(,"textures":[{"source":0,"sampler":0}],"images":[{)" + image +
+         R"(}],"samplers":[{"wrapS":33071,"wrapT":33648,"magFilter":9728}])";
+}
+
+std::string green_part() {
+  return image_part(R"("uri":"data:image/png;base64,)" + base64(green_png()) + '"');
+}
+
+constexpr const char* kTextured = R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})";
+
+TEST(GltfAppearance, HasTheTextureAndItsSamplerAndCoordinates) {
+  const Appearance a = parse_model(gltf(kTextured, green_part()), "a.gltf", {}, kAll).appearance;
+  ASSERT_EQ(a.materials.size(), 1U);
+  ASSERT_EQ(a.textures.size(), 1U);
+  EXPECT_EQ(a.materials[0].texture, 0U);
+  EXPECT_THAT(a.textures[0].image.rgba, ElementsAre(0, 255, 0, 255));
+  EXPECT_EQ(a.textures[0].wrap_u, TextureWrap::Clamp);
+  EXPECT_EQ(a.textures[0].wrap_v, TextureWrap::Mirror);
+  EXPECT_TRUE(a.textures[0].nearest);
+  EXPECT_THAT(a.material_of_triangle, ElementsAre(0U, 0U));
+  EXPECT_THAT(a.uv_of_triangle, ElementsAre(Triangle{0, 1, 2}, Triangle{2, 1, 3}));
+  EXPECT_THAT(a.uvs[3], ElementsAre(1.0F, 0.5F));
+}
+
+TEST(GltfAppearance, IsReadOnlyWhenAskedFor) {
+  EXPECT_THAT(parse_model(gltf(kTextured, green_part()), "a.gltf").appearance.materials, IsEmpty());
+}
+
+TEST(GltfAppearance, KnowsHolesGlassAndWhatNeedsNoLight) {
+  const auto material = [](const char* text) {
+    return parse_model(gltf(text, ""), "a.gltf", {}, kAll).appearance.materials.at(0);
+  };
+  const Material mask = material(R"({"alphaMode":"MASK","alphaCutoff":0.25})");
+  EXPECT_EQ(mask.alpha, AlphaMode::Mask);
+  EXPECT_EQ(mask.alpha_cutoff, 0.25);
+  const Material glass =
+      material(R"({"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5]}})");
+  EXPECT_EQ(glass.alpha, AlphaMode::Blend);
+  EXPECT_EQ(glass.opacity, 0.5);
+  EXPECT_TRUE(material(R"({"extensions":{"KHR_materials_unlit":{}}})").unlit);
+}
+
+TEST(GltfAppearance, GivesTheDiffuseColourOfSpecularAndGlossinessToTheVertices) {
+  const Model model = parse_model(
+      gltf(R"({"extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[1,0,0,1]}}})",
+           ""),
+      "a.gltf", {}, kAll);
+  EXPECT_THAT(model.vertex_colours.at(0), ElementsAre(255, 0, 0));
+}
+
+TEST(GltfAppearance, MovesCoordinatesAsTheTransformSays) {
+  // A quarter turn counter-clockwise of coordinates whose v runs down: (1, 0) goes to (0, −1).
+  const Material material =
+      parse_model(gltf(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0,
+      "extensions":{"KHR_texture_transform":{"offset":[5,7],"rotation":1.5707963267948966,"scale":[2,3]}}}}})",
+                       green_part()),
+                  "a.gltf", {}, kAll)
+          .appearance.materials[0];
+  const auto& m = material.uv_transform;
+  EXPECT_NEAR(m[0] * 1.0 + m[2], 5.0, 1e-12);
+  EXPECT_NEAR(m[3] * 1.0 + m[5], 7.0 - 2.0, 1e-12);
+  EXPECT_NEAR(m[1] * 1.0 + m[2], 5.0 + 3.0, 1e-12);
+  EXPECT_NEAR(m[4] * 1.0 + m[5], 7.0, 1e-12);
+}
+
+TEST(GltfAppearance, ATextureThatCannotBeHadIsANoteAndNoError) {
+  for (const char* image :
+       {R"("uri":"../secret.png")", R"("uri":"http://x/a.png")", R"("bufferView":9)",
+        R"("uri":"data:image/png;base64,!!")", R"("uri":"a.png")"}) {
+    const Model model = parse_model(gltf(kTextured, image_part(image)), "a.gltf", {}, kAll);
+    EXPECT_THAT(model.appearance.textures, IsEmpty()) << image;
+    EXPECT_THAT(model.notes, Contains(HasSubstr("was left out"))) << image;
+    EXPECT_EQ(model.mesh.triangles.size(), 2U) << image;
+  }
+}
+
+TEST(GltfAppearance, CoordinatesThatLeaveTheFileAreANote) {
+  std::string text = gltf(kTextured, green_part());
+  text.replace(text.find(R"("byteOffset":48,"byteLength":32)"), 31,
+               R"("byteOffset":48,"byteLength":8 )");
+  const Model model = parse_model(text, "a.gltf", {}, kAll);
+  EXPECT_THAT(model.notes, Contains(HasSubstr("texture coordinates of a primitive left out")));
+  EXPECT_THAT(model.appearance.uvs.at(3), ElementsAre(0.0F, 0.0F));
+}
+
+TEST(GltfAppearance, ReadsATextureBesideTheModelButNotThroughALinkOutOfItsFolder) {
+  const TemporaryFolder folder;
+  const TemporaryFolder elsewhere;
+  write_file(folder.file("a.gltf"), gltf(kTextured, image_part(R"("uri":"my%20green.png")")));
+  write_file(folder.file("my green.png"), green_png());
+  EXPECT_EQ(load_model(folder.file("a.gltf"), {}, kAll).appearance.textures.size(), 1U);
+  std::filesystem::rename(folder.file("my green.png"), elsewhere.file("green.png"));
+  std::filesystem::create_symlink(elsewhere.file("green.png"), folder.file("my green.png"));
+  const Model model = load_model(folder.file("a.gltf"), {}, kAll);
+  EXPECT_THAT(model.appearance.textures, IsEmpty());
+  EXPECT_THAT(model.notes, Contains(HasSubstr("lies outside the model's folder")));
+}
+
+/// A folder with an OBJ of one quad and a library.
+class ObjAppearance : public testing::Test {
+ protected:
+  Model loaded(const std::string& obj, const std::string& library) {
+    write_file(folder_.file("a.obj"), "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n" + obj);
+    write_file(folder_.file("a.mtl"), library);
+    write_file(folder_.file("green.png"), green_png());
+    return load_model(folder_.file("a.obj"), {}, kAll);
+  }
+
+  TemporaryFolder folder_{};
+};
+
+TEST_F(ObjAppearance, HasColoursTexturesAndCoordinatesOfItsCorners) {
+  const Model model = loaded(
+      "mtllib a.mtl\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl red one\nf 1/1 2/2 3/3 4/4\n"
+      "usemtl green\nf 1/-1 2/-2 3/-3\nf 1 2 3\n",
+      "newmtl red one\nKd 1 0 0\nnewmtl green\nKd 1 1 1\nmap_Kd -s 2 3 1 -o 0.5 green.png\n");
+  const Appearance& a = model.appearance;
+  ASSERT_EQ(a.materials.size(), 2U);
+  EXPECT_THAT(a.materials[0].colour, ElementsAre(1.0, 0.0, 0.0));
+  EXPECT_THAT(a.material_of_triangle, ElementsAre(0U, 0U, 1U, 1U));
+  EXPECT_EQ(a.textures.size(), 1U);
+  for (std::size_t t = 0; t < 2; ++t) {  // vertex k has coordinates k
+    EXPECT_EQ(a.uv_of_triangle[t], model.mesh.triangles[t]);
+  }
+  EXPECT_THAT(a.uv_of_triangle[2], ElementsAre(3U, 2U, 1U));
+  EXPECT_EQ(a.uv_of_triangle[3][0], Appearance::kNone);
+  // From the bottom left to the top left.
+  EXPECT_THAT(a.materials[1].uv_transform, ElementsAre(2.0, 0.0, 0.5, 0.0, -3.0, 1.0));
+}
+
+TEST_F(ObjAppearance, FindsPicturesThatAreNamedAsOnTheAuthorsDisk) {
+  const std::string face = "mtllib a.mtl\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n";
+  for (const char* name : {"C:\\art\\green.png", "../textures/green.png", "/home/me/green.png"}) {
+    const Model model = loaded(face, std::string("newmtl m\nmap_Kd ") + name + "\n");
+    EXPECT_EQ(model.appearance.textures.size(), 1U) << name;
+  }
+}
+
+TEST_F(ObjAppearance, WithoutItsLibraryIsANote) {
+  const Model model = loaded("mtllib b.mtl\nusemtl m\nf 1 2 3\n", "");
+  EXPECT_THAT(model.appearance.materials, IsEmpty());
+  EXPECT_THAT(model.notes, Contains(HasSubstr("the material library 'b.mtl' was left out")));
+}
+
+TEST_F(ObjAppearance, DoesNotReadALibraryOutsideItsFolder) {
+  const TemporaryFolder elsewhere;
+  write_file(elsewhere.file("x.mtl"), "newmtl m\nKd 1 0 0\n");
+  const std::string name = "../" + elsewhere.path().filename().string() + "/x.mtl";
+  EXPECT_THAT(loaded("mtllib " + name + "\nusemtl m\nf 1 2 3\n", "").appearance.materials,
+              IsEmpty());
+}
+
+TEST_F(ObjAppearance, AMaskOfTheSamePictureMakesHolesAndDissolvingMakesGlass) {
+  const Model model =
+      loaded("mtllib a.mtl\nvt 0 0\nusemtl leaf\nf 1/1 2/1 3/1\nusemtl glass\nf 1 3 4\n",
+             "newmtl leaf\nmap_Kd green.png\nmap_d green.png\nnewmtl glass\nd 0.25\n");
+  EXPECT_EQ(model.appearance.materials.at(0).alpha, AlphaMode::Mask);
+  EXPECT_EQ(model.appearance.materials.at(1).alpha, AlphaMode::Blend);
+  EXPECT_EQ(model.appearance.materials.at(1).opacity, 0.25);
+}
+
+}  // namespace
+}  // namespace vantage::test
