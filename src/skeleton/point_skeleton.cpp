@@ -187,6 +187,11 @@ Skeleton extract_point_skeleton(const TriMesh& samples, const ContractionHistory
       samples, history, thin_cloud(samples, history, spacing, run.part(0.0, 0.9)), options);
   close_short_loops(skeleton.raw, samples, skeleton.raw_node_of_vertex, run);
   close_short_loops(skeleton.graph, samples, skeleton.node_of_vertex, run);
+  if (options.prune) {  // folding leaves stubs
+    std::vector<double> radius = node_radii(skeleton.graph, samples, skeleton.node_of_vertex);
+    skeleton.graph =
+        prune_ends(skeleton.graph, options.prune_ratio, radius, skeleton.node_of_vertex);
+  }
   skeleton.radius = node_radii(skeleton.graph, samples, skeleton.node_of_vertex);
   return skeleton;
 }
