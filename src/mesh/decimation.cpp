@@ -30,11 +30,9 @@ constexpr double kBorder = 1.0;
 constexpr double kMiddle = 1e-3;
 /// A face may turn by at most the angle of this cosine in one collapse [ours: 78°].
 constexpr double kLargestTurn = 0.2;
-/// Share of the edges, the cheapest ones, that one pass may collapse [ours].
-constexpr double kPassShare = 0.4;
-/// A pass that removes less than this share of the vertices ends the decimation: what is left must
-/// not collapse, and more passes would only crawl.
-constexpr double kLeastProgress = 1e-3;
+/// Far above the target the order among the cheapest edges matters little: passes take them by index,
+/// as they lie in memory, until this many times the target is left [ours].
+constexpr double kFarAbove = 2.0;
 constexpr std::size_t kGrain = 4096;  // edges or vertices a task
 constexpr std::uint32_t kNoVertex = 0xffffffffu;
 
@@ -109,6 +107,11 @@ class ByQuadric {
  public:
   static constexpr bool kMayTurn = false;
   static constexpr std::size_t kLargestRing = 14;  // neighbours a collapse may leave
+  /// Share of the edges, the cheapest ones, that one pass may collapse [ours].
+  static constexpr double kPassShare = 0.4;
+  /// A pass that removes less than this share of the vertices ends the decimation: what is left must
+  /// not collapse, and more passes would only crawl.
+  static constexpr double kLeastProgress = 1e-3;
 
   ByQuadric(const TriMesh& mesh, std::span<const double> weights)
       : quadrics_(mesh.positions.size()) {
@@ -171,6 +174,8 @@ class ByLength {
  public:
   static constexpr bool kMayTurn = true;
   static constexpr std::size_t kLargestRing = 32;  // neighbours a collapse may leave
+  static constexpr double kPassShare = 1.0;
+  static constexpr double kLeastProgress = 0.02;
 
   explicit ByLength(std::vector<double> weights) : weights_(std::move(weights)) {}
 
@@ -196,7 +201,9 @@ class Decimator {
         mesh_(fine),
         policy_(std::move(policy)),
         parent_(fine.positions.size()),
-        live_(fine.positions.size()) {
+        live_(fine.positions.size()),
+        faces_a_(fine.positions.size(), 0),
+        faces_b_(fine.positions.size(), 0) {
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
 
@@ -206,7 +213,7 @@ class Decimator {
       run_.check();
       const std::size_t before = live_;
       pass(target, limit);
-      if (static_cast<double>(before - live_) < kLeastProgress * static_cast<double>(before)) {
+      if (static_cast<double>(before - live_) < Policy::kLeastProgress * static_cast<double>(before)) {
         break;
       }
     }
@@ -242,7 +249,23 @@ class Decimator {
   /// A vertex as it stands within a pass: ends of collapsed edges move at most once.
   [[nodiscard]] std::uint32_t now(std::uint32_t v) const { return parent_[v]; }
 
-  std::vector<Candidate> cheapest_edges(double limit) {
+  static void keep_cheapest(std::vector<Candidate>& edges, double share) {
+    const auto wanted = static_cast<std::size_t>(share * static_cast<double>(edges.size()));
+    if (wanted == 0 || wanted >= edges.size()) {
+      return;
+    }
+    std::vector<float> costs;
+    costs.reserve(edges.size());
+    for (const Candidate& edge : edges) {
+      costs.push_back(edge.cost);
+    }
+    const auto last = costs.begin() + static_cast<std::ptrdiff_t>(wanted - 1);
+    std::nth_element(costs.begin(), last, costs.end());
+    std::erase_if(edges, [most = *last](const Candidate& edge) { return edge.cost > most; });
+  }
+
+  /// The edges of at most this cost, the cheapest of them, by cost or else by index.
+  std::vector<Candidate> cheapest_edges(double share, double limit, bool in_order) {
     std::vector<Candidate> edges;
     edges.reserve(3 * mesh_.triangles.size() / 2 + 16);
     for (std::size_t v = 0; v + 1 < faces_.offsets.size(); ++v) {
@@ -265,22 +288,20 @@ class Decimator {
         edges[e].cost = static_cast<float>(policy_.cost(edges[e].a, edges[e].b, mesh_.positions));
       }
     });
-    const auto cheaper = [](const Candidate& x, const Candidate& y) {
-      return std::tie(x.cost, x.a, x.b) < std::tie(y.cost, y.a, y.b);
-    };
     std::erase_if(edges, [&](const Candidate& edge) { return !(edge.cost < limit); });
-    const auto wanted = static_cast<std::ptrdiff_t>(kPassShare * static_cast<double>(edges.size()));
-    if (wanted > 0) {
-      std::nth_element(edges.begin(), edges.begin() + wanted, edges.end(), cheaper);
-      edges.resize(static_cast<std::size_t>(wanted));
+    keep_cheapest(edges, share);
+    if (in_order) {
+      std::sort(edges.begin(), edges.end(), [](const Candidate& x, const Candidate& y) {
+        return std::tie(x.cost, x.a, x.b) < std::tie(y.cost, y.a, y.b);
+      });
     }
-    std::sort(edges.begin(), edges.end(), cheaper);
     return edges;
   }
 
   void pass(std::size_t target, double limit) {
     faces_ = vertex_faces(mesh_);
-    const std::vector<Candidate> edges = cheapest_edges(limit);
+    const bool far = static_cast<double>(live_) > kFarAbove * static_cast<double>(target);
+    const std::vector<Candidate> edges = cheapest_edges(Policy::kPassShare, limit, !far);
     moved_.assign(mesh_.positions.size(), false);
     for (const Candidate& edge : edges) {
       if (live_ <= target) {
@@ -309,8 +330,9 @@ class Decimator {
     --live_;
   }
 
-  /// The neighbours of `v` now, each once for each face at the edge to it, ascending.
-  void gather_ring(std::uint32_t v, std::vector<std::uint32_t>& ring) const {
+  /// Counts for each neighbour of `v` now the faces at the edge to it, and lists the neighbours.
+  void count_ring(std::uint32_t v, std::vector<std::uint8_t>& count,
+                  std::vector<std::uint32_t>& ring) const {
     ring.clear();
     for (const std::uint32_t f : faces_[v]) {
       const Triangle& t = mesh_.triangles[f];
@@ -319,56 +341,48 @@ class Decimator {
         continue;  // collapsed in this pass
       }
       for (const std::uint32_t u : c) {
-        if (u != v) {
+        if (u == v) {
+          continue;
+        }
+        if (count[u] == 0) {
           ring.push_back(u);
         }
+        count[u] = static_cast<std::uint8_t>(std::min(count[u] + 1, 255));
       }
     }
-    std::sort(ring.begin(), ring.end());
   }
 
   /// The link condition: Dey, Edelsbrunner, Guha, Nekhayev, "Topology Preserving Edge Contraction",
   /// 1999, with the border as one more vertex that all border vertices neighbour.
   [[nodiscard]] bool keeps_topology(std::uint32_t a, std::uint32_t b) {
-    gather_ring(a, ring_a_);
-    gather_ring(b, ring_b_);
-    const auto faces_at = [](const std::vector<std::uint32_t>& ring, std::uint32_t v) {
-      const auto [first, last] = std::equal_range(ring.begin(), ring.end(), v);
-      return last - first;
-    };
-    const auto edge_faces = faces_at(ring_a_, b);
-    std::ptrdiff_t common = 0;
+    count_ring(a, faces_a_, ring_a_);
+    count_ring(b, faces_b_, ring_b_);
+    const int edge_faces = faces_a_[b];
+    int common = 0;
     bool border_a = false;
     bool border_b = false;
     bool lone = false;  // both other sides of a face at the edge are borders
-    std::size_t distinct = 0;
-    for (std::size_t i = 0; i < ring_a_.size();) {
-      const std::uint32_t v = ring_a_[i];
-      std::size_t j = i;
-      while (j < ring_a_.size() && ring_a_[j] == v) {
-        ++j;
-      }
-      const auto at_b = faces_at(ring_b_, v);
-      border_a = border_a || j - i == 1;
-      if (v != b && at_b > 0) {
+    for (const std::uint32_t v : ring_a_) {
+      border_a = border_a || faces_a_[v] == 1;
+      if (v != b && faces_b_[v] > 0) {
         ++common;
-        lone = lone || (j - i == 1 && at_b == 1);
+        lone = lone || (faces_a_[v] == 1 && faces_b_[v] == 1);
       }
-      ++distinct;
-      i = j;
     }
-    for (std::size_t i = 0; i < ring_b_.size(); ++i) {
-      const bool first = i == 0 || ring_b_[i] != ring_b_[i - 1];
-      const bool last = i + 1 == ring_b_.size() || ring_b_[i] != ring_b_[i + 1];
-      border_b = border_b || (first && last);
-      distinct += first ? 1 : 0;
+    for (const std::uint32_t v : ring_b_) {
+      border_b = border_b || faces_b_[v] == 1;
+      faces_b_[v] = 0;
+    }
+    for (const std::uint32_t v : ring_a_) {
+      faces_a_[v] = 0;
     }
     if (edge_faces == 0 || common != edge_faces || lone ||
         (border_a && border_b && edge_faces != 1)) {
       return false;
     }
     // A tetrahedron, or faces back to back: the common neighbours themselves make an edge of both.
-    const std::size_t ring = distinct - 2 - static_cast<std::size_t>(common);
+    const std::size_t ring =
+        ring_a_.size() + ring_b_.size() - 2 - static_cast<std::size_t>(common);
     return ring >= 3 && ring <= Policy::kLargestRing;
   }
 
@@ -417,6 +431,8 @@ class Decimator {
   std::size_t live_;
   IndexLists faces_{};
   std::vector<bool> moved_{};
+  std::vector<std::uint8_t> faces_a_;  // of the edges from an edge's ends; 0 between two calls
+  std::vector<std::uint8_t> faces_b_;
   std::vector<std::uint32_t> ring_a_{};
   std::vector<std::uint32_t> ring_b_{};
 };

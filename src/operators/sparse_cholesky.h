@@ -11,8 +11,8 @@
 namespace vantage {
 
 /// Direct solver for symmetric positive definite systems whose pattern stays while values change.
-/// The only place that knows which solver is used: Eigen's Cholesky, ordered by AMD for small and
-/// by METIS for large systems.
+/// The only place that knows which solver is used: our multifrontal Cholesky, whose bits do not
+/// depend on threads, ordered by METIS.
 class SparseCholesky {
  public:
   SparseCholesky();

@@ -119,6 +119,7 @@ ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options, cons
   if (!options.focus.empty()) {
     focus = find_object(list_objects(model, shape), options.focus);
   }
+  took.load += lap(mark);
   add_history(shape, options, run.part(0.0, 0.8));
   took.contract = lap(mark);
   add_skeleton(shape, options, run.part(0.8, 0.95));

@@ -6,9 +6,12 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <queue>
 #include <utility>
 
+#include "skeleton/cloud_graph.h"
+#include "skeleton/collapsed.h"
 #include "skeleton/embedding.h"
 
 namespace vantage {
@@ -59,24 +62,43 @@ std::vector<std::uint32_t> loop_over(const CurveGraph& graph, const Adjacency& l
   return loop;
 }
 
-/// Merges the nodes of a loop into one at their mean.
-CurveGraph merge_loop(const CurveGraph& graph, std::vector<std::uint32_t> loop,
-                      std::vector<std::uint32_t>& node_of_vertex) {
-  std::sort(loop.begin(), loop.end());
-  Vec3 mean = Vec3::Zero();
-  for (const std::uint32_t n : loop) {
-    mean += graph.nodes[n] / static_cast<double>(loop.size());
+/// Turns the loop so that it starts at one of its two nodes that are farthest apart.
+/// \return where the other then stands.
+std::size_t turn_to_ends(const CurveGraph& graph, std::vector<std::uint32_t>& loop) {
+  std::array<std::size_t, 2> ends{0, 1};
+  double most = -1.0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    for (std::size_t j = i + 1; j < loop.size(); ++j) {
+      const double d = (graph.nodes[loop[i]] - graph.nodes[loop[j]]).squaredNorm();
+      if (d > most) {
+        most = d;
+        ends = {i, j};
+      }
+    }
+  }
+  std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(ends[0]), loop.end());
+  return ends[1] - ends[0];
+}
+
+/// The graph after some of its nodes became one at their mean.
+/// \param into for each node the lowest of those that it becomes one with.
+CurveGraph merge_nodes(const CurveGraph& graph, const std::vector<std::uint32_t>& into,
+                       std::vector<std::uint32_t>& node_of_vertex) {
+  std::vector<Vec3> sum(graph.nodes.size(), Vec3::Zero());
+  std::vector<double> count(graph.nodes.size(), 0.0);
+  for (std::uint32_t n = 0; n < into.size(); ++n) {
+    sum[into[n]] += graph.nodes[n];
+    count[into[n]] += 1.0;
   }
   CurveGraph merged;
   std::vector<std::uint32_t> new_of_old(graph.nodes.size());
-  for (std::uint32_t n = 0; n < graph.nodes.size(); ++n) {
-    const bool on_loop = std::binary_search(loop.begin(), loop.end(), n);
-    if (on_loop && n != loop.front()) {
-      new_of_old[n] = new_of_old[loop.front()];
-      continue;
+  for (std::uint32_t n = 0; n < into.size(); ++n) {
+    if (into[n] == n) {
+      new_of_old[n] = static_cast<std::uint32_t>(merged.nodes.size());
+      merged.nodes.emplace_back(sum[n] / count[n]);
+    } else {
+      new_of_old[n] = new_of_old[into[n]];
     }
-    new_of_old[n] = static_cast<std::uint32_t>(merged.nodes.size());
-    merged.nodes.push_back(on_loop ? mean : graph.nodes[n]);
   }
   for (const auto& [a, b] : graph.edges) {
     const auto [low, high] = std::minmax(new_of_old[a], new_of_old[b]);
@@ -92,7 +114,38 @@ CurveGraph merge_loop(const CurveGraph& graph, std::vector<std::uint32_t> loop,
   return merged;
 }
 
-/// Closes loops that are too short for their radius, the shortest first.
+/// Folds a loop flat between its two ends: nodes at the same share of the way on either side become
+/// one. Where one side is a single edge, that edge goes.
+CurveGraph fold_loop(CurveGraph graph, std::vector<std::uint32_t> loop,
+                     std::vector<std::uint32_t>& node_of_vertex) {
+  const std::size_t end = turn_to_ends(graph, loop);
+  const std::size_t there = end - 1;
+  const std::size_t back = loop.size() - end - 1;
+  const std::size_t groups = std::min(there, back);
+  if (groups == 0) {
+    const auto [low, high] = std::minmax(loop[0], loop[end]);
+    std::erase(graph.edges, std::array{low, high});
+    return graph;
+  }
+  std::vector<std::uint32_t> lowest(groups, Skeleton::kNone);
+  const auto each = [&](const auto& visit) {
+    for (std::size_t i = 0; i < there; ++i) {
+      visit(loop[1 + i], i * groups / there);
+    }
+    for (std::size_t i = 0; i < back; ++i) {
+      visit(loop[loop.size() - 1 - i], i * groups / back);
+    }
+  };
+  each([&](std::uint32_t node, std::size_t group) {
+    lowest[group] = std::min(lowest[group], node);
+  });
+  std::vector<std::uint32_t> into(graph.nodes.size());
+  std::iota(into.begin(), into.end(), 0U);
+  each([&](std::uint32_t node, std::size_t group) { into[node] = lowest[group]; });
+  return merge_nodes(graph, into, node_of_vertex);
+}
+
+/// Folds loops that are too short for their radius, the shortest first.
 void close_short_loops(CurveGraph& graph, const TriMesh& samples,
                        std::vector<std::uint32_t>& node_of_vertex, const RunContext& run) {
   while (cycle_count(graph) > 0) {
@@ -120,7 +173,7 @@ void close_short_loops(CurveGraph& graph, const TriMesh& samples,
     if (shortest.empty()) {
       return;
     }
-    graph = merge_loop(graph, std::move(shortest), node_of_vertex);
+    graph = fold_loop(std::move(graph), std::move(shortest), node_of_vertex);
   }
 }
 
@@ -128,9 +181,17 @@ void close_short_loops(CurveGraph& graph, const TriMesh& samples,
 
 Skeleton extract_point_skeleton(const TriMesh& samples, const ContractionHistory& history,
                                 const SkeletonOptions& options, const RunContext& run) {
-  Skeleton skeleton = extract_skeleton(samples, history, options, run);
+  check_fields(options, kSkeletonFields);
+  const double spacing = sample_spacing(samples, options);
+  Skeleton skeleton = finish_skeleton(
+      samples, history, thin_cloud(samples, history, spacing, run.part(0.0, 0.9)), options);
   close_short_loops(skeleton.raw, samples, skeleton.raw_node_of_vertex, run);
   close_short_loops(skeleton.graph, samples, skeleton.node_of_vertex, run);
+  if (options.prune) {  // folding leaves stubs
+    std::vector<double> radius = node_radii(skeleton.graph, samples, skeleton.node_of_vertex);
+    skeleton.graph =
+        prune_ends(skeleton.graph, options.prune_ratio, radius, skeleton.node_of_vertex);
+  }
   skeleton.radius = node_radii(skeleton.graph, samples, skeleton.node_of_vertex);
   return skeleton;
 }

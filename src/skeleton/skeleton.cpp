@@ -10,6 +10,7 @@
 
 #include "mesh/decimation.h"
 #include "skeleton/cluster_complex.h"
+#include "skeleton/collapsed.h"
 #include "skeleton/embedding.h"
 #include "skeleton/resampling.h"
 #include "skeleton/routing.h"
@@ -37,13 +38,6 @@ std::vector<double> cluster_weights(const TriMesh& mesh) {
   }
   return weights;
 }
-
-/// A graph straight from surgery.
-struct Collapsed {
-  CurveGraph graph{};
-  std::vector<std::uint32_t> node_of_vertex{};
-  std::size_t lost_handles = 0;
-};
 
 /// Moves each node to the weighted mean of its vertices; one that only refinement made, and that
 /// stands for no vertex, to the mean of its neighbours.
@@ -207,18 +201,9 @@ double sample_spacing(const TriMesh& mesh, const SkeletonOptions& options) {
                                 : enclosing_sphere(points).diameter);
 }
 
-Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history,
-                          const SkeletonOptions& options, const RunContext& run) {
-  check_fields(options, kSkeletonFields);
-  if (!belongs_to(history, mesh)) {
-    throw InvalidInput("the contraction history does not belong to this mesh");
-  }
-  if (history.refinement) {
-    return of_refinement(mesh, *history.refinement, options, run);
-  }
+Skeleton finish_skeleton(const TriMesh& mesh, const ContractionHistory& history,
+                         Collapsed collapsed, const SkeletonOptions& options) {
   Skeleton skeleton;
-  const double spacing = sample_spacing(mesh, options);
-  Collapsed collapsed = collapse_history(mesh, history, spacing, run.part(0.0, 0.9));
   if (collapsed.lost_handles > 0) {
     skeleton.warnings.push_back("the skeleton may have lost " +
                                 std::to_string(collapsed.lost_handles) +
@@ -232,9 +217,24 @@ Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history
       weight[node] += 1.0;
     }
   }
-  skeleton.raw = merge_close_nodes(fine, spacing, std::move(weight), skeleton.raw_node_of_vertex);
-
+  skeleton.raw = merge_close_nodes(fine, sample_spacing(mesh, options), std::move(weight),
+                                   skeleton.raw_node_of_vertex);
   finish(mesh, history, options, skeleton);
+  return skeleton;
+}
+
+Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history,
+                          const SkeletonOptions& options, const RunContext& run) {
+  check_fields(options, kSkeletonFields);
+  if (!belongs_to(history, mesh)) {
+    throw InvalidInput("the contraction history does not belong to this mesh");
+  }
+  if (history.refinement) {
+    return of_refinement(mesh, *history.refinement, options, run);
+  }
+  const double spacing = sample_spacing(mesh, options);
+  Skeleton skeleton = finish_skeleton(
+      mesh, history, collapse_history(mesh, history, spacing, run.part(0.0, 0.9)), options);
   run.advance("skeleton", 1.0);
   return skeleton;
 }
