@@ -30,7 +30,7 @@ struct FiguresCommand {
   }
 
   void run(Session& session) const {
-    const ViewOptions options = session.reading([&] { return method.resolve(); });
+    const ViewOptions options = session.reading([&] { return method.resolve(session.flags.seed); });
     const RunContext run = session.run();
     const Model loaded = session.load(model);
     const ShapeAnalysis shape = analyse_shape(loaded, options, run.part(0.0, 0.4));

@@ -53,7 +53,7 @@ struct RenderCommand {
   }
 
   void run(Session& session) {
-    ViewOptions options = session.reading([&] { return method.resolve(); });
+    ViewOptions options = session.reading([&] { return method.resolve(session.flags.seed); });
     options.margin = look.margin();
     const RunContext run = session.run();
     const Vec3 direction =

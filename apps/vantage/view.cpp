@@ -71,7 +71,7 @@ struct ViewCommand {
 
   void run(Session& session) {
     const auto start = Clock::now();
-    ViewOptions options = session.reading([&] { return method.resolve(); });
+    ViewOptions options = session.reading([&] { return method.resolve(session.flags.seed); });
     options.pictures = !no_images;
     options.view_set = several.request();
     measure.apply(options);

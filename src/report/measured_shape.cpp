@@ -157,6 +157,36 @@ MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m, const RunCont
   return views;
 }
 
+MeasuredViews gradient_views(const ViewMeasurer& measurer, std::size_t m,
+                             const SearchOptions& options, const RunContext& run) {
+  const Measure& measure = measurer.measures()[m];
+  require_gradient(measure);
+  RunContext quiet = run;
+  quiet.report = nullptr;
+  const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
+    return measurer.values_of(m, directions, quiet);
+  };
+  const bool rises = measure.better == Better::More;
+  SearchOptions by_gradient = options;
+  by_gradient.strategy = SearchStrategy::Gradient;
+  constexpr double kTotal = 1.0;  // there is something to find; its size does not matter here
+  const FoundView best =
+      search_view(score, kTotal, rises ? Goal::Best : Goal::Worst, by_gradient, quiet);
+  const FoundView worst =
+      search_view(score, kTotal, rises ? Goal::Worst : Goal::Best, by_gradient, quiet);
+  return {{best.direction, best.score},
+          {worst.direction, worst.score},
+          best.evaluations + worst.evaluations};
+}
+
+void require_gradient(const Measure& measure) {
+  if (measure.is_count) {
+    throw InvalidInput(measure.name +
+                       " counts things, so it goes in steps and has no gradient to follow; use "
+                       "another search, or another method");
+  }
+}
+
 ViewReport find_views_by_measure(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& options,
                                  const RunContext& run) {
   if (options.view_set) {
@@ -164,6 +194,9 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, UpAxis up, const Vi
         "several views are chosen by kssm or mesh-saliency only; leave out --views and "
         "--coverage, or --method " +
         options.method);
+  }
+  if (options.search.strategy == SearchStrategy::Gradient) {
+    require_gradient(find_measure(options.method));
   }
   constexpr int kLevel = 3;
   const double kNone = std::numeric_limits<double>::quiet_NaN();
