@@ -52,6 +52,7 @@ struct CompareCommand {
     OutputFolder output(folder.empty() ? loaded.name + ".compare" : folder);
     output.check();
     const ShapeAnalysis shape = analyse_for(loaded, options, measures, run.part(0.0, 0.2));
+    require_area(shape, model);
     const UpChoice up = choose_up(loaded, shape, options);
     const Comparison comparison = compare_methods(shape, options, measures, run.part(0.2, 0.9));
     const std::string json = comparison_json(loaded, comparison, up.axis, options);

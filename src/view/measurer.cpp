@@ -113,7 +113,7 @@ void ViewMeasurer::State::prepare(const RunContext& run) {
   const std::vector<FaceSides> sides(model.given.sides.begin(), model.given.sides.end());
   needs.faces |= needs.channel || needs.neighbours || by_area;
   if (needs.faces) {
-    faces.emplace(mesh, sides);
+    faces.emplace(mesh, sides, FaceVisibility::kSpacing / model.given.sampling);
   }
   if (needs.skeleton) {
     const Vec3& centre = model.given.camera.sphere.centre;
@@ -203,7 +203,7 @@ SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& w
     sight.channel = channel_measures(sight.faces, model.terms, model.face_areas);
   }
   if (wanted.outline) {
-    sight.outline = measure_outline(outlines->trace(eye));
+    sight.outline = measure_outline(outlines->trace(eye), kTurningPhases * model.given.sampling);
   }
   if (wanted.neighbours) {
     if (set_index != kNotOfSet) {
@@ -329,8 +329,11 @@ void ViewMeasurer::State::survey(const RunContext& run) {
 ViewMeasurer::ViewMeasurer(const MeasureSubject& subject, std::vector<Measure> measures, int level,
                            const RunContext& run)
     : state_(std::make_unique<State>()) {
-  if (subject.surface == nullptr || level < 0 || level > 6) {
-    throw InvalidInput("measuring needs a surface and a set of views of level 0 to 6");
+  constexpr int kMostSampling = 16;
+  if (subject.surface == nullptr || level < 0 || level > 6 || subject.sampling < 1 ||
+      subject.sampling > kMostSampling) {
+    throw InvalidInput(
+        "measuring needs a surface, a set of views of level 0 to 6 and a sampling of 1 to 16");
   }
   state_->model.given = subject;
   state_->model.set = direction_set(ViewSphereBase::Icosahedron, level);

@@ -18,6 +18,9 @@ namespace vantage {
 ShapeAnalysis analyse_for(const Model& model, const ViewOptions& options,
                           std::span<const Measure> measures, const RunContext& run = {});
 
+/// \throw InvalidInput that names the model if its surface has no area: views of it are all blind.
+void require_area(const ShapeAnalysis& shape, const std::string& name);
+
 /// The shape as measures take it; refers to it. Without a map or skeleton these stay empty.
 MeasureSubject measure_subject(const ShapeAnalysis& shape, const ViewOptions& options);
 
@@ -45,6 +48,9 @@ struct MeasuredViews {
 /// Best and worst view of the set, then by rings of six directions that halve from 4° to 1° as
 /// long as one of them is better. \param m index into measurer.measures().
 MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m, const RunContext& run = {});
+
+/// The best of these alone, for half the work.
+MeasuredView best_view(ViewMeasurer& measurer, std::size_t m, const RunContext& run = {});
 
 /// Best and worst view by one measure, each by Lee's search along the gradient from random starts.
 /// \throw InvalidInput as require_gradient().

@@ -70,6 +70,7 @@ struct MeasureSubject {
   std::span<const double> saliency{};    ///< Mesh saliency; computed if needed and not given.
   const CurveGraph* skeleton = nullptr;  ///< Centred.
   std::span<const std::uint32_t> node_of_vertex{};  ///< Node of `skeleton`; ~0 where none.
+  int sampling = 1;  ///< Times as dense as is enough, 1–16: to see that it is enough.
 };
 
 /// What measures need of a view or of the model; only that is computed.
