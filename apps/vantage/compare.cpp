@@ -17,6 +17,8 @@ struct CompareCommand {
   std::string model{};
   std::string folder{};
   std::string names = "all";
+  std::string search = "rings";
+  int starts = SearchOptions{}.starts;
   bool no_images = false;
   SaliencyFlags saliency{};
   MethodFlags method{};
@@ -25,6 +27,15 @@ struct CompareCommand {
     app.add_option("MODEL", model, "file to read, or -")->required();
     app.add_option("-o,--output", folder, "folder for the results; default: NAME.compare");
     app.add_option("--method", names, "methods of vantage measures, joined by commas, or all")
+        ->capture_default_str();
+    app.add_option("--search", search,
+                   "how the extreme views are found: rings: from the best of the set of views by "
+                   "smaller and smaller rings; gradient: Lee's ascent from random starts (--seed), "
+                   "of all methods but those that count things")
+        ->check(CLI::IsMember({"rings", "gradient"}))
+        ->capture_default_str();
+    app.add_option("--starts", starts, "random directions that --search gradient starts from")
+        ->check(CLI::Range(1, 4096))
         ->capture_default_str();
     app.add_flag("--no-images", no_images, "no contact sheet and no page");
     saliency.add_to(app);
@@ -35,18 +46,20 @@ struct CompareCommand {
   void run(Session& session) const {
     ViewOptions options = method.resolve();
     saliency.apply(options);
-    const std::vector<Measure> measures = parse_measures(names, "--method");
+    const std::vector<Measure> measures = chosen_measures(session, options);
     const RunContext run = session.run();
     const Model loaded = session.load(model);
     OutputFolder output(folder.empty() ? loaded.name + ".compare" : folder);
     output.check();
     const ShapeAnalysis shape = analyse_for(loaded, options, measures, run.part(0.0, 0.2));
+    require_area(shape, model);
     const UpChoice up = choose_up(loaded, shape, options);
     const Comparison comparison = compare_methods(shape, options, measures, run.part(0.2, 0.9));
     const std::string json = comparison_json(loaded, comparison, up.axis, options);
     output.add("compare.json", json);
     output.add("compare.csv", comparison_csv(comparison));
     output.add("agreement.csv", agreement_csv(comparison));
+    output.add("timings.csv", comparison_timings_csv(comparison));
     if (!no_images) {
       output.add("sheet.png", png_bytes(comparison_sheet(shape, comparison, up.axis, options,
                                                          run.part(0.9, 1.0))));
@@ -55,7 +68,7 @@ struct CompareCommand {
     output.write();
     session.end_progress();
     if (session.flags.json) {
-      write_file("-", json);
+      write_file("-", comparison_json(loaded, comparison, up.axis, options, true));
       return;
     }
     summarise(session, comparison, output.path());
@@ -65,6 +78,27 @@ struct CompareCommand {
   }
 
  private:
+  /// The measures to compare; also sets how they are searched. \throw CLI::ValidationError
+  std::vector<Measure> chosen_measures(const Session& session, ViewOptions& options) const {
+    std::vector<Measure> measures = parse_measures(names, "--method");
+    if (search != "gradient") {
+      if (starts != SearchOptions{}.starts) {
+        throw CLI::ValidationError("--starts", "goes with --search gradient only");
+      }
+      return measures;
+    }
+    options.search.strategy = SearchStrategy::Gradient;
+    options.search.starts = starts;
+    options.search.seed = session.flags.seed;
+    if (names == "all") {
+      std::erase_if(measures, [](const Measure& m) { return m.is_count; });
+    }
+    for (const Measure& measure : measures) {
+      require_gradient(measure);
+    }
+    return measures;
+  }
+
   static std::string direction_text(const Vec3& d) {
     return rounded(d.x(), 3) + " " + rounded(d.y(), 3) + " " + rounded(d.z(), 3);
   }
@@ -79,7 +113,7 @@ struct CompareCommand {
     const std::string& first = comparison.methods.front().measure.name;
     session.tell(padded("method", kName) + padded("best from", kView) +
                  padded("worst from", kView) + "best and worst from " + first +
-                 "'s, folded; rank; seconds");
+                 "'s, folded; rank; views; seconds");
     for (std::size_t m = 0; m < comparison.methods.size(); ++m) {
       const ComparedMethod& method = comparison.methods[m];
       const Agreement& with = comparison.agreement.front()[m];
@@ -87,7 +121,9 @@ struct CompareCommand {
                    padded(direction_text(method.views.best.direction), kView) +
                    padded(direction_text(method.views.worst.direction), kView) +
                    rounded(with.best_folded_deg, 3) + "°, " + rounded(with.worst_folded_deg, 3) +
-                   "°, " + rounded(with.rank_correlation, 2) + ", " + rounded(method.seconds, 2));
+                   "°, " + rounded(with.rank_correlation, 2) + ", " +
+                   std::to_string(comparison.evaluations(method)) + ", " +
+                   rounded(method.seconds, 2));
     }
     session.tell("all views of the set: " + rounded(comparison.survey_seconds, 3) +
                  " s; results in " + printable(path) + "/");
@@ -97,12 +133,13 @@ struct CompareCommand {
 }  // namespace
 
 void add_compare_command(CLI::App& program, Session& session) {
-  add_command<CompareCommand>(program, session, "compare",
-                              "methods side by side: best and worst views, agreement",
-                              "Examples:\n"
-                              "  vantage compare horse.ply -o methods\n"
-                              "  vantage compare horse.ply -o two --method kssm,mesh-saliency\n"
-                              "  vantage compare part.stl --method all --no-images --json");
+  add_command<CompareCommand>(
+      program, session, "compare", "methods side by side: best and worst views, agreement",
+      "Examples:\n"
+      "  vantage compare horse.ply -o methods\n"
+      "  vantage compare horse.ply -o two --method kssm,mesh-saliency\n"
+      "  vantage compare horse.ply --method mesh-saliency --search gradient\n"
+      "  vantage compare part.stl --method all --no-images --json");
 }
 
 }  // namespace vantage::cli

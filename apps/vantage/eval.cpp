@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <filesystem>
+#include <memory>
+
+#include "vantage/core/error.h"
 #include "vantage/io/write.h"
 #include "vantage/report/evaluation.h"
 
@@ -17,6 +21,7 @@ constexpr std::string_view kEnd = "<!-- vantage eval ends -->";
 struct EvalCommand {
   std::string folder{};
   std::string names = "all";
+  std::string output{};
   std::string page{};
   std::string views_file{};
   std::string gaze_file{};
@@ -24,8 +29,12 @@ struct EvalCommand {
 
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("DATASET", folder,
-                   "folder with views.csv and models/, or gaze/ and meshes/, or folders of these")
+                   "folder with views.csv and models/, or gaze/ and meshes/, or folders of these; "
+                   "or a JSON manifest: docs/evidence.md")
         ->required();
+    app.add_option("-o,--output", output,
+                   "folder for tables.md, views.csv, gaze.csv, and the rows of each model as soon as "
+                   "they are there: a run that was stopped goes on where it was");
     app.add_option("--method", names, "methods of vantage measures, joined by commas, or all")
         ->capture_default_str();
     app.add_option("--page", page, "also put the tables into this page, between its marks");
@@ -41,25 +50,28 @@ struct EvalCommand {
     const auto records = session.reading([&] { return read_records(folder); });
     const std::string before = page.empty() ? "" : session.reading([&] { return read_text(page); });
     check_marks(before);
-    const RunContext run = session.run();
+    const auto journal = output.empty() ? std::make_unique<EvaluationJournal>()
+                                        : std::make_unique<EvaluationJournal>(journal_file());
+    std::size_t known = 0;
     std::vector<ViewAgreement> views;
     std::vector<GazeAgreement> gaze;
-    for (std::size_t i = 0; i < records.size(); ++i) {
-      const auto share = 1.0 / static_cast<double>(records.size());
-      const RunContext part =
-          run.part(share * static_cast<double>(i), share * static_cast<double>(i + 1));
-      const Model model = session.load(records[i].path);
-      if (!records[i].views.empty()) {
-        const auto rows = evaluate_views(records[i], model, options, measures, part);
-        views.insert(views.end(), rows.begin(), rows.end());
-      } else {
-        const auto rows = evaluate_gaze(records[i], model, options, part);
-        gaze.insert(gaze.end(), rows.begin(), rows.end());
-      }
+    for (const EvaluatedModel& rows :
+         evaluate_records(records, options, measures, *journal, known, session.run())) {
+      views.insert(views.end(), rows.views.begin(), rows.views.end());
+      gaze.insert(gaze.end(), rows.gaze.begin(), rows.gaze.end());
     }
     session.end_progress();
+    if (known > 0) {
+      session.say("note: " + std::to_string(known) + " of " + std::to_string(records.size()) +
+                  " models were evaluated by an earlier run");
+    }
     const std::string tables = evidence_tables(views, gaze);
     write_file("-", tables);
+    if (!output.empty()) {
+      write_file(output + "/tables.md", tables);
+      write_file(output + "/views.csv", view_agreement_csv(views));
+      write_file(output + "/gaze.csv", gaze_agreement_csv(gaze));
+    }
     if (!page.empty()) {
       const std::size_t begin = before.find(kBegin) + kBegin.size();
       write_file(page, before.substr(0, begin) + tables + before.substr(before.find(kEnd)));
@@ -73,6 +85,16 @@ struct EvalCommand {
   }
 
  private:
+  /// In the folder for results, which is made.
+  [[nodiscard]] std::string journal_file() const {
+    std::error_code error;
+    std::filesystem::create_directories(output, error);
+    if (error) {
+      throw IoError(output, "cannot be made: " + error.message(), error.value());
+    }
+    return output + "/rows.jsonl";
+  }
+
   void check_marks(const std::string& text) const {
     if (!page.empty() &&
         (text.find(kBegin) == std::string::npos || text.find(kEnd) == std::string::npos ||
@@ -91,6 +113,7 @@ void add_eval_command(CLI::App& program, Session& session) {
                            "score methods against recorded choices and gaze of people",
                            "Examples:\n"
                            "  vantage eval people\n"
+                           "  vantage eval people.json -o results\n"
                            "  vantage eval people/views --method kssm,vmi --views-csv rows.csv");
 }
 

@@ -46,7 +46,7 @@ struct FiguresCommand {
   }
 
   void run(Session& session) {
-    ViewOptions options = session.reading([&] { return method.resolve(); });
+    ViewOptions options = session.reading([&] { return method.resolve(session.flags.seed); });
     options.view_set = several.request_or(kSheetViews);
     std::vector<StageTimes> times;
     for (const std::string& model : models) {

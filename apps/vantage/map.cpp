@@ -59,6 +59,9 @@ struct MapCommand {
     const Model loaded = session.load(model);
     const ShapeAnalysis shape =
         by_skeleton ? analyse_shape(loaded, options, session.run()) : prepare_surface(loaded);
+    if (name == "pmi-saliency") {
+      require_area(shape, model);
+    }
     const std::vector<double> field = name == "thickness"
                                           ? shape.map.thickness()
                                           : vertex_map(shape, options, name, session.run());

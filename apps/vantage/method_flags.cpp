@@ -227,8 +227,9 @@ void MethodFlags::add_search_flags(CLI::App& app) {
   app.add_option(
          "--search", search_,
          "global: finds what dense finds, by a fraction of its scores; dense: 10242 "
-         "directions, then refinement, slow; rapid: the paper's; exhaustive: a direction set")
-      ->check(CLI::IsMember({"rapid", "exhaustive", "global", "dense"}))
+         "directions, then refinement, slow; rapid: the paper's; exhaustive: a direction set; "
+         "gradient: Lee's ascent from random starts")
+      ->check(CLI::IsMember({"rapid", "exhaustive", "global", "dense", "gradient"}))
       ->default_str("global")
       ->group(group);
   app.add_option_function<std::string>(
@@ -241,6 +242,7 @@ void MethodFlags::add_search_flags(CLI::App& app) {
       ->check(CLI::IsMember({"cube", "icosahedron"}))
       ->group(group);
   add_numbers(app, group, &ViewOptions::search, kSearchFields);
+  add_numbers(app, group, &ViewOptions::search, kGradientFields);
   app.add_option_function<std::string>(
          "--epsilon",
          [this](const std::string& text) {
@@ -260,16 +262,17 @@ void MethodFlags::add_search_flags(CLI::App& app) {
       ->group(group);
 }
 
-ViewOptions MethodFlags::resolve() const {
+ViewOptions MethodFlags::resolve(std::uint64_t seed) const {
   ViewOptions options = preset_options(preset_ == "paper" ? Preset::Paper : Preset::Default);
   if (search_ == "rapid") {
     options.search.strategy = SearchStrategy::Rapid;
     options.search.base = ViewSphereBase::Cube;
     options.search.subdivisions = 0;
   } else if (!search_.empty()) {
-    options.search.strategy = search_ == "global"  ? SearchStrategy::Global
-                              : search_ == "dense" ? SearchStrategy::Dense
-                                                   : SearchStrategy::Exhaustive;
+    options.search.strategy = search_ == "global"     ? SearchStrategy::Global
+                              : search_ == "dense"    ? SearchStrategy::Dense
+                              : search_ == "gradient" ? SearchStrategy::Gradient
+                                                      : SearchStrategy::Exhaustive;
     options.search.base = ViewSphereBase::Icosahedron;
     options.search.subdivisions = SearchOptions{}.subdivisions;
   }
@@ -281,6 +284,11 @@ ViewOptions MethodFlags::resolve() const {
   for (const Override& apply : overrides_) {
     apply(options);
   }
+  const bool by_gradient = options.search.strategy == SearchStrategy::Gradient;
+  if (!by_gradient && options.search.starts != SearchOptions{}.starts) {
+    throw CLI::ValidationError("--starts", "goes with --search gradient only");
+  }
+  options.search.seed = by_gradient ? seed : 0;
   return options;
 }
 
@@ -314,7 +322,8 @@ void add_common_flags(CLI::App& app, CommonFlags& flags) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str()
       ->group(group);
-  app.add_option("--seed", flags.seed, "start of random sequences; this version draws none")
+  app.add_option("--seed", flags.seed,
+                 "start of random sequences: --search gradient draws its starts")
       ->capture_default_str()
       ->group(group);
   add_config_flag(app);

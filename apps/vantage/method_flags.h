@@ -26,8 +26,8 @@ class MethodFlags {
   /// Adds contraction and skeleton flags, --preset, and the groups asked for.
   void add_to(CLI::App& app, const FlagGroups& groups);
 
-  /// The options as asked for on the command line.
-  [[nodiscard]] ViewOptions resolve() const;
+  /// The options as asked for on the command line. \param seed of random sequences.
+  [[nodiscard]] ViewOptions resolve(std::uint64_t seed = 0) const;
 
  private:
   using Override = std::function<void(ViewOptions&)>;

@@ -54,7 +54,7 @@ struct RenderCommand {
 
   void run(Session& session) {
     look.check(file);
-    ViewOptions options = session.reading([&] { return method.resolve(); });
+    ViewOptions options = session.reading([&] { return method.resolve(session.flags.seed); });
     options.margin = look.margin();
     const RunContext run = session.run();
     const Vec3 direction =

@@ -72,7 +72,7 @@ struct ViewCommand {
 
   void run(Session& session) {
     const auto start = Clock::now();
-    ViewOptions options = session.reading([&] { return method.resolve(); });
+    ViewOptions options = session.reading([&] { return method.resolve(session.flags.seed); });
     options.pictures = !no_images;
     options.view_set = several.request();
     measure.apply(options);
@@ -84,6 +84,9 @@ struct ViewCommand {
     OutputFolder output(folder.empty() ? loaded.name + ".vantage" : folder);
     output.check();
     const ShapeAnalysis shape = analyse_shape(loaded, options, run.part(0.02, 0.5), &seconds);
+    if (!sums_a_map(options.method)) {
+      require_area(shape, model);
+    }
     const UpChoice up = choose_up(loaded, shape, options);
     const auto search_start = Clock::now();
     const ViewReport report = find_views(shape, up, options, run.part(0.5, 0.9));

@@ -45,6 +45,25 @@ std::string escaped(const std::string& text) {
   return safe;
 }
 
+/// What each method found.
+std::string method_table(const Comparison& comparison) {
+  std::string html =
+      "<h2>Methods</h2>\n<table><tr><th>method</th><th>better</th><th>best from</th><th>score</th>"
+      "<th>worst from</th><th>score</th><th>views evaluated</th></tr>\n";
+  const auto view_cells = [](const MeasuredView& view) {
+    const Vec3& d = view.direction;
+    return "<td>" + short_number(d.x(), 3) + ", " + short_number(d.y(), 3) + ", " +
+           short_number(d.z(), 3) + "</td><td>" + short_number(view.value, 4) + "</td>";
+  };
+  for (const ComparedMethod& method : comparison.methods) {
+    html += "<tr><th>" + method.measure.name + "</th><td>" +
+            (method.measure.better == Better::More ? "max" : "min") + "</td>" +
+            view_cells(method.views.best) + view_cells(method.views.worst) + "<td>" +
+            std::to_string(comparison.evaluations(method)) + "</td></tr>\n";
+  }
+  return html + "</table>\n<p>What it took is in <a href=\"timings.csv\">timings.csv</a>.</p>\n";
+}
+
 /// One table of a number for each pair of methods.
 std::string pair_table(const Comparison& comparison, const char* title, double Agreement::*member,
                        int decimals) {
@@ -66,7 +85,7 @@ std::string pair_table(const Comparison& comparison, const char* title, double A
 }  // namespace
 
 std::string comparison_json(const Model& model, const Comparison& comparison, UpAxis up,
-                            const ViewOptions& options) {
+                            const ViewOptions& options, bool with_seconds) {
   Json json;
   json["vantage"] = version();
   json["schema"] = 1;
@@ -74,18 +93,24 @@ std::string comparison_json(const Model& model, const Comparison& comparison, Up
   json["model"] = model.name;
   json["up"] = up_name(up);
   json["views"] = comparison.set.directions.size();
+  json["search"] = comparison.set_counts ? "rings" : "gradient";
+  if (with_seconds) {
+    json["seconds"] = comparison.survey_seconds;
+  }
   json["mirror_planes"] = Json::array();
   for (const MirrorPlane& plane : comparison.planes) {
     json["mirror_planes"].push_back({plane.normal.x(), plane.normal.y(), plane.normal.z()});
   }
   json["methods"] = Json::array();
   for (const ComparedMethod& method : comparison.methods) {
-    json["methods"].push_back(
-        {{"method", method.measure.name},
-         {"better", method.measure.better == Better::More ? "max" : "min"},
-         {"best", view_of(method.views.best)},
-         {"worst", view_of(method.views.worst)},
-         {"evaluations", comparison.set.directions.size() + method.views.evaluations}});
+    json["methods"].push_back({{"method", method.measure.name},
+                               {"better", method.measure.better == Better::More ? "max" : "min"},
+                               {"best", view_of(method.views.best)},
+                               {"worst", view_of(method.views.worst)},
+                               {"evaluations", comparison.evaluations(method)}});
+    if (with_seconds) {
+      json["methods"].back()["seconds"] = method.seconds;
+    }
   }
   json["agreement"] = Json::array();
   for (std::size_t a = 0; a < comparison.methods.size(); ++a) {
@@ -112,7 +137,7 @@ std::string comparison_csv(const Comparison& comparison) {
       const Vec3& d = view->direction;
       add_numbers(csv, {d.x(), d.y(), d.z(), view->value});
     }
-    csv += ',' + std::to_string(comparison.set.directions.size() + method.views.evaluations) + '\n';
+    csv += ',' + std::to_string(comparison.evaluations(method)) + '\n';
   }
   return csv;
 }
@@ -138,15 +163,28 @@ std::string comparison_html(const Model& model, const Comparison& comparison) {
       "table{border-collapse:collapse}td,th{border:1px solid #ccc;padding:2px 6px;text-align:right}"
       ".side{vertical-align:bottom}.side span{writing-mode:vertical-rl}</style>\n<h1>" +
       escaped(model.name) +
-      "</h1>\n<p>Best view, worst view and the sphere of all views (warm: good) of each "
-      "method.</p>\n<img src=\"sheet.png\" alt=\"contact sheet\">\n";
+      "</h1>\n<p>Best view, worst view, and around the model all views of the set: the farther out "
+      "and the warmer, the better.</p>\n<img src=\"sheet.png\" alt=\"contact sheet\">\n";
+  html += method_table(comparison);
+  html += pair_table(comparison, "Angle between best views, degrees", &Agreement::best_deg, 0);
   html += pair_table(comparison, "Angle between best views, degrees, mirror-folded",
                      &Agreement::best_folded_deg, 0);
+  html += pair_table(comparison, "Angle between worst views, degrees", &Agreement::worst_deg, 0);
   html += pair_table(comparison, "Angle between worst views, degrees, mirror-folded",
                      &Agreement::worst_folded_deg, 0);
   html +=
       pair_table(comparison, "Rank correlation over the sphere", &Agreement::rank_correlation, 2);
   return html;
+}
+
+std::string comparison_timings_csv(const Comparison& comparison) {
+  std::string csv = "what,seconds\nall views of the set by all methods";
+  add_numbers(csv, {comparison.survey_seconds});
+  for (const ComparedMethod& method : comparison.methods) {
+    csv += "\nsearch by " + method.measure.name;
+    add_numbers(csv, {method.seconds});
+  }
+  return csv + "\n";
 }
 
 }  // namespace vantage

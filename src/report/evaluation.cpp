@@ -221,6 +221,7 @@ std::vector<ViewAgreement> evaluate_views(const RecordedModel& record, const Mod
                                           const std::vector<Measure>& measures,
                                           const RunContext& run) {
   const ShapeAnalysis shape = analyse_for(model, options, measures, run.part(0.0, 0.3));
+  require_area(shape, record.name);
   const UpAxis up = options.up.value_or(default_up(model.format));
   const UprightFrame frame = upright_frame(up_vector(up));
   constexpr int kLevel = 3;
@@ -242,8 +243,8 @@ std::vector<ViewAgreement> evaluate_views(const RecordedModel& record, const Mod
       rows.push_back(agreement("kssm × prior (the default of view)", record,
                                best_under_prior(measurer.set(), values[m], frame)));
     }
-    const MeasuredViews found = extreme_views(measurer, m, run.part(0.8, 1.0));
-    rows.push_back(agreement(measures[m].name, record, found.best.direction));
+    const MeasuredView best = best_view(measurer, m, run.part(0.8, 1.0));
+    rows.push_back(agreement(measures[m].name, record, best.direction));
     rows.back().percentile = human_percentile(measures[m], values[m], of_people[m]);
   }
   return rows;

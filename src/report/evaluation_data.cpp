@@ -11,6 +11,7 @@
 #include "vantage/report/evaluation.h"
 
 #include "io/files.h"
+#include "report/evaluation_manifest.h"
 
 namespace vantage {
 namespace {
@@ -123,13 +124,8 @@ void read_gaze(const fs::path& folder, std::vector<RecordedModel>& records) {
     if (!fs::exists(file)) {
       continue;
     }
-    RecordedModel record{.name = mesh.filename().string(), .path = mesh.string()};
-    std::istringstream lines(read_file(file.string()));
-    std::size_t number = 0;
-    for (std::string line; std::getline(lines, line);) {
-      record.gaze.push_back(number_of(line, file, ++number));
-    }
-    records.push_back(std::move(record));
+    records.push_back({.name = mesh.filename().string(), .path = mesh.string()});
+    records.back().gaze = read_gaze_values(file);
   }
 }
 
@@ -147,11 +143,23 @@ bool read_folder(const fs::path& folder, std::vector<RecordedModel>& records) {
 
 }  // namespace
 
+std::vector<double> read_gaze_values(const fs::path& file) {
+  std::vector<double> values;
+  std::istringstream lines(read_file(file.string()));
+  for (std::string line; std::getline(lines, line);) {
+    values.push_back(number_of(line, file, values.size() + 1));
+  }
+  return values;
+}
+
 std::vector<RecordedModel> read_records(const std::string& folder) {
   std::vector<RecordedModel> records;
   std::error_code error;
+  if (fs::is_regular_file(folder, error) && fs::path(folder).extension() == ".json") {
+    return read_manifest(folder);
+  }
   if (!fs::is_directory(folder, error)) {
-    throw IoError(folder, "is not a folder with recorded views or gaze");
+    throw IoError(folder, "is neither a folder with recorded views or gaze nor a .json manifest");
   }
   if (!read_folder(folder, records)) {
     std::vector<fs::path> parts;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "vantage/core/error.h"
+#include "vantage/mesh/measures.h"
 #include "vantage/significance/mesh_saliency.h"
 
 #include "report/prior_search.h"
@@ -105,6 +106,14 @@ ShapeAnalysis analyse_for(const Model& model, const ViewOptions& options,
                                         : prepare_surface(model);
 }
 
+void require_area(const ShapeAnalysis& shape, const std::string& name) {
+  if (!(surface_area(shape.surface) > 0.0)) {
+    throw InvalidInput(name +
+                       ": its surface has no area, so no view of it can be measured; kssm alone "
+                       "takes points");
+  }
+}
+
 MeasureSubject measure_subject(const ShapeAnalysis& shape, const ViewOptions& options) {
   MeasureSubject subject;
   subject.surface = &shape.surface;
@@ -137,24 +146,67 @@ std::vector<double> vertex_map(const ShapeAnalysis& shape, const ViewOptions& op
   return saliency_on_vertices(shape.surface, measurer.model().terms.saliency_of_face);
 }
 
-MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m, const RunContext& run) {
-  RunContext quiet = run;
-  quiet.report = nullptr;
+namespace {
+
+/// The best, or the worst, view of the set, climbed from.
+MeasuredView extreme_view(ViewMeasurer& measurer, std::size_t m, Goal goal,
+                          std::size_t& evaluations, const RunContext& run) {
   const std::vector<double>& values = measurer.set_values(run)[m];
   const Measure& measure = measurer.measures()[m];
-  std::size_t best = 0;
-  std::size_t worst = 0;
+  std::size_t found = 0;
   for (std::size_t i = 1; i < values.size(); ++i) {
-    best = measure.is_better(values[i], values[best]) ? i : best;
-    worst = measure.is_better(values[worst], values[i]) ? i : worst;
+    const bool is_farther = goal == Goal::Best ? measure.is_better(values[i], values[found])
+                                               : measure.is_better(values[found], values[i]);
+    found = is_farther ? i : found;
   }
-  const auto& directions = measurer.set().directions;
+  RunContext quiet = run;
+  quiet.report = nullptr;
+  return climbed(measurer, m, {measurer.set().directions[found], values[found]}, goal, evaluations,
+                 quiet);
+}
+
+}  // namespace
+
+MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m, const RunContext& run) {
   MeasuredViews views;
-  views.best =
-      climbed(measurer, m, {directions[best], values[best]}, Goal::Best, views.evaluations, quiet);
-  views.worst = climbed(measurer, m, {directions[worst], values[worst]}, Goal::Worst,
-                        views.evaluations, quiet);
+  views.best = extreme_view(measurer, m, Goal::Best, views.evaluations, run);
+  views.worst = extreme_view(measurer, m, Goal::Worst, views.evaluations, run);
   return views;
+}
+
+MeasuredView best_view(ViewMeasurer& measurer, std::size_t m, const RunContext& run) {
+  std::size_t evaluations = 0;
+  return extreme_view(measurer, m, Goal::Best, evaluations, run);
+}
+
+MeasuredViews gradient_views(const ViewMeasurer& measurer, std::size_t m,
+                             const SearchOptions& options, const RunContext& run) {
+  const Measure& measure = measurer.measures()[m];
+  require_gradient(measure);
+  RunContext quiet = run;
+  quiet.report = nullptr;
+  const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
+    return measurer.values_of(m, directions, quiet);
+  };
+  const bool rises = measure.better == Better::More;
+  SearchOptions by_gradient = options;
+  by_gradient.strategy = SearchStrategy::Gradient;
+  constexpr double kTotal = 1.0;  // there is something to find; its size does not matter here
+  const FoundView best =
+      search_view(score, kTotal, rises ? Goal::Best : Goal::Worst, by_gradient, quiet);
+  const FoundView worst =
+      search_view(score, kTotal, rises ? Goal::Worst : Goal::Best, by_gradient, quiet);
+  return {{best.direction, best.score},
+          {worst.direction, worst.score},
+          best.evaluations + worst.evaluations};
+}
+
+void require_gradient(const Measure& measure) {
+  if (measure.is_count) {
+    throw InvalidInput(measure.name +
+                       " counts things, so it goes in steps and has no gradient to follow; use "
+                       "another search, or another method");
+  }
 }
 
 ViewReport find_views_by_measure(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& options,
@@ -164,6 +216,9 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, UpAxis up, const Vi
         "several views are chosen by kssm or mesh-saliency only; leave out --views and "
         "--coverage, or --method " +
         options.method);
+  }
+  if (options.search.strategy == SearchStrategy::Gradient) {
+    require_gradient(find_measure(options.method));
   }
   constexpr int kLevel = 3;
   const double kNone = std::numeric_limits<double>::quiet_NaN();

@@ -159,6 +159,10 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
       {"evaluations", report.best_search.evaluations},
       {"worst_evaluations", report.worst_search.evaluations},
       {"estimates", report.best_search.estimates + report.worst_search.estimates}};
+  if (search.strategy == SearchStrategy::Gradient) {
+    json["search"]["starts"] = search.starts;
+    json["search"]["seed"] = search.seed;
+  }
   if (report.dense_gap) {
     json["search"]["dense"] = {{"best_ratio", report.dense_gap->best_ratio},
                                {"worst_above", report.dense_gap->worst_above},

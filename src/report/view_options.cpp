@@ -62,7 +62,8 @@ UpAxis default_up(ModelFormat format) {
 }
 
 std::string_view strategy_name(SearchStrategy strategy) {
-  constexpr std::array<std::string_view, 4> kNames{"rapid", "exhaustive", "global", "dense"};
+  constexpr std::array<std::string_view, 5> kNames{"rapid", "exhaustive", "global", "dense",
+                                                   "gradient"};
   return kNames[static_cast<std::size_t>(strategy)];
 }
 
@@ -127,6 +128,10 @@ std::string options_hash(const ViewOptions& options) {
   json["search"] = strategy_name(options.search.strategy);
   json["base"] = base_name(options.search.base);
   echo_fields(json, options.search, kSearchFields);
+  if (options.search.strategy == SearchStrategy::Gradient) {
+    echo_fields(json, options.search, kGradientFields);
+    json["seed"] = options.search.seed;
+  }
   json["epsilon"] = options.search.epsilon;
   json["epsilon-is-fraction"] = options.search.epsilon_is_fraction;
   json["narrow-ring"] = options.search.require_narrow_ring;

@@ -81,6 +81,11 @@ double kullback_leibler(const MeasuredModel& model, const SightTable& sight) {
 }
 
 double instability_of(const MeasuredModel& model, const SightTable& sight) {
+  if (sight.set_index != SightTable::kOffSet) {
+    const std::uint32_t first = model.next_views.offsets[sight.set_index];
+    const std::size_t count = model.next_views[sight.set_index].size();
+    return mean_divergence(std::span(model.divergences).subspan(first, count));
+  }
   std::vector<std::span<const FaceArea>> around;
   around.reserve(sight.neighbours.size());
   for (const std::uint32_t view : sight.neighbours) {
@@ -143,6 +148,7 @@ void add_surface_measures(std::vector<Measure>& all) {
                      mesh_saliency));
   all.push_back(more("visible-triangles", "number of faces seen", "Plemenos, Benayada 1996", kFaces,
                      visible_triangles));
+  all.back().is_count = true;
   all.push_back(more("projected-area", "area of the picture over that of the enclosing sphere's",
                      "Plemenos, Benayada 1996", kFaces, projected_area));
   all.push_back(
@@ -151,6 +157,7 @@ void add_surface_measures(std::vector<Measure>& all) {
   all.push_back(
       more("skeleton-limbs", "branches of the skeleton that are shown", "ours", kSkeleton,
            [](const MeasuredModel&, const SightTable& sight) { return sight.skeleton.limbs; }));
+  all.back().is_count = true;
   all.push_back(more("principal-axis", "spread of the surface across the line of sight",
                      "after Weinshall, Werman 1997", kVertices, principal_axis));
   all.push_back(more("plemenos", "share of faces seen plus share of the picture covered",

@@ -51,9 +51,10 @@ FaceRows rows_by_face(const ViewChannel& channel) {
 }
 
 /// What a pair adds to the weighted Jensen–Shannon divergence where both distributions have mass:
-/// (a + b) log (a + b) − a log a − b log b; where only one has, the terms cancel.
+/// (a + b) log (a + b) − a log a − b log b; where only one has, the terms cancel. The same bits for
+/// (b, a).
 double shared_term(double a, double b) {
-  return x_log_x(a + b) - x_log_x(a) - x_log_x(b);
+  return x_log_x(a + b) - (x_log_x(a) + x_log_x(b));
 }
 
 /// Weighted Jensen–Shannon divergence of two distributions a/A and b/B with weights A/(A+B) and
@@ -175,12 +176,18 @@ double area_seen(std::span<const FaceArea> seen) {
   return sum;
 }
 
-double least_positive(const std::vector<double>& values) {
+/// Logarithms, that of the least positive value for those that are not positive.
+std::vector<double> logarithms(const std::vector<double>& values) {
   double least = kNever;
   for (const double value : values) {
     least = value > 0.0 ? std::min(least, value) : least;
   }
-  return least;
+  std::vector<double> logs;
+  logs.reserve(values.size());
+  for (const double value : values) {
+    logs.push_back(std::log2(value > 0.0 ? value : least));
+  }
+  return logs;
 }
 
 }  // namespace
@@ -223,6 +230,14 @@ ChannelTerms channel_terms(const ViewChannel& channel, const TriMesh& mesh, cons
   }
   terms.saliency_of_face = face_saliency(rows, terms.area_of_face, mesh, run);
   terms.weighted_p = weighted_by_saliency(terms.p_of_face, terms.saliency_of_face);
+  terms.log_p = logarithms(terms.p_of_face);
+  terms.log_weighted_p = logarithms(terms.weighted_p);
+  std::vector<double> shares = face_areas(mesh);
+  const double surface = std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (double& share : shares) {
+    share /= surface;
+  }
+  terms.log_share = logarithms(shares);
   return terms;
 }
 
@@ -235,19 +250,15 @@ ChannelMeasures channel_measures(std::span<const FaceArea> seen, const ChannelTe
     return m;
   }
   const double surface = std::accumulate(face_areas.begin(), face_areas.end(), 0.0);
-  const double rarest = least_positive(terms.p_of_face);
-  const double rarest_weighted = least_positive(terms.weighted_p);
   double seen_surface = 0.0;
   for (const FaceArea& a : seen) {
     const double p = a.area / m.projected_area;
     const double log_p = std::log2(p);
-    const double p_z = terms.p_of_face[a.face];
-    const double weighted = terms.weighted_p[a.face];
     m.entropy -= p * log_p;
-    m.kullback_leibler += p * (log_p - std::log2(face_areas[a.face] / surface));
-    m.vmi += p * (log_p - std::log2(p_z > 0.0 ? p_z : rarest));
+    m.kullback_leibler += p * (log_p - terms.log_share[a.face]);
+    m.vmi += p * (log_p - terms.log_p[a.face]);
     m.i3 += p * terms.i2_of_face[a.face];
-    m.evmi += p * (log_p - std::log2(weighted > 0.0 ? weighted : rarest_weighted));
+    m.evmi += p * (log_p - terms.log_weighted_p[a.face]);
     if (terms.area_of_face[a.face] > 0.0) {
       m.pmi_saliency += terms.saliency_of_face[a.face] * a.area / terms.area_of_face[a.face];
     }
@@ -280,12 +291,36 @@ double instability(std::span<const FaceArea> view,
   if (view.empty()) {
     return kNever;
   }
-  double sum = 0.0;
+  std::vector<double> divergences;
   for (const auto& other : neighbours) {
     // A neighbour that sees nothing shares nothing with this view.
-    sum += other.empty() ? 1.0 : view_divergence(view, other);
+    divergences.push_back(other.empty() ? 1.0 : view_divergence(view, other));
   }
-  return neighbours.empty() ? 0.0 : sum / static_cast<double>(neighbours.size());
+  return mean_divergence(divergences);
+}
+
+double mean_divergence(std::span<const double> divergences) {
+  const double sum = std::accumulate(divergences.begin(), divergences.end(), 0.0);
+  return divergences.empty() ? 0.0 : sum / static_cast<double>(divergences.size());
+}
+
+std::vector<double> neighbour_divergences(const std::vector<std::vector<FaceArea>>& views,
+                                          const IndexLists& next, const RunContext& run) {
+  std::vector<double> divergences(next.values.size(), 1.0);
+  parallel_for(run, views.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::uint32_t k = next.offsets[i]; k < next.offsets[i + 1]; ++k) {
+        const std::uint32_t j = next.values[k];
+        if (j > i && !views[i].empty() && !views[j].empty()) {
+          const auto back = next[j];
+          const auto at = std::lower_bound(back.begin(), back.end(), i) - back.begin();
+          divergences[k] = view_divergence(views[i], views[j]);
+          divergences[next.offsets[j] + static_cast<std::size_t>(at)] = divergences[k];
+        }
+      }
+    }
+  });
+  return divergences;
 }
 
 std::vector<double> saliency_on_vertices(const TriMesh& mesh,

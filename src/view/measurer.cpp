@@ -76,7 +76,6 @@ struct ViewMeasurer::State {
   MeasuredModel model{};
   std::vector<Measure> measures{};
   MeasureNeeds needs{};
-  IndexLists next_views{};
   std::optional<VertexVisibility> vertices{};
   std::optional<FaceVisibility> faces{};
   std::optional<OutlineTracer> outlines{};
@@ -114,7 +113,14 @@ void ViewMeasurer::State::prepare(const RunContext& run) {
   const std::vector<FaceSides> sides(model.given.sides.begin(), model.given.sides.end());
   needs.faces |= needs.channel || needs.neighbours || by_area;
   if (needs.faces) {
-    faces.emplace(mesh, sides);
+    faces.emplace(mesh, sides, FaceVisibility::kSpacing / model.given.sampling);
+  }
+  if (needs.skeleton) {
+    const Vec3& centre = model.given.camera.sphere.centre;
+    for (const Triangle& face : mesh.triangles) {
+      const Vec3 normal = area_vector(mesh, face);
+      model.planes.push_back({normal, normal.dot(mesh.positions[face[0]] - centre)});
+    }
   }
   if (needs.vertices) {
     vertices.emplace(mesh, sides);
@@ -125,7 +131,7 @@ void ViewMeasurer::State::prepare(const RunContext& run) {
   }
   model.spread = spread_of(mesh, model.face_areas, model.surface_area);
   if (needs.neighbours) {
-    next_views = vertex_neighbours({model.set.directions, model.set.triangles});
+    model.next_views = vertex_neighbours({model.set.directions, model.set.triangles});
   }
   prepare_maps(run);
 }
@@ -197,12 +203,13 @@ SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& w
     sight.channel = channel_measures(sight.faces, model.terms, model.face_areas);
   }
   if (wanted.outline) {
-    sight.outline = measure_outline(outlines->trace(eye));
+    sight.outline = measure_outline(outlines->trace(eye), kTurningPhases * model.given.sampling);
   }
   if (wanted.neighbours) {
     if (set_index != kNotOfSet) {
-      const auto row = next_views[set_index];
+      const auto row = model.next_views[set_index];
       sight.neighbours.assign(row.begin(), row.end());
+      sight.set_index = static_cast<std::uint32_t>(set_index);
     } else {
       sight.neighbours = neighbours(sight.towards);
     }
@@ -217,7 +224,7 @@ std::vector<std::uint32_t> ViewMeasurer::State::neighbours(const Vec3& towards) 
   constexpr double kSame = 1e-9;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if ((all[i] - towards).norm() < kSame) {
-      const auto row = next_views[i];
+      const auto row = model.next_views[i];
       return {row.begin(), row.end()};
     }
   }
@@ -309,6 +316,9 @@ void ViewMeasurer::State::survey(const RunContext& run) {
   }
   model.set_views = std::move(channel.views);
   run.advance("views", 0.9);
+  if (needs.neighbours) {
+    model.divergences = neighbour_divergences(model.set_views, model.next_views, quiet(run));
+  }
   parallel_for(quiet(run), count, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       measure_late(i);
@@ -319,8 +329,11 @@ void ViewMeasurer::State::survey(const RunContext& run) {
 ViewMeasurer::ViewMeasurer(const MeasureSubject& subject, std::vector<Measure> measures, int level,
                            const RunContext& run)
     : state_(std::make_unique<State>()) {
-  if (subject.surface == nullptr || level < 0 || level > 6) {
-    throw InvalidInput("measuring needs a surface and a set of views of level 0 to 6");
+  constexpr int kMostSampling = 16;
+  if (subject.surface == nullptr || level < 0 || level > 6 || subject.sampling < 1 ||
+      subject.sampling > kMostSampling) {
+    throw InvalidInput(
+        "measuring needs a surface, a set of views of level 0 to 6 and a sampling of 1 to 16");
   }
   state_->model.given = subject;
   state_->model.set = direction_set(ViewSphereBase::Icosahedron, level);

@@ -12,6 +12,7 @@
 #include "view/climb.h"
 #include "view/evaluator.h"
 #include "view/global_search.h"
+#include "view/gradient_search.h"
 #include "view/loop_patch.h"
 #include "view/sphere_angles.h"
 
@@ -99,6 +100,9 @@ Candidate refine(const Search& search) {
       return rapid(search);
     case SearchStrategy::Dense:
       return dense(search);
+    case SearchStrategy::Gradient:
+      return search_by_gradient(search.evaluator, search.goal, search.options, search.total,
+                                search.run);
     case SearchStrategy::Global:  // has nothing to look for: every view is as good
     case SearchStrategy::Exhaustive:
       break;
@@ -113,6 +117,8 @@ Start evaluate_start(Evaluator& evaluator, const SearchOptions& options, const R
     case SearchStrategy::Dense:
       start.set = direction_set(ViewSphereBase::Icosahedron, kDenseLevel);
       break;
+    case SearchStrategy::Gradient:  // its starts are not a set
+      return start;
     case SearchStrategy::Rapid:
     case SearchStrategy::Exhaustive:
     case SearchStrategy::Global:
@@ -125,6 +131,7 @@ Start evaluate_start(Evaluator& evaluator, const SearchOptions& options, const R
 
 void check_options(double total, const SearchOptions& options) {
   check_fields(options, kSearchFields);
+  check_fields(options, kGradientFields);
   if (!(options.epsilon >= 0.0) || !std::isfinite(options.epsilon)) {
     throw InvalidInput("option epsilon must be finite and not negative");
   }

@@ -6,8 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "vantage/mesh/measures.h"
-
 namespace vantage {
 namespace {
 
@@ -22,13 +20,14 @@ std::vector<double> shown_nodes(const MeasuredModel& model, const SightTable& si
   const TriMesh& mesh = *model.given.surface;
   const std::size_t count = model.given.skeleton->nodes.size();
   const bool is_perspective = sight.eye.projection == Projection::Perspective;
+  const Vec3 eye = is_perspective ? Vec3(sight.eye.position - model.given.camera.sphere.centre)
+                                  : sight.eye.position;
   std::vector<double> facing(count, 0.0);
   std::vector<double> seen(count, 0.0);
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     const Triangle& face = mesh.triangles[f];
-    const Vec3 line =
-        is_perspective ? Vec3(sight.eye.position - mesh.positions[face[0]]) : sight.eye.position;
-    const bool is_turned = area_vector(mesh, face).dot(line) > 0.0;
+    const FacePlane& plane = model.planes[f];
+    const bool is_turned = plane.normal.dot(eye) > (is_perspective ? plane.offset : 0.0);
     for (const std::uint32_t v : face) {
       const std::uint32_t node = model.given.node_of_vertex[v];
       // From behind counts where the vertex is seen: on surfaces with two sides.

@@ -102,13 +102,56 @@ class Measures(ProgramTest):
             self.vantage("compare", FAN, "-o", folder, "--method", "kssm,mesh-saliency,i2",
                          "--threads", threads)
         names = {"sheet.png", "index.html", "compare.csv", "agreement.csv", "compare.json"}
-        self.assertEqual({p.name for p in (self.dir / "a").iterdir()}, names)
+        self.assertEqual({p.name for p in (self.dir / "a").iterdir()}, names | {"timings.csv"})
         for name in names:
             self.assertEqual((self.dir / "a" / name).read_bytes(), (self.dir / "b" / name).read_bytes(), name)
         report = json.loads((self.dir / "a" / "compare.json").read_text())
         self.assertEqual(len(report["agreement"]), 3)
         for pair in report["agreement"]:
             self.assertLessEqual(pair["best_folded_deg"], pair["best_deg"])
+
+    def test_compare_prints_seconds_only_where_bytes_may_differ(self):
+        printed = json.loads(self.vantage("compare", FAN, "-o", "out", "--method", "plemenos,vmi",
+                                          "--no-images", "--json").out)
+        self.assertTrue(all(m["seconds"] >= 0 for m in printed["methods"]))
+        self.assertNotIn("seconds", (self.dir / "out" / "compare.json").read_text())
+
+    def test_gradient_search_from_one_seed_finds_the_same_and_no_more_than_there_is(self):
+        found = []
+        for folder, seed in (("a", 3), ("b", 3), ("c", 4)):
+            self.vantage("view", FAN, "-o", folder, "--method", "mesh-saliency", "--search", "gradient",
+                         "--starts", 2, "--seed", seed, "--prior", "none", "--no-images")
+            found.append(json.loads((self.dir / folder / "view.json").read_text()))
+        self.assertEqual(found[0]["best"], found[1]["best"])
+        self.assertNotEqual(found[0]["best"]["direction"], found[2]["best"]["direction"])
+        self.assertEqual(found[0]["search"]["seed"], 3)
+        self.vantage("view", FAN, "-o", "d", "--method", "mesh-saliency", "--prior", "none", "--no-images")
+        best = json.loads((self.dir / "d" / "view.json").read_text())["best"]["score"]
+        for report in found:
+            self.assertLessEqual(report["best"]["score"], 1.001 * best)
+            self.assertGreater(report["best"]["score"], report["worst"]["score"])
+
+    def test_compare_by_gradient_counts_its_own_views(self):
+        report = json.loads(self.vantage("compare", FAN, "-o", "out", "--method", "mesh-saliency,vmi", "--search",
+                                         "gradient", "--starts", 1, "--no-images", "--json").out)
+        self.assertEqual(report["search"], "gradient")
+        self.assertTrue(all(0 < m["evaluations"] < 642 for m in report["methods"]))
+
+    def test_a_count_has_no_gradient_to_follow(self):
+        for command in ("view", "compare"):
+            error = self.vantage(command, FAN, "-o", "out", "--method", "visible-triangles", "--search",
+                                 "gradient", exit_code=1).err
+            self.assertIn("visible-triangles counts", error)
+
+    def test_starts_go_with_the_gradient_search_only(self):
+        for command in ("view", "compare"):
+            self.assertIn("--starts", self.vantage(command, FAN, "-o", "out", "--starts", 3, exit_code=2).err)
+
+    def test_a_surface_without_area_is_named(self):
+        self.write("line.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n")
+        for command in (["score", "line.off", "--sphere", 0], ["view", "line.off", "-o", "v"],
+                        ["compare", "line.off", "-o", "c"]):
+            self.assertIn("line.off: ", self.vantage(*command, "--method", "vmi", exit_code=1).err)
 
     def test_compare_replaces_its_own_folder_but_no_other(self):
         self.vantage("compare", FAN, "-o", "out", "--method", "plemenos", "--no-images")
@@ -149,6 +192,56 @@ class Measures(ProgramTest):
         self.write("bad/views.csv", "model,subject,status,vx,vy,vz\nbox.off,A,moved,1,1,up\n")
         self.assertIn("line 2", self.vantage("eval", "bad", exit_code=3).err)
         self.vantage("eval", "nowhere", exit_code=3)
+
+    def people(self):
+        """A manifest of two boxes with two people's views each, and gaze on one of them."""
+        for name, size in (("small.off", 1), ("large.off", 2)):
+            self.write(name, box(size))
+        views = [{"direction": [1, 1, 1], "subject": "A"},
+                 {"direction": [0, 0.2, 1], "subject": "B", "status": "kept"}]
+        entries = [{"model": "small.off", "views": views, "mirror_planes": [[1, 0, 0]]},
+                   {"model": "large.off", "up": "z", "views": views, "gaze": [0, 1, 2, 3, 4, 5, 6, 7]}]
+        self.write("people.json", json.dumps({"models": entries}))
+
+    def test_eval_takes_a_manifest_with_views_and_gaze(self):
+        self.people()
+        self.vantage("eval", "people.json", "--method", "plemenos", "-o", "out")
+        rows = list(csv.DictReader(io.StringIO((self.dir / "out" / "views.csv").read_text())))
+        self.assertEqual({r["model"] for r in rows}, {"small.off", "large.off"})
+        gaze = list(csv.DictReader(io.StringIO((self.dir / "out" / "gaze.csv").read_text())))
+        self.assertEqual({r["model"] for r in gaze}, {"large.off"})
+        self.assertIn("| plemenos |", (self.dir / "out" / "tables.md").read_text())
+
+    def test_eval_goes_on_where_a_killed_run_stopped(self):
+        self.people()
+        self.vantage("eval", "people.json", "--method", "plemenos", "-o", "whole")
+        journal = (self.dir / "whole" / "rows.jsonl").read_text()
+        first, second = journal.splitlines()
+        (self.dir / "half").mkdir()
+        self.write("half/rows.jsonl", first + "\n" + second[:40])  # killed in the middle of a line
+        again = self.vantage("eval", "people.json", "--method", "plemenos", "-o", "half")
+        self.assertIn("1 of 2 models", again.err)
+        for name in ("tables.md", "views.csv", "gaze.csv"):
+            self.assertEqual((self.dir / "half" / name).read_bytes(), (self.dir / "whole" / name).read_bytes())
+        other = self.vantage("eval", "people.json", "--method", "plemenos,vmi", "-o", "half")
+        self.assertNotIn("earlier run", other.err)
+
+    def test_eval_gives_the_same_rows_side_by_side_and_one_by_one(self):
+        self.people()
+        for folder, threads in (("a", 1), ("b", 2)):
+            self.vantage("eval", "people.json", "--method", "plemenos", "-o", folder, "--threads", threads)
+        self.assertEqual((self.dir / "a" / "views.csv").read_bytes(), (self.dir / "b" / "views.csv").read_bytes())
+
+    def test_eval_names_what_is_wrong_in_a_manifest(self):
+        self.write("box.off", box(1))
+        for entry, words in (({"model": "box.off"}, "neither"), ({"model": "gone.off", "gaze": [1]}, "gone.off"),
+                             ({"model": "box.off", "gaze": [1], "glance": 1}, "glance"),
+                             ({"model": "box.off", "views": [{"direction": [0, 0, 0]}]}, "direction"),
+                             ({"model": "box.off", "gaze": [1], "up": "w"}, "up")):
+            self.write("people.json", json.dumps({"models": [entry]}))
+            self.assertIn(words, self.vantage("eval", "people.json", exit_code=3).err)
+        self.write("people.json", "{")
+        self.assertIn("people.json", self.vantage("eval", "people.json", exit_code=3).err)
 
     def test_eval_refuses_gaze_of_another_mesh(self):
         (self.dir / "set" / "gaze").mkdir(parents=True)

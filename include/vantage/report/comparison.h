@@ -37,6 +37,12 @@ struct Comparison {
   std::vector<ComparedMethod> methods{};            ///< As asked for.
   std::vector<std::vector<Agreement>> agreement{};  ///< Of each with each; symmetric.
   double survey_seconds = 0.0;  ///< Looking at the set, for all of them at once.
+  bool set_counts = true;       ///< Whether the searches began with the views of the set.
+
+  /// Views that the search by a method looked at.
+  [[nodiscard]] std::size_t evaluations(const ComparedMethod& method) const {
+    return method.views.evaluations + (set_counts ? set.directions.size() : 0);
+  }
 };
 
 /// Angle between two directions, degrees.
@@ -53,19 +59,21 @@ double rank_correlation(std::span<const double> a, std::span<const double> b);
 Comparison compare_methods(const ShapeAnalysis& shape, const ViewOptions& options,
                            std::vector<Measure> measures, const RunContext& run = {});
 
-/// For each method its best view, its worst, and the sphere of all views, cool where bad and warm
-/// where good, seen from a corner in front. \throw Cancelled
+/// For each method its best view, its worst, and the wireframe of all views around the model, near
+/// and cool where bad, far and warm where good, seen from a corner in front. \throw Cancelled
 Image comparison_sheet(const ShapeAnalysis& shape, const Comparison& comparison, UpAxis up,
                        const ViewOptions& options, const RunContext& run = {});
 
-/// compare.json: everything but the seconds, and the same bytes for the same input.
+/// compare.json: without the seconds the same bytes for the same input.
 std::string comparison_json(const Model& model, const Comparison& comparison, UpAxis up,
-                            const ViewOptions& options);
+                            const ViewOptions& options, bool with_seconds = false);
 /// compare.csv: method,best,dx,dy,dz,score,worst_dx,worst_dy,worst_dz,worst_score,evaluations.
 std::string comparison_csv(const Comparison& comparison);
 /// agreement.csv: one row a pair of methods.
 std::string agreement_csv(const Comparison& comparison);
-/// A page with sheet.png and both tables.
+/// A page with sheet.png and all tables but timings.csv, which it refers to.
 std::string comparison_html(const Model& model, const Comparison& comparison);
+/// timings.csv: what,seconds. Other bytes each time.
+std::string comparison_timings_csv(const Comparison& comparison);
 
 }  // namespace vantage

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +27,10 @@ struct RecordedModel {
   std::vector<ChosenByPerson> views{};  ///< Empty if none were recorded.
   std::vector<MirrorPlane> planes{};    ///< As recorded with the views; normals only matter.
   std::vector<double> gaze{};           ///< Seconds a vertex, or empty.
+  std::optional<UpAxis> up{};           ///< If the data set says it.
 };
 
-/// Reads a data set: a folder with views.csv (model,subject,status,vx,vy,vz) and models/, optionally
+/// Reads a data set: a JSON manifest (docs/evidence.md), or a folder with views.csv (model,subject,status,vx,vy,vz) and models/, optionally
 /// mirror_planes.csv (model,nx,ny,nz); or one with gaze/NAME.vertex (a number a line) and
 /// meshes/NAME.*; or a folder of both kinds of folder. Models without their file are left out.
 /// \throw IoError, FormatError; InvalidInput if there is nothing of the kind.
@@ -67,6 +70,44 @@ std::vector<ViewAgreement> evaluate_views(const RecordedModel& record, const Mod
 /// \throw InvalidInput if there is not one value of gaze a vertex.
 std::vector<GazeAgreement> evaluate_gaze(const RecordedModel& record, const Model& model,
                                          const ViewOptions& options, const RunContext& run = {});
+
+/// What was found out about one record.
+struct EvaluatedModel {
+  std::vector<ViewAgreement> views{};  ///< Empty if no views were recorded.
+  std::vector<GazeAgreement> gaze{};   ///< Empty if no gaze was recorded.
+};
+
+/// Where a run puts down what it has, so that the next one goes on from there: one line of JSON a
+/// record, under a key of all that its rows depend on, so that rows for other data or options may stand
+/// beside them.
+class EvaluationJournal {
+ public:
+  /// Nothing is kept. \see the other one
+  EvaluationJournal();
+  /// \param file may exist; what a killed run left half written in it is dropped. \throw IoError
+  explicit EvaluationJournal(std::string file);
+  ~EvaluationJournal();
+  EvaluationJournal(const EvaluationJournal&) = delete;
+  EvaluationJournal& operator=(const EvaluationJournal&) = delete;
+
+  /// What an earlier run found out, or nothing.
+  [[nodiscard]] const EvaluatedModel* find(const std::string& key) const;
+  /// Puts down a record's rows; they are on the disk when it returns. Any thread. \throw IoError
+  void add(const std::string& key, const EvaluatedModel& rows);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_{};
+};
+
+/// Evaluates records side by side, the largest first; rows are in the order of the records whatever the
+/// number of threads. Reads the models. \param done told how many of the records the journal had.
+/// \throw IoError, FormatError, InvalidInput, Cancelled
+std::vector<EvaluatedModel> evaluate_records(const std::vector<RecordedModel>& records,
+                                             const ViewOptions& options,
+                                             const std::vector<Measure>& measures,
+                                             EvaluationJournal& journal, std::size_t& known,
+                                             const RunContext& run = {});
 
 /// A mean over models with the interval that holds 95 % of bootstrap means.
 struct Interval {

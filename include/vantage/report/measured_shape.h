@@ -18,6 +18,9 @@ namespace vantage {
 ShapeAnalysis analyse_for(const Model& model, const ViewOptions& options,
                           std::span<const Measure> measures, const RunContext& run = {});
 
+/// \throw InvalidInput that names the model if its surface has no area: views of it are all blind.
+void require_area(const ShapeAnalysis& shape, const std::string& name);
+
 /// The shape as measures take it; refers to it. Without a map or skeleton these stay empty.
 MeasureSubject measure_subject(const ShapeAnalysis& shape, const ViewOptions& options);
 
@@ -39,12 +42,23 @@ struct MeasuredView {
 struct MeasuredViews {
   MeasuredView best{};
   MeasuredView worst{};
-  std::size_t evaluations = 0;  ///< Views beyond the set that were looked at.
+  std::size_t evaluations = 0;  ///< Views looked at for them, those of the set left out.
 };
 
 /// Best and worst view of the set, then by rings of six directions that halve from 4° to 1° as
 /// long as one of them is better. \param m index into measurer.measures().
 MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m, const RunContext& run = {});
+
+/// The best of these alone, for half the work.
+MeasuredView best_view(ViewMeasurer& measurer, std::size_t m, const RunContext& run = {});
+
+/// Best and worst view by one measure, each by Lee's search along the gradient from random starts.
+/// \throw InvalidInput as require_gradient().
+MeasuredViews gradient_views(const ViewMeasurer& measurer, std::size_t m,
+                             const SearchOptions& options, const RunContext& run = {});
+
+/// \throw InvalidInput for a measure that counts things: it has no gradient.
+void require_gradient(const Measure& measure);
 
 /// find_views() for options.method among the measures that sum no map: `score` is the measure's
 /// value, `total` and `score_fraction` are NaN. The prior multiplies the value, or, where less is

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vantage/core/run_context.h"
+#include "vantage/mesh/topology.h"
 #include "vantage/mesh/tri_mesh.h"
 #include "vantage/view/channel.h"
 
@@ -29,8 +30,10 @@ struct ChannelTerms {
   std::vector<double> i2_of_face{};        ///< [I2(V;z) = H(V) − H(V|z)], bits; 0 if never seen.
   std::vector<double> saliency_of_face{};  ///< [S(z)], bits; 0 if never seen.
   std::vector<double> weighted_p{};        ///< [p'(z)] ∝ S(z) p(z); see kSaliencyFloor.
-  double entropy_of_faces = 0.0;           ///< [H(Z)], bits.
-  double mutual_information = 0.0;         ///< [I(V;Z)], bits.
+  /// Logarithms of both, those of the least where no view sees the face, and of A_z / A_t.
+  std::vector<double> log_p{}, log_weighted_p{}, log_share{};
+  double entropy_of_faces = 0.0;    ///< [H(Z)], bits.
+  double mutual_information = 0.0;  ///< [I(V;Z)], bits.
 };
 
 /// S(z) counts as at least this share of its largest value in p'(z): a face that looks exactly like
@@ -74,6 +77,15 @@ double view_divergence(std::span<const FaceArea> a, std::span<const FaceArea> b)
 /// view that sees nothing.
 double instability(std::span<const FaceArea> view,
                    std::span<const std::span<const FaceArea>> neighbours);
+
+/// Their mean; 0 of none.
+double mean_divergence(std::span<const double> divergences);
+
+/// The divergence of each view of a set from those beside it, 1 where one of both sees nothing.
+/// \param next for each view the views beside it, ascending and mutual. \return one a value of `next`.
+/// \throw Cancelled
+std::vector<double> neighbour_divergences(const std::vector<std::vector<FaceArea>>& views,
+                                          const IndexLists& next, const RunContext& run = {});
 
 /// S(z) on vertices: mean over the faces at each vertex, weighted by area; 0 where there are none.
 std::vector<double> saliency_on_vertices(const TriMesh& mesh,

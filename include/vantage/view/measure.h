@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include "vantage/mesh/curve_graph.h"
+#include "vantage/mesh/topology.h"
 #include "vantage/mesh/tri_mesh.h"
 #include "vantage/spatial/directions.h"
 #include "vantage/view/channel.h"
@@ -53,6 +54,9 @@ struct SightTable {
   ChannelMeasures channel{};                ///< If the channel was asked for.
   SkeletonSight skeleton{};                 ///< If the skeleton was asked for.
   std::vector<std::uint32_t> neighbours{};  ///< Views of the set next to this one.
+  std::uint32_t set_index = kOffSet;        ///< Of the view in the set, if it was taken from there.
+
+  static constexpr std::uint32_t kOffSet = ~std::uint32_t{0};  ///< Not from the set.
 };
 
 /// A model to be measured. Refers to what must outlive it; what is left empty, measures that need
@@ -66,6 +70,7 @@ struct MeasureSubject {
   std::span<const double> saliency{};    ///< Mesh saliency; computed if needed and not given.
   const CurveGraph* skeleton = nullptr;  ///< Centred.
   std::span<const std::uint32_t> node_of_vertex{};  ///< Node of `skeleton`; ~0 where none.
+  int sampling = 1;  ///< Times as dense as is enough, 1–16: to see that it is enough.
 };
 
 /// What measures need of a view or of the model; only that is computed.
@@ -80,20 +85,29 @@ struct MeasureNeeds {
   bool skeleton = false;    ///< MeasureSubject::skeleton.
 };
 
+/// The points p with normal · (p − centre of the enclosing sphere) = offset.
+struct FacePlane {
+  Vec3 normal = Vec3::Zero();  ///< As long as twice the face's area.
+  double offset = 0.0;
+};
+
 /// What measures know of the model besides the view.
 struct MeasuredModel {
-  MeasureSubject given{};                            ///< As handed in.
-  std::vector<double> face_areas{};                  ///< [A_z] model units squared.
-  std::vector<double> log_face_areas{};              ///< Their logarithms to base 2.
-  double surface_area = 0.0;                         ///< [A_t]
-  std::vector<double> saliency{};                    ///< Mesh saliency of each vertex.
-  std::vector<double> angle_deficits{};              ///< Of each vertex, radians.
+  MeasureSubject given{};                ///< As handed in.
+  std::vector<double> face_areas{};      ///< [A_z] model units squared.
+  std::vector<double> log_face_areas{};  ///< Their logarithms to base 2.
+  std::vector<FacePlane> planes{};       ///< Of each face, if the skeleton is looked at.
+  double surface_area = 0.0;             ///< [A_t]
+  std::vector<double> saliency{};        ///< Mesh saliency of each vertex.
+  std::vector<double> angle_deficits{};  ///< Of each vertex, radians.
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();  ///< Second moment of the surface over A_t.
   std::vector<double> kssm_of_sample{};              ///< Share of each sample, if weighted by area.
   std::vector<double> saliency_of_sample{};          ///< The same of mesh saliency.
   DirectionSet set{};                                ///< The views that channel terms are of.
   ChannelTerms terms{};                              ///< Of that set.
   std::vector<std::vector<FaceArea>> set_views{};    ///< Faces seen by each view of the set.
+  IndexLists next_views{};                           ///< Views beside each view of the set.
+  std::vector<double> divergences{};                 ///< From these, if neighbours are looked at.
 };
 
 /// Whether large or small values are good.
@@ -109,6 +123,7 @@ struct Measure {
   MeasureNeeds needs{};
   /// The value for a view that sees something: finite; where more is better, at least 0.
   std::function<double(const MeasuredModel&, const SightTable&)> value{};
+  bool is_count = false;  ///< A number of things: it goes in steps and has no gradient.
 
   /// What a view that sees nothing gets: 0 where more is better, else infinity.
   [[nodiscard]] double worst() const;

@@ -10,6 +10,7 @@
 
 #include "vantage/core/camera.h"
 #include "vantage/mesh/measures.h"
+#include "vantage/mesh/topology.h"
 #include "vantage/mesh/tri_mesh.h"
 #include "vantage/visibility/vertex_visibility.h"
 
@@ -44,37 +45,39 @@ struct OutlineMeasures {
   double curvature_extrema = 0.0;  ///< Mean of its square, radians squared.
 };
 
-/// Steps a disc diameter that turning is measured at, on each loop as equal as it can be divided;
+/// Steps a disc diameter that turning is measured over, on each loop as equal as it can be divided;
 /// loops shorter than three steps have no turning.
 inline constexpr double kTurningSteps = 256.0;
 
-/// Measures an outline.
-OutlineMeasures measure_outline(const Outline& outline);
+/// Places a step at which turning is measured: a corner turns in one step or in two by chance, so that
+/// the mean over places is taken. Measures of all shapes tried are converged (docs/measures.md). [ours]
+inline constexpr int kTurningPhases = 8;
 
-/// Traces outlines of one surface. Holds references: the mesh must outlive it. Queries are const and
-/// may run on many threads at once.
+/// Measures an outline. \param phases at least 1.
+OutlineMeasures measure_outline(const Outline& outline, int phases = kTurningPhases);
+
+/// Traces outlines of one surface: not on a grid, but along the edges where layers of the surface
+/// end, so that they are exact but for rounding. Holds references: the mesh must outlive it. Queries
+/// are const and may run on many threads at once.
 class OutlineTracer {
  public:
-  /// Lines of the grid across the disc. Where the shape ends on a grid line is found exactly, so
-  /// that this is no pixel size: only what is thinner than a cell can be lost. Lengths are converged
-  /// to 1 % of their range, turning at corners is not (docs/measures.md). [ours]
-  static constexpr int kLines = 512;
+  /// \param sides as for VertexVisibility. \param sphere of the mesh. \throw InvalidInput
+  OutlineTracer(const TriMesh& mesh, std::span<const FaceSides> sides, const Sphere& sphere);
 
-  /// \param sides as for VertexVisibility. \param sphere of the mesh. \param lines at least 8.
-  /// \throw InvalidInput
-  OutlineTracer(const TriMesh& mesh, std::span<const FaceSides> sides, const Sphere& sphere,
-                int lines = kLines);
-
-  /// The outline of all that the eye could see. Faces that reach behind the eye are left out.
+  /// The outline of all that the eye could see. Faces that reach behind the eye are left out, and
+  /// what lies outside the square around the disc, if the eye is within the sphere.
   [[nodiscard]] Outline trace(const Viewpoint& eye) const;
 
  private:
+  [[nodiscard]] std::vector<PicturePoint> places(const Viewpoint& eye,
+                                                 std::vector<std::uint8_t>& ahead) const;
+
   const TriMesh* mesh_;
   Sphere sphere_;
-  int lines_;
-  std::vector<std::uint8_t> two_sided_{};  // of each face
-  /// Of each face those beyond its edges; a face without three such has itself somewhere.
-  std::vector<std::array<std::uint32_t, 3>> beyond_{};
+  std::vector<std::uint8_t> two_sided_{};              // of each face
+  std::vector<std::array<std::uint32_t, 2>> edges_{};  // lower vertex first
+  IndexLists faces_of_edge_{};
+  std::vector<std::int8_t> follows_{};  // of each of these: 1 if it has the edge in that sense
 };
 
 }  // namespace vantage

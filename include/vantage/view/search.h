@@ -24,6 +24,7 @@ enum class SearchStrategy {
   Exhaustive,  ///< Every direction of a set.
   Global,      ///< Ours: finds what Dense finds by a fraction of its scores; docs/search.md.
   Dense,       ///< Ours: icosahedron level 5, then refinement around the best three. Slow.
+  Gradient,    ///< Lee 2005: along the gradient from seeded random directions.
 };
 
 /// Whether the largest or the smallest score is wanted.
@@ -37,12 +38,20 @@ struct SearchOptions {
   double epsilon = 0.001;           ///< Rapid stops when a ring gains less than this …
   bool epsilon_is_fraction = true;  ///< … as a fraction of `total`, or as a raw sum.
   bool require_narrow_ring = true;  ///< Rapid also needs a ring narrower than 2° (ours).
+  int starts = 8;          ///< Random directions that a gradient search starts from; 1–4096.
+  std::uint64_t seed = 0;  ///< Of these directions.
 };
 
 /// Names, ranges and help of the numbers in SearchOptions.
 inline constexpr auto kSearchFields = std::tuple{
     Field{"subdivisions", &SearchOptions::subdivisions, 0, 8,
           "times the base of the view sphere is split in four"},
+};
+
+/// The same of the gradient search alone.
+inline constexpr auto kGradientFields = std::tuple{
+    Field{"starts", &SearchOptions::starts, 1, 4096,
+          "random directions that --search gradient starts from"},
 };
 
 /// One evaluated direction of a search, in order of evaluation.

@@ -135,12 +135,10 @@ TEST(Measures, TurnOnceAroundTheOutlineOfASphere) {
 
 TEST(Measures, OutlineACube) {
   const Subject cube(test::box(1, 1, 1, 3));
-  // Each corner may lose what its cell cuts off: at most 2 − √2 cells.
-  const double cells = 4.0 * (2.0 - std::sqrt(2.0)) / OutlineTracer::kLines;
-  EXPECT_NEAR(cube.value("silhouette-length", Vec3::UnitX()), 4.0 / kCubeDiameter, cells);
+  EXPECT_NEAR(cube.value("silhouette-length", Vec3::UnitX()), 4.0 / kCubeDiameter, 1e-12);
   // A regular hexagon of side √(2/3).
   EXPECT_NEAR(cube.value("silhouette-length", Vec3(1, 1, 1)),
-              6.0 * std::sqrt(2.0 / 3.0) / kCubeDiameter, 1.5 * cells);
+              6.0 * std::sqrt(2.0 / 3.0) / kCubeDiameter, 1e-12);
 }
 
 TEST(Measures, OutlineTheHoleOfATorusToo) {
@@ -149,27 +147,30 @@ TEST(Measures, OutlineTheHoleOfATorusToo) {
   EXPECT_NEAR(ring.value("silhouette-length", Vec3::UnitZ()), std::numbers::pi * 1.6, 5e-3);
 }
 
-/// Largest change of a measure of the outline on a grid twice as fine, over its range.
+/// Largest change of a measure of the outline where twice as many places of each step are looked at,
+/// over its range.
 double change_when_halved(double OutlineMeasures::*member) {
   const Subject tubes(test::y_of_tubes(0.2, 40), Projection::Perspective);
   const ScoringCamera& camera = tubes.given.camera;
-  const OutlineTracer used(tubes.mesh, tubes.sides, camera.sphere);
-  const OutlineTracer finer(tubes.mesh, tubes.sides, camera.sphere, 2 * OutlineTracer::kLines);
+  const OutlineTracer tracer(tubes.mesh, tubes.sides, camera.sphere);
   double low = std::numeric_limits<double>::infinity();
   double high = 0.0;
   double change = 0.0;
   for (const Vec3& d : direction_set(ViewSphereBase::Icosahedron, 2).directions) {
-    const double value = measure_outline(used.trace(camera.viewpoint(d))).*member;
-    const double exact = measure_outline(finer.trace(camera.viewpoint(d))).*member;
-    low = std::min(low, exact);
-    high = std::max(high, exact);
-    change = std::max(change, std::abs(value - exact));
+    const Outline outline = tracer.trace(camera.viewpoint(d));
+    const double value = measure_outline(outline).*member;
+    const double finer = measure_outline(outline, 2 * kTurningPhases).*member;
+    low = std::min(low, finer);
+    high = std::max(high, finer);
+    change = std::max(change, std::abs(value - finer));
   }
   return change / (high - low);
 }
 
-TEST(Measures, HaveTheOutlinesLengthConvergedAtTheGridUsed) {
-  EXPECT_LT(change_when_halved(&OutlineMeasures::length), 0.01);
+TEST(Measures, HaveTheOutlinesTurningConverged) {
+  EXPECT_LT(change_when_halved(&OutlineMeasures::curvature), 0.01);
+  EXPECT_LT(change_when_halved(&OutlineMeasures::curvature_extrema), 0.01);
+  EXPECT_LT(change_when_halved(&OutlineMeasures::turning_entropy), 0.01);
 }
 
 TEST(Measures, SpreadASphereEvenly) {

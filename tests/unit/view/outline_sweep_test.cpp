@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "view/outline_sweep.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "vantage/core/random.h"
+
+namespace vantage {
+namespace {
+
+using Polygon = std::vector<PicturePoint>;
+
+/// Adds a counter-clockwise polygon as one more layer.
+void add(std::vector<LayerEdge>& edges, const Polygon& polygon, int layers = 1) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    edges.push_back({polygon[i], polygon[(i + 1) % polygon.size()], layers});
+  }
+}
+
+Polygon square(double left, double low, double size) {
+  return {{left, low}, {left + size, low}, {left + size, low + size}, {left, low + size}};
+}
+
+/// Positive to the left of the loops.
+double area(const Outline& outline) {
+  double twice = 0.0;
+  for (const auto& loop : outline) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const PicturePoint& a = loop[i];
+      const PicturePoint& b = loop[(i + 1) % loop.size()];
+      twice += a.x() * b.y() - a.y() * b.x();
+    }
+  }
+  return 0.5 * twice;
+}
+
+double length(const Outline& outline) {
+  return measure_outline(outline).length;
+}
+
+TEST(OutlineSweep, GivesASquareBack) {
+  std::vector<LayerEdge> edges;
+  add(edges, square(0.1, 0.2, 0.5));
+  const Outline outline = boundary_of_layers(edges);
+  ASSERT_EQ(outline.size(), 1U);
+  EXPECT_NEAR(area(outline), 0.25, 1e-15);
+  EXPECT_NEAR(length(outline), 2.0, 1e-15);
+}
+
+TEST(OutlineSweep, JoinsWhatOverlaps) {
+  std::vector<LayerEdge> edges;
+  add(edges, square(0.0, 0.0, 0.5));
+  add(edges, square(0.3, 0.2, 0.5));
+  // The overlap is 0.2 wide and 0.3 high.
+  EXPECT_NEAR(area(boundary_of_layers(edges)), 2.0 * 0.25 - 0.06, 1e-15);
+  EXPECT_NEAR(length(boundary_of_layers(edges)), 2.0 * 2.0 - 2.0 * (0.2 + 0.3), 1e-15);
+}
+
+TEST(OutlineSweep, FindsCrossingsBetweenCorners) {
+  // A square and the same turned by 45°: the union is a star of eight tips.
+  std::vector<LayerEdge> edges;
+  add(edges, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}});
+  const double reach = std::numbers::sqrt2;
+  add(edges, {{0, -reach}, {reach, 0}, {0, reach}, {-reach, 0}});
+  // Each of four tips of the turned one stands out by √2 − 1 with a right angle.
+  const double tip = (reach - 1.0) * (reach - 1.0);
+  EXPECT_NEAR(area(boundary_of_layers(edges)), 4.0 + 4.0 * tip, 1e-14);
+}
+
+TEST(OutlineSweep, KeepsAHoleWithTheShapeOnItsLeft) {
+  std::vector<LayerEdge> edges;
+  add(edges, square(0.0, 0.0, 1.0));
+  add(edges, square(0.25, 0.25, 0.5), -1);
+  const Outline outline = boundary_of_layers(edges);
+  ASSERT_EQ(outline.size(), 2U);
+  EXPECT_NEAR(area(outline), 0.75, 1e-15);
+  EXPECT_NEAR(length(outline), 6.0, 1e-15);
+}
+
+TEST(OutlineSweep, CountsWhatLiesTwiceOnTheSamePlaceOnce) {
+  std::vector<LayerEdge> once;
+  add(once, square(0.0, 0.0, 1.0));
+  std::vector<LayerEdge> thrice = once;
+  add(thrice, square(0.0, 0.0, 1.0), 2);
+  EXPECT_NEAR(length(boundary_of_layers(thrice)), 4.0, 1e-15);
+  EXPECT_EQ(boundary_of_layers(thrice).size(), 1U);
+}
+
+TEST(OutlineSweep, ClosesLoopsWhereSquaresTouchInACorner) {
+  std::vector<LayerEdge> edges;
+  add(edges, square(0.0, 0.0, 0.5));
+  add(edges, square(0.5, 0.5, 0.5));
+  EXPECT_NEAR(area(boundary_of_layers(edges)), 0.5, 1e-15);
+  EXPECT_NEAR(length(boundary_of_layers(edges)), 4.0, 1e-15);
+}
+
+TEST(OutlineSweep, HasNoOutlineOfNothing) {
+  EXPECT_TRUE(boundary_of_layers({}).empty());
+}
+
+TEST(OutlineSweep, OfRandomTrianglesCoversWhatTheyCover) {
+  // The area that 40 triangles cover, by counting points of a fine grid.
+  Pcg32 random(7);
+  std::vector<LayerEdge> edges;
+  std::vector<Polygon> triangles;
+  for (int i = 0; i < 40; ++i) {
+    Polygon t;
+    const PicturePoint middle(random.uniform(), random.uniform());
+    for (int k = 0; k < 3; ++k) {
+      t.emplace_back(middle + 0.2 * PicturePoint(random.uniform() - 0.5, random.uniform() - 0.5));
+    }
+    const PicturePoint ab = t[1] - t[0];
+    const PicturePoint ac = t[2] - t[0];
+    if (ab.x() * ac.y() - ab.y() * ac.x() < 0.0) {
+      std::swap(t[1], t[2]);
+    }
+    add(edges, t);
+    triangles.push_back(t);
+  }
+  constexpr int kLines = 800;
+  const auto is_left = [](const PicturePoint& a, const PicturePoint& b, const PicturePoint& p) {
+    return (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x()) > 0.0;
+  };
+  int covered = 0;
+  for (int y = 0; y < kLines; ++y) {
+    for (int x = 0; x < kLines; ++x) {
+      const PicturePoint p(-0.2 + 1.4 * x / kLines, -0.2 + 1.4 * y / kLines);
+      for (const Polygon& t : triangles) {
+        if (is_left(t[0], t[1], p) && is_left(t[1], t[2], p) && is_left(t[2], t[0], p)) {
+          ++covered;
+          break;
+        }
+      }
+    }
+  }
+  const double cell = 1.4 / kLines;
+  const Outline outline = boundary_of_layers(edges);
+  // The count is wrong by about the square root of the cells that the outline meets; allow all of 2 %.
+  EXPECT_NEAR(area(outline), covered * cell * cell, 0.02 * length(outline) * cell);
+}
+
+}  // namespace
+}  // namespace vantage
