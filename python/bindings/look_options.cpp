@@ -57,8 +57,9 @@ void set_background(Settings& s, const py::object& given) {
   }
 }
 
-py::object no_value(const Settings& /*settings*/) {
-  return py::none();
+/// Only asked of presets, which all leave it transparent.
+py::object background_name(const Settings& settings) {
+  return settings.look.background ? py::object(py::none()) : py::str("transparent");
 }
 
 Option quality_option() {
@@ -94,7 +95,7 @@ void add_look_options(std::vector<Option>& table) {
                    .help = "transparent, gradient, white, black, #rrggbb, or two of these colours "
                            "as TOP:BOTTOM; unset: transparent",
                    .set = set_background,
-                   .value = no_value});
+                   .value = background_name});
   table.push_back(style_option());
   table.push_back(switch_option(
       "ground", "look", "a soft shadow on the ground under the model",

@@ -8,8 +8,10 @@
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <oneapi/tbb/global_control.h>
+#include <unistd.h>
 
 #include "vantage/core/error.h"
 
@@ -27,17 +29,84 @@ struct Progress {
   double fraction = 0.0;
 };
 
+/// A thread that runs one job after another. They are kept for later calls: Embree remembers every
+/// thread that ever built a search structure, a few hundred bytes each.
+class Lane {
+ public:
+  Lane() {
+    std::thread([this] { run_jobs(); }).detach();
+  }
+
+  void start(std::function<void()> job) {
+    const std::scoped_lock lock(mutex_);
+    job_ = std::move(job);
+    has_job_.notify_one();
+  }
+
+ private:
+  [[noreturn]] void run_jobs() {
+    for (;;) {
+      std::function<void()> job;
+      {
+        std::unique_lock lock(mutex_);
+        has_job_.wait(lock, [this] { return static_cast<bool>(job_); });
+        job = std::exchange(job_, nullptr);
+      }
+      job();
+    }
+  }
+
+  std::mutex mutex_{};
+  std::condition_variable has_job_{};
+  std::function<void()> job_{};
+};
+
+/// Lanes that wait for a job; as many as there ever were calls at once. Never destroyed, as its
+/// threads are not: they end with the process.
+class LanePool {
+ public:
+  static LanePool& instance() {
+    static auto* const kPool = new LanePool;
+    return *kPool;
+  }
+
+  Lane& take() {
+    const std::scoped_lock lock(mutex_);
+    if (process_ != getpid()) {  // a forked child has none of its parent's threads
+      idle_.clear();
+      process_ = getpid();
+    }
+    if (idle_.empty()) {
+      return *new Lane;
+    }
+    Lane* lane = idle_.back();
+    idle_.pop_back();
+    return *lane;
+  }
+
+  void give_back(Lane& lane) {
+    const std::scoped_lock lock(mutex_);
+    idle_.push_back(&lane);
+  }
+
+ private:
+  std::mutex mutex_{};
+  std::vector<Lane*> idle_{};
+  pid_t process_ = getpid();
+};
+
 /// The work on its own thread, and what the waiting thread gets to know of it.
 class Worker {
  public:
-  Worker(const std::function<void(const RunContext&)>& work, int threads, bool reports) {
+  Worker(const std::function<void(const RunContext&)>& work, int threads, bool reports)
+      : lane_(LanePool::instance().take()) {
     RunContext run;
     run.max_threads = threads;
     run.stop = stop_.get_token();
     if (reports) {
       run.report = [this](std::string_view stage, double fraction) { post(stage, fraction); };
     }
-    thread_ = std::thread([this, &work, run = std::move(run)] { carry_out(work, run); });
+    lane_.start([this, &work, run = std::move(run)] { carry_out(work, run); });
   }
 
   Worker(const Worker&) = delete;
@@ -46,10 +115,12 @@ class Worker {
   ~Worker() {
     const py::gil_scoped_release release;
     stop_.request_stop();
-    thread_.join();
+    {
+      std::unique_lock lock(mutex_);
+      ended_.wait(lock, [this] { return is_done_; });
+    }
+    LanePool::instance().give_back(lane_);
   }
-
-  void stop() { stop_.request_stop(); }
 
   /// Waits for the end or for the next time to look up. \return whether the work has ended.
   bool wait() {
@@ -101,7 +172,7 @@ class Worker {
   std::optional<Progress> latest_{};
   bool is_done_ = false;
   std::exception_ptr failure_{};
-  std::thread thread_{};
+  Lane& lane_;
 };
 
 }  // namespace

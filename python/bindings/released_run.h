@@ -10,7 +10,7 @@
 #include "vantage/core/run_context.h"
 
 /// \file
-/// How a long call runs: the work on a thread of its own that never touches Python, while the
+/// How a long call runs: the work on another thread, which never touches Python, while the
 /// calling thread looks after Ctrl-C and the progress callback twenty times a second. Other Python
 /// threads run all the while.
 

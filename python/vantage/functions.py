@@ -81,7 +81,7 @@ def kssm(model: Any, F: Any = None, *, levels: bool = False, progress: Any = Non
     return KssmMap(**_core.kssm(model, F, levels, options, progress, threads))
 
 
-@takes("method", "map", "saliency")
+@takes("method", "map", "camera", "saliency")
 def vertex_map(model: Any, F: Any = None, *, method: str = "kssm", progress: Any = None,
                threads: int = 0, **options: Any) -> Floats:
     """One number a vertex: (n,) float64.

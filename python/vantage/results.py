@@ -230,21 +230,19 @@ class Measure:
     """The dearest thing it needs."""
 
 
-def _camera(record: Dict[str, Any]) -> Camera:
-    return Camera(**record)
-
-
 def view_of(record: Dict[str, Any]) -> View:
     """A View of what the compiled part returns."""
-    return View(**{**record, "camera": _camera(record["camera"])})
+    parts: Dict[str, Any] = {**record, "camera": Camera(**record["camera"])}
+    return View(**parts)
 
 
 def best_view_of(record: Dict[str, Any]) -> BestView:
     """A BestView of what the compiled part returns."""
     gap = record["dense_gap"]
-    return BestView(**{**record,
-                       "best": view_of(record["best"]),
-                       "worst": view_of(record["worst"]),
-                       "views": tuple(view_of(v) for v in record["views"]),
-                       "twins": tuple(Twin(*t) for t in record["twins"]),
-                       "dense_gap": DenseGap(*gap) if gap else None})
+    parts: Dict[str, Any] = {**record,
+                             "best": view_of(record["best"]),
+                             "worst": view_of(record["worst"]),
+                             "views": tuple(view_of(v) for v in record["views"]),
+                             "twins": tuple(Twin(*t) for t in record["twins"]),
+                             "dense_gap": DenseGap(*gap) if gap else None}
+    return BestView(**parts)

@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: MIT
 """Writes vantage/functions.pyi: the functions with every option of the table as a typed keyword.
 
-    PYTHONPATH=build/release/python python/write_stubs.py > python/vantage/functions.pyi
+    PYTHONPATH=build/release/python scripts/write_python_stubs.py > python/vantage/functions.pyi
 """
 from vantage import _core
 
 HEAD = '''# SPDX-License-Identifier: MIT
-# Written by python/write_stubs.py from the table of options; do not edit.
+# Written by scripts/write_python_stubs.py from the table of options; do not edit.
 import os
 from typing import Any, Callable, Dict, List, Literal, Mapping, Optional, Sequence, Tuple, Union
 
@@ -48,7 +48,9 @@ FUNCTIONS = [  # name, own keywords, groups of options, result
      ["method", "map", "camera", "search", "saliency", "set", "size"], "BestView"),
     ("skeleton", ["levels: bool = False", "measure: bool = False"], ["method"], "Skeleton"),
     ("kssm", ["levels: bool = False"], ["method", "map"], "KssmMap"),
-    ("vertex_map", ['method: str = "kssm"'], ["method", "map", "saliency"], "Floats"),
+    ("vertex_map", ['method: str = "kssm"'],
+     ["method", "map", "camera", "saliency"],
+     "Floats"),
     ("visible_vertices", [f"eyes: {POINTS}", f"directions: {POINTS}", "sphere: Optional[int] = None"],
      ["camera"], "Flags"),
     ("score", [f"directions: {POINTS}", f"eyes: {POINTS}", "sphere: Optional[int] = None",
