@@ -47,10 +47,11 @@ def problems_of(root):
                     yield f"{name}: {module} must not include {include}"
                 elif folder.startswith("include") and not include.startswith("vantage/"):
                     yield f"{name}: a public header includes the private {include}"
-    for file in sorted((root / "apps").rglob("*.[ch]*")):
+    outside = [*(root / "apps").rglob("*.[ch]*"), *(root / "python").rglob("*.[ch]*")]
+    for file in sorted(outside):
         for include in INCLUDE.findall(file.read_text(encoding="utf-8")):
             if "/" in include and (root / "src" / include).exists():
-                yield f"{file.relative_to(root)}: the program includes the private {include}"
+                yield f"{file.relative_to(root)}: what is outside the library includes the private {include}"
 
 
 def differences_from_page(root):

@@ -5,9 +5,9 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 mapfile -t files < <(
   if [[ ${1:-} == --changed ]] && git rev-parse -q --verify HEAD~1 >/dev/null; then
-    git diff --name-only --diff-filter=d HEAD~1 -- 'src/*.cpp' 'apps/*.cpp'
+    git diff --name-only --diff-filter=d HEAD~1 -- 'src/*.cpp' 'apps/*.cpp' 'python/*.cpp'
   else
-    git ls-files 'src/*.cpp' 'apps/*.cpp' 'tests/*.cpp' 'bench/*.cpp'
+    git ls-files 'src/*.cpp' 'apps/*.cpp' 'python/*.cpp' 'tests/*.cpp' 'bench/*.cpp'
   fi)
 if ((${#files[@]} == 0)); then
   exit 0

@@ -1,24 +1,33 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "vantage/render/framing.h"
 #include "vantage/report/comparison.h"
 
-#include "report/label_text.h"
+#include "report/lettering.h"
+#include "report/line_drawing.h"
 #include "report/view_sphere_picture.h"
 
 namespace vantage {
 namespace {
 
-constexpr int kTileWidth = 240;   // px
-constexpr int kTileHeight = 180;  // px
-constexpr int kGap = 8;           // px
+constexpr int kTileWidth = 240;    // px
+constexpr int kTileHeight = 180;   // px
+constexpr int kGap = 8;            // px
+constexpr int kTextHeight = 22;    // px, a line with its descenders
+constexpr double kLetters = 11.0;  // px, height of capitals
 constexpr int kLabel = kTextHeight + kGap;
 constexpr int kTiles = 3;       // best, worst, sphere
 constexpr int kMethodRows = 9;  // methods below each other
 constexpr Rgb8 kWhite{255, 255, 255};
+constexpr Rgb8 kInk{40, 40, 44};
+
+int text_width(std::string_view text) {
+  return static_cast<int>(std::ceil(kLetters * lettering_width(text)));
+}
 
 /// A white picture that others are put on.
 class Sheet {
@@ -35,7 +44,12 @@ class Sheet {
     }
   }
 
-  void write(std::string_view text, int left, int top) { write_text(image_, text, left, top); }
+  /// What does not fit before the right border is cut off.
+  void write(std::string_view text, int left, int top) {
+    LineDrawing strip(std::min(text_width(text), image_.width - left), kTextHeight);
+    strip.text(text, {0.0, 1.5 * kLetters}, kLetters, kInk);
+    place(strip.image(), left, top);
+  }
 
   Image take() { return std::move(image_); }
 

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <utility>
+
+#include "vantage/core/error.h"
+#include "vantage/mesh/measures.h"
+#include "vantage/render/colour_map.h"
+#include "vantage/render/framing.h"
+
+#include "arrays.h"
+#include "camera.h"
+#include "released_run.h"
+#include "subject.h"
+
+namespace vantage::python {
+namespace {
+
+/// Where a picture is taken from: one of these.
+struct Standpoint {
+  std::optional<Vec3> direction{};
+  std::optional<Camera> camera{};
+  std::optional<bool> best{};  ///< Search for the best view, or the worst.
+};
+
+Standpoint standpoint_of(const py::object& direction, const py::object& camera,
+                         const py::object& view) {
+  const int given = static_cast<int>(!direction.is_none()) + static_cast<int>(!camera.is_none()) +
+                    static_cast<int>(!view.is_none());
+  if (given > 1) {
+    throw InvalidInput("say where to look from by one of direction, camera and view");
+  }
+  Standpoint from;
+  if (!direction.is_none()) {
+    const Vec3 towards = vector_of(direction, "direction");
+    const double length = towards.stableNorm();
+    if (!(length > 0.0)) {
+      throw InvalidInput("direction must not be zero");
+    }
+    from.direction = towards / length;
+  } else if (!camera.is_none()) {
+    from.camera = camera_of(camera);
+  } else {
+    const std::string name = view.is_none() ? "best" : py::str(view).cast<std::string>();
+    if (name != "best" && name != "worst") {
+      throw InvalidInput("view is '" + name + "' but must be best or worst");
+    }
+    from.best = name == "best";
+  }
+  return from;
+}
+
+Picture picture_of(const std::string& show) {
+  if (show == "plain") {
+    return Picture::Plain;
+  }
+  if (show == "kssm") {
+    return Picture::Map;
+  }
+  if (show == "skeleton") {
+    return Picture::Skeleton;
+  }
+  throw InvalidInput("show is '" + show + "' but must be plain, kssm or skeleton");
+}
+
+Camera camera_from(const Standpoint& from, const Analysis& analysis, const ViewOptions& options,
+                   const RunContext& run) {
+  if (from.camera) {
+    return *from.camera;
+  }
+  const ShapeAnalysis& shape = analysis.shape;
+  const UpChoice up = choose_up(*analysis.model, shape, options);
+  if (from.best) {
+    const ViewReport report = find_views(shape, up, options, run);
+    return *from.best ? report.best.picture : report.worst.picture;
+  }
+  const ScoringCamera scoring = scoring_camera(shape, options);
+  return frame_points(referenced_points(shape.surface), scoring.viewpoint(*from.direction),
+                      shape.sphere.centre, up_vector(up.axis),
+                      static_cast<double>(options.width) / options.height, options.margin);
+}
+
+/// Colours of the input's vertices on those of the surface; of several at one place the first counts.
+std::vector<Rgb8> on_surface(const std::vector<Rgb8>& of_input, const ShapeAnalysis& shape) {
+  std::vector<Rgb8> of_surface(of_input.empty() ? 0 : shape.surface.positions.size());
+  for (std::size_t i = of_input.size(); i > 0; --i) {
+    of_surface[shape.surface_vertex[i - 1]] = of_input[i - 1];
+  }
+  return of_surface;
+}
+
+std::vector<Rgb8> colours_to_draw(const Analysis& analysis, const Settings& settings,
+                                  const std::vector<Rgb8>& given) {
+  if (!given.empty() && given.size() != analysis.shape.surface_vertex.size()) {
+    throw InvalidInput("colours has " + std::to_string(given.size()) + " rows, but the model has " +
+                       std::to_string(analysis.shape.surface_vertex.size()) + " vertices");
+  }
+  if (!given.empty()) {
+    return on_surface(given, analysis.shape);
+  }
+  return settings.asset_colours ? asset_colours(*analysis.model, analysis.shape)
+                                : std::vector<Rgb8>{};
+}
+
+py::array render_picture(const py::object& model, const py::object& F, const py::object& direction,
+                         const py::object& camera, const py::object& view, const std::string& show,
+                         const py::object& colours, const py::dict& options,
+                         const py::object& progress, int threads) {
+  const Subject subject(model, F);
+  const Settings settings = subject.settings(options);
+  const Standpoint from = standpoint_of(direction, camera, view);
+  const Picture picture = picture_of(show);
+  const std::vector<Rgb8> given = colours.is_none() ? std::vector<Rgb8>{} : colours_of(colours);
+  const bool needs_map = from.best || picture != Picture::Plain;
+  Image image = released({progress, threads}, [&](const RunContext& run) {
+    const auto analysis =
+        subject.analysed(settings, needs_map ? with_map : surface_only, run.part(0.0, 0.5));
+    const ShapeAnalysis& shape = analysis->shape;
+    const std::vector<Rgb8> drawn = colours_to_draw(*analysis, settings, given);
+    const Camera taken = camera_from(from, *analysis, settings.view, run.part(0.5, 0.9));
+    RenderOptions look = settings.look;
+    if (look.ground) {
+      look.up = up_vector(choose_up(*analysis->model, shape, settings.view).axis);
+    }
+    return draw_picture(shape, taken, picture, settings.view, look, run.part(0.9, 1.0), drawn);
+  });
+  return owned_array<std::uint8_t>(std::move(image.rgba),
+                                   {py::ssize_t{image.height}, py::ssize_t{image.width}, 4});
+}
+
+py::array colours_of_values(
+    const py::array_t<double, py::array::c_style | py::array::forcecast>& values) {
+  if (values.ndim() != 1) {
+    throw InvalidInput("values must be one number a vertex");
+  }
+  return owned_array(colour_map({values.data(), static_cast<std::size_t>(values.size())}));
+}
+
+}  // namespace
+
+void define_pictures(py::module_& module) {
+  module.def("render", &render_picture, py::arg("model"), py::arg("F"), py::arg("direction"),
+             py::arg("camera"), py::arg("view"), py::arg("show"), py::arg("colours"),
+             py::arg("options"), py::arg("progress"), py::arg("threads"));
+  module.def("colour_map", &colours_of_values, py::arg("values"));
+}
+
+}  // namespace vantage::python

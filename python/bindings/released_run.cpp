@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "released_run.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <oneapi/tbb/global_control.h>
+#include <unistd.h>
+
+#include "vantage/core/error.h"
+
+namespace vantage::python {
+namespace {
+
+namespace py = pybind11;
+
+constexpr std::chrono::milliseconds kPoll{50};  // well below the second that Ctrl-C may take [ours]
+constexpr int kMostThreads = 1024;              // as the program's --threads
+
+/// Where a stage of the work has come to.
+struct Progress {
+  std::string stage{};
+  double fraction = 0.0;
+};
+
+/// A thread that runs one job after another. They are kept for later calls: Embree remembers every
+/// thread that ever built a search structure, a few hundred bytes each.
+class Lane {
+ public:
+  Lane() {
+    std::thread([this] { run_jobs(); }).detach();
+  }
+
+  void start(std::function<void()> job) {
+    const std::scoped_lock lock(mutex_);
+    job_ = std::move(job);
+    has_job_.notify_one();
+  }
+
+ private:
+  [[noreturn]] void run_jobs() {
+    for (;;) {
+      std::function<void()> job;
+      {
+        std::unique_lock lock(mutex_);
+        has_job_.wait(lock, [this] { return static_cast<bool>(job_); });
+        job = std::exchange(job_, nullptr);
+      }
+      job();
+    }
+  }
+
+  std::mutex mutex_{};
+  std::condition_variable has_job_{};
+  std::function<void()> job_{};
+};
+
+/// Lanes that wait for a job; as many as there ever were calls at once. Never destroyed, as its
+/// threads are not: they end with the process.
+class LanePool {
+ public:
+  static LanePool& instance() {
+    static auto* const kPool = new LanePool;
+    return *kPool;
+  }
+
+  Lane& take() {
+    const std::scoped_lock lock(mutex_);
+    if (process_ != getpid()) {  // a forked child has none of its parent's threads
+      idle_.clear();
+      process_ = getpid();
+    }
+    if (idle_.empty()) {
+      return *new Lane;
+    }
+    Lane* lane = idle_.back();
+    idle_.pop_back();
+    return *lane;
+  }
+
+  void give_back(Lane& lane) {
+    const std::scoped_lock lock(mutex_);
+    idle_.push_back(&lane);
+  }
+
+ private:
+  std::mutex mutex_{};
+  std::vector<Lane*> idle_{};
+  pid_t process_ = getpid();
+};
+
+/// The work on its own thread, and what the waiting thread gets to know of it.
+class Worker {
+ public:
+  Worker(const std::function<void(const RunContext&)>& work, int threads, bool reports)
+      : lane_(LanePool::instance().take()) {
+    RunContext run;
+    run.max_threads = threads;
+    run.stop = stop_.get_token();
+    if (reports) {
+      run.report = [this](std::string_view stage, double fraction) { post(stage, fraction); };
+    }
+    lane_.start([this, &work, run = std::move(run)] { carry_out(work, run); });
+  }
+
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  ~Worker() {
+    const py::gil_scoped_release release;
+    stop_.request_stop();
+    {
+      std::unique_lock lock(mutex_);
+      ended_.wait(lock, [this] { return is_done_; });
+    }
+    LanePool::instance().give_back(lane_);
+  }
+
+  /// Waits for the end or for the next time to look up. \return whether the work has ended.
+  bool wait() {
+    const py::gil_scoped_release release;
+    std::unique_lock lock(mutex_);
+    return ended_.wait_for(lock, kPoll, [this] { return is_done_; });
+  }
+
+  /// The last progress since it was asked for.
+  std::optional<Progress> news() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(latest_, std::nullopt);
+  }
+
+  /// What the work threw, if it did. \pre wait() said that it has ended.
+  std::exception_ptr failure() {
+    const std::scoped_lock lock(mutex_);
+    return failure_;
+  }
+
+ private:
+  void post(std::string_view stage, double fraction) {
+    const std::scoped_lock lock(mutex_);
+    latest_ = Progress{std::string(stage), fraction};
+  }
+
+  void carry_out(const std::function<void(const RunContext&)>& work, const RunContext& run) {
+    std::exception_ptr failure;
+    try {
+      // Libraries that start threads of their own (Embree) are held to the number as well.
+      std::optional<tbb::global_control> limit;
+      if (run.max_threads > 0) {
+        limit.emplace(tbb::global_control::max_allowed_parallelism,
+                      static_cast<std::size_t>(run.max_threads));
+      }
+      work(run);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    const std::scoped_lock lock(mutex_);
+    failure_ = failure;
+    is_done_ = true;
+    ended_.notify_one();
+  }
+
+  std::stop_source stop_{};
+  std::mutex mutex_{};
+  std::condition_variable ended_{};
+  std::optional<Progress> latest_{};
+  bool is_done_ = false;
+  std::exception_ptr failure_{};
+  Lane& lane_;
+};
+
+}  // namespace
+
+void run_released(const RunSettings& settings, const std::function<void(const RunContext&)>& work) {
+  if (settings.threads < 0 || settings.threads > kMostThreads) {
+    throw InvalidInput("threads is " + std::to_string(settings.threads) +
+                       " but must be between 0 (all cores) and " + std::to_string(kMostThreads));
+  }
+  const bool reports = !settings.progress.is_none();
+  if (reports && PyCallable_Check(settings.progress.ptr()) == 0) {
+    throw py::type_error("progress must be a function of (stage, fraction), or None");
+  }
+  Worker worker(work, settings.threads, reports);
+  std::optional<Progress> last;
+  bool ended = false;
+  while (!ended) {
+    ended = worker.wait();
+    if (PyErr_CheckSignals() != 0) {
+      throw py::error_already_set();  // the worker is stopped and waited for on the way out
+    }
+    if (auto news = worker.news()) {
+      last = std::move(news);
+      settings.progress(last->stage, last->fraction);
+    }
+  }
+  if (const std::exception_ptr failure = worker.failure()) {
+    std::rethrow_exception(failure);
+  }
+  if (reports && !(last && last->fraction >= 1.0)) {
+    settings.progress(last ? last->stage : "done", 1.0);
+  }
+}
+
+}  // namespace vantage::python

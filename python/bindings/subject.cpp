@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "subject.h"
+
+#include <utility>
+
+#include "vantage/core/error.h"
+
+#include "arrays.h"
+#include "released_run.h"
+#include "text.h"
+
+namespace vantage::python {
+namespace {
+
+bool is_path(const py::object& value) {
+  return py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__");
+}
+
+std::string path_text(const py::object& path) {
+  // As the file system wants it, whatever the name's encoding.
+  return py::module_::import("os").attr("fsencode")(path).cast<std::string>();
+}
+
+ModelHandle model_of_arrays(const py::object& V, const py::object& F, const std::string& name,
+                            const py::object& colours) {
+  auto model = std::make_shared<Model>();
+  model->name = name;
+  model->mesh = mesh_of(V, F);
+  model->double_precision = true;
+  model->polygons = model->mesh.triangles.size();
+  if (!colours.is_none()) {
+    model->vertex_colours = colours_of(colours);
+    if (model->vertex_colours.size() != model->mesh.positions.size()) {
+      throw InvalidInput("colours must have one row for each of the " +
+                         std::to_string(model->mesh.positions.size()) + " vertices");
+    }
+  }
+  return {std::move(model)};
+}
+
+ModelHandle load(const py::object& path, const py::object& progress, int threads) {
+  const std::string file = path_text(path);
+  return {released({progress, threads}, [&](const RunContext& run) {
+    return std::make_shared<const Model>(load_model(file, run));
+  })};
+}
+
+AnalysisHandle analyse(const py::object& model, const py::object& F, const py::dict& options,
+                       const py::object& progress, int threads) {
+  const Subject subject(model, F);
+  const Settings settings = subject.settings(options);
+  return {released({progress, threads}, [&](const RunContext& run) {
+    return subject.analysed(settings, with_map, run);
+  })};
+}
+
+py::tuple parts_of(const ModelHandle& handle) {
+  py::list parts;
+  for (const ModelPart& part : handle.model->parts) {
+    parts.append(py::make_tuple(text_of(part.name), part.first_triangle, part.triangle_count));
+  }
+  return py::tuple(parts);
+}
+
+void define_model(py::module_& module) {
+  py::class_<ModelHandle>(module, "Model")
+      .def(py::init(&model_of_arrays), py::arg("V"), py::arg("F") = py::none(), py::kw_only(),
+           py::arg("name") = "arrays", py::arg("colours") = py::none())
+      .def_property_readonly("name", [](const ModelHandle& h) { return text_of(h.model->name); })
+      .def_property_readonly("format",
+                             [](const ModelHandle& h) { return format_name(h.model->format); })
+      .def_property_readonly(
+          "vertices",
+          [](const ModelHandle& h) {
+            const auto& points = h.model->mesh.positions;
+            return shared_array<double>(points.data(), {extent(points.size()), 3}, h.model);
+          })
+      .def_property_readonly(
+          "faces",
+          [](const ModelHandle& h) {
+            const auto& faces = h.model->mesh.triangles;
+            return shared_array<std::uint32_t>(faces.data(), {extent(faces.size()), 3}, h.model);
+          })
+      .def_property_readonly(
+          "colours",
+          [](const ModelHandle& h) {
+            const auto& colours = h.model->vertex_colours;
+            return shared_array<std::uint8_t>(colours.data(), {extent(colours.size()), 3}, h.model);
+          })
+      .def_property_readonly("parts", &parts_of)
+      .def_property_readonly("notes",
+                             [](const ModelHandle& h) { return texts_of(h.model->notes); });
+}
+
+void define_analysis(py::module_& module) {
+  const auto shape_of = [](const AnalysisHandle& h) -> const ShapeAnalysis& {
+    return h.analysis->shape;
+  };
+  py::class_<AnalysisHandle>(module, "Analysis")
+      .def_property_readonly("model",
+                             [](const AnalysisHandle& h) { return ModelHandle{h.analysis->model}; })
+      .def_property_readonly("closed",
+                             [=](const AnalysisHandle& h) { return shape_of(h).check.closed; })
+      .def_property_readonly("components",
+                             [=](const AnalysisHandle& h) { return shape_of(h).check.components; })
+      .def_property_readonly("genus",
+                             [=](const AnalysisHandle& h) { return shape_of(h).check.genus; })
+      .def_property_readonly(
+          "centre", [=](const AnalysisHandle& h) { return array_of(shape_of(h).sphere.centre); })
+      .def_property_readonly("diameter",
+                             [=](const AnalysisHandle& h) { return shape_of(h).sphere.diameter; })
+      .def_property_readonly(
+          "warnings", [=](const AnalysisHandle& h) { return texts_of(shape_of(h).warnings); });
+}
+
+}  // namespace
+
+Subject::Subject(const py::object& model, const py::object& faces) {
+  const bool is_model = py::isinstance<ModelHandle>(model);
+  const bool is_analysis = py::isinstance<AnalysisHandle>(model);
+  if (!faces.is_none() && (is_model || is_analysis || is_path(model))) {
+    throw py::type_error("F goes with an array of vertices only");
+  }
+  if (is_model) {
+    model_ = model.cast<const ModelHandle&>().model;
+  } else if (is_analysis) {
+    analysis_ = model.cast<const AnalysisHandle&>().analysis;
+  } else if (is_path(model)) {
+    path_ = path_text(model);
+  } else {
+    model_ = model_of_arrays(model, faces, "arrays", py::none()).model;
+  }
+}
+
+Settings Subject::settings(const py::dict& keywords) const {
+  return analysis_ ? settings_over(analysis_->settings, keywords) : settings_of(keywords);
+}
+
+std::shared_ptr<const Analysis> Subject::analysed(const Settings& settings, const Analyser& analyse,
+                                                  const RunContext& run) const {
+  if (analysis_) {
+    return analysis_;
+  }
+  auto made = std::make_shared<Analysis>();
+  made->model =
+      model_ ? model_ : std::make_shared<const Model>(load_model(path_, run.part(0.0, 0.05)));
+  made->shape = analyse(*made->model, settings.view, run.part(0.05, 1.0));
+  made->settings = settings;
+  return made;
+}
+
+ShapeAnalysis surface_only(const Model& model, const ViewOptions& /*options*/,
+                           const RunContext& /*run*/) {
+  return prepare_surface(model);
+}
+
+ShapeAnalysis with_skeleton(const Model& model, const ViewOptions& options, const RunContext& run) {
+  ShapeAnalysis shape = prepare_surface(model);
+  add_history(shape, options, run.part(0.0, 0.8));
+  add_skeleton(shape, options, run.part(0.8, 1.0));
+  return shape;
+}
+
+ShapeAnalysis with_map(const Model& model, const ViewOptions& options, const RunContext& run) {
+  return analyse_shape(model, options, run);
+}
+
+void define_models(py::module_& module) {
+  define_model(module);
+  define_analysis(module);
+  module.def("load", &load, py::arg("path"), py::arg("progress"), py::arg("threads"));
+  module.def("analyse", &analyse, py::arg("model"), py::arg("F"), py::arg("options"),
+             py::arg("progress"), py::arg("threads"));
+}
+
+}  // namespace vantage::python

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include <pybind11/pybind11.h>
+
+#include "vantage/core/run_context.h"
+#include "vantage/io/model.h"
+#include "vantage/report/view_report.h"
+
+#include "options.h"
+
+/// \file
+/// What functions are asked about: the path of a file, arrays, a model, or a model that has been
+/// analysed already.
+
+namespace vantage::python {
+
+/// A model that Python holds. Never changes, so threads and array views share it.
+struct ModelHandle {
+  std::shared_ptr<const Model> model{};
+};
+
+/// A model with its contraction, skeleton and map, and the options these were made with.
+struct Analysis {
+  std::shared_ptr<const Model> model{};
+  ShapeAnalysis shape{};
+  Settings settings{};
+};
+
+/// An analysis that Python holds; never changes.
+struct AnalysisHandle {
+  std::shared_ptr<const Analysis> analysis{};
+};
+
+/// Makes of a model what a function needs of it.
+using Analyser = std::function<ShapeAnalysis(const Model&, const ViewOptions&, const RunContext&)>;
+
+/// The first two arguments of most functions.
+class Subject {
+ public:
+  /// \param model path, vertices, Model or Analysis. \param faces None unless `model` is vertices.
+  /// \pre holds the interpreter's lock. \throw py::type_error, InvalidInput
+  Subject(const py::object& model, const py::object& faces);
+
+  /// The options of a call about it.
+  [[nodiscard]] Settings settings(const py::dict& keywords) const;
+
+  /// The analysis, made now unless there was one. Does not touch Python. \throw Cancelled
+  [[nodiscard]] std::shared_ptr<const Analysis> analysed(const Settings& settings,
+                                                         const Analyser& analyse,
+                                                         const RunContext& run) const;
+
+ private:
+  std::string path_{};
+  std::shared_ptr<const Model> model_{};
+  std::shared_ptr<const Analysis> analysis_{};
+};
+
+/// Only what every view needs: welded, turned outwards.
+ShapeAnalysis surface_only(const Model& model, const ViewOptions& options, const RunContext& run);
+/// Contraction and skeleton too.
+ShapeAnalysis with_skeleton(const Model& model, const ViewOptions& options, const RunContext& run);
+/// Everything.
+ShapeAnalysis with_map(const Model& model, const ViewOptions& options, const RunContext& run);
+
+/// One row of `of_surface` for each vertex of the input.
+template <class Value>
+std::vector<Value> on_input(const ShapeAnalysis& shape, const std::vector<Value>& of_surface) {
+  std::vector<Value> of_input;
+  of_input.reserve(shape.surface_vertex.size());
+  for (const std::uint32_t v : shape.surface_vertex) {
+    of_input.push_back(of_surface[v]);
+  }
+  return of_input;
+}
+
+/// Adds Model, Analysis, load() and analyse() to the module.
+void define_models(py::module_& module);
+/// Adds skeleton(), kssm() and vertex_map().
+void define_shape_functions(py::module_& module);
+/// Adds visible_vertices(), score(), directions() and measures().
+void define_view_functions(py::module_& module);
+/// Adds best_view().
+void define_best_view(py::module_& module);
+/// Adds render() and colour_map().
+void define_pictures(py::module_& module);
+
+}  // namespace vantage::python

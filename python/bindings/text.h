@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <pybind11/pybind11.h>
+
+/// \file
+/// Strings that may hold whatever a file holds: bytes that are no UTF-8 become U+FFFD.
+
+namespace vantage::python {
+
+/// `bytes` as a Python string.
+inline pybind11::str text_of(std::string_view bytes) {
+  PyObject* decoded =
+      PyUnicode_DecodeUTF8(bytes.data(), static_cast<pybind11::ssize_t>(bytes.size()), "replace");
+  if (decoded == nullptr) {
+    throw pybind11::error_already_set();
+  }
+  return pybind11::reinterpret_steal<pybind11::str>(decoded);
+}
+
+/// The same of a list.
+inline pybind11::tuple texts_of(const std::vector<std::string>& list) {
+  pybind11::list texts;
+  for (const std::string& bytes : list) {
+    texts.append(text_of(bytes));
+  }
+  return pybind11::tuple(texts);
+}
+
+}  // namespace vantage::python

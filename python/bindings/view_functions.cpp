@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <utility>
+
+#include <pybind11/stl.h>
+
+#include "vantage/core/error.h"
+#include "vantage/report/measured_shape.h"
+#include "vantage/spatial/directions.h"
+
+#include "arrays.h"
+#include "released_run.h"
+#include "subject.h"
+
+namespace vantage::python {
+namespace {
+
+/// Views that were asked for: directions, or positions of eyes.
+struct Views {
+  std::vector<Vec3> points{};
+  bool are_eyes = false;
+  int sphere = -1;  ///< The icosahedron's level, if that was given.
+
+  [[nodiscard]] Viewpoint viewpoint(std::size_t i, const ScoringCamera& camera) const {
+    return are_eyes ? Viewpoint{Projection::Perspective, points[i]} : camera.viewpoint(points[i]);
+  }
+};
+
+Views directions_of(const py::object& directions) {
+  Views views{.points = points_of(directions, "directions")};
+  for (std::size_t i = 0; i < views.points.size(); ++i) {
+    const double length = views.points[i].stableNorm();
+    if (!(length > 0.0)) {
+      throw InvalidInput("directions holds the zero vector in row " + std::to_string(i));
+    }
+    views.points[i] /= length;
+  }
+  return views;
+}
+
+/// Exactly one of the three.
+Views views_of(const py::object& directions, const py::object& eyes, const py::object& sphere) {
+  const int given = static_cast<int>(!directions.is_none()) + static_cast<int>(!eyes.is_none()) +
+                    static_cast<int>(!sphere.is_none());
+  if (given != 1) {
+    throw InvalidInput("say what to look from by one of directions, eyes and sphere");
+  }
+  if (!directions.is_none()) {
+    return directions_of(directions);
+  }
+  if (!eyes.is_none()) {
+    return {.points = points_of(eyes, "eyes"), .are_eyes = true};
+  }
+  const int level = sphere.cast<int>();
+  return {.points = direction_set(ViewSphereBase::Icosahedron, level).directions, .sphere = level};
+}
+
+bool is_single(const py::object& directions, const py::object& eyes) {
+  const py::object& given = directions.is_none() ? eyes : directions;
+  return !given.is_none() && is_single_point(given);
+}
+
+py::array visible(const py::object& model, const py::object& F, const py::object& eyes,
+                  const py::object& directions, const py::object& sphere, const py::dict& options,
+                  const py::object& progress, int threads) {
+  const Subject subject(model, F);
+  const Settings settings = subject.settings(options);
+  const Views views = views_of(directions, eyes, sphere);
+  std::size_t vertex_count = 0;
+  std::vector<std::uint8_t> table = released({progress, threads}, [&](const RunContext& run) {
+    const auto analysis = subject.analysed(settings, surface_only, run.part(0.0, 0.2));
+    const ShapeAnalysis& shape = analysis->shape;
+    const VertexVisibility visibility(shape.surface, shape.sides);
+    const ScoringCamera camera = scoring_camera(shape, settings.view);
+    vertex_count = shape.surface_vertex.size();
+    std::vector<std::uint8_t> rows;
+    rows.reserve(views.points.size() * vertex_count);
+    for (std::size_t i = 0; i < views.points.size(); ++i) {
+      run.advance("looking",
+                  0.2 + 0.8 * static_cast<double>(i) / static_cast<double>(views.points.size()));
+      const auto seen = visibility.visible_vertices(views.viewpoint(i, camera), run);
+      for (const std::uint32_t v : shape.surface_vertex) {
+        rows.push_back(seen[v]);
+      }
+    }
+    return rows;
+  });
+  if (is_single(directions, eyes)) {
+    return owned_flags(std::move(table), {extent(vertex_count)});
+  }
+  return owned_flags(std::move(table), {extent(views.points.size()), extent(vertex_count)});
+}
+
+/// The method's own score, as the search takes it.
+std::vector<double> kssm_scores(const Analysis& analysis, const ViewOptions& options,
+                                const Views& views, const RunContext& run) {
+  const ShapeAnalysis& shape = analysis.shape;
+  const VertexVisibility visibility(shape.surface, shape.sides);
+  const std::optional<FaceVisibility> faces = faces_to_score(shape, options);
+  const ScoringCamera camera = scoring_camera(shape, options);
+  const ViewScorer scorer = faces ? ViewScorer(*faces, shape.map.of_vertex, camera)
+                                  : ViewScorer(visibility, shape.map.of_vertex, camera);
+  if (!views.are_eyes) {
+    return scorer.score_all(views.points, run);
+  }
+  std::vector<double> scores;
+  scores.reserve(views.points.size());
+  for (std::size_t i = 0; i < views.points.size(); ++i) {
+    run.advance("scoring", static_cast<double>(i) / static_cast<double>(views.points.size()));
+    scores.push_back(scorer.score_from(views.viewpoint(i, camera), run));
+  }
+  return scores;
+}
+
+/// Values of any measures, looking once for all of them.
+MeasureValues measured_scores(const Analysis& analysis, const ViewOptions& options,
+                              const std::vector<Measure>& measures, const Views& views,
+                              int view_set, const RunContext& run) {
+  MeasureSubject subject = measure_subject(analysis.shape, options);
+  const bool needs_saliency = std::any_of(measures.begin(), measures.end(),
+                                          [](const Measure& m) { return m.needs.saliency; });
+  const std::vector<double> saliency =
+      needs_saliency ? vertex_map(analysis.shape, options, "mesh-saliency", run.part(0.0, 0.1))
+                     : std::vector<double>{};
+  subject.saliency = saliency;
+  ViewMeasurer measurer(subject, measures, view_set, run.part(0.1, 0.8));
+  const RunContext rest = run.part(0.8, 1.0);
+  if (views.sphere == view_set) {
+    return measurer.set_values(rest);
+  }
+  if (!views.are_eyes) {
+    return measurer.values(std::span<const Vec3>(views.points), rest);
+  }
+  std::vector<Viewpoint> eyes;
+  eyes.reserve(views.points.size());
+  for (std::size_t i = 0; i < views.points.size(); ++i) {
+    eyes.push_back(views.viewpoint(i, {}));
+  }
+  return measurer.values(std::span<const Viewpoint>(eyes), rest);
+}
+
+std::vector<Measure> measures_of(const std::vector<std::string>& names) {
+  if (names.empty()) {
+    throw InvalidInput("method names no measure; measures() lists them");
+  }
+  std::vector<Measure> measures;
+  measures.reserve(names.size());
+  for (const std::string& name : names) {
+    measures.push_back(find_measure(name));
+  }
+  return measures;
+}
+
+py::array score(const py::object& model, const py::object& F, const py::object& directions,
+                const py::object& eyes, const py::object& sphere,
+                const std::vector<std::string>& method, int view_set, const py::dict& options,
+                const py::object& progress, int threads) {
+  const Subject subject(model, F);
+  const Settings settings = subject.settings(options);
+  const Views views = views_of(directions, eyes, sphere);
+  const std::vector<Measure> measures = measures_of(method);
+  const bool by_kssm = measures.size() == 1 && measures.front().name == "kssm";
+  std::vector<double> table = released({progress, threads}, [&](const RunContext& run) {
+    const auto analyse = [&](const Model& loaded, const ViewOptions& o, const RunContext& part) {
+      return by_kssm ? with_map(loaded, o, part) : analyse_for(loaded, o, measures, part);
+    };
+    const auto analysis = subject.analysed(settings, analyse, run.part(0.0, 0.5));
+    const RunContext rest = run.part(0.5, 1.0);
+    if (by_kssm) {
+      return kssm_scores(*analysis, settings.view, views, rest);
+    }
+    std::vector<double> rows;
+    for (const std::vector<double>& row :
+         measured_scores(*analysis, settings.view, measures, views, view_set, rest)) {
+      rows.insert(rows.end(), row.begin(), row.end());
+    }
+    return rows;
+  });
+  const Shape shape{extent(measures.size()), extent(views.points.size())};
+  return owned_array<double>(std::move(table), shape);
+}
+
+py::tuple directions(int level, const std::string& base) {
+  if (base != "icosahedron" && base != "cube") {
+    throw InvalidInput("base is '" + base + "' but must be icosahedron or cube");
+  }
+  DirectionSet set =
+      direction_set(base == "cube" ? ViewSphereBase::Cube : ViewSphereBase::Icosahedron, level);
+  return py::make_tuple(owned_array(std::move(set.directions)),
+                        owned_array(std::move(set.triangles)));
+}
+
+py::list measures() {
+  py::list list;
+  for (const Measure& measure : builtin_measures()) {
+    py::dict row;
+    row["name"] = measure.name;
+    row["alias"] = measure.alias;
+    row["meaning"] = measure.meaning;
+    row["source"] = measure.source;
+    row["better"] = measure.better == Better::More ? "more" : "less";
+    row["cost"] = std::string(measure.cost());
+    list.append(row);
+  }
+  return list;
+}
+
+}  // namespace
+
+void define_view_functions(py::module_& module) {
+  module.def("visible_vertices", &visible, py::arg("model"), py::arg("F"), py::arg("eyes"),
+             py::arg("directions"), py::arg("sphere"), py::arg("options"), py::arg("progress"),
+             py::arg("threads"));
+  module.def("score", &score, py::arg("model"), py::arg("F"), py::arg("directions"),
+             py::arg("eyes"), py::arg("sphere"), py::arg("method"), py::arg("view_set"),
+             py::arg("options"), py::arg("progress"), py::arg("threads"));
+  module.def("directions", &directions, py::arg("level"), py::arg("base"));
+  module.def("measures", &measures);
+}
+
+}  // namespace vantage::python

@@ -1,0 +1,248 @@
+# SPDX-License-Identifier: MIT
+"""What functions return: frozen records of numbers and NumPy arrays.
+
+Lengths are in the units of the model, n is its number of vertices, and row i of a per-vertex array
+belongs to vertex i of the input, always. Arrays own the memory that the library computed them in.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+from typing import Any, Dict, Mapping, Optional, Tuple
+
+import numpy as np
+import numpy.typing as npt
+
+Floats = npt.NDArray[np.float64]
+Indices = npt.NDArray[np.uint32]
+Integers = npt.NDArray[np.int64]
+Bytes = npt.NDArray[np.uint8]
+Flags = npt.NDArray[np.bool_]
+
+
+def _brief(value: object) -> str:
+    """Large arrays by their shape, long texts by their beginning."""
+    if isinstance(value, np.ndarray) and value.size > 4:
+        return f"<{value.dtype} {value.shape}>"
+    if isinstance(value, tuple) and len(value) > 3:
+        return f"<{len(value)} items>"
+    text = repr(value)
+    return text if len(text) <= 200 else text[:60] + "…"
+
+
+class _Record:
+    """Prints arrays by their shapes."""
+
+    def __repr__(self) -> str:
+        parts = [f"{f.name}={_brief(getattr(self, f.name))}"
+                 for f in fields(self)]  # type: ignore[arg-type]
+        return f"{type(self).__name__}({', '.join(parts)})"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Camera(_Record):
+    """A camera that takes a picture; right-handed, looks along −z of its own frame."""
+
+    projection: str
+    """"perspective" or "orthographic"."""
+    eye: Floats
+    """(3,) position."""
+    target: Floats
+    """(3,) the point at the centre of the picture."""
+    up: Floats
+    """(3,) unit, orthogonal to target − eye."""
+    fov_y_deg: float = 30.0
+    """Perspective: full vertical field of view, degrees, in (0, 180)."""
+    height: float = 2.0
+    """Orthographic: height of the picture in model units, above 0."""
+
+    def world_from_camera(self) -> Floats:
+        """(4, 4) camera to world, columns x right, y up, z back, eye: OpenGL, Blender, NeRF."""
+        back = self.eye - self.target
+        back = back / np.linalg.norm(back)
+        pose = np.eye(4)
+        pose[:3, 0] = np.cross(self.up, back)
+        pose[:3, 1] = self.up
+        pose[:3, 2] = back
+        pose[:3, 3] = self.eye
+        return pose
+
+    def intrinsics(self, width: int, height: int) -> Floats:
+        """(3, 3) pinhole matrix in pixels, origin top left, x right, y down (OpenCV's K); needs a
+        world_from_camera() whose y and z columns are turned round. ValueError if orthographic."""
+        if self.projection != "perspective":
+            raise ValueError("an orthographic camera has no pinhole matrix")
+        focal = 0.5 * height / math.tan(math.radians(self.fov_y_deg) / 2.0)
+        return np.array([[focal, 0.0, 0.5 * width], [0.0, focal, 0.5 * height], [0.0, 0.0, 1.0]])
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class View(_Record):
+    """One view and what it sees."""
+
+    direction: Floats
+    """(3,) unit, from the model's centre to the eye."""
+    eye: Floats
+    """(3,) of the scoring camera."""
+    up: Floats
+    """(3,) unit, upright in the picture."""
+    score: float
+    """Significance seen; what `method` says for another measure."""
+    score_fraction: float
+    """score / total, in [0, 1]; NaN for measures without a total."""
+    objective: float
+    """What the search compared: the score times the prior."""
+    visible_area_fraction: float
+    """Of the surface, in [0, 1]."""
+    camera: Camera
+    """From the same eye, framed tightly: pass it to render()."""
+    gain: Optional[float] = None
+    """In a set: significance that no view before sees."""
+    coverage: Optional[float] = None
+    """In a set: share of what can be seen at all that is seen by now, in [0, 1]."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Twin(_Record):
+    """A view that a mirror plane makes as good as the best."""
+
+    direction: Floats
+    """(3,) unit."""
+    score: float
+    objective: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class DenseGap(_Record):
+    """How far a search stayed behind the dense one (certify=True)."""
+
+    best_ratio: float
+    """Objective of the best view over the dense search's; 1 or more if nothing is better."""
+    worst_above: float
+    """Worst score above the dense search's, as a share of the range of scores."""
+    evaluations: int
+    """Directions that the dense search scored."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class BestView(_Record):
+    """Result of best_view()."""
+
+    best: View
+    """Of the largest objective."""
+    worst: View
+    """Of the least score; no prior applies."""
+    views: Tuple[View, ...]
+    """The set, in order of choice, if views= or coverage= asked for one; else empty."""
+    tour: Optional[Integers]
+    """Order of `views` on the shortest closed round; None without a set."""
+    tour_length_deg: Optional[float]
+    """Length of that round on the view sphere, degrees."""
+    total: float
+    """The score if everything were visible; NaN for measures without one."""
+    up: str
+    """The up axis used: "x", "y", "z", "-x", "-y" or "-z"."""
+    up_source: str
+    """"given", "format", or "stance": how the model stands."""
+    centre: Floats
+    """(3,) centre of the enclosing sphere, which directions start from."""
+    distance: float
+    """From there to the eye of the scoring camera."""
+    evaluations: int
+    """Directions scored."""
+    estimates: int
+    """Directions estimated to find out which to score."""
+    twins: Tuple[Twin, ...]
+    """Mirror images of the best view."""
+    dense_gap: Optional[DenseGap]
+    """With certify=True."""
+    warnings: Tuple[str, ...]
+    """Every repair and doubt, one sentence each."""
+    json: str
+    """The text of view.json, as `vantage view --no-images` writes it."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Skeleton(_Record):
+    """Result of skeleton(): k nodes, e edges."""
+
+    nodes: Floats
+    """(k, 3) points."""
+    edges: Indices
+    """(e, 2) node indices, the lower first, rows sorted."""
+    radius: Floats
+    """(k,) mean distance of a node to the vertices it stands for."""
+    vertex_node: Integers
+    """(n,) node of each vertex; −1 for vertices without faces."""
+    branches: Tuple[Indices, ...]
+    """Runs of nodes from end or junction to the next, or round a loop; each edge in exactly one."""
+    components: int
+    cycles: int
+    """Independent loops: the genus, on a closed surface."""
+    length: float
+    """Of all edges together."""
+    shrinkage: Floats
+    """(K + 1,) mean ratio of face areas to those of the input, at each level of the contraction."""
+    levels: Optional[Floats]
+    """(K + 1, n, 3) the vertices at each level, the input first, with levels=True."""
+    quality: Optional[Mapping[str, float]]
+    """Measures against the surface, with measure=True; docs/skeleton.md defines them."""
+    warnings: Tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class KssmMap(_Record):
+    """Result of kssm(): K + 1 levels of contraction."""
+
+    of_vertex: Floats
+    """(n,) significance, 0 or more; 0 for vertices without faces."""
+    thickness: Floats
+    """(n,) distance of each vertex to the skeleton."""
+    level_factor: Floats
+    """(K + 1,) weight of each level in the sum, in [0, 1]; 0 where a level is flat."""
+    displacement: Optional[Floats]
+    """(K + 1, n) distance to the skeleton at each level, with levels=True."""
+    warnings: Tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class DirectionSet(_Record):
+    """Result of directions(): unit vectors joined by triangles."""
+
+    directions: Floats
+    """(k, 3) unit vectors; those of coarser levels come first."""
+    triangles: Indices
+    """(t, 3) indices, counter-clockwise from outside."""
+
+
+@dataclass(frozen=True)
+class Measure:
+    """A measure of a view, as `method` names it."""
+
+    name: str
+    alias: str
+    meaning: str
+    source: str
+    better: str
+    """"more" or "less"."""
+    cost: str
+    """The dearest thing it needs."""
+
+
+def view_of(record: Dict[str, Any]) -> View:
+    """A View of what the compiled part returns."""
+    parts: Dict[str, Any] = {**record, "camera": Camera(**record["camera"])}
+    return View(**parts)
+
+
+def best_view_of(record: Dict[str, Any]) -> BestView:
+    """A BestView of what the compiled part returns."""
+    gap = record["dense_gap"]
+    parts: Dict[str, Any] = {**record,
+                             "best": view_of(record["best"]),
+                             "worst": view_of(record["worst"]),
+                             "views": tuple(view_of(v) for v in record["views"]),
+                             "twins": tuple(Twin(*t) for t in record["twins"]),
+                             "dense_gap": DenseGap(*gap) if gap else None}
+    return BestView(**parts)

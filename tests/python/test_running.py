@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: MIT
+"""Progress, Ctrl-C, threads, errors and memory."""
+
+import ctypes
+import gc
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+from conftest import torus
+import vantage
+
+V, F = torus(24, 12, bump=0.1)
+SMALL = torus(12, 8, bump=0.1)
+
+
+def test_progress_never_goes_back_and_ends_at_one():
+    calls = []
+    vantage.best_view(V, F, progress=lambda stage, fraction: calls.append((stage, fraction)))
+    fractions = [fraction for _, fraction in calls]
+    assert fractions == sorted(fractions) and fractions[-1] == 1.0 and fractions[0] >= 0.0
+    assert all(stage for stage, _ in calls)
+
+
+def test_progress_is_called_on_the_calling_thread():
+    threads = set()
+    vantage.skeleton(V, F, progress=lambda *_: threads.add(threading.get_ident()))
+    assert threads == {threading.get_ident()}
+
+
+def test_what_progress_raises_ends_the_call():
+    class Enough(Exception):
+        pass
+
+    def stop(_stage, _fraction):
+        raise Enough
+
+    with pytest.raises(Enough):
+        vantage.best_view(V, F, progress=stop)
+
+
+@pytest.mark.parametrize("keywords, kind", [
+    ({"progress": 3}, TypeError), ({"threads": -1}, ValueError), ({"threads": 1025}, ValueError),
+    ({"threads": "two"}, TypeError)])
+def test_how_to_run_is_checked(keywords, kind):
+    with pytest.raises(kind):
+        vantage.kssm(V, F, **keywords)
+
+
+INTERRUPTED = """
+import os, signal, sys
+import numpy as np
+sys.path.insert(0, sys.argv[1])
+from conftest import torus
+import vantage
+first = []
+def progress(stage, fraction):
+    if not first:
+        first.append(stage)
+        print("started", flush=True)
+try:
+    vantage.score(*torus(500, 250, bump=0.1), sphere=8, contraction="exact", progress=progress)
+except KeyboardInterrupt:
+    print("interrupted", vantage.directions(0).directions.shape, flush=True)
+"""
+
+
+def test_ctrl_c_is_a_keyboard_interrupt_and_the_package_goes_on():
+    here = os.path.dirname(__file__)
+    with subprocess.Popen([sys.executable, "-c", INTERRUPTED, here], stdout=subprocess.PIPE,
+                          text=True) as child:
+        assert child.stdout.readline() == "started\n"
+        child.send_signal(signal.SIGINT)
+        rest, _ = child.communicate(timeout=60)
+    assert rest == "interrupted (12, 3)\n"
+    assert child.returncode == 0
+
+
+def test_other_threads_run_while_one_works():
+    done, turns = threading.Event(), []
+
+    def count():
+        while not done.wait(0.001):
+            turns.append(None)
+
+    counter = threading.Thread(target=count)
+    counter.start()
+    turns_before = len(turns)
+    vantage.best_view(*torus(48, 24, bump=0.1))
+    turns_during = len(turns) - turns_before
+    done.set()
+    counter.join()
+    assert turns_during > 20  # a held lock would let it run only when this thread looks up
+
+
+def test_several_threads_get_what_one_gets():
+    models = [torus(16, 8, bump) for bump in (0.0, 0.05, 0.1, 0.15)]
+    alone = [vantage.best_view(*model).json for model in models]
+    found = [None] * len(models)
+
+    def work(i):
+        found[i] = vantage.best_view(*models[i], threads=1 + i % 2).json
+
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(len(models))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert found == alone
+
+
+def test_one_analysis_serves_many_threads():
+    analysis = vantage.analyse(V, F)
+    alone = vantage.score(analysis, sphere=2)
+    found = [None] * 4
+
+    def work(i):
+        found[i] = vantage.score(analysis, sphere=2)
+
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(np.array_equal(scores, alone) for scores in found)
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3, 8])
+def test_bytes_do_not_depend_on_the_number_of_threads(cat, threads):
+    expected = vantage.kssm(cat, levels=True)
+    result = vantage.kssm(cat, levels=True, threads=threads)
+    assert result.of_vertex.tobytes() == expected.of_vertex.tobytes()
+    assert result.displacement.tobytes() == expected.displacement.tobytes()
+
+
+def test_an_analysis_answers_as_the_model_does(fan):
+    analysis = vantage.analyse(fan)
+    assert vantage.best_view(analysis).json == vantage.best_view(fan).json
+    assert np.array_equal(vantage.kssm(analysis).of_vertex, vantage.kssm(fan).of_vertex)
+    assert np.array_equal(vantage.skeleton(analysis).nodes, vantage.skeleton(fan).nodes)
+    assert np.array_equal(vantage.vertex_map(analysis, method="thickness"),
+                          vantage.kssm(fan).thickness)
+
+
+def test_an_analysis_keeps_its_options(cat):
+    analysis = vantage.analyse(cat, weight="area")
+    assert np.array_equal(vantage.score(analysis, sphere=0),
+                          vantage.score(cat, sphere=0, weight="area"))
+    assert not np.array_equal(vantage.score(analysis, sphere=0), vantage.score(cat, sphere=0))
+    with pytest.raises(vantage.InvalidInput, match="weight shapes the analysis"):
+        vantage.best_view(analysis, weight="vertex")
+
+
+def test_an_analysis_tells_what_the_shape_is():
+    analysis = vantage.analyse(V, F)
+    assert (analysis.closed, analysis.genus, analysis.components) == (True, 1, 1)
+    assert analysis.diameter == pytest.approx(2 * (1 + 0.45), rel=0.1)
+    assert vantage.skeleton(analysis).cycles == 1
+
+
+@pytest.mark.parametrize("name, content, kind, also", [
+    ("missing.ply", None, vantage.IoError, OSError),
+    ("broken.off", b"OFF\n3 1 0\n0 0 0\n", vantage.FormatError, ValueError),
+    ("model.fbx", b"Kaydara", vantage.FormatError, ValueError),
+    ("empty.obj", b"", vantage.Error, Exception),
+])
+def test_files_that_cannot_be_read_say_so(tmp_path, name, content, kind, also):
+    path = tmp_path / name
+    if content is not None:
+        path.write_bytes(content)
+    for call in (vantage.load, vantage.best_view):
+        with pytest.raises(kind) as caught:
+            call(path)
+        assert isinstance(caught.value, also) and isinstance(caught.value, vantage.Error)
+        assert name in str(caught.value)
+
+
+def test_a_missing_file_has_its_errno(tmp_path):
+    with pytest.raises(OSError) as caught:
+        vantage.load(tmp_path / "missing.ply")
+    assert caught.value.errno == 2
+
+
+def test_names_that_are_no_utf8_are_read(tmp_path):
+    path = os.path.join(os.fsencode(tmp_path), b"caf\xe9.obj")
+    with open(path, "wb") as file:
+        file.write(b"g \xff\xfe\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    model = vantage.load(os.fsdecode(path))
+    assert model.name == "caf\ufffd" and model.faces.tolist() == [[0, 1, 2]]
+
+
+def test_results_can_be_pickled(cat):
+    result = vantage.best_view(cat)
+    again = pickle.loads(pickle.dumps(result))
+    assert again.json == result.json and np.array_equal(again.best.eye, result.best.eye)
+
+
+def bytes_in_use():
+    """What malloc has given out and not got back."""
+    class Mallinfo2(ctypes.Structure):
+        _fields_ = [(name, ctypes.c_size_t) for name in (
+            "arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks",
+            "fordblks", "keepcost")]
+
+    ask = ctypes.CDLL(None).mallinfo2
+    ask.restype = Mallinfo2
+    gc.collect()
+    now = ask()
+    return now.uordblks + now.hblkhd
+
+
+@pytest.mark.parametrize("call", [
+    lambda: vantage.kssm(*SMALL, levels=True), lambda: vantage.skeleton(*SMALL, levels=True),
+    lambda: vantage.visible_vertices(*SMALL, sphere=0), lambda: vantage.Model(*SMALL).vertices,
+    lambda: vantage.render(*SMALL, direction=(0, 0, 1), size=24, quality="draft"),
+    lambda: vantage.best_view(*SMALL, search="exhaustive", subdivisions=0),
+    lambda: pytest.raises(vantage.InvalidInput, vantage.kssm, SMALL[0], SMALL[1] + 1),
+], ids=["kssm", "skeleton", "visible_vertices", "Model", "render", "best_view", "error"])
+def test_a_hundred_calls_leave_nothing_behind(call):
+    for _ in range(10):
+        call()
+    before = bytes_in_use()
+    for _ in range(100):
+        call()
+    # One number for each of the 96 vertices left by every call would be 77 KB; nothing is.
+    assert bytes_in_use() - before < 20_000
