@@ -86,22 +86,27 @@ std::string OutputKinds::text() const {
 std::optional<Image> add_pictures(OutputFolder& output, const OutputKinds& kinds,
                                   const ShapeAnalysis& shape, const ViewReport& report,
                                   const ViewOptions& options, const RunContext& run) {
-  const auto wanted = static_cast<double>(
-      std::count_if(kPictures.begin(), kPictures.end(),
-                    [&](const PictureKind& picture) { return kinds.has(picture.kind); }));
-  double taken = 0.0;
   std::optional<Image> best;
-  for (const PictureKind& picture : kPictures) {
-    if (!kinds.has(picture.kind)) {
+  for (const bool of_best : {true, false}) {
+    std::vector<std::string> names;
+    std::vector<Picture> wanted;
+    for (const PictureKind& picture : kPictures) {
+      if (picture.of_best == of_best && kinds.has(picture.kind)) {
+        names.emplace_back(picture.kind);
+        wanted.push_back(picture.shows);
+      }
+    }
+    if (wanted.empty()) {
       continue;
     }
-    const ReportedView& view = picture.of_best ? report.best : report.worst;
-    Image image = take_picture(shape, view.picture, picture.shows, options, {},
-                               run.part(taken / wanted, std::min(1.0, (taken + 1.0) / wanted)));
-    output.add(std::string(picture.kind) + ".png", png_bytes(image));
-    taken += 1.0;
-    if (std::string_view(picture.kind) == "best") {
-      best = std::move(image);
+    std::vector<Image> images =
+        take_pictures(shape, (of_best ? report.best : report.worst).picture, wanted, options,
+                      of_best ? run.part(0.0, 0.5) : run.part(0.5, 1.0));
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      output.add(names[i] + ".png", png_bytes(images[i]));
+      if (names[i] == "best") {
+        best = std::move(images[i]);
+      }
     }
   }
   return best;

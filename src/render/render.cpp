@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "vantage/core/error.h"
@@ -69,34 +70,43 @@ std::array<Channel, 4> encoded(const Light& light) {
   return pixel;
 }
 
+/// RGBA of every pixel, row by row, one picture a paint.
 template <class Channel>
-std::vector<Channel> drawn(const TriMesh& mesh, const Camera& camera, const Paint& paint,
-                           const RenderOptions& options, const RunContext& run) {
-  check_input(mesh, paint, options);
+std::vector<std::vector<Channel>> drawn(const TriMesh& mesh, const Camera& camera,
+                                        std::span<const Paint> paints, const RenderOptions& options,
+                                        const RunContext& run) {
+  for (const Paint& paint : paints) {
+    check_input(mesh, paint, options);
+  }
   const auto width = static_cast<std::size_t>(options.width);
-  std::vector<Channel> rgba(4 * width * static_cast<std::size_t>(options.height));
+  std::vector<std::vector<Channel>> pictures(paints.size());
+  for (std::vector<Channel>& rgba : pictures) {
+    rgba.resize(4 * width * static_cast<std::size_t>(options.height));
+  }
   run.advance("render", 0.0);
   with_threads(run, [&] {
-    const Scene scene(mesh, camera, paint, options, run);
+    const Scene scene(mesh, camera, paints, options, run);
     for (int band = 0; band < options.height; band += kBandPx) {
       run.advance("render", 0.1 + 0.9 * band / options.height);
       const int rows = std::min(kBandPx, options.height - band);
       const SceneBand prepared = scene.band(band, rows, run);
       parallel_for(run, static_cast<std::size_t>(rows), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t row = begin; row < end; ++row) {
-          const int y = band + static_cast<int>(row);
-          for (int x = 0; x < options.width; ++x) {
-            const std::array<Channel, 4> pixel = encoded<Channel>(scene.pixel(x, y, prepared));
-            const std::size_t at =
-                4 * (static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x));
-            std::copy(pixel.begin(), pixel.end(), rgba.begin() + static_cast<std::ptrdiff_t>(at));
+        std::vector<Light> lights(paints.size());
+        for (std::size_t i = begin * width; i < end * width; ++i) {
+          const std::size_t at = 4 * (static_cast<std::size_t>(band) * width + i);
+          scene.pixel(static_cast<int>(i % width), band + static_cast<int>(i / width), prepared,
+                      lights);
+          for (std::size_t c = 0; c < paints.size(); ++c) {
+            const std::array<Channel, 4> pixel = encoded<Channel>(lights[c]);
+            std::copy(pixel.begin(), pixel.end(),
+                      pictures[c].begin() + static_cast<std::ptrdiff_t>(at));
           }
         }
       });
     }
   });
   run.advance("render", 1.0);
-  return rgba;
+  return pictures;
 }
 
 }  // namespace
@@ -107,18 +117,31 @@ void set_quality(RenderOptions& options, Quality quality) {
   options.ambient_rays = kRays[static_cast<std::size_t>(quality)][1];
 }
 
+std::vector<Image> render_coats(const TriMesh& mesh, const Camera& camera,
+                                std::span<const Paint> paints, const RenderOptions& options,
+                                const RunContext& run) {
+  const bool any_materials = std::any_of(paints.begin(), paints.end(), [](const Paint& paint) {
+    return paint.appearance != nullptr && !paint.appearance->materials.empty();
+  });
+  if (paints.empty() || (paints.size() > 1 && any_materials)) {
+    throw InvalidInput("one picture with materials, or any number without, can be drawn at once");
+  }
+  std::vector<Image> images;
+  for (std::vector<std::uint8_t>& rgba : drawn<std::uint8_t>(mesh, camera, paints, options, run)) {
+    images.push_back({options.width, options.height, std::move(rgba)});
+  }
+  return images;
+}
+
 Image render_painted(const TriMesh& mesh, const Camera& camera, const Paint& paint,
                      const RenderOptions& options, const RunContext& run) {
-  Image image{options.width, options.height, {}};
-  image.rgba = drawn<std::uint8_t>(mesh, camera, paint, options, run);
-  return image;
+  return std::move(render_coats(mesh, camera, {&paint, 1}, options, run).front());
 }
 
 DeepImage render_deep(const TriMesh& mesh, const Camera& camera, const Paint& paint,
                       const RenderOptions& options, const RunContext& run) {
-  DeepImage image{options.width, options.height, {}};
-  image.rgba = drawn<std::uint16_t>(mesh, camera, paint, options, run);
-  return image;
+  auto pictures = drawn<std::uint16_t>(mesh, camera, std::span(&paint, 1), options, run);
+  return {options.width, options.height, std::move(pictures.front())};
 }
 
 Image render(const TriMesh& mesh, const Camera& camera, std::span<const Rgb8> vertex_colours,

@@ -89,8 +89,8 @@ std::array<double, 2> pixel_shift(int x, int y) {
   return {radius - std::floor(radius), angle - std::floor(angle)};
 }
 
-/// Largest distance from the frame's origin of anything drawn.
-double scene_reach(const TriMesh& mesh, const CurveGraph& graph, double tube_radius) {
+/// Largest distance from the frame's origin of anything drawn. \pre the mesh is in the frame.
+double scene_reach(const TriMesh& mesh, std::span<const Paint> paints, const UnitFrame& frame) {
   double squared = 0.0;
   for (const Triangle& triangle : mesh.triangles) {
     for (const std::uint32_t v : triangle) {
@@ -98,10 +98,27 @@ double scene_reach(const TriMesh& mesh, const CurveGraph& graph, double tube_rad
     }
   }
   double reach = std::sqrt(squared);
-  for (const Vec3& node : graph.nodes) {
-    reach = std::max(reach, node.norm() + kJointThickness * tube_radius);
+  for (const Paint& paint : paints) {
+    if (paint.overlay.graph != nullptr) {
+      const double thickness = kJointThickness * paint.overlay.radius * frame.scale;
+      for (const Vec3& node : paint.overlay.graph->nodes) {
+        reach = std::max(reach, frame.to_frame(node).norm() + thickness);
+      }
+    }
   }
   return reach > 0.0 ? reach : 1.0;
+}
+
+/// All that may show in the picture.
+std::vector<Vec3> drawn_points(const TriMesh& mesh, std::span<const Paint> paints) {
+  std::vector<Vec3> points = referenced_points(mesh);
+  for (const Paint& paint : paints) {
+    if (paint.overlay.graph != nullptr) {
+      const std::vector<Vec3>& nodes = paint.overlay.graph->nodes;
+      points.insert(points.end(), nodes.begin(), nodes.end());
+    }
+  }
+  return points;
 }
 
 /// The normal turned until it faces the viewer at least a little.
@@ -129,35 +146,23 @@ double pixel_size(const Camera& camera, const UnitFrame& frame, int height_px) {
 
 }  // namespace
 
-Scene::Scene(const TriMesh& mesh, const Camera& camera, const Paint& paint,
+Scene::Scene(const TriMesh& mesh, const Camera& camera, std::span<const Paint> paints,
              const RenderOptions& options, const RunContext& run)
     : options_(options),
       mesh_(mesh),
       colour_(linear_of_srgb(options.colour)),
-      pattern_(sample_pattern(options.samples)),
-      tube_colour_(linear_of_srgb(paint.overlay.colour)) {
-  const TubeOverlay& overlay = paint.overlay;
-  CurveGraph graph = overlay.graph == nullptr ? CurveGraph{} : *overlay.graph;
-  std::vector<Vec3> points = referenced_points(mesh);
-  points.insert(points.end(), graph.nodes.begin(), graph.nodes.end());
-  const UnitFrame frame = unit_frame(points);
+      pattern_(sample_pattern(options.samples)) {
+  const UnitFrame frame = unit_frame(drawn_points(mesh, paints));
   for (Vec3& position : mesh_.positions) {
     position = frame.to_frame(position);
   }
-  for (Vec3& node : graph.nodes) {
-    node = frame.to_frame(node);
-  }
-  const double tube_radius = overlay.radius * frame.scale;
-  const double reach = scene_reach(mesh_, graph, tube_radius);
+  const double reach = scene_reach(mesh_, paints, frame);
   // The shadow on the ground lies around the model.
   const double drawn_reach = options.ground ? (1.0 + kOcclusionReach) * reach : reach;
   pixel_ = pixel_size(camera, frame, options.height);
   rays_.emplace(camera, frame, drawn_reach, options.width, options.height);
-  if (overlay.graph != nullptr) {
-    tubes_.emplace(graph, tube_radius, *rays_, options.width, options.height);
-  }
-  for (const Rgb8& colour : paint.vertex_colours) {
-    colour_of_vertex_.emplace_back(linear_of_srgb(colour).cast<float>());
+  for (const Paint& paint : paints) {
+    add_coat(paint, frame);
   }
   if (options.crease_deg > 0.0) {
     normals_ = corner_normals(mesh_, crease_of(options.crease_deg), run);
@@ -166,16 +171,12 @@ Scene::Scene(const TriMesh& mesh, const Camera& camera, const Paint& paint,
   }
   run.check();
   OpacityOfHit opacity;
-  if (paint.appearance != nullptr && !paint.appearance->materials.empty()) {
-    skin_.emplace(*paint.appearance, mesh_,
-                  pixel_ / std::sqrt(static_cast<double>(options.samples)));
-    if (skin_->has_openings()) {
-      opacity = [this](std::uint32_t face, float u, float v) {
-        return skin_->at(face, u, v).opacity;
-      };
-    }
+  const Coat* coat = coats_.front().get();
+  if (coat->skin && coat->skin->has_openings()) {
+    opacity = [coat](std::uint32_t face, float u, float v) {
+      return coat->skin->at(face, u, v).opacity;
+    };
   }
-  run.check();
   surface_.emplace(mesh_, std::move(opacity));
   mask_.emplace(mesh_, *rays_, pixel_, options.width, options.height);
   std::optional<Floor> floor;
@@ -187,6 +188,28 @@ Scene::Scene(const TriMesh& mesh, const Camera& camera, const Paint& paint,
   if (options.style == Style::Technical) {
     add_lines(reach, run);
   }
+}
+
+void Scene::add_coat(const Paint& paint, const UnitFrame& frame) {
+  auto coat = std::make_unique<Coat>();
+  for (const Rgb8& colour : paint.vertex_colours) {
+    coat->colour_of_vertex.emplace_back(linear_of_srgb(colour).cast<float>());
+  }
+  if (paint.overlay.graph != nullptr) {
+    CurveGraph graph = *paint.overlay.graph;
+    for (Vec3& node : graph.nodes) {
+      node = frame.to_frame(node);
+    }
+    coat->tubes.emplace(graph, paint.overlay.radius * frame.scale, *rays_, options_.width,
+                        options_.height);
+    coat->tube_colour = linear_of_srgb(paint.overlay.colour);
+    has_tubes_ = true;
+  }
+  if (paint.appearance != nullptr && !paint.appearance->materials.empty()) {
+    coat->skin.emplace(*paint.appearance, mesh_,
+                       pixel_ / std::sqrt(static_cast<double>(options_.samples)));
+  }
+  coats_.push_back(std::move(coat));
 }
 
 void Scene::add_lines(double reach, const RunContext& run) {
@@ -241,18 +264,18 @@ Vec3 Scene::to_camera(const Vec3& vector) const {
   return {vector.dot(rays_->right()), vector.dot(rays_->up()), vector.dot(rays_->back())};
 }
 
-Skin::Shown Scene::shown_at(const RayHit& hit) const {
+Skin::Shown Scene::shown_at(const Coat& coat, const RayHit& hit) const {
   Skin::Shown shown;
-  if (skin_) {
-    shown = skin_->at(hit.face, hit.u, hit.v);
+  if (coat.skin) {
+    shown = coat.skin->at(hit.face, hit.u, hit.v);
   }
-  if (colour_of_vertex_.empty()) {
+  if (coat.colour_of_vertex.empty()) {
     shown.colour = shown.has_material ? shown.colour : colour_;
     return shown;
   }
   const Triangle& t = mesh_.triangles[hit.face];
-  const Vec3f colour = (1.0F - hit.u - hit.v) * colour_of_vertex_[t[0]] +
-                       hit.u * colour_of_vertex_[t[1]] + hit.v * colour_of_vertex_[t[2]];
+  const Vec3f colour = (1.0F - hit.u - hit.v) * coat.colour_of_vertex[t[0]] +
+                       hit.u * coat.colour_of_vertex[t[1]] + hit.v * coat.colour_of_vertex[t[2]];
   shown.colour = shown.colour.cwiseProduct(colour.cast<double>().cwiseMax(0.0).cwiseMin(1.0));
   return shown;
 }
@@ -326,45 +349,49 @@ double Scene::shadow(const PictureRay& ray, double t, int x, int y) const {
   return kShadowOpacity * dark * fade * fade * (3.0 - 2.0 * fade);
 }
 
-Light Scene::surface_light(const PictureRay& ray, const RayHit& hit, int x, int y,
-                           std::size_t index, const SceneBand& band, bool before_tube) const {
-  const Skin::Shown shown = shown_at(hit);
+SurfacePoint Scene::surface_at(const Sample& sample, const RayHit& hit) const {
+  const Place place = place_of(sample.ray, hit);
+  SurfacePoint point;
+  point.normal = to_camera(place.normal);
+  point.to_viewer = to_camera(-sample.ray.direction);
+  point.openness = openness(place, sample.x, sample.y, sample.index, *sample.band);
+  return point;
+}
+
+Light Scene::surface_light(const Coat& coat, Sample& sample, const RayHit& hit,
+                           bool before_tube) const {
+  const Skin::Shown shown = shown_at(coat, hit);
   if (shown.unlit) {
     return {shown.colour, shown.opacity};
   }
-  const Place place = place_of(ray, hit);
-  SurfacePoint point;
+  const bool is_first = hit.t == sample.hit.t;
+  if (is_first && !sample.surface) {
+    sample.surface = surface_at(sample, hit);
+  }
+  SurfacePoint point = is_first ? *sample.surface : surface_at(sample, hit);
   point.albedo = shown.colour;
-  point.normal = to_camera(place.normal);
-  point.to_viewer = to_camera(-ray.direction);
-  point.openness = openness(place, x, y, index, band);
   const Vec3 colour =
       options_.style == Style::Technical ? shade_drawing(point) : shade_surface(point);
-  return {colour, shown.opacity * (tubes_ ? translucent_opacity(point, before_tube) : 1.0)};
+  return {colour, shown.opacity * (coat.tubes ? translucent_opacity(point, before_tube) : 1.0)};
 }
 
-Light Scene::sample(const PictureRay& ray, int x, int y, std::size_t index,
-                    const SceneBand& band) const {
+Light Scene::light_of(const Coat& coat, Sample& sample) const {
   Light light;
-  if (!ray.can_hit) {
-    return light;
-  }
-  const RayHit hit = nearest(ray, x, y);
-  const double hit_t = hit ? static_cast<double>(hit.t) : std::numeric_limits<double>::infinity();
-  const double crease_t =
-      creases_ ? creases_->closest_hit(ray, x, y).t : std::numeric_limits<double>::infinity();
-  if (std::isfinite(crease_t) && crease_t <= hit_t) {
+  const PictureRay& ray = sample.ray;
+  const double hit_t =
+      sample.hit ? static_cast<double>(sample.hit.t) : std::numeric_limits<double>::infinity();
+  if (std::isfinite(sample.crease_t) && sample.crease_t <= hit_t) {
     light.behind(kInk, 1.0);
     return light;
   }
-  const TubeHit tube = tubes_ ? tubes_->closest_hit(ray, x, y) : TubeHit{};
+  const TubeHit tube = coat.tubes ? coat.tubes->closest_hit(ray, sample.x, sample.y) : TubeHit{};
   const bool has_tube = std::isfinite(tube.t);
-  RayHit layer = hit;
+  RayHit layer = sample.hit;
   for (int count = 0; layer && static_cast<double>(layer.t) <= tube.t && count < kMostLayers;
        ++count) {
-    const Light seen = surface_light(ray, layer, x, y, index, band, has_tube);
+    const Light seen = surface_light(coat, sample, layer, has_tube);
     light.behind(seen.colour, seen.alpha);
-    if (!skin_ || !skin_->has_openings() || seen.alpha >= 1.0) {
+    if (!coat.skin || !coat.skin->has_openings() || seen.alpha >= 1.0) {
       break;
     }
     layer = surface_->closest_hit(ray.origin.cast<float>(), ray.direction.cast<float>(),
@@ -372,7 +399,7 @@ Light Scene::sample(const PictureRay& ray, int x, int y, std::size_t index,
   }
   if (has_tube) {
     SurfacePoint point;
-    point.albedo = tube_colour_;
+    point.albedo = coat.tube_colour;
     point.normal = to_camera(tube.normal);
     point.to_viewer = to_camera(-ray.direction);
     light.behind(shade_tube(point), 1.0);
@@ -380,7 +407,7 @@ Light Scene::sample(const PictureRay& ray, int x, int y, std::size_t index,
   if (ground_ && light.alpha < 1.0) {
     const double ground_t = ground_->meet(ray);
     if (std::isfinite(ground_t)) {
-      light.behind(Vec3::Zero(), shadow(ray, ground_t, x, y));
+      light.behind(Vec3::Zero(), shadow(ray, ground_t, sample.x, sample.y));
     }
   }
   return light;
@@ -401,25 +428,36 @@ Vec3 Scene::background(int y) const {
   return mixed;
 }
 
-Light Scene::pixel(int x, int y, const SceneBand& band) const {
-  Light sum;
-  const bool is_empty = !mask_->may_show(x, y) && !tubes_ && !creases_ && !ground_;
+void Scene::pixel(int x, int y, const SceneBand& band, std::span<Light> lights) const {
+  std::fill(lights.begin(), lights.end(), Light{});
+  const bool is_empty = !mask_->may_show(x, y) && !has_tubes_ && !creases_ && !ground_;
   for (std::size_t index = 0; index < pattern_.size() && !is_empty; ++index) {
-    const PictureRay ray = rays_->ray(x + 0.5 + pattern_[index][0], y + 0.5 + pattern_[index][1]);
-    const Light light = sample(ray, x, y, index, band);
-    sum.colour += light.colour;
-    sum.alpha += light.alpha;
+    Sample sample{.x = x, .y = y, .index = index, .band = &band};
+    sample.ray = rays_->ray(x + 0.5 + pattern_[index][0], y + 0.5 + pattern_[index][1]);
+    if (!sample.ray.can_hit) {
+      continue;
+    }
+    sample.hit = nearest(sample.ray, x, y);
+    sample.crease_t = creases_ ? creases_->closest_hit(sample.ray, x, y).t
+                               : std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < coats_.size(); ++c) {
+      const Light light = light_of(*coats_[c], sample);
+      lights[c].colour += light.colour;
+      lights[c].alpha += light.alpha;
+    }
   }
   const double count = static_cast<double>(pattern_.size());
   const double outline = band.outlines.empty() ? 0.0 : band.outlines[band_index(x, y, band)];
-  sum.colour = outline * kInk + (1.0 - outline) * (sum.colour / count);
-  sum.alpha = outline + (1.0 - outline) * (sum.alpha / count);
-  if (options_.background) {
-    sum.behind(background(y), 1.0);
+  for (Light& sum : lights) {
+    sum.colour = outline * kInk + (1.0 - outline) * (sum.colour / count);
+    sum.alpha = outline + (1.0 - outline) * (sum.alpha / count);
+    if (options_.background) {
+      sum.behind(background(y), 1.0);
+    }
+    // The mean of light times opacity over the mean opacity: edges keep the surface's own colour.
+    sum = {sum.alpha > 0.0 ? Vec3(sum.colour / sum.alpha) : Vec3(Vec3::Zero()),
+           std::min(sum.alpha, 1.0)};
   }
-  // The mean of light times opacity over the mean opacity: edges keep the surface's own colour.
-  return {sum.alpha > 0.0 ? Vec3(sum.colour / sum.alpha) : Vec3(Vec3::Zero()),
-          std::min(sum.alpha, 1.0)};
 }
 
 }  // namespace vantage

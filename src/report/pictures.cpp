@@ -53,6 +53,21 @@ Image take_picture(const ShapeAnalysis& shape, const Camera& camera, Picture pic
   return draw_picture(shape, camera, picture, options, look, run);
 }
 
+std::vector<Image> take_pictures(const ShapeAnalysis& shape, const Camera& camera,
+                                 std::span<const Picture> pictures, const ViewOptions& options,
+                                 const RunContext& run) {
+  RenderOptions look;
+  set_quality(look, Quality::Normal);
+  std::vector<Canvas> canvases;
+  std::vector<Paint> paints;
+  canvases.reserve(pictures.size());  // paints look into them
+  for (const Picture picture : pictures) {
+    canvases.emplace_back(shape, picture, options, look, nullptr);
+    paints.push_back(canvases.back().paint());
+  }
+  return render_coats(shape.surface, camera, paints, look, run);
+}
+
 Image draw_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
                    const ViewOptions& options, RenderOptions look, const RunContext& run,
                    const Model* asset) {

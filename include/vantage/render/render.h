@@ -87,6 +87,13 @@ struct Paint {
 Image render_painted(const TriMesh& mesh, const Camera& camera, const Paint& paint,
                      const RenderOptions& options = {}, const RunContext& run = {});
 
+/// Pictures of the same mesh from the same camera in several paints, without materials: the rays are
+/// cast once, so that further pictures cost little.
+/// \throw InvalidInput, Cancelled
+std::vector<Image> render_coats(const TriMesh& mesh, const Camera& camera,
+                                std::span<const Paint> paints, const RenderOptions& options = {},
+                                const RunContext& run = {});
+
 /// The same picture in 16 bit a channel. \throw InvalidInput, Cancelled
 DeepImage render_deep(const TriMesh& mesh, const Camera& camera, const Paint& paint,
                       const RenderOptions& options = {}, const RunContext& run = {});
