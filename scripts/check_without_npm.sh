@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${1:-build/without-npm}
-cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DVANTAGE_BUILD_TESTS=OFF -DNPM_PROGRAM=NPM_PROGRAM-NOTFOUND \
+cmake --preset release -B "$build" -DVANTAGE_BUILD_TESTS=OFF -DVANTAGE_BUILD_BENCH=OFF -DNPM_PROGRAM=OFF \
   | grep 'npm not found'
 cmake --build "$build" --target vantage_program >/dev/null
 scratch=$(mktemp -d)
