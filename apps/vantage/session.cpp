@@ -3,10 +3,12 @@
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string_view>
 #include <thread>
 
 #include <pthread.h>
@@ -20,6 +22,13 @@ namespace vantage::cli {
 namespace {
 
 std::atomic<int> first_signal{0};
+
+/// How long a computation may take to notice a signal.
+constexpr std::chrono::milliseconds kGrace{700};
+
+/// Whether the program may be ended at any moment. Once it is being ended it stays so.
+enum class Phase { Writing, Computing, Ending };
+std::atomic<Phase> phase{Phase::Writing};
 
 sigset_t watched_signals() {
   sigset_t set;
@@ -45,10 +54,28 @@ void watch_signals(const std::stop_source& stop) {
       _exit(code_of_signal(number));
     }
     stop.request_stop();
+    std::this_thread::sleep_for(kGrace);
+    Phase computing = Phase::Computing;
+    if (phase.compare_exchange_strong(computing, Phase::Ending)) {
+      constexpr std::string_view kWords = "vantage: interrupted; nothing was left half written\n";
+      std::fwrite(kWords.data(), 1, kWords.size(), stderr);
+      _exit(code_of_signal(number));
+    }
   }
 }
 
 }  // namespace
+
+Abandonable::Abandonable() {
+  phase = Phase::Computing;
+}
+
+Abandonable::~Abandonable() {
+  Phase computing = Phase::Computing;
+  while (!phase.compare_exchange_strong(computing, Phase::Writing)) {
+    ::pause();  // the process is being ended
+  }
+}
 
 Session::Session() {
   // Blocked here, before any other thread exists, so that only the watcher receives them.
