@@ -42,6 +42,11 @@ int code_of_signal(int number) {
   return number == SIGTERM ? kTryAgain : kInterrupted;
 }
 
+const char* words_of_signal(int number) {
+  return number == SIGTERM ? "stopped by SIGTERM before the end; run it again"
+                           : "interrupted; nothing was left half written";
+}
+
 /// Waits for signals in a thread of its own, where more than an async-signal-safe flag is allowed.
 void watch_signals(const std::stop_source& stop) {
   const sigset_t set = watched_signals();
@@ -57,8 +62,7 @@ void watch_signals(const std::stop_source& stop) {
     std::this_thread::sleep_for(kGrace);
     Phase computing = Phase::Computing;
     if (phase.compare_exchange_strong(computing, Phase::Ending)) {
-      constexpr std::string_view kWords = "vantage: interrupted; nothing was left half written\n";
-      std::fwrite(kWords.data(), 1, kWords.size(), stderr);
+      std::fprintf(stderr, "vantage: %s\n", words_of_signal(number));
       _exit(code_of_signal(number));
     }
   }
@@ -137,8 +141,7 @@ int Session::report_failure() {
     throw;
   } catch (const Cancelled&) {
     const int number = first_signal.load();
-    complain(number == SIGTERM ? "stopped by SIGTERM before the end; run it again"
-                               : "interrupted; nothing was left half written");
+    complain(words_of_signal(number));
     return code_of_signal(number);
   } catch (const IoError& error) {
     complain(error.what());

@@ -58,7 +58,7 @@ struct SkeletonCommand {
     const ViewOptions options = method.resolve();
     const RunContext run = session.run();
     const Model loaded = session.load(model);
-    const ShapeAnalysis shape = session.computing([&] {
+    ShapeAnalysis shape = session.computing([&] {
       ShapeAnalysis result = prepare_surface(loaded);
       add_history(result, options, run.part(0.0, 0.8));
       add_skeleton(result, options, run.part(0.8, 1.0));
