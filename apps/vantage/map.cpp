@@ -57,8 +57,9 @@ struct MapCommand {
                                  "goes with --method kssm or thickness only");
     }
     const Model loaded = session.load(model);
-    const ShapeAnalysis shape =
-        by_skeleton ? analyse_shape(loaded, options, session.run()) : prepare_surface(loaded);
+    const ShapeAnalysis shape = session.computing([&] {
+      return by_skeleton ? analyse_shape(loaded, options, session.run()) : prepare_surface(loaded);
+    });
     if (name == "pmi-saliency") {
       require_area(shape, model);
     }

@@ -3,10 +3,12 @@
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string_view>
 #include <thread>
 
 #include <pthread.h>
@@ -21,6 +23,13 @@ namespace {
 
 std::atomic<int> first_signal{0};
 
+/// How long a computation may take to notice a signal.
+constexpr std::chrono::milliseconds kGrace{700};
+
+/// Whether the program may be ended at any moment. Once it is being ended it stays so.
+enum class Phase { Writing, Computing, Ending };
+std::atomic<Phase> phase{Phase::Writing};
+
 sigset_t watched_signals() {
   sigset_t set;
   sigemptyset(&set);
@@ -31,6 +40,11 @@ sigset_t watched_signals() {
 
 int code_of_signal(int number) {
   return number == SIGTERM ? kTryAgain : kInterrupted;
+}
+
+const char* words_of_signal(int number) {
+  return number == SIGTERM ? "stopped by SIGTERM before the end; run it again"
+                           : "interrupted; nothing was left half written";
 }
 
 /// Waits for signals in a thread of its own, where more than an async-signal-safe flag is allowed.
@@ -45,10 +59,27 @@ void watch_signals(const std::stop_source& stop) {
       _exit(code_of_signal(number));
     }
     stop.request_stop();
+    std::this_thread::sleep_for(kGrace);
+    Phase computing = Phase::Computing;
+    if (phase.compare_exchange_strong(computing, Phase::Ending)) {
+      std::fprintf(stderr, "vantage: %s\n", words_of_signal(number));
+      _exit(code_of_signal(number));
+    }
   }
 }
 
 }  // namespace
+
+Abandonable::Abandonable() {
+  phase = Phase::Computing;
+}
+
+Abandonable::~Abandonable() {
+  Phase computing = Phase::Computing;
+  while (!phase.compare_exchange_strong(computing, Phase::Writing)) {
+    ::pause();  // the process is being ended
+  }
+}
 
 Session::Session() {
   // Blocked here, before any other thread exists, so that only the watcher receives them.
@@ -110,8 +141,7 @@ int Session::report_failure() {
     throw;
   } catch (const Cancelled&) {
     const int number = first_signal.load();
-    complain(number == SIGTERM ? "stopped by SIGTERM before the end; run it again"
-                               : "interrupted; nothing was left half written");
+    complain(words_of_signal(number));
     return code_of_signal(number);
   } catch (const IoError& error) {
     complain(error.what());

@@ -35,6 +35,16 @@ struct CommonFlags {
   std::uint64_t seed = 0;
 };
 
+/// While one lives, nothing is being written, so a program that does not answer a signal in time may
+/// be ended without ceremony: some library calls cannot be interrupted. At most one lives at a time.
+class Abandonable {
+ public:
+  Abandonable();
+  ~Abandonable();
+  Abandonable(const Abandonable&) = delete;
+  Abandonable& operator=(const Abandonable&) = delete;
+};
+
 /// One run of the program.
 class Session {
  public:
@@ -59,6 +69,13 @@ class Session {
     auto result = step();
     reading_input_ = false;
     return result;
+  }
+
+  /// Runs a step that computes and writes nothing; a signal ends it within a second, come what may.
+  template <class Step>
+  auto computing(Step&& step) {
+    const Abandonable abandonable;
+    return step();
   }
 
   /// Writes a message to standard error unless `-q` was given.

@@ -58,9 +58,12 @@ struct SkeletonCommand {
     const ViewOptions options = method.resolve();
     const RunContext run = session.run();
     const Model loaded = session.load(model);
-    ShapeAnalysis shape = prepare_surface(loaded);
-    add_history(shape, options, run.part(0.0, 0.8));
-    add_skeleton(shape, options, run.part(0.8, 1.0));
+    ShapeAnalysis shape = session.computing([&] {
+      ShapeAnalysis result = prepare_surface(loaded);
+      add_history(result, options, run.part(0.0, 0.8));
+      add_skeleton(result, options, run.part(0.8, 1.0));
+      return result;
+    });
     write_file(file, bytes(shape));
     if (!levels.empty()) {
       write_levels(loaded, shape);

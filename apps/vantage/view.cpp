@@ -83,13 +83,15 @@ struct ViewCommand {
     seconds.load = seconds_since(start);
     OutputFolder output(folder.empty() ? loaded.name + ".vantage" : folder);
     output.check();
-    const ShapeAnalysis shape = analyse_shape(loaded, options, run.part(0.02, 0.5), &seconds);
+    const ShapeAnalysis shape = session.computing(
+        [&] { return analyse_shape(loaded, options, run.part(0.02, 0.5), &seconds); });
     if (!sums_a_map(options.method)) {
       require_area(shape, model);
     }
     const UpChoice up = choose_up(loaded, shape, options);
     const auto search_start = Clock::now();
-    const ViewReport report = find_views(shape, up, options, run.part(0.5, 0.9));
+    const ViewReport report =
+        session.computing([&] { return find_views(shape, up, options, run.part(0.5, 0.9)); });
     seconds.search = seconds_since(search_start);
 
     const auto render_start = Clock::now();
