@@ -32,9 +32,10 @@ struct EvalCommand {
                    "folder with views.csv and models/, or gaze/ and meshes/, or folders of these; "
                    "or a JSON manifest: docs/evidence.md")
         ->required();
-    app.add_option("-o,--output", output,
-                   "folder for tables.md, views.csv, gaze.csv, and the rows of each model as soon as "
-                   "they are there: a run that was stopped goes on where it was");
+    app.add_option(
+        "-o,--output", output,
+        "folder for tables.md, views.csv, gaze.csv, and the rows of each model as soon as "
+        "they are there: a run that was stopped goes on where it was");
     app.add_option("--method", names, "methods of vantage measures, joined by commas, or all")
         ->capture_default_str();
     app.add_option("--page", page, "also put the tables into this page, between its marks");

@@ -53,9 +53,10 @@ struct ScoreCommand {
                    "this many times")
         ->check(CLI::Range(0, 5))
         ->capture_default_str();
-    app.add_option("--sampling", sampling,
-                   "samples of surface and outline so many times as near to each other as is enough: "
-                   "only to see that it is enough")
+    app.add_option(
+           "--sampling", sampling,
+           "samples of surface and outline so many times as near to each other as is enough: "
+           "only to see that it is enough")
         ->check(CLI::Range(1, 16))
         ->capture_default_str();
     app.add_option("-o,--output", file, "CSV file to write; - is standard output")

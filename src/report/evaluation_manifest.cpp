@@ -128,8 +128,7 @@ class Manifest : private JsonReader {
       if (!has(view, "direction")) {
         fail(where + " has a view without \"direction\"");
       }
-      const bool moved =
-          !has(view, "status") || text(view["status"], where + ".status") == "moved";
+      const bool moved = !has(view, "status") || text(view["status"], where + ".status") == "moved";
       record.views.push_back({direction(view["direction"], where + ".direction"), moved});
     }
   }

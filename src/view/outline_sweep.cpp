@@ -18,8 +18,8 @@ struct Side {
   double x_low = 0.0, x_high = 0.0;  // x there
   double slope = 0.0;                // x for each y
   int step = 0;                      // what is added to the layers from its left to its right
-  std::uint32_t next = kNone;        // the side that goes on where this one ends, and nothing else there
-  bool is_first = true;              // none goes on into this one
+  std::uint32_t next = kNone;  // the side that goes on where this one ends, and nothing else there
+  bool is_first = true;        // none goes on into this one
 
   [[nodiscard]] double at(double y) const {
     // Near a level side rounding may reach beyond its end.
@@ -165,8 +165,9 @@ class Sweep {
   /// Puts a chain where it begins among the others.
   void insert(std::uint32_t side) {
     const double x = sides_[side].x_low;
-    const auto at = std::upper_bound(active_.begin(), active_.end(), x,
-                                     [](double place, const Active& a) { return place < a.bottom; });
+    const auto at =
+        std::upper_bound(active_.begin(), active_.end(), x,
+                         [](double place, const Active& a) { return place < a.bottom; });
     active_.insert(at, {side, side, x, 0.0, sides_[side].step});
   }
 

@@ -51,16 +51,17 @@ TEST_P(MeasuresOfRealModel, KeepTheIdentitiesOfTheChannel) {
   EXPECT_NEAR(i3 / total, terms.mutual_information, kBits);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    DataPack, MeasuresOfRealModel,
-    testing::Values("paper/cow_2904.off", "paper/dinosaur_5026_qem.ply",
-                    "paper/dinosaur_9851_open.off", "paper/rocker-arm_10044.off",
-                    "clean/scad_example009.off", "clean/sh3d_cat.obj", "clean/sh3d_dog.obj",
-                    "clean/block.off", "clean/torus.obj", "clean/goathead.obj",
-                    "clean/triceratops.off", "clean/scad_candleStand.off",
-                    "clean/scad_example020.off", "clean/wingnut.obj", "clean/anchor_dense.off",
-                    "clean/wolf.obj", "clean/homer.obj", "clean/knot2.off",
-                    "clean/scorpion_low_resolution.obj", "clean/octpus.off"));
+INSTANTIATE_TEST_SUITE_P(DataPack, MeasuresOfRealModel,
+                         testing::Values("paper/cow_2904.off", "paper/dinosaur_5026_qem.ply",
+                                         "paper/dinosaur_9851_open.off",
+                                         "paper/rocker-arm_10044.off", "clean/scad_example009.off",
+                                         "clean/sh3d_cat.obj", "clean/sh3d_dog.obj",
+                                         "clean/block.off", "clean/torus.obj", "clean/goathead.obj",
+                                         "clean/triceratops.off", "clean/scad_candleStand.off",
+                                         "clean/scad_example020.off", "clean/wingnut.obj",
+                                         "clean/anchor_dense.off", "clean/wolf.obj",
+                                         "clean/homer.obj", "clean/knot2.off",
+                                         "clean/scorpion_low_resolution.obj", "clean/octpus.off"));
 
 }  // namespace
 }  // namespace vantage
