@@ -27,12 +27,12 @@ RUNS = 3
 MOMENTS = (0.2, 0.7, 1.5, 3.0, 5.0)  # seconds after the start
 
 INTERRUPTED = """
-import sys, time, signal
+import sys, time
 import vantage
+stage = ["load"]
 print("ready", flush=True)
-model = vantage.load(sys.argv[1])
-stage = ["start"]
 try:
+    model = vantage.load(sys.argv[1])
     while True:
         vantage.best_view(model, contraction=sys.argv[2],
                           progress=lambda name, fraction: stage.__setitem__(0, name))
@@ -84,7 +84,8 @@ def interrupt(model, method, moment):
 
 
 def measure_interrupts(models):
-    print("\n| model | contraction | Ctrl-C answered after s, at most | in the stage |\n| --- | --- | --- | --- |")
+    print("\n| model | contraction | Ctrl-C answered after s, at most | in the stage |\n"
+          "| --- | --- | --- | --- |")
     for model in models:
         for method in ("auto", "exact"):
             slowest = max(interrupt(model, method, moment) for moment in MOMENTS)
@@ -124,15 +125,14 @@ def measure_growth():
         now = ask()
         return now.uordblks + now.hblkhd
 
-    axis = np.linspace(-1, 1, 6)
-    V = np.array(np.meshgrid(axis, axis, [0.0, 1.0])).reshape(3, -1).T
-    F = vantage.directions(0).triangles
+    ball = vantage.directions(1)
+    V, F = ball.directions, ball.triangles
     for _ in range(20):
-        vantage.skeleton(V, F)
+        vantage.visible_vertices(V, F, sphere=0)
     before = in_use()
     for _ in range(1000):
-        vantage.skeleton(V, F)
-    print(f"\nA thousand calls of skeleton() on {len(V)} vertices left {in_use() - before} bytes.")
+        vantage.visible_vertices(V, F, sphere=0)
+    print(f"\nA thousand calls of visible_vertices() on {len(V)} vertices left {in_use() - before} bytes.")
 
 
 def main():

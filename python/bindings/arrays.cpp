@@ -108,8 +108,8 @@ py::array_t<double> array_of(const Vec3& v) {
   return py::array_t<double>(3, v.data());
 }
 
-bool is_single_point(const py::object& array) {
-  return array_from(array, "array").ndim() == 1;
+bool is_single_point(const py::object& value) {
+  return array_from(value, "array").ndim() == 1;
 }
 
 std::vector<Vec3> points_of(const py::object& value, const char* name) {

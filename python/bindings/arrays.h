@@ -87,16 +87,16 @@ py::array_t<double> array_of(const Vec3& v);
 /// shapes, no points, coordinates that are not finite, indices that name no vertex.
 TriMesh mesh_of(const py::object& V, const py::object& F);
 
-/// Points of a k × 3 array, or one of three numbers. \param name shown in messages.
-std::vector<Vec3> points_of(const py::object& array, const char* name);
+/// Points of a k × 3 array, or of one of three numbers. \param name shown in messages.
+std::vector<Vec3> points_of(const py::object& value, const char* name);
 
 /// Whether it is one row of numbers rather than a table of them.
-bool is_single_point(const py::object& array);
+bool is_single_point(const py::object& value);
 
 /// Three finite numbers. \param name shown in messages.
 Vec3 vector_of(const py::object& value, const char* name);
 
 /// Colours of an n × 3 array of bytes.
-std::vector<std::array<std::uint8_t, 3>> colours_of(const py::object& array);
+std::vector<std::array<std::uint8_t, 3>> colours_of(const py::object& value);
 
 }  // namespace vantage::python

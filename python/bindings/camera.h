@@ -11,6 +11,6 @@ namespace vantage::python {
 pybind11::dict camera_dict(const Camera& camera);
 
 /// A camera of an object with those fields. \throw InvalidInput for a camera that takes no picture.
-Camera camera_of(const pybind11::object& camera);
+Camera camera_of(const pybind11::object& object);
 
 }  // namespace vantage::python

@@ -112,6 +112,7 @@ class Worker {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
+  // NOLINTNEXTLINE(bugprone-exception-escape): a mutex that fails, or no room for a pointer, may end it
   ~Worker() {
     const py::gil_scoped_release release;
     stop_.request_stop();

@@ -43,7 +43,8 @@ def test_stubs_are_those_that_the_table_makes():
 
 @pytest.mark.skipif(not has("mypy"), reason="SKIPPED: mypy is not installed")
 def test_type_checker_takes_a_users_program_and_refuses_a_wrong_one(tmp_path):
-    wrong = ['vantage.kssm(V, F, fov=3)', 'vantage.kssm(V, F, weight="areas")', 'vantage.kssm(V, 3.5j, levels=1)']
+    wrong = ["vantage.kssm(V, F, fov=3)", 'vantage.kssm(V, F, weight="areas")',
+             "vantage.kssm(V, F, levels=1)"]
     (tmp_path / "user.py").write_text(USER + "\n".join(wrong) + "\n")
     done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", os.devnull,
                            "--no-error-summary", "--hide-error-context", "user.py"], cwd=tmp_path,
