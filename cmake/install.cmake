@@ -19,6 +19,7 @@ set(VANTAGE_PC_LIBS "")
 if(NOT BUILD_SHARED_LIBS)  # an archive does not name what it needs
   set(VANTAGE_PC_LIBS "-ltbb -lembree3 -lpng -ljpeg -lz -lwebpmux -lwebp -lmeshoptimizer -lmetis")
 endif()
+file(RELATIVE_PATH VANTAGE_PC_UP "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 configure_file(cmake/vantage.pc.in vantage.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/vantage.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 install(FILES THIRD_PARTY.md DESTINATION ${VANTAGE_DOC_DIR}/libvantage-dev COMPONENT development)

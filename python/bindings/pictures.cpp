@@ -88,17 +88,22 @@ std::vector<Rgb8> on_surface(const std::vector<Rgb8>& of_input, const ShapeAnaly
   return of_surface;
 }
 
-std::vector<Rgb8> colours_to_draw(const Analysis& analysis, const Settings& settings,
-                                  const std::vector<Rgb8>& given) {
-  if (!given.empty() && given.size() != analysis.shape.surface_vertex.size()) {
-    throw InvalidInput("colours has " + std::to_string(given.size()) + " rows, but the model has " +
+Image drawn(const Analysis& analysis, const Camera& camera, Picture picture,
+            const Settings& settings, RenderOptions look, const std::vector<Rgb8>& colours,
+            const RunContext& run) {
+  if (!colours.empty() && colours.size() != analysis.shape.surface_vertex.size()) {
+    throw InvalidInput("colours has " + std::to_string(colours.size()) +
+                       " rows, but the model has " +
                        std::to_string(analysis.shape.surface_vertex.size()) + " vertices");
   }
-  if (!given.empty()) {
-    return on_surface(given, analysis.shape);
+  if (!colours.empty() && picture == Picture::Plain) {
+    look.width = settings.view.width;
+    look.height = settings.view.height;
+    return render(analysis.shape.surface, camera, on_surface(colours, analysis.shape), {}, look,
+                  run);
   }
-  return settings.asset_colours ? asset_colours(*analysis.model, analysis.shape)
-                                : std::vector<Rgb8>{};
+  const Model* asset = settings.asset_colours ? &*analysis.model : nullptr;
+  return draw_picture(analysis.shape, camera, picture, settings.view, look, run, asset);
 }
 
 py::array render_picture(const py::object& model, const py::object& F, const py::object& direction,
@@ -115,13 +120,12 @@ py::array render_picture(const py::object& model, const py::object& F, const py:
     const auto analysis =
         subject.analysed(settings, needs_map ? with_map : surface_only, run.part(0.0, 0.5));
     const ShapeAnalysis& shape = analysis->shape;
-    const std::vector<Rgb8> drawn = colours_to_draw(*analysis, settings, given);
     const Camera taken = camera_from(from, *analysis, settings.view, run.part(0.5, 0.9));
     RenderOptions look = settings.look;
     if (look.ground) {
       look.up = up_vector(choose_up(*analysis->model, shape, settings.view).axis);
     }
-    return draw_picture(shape, taken, picture, settings.view, look, run.part(0.9, 1.0), drawn);
+    return drawn(*analysis, taken, picture, settings, look, given, run.part(0.9, 1.0));
   });
   return owned_array<std::uint8_t>(std::move(image.rgba),
                                    {py::ssize_t{image.height}, py::ssize_t{image.width}, 4});

@@ -41,7 +41,7 @@ ModelHandle model_of_arrays(const py::object& V, const py::object& F, const std:
 ModelHandle load(const py::object& path, const py::object& progress, int threads) {
   const std::string file = path_text(path);
   return {released({progress, threads}, [&](const RunContext& run) {
-    return std::make_shared<const Model>(load_model(file, run));
+    return std::make_shared<const Model>(load_model(file, run, {.appearance = true}));
   })};
 }
 
@@ -142,8 +142,9 @@ std::shared_ptr<const Analysis> Subject::analysed(const Settings& settings, cons
     return analysis_;
   }
   auto made = std::make_shared<Analysis>();
-  made->model =
-      model_ ? model_ : std::make_shared<const Model>(load_model(path_, run.part(0.0, 0.05)));
+  made->model = model_ ? model_
+                       : std::make_shared<const Model>(load_model(
+                             path_, run.part(0.0, 0.05), {.appearance = settings.asset_colours}));
   made->shape = analyse(*made->model, settings.view, run.part(0.05, 1.0));
   made->settings = settings;
   return made;
