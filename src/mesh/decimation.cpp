@@ -30,9 +30,11 @@ constexpr double kBorder = 1.0;
 constexpr double kMiddle = 1e-3;
 /// A face may turn by at most the angle of this cosine in one collapse [ours: 78°].
 constexpr double kLargestTurn = 0.2;
-/// Far above the target the order among the cheapest edges matters little: passes take them by index,
-/// as they lie in memory, until this many times the target is left [ours].
-constexpr double kFarAbove = 2.0;
+/// Share of the edges, the cheapest ones, that one pass may collapse [ours].
+constexpr double kPassShare = 0.4;
+/// A pass that removes less than this share of the vertices ends the decimation: what is left must
+/// not collapse, and more passes would only crawl.
+constexpr double kLeastProgress = 1e-3;
 constexpr std::size_t kGrain = 4096;  // edges or vertices a task
 constexpr std::uint32_t kNoVertex = 0xffffffffu;
 
@@ -107,11 +109,6 @@ class ByQuadric {
  public:
   static constexpr bool kMayTurn = false;
   static constexpr std::size_t kLargestRing = 14;  // neighbours a collapse may leave
-  /// Share of the edges, the cheapest ones, that one pass may collapse [ours].
-  static constexpr double kPassShare = 0.4;
-  /// A pass that removes less than this share of the vertices ends the decimation: what is left must
-  /// not collapse, and more passes would only crawl.
-  static constexpr double kLeastProgress = 1e-3;
 
   ByQuadric(const TriMesh& mesh, std::span<const double> weights)
       : quadrics_(mesh.positions.size()) {
@@ -174,8 +171,6 @@ class ByLength {
  public:
   static constexpr bool kMayTurn = true;
   static constexpr std::size_t kLargestRing = 32;  // neighbours a collapse may leave
-  static constexpr double kPassShare = 1.0;
-  static constexpr double kLeastProgress = 0.02;
 
   explicit ByLength(std::vector<double> weights) : weights_(std::move(weights)) {}
 
@@ -213,7 +208,7 @@ class Decimator {
       run_.check();
       const std::size_t before = live_;
       pass(target, limit);
-      if (static_cast<double>(before - live_) < Policy::kLeastProgress * static_cast<double>(before)) {
+      if (static_cast<double>(before - live_) < kLeastProgress * static_cast<double>(before)) {
         break;
       }
     }
@@ -264,8 +259,8 @@ class Decimator {
     std::erase_if(edges, [most = *last](const Candidate& edge) { return edge.cost > most; });
   }
 
-  /// The edges of at most this cost, the cheapest of them, by cost or else by index.
-  std::vector<Candidate> cheapest_edges(double share, double limit, bool in_order) {
+  /// The cheapest edges, those of at most this cost, in order.
+  std::vector<Candidate> cheapest_edges(double limit) {
     std::vector<Candidate> edges;
     edges.reserve(3 * mesh_.triangles.size() / 2 + 16);
     for (std::size_t v = 0; v + 1 < faces_.offsets.size(); ++v) {
@@ -289,19 +284,16 @@ class Decimator {
       }
     });
     std::erase_if(edges, [&](const Candidate& edge) { return !(edge.cost < limit); });
-    keep_cheapest(edges, share);
-    if (in_order) {
-      std::sort(edges.begin(), edges.end(), [](const Candidate& x, const Candidate& y) {
-        return std::tie(x.cost, x.a, x.b) < std::tie(y.cost, y.a, y.b);
-      });
-    }
+    keep_cheapest(edges, kPassShare);
+    std::sort(edges.begin(), edges.end(), [](const Candidate& x, const Candidate& y) {
+      return std::tie(x.cost, x.a, x.b) < std::tie(y.cost, y.a, y.b);
+    });
     return edges;
   }
 
   void pass(std::size_t target, double limit) {
     faces_ = vertex_faces(mesh_);
-    const bool far = static_cast<double>(live_) > kFarAbove * static_cast<double>(target);
-    const std::vector<Candidate> edges = cheapest_edges(Policy::kPassShare, limit, !far);
+    const std::vector<Candidate> edges = cheapest_edges(limit);
     moved_.assign(mesh_.positions.size(), false);
     for (const Candidate& edge : edges) {
       if (live_ <= target) {
@@ -381,8 +373,7 @@ class Decimator {
       return false;
     }
     // A tetrahedron, or faces back to back: the common neighbours themselves make an edge of both.
-    const std::size_t ring =
-        ring_a_.size() + ring_b_.size() - 2 - static_cast<std::size_t>(common);
+    const std::size_t ring = ring_a_.size() + ring_b_.size() - 2 - static_cast<std::size_t>(common);
     return ring >= 3 && ring <= Policy::kLargestRing;
   }
 
