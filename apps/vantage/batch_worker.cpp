@@ -8,6 +8,7 @@
 #include <string>
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
@@ -97,6 +98,10 @@ struct BatchWorkerCommand {
   void run(Session& session) {
     kinds_ = OutputKinds::parse(write);
     options_ = view_options_of(method, several, kinds_);
+#if defined(M_ARENA_MAX)
+    // glibc reserves 64 MB of address space for every thread's heap, which counts as memory here.
+    ::mallopt(M_ARENA_MAX, 1);
+#endif
     // Whatever a library prints must not be taken for an answer.
     const int answers = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
     ::dup2(STDERR_FILENO, STDOUT_FILENO);

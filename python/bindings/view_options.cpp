@@ -87,8 +87,9 @@ Option search_option() {
   return word_option(
       "search", "search",
       "global: finds what dense finds, by a fraction of its scores; dense: 10242 directions, then "
-      "refinement, slow; rapid: the paper's; exhaustive: a direction set",
-      {"rapid", "exhaustive", "global", "dense"}, set_search,
+      "refinement, slow; rapid: the paper's; exhaustive: a direction set; gradient: Lee's ascent "
+      "from random starts",
+      {"rapid", "exhaustive", "global", "dense", "gradient"}, set_search,
       [](const Settings& s) { return s.view.search.strategy; });
 }
 
@@ -127,6 +128,21 @@ Option epsilon_option() {
           }};
 }
 
+Option seed_option() {
+  return {.name = "seed",
+          .group = "search",
+          .type = "int",
+          .help = "start of random sequences: search=\"gradient\" draws its starts, from 0 up",
+          .set =
+              [](Settings& s, const py::object& given) {
+                if (!py::isinstance<py::int_>(given) || given < py::int_(0)) {
+                  throw InvalidInput("option seed must be a whole number from 0 up");
+                }
+                s.view.search.seed = given.cast<std::uint64_t>();
+              },
+          .value = [](const Settings& s) { return py::cast(s.view.search.seed); }};
+}
+
 void add_search_options(std::vector<Option>& table) {
   const std::string group = "search";
   table.push_back(word_option(
@@ -136,6 +152,9 @@ void add_search_options(std::vector<Option>& table) {
       [](const Settings& s) { return s.view.search.base; }));
   add_fields(
       table, group, kSearchFields, [](Settings & s) -> auto& { return s.view.search; });
+  add_fields(
+      table, group, kGradientFields, [](Settings & s) -> auto& { return s.view.search; });
+  table.push_back(seed_option());
   table.push_back(epsilon_option());
   table.push_back(switch_option(
       "certify", group, "search densely as well, and tell how far the views found are behind; slow",
