@@ -14,7 +14,9 @@ V, F = torus(8, 6)
 
 # Flags that are no part of the method: files, how it runs, what is printed, moving pictures.
 NOT_KEYWORDS = {"help", "output", "trace", "no-images", "no-report", "preview", "tour",
-                "tour-seconds", "fps", "tour-size", "json", "quiet", "verbose", "config", "levels",
+                "tour-seconds", "fps", "tour-size", "json", "quiet", "verbose", "config", "sampling",
+                "seed",  # every command has it, but only the gradient search draws
+                "levels",
                 "meso"}
 # Switches that turn something off are keywords that are on.
 RENAMED = {"no-prune": "prune", "no-centre": "centre", "no-refine": "refine"}
