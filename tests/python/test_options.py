@@ -15,6 +15,7 @@ V, F = torus(8, 6)
 # Flags that are no part of the method: files, how it runs, what is printed, moving pictures.
 NOT_KEYWORDS = {"help", "output", "trace", "no-images", "no-report", "preview", "tour",
                 "tour-seconds", "fps", "tour-size", "json", "quiet", "verbose", "config", "sampling",
+                "depth",  # arrays have 8 bits a channel
                 "seed",  # every command has it, but only the gradient search draws
                 "levels",
                 "meso"}
@@ -25,10 +26,11 @@ FUNCTIONS = {"view": vantage.best_view, "skeleton": vantage.skeleton, "map": van
 
 
 def flags_of(help_text):
-    """Name, kind and default of each flag in the help of a command; None where it has none."""
-    for name, rest in re.findall(r"^  (?:-\w,)?--([\w-]+)(.*)$", help_text, re.MULTILINE):
-        kind, _, default = rest.split("   ")[0].strip().partition("=")
-        yield name, kind, default or None
+    """Name, kind (N, X, a word or choices) and default of each flag in a command's help; None where it has none."""
+    pattern = r"^ +(?:-\w,)?--([\w-]+)(?:\{\w+\})?(?: (\S+))?(.*(?:\n {30}.*)*)"
+    for name, kind, rest in re.findall(pattern, help_text, re.MULTILINE):
+        default = re.search(r"\((?:\S+ to \S+; )?default: ([^)]+)\)$", re.sub(r"\s+", " ", rest).strip())
+        yield name, kind, default.group(1).split(";")[0] if default else None
 
 
 @pytest.mark.parametrize("command", FUNCTIONS)
@@ -51,7 +53,7 @@ def test_defaults_are_those_of_the_help(program, command):
         if default is None or keyword not in ours or name in ("prior", "size"):
             continue
         value = ours[keyword]
-        if kind.startswith(("FLOAT", "INT")):
+        if kind in ("N", "X"):
             assert math.isclose(float(default), value, rel_tol=1e-12), name
         else:
             assert default == value, name
@@ -63,7 +65,7 @@ def test_defaults_are_those_of_the_help(program, command):
 def test_ranges_are_those_of_the_help(program):
     text = program("view", "--help").decode()
     rows = {row["name"]: row for row in vantage.options()}
-    ranges = re.findall(r"--([\w-]+) \w+:\w+ in \[(\S+) - (\S+)\]", text)
+    ranges = re.findall(r"--([\w-]+) [NX]\s[^()]*(?:\([^()]* [^()]*\)\s+)*?\((\S+) to ([^\s;)]+)", text)
     assert len(ranges) > 12
     for name, low, high in ranges:
         row = rows.get(name.replace("-", "_"))
@@ -74,10 +76,12 @@ def test_ranges_are_those_of_the_help(program):
 def test_choices_are_those_of_the_help(program):
     text = program("view", "--help").decode() + program("render", "--help").decode()
     rows = {row["name"]: row for row in vantage.options()}
-    for name, choices in re.findall(r"--([\w-]+) TEXT:\{([^}]*)\}", text):
+    listed = re.findall(r"--([\w-]+) (\w[\w-]*(?:\|[\w-]+)+)", text)
+    assert len(listed) > 8
+    for name, choices in listed:
         row = rows.get(name.replace("-", "_"))
         if row is not None:
-            assert set(re.findall(r'"([^"]+)"', row["type"])) == set(choices.split(",")), name
+            assert set(re.findall(r'"([^"]+)"', row["type"])) == set(choices.split("|")), name
 
 
 def test_all_defaults_given_are_the_same_as_none():

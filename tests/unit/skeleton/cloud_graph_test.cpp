@@ -66,7 +66,8 @@ TEST(CloudSkeleton, OfATorusIsNoShorterThanTwoThirdsOfItsAxis) {
   for (const auto& [a, b] : graph.edges) {
     length += (graph.nodes[a] - graph.nodes[b]).norm();
   }
-  EXPECT_GT(length, 2.0 / 3.0 * 2.0 * 3.14159);  // a polygon inscribed, drawn inwards by contraction
+  EXPECT_GT(length,
+            2.0 / 3.0 * 2.0 * 3.14159);  // a polygon inscribed, drawn inwards by contraction
 }
 
 }  // namespace
