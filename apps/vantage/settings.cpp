@@ -45,6 +45,12 @@ const CLI::App* command_named(const CLI::App& app, const std::string& name) {
   return found == below.end() ? nullptr : *found;
 }
 
+std::string unknown_option(const std::string& key, const std::string& call) {
+  const std::string where = call.empty() ? "any command; see --help of the command it is meant for"
+                                         : call + "; see vantage " + call + " --help";
+  return "'" + key + "' is not an option of " + where;
+}
+
 /// Refuses keys that no command knows, so that a slip of the pen is not passed over.
 void check_keys(const Json& settings, const CLI::App& app, const std::string& file) {
   for (const auto& [key, value] : settings.items()) {
@@ -54,11 +60,7 @@ void check_keys(const Json& settings, const CLI::App& app, const std::string& fi
     } else if (value.is_object()) {
       throw CLI::ValidationError(file, "'" + key + "' is not a command; see vantage --help");
     } else if (!any_command_has(app, key)) {
-      const std::string call = call_of(app);
-      throw CLI::ValidationError(
-          file, "'" + key + "' is not an option of " +
-                    (call.empty() ? "any command; see --help of the command it is meant for"
-                                  : call + "; see vantage " + call + " --help"));
+      throw CLI::ValidationError(file, unknown_option(key, call_of(app)));
     }
   }
 }
@@ -103,20 +105,23 @@ std::string value_of(const Json& value, const std::string& origin) {
 
 std::optional<Setting> from_file(const Json& settings, const CLI::App& command,
                                  const std::string& option, const std::string& file) {
-  std::vector<const Json*> tables{&settings};  // the most general first
+  const std::string origin = file + ": " + option;
+  std::optional<Setting> found;
+  const Json* table = &settings;  // from what is for all to what is for the command alone
+  const auto look = [&] {
+    if (table->is_object() && table->contains(option)) {
+      found = Setting{value_of(table->at(option), origin), origin};
+    }
+  };
+  look();
   for (const std::string& word : CLI::detail::split(call_of(command), ' ')) {
-    if (!tables.back()->contains(word)) {
+    if (!table->contains(word)) {
       break;
     }
-    tables.push_back(&tables.back()->at(word));
+    table = &table->at(word);
+    look();
   }
-  for (auto table = tables.rbegin(); table != tables.rend(); ++table) {
-    if ((*table)->is_object() && (*table)->contains(option)) {
-      const std::string origin = file + ": " + option;
-      return Setting{value_of((*table)->at(option), origin), origin};
-    }
-  }
-  return std::nullopt;
+  return found;
 }
 
 std::optional<Setting> from_environment(const CLI::App& command, const std::string& option) {

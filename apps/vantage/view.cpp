@@ -70,7 +70,7 @@ struct ViewCommand {
     add_common_flags(app, session.flags);
   }
 
-  void run(Session& session) {
+  void run(Session& session) const {
     const auto start = Clock::now();
     ViewOptions options = session.reading([&] { return method.resolve(session.flags.seed); });
     options.pictures = !no_images;

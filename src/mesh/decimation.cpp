@@ -38,28 +38,29 @@ constexpr double kLeastProgress = 1e-3;
 constexpr std::size_t kGrain = 4096;  // edges or vertices a task
 constexpr std::uint32_t kNoVertex = 0xffffffffu;
 
-/// Sum of squared distances to planes, weighted by area: xᵀ A x − 2 bᵀ x + c, about a near origin.
+/// Sum of squared distances to planes, weighted by area: xᵀ A x − 2 bᵀ x + c, about a near origin; A's
+/// entries are `squares`.
 struct Quadric {
-  std::array<double, 6> A{};  // xx xy xz yy yz zz
+  std::array<double, 6> squares{};  // xx xy xz yy yz zz
   Vec3 b = Vec3::Zero();
   double c = 0.0;
   double weight = 0.0;
 
   void add_plane(const Vec3& normal, const Vec3& point, double w) {
     const double d = normal.dot(point);
-    A[0] += w * normal.x() * normal.x();
-    A[1] += w * normal.x() * normal.y();
-    A[2] += w * normal.x() * normal.z();
-    A[3] += w * normal.y() * normal.y();
-    A[4] += w * normal.y() * normal.z();
-    A[5] += w * normal.z() * normal.z();
+    squares[0] += w * normal.x() * normal.x();
+    squares[1] += w * normal.x() * normal.y();
+    squares[2] += w * normal.x() * normal.z();
+    squares[3] += w * normal.y() * normal.y();
+    squares[4] += w * normal.y() * normal.z();
+    squares[5] += w * normal.z() * normal.z();
     b += w * d * normal;
     c += w * d * d;
     weight += w;
   }
 
   Quadric& operator*=(double factor) {
-    for (double& a : A) {
+    for (double& a : squares) {
       a *= factor;
     }
     b *= factor;
@@ -69,8 +70,8 @@ struct Quadric {
   }
 
   Quadric& operator+=(const Quadric& other) {
-    for (std::size_t i = 0; i < A.size(); ++i) {
-      A[i] += other.A[i];
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+      squares[i] += other.squares[i];
     }
     b += other.b;
     c += other.c;
@@ -79,8 +80,9 @@ struct Quadric {
   }
 
   [[nodiscard]] Vec3 times(const Vec3& x) const {
-    return {A[0] * x.x() + A[1] * x.y() + A[2] * x.z(), A[1] * x.x() + A[3] * x.y() + A[4] * x.z(),
-            A[2] * x.x() + A[4] * x.y() + A[5] * x.z()};
+    return {squares[0] * x.x() + squares[1] * x.y() + squares[2] * x.z(),
+            squares[1] * x.x() + squares[3] * x.y() + squares[4] * x.z(),
+            squares[2] * x.x() + squares[4] * x.y() + squares[5] * x.z()};
   }
 
   [[nodiscard]] double error(const Vec3& x) const {
@@ -91,7 +93,8 @@ struct Quadric {
   [[nodiscard]] Vec3 best_point(const Vec3& middle) const {
     const double pull = kMiddle * weight;
     Eigen::Matrix3d M;
-    M << A[0] + pull, A[1], A[2], A[1], A[3] + pull, A[4], A[2], A[4], A[5] + pull;
+    M << squares[0] + pull, squares[1], squares[2], squares[1], squares[3] + pull, squares[4],
+        squares[2], squares[4], squares[5] + pull;
     const Vec3 x = middle + M.inverse() * (b - times(middle));
     return x.allFinite() ? x : middle;
   }
