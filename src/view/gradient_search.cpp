@@ -103,6 +103,7 @@ void advance(std::vector<Climber>& climbers, Goal goal, Evaluator& evaluator, in
 Candidate search_by_gradient(Evaluator& evaluator, Goal goal, const SearchOptions& options,
                              double total, const RunContext& run) {
   std::vector<Vec3> starts;
+  starts.reserve(static_cast<std::size_t>(options.starts));
   for (int i = 0; i < options.starts; ++i) {
     starts.push_back(random_direction(options.seed, i));
   }
@@ -111,7 +112,9 @@ Candidate search_by_gradient(Evaluator& evaluator, Goal goal, const SearchOption
   }
   const std::vector<double> scores = evaluator.scores(starts, 0);
   std::vector<Climber> climbers;
+  climbers.reserve(starts.size());
   std::vector<Candidate> ends;
+  ends.reserve(starts.size());
   for (std::size_t i = 0; i < starts.size(); ++i) {
     climbers.push_back({.here = {starts[i], scores[i]}});
   }
