@@ -22,3 +22,4 @@ if [[ $(id -u) -eq 0 ]] && command -v debootstrap >/dev/null; then
 else
   echo "packages are not tested: needs root and debootstrap"
 fi
+(cd tests/docs && VANTAGE=$PWD/../../build/release/apps/vantage/vantage python3 -m unittest test_docs)
