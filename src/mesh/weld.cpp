@@ -44,11 +44,13 @@ WeldedMesh weld(const TriMesh& mesh) {
   }
   welded.mesh.triangles.reserve(mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles) {
-    const Triangle triangle{welded.welded_of_vertex[a], welded.welded_of_vertex[b],
-                            welded.welded_of_vertex[c]};
+    Triangle triangle{welded.welded_of_vertex[a], welded.welded_of_vertex[b],
+                      welded.welded_of_vertex[c]};
     if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) {
       ++welded.dropped_faces;
     } else {
+      std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()),
+                  triangle.end());
       welded.mesh.triangles.push_back(triangle);
     }
   }

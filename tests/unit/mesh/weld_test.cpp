@@ -40,6 +40,13 @@ TEST(Weld, DropsFacesThatNameOnePositionTwice) {
   EXPECT_THAT(welded.mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
 }
 
+TEST(Weld, StartsEachFaceAtItsLowestVertexAndKeepsItsWinding) {
+  const TriMesh mesh{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                     .triangles = {{0, 1, 2}, {2, 3, 1}, {3, 2, 0}}};
+  EXPECT_THAT(weld(mesh).mesh.triangles,
+              ElementsAre(Triangle{0, 1, 2}, Triangle{1, 2, 3}, Triangle{0, 3, 2}));
+}
+
 TEST(Weld, PutsASoupTogetherAgain) {
   const TriMesh torus = test::torus(1.0, 0.3, 12, 7);
   const WeldedMesh welded = weld(test::soup(torus));
