@@ -66,7 +66,13 @@ std::vector<Vec3> flat_normals(const TriMesh& surface, double area) {
   return flats;
 }
 
-Eigen::Matrix3d principal_axes(const TriMesh& surface, const std::vector<double>& areas) {
+// Moments closer than this, of the largest, make any direction between their axes as good as any
+// other: rounding would choose.
+constexpr double kLeastMomentGap = 1e-9;
+
+/// The axes along which the surface's area is spread most and least and the third, as far as the
+/// shape has them: none of a cube, one of a ring.
+std::vector<Vec3> principal_axes(const TriMesh& surface, const std::vector<double>& areas) {
   Vec3 centre = Vec3::Zero();
   double area = 0.0;
   const auto middle = [&](const Triangle& t) -> Vec3 {
@@ -82,7 +88,18 @@ Eigen::Matrix3d principal_axes(const TriMesh& surface, const std::vector<double>
     const Vec3 arm = middle(surface.triangles[f]) - centre;
     spread += areas[f] / area * arm * arm.transpose();
   }
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
+  const Vec3& moments = solver.eigenvalues();  // in increasing order
+  const double gap = kLeastMomentGap * moments[2];
+  std::vector<Vec3> axes;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const bool shared = (axis > 0 && moments[axis] - moments[axis - 1] <= gap) ||
+                        (axis < 2 && moments[axis + 1] - moments[axis] <= gap);
+    if (!shared) {
+      axes.emplace_back(solver.eigenvectors().col(axis));
+    }
+  }
+  return axes;
 }
 
 }  // namespace
@@ -101,9 +118,8 @@ std::vector<Vec3> landmark_directions(const TriMesh& surface) {
   for (int axis = 0; axis < 3; ++axis) {
     lines.emplace_back(Vec3::Unit(axis));
   }
-  const Eigen::Matrix3d principal = principal_axes(surface, areas);
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    lines.emplace_back(principal.col(axis));
+  for (const Vec3& axis : principal_axes(surface, areas)) {
+    lines.push_back(axis);
   }
   for (const Vec3& normal : flat_normals(surface, area)) {
     lines.emplace_back(normal.normalized());

@@ -34,6 +34,13 @@ TEST(Landmarks, OfATurnedCubeAreItsSixNormalsAndTheSixAxes) {
   }
 }
 
+TEST(Landmarks, OfATurnedRingHoldItsAxisAndNoChanceDirection) {
+  const TriMesh ring = test::moved(test::torus(1.0, 0.3, 48, 24), 1.0, 0.7, kAxis, Vec3::Zero());
+  const std::vector<Vec3> found = landmark_directions(ring);
+  EXPECT_EQ(found.size(), 8U);  // three axes of the coordinates and its own, both ways
+  EXPECT_TRUE(holds(found, kTurn * Vec3::UnitZ()));
+}
+
 TEST(Landmarks, OfARoundSurfaceAreAxesAlone) {
   const std::vector<Vec3> found = landmark_directions(test::sphere(4));
   EXPECT_LE(found.size(), 12U);  // six of the coordinates, six of whatever the principal axes are
