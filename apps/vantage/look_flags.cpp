@@ -3,58 +3,21 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
-#include <string_view>
+#include <string>
+
+#include "vantage/core/error.h"
 
 namespace vantage::cli {
 namespace {
 
 constexpr std::array<const char*, 3> kQualities{"draft", "normal", "fine"};
 
-/// "white", "black" or "#rrggbb".
-Rgb8 parse_colour(const std::string& text) {
-  if (text == "white") {
-    return Rgb8{255, 255, 255};
-  }
-  if (text == "black") {
-    return Rgb8{0, 0, 0};
-  }
-  Rgb8 colour{};
-  bool good = text.size() == 7 && text.front() == '#';
-  for (std::size_t i = 0; good && i < 3; ++i) {
-    const char* first = text.data() + 1 + 2 * i;
-    const auto [end, error] = std::from_chars(first, first + 2, colour[i], 16);
-    good = error == std::errc{} && end == first + 2;
-  }
-  if (!good) {
-    throw CLI::ValidationError("--background",
-                               "expected transparent, gradient, white, black, #rrggbb, or two "
-                               "colours as TOP:BOTTOM, found '" +
-                                   text + "'");
-  }
-  return colour;
-}
-
-// From nearly white above to a light blue grey, so that clay and drawings both stand out. [ours]
-constexpr Rgb8 kGradientTop{250, 251, 252};
-constexpr Rgb8 kGradientBottom{190, 198, 208};
-
-void set_background(RenderOptions& look, const std::string& text) {
-  look.background.reset();
-  look.background_bottom.reset();
-  if (text == "transparent") {
-    return;
-  }
-  if (text == "gradient") {
-    look.background = kGradientTop;
-    look.background_bottom = kGradientBottom;
-    return;
-  }
-  const std::size_t colon = text.find(':');
-  look.background = parse_colour(text.substr(0, colon));
-  if (colon != std::string::npos) {
-    look.background_bottom = parse_colour(text.substr(colon + 1));
+void take_background(RenderOptions& look, const std::string& text) {
+  try {
+    set_background(look, text);
+  } catch (const InvalidInput& error) {
+    throw CLI::ValidationError("--background", error.what());
   }
 }
 
@@ -78,7 +41,7 @@ void LookFlags::add_to(CLI::App& app, Quality quality, bool asset) {
       ->default_str(kQualities[static_cast<std::size_t>(quality)])
       ->group(group);
   app.add_option_function<std::string>(
-         "--background", [this](const std::string& text) { set_background(look_, text); },
+         "--background", [this](const std::string& text) { take_background(look_, text); },
          "transparent, gradient, white, black, #rrggbb, or two of these colours as TOP:BOTTOM")
       ->default_str("transparent")
       ->group(group);

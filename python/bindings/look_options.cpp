@@ -1,59 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "look_options.h"
 
-#include <charconv>
-#include <string_view>
-#include <system_error>
+#include <string>
 
 #include "option_makers.h"
 
 namespace vantage::python {
 namespace {
 
-// From nearly white above to a light blue grey, as the program's gradient. [ours]
-constexpr Rgb8 kGradientTop{250, 251, 252};
-constexpr Rgb8 kGradientBottom{190, 198, 208};
-
-/// "white", "black" or "#rrggbb".
-Rgb8 parse_colour(std::string_view text) {
-  if (text == "white") {
-    return {255, 255, 255};
-  }
-  if (text == "black") {
-    return {0, 0, 0};
-  }
-  Rgb8 colour{};
-  bool good = text.size() == 7 && text.front() == '#';
-  for (std::size_t i = 0; good && i < 3; ++i) {
-    const char* first = text.data() + 1 + 2 * i;
-    const auto [end, error] = std::from_chars(first, first + 2, colour[i], 16);
-    good = error == std::errc{} && end == first + 2;
-  }
-  if (!good) {
-    throw InvalidInput(
-        "option background must be transparent, gradient, white, black, #rrggbb, or two colours "
-        "as TOP:BOTTOM, not '" +
-        std::string(text) + "'");
-  }
-  return colour;
-}
-
-void set_background(Settings& s, const py::object& given) {
+void take_background(Settings& s, const py::object& given) {
   const auto text = cast_option<std::string>(given, "background");
-  s.look.background.reset();
-  s.look.background_bottom.reset();
-  if (text == "transparent") {
-    return;
-  }
-  if (text == "gradient") {
-    s.look.background = kGradientTop;
-    s.look.background_bottom = kGradientBottom;
-    return;
-  }
-  const std::size_t colon = text.find(':');
-  s.look.background = parse_colour(std::string_view(text).substr(0, colon));
-  if (colon != std::string::npos) {
-    s.look.background_bottom = parse_colour(std::string_view(text).substr(colon + 1));
+  try {
+    set_background(s.look, text);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(std::string("option background: ") + error.what());
   }
 }
 
@@ -94,7 +54,7 @@ void add_look_options(std::vector<Option>& table) {
                    .type = "str",
                    .help = "transparent, gradient, white, black, #rrggbb, or two of these colours "
                            "as TOP:BOTTOM; unset: transparent",
-                   .set = set_background,
+                   .set = take_background,
                    .value = background_name});
   table.push_back(style_option());
   table.push_back(switch_option(

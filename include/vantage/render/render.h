@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -60,6 +61,11 @@ inline constexpr auto kRenderFields = std::tuple{
 
 /// Sets the numbers of rays.
 void set_quality(RenderOptions& options, Quality quality);
+
+/// Sets the background from a word: "transparent", "gradient", "white", "black", "#rrggbb", or two
+/// of these colours as "TOP:BOTTOM".
+/// \throw InvalidInput for any other text; `options` are then as they were.
+void set_background(RenderOptions& options, std::string_view text);
 
 /// A curve drawn as tubes through the surface, which then becomes translucent.
 struct TubeOverlay {
