@@ -7,8 +7,6 @@
 Times are medians of alternating runs; CPU seconds are the user's, of the calls alone or of the whole
 program.
 """
-import ctypes
-import gc
 import os
 import pathlib
 import resource
@@ -22,6 +20,9 @@ import time
 import numpy as np
 
 import vantage
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "tests/python"))
+from heap import bytes_in_use  # noqa: E402
 
 RUNS = 3
 MOMENTS = (0.2, 0.7, 1.5, 3.0, 5.0)  # seconds after the start
@@ -112,27 +113,14 @@ def measure_arrays():
 
 def measure_growth():
     """Bytes that malloc has not got back after a thousand calls."""
-    class Mallinfo2(ctypes.Structure):
-        _fields_ = [(name, ctypes.c_size_t) for name in (
-            "arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks",
-            "fordblks", "keepcost")]
-
-    ask = ctypes.CDLL(None).mallinfo2
-    ask.restype = Mallinfo2
-
-    def in_use():
-        gc.collect()
-        now = ask()
-        return now.uordblks + now.hblkhd
-
     ball = vantage.directions(1)
     V, F = ball.directions, ball.triangles
     for _ in range(20):
         vantage.visible_vertices(V, F, sphere=0)
-    before = in_use()
+    before = bytes_in_use()
     for _ in range(1000):
         vantage.visible_vertices(V, F, sphere=0)
-    print(f"\nA thousand calls of visible_vertices() on {len(V)} vertices left {in_use() - before} bytes.")
+    print(f"\nA thousand calls of visible_vertices() on {len(V)} vertices left {bytes_in_use() - before} bytes.")
 
 
 def main():

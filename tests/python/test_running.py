@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Progress, Ctrl-C, threads, errors and memory."""
 
-import ctypes
-import gc
 import os
 import pickle
 import signal
@@ -14,6 +12,7 @@ import numpy as np
 import pytest
 
 from conftest import torus
+from heap import bytes_in_use
 import vantage
 
 V, F = torus(24, 12, bump=0.1)
@@ -199,20 +198,6 @@ def test_results_can_be_pickled(cat):
     result = vantage.best_view(cat, search="rapid")
     again = pickle.loads(pickle.dumps(result))
     assert again.json == result.json and np.array_equal(again.best.eye, result.best.eye)
-
-
-def bytes_in_use():
-    """What malloc has given out and not got back."""
-    class Mallinfo2(ctypes.Structure):
-        _fields_ = [(name, ctypes.c_size_t) for name in (
-            "arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks",
-            "fordblks", "keepcost")]
-
-    ask = ctypes.CDLL(None).mallinfo2
-    ask.restype = Mallinfo2
-    gc.collect()
-    now = ask()
-    return now.uordblks + now.hblkhd
 
 
 @pytest.mark.parametrize("call", [
