@@ -14,9 +14,10 @@ if [[ ! -d $tree/usr ]]; then
 fi
 cp /etc/resolv.conf "$tree/etc/resolv.conf"
 cp /etc/hosts "$tree/etc/hosts"
-cp "$build"/packages/*.deb models/fan.ply examples/best_view.cpp tests/install/consumer/CMakeLists.txt "$tree/root/"
-inside() { chroot "$tree" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root \
-  DEBIAN_FRONTEND=noninteractive http_proxy="${http_proxy:-}" https_proxy="${https_proxy:-}" sh -euc "cd /root; $1"; }
+mkdir -p "$tree/opt/trial"
+cp "$build"/packages/*.deb models/fan.ply examples/best_view.cpp tests/install/consumer/CMakeLists.txt "$tree/opt/trial/"
+inside() { chroot "$tree" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/opt/trial \
+  DEBIAN_FRONTEND=noninteractive http_proxy="${http_proxy:-}" https_proxy="${https_proxy:-}" sh -euc "cd /opt/trial; $1"; }
 
 echo "== two commands from the package to the first picture"
 inside 'apt-get update -qq && apt-get install -y -qq --no-install-recommends ./vantage_*.deb >/dev/null'
@@ -25,7 +26,7 @@ inside 'test -s fan.vantage/best.png && test -s /usr/share/man/man1/vantage-view
 
 echo "== a program against the installed library, by CMake and by pkg-config"
 inside 'apt-get install -y -qq --no-install-recommends ./libvantage-dev_*.deb g++ cmake make pkgconf >/dev/null'
-inside 'cmake -DEXAMPLE=/root/best_view.cpp -S . -B consumer >/dev/null && cmake --build consumer >/dev/null'
+inside 'cmake -DEXAMPLE=/opt/trial/best_view.cpp -S . -B consumer >/dev/null && cmake --build consumer >/dev/null'
 inside 'consumer/consumer fan.ply a.png && test -s a.png'
 inside 'g++ $(pkg-config --cflags vantage) best_view.cpp $(pkg-config --libs vantage) -o by_pc && ./by_pc fan.ply b.png'
 inside 'cmp a.png b.png'
