@@ -7,6 +7,7 @@
                                           folder that VANTAGE_DENSE names, if it does, and taken from there
     measure.py smooth PROGRAM MODEL...    the largest change of score per degree between neighbouring directions
     measure.py thumb  PROGRAM MODEL...    thumbnails: seconds, and their view against the best one
+    measure.py pictures PROGRAM MODEL...  seconds of whole commands that draw, medians of three
     measure.py broken PROGRAM FOLDER      how every file of a folder ends, under limits
 
 Only ratios of one run mean something on a shared machine.
@@ -160,17 +161,40 @@ def upright_prior(direction, up):
                     - 0.08 * (1 - front) - 0.04 * (1 - side))
 
 
+def timed(program, *arguments):
+    """Wall and processor seconds of a command, and what it prints."""
+    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, check=True)
+    wall = time.monotonic() - start
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return wall, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, done.stdout
+
+
+def pictures_table(program, models):
+    size = ("--size", "512x512", "--direction", "1,0.2,0.3")
+    with tempfile.TemporaryDirectory() as folder:
+        commands = {"`info`": ("info",), "`thumb`, 256²": ("thumb", "-o", f"{folder}/t.png"),
+                    **{f"`render --quality {q}`, 512²": ("render", "-o", f"{folder}/r.png", "--quality", q, *size)
+                       for q in ("draft", "normal", "fine")}}
+        print("| model |", " | ".join(commands), "|")
+        print("| --- " * (1 + len(commands)) + "|")
+        for model in models:
+            cells = []
+            for name, *flags in commands.values():
+                runs = [timed(program, name, model, *flags)[:2] for _ in range(3)]
+                wall, cpu = (statistics.median(column) for column in zip(*runs))
+                cells.append(f"{wall:.2f} ({cpu:.2f})")
+            print(f"| {pathlib.Path(model).stem} |", " | ".join(cells), "|", flush=True)
+
+
 def thumb_table(program, models):
     """The view of a thumbnail: its objective under the whole method's own map against the best one's."""
     print("| model | vertices | wall s | CPU s | up as in view | objective / the best | angle to the best |")
     print("| --- " * 7 + "|")
     with tempfile.TemporaryDirectory() as folder:
         for model in models:
-            before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
-            thumb = run(program, "thumb", model, f"{folder}/thumb.png", "--json")
-            wall = time.monotonic() - start
-            after = resource.getrusage(resource.RUSAGE_CHILDREN)
-            cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+            wall, cpu, said = timed(program, "thumb", model, f"{folder}/thumb.png", "--json")
+            thumb = json.loads(said)
             view = run(program, "view", model, "-o", f"{folder}/view", "--no-images", "--json")
             directions = pathlib.Path(folder, "directions.csv")
             directions.write_text("dx,dy,dz\n" + ",".join(map(repr, thumb["direction"])) + "\n")
@@ -218,7 +242,7 @@ def broken_table(program, folder):
 
 def main():
     tables = {"view": view_table, "rapid": rapid_table, "global": global_table, "smooth": smooth_table,
-              "thumb": thumb_table}
+              "thumb": thumb_table, "pictures": pictures_table}
     if len(sys.argv) >= 4 and sys.argv[1] in tables:
         tables[sys.argv[1]](sys.argv[2], sys.argv[3:])
     elif len(sys.argv) == 4 and sys.argv[1] == "broken":

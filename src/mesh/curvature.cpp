@@ -19,7 +19,7 @@ constexpr std::size_t kUnknowns = 5;
 
 /// Vertices whose faces close one ring around them.
 std::vector<bool> ringed_vertices(const TriMesh& mesh, const EdgeTable& table) {
-  const std::vector<std::uint32_t> fans = count_fans(mesh, table);
+  const std::vector<std::uint32_t> fans = count_fans(mesh);
   std::vector<bool> ringed(fans.size());
   for (std::size_t v = 0; v < fans.size(); ++v) {
     ringed[v] = fans[v] == 1;

@@ -32,17 +32,36 @@ bool runs_from(const Triangle& t, std::uint32_t a, std::uint32_t b) {
   return t[(corner_at(t, a) + 1) % 3] == b;
 }
 
-std::size_t count_duplicate_faces(const TriMesh& mesh) {
-  std::vector<Triangle> sorted = mesh.triangles;
-  for (Triangle& t : sorted) {
-    std::sort(t.begin(), t.end());
+/// Faces of the same three vertices as another one, all but one of each.
+std::size_t count_duplicate_faces(const TriMesh& mesh, const EdgeTable& table) {
+  std::size_t duplicates = 0;
+  std::vector<std::uint32_t> highest;  // corners of the faces whose lowest side is this edge
+  for (std::size_t e = 0; e < table.edges.size(); ++e) {
+    highest.clear();
+    for (const std::uint32_t f : table.faces_of_edge[e]) {
+      const Triangle& t = mesh.triangles[f];
+      const std::uint32_t last = std::max({t[0], t[1], t[2]});
+      if (last > table.edges[e][1]) {
+        highest.push_back(last);
+      }
+    }
+    std::sort(highest.begin(), highest.end());
+    const auto end = std::unique(highest.begin(), highest.end());
+    duplicates += static_cast<std::size_t>(highest.end() - end);
   }
-  std::sort(sorted.begin(), sorted.end());
-  const auto end = std::unique(sorted.begin(), sorted.end());
-  return static_cast<std::size_t>(sorted.end() - end);
+  std::vector<Triangle> collapsed;  // these have no sides in the table
+  for (Triangle t : mesh.triangles) {
+    if (names_a_vertex_twice(t)) {
+      std::sort(t.begin(), t.end());
+      collapsed.push_back(t);
+    }
+  }
+  std::sort(collapsed.begin(), collapsed.end());
+  const auto end = std::unique(collapsed.begin(), collapsed.end());
+  return duplicates + static_cast<std::size_t>(collapsed.end() - end);
 }
 
-void count_faces(const TriMesh& mesh, MeshReport& report) {
+void count_faces(const TriMesh& mesh, const EdgeTable& table, MeshReport& report) {
   const double diameter = enclosing_sphere(referenced_points(mesh)).diameter;
   const double empty = kZeroArea * diameter * diameter;
   for (const Triangle& t : mesh.triangles) {
@@ -50,7 +69,7 @@ void count_faces(const TriMesh& mesh, MeshReport& report) {
     report.repeated_index_faces += repeated ? 1 : 0;
     report.zero_area_faces += repeated || 0.5 * area_vector(mesh, t).norm() <= empty ? 1 : 0;
   }
-  report.duplicate_faces = count_duplicate_faces(mesh);
+  report.duplicate_faces = count_duplicate_faces(mesh, table);
 }
 
 /// Connected groups of the edges that have one face.
@@ -139,9 +158,9 @@ MeshReport check_mesh(const TriMesh& mesh) {
   report.components = connected_components(mesh).count - report.isolated_vertices;
 
   const EdgeTable table = build_edge_table(mesh);
-  count_faces(mesh, report);
+  count_faces(mesh, table, report);
   count_edges(mesh, table, report);
-  const std::vector<std::uint32_t> fans = count_fans(mesh, table);
+  const std::vector<std::uint32_t> fans = count_fans(mesh);
   report.non_manifold_vertices = static_cast<std::size_t>(
       std::count_if(fans.begin(), fans.end(), [](std::uint32_t count) { return count > 1; }));
   report.closed =
@@ -149,7 +168,7 @@ MeshReport check_mesh(const TriMesh& mesh) {
   report.oriented =
       !table.edges.empty() && report.non_manifold_edges == 0 && report.inconsistent_edges == 0;
   report.signed_volume = signed_volume(mesh);
-  if (report.closed && is_orientable(mesh, table)) {
+  if (report.closed && (report.oriented || is_orientable(mesh, table))) {
     report.genus = total_genus(mesh, table, fans);
   }
   return report;

@@ -139,26 +139,30 @@ Components connected_components(const TriMesh& mesh) {
   return components;
 }
 
-std::vector<std::uint32_t> count_fans(const TriMesh& mesh, const EdgeTable& table) {
-  DisjointSets corners(3 * mesh.triangles.size());
-  const auto corner_id = [&](std::uint32_t face, std::uint32_t v) {
-    return 3 * face + corner_at(mesh.triangles[face], v);
-  };
-  for (std::size_t e = 0; e < table.edges.size(); ++e) {
-    const auto faces = table.faces_of_edge[e];
-    for (const std::uint32_t face : faces) {
-      for (const std::uint32_t v : table.edges[e]) {
-        corners.join(corner_id(faces[0], v), corner_id(face, v));
+std::vector<std::uint32_t> count_fans(const TriMesh& mesh) {
+  const IndexLists faces_of = vertex_faces(mesh);
+  std::vector<std::uint32_t> fans(mesh.positions.size(), 0);
+  std::vector<std::array<std::uint32_t, 2>>
+      spokes;  // other end of a side at the vertex, face there
+  for (std::uint32_t v = 0; v < fans.size(); ++v) {
+    spokes.clear();
+    std::uint32_t faces = 0;
+    for (const std::uint32_t f : faces_of[v]) {
+      const Triangle& t = mesh.triangles[f];
+      if (!names_a_vertex_twice(t)) {
+        const std::size_t corner = corner_at(t, v);
+        spokes.push_back({t[(corner + 1) % 3], faces});
+        spokes.push_back({t[(corner + 2) % 3], faces});
+        ++faces;
       }
     }
-  }
-  std::vector<std::uint32_t> fans(mesh.positions.size(), 0);
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-    if (names_a_vertex_twice(mesh.triangles[f])) {
-      continue;
-    }
-    for (std::uint32_t c = 0; c < 3; ++c) {
-      fans[mesh.triangles[f][c]] += corners.root(3 * f + c) == 3 * f + c ? 1 : 0;
+    std::sort(spokes.begin(), spokes.end());
+    DisjointSets groups(faces);
+    fans[v] = faces;
+    for (std::size_t i = 1; i < spokes.size(); ++i) {
+      if (spokes[i][0] == spokes[i - 1][0] && groups.join(spokes[i - 1][1], spokes[i][1])) {
+        --fans[v];
+      }
     }
   }
   return fans;

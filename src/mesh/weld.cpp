@@ -2,35 +2,45 @@
 #include "vantage/mesh/weld.h"
 
 #include <algorithm>
-#include <array>
-#include <numeric>
+#include <tuple>
 
 namespace vantage {
 namespace {
 
-bool before(const Vec3& a, const Vec3& b) {
-  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+/// For each point the lowest index among the points at its position.
+std::vector<std::uint32_t> first_of_position(const std::vector<Vec3>& points) {
+  // Sorted by x first, in one run of memory: few points share it, so few others are looked up.
+  struct Key {
+    double x = 0.0;
+    std::uint32_t point = 0;
+  };
+
+  std::vector<Key> keys(points.size());
+  for (std::uint32_t v = 0; v < points.size(); ++v) {
+    keys[v] = {points[v].x(), v};
+  }
+  std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
+    if (a.x != b.x) {
+      return a.x < b.x;
+    }
+    const Vec3& p = points[a.point];
+    const Vec3& q = points[b.point];
+    return std::tie(p.y(), p.z(), a.point) < std::tie(q.y(), q.z(), b.point);
+  });
+  std::vector<std::uint32_t> first(points.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const std::uint32_t v = keys[i].point;
+    const bool same = i > 0 && points[v] == points[keys[i - 1].point];
+    first[v] = same ? first[keys[i - 1].point] : v;
+  }
+  return first;
 }
 
 }  // namespace
 
 WeldedMesh weld(const TriMesh& mesh) {
   const std::size_t vertex_count = mesh.positions.size();
-  std::vector<std::uint32_t> order(vertex_count);
-  std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const Vec3& p = mesh.positions[a];
-    const Vec3& q = mesh.positions[b];
-    return p == q ? a < b : before(p, q);
-  });
-
-  // The first of each run of equal positions has the lowest index and stands for the run.
-  std::vector<std::uint32_t> first(vertex_count);
-  for (std::size_t i = 0; i < vertex_count; ++i) {
-    const bool same = i > 0 && mesh.positions[order[i]] == mesh.positions[order[i - 1]];
-    first[order[i]] = same ? first[order[i - 1]] : order[i];
-  }
-
+  const std::vector<std::uint32_t> first = first_of_position(mesh.positions);
   WeldedMesh welded;
   welded.welded_of_vertex.resize(vertex_count);
   for (std::uint32_t v = 0; v < vertex_count; ++v) {

@@ -194,10 +194,16 @@ Vec3 odd_direction(int turn) {
 /// Tells for closed shells whether an odd number of other closed shells holds them.
 class Nesting {
  public:
-  explicit Nesting(const Shells& shells)
-      : shells_(shells), scene_(shells.positions, shells.faces) {}
+  explicit Nesting(const Shells& shells) : shells_(shells) {
+    if (std::count(shells.closed.begin(), shells.closed.end(), 1) > 1) {
+      scene_.emplace(shells.positions, shells.faces);
+    }
+  }
 
   bool odd(std::uint32_t shell) {
+    if (!scene_) {
+      return false;  // there is no other one
+    }
     int votes = 0;
     int odd_votes = 0;
     for (int turn = 0; turn < kMaxRays && votes < kVotes; ++turn) {
@@ -218,8 +224,8 @@ class Nesting {
     const Vec3 start = (shells_.positions[a] + shells_.positions[b] + shells_.positions[c]) / 3.0;
     const Vec3 direction = odd_direction(turn);
     std::vector<std::uint32_t> hit_shells;
-    const bool doubtful =
-        scene_.any(start, direction, std::numeric_limits<double>::infinity(), [&](std::uint32_t f) {
+    const bool doubtful = scene_->any(
+        start, direction, std::numeric_limits<double>::infinity(), [&](std::uint32_t f) {
           const std::uint32_t other = shells_.shell_of[f];
           if (other == shell || shells_.closed[other] == 0) {
             return false;
@@ -240,7 +246,7 @@ class Nesting {
   }
 
   const Shells& shells_;
-  CandidateScene scene_;
+  std::optional<CandidateScene> scene_;
 };
 
 }  // namespace

@@ -43,8 +43,7 @@ IndexLists vertex_neighbours(const TriMesh& mesh);
 IndexLists vertex_faces(const TriMesh& mesh);
 
 /// For each vertex the number of fans: groups of its faces that hang together over shared edges.
-/// \pre `table` is that of build_edge_table(mesh).
-std::vector<std::uint32_t> count_fans(const TriMesh& mesh, const EdgeTable& table);
+std::vector<std::uint32_t> count_fans(const TriMesh& mesh);
 
 /// Label of the connected component of each vertex, numbered by lowest vertex index; vertices that
 /// no face names are components of their own.

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/mesh/mesh_check.h"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -101,6 +104,23 @@ TEST(CheckMesh, CountsFacesThatAppearAgainInAnyOrder) {
   mesh.triangles.push_back({1, 0, 2});
   mesh.triangles.push_back({2, 1, 0});
   EXPECT_EQ(check_mesh(mesh).duplicate_faces, 2U);
+}
+
+TEST(CheckMesh, CountsAsManyRepeatedFacesAsASetOfThemLeavesOut) {
+  std::mt19937 random(11);
+  const auto vertex = [&] { return static_cast<std::uint32_t>(random() % 5U); };
+  for (int round = 0; round < 50; ++round) {
+    TriMesh mesh{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}},
+                 .triangles = {}};
+    std::set<Triangle> different;
+    for (int face = 0; face < 12; ++face) {
+      Triangle t{vertex(), vertex(), vertex()};
+      mesh.triangles.push_back(t);
+      std::sort(t.begin(), t.end());
+      different.insert(t);
+    }
+    EXPECT_EQ(check_mesh(mesh).duplicate_faces, 12U - different.size()) << "round " << round;
+  }
 }
 
 TEST(CheckMesh, CountsAnEdgeOfFourFacesAsNonManifold) {

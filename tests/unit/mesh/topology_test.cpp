@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/mesh/topology.h"
 
+#include <algorithm>
+#include <iterator>
+#include <random>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -70,6 +74,51 @@ TEST(EulerCharacteristic, OfATorusIsZeroAndOfASphereTwo) {
     EXPECT_EQ(
         static_cast<long>(mesh.positions.size()) - edges + static_cast<long>(mesh.triangles.size()),
         expected);
+  }
+}
+
+/// Fans at v by growing them from each face over shared sides until nothing is added.
+std::uint32_t fans_by_growing(const TriMesh& mesh, std::uint32_t v) {
+  std::vector<Triangle> left;
+  for (const Triangle& t : mesh.triangles) {
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0] && std::count(t.begin(), t.end(), v) == 1) {
+      left.push_back(t);
+    }
+  }
+  const auto share_a_side = [&](const Triangle& a, const Triangle& b) {
+    return std::any_of(a.begin(), a.end(), [&](std::uint32_t w) {
+      return w != v && std::count(b.begin(), b.end(), w) == 1;
+    });
+  };
+  std::uint32_t fans = 0;
+  while (!left.empty()) {
+    std::vector<Triangle> fan{left.back()};
+    left.pop_back();
+    for (std::size_t i = 0; i < fan.size(); ++i) {
+      const Triangle of = fan[i];
+      const auto kept = std::partition(left.begin(), left.end(),
+                                       [&](const Triangle& t) { return !share_a_side(of, t); });
+      fan.insert(fan.end(), kept, left.end());
+      left.erase(kept, left.end());
+    }
+    ++fans;
+  }
+  return fans;
+}
+
+TEST(CountFans, OfRandomFacesAreThoseGrownOverSharedSides) {
+  std::mt19937 random(7);
+  const auto vertex = [&] { return static_cast<std::uint32_t>(random() % 9U); };
+  for (int round = 0; round < 50; ++round) {
+    TriMesh mesh;
+    mesh.positions.assign(9, Vec3::Zero());
+    std::generate_n(std::back_inserter(mesh.triangles), 14, [&] {
+      return Triangle{vertex(), vertex(), vertex()};
+    });
+    const std::vector<std::uint32_t> fans = count_fans(mesh);
+    for (std::uint32_t v = 0; v < 9; ++v) {
+      EXPECT_EQ(fans[v], fans_by_growing(mesh, v)) << "round " << round << ", vertex " << v;
+    }
   }
 }
 

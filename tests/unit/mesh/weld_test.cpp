@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/mesh/weld.h"
 
+#include <algorithm>
+#include <random>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,6 +48,22 @@ TEST(Weld, StartsEachFaceAtItsLowestVertexAndKeepsItsWinding) {
                      .triangles = {{0, 1, 2}, {2, 3, 1}, {3, 2, 0}}};
   EXPECT_THAT(weld(mesh).mesh.triangles,
               ElementsAre(Triangle{0, 1, 2}, Triangle{1, 2, 3}, Triangle{0, 3, 2}));
+}
+
+TEST(Weld, OfPointsOnASmallGridIsWhatComparingAllPairsGives) {
+  std::mt19937 random(3);
+  const auto step = [&] { return static_cast<double>(random() % 4U); };
+  TriMesh mesh;
+  for (int i = 0; i < 200; ++i) {
+    mesh.positions.emplace_back(step(), step(), step());
+  }
+  const WeldedMesh welded = weld(mesh);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const auto first = std::find(mesh.positions.begin(), mesh.positions.end(), mesh.positions[v]);
+    EXPECT_EQ(welded.welded_of_vertex[v],
+              welded.welded_of_vertex[static_cast<std::size_t>(first - mesh.positions.begin())]);
+    EXPECT_EQ(welded.mesh.positions[welded.welded_of_vertex[v]], mesh.positions[v]);
+  }
 }
 
 TEST(Weld, PutsASoupTogetherAgain) {
