@@ -14,7 +14,8 @@ bool before(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-WeldedMesh weld(const TriMesh& mesh) {
+WeldedMesh weld(const TriMesh& mesh, const RunContext& run) {
+  run.check();
   const std::size_t vertex_count = mesh.positions.size();
   std::vector<std::uint32_t> order(vertex_count);
   std::iota(order.begin(), order.end(), 0U);
@@ -23,6 +24,8 @@ WeldedMesh weld(const TriMesh& mesh) {
     const Vec3& q = mesh.positions[b];
     return p == q ? a < b : before(p, q);
   });
+
+  run.check();
 
   // The first of each run of equal positions has the lowest index and stands for the run.
   std::vector<std::uint32_t> first(vertex_count);
@@ -42,6 +45,7 @@ WeldedMesh weld(const TriMesh& mesh) {
       ++welded.merged_vertices;
     }
   }
+  run.check();
   welded.mesh.triangles.reserve(mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles) {
     Triangle triangle{welded.welded_of_vertex[a], welded.welded_of_vertex[b],
