@@ -290,6 +290,10 @@ bool is_fallback_buffer(const Json& buffer) {
   return fallback != nullptr && fallback->is_boolean() && fallback->get<bool>();
 }
 
+bool is_packed_primitive(const Json& primitive) {
+  return extension(primitive, kDraco) != nullptr;
+}
+
 void unpack_gltf(const Json& root, GltfDocument& document, const ModelBuilder& builder) {
   Unpacker unpacker(root, document, builder);
   unpacker.unpack_views();

@@ -17,6 +17,9 @@ inline constexpr const char* kPrimitiveNumber = "primitive";
 /// Whether a buffer only stands in for readers that cannot unpack: its bytes are not needed.
 bool is_fallback_buffer(const nlohmann::json& buffer);
 
+/// Whether the indices and attributes of a primitive are packed by Draco.
+bool is_packed_primitive(const nlohmann::json& primitive);
+
 /// Unpacks what EXT_meshopt_compression and KHR_draco_mesh_compression hold and appends it to the
 /// document as buffers, buffer views and accessors, so that no later reader needs to know. In all
 /// it may take as much memory as total_bytes allows.

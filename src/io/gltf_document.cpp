@@ -192,6 +192,9 @@ void number_primitives(Json& primitives, std::size_t& number) {
   for (Json& primitive : primitives) {
     if (primitive.is_object()) {
       primitive["extras"] = {{kPrimitiveNumber, number}};
+      if (is_packed_primitive(primitive)) {  // its own indices have no data, which tinygltf minds
+        primitive.erase("indices");
+      }
       primitive.erase("extensions");
       primitive.erase("targets");
     }

@@ -11,6 +11,7 @@
 #include <meshoptimizer.h>
 
 #include "vantage/io/model.h"
+#include "vantage/mesh/measures.h"
 
 #include "io/byte_cursor.h"
 #include "io/draco_mesh.h"
@@ -98,22 +99,14 @@ struct MeshoptScene {
   [[nodiscard]] std::string error() const { return error_text(bytes(), "a.glb"); }
 };
 
-/// Six times the volume; which corner a face begins with does not matter to it.
-double six_volumes(const TriMesh& mesh) {
-  double sum = 0.0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    sum += mesh.positions[a].dot(mesh.positions[b].cross(mesh.positions[c]));
-  }
-  return sum;
-}
-
 TEST(GltfMeshopt, UnpacksVerticesInTheirOrderAndTheirFaces) {
   const Model model = MeshoptScene().parsed();
   ASSERT_EQ(model.mesh.positions.size(), 4U);
   EXPECT_EQ(model.mesh.positions[1], Vec3(2.0, 0.0, 0.0));
   EXPECT_EQ(model.mesh.positions[3], Vec3(0.0, 0.0, 2.0));
   EXPECT_EQ(model.mesh.triangles.size(), 4U);
-  EXPECT_DOUBLE_EQ(six_volumes(model.mesh), 8.0);  // half the product of three edges of 2, times 2
+  EXPECT_DOUBLE_EQ(6.0 * signed_volume(model.mesh),
+                   8.0);  // half the product of three edges of 2, times 2
 }
 
 TEST(GltfMeshopt, UnpacksAFaceListThatIsPackedAsASequence) {
@@ -124,7 +117,7 @@ TEST(GltfMeshopt, UnpacksAFaceListThatIsPackedAsASequence) {
       meshopt_encodeIndexSequence(bytes.data(), bytes.size(), kFaces.data(), kFaces.size()));
   scene.faces = text(bytes);
   scene.face_packing = R"("byteStride":4,"count":12,"mode":"INDICES")";
-  EXPECT_DOUBLE_EQ(six_volumes(scene.parsed().mesh), 8.0);
+  EXPECT_DOUBLE_EQ(6.0 * signed_volume(scene.parsed().mesh), 8.0);
 }
 
 TEST(GltfMeshopt, UndoesTheExponentialFilter) {
@@ -136,7 +129,7 @@ TEST(GltfMeshopt, UndoesTheExponentialFilter) {
                                           kCorners.size(), sizeof(Point)));
   scene.corners = text(bytes);
   scene.corner_packing += R"(,"filter":"EXPONENTIAL")";
-  EXPECT_DOUBLE_EQ(six_volumes(scene.parsed().mesh), 8.0);  // 2 is 1 × 2¹, exactly
+  EXPECT_DOUBLE_EQ(6.0 * signed_volume(scene.parsed().mesh), 8.0);  // 2 is 1 × 2¹, exactly
 }
 
 TEST(GltfMeshopt, ScalesQuantisedPositionsByTheNode) {
@@ -150,7 +143,7 @@ TEST(GltfMeshopt, ScalesQuantisedPositionsByTheNode) {
   scene.corner_view = R"(,"byteStride":8)";
   scene.component_type = "5122";  // KHR_mesh_quantization
   scene.node = R"("mesh":0,"scale":[0.01,0.01,0.01])";
-  EXPECT_NEAR(six_volumes(scene.parsed().mesh), 8.0, 1e-12);
+  EXPECT_NEAR(6.0 * signed_volume(scene.parsed().mesh), 8.0, 1e-12);
 }
 
 TEST(GltfMeshopt, SaysWhichViewIsDamaged) {
@@ -246,7 +239,7 @@ TEST_P(GltfDraco, UnpacksTheMeshAndMovesItByItsNode) {
     p.z() -= 10.0;
   }
   constexpr double kStep = 2.0 / 2047.0;  // 11 bits over an extent of 2
-  EXPECT_NEAR(six_volumes(local), 8.0, 4.0 * 6.0 * kStep);
+  EXPECT_NEAR(6.0 * signed_volume(local), 8.0, 4.0 * 6.0 * kStep);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, GltfDraco,
