@@ -7,6 +7,7 @@
 #
 # Seeds are fuzz/corpus/TARGET/ and, where VANTAGE_DATA names a folder of models, its small files. What is learnt stays
 # in build/fuzz/learnt/; inputs that break something go to build/fuzz/found/ and end the script with exit code 1.
+# FUZZ_BUILD=no takes the programs as they are.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -14,15 +15,17 @@ seed_bytes=20000     # larger seeds are slow to mutate
 corpus_files=60      # of each target, at most, when minimising
 corpus_bytes=4000    # of each of them
 
-usage() { sed -n '3,10p' "$0" | sed 's/^# \{0,1\}//'; exit 2; }
+usage() { sed -n '3,11p' "$0" | sed 's/^# \{0,1\}//'; exit 2; }
 (($# > 0)) || usage
 what=$1
 shift
 [[ $what == --minimise || $what =~ ^[0-9]+$ ]] || usage
 
 build=build/fuzz
-[[ -f $build/build.ninja ]] || cmake --preset fuzz >/dev/null
-nice cmake --build --preset fuzz --target fuzzers >/dev/null
+if [[ ${FUZZ_BUILD:-yes} == yes ]]; then
+  cmake --preset fuzz >/dev/null
+  nice cmake --build --preset fuzz --target fuzzers >/dev/null
+fi
 mkdir -p $build/learnt $build/found
 
 targets=("$@")

