@@ -87,7 +87,7 @@ for target in "${targets[@]}"; do
   [[ -d $build/seeds/$target ]] && seeds+=("$build/seeds/$target")
   rm -f "$build/found/$target"-*
   started=$SECONDS
-  nice "$build/fuzz/${target}_fuzz" -max_total_time="$what" -timeout=30 -rss_limit_mb=3000 -max_len=$seed_bytes \
+  nice "$build/fuzz/${target}_fuzz" -max_total_time="$what" -timeout=120 -rss_limit_mb=3000 -max_len=$seed_bytes \
     -print_final_stats=1 -artifact_prefix="$build/found/$target-" "$learnt" "${seeds[@]}" >"$log" 2>&1 || true
   found=$(find $build/found -name "$target-*" | wc -l)
   executions=$(awk '/number_of_executed_units/ {print $2}' "$log")

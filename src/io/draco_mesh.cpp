@@ -23,6 +23,10 @@ constexpr std::size_t kCornerBytes = sizeof(std::uint32_t);
 /// Numbers while they are unpacked: 32 bits, whatever they become.
 constexpr std::size_t kNumberBytes = 4;
 
+/// Attributes of a mesh: position, normal, tangent, colour, eight sets of texture coordinates, two of
+/// joints and weights. Each may keep Draco busy for seconds, however few its bytes. [ours]
+constexpr std::int32_t kMostAttributes = 16;
+
 /// Draco's decoder, which looks at what is announced before it makes room for it.
 template <class Decoder>
 class BoundedDecoder : public Decoder {
@@ -46,6 +50,7 @@ class BoundedDecoder : public Decoder {
   }
 
   bool DecodeAllAttributes() override {
+    is_out_of_proportion_ = this->point_cloud()->num_attributes() > kMostAttributes;
     std::size_t numbers = 0;
     for (std::int32_t i = 0; i < this->point_cloud()->num_attributes(); ++i) {
       numbers += this->point_cloud()->attribute(i)->num_components();
@@ -74,6 +79,18 @@ std::string decode_with(std::string_view bytes, std::size_t most_bytes, draco::M
     return {};
   }
   return decoder.is_out_of_proportion() ? "is out of proportion to the file" : "is damaged";
+}
+
+/// Draco does not look at them where they are packed as a plain list.
+bool has_valid_corners(const draco::Mesh& mesh) {
+  for (draco::FaceIndex f(0); f.value() < mesh.num_faces(); ++f) {
+    for (const draco::PointIndex& corner : mesh.face(f)) {
+      if (corner.value() >= mesh.num_points()) {
+        return false;
+      }
+    }
+  }
+  return true;
 }
 
 template <class Number>
@@ -144,6 +161,10 @@ DracoMesh unpack_draco(std::string_view bytes, const std::vector<DracoAttribute>
   draco::Mesh mesh;
   result.problem = decode_any(bytes, most_bytes, mesh);
   if (!result.problem.empty()) {
+    return result;
+  }
+  if (!has_valid_corners(mesh)) {
+    result.problem = "is damaged";
     return result;
   }
   result.points = mesh.num_points();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include <meshoptimizer.h>
 #include <nlohmann/json.hpp>
 
+#include "core/parallel.h"
 #include "io/draco_mesh.h"
 #include "io/gltf_accessor.h"
 
@@ -232,7 +234,7 @@ class Unpacker {
         places.push_back(&accessor);
       }
     }
-    DracoMesh mesh = unpack_draco(bytes, wanted, bytes_left_);
+    DracoMesh mesh = unpack(bytes, wanted);
     if (!mesh.problem.empty()) {
       fail(who, mesh.problem);
     }
@@ -246,6 +248,22 @@ class Unpacker {
     const std::size_t corner_count = mesh.corners.size() / sizeof(std::uint32_t);
     primitive.indices = append(std::move(mesh.corners), corners, corner_count, who);
     primitive.mode = TINYGLTF_MODE_TRIANGLES;  // whatever it was before it was packed
+  }
+
+  /// Draco never asks whether to go on, so it works on a copy that it may be left behind with.
+  [[nodiscard]] DracoMesh unpack(std::string_view bytes,
+                                 const std::vector<DracoAttribute>& wanted) const {
+    struct Job {
+      std::string bytes;
+      std::vector<DracoAttribute> wanted;
+      std::size_t most_bytes;
+      DracoMesh mesh{};
+    };
+
+    const auto job = std::make_shared<Job>(Job{std::string(bytes), wanted, bytes_left_});
+    interruptible(builder_.run(),
+                  [job] { job->mesh = unpack_draco(job->bytes, job->wanted, job->most_bytes); });
+    return std::move(job->mesh);
   }
 
   [[nodiscard]] DracoAttribute wish(std::uint32_t id, int accessor, const std::string& who) const {

@@ -284,5 +284,14 @@ TEST(DracoMesh, OfBillionsOfFacesIsRefusedBeforeThereIsRoomForThem) {
   }
 }
 
+TEST(DracoMesh, OfACornerBeyondItsPointsIsDamaged) {
+  std::string bytes = draco_bytes(draco::MESH_SEQUENTIAL_ENCODING);
+  // Header of 11 bytes; faces, points, and 1 for corners as a plain list of bytes.
+  ASSERT_EQ(bytes.substr(11, 3), "\4\4\1");
+  ASSERT_EQ(unpack_draco(bytes, {}, 1'000'000).problem, "");
+  bytes[14] = '\4';  // the first corner: there are points 0 to 3
+  EXPECT_EQ(unpack_draco(bytes, {}, 1'000'000).problem, "is damaged");
+}
+
 }  // namespace
 }  // namespace vantage::test
