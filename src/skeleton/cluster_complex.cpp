@@ -103,7 +103,7 @@ std::vector<std::uint32_t> ClusterComplex::pinched_by(std::uint32_t edge) const 
   if (common.size() == edge_faces_[edge]) {
     return {};
   }
-  std::erase_if(common, [&](std::uint32_t c) { return has_face(c, a, b); });
+  std::erase_if(common, [&, a = a, b = b](std::uint32_t c) { return has_face(c, a, b); });
   return common;
 }
 

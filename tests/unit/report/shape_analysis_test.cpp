@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "vantage/mesh/weld.h"
 #include "vantage/report/view_report.h"
 
 #include "support/shapes.h"
