@@ -9,6 +9,7 @@ scripts/check_tidy.sh
 cmake --preset asan >/dev/null && cmake --build --preset asan
 ctest --test-dir build/asan -j "$(nproc)" --output-on-failure
 scripts/fuzz.sh "$seconds"
+scripts/check_symbols.sh  # of the build with the preset release
 scripts/check_without_npm.sh
 scripts/build_docs.sh
 if [[ $(id -u) -eq 0 ]] && command -v debootstrap >/dev/null; then

@@ -15,7 +15,7 @@ list=cmake/public_symbols.txt
 # Names that the public headers declare.
 declared=$(grep -rhoE '\b[A-Za-z_][A-Za-z0-9_]*\s*\(' include | tr -d ' (' | sort -u)
 symbols() {
-  nm -C --defined-only "$build"/libvantage.* 2>/dev/null | awk '$2 ~ /^[TW]$/' | cut -d' ' -f3- |
+  nm -C --defined-only "$build"/libvantage.* 2>/dev/null | awk '$2 == "T"' | cut -d' ' -f3- |
     grep -E '^vantage::' | grep -vE '\(anonymous namespace\)|\{lambda|\[clone|\[abi' |
     awk -v names="$declared" 'BEGIN { n = split(names, list, "\n"); for (i = 1; i <= n; ++i) known[list[i]] = 1 }
       { plain = $0; gsub(/<[^<>]*>/, "", plain); gsub(/<[^<>]*>/, "", plain); gsub(/<[^<>]*>/, "", plain)

@@ -63,7 +63,7 @@ minimise() {
   "$build/fuzz/${target}_fuzz" -merge=1 -max_len=$corpus_bytes -rss_limit_mb=3000 "$small" "$build/learnt/$target" \
     >/dev/null 2>&1
   # The smallest ones: each of them reached something when it came.
-  find "$small" -type f -size -${corpus_bytes}c -printf '%s %p\n' | sort -n | head -n $corpus_files |
+  find "$small" -type f -size -${corpus_bytes}c -printf '%s %p\n' | sort -n | awk -v most=$corpus_files 'NR <= most' |
     while read -r _ file; do
       cp "$file" "fuzz/corpus/$target/$(sha1sum <"$file" | cut -c1-12)"
     done

@@ -23,7 +23,7 @@ COMMANDS = {
     "skeleton": ["skeleton", "MODEL", "-o", "s.json"],
     "score": ["score", "MODEL", "--sphere", "3", "-o", "s.csv"],
     "score (measures)": ["score", "MODEL", "--sphere", "3", "--method", "vmi,silhouette-length", "-o", "s.csv"],
-    "compare": ["compare", "MODEL", "-o", "c", "--method", "kssm,view-entropy"],
+    "compare": ["compare", "MODEL", "-o", "c", "--method", "kssm,silhouette-length"],
     "render": ["render", "MODEL", "--view", "best", "-o", "r.png"],
     "thumb": ["thumb", "MODEL", "t.png"],
     "figures": ["figures", "MODEL", "-o", "f"],
@@ -76,11 +76,12 @@ def main():
     parser.add_argument("model", type=pathlib.Path)
     parser.add_argument("--program", default="build/release/apps/vantage/vantage")
     parser.add_argument("--moments", type=int, default=8)
+    parser.add_argument("--only", nargs="*", default=[], help="these rows alone")
     parser.add_argument("--python", default="")
     options = parser.parse_args()
     model = str(options.model.resolve())
     rows = [(name, [str(pathlib.Path(options.program).resolve()), *(model if w == "MODEL" else w for w in words)], False)
-            for name, words in COMMANDS.items()]
+            for name, words in COMMANDS.items() if not options.only or name in options.only]
     if options.python:
         package = os.path.abspath(options.python)
         rows += [(f"vantage.{function}()", ["/usr/bin/python3", "-c", CALL.format(package=package, model=model,
