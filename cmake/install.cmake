@@ -17,7 +17,7 @@ install(FILES ${PROJECT_BINARY_DIR}/vantage-config.cmake ${PROJECT_BINARY_DIR}/v
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vantage COMPONENT development)
 set(VANTAGE_PC_LIBS "")
 if(NOT BUILD_SHARED_LIBS)  # an archive does not name what it needs
-  set(VANTAGE_PC_LIBS "-ltbb -lembree3 -lpng -ljpeg -lz -lwebpmux -lwebp -lmeshoptimizer -lmetis")
+  set(VANTAGE_PC_LIBS "-ltbb -lembree3 -lpng -ljpeg -lz -lwebpmux -lwebp -ldraco -larchive -lexpat -lmeshoptimizer -lmetis")
 endif()
 file(RELATIVE_PATH VANTAGE_PC_UP "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 configure_file(cmake/vantage.pc.in vantage.pc @ONLY)

@@ -19,7 +19,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS shared-mime-info)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libvantage-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libeigen3-dev, libtbb-dev, libembree-dev, libpng-dev, libjpeg-dev, zlib1g-dev, libwebp-dev, libmeshoptimizer-dev, libmetis-dev")
+  "libeigen3-dev, libtbb-dev, libembree-dev, libpng-dev, libjpeg-dev, zlib1g-dev, libwebp-dev, libdraco-dev, libarchive-dev, libexpat1-dev, libmeshoptimizer-dev, libmetis-dev")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
   "Contracts the surface of a 3D model to a curve skeleton, turns the history
 of the contraction into a map of significance, and searches the view sphere

@@ -8,13 +8,8 @@ scripts/check_format.sh
 scripts/check_tidy.sh
 cmake --preset asan >/dev/null && cmake --build --preset asan
 ctest --test-dir build/asan -j "$(nproc)" --output-on-failure
-cmake --preset fuzz >/dev/null && cmake --build --preset fuzz
-for target in build/fuzz/fuzz/*_fuzz; do
-  name=$(basename "$target" _fuzz)
-  corpus=$(mktemp -d)
-  "$target" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=10 "$corpus" "fuzz/corpus/${name%%_*}"
-  rm -r "$corpus"
-done
+scripts/fuzz.sh "$seconds"
+scripts/check_symbols.sh  # of the build with the preset release
 scripts/check_without_npm.sh
 scripts/build_docs.sh
 if [[ $(id -u) -eq 0 ]] && command -v debootstrap >/dev/null; then

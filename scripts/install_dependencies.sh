@@ -6,7 +6,7 @@ set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libembree-dev libpng-dev libjpeg-dev nlohmann-json3-dev
        libcli11-dev libtinygltf-dev libmetis-dev libnanoflann-dev libmeshoptimizer-dev
-       libwebp-dev zlib1g-dev libsqlite3-dev libarchive-dev libsodium-dev
+       libwebp-dev zlib1g-dev libdraco-dev libexpat1-dev libsqlite3-dev libarchive-dev libsodium-dev
        libcpp-httplib-dev libssl-dev libbrotli-dev)
 test=(libgtest-dev libgmock-dev python3 chromium slurm-wlm munge parallel pkgconf groff-base zsh fish
       pybind11-dev python3-dev python3-numpy python3-pytest python3-pip python3-matplotlib python3-tqdm

@@ -27,7 +27,7 @@ import numpy
 
 TYPES = {"char": "i1", "uchar": "u1", "int": "<i4", "uint": "<u4", "float": "<f4", "double": "<f8"}
 FILE_SECONDS, FILE_BYTES = 60, 4 << 30
-SUFFIXES = {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".xyz", ".gz", ".drc", ".pts", ".pwn", ".pcd", ".txt"}
+SUFFIXES = {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".xyz", ".gz", ".drc", ".pts", ".pwn", ".pcd", ".3mf", ".txt"}
 MOMENTS = (0.05, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9)  # of the whole command
 
 

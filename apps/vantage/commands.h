@@ -42,6 +42,7 @@ Command& add_command(CLI::App& program, Session& session, const char* name, cons
   app->footer(examples);
   app->final_callback([command, app, &session] {
     apply_settings(*app);
+    session.apply_limits();
     command->run(session);
   });
   return *command;

@@ -51,10 +51,12 @@ struct CompareCommand {
     const Model loaded = session.load(model);
     OutputFolder output(folder.empty() ? loaded.name + ".compare" : folder);
     output.check();
-    const ShapeAnalysis shape = analyse_for(loaded, options, measures, run.part(0.0, 0.2));
+    const ShapeAnalysis shape = session.computing(
+        [&] { return analyse_for(loaded, options, measures, run.part(0.0, 0.2)); });
     require_area(shape, model);
     const UpChoice up = choose_up(loaded, shape, options);
-    const Comparison comparison = compare_methods(shape, options, measures, run.part(0.2, 0.9));
+    const Comparison comparison = session.computing(
+        [&] { return compare_methods(shape, options, measures, run.part(0.2, 0.9)); });
     const std::string json = comparison_json(loaded, comparison, up.axis, options);
     output.add("compare.json", json);
     output.add("compare.csv", comparison_csv(comparison));

@@ -67,13 +67,15 @@ struct FiguresCommand {
     StageTimes times;
     const Model loaded = session.load(model);
     times.seconds.load = seconds_since(start);
-    const ShapeAnalysis shape = analyse_shape(loaded, options, run.part(0.0, 0.4), &times.seconds);
+    const ShapeAnalysis shape = session.computing(
+        [&] { return analyse_shape(loaded, options, run.part(0.0, 0.4), &times.seconds); });
     const UpChoice up = choose_up(loaded, shape, options);
     // The times are those of the best and the worst view, as the paper's are.
     ViewOptions alone = options;
     alone.view_set.reset();
     const auto search = Clock::now();
-    ViewReport report = find_views(shape, up, alone, run.part(0.4, 0.5));
+    ViewReport report =
+        session.computing([&] { return find_views(shape, up, alone, run.part(0.4, 0.5)); });
     times.seconds.search = seconds_since(search);
     report.set =
         find_view_set(shape, VertexVisibility(shape.surface, shape.sides), report.camera,

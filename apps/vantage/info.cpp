@@ -37,9 +37,10 @@ struct InfoCommand {
 
   void run(Session& session) const {
     const Model loaded = session.load(model);
-    const WeldedMesh welded = weld(loaded.mesh);
-    const MeshReport as_read = check_mesh(loaded.mesh);
-    const MeshReport check = check_mesh(welded.mesh);
+    const RunContext run = session.run();
+    const WeldedMesh welded = weld(loaded.mesh, run);
+    const MeshReport as_read = check_mesh(loaded.mesh, run);
+    const MeshReport check = check_mesh(welded.mesh, run);
     const std::vector<SceneObject> objects = loaded.mesh.triangles.empty()
                                                  ? std::vector<SceneObject>{}
                                                  : list_objects(loaded, welded_surface(welded));

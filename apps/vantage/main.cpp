@@ -16,9 +16,8 @@ constexpr const char* kAbout =
     "Finds the view of a 3D model that tells most about its shape, and the one that tells least.";
 
 constexpr const char* kFooter =
-    "Reads OBJ, OFF, PLY, STL, glTF and GLB, and point clouds (XYZ, PTS, PWN, PCD); - reads "
-    "standard\n"
-    "input.\n"
+    "Reads OBJ, OFF, PLY, STL, glTF, GLB and 3MF, and point clouds (XYZ, PTS, PWN, PCD); - reads\n"
+    "standard input.\n"
     "\n"
     "Exit codes: 0 done; 1 failed; 2 wrong usage; 3 input unreadable; 4 some models of a batch "
     "failed; 75 try again; 130 interrupted.\n"

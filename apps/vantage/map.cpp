@@ -58,7 +58,8 @@ struct MapCommand {
     }
     const Model loaded = session.load(model);
     const ShapeAnalysis shape = session.computing([&] {
-      return by_skeleton ? analyse_shape(loaded, options, session.run()) : prepare_surface(loaded);
+      return by_skeleton ? analyse_shape(loaded, options, session.run())
+                         : prepare_surface(loaded, session.run());
     });
     if (name == "pmi-saliency") {
       require_area(shape, model);

@@ -326,6 +326,9 @@ void add_common_flags(CLI::App& app, CommonFlags& flags) {
                  "start of random sequences: --search gradient draws its starts")
       ->capture_default_str()
       ->group(group);
+  if (!app.get_group().empty()) {  // workers are held to limits by whoever starts them
+    add_limit_flags(app, flags.limits);
+  }
   add_config_flag(app);
 }
 

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <system_error>
 
 #include <nlohmann/json.hpp>
@@ -36,6 +40,44 @@ bool is_ours(const fs::path& folder) {
                      [&](std::string_view marker) { return holds(folder, marker); });
 }
 
+/// The process that wrote a file under its temporary name (".NAME.part.PROCESS"), if it is such.
+std::optional<pid_t> writer_of(const fs::path& file) {
+  constexpr std::string_view kPart = ".part.";
+  const std::string name = file.filename().string();
+  const std::size_t at = name.rfind(kPart);
+  pid_t process = 0;
+  const char* const end = name.data() + name.size();
+  if (!name.starts_with('.') || at == std::string::npos ||
+      std::from_chars(name.data() + at + kPart.size(), end, process).ptr != end || process <= 0) {
+    return std::nullopt;
+  }
+  return process;
+}
+
+/// Whether there is nothing in the folder but what a killed run left.
+bool holds_leftovers_only(const fs::path& folder) {
+  std::error_code error;
+  const fs::directory_iterator files(folder, error);
+  return !error && std::all_of(begin(files), end(files), [](const fs::directory_entry& entry) {
+    return writer_of(entry.path()).has_value();
+  });
+}
+
+/// Removes temporary files whose writers were killed.
+void remove_leftovers(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> leftovers;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const std::optional<pid_t> writer = writer_of(entry.path());
+    if (writer && ::kill(*writer, 0) != 0 && errno == ESRCH) {
+      leftovers.push_back(entry.path());
+    }
+  }
+  for (const fs::path& file : leftovers) {
+    fs::remove(file, error);
+  }
+}
+
 }  // namespace
 
 void make_folder(const std::string& path) {
@@ -55,7 +97,7 @@ void OutputFolder::check() const {
   if (!fs::is_directory(status)) {
     throw IoError(path_, "is a file where the results' folder should be; choose another with -o");
   }
-  if (!fs::is_empty(path_, error) && !is_ours(path_)) {
+  if (!holds_leftovers_only(path_) && !is_ours(path_)) {
     throw IoError(path_,
                   "holds files that are not results of vantage; choose another folder with -o");
   }
@@ -69,6 +111,7 @@ void OutputFolder::write() {
   std::error_code error;
   const bool fresh = !fs::exists(path_, error);
   make_folder(path_);
+  remove_leftovers(path_);
   std::vector<fs::path> written;
   try {
     for (const auto& [name, bytes] : files_) {

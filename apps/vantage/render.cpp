@@ -64,13 +64,16 @@ struct RenderCommand {
       camera = session.reading([&] { return parse_camera(read_text(camera_file), camera_file); });
     }
     const Model loaded = session.load(model, look.reading(options.width, options.height));
-    ShapeAnalysis shape = prepare_surface(loaded);
-    if (!view.empty() || show != "plain") {
-      shape = analyse_shape(loaded, options, run.part(0.0, 0.5));
-    }
+    const bool needs_map = !view.empty() || show != "plain";
+    const ShapeAnalysis shape = session.computing([&] {
+      return needs_map ? analyse_shape(loaded, options, run.part(0.0, 0.5))
+                       : prepare_surface(loaded, run);
+    });
     if (!camera) {
-      camera = view.empty() ? framed(shape, loaded, direction, options)
+      camera = session.computing([&] {
+        return view.empty() ? framed(shape, loaded, direction, options)
                             : found(shape, loaded, options, run.part(0.5, 0.9));
+      });
     }
     const Vec3 up =
         look.look().ground ? up_vector(choose_up(loaded, shape, options).axis) : RenderOptions{}.up;

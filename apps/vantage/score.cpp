@@ -84,14 +84,17 @@ struct ScoreCommand {
       return;
     }
     measure = "kssm";
-    const ShapeAnalysis shape = analyse_shape(loaded, options, run.part(0.0, 0.5));
+    const ShapeAnalysis shape =
+        session.computing([&] { return analyse_shape(loaded, options, run.part(0.0, 0.5)); });
     const VertexVisibility visibility(shape.surface, shape.sides);
     const std::optional<FaceVisibility> faces = faces_to_score(shape, options);
     const ScoringCamera camera = scoring_camera(shape, options);
     const ViewScorer scorer = faces ? ViewScorer(*faces, shape.map.of_vertex, camera)
                                     : ViewScorer(visibility, shape.map.of_vertex, camera);
-    const std::vector<double> scores = free_eyes ? score_eyes(scorer, points, run.part(0.5, 1.0))
-                                                 : scorer.score_all(points, run.part(0.5, 1.0));
+    const std::vector<double> scores = session.computing([&] {
+      return free_eyes ? score_eyes(scorer, points, run.part(0.5, 1.0))
+                       : scorer.score_all(points, run.part(0.5, 1.0));
+    });
     if (!visible.empty()) {
       const VisibleSets sets = visible_sets(visibility, scoring_camera(shape, options), points,
                                             shape.surface.positions.size(), session.run());
@@ -112,7 +115,8 @@ struct ScoreCommand {
       throw CLI::ValidationError("--visible", "goes with --method kssm only");
     }
     const RunContext run = session.run();
-    const ShapeAnalysis shape = analyse_for(loaded, options, measures, run.part(0.0, 0.4));
+    const ShapeAnalysis shape = session.computing(
+        [&] { return analyse_for(loaded, options, measures, run.part(0.0, 0.4)); });
     require_area(shape, model);
     MeasureSubject subject = measure_subject(shape, options);
     const std::vector<double> map =

@@ -35,16 +35,18 @@ sigset_t watched_signals() {
   sigemptyset(&set);
   sigaddset(&set, SIGINT);
   sigaddset(&set, SIGTERM);
+  sigaddset(&set, SIGALRM);
   return set;
 }
 
 int code_of_signal(int number) {
-  return number == SIGTERM ? kTryAgain : kInterrupted;
+  return number == SIGTERM ? kTryAgain : number == SIGALRM ? kFailed : kInterrupted;
 }
 
 const char* words_of_signal(int number) {
-  return number == SIGTERM ? "stopped by SIGTERM before the end; run it again"
-                           : "interrupted; nothing was left half written";
+  return number == SIGTERM   ? "stopped by SIGTERM before the end; run it again"
+         : number == SIGALRM ? "stopped: it took longer than --timeout allows"
+                             : "interrupted; nothing was left half written";
 }
 
 /// Waits for signals in a thread of its own, where more than an async-signal-safe flag is allowed.
@@ -86,6 +88,7 @@ Session::Session() {
   const sigset_t set = watched_signals();
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a failed write, reported like any other
+  std::signal(SIGXFSZ, SIG_IGN);  // and so is a file that grows beyond what is allowed
   std::thread(watch_signals, stop_).detach();
 }
 
@@ -115,7 +118,7 @@ void Session::limit_threads() {
 }
 
 Model Session::load(const std::string& path, const ReadOptions& options) {
-  return reading([&] { return load_model(path, run(), options); });
+  return reading([&] { return computing([&] { return load_model(path, run(), options); }); });
 }
 
 void Session::say(const std::string& text) {
@@ -137,6 +140,12 @@ int Session::report_failure() {
   const auto complain = [](const std::string& problem) {
     std::fprintf(stderr, "vantage: %s\n", printable(problem).c_str());
   };
+  const auto memory_remedy = [this] {
+    const std::uint64_t limit = flags.limits.memory_bytes;
+    return limit == 0
+               ? std::string("; try a smaller model, or a machine with more")
+               : "; --max-memory allows " + rounded(static_cast<double>(limit) / 1e6) + " MB";
+  };
   try {
     throw;
   } catch (const Cancelled&) {
@@ -144,7 +153,8 @@ int Session::report_failure() {
     complain(words_of_signal(number));
     return code_of_signal(number);
   } catch (const IoError& error) {
-    complain(error.what());
+    complain(error.error_number() == ENOMEM ? error.what() + memory_remedy()
+                                            : std::string(error.what()));
     if (error.error_number() == ENOSPC || error.error_number() == EDQUOT) {
       return kTryAgain;
     }
@@ -153,7 +163,7 @@ int Session::report_failure() {
     complain(error.what());
     return kUnreadableInput;
   } catch (const std::bad_alloc&) {
-    complain("out of memory; try a smaller model, or a machine with more");
+    complain("out of memory" + memory_remedy());
     return reading_input_ ? kUnreadableInput : kFailed;
   } catch (const std::exception& error) {
     complain(error.what());

@@ -11,6 +11,7 @@
 #include "vantage/io/model.h"
 
 #include "progress.h"
+#include "run_limits.h"
 
 /// \file
 /// What every command shares: the common flags, signals, progress, and how a failure ends.
@@ -33,6 +34,7 @@ struct CommonFlags {
   bool verbose = false;
   int threads = 0;
   std::uint64_t seed = 0;
+  RunLimits limits{};
 };
 
 /// While one lives, nothing is being written, so a program that does not answer a signal in time may
@@ -58,6 +60,9 @@ class Session {
 
   /// The context to pass to the library: progress to a terminal, stop on signals, threads.
   [[nodiscard]] RunContext run();
+
+  /// Holds the process to the limits that were asked for; before any work.
+  void apply_limits() const { cli::apply_limits(flags.limits); }
 
   /// Reads a model; a failure in here means exit code 3.
   Model load(const std::string& path, const ReadOptions& options = {});

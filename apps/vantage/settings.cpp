@@ -93,6 +93,9 @@ std::string value_of(const Json& value, const std::string& origin) {
   if (value.is_array()) {
     std::vector<std::string> parts;
     for (const Json& part : value) {
+      if (part.is_array()) {  // however deep, which is the machine's stack to pay
+        throw CLI::ValidationError(origin, "is a list of lists; give a list of values");
+      }
       parts.push_back(value_of(part, origin));
     }
     return CLI::detail::join(parts, ",");

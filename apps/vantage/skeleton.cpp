@@ -59,7 +59,7 @@ struct SkeletonCommand {
     const RunContext run = session.run();
     const Model loaded = session.load(model);
     ShapeAnalysis shape = session.computing([&] {
-      ShapeAnalysis result = prepare_surface(loaded);
+      ShapeAnalysis result = prepare_surface(loaded, session.run());
       add_history(result, options, run.part(0.0, 0.8));
       add_skeleton(result, options, run.part(0.8, 1.0));
       return result;

@@ -59,8 +59,9 @@ struct ThumbCommand {
     }
     const RunContext run = session.run();
     const Model loaded = session.load(model, look.reading(size, size));
-    const ShapeAnalysis shape = prepare_surface(loaded);
-    const QuickView view = find_quick_view(loaded, shape, options, run.part(0.1, 0.7));
+    const ShapeAnalysis shape = session.computing([&] { return prepare_surface(loaded, run); });
+    const QuickView view = session.computing(
+        [&] { return find_quick_view(loaded, shape, options, run.part(0.1, 0.7)); });
     look.write(file, loaded, shape, view.picture, Picture::Plain, options, up_vector(view.up.axis),
                run.part(0.7, 1.0));
     if (file != "-") {

@@ -151,12 +151,12 @@ std::shared_ptr<const Analysis> Subject::analysed(const Settings& settings, cons
 }
 
 ShapeAnalysis surface_only(const Model& model, const ViewOptions& /*options*/,
-                           const RunContext& /*run*/) {
-  return prepare_surface(model);
+                           const RunContext& run) {
+  return prepare_surface(model, run);
 }
 
 ShapeAnalysis with_skeleton(const Model& model, const ViewOptions& options, const RunContext& run) {
-  ShapeAnalysis shape = prepare_surface(model);
+  ShapeAnalysis shape = prepare_surface(model, run);
   add_history(shape, options, run.part(0.0, 0.8));
   add_skeleton(shape, options, run.part(0.8, 1.0));
   return shape;

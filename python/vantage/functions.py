@@ -17,7 +17,7 @@ Analysis = _core.Analysis
 
 
 def load(path: Any, *, progress: Any = None, threads: int = 0) -> Model:
-    """Reads a model: OBJ, OFF, PLY, STL, glTF, GLB, or a point cloud XYZ, PTS, PWN, PCD.
+    """Reads a model: OBJ, OFF, PLY, STL, glTF, GLB, 3MF, or a point cloud XYZ, PTS, PWN, PCD.
 
     path: str or os.PathLike.
     Returns a Model: name, format, vertices (n, 3) float64, faces (m, 3) uint32, colours (n, 3) or

@@ -37,7 +37,7 @@ class SceneReader {
       : document_(document),
         gltf_(document.structure),
         builder_(builder),
-        budget_(kMostInSmallFile + kMostPerByte * document.total_bytes),
+        budget_(kMostInSmallFile + kMostPerByte * document.total_bytes + document.unpacked_bytes),
         visits_left_(kMostVisitsInSmallFile + document.total_bytes) {
     for (const tinygltf::Mesh& mesh : gltf_.meshes) {
       for (const tinygltf::Primitive& primitive : mesh.primitives) {
@@ -205,10 +205,7 @@ class SceneReader {
       builder_.fail("the positions of a primitive do not have 3 components");
     }
     if (!points.has_data()) {
-      builder_.fail(document_.has_draco
-                        ? "is compressed with KHR_draco_mesh_compression, which is not read; "
-                          "unpack it first, with gltf-transform copy IN.glb OUT.glb"
-                        : "the positions of a primitive have no data");
+      builder_.fail("the positions of a primitive have no data");
     }
     spend(points.count());
     const std::size_t first = builder_.point_count();

@@ -50,7 +50,9 @@ double component_value(const char* data, int type, bool normalised) {
   }
 }
 
-int component_count(int type) {
+}  // namespace
+
+std::size_t gltf_component_count(int type) {
   switch (type) {
     case TINYGLTF_TYPE_SCALAR:
       return 1;
@@ -61,11 +63,9 @@ int component_count(int type) {
     case TINYGLTF_TYPE_VEC4:
       return 4;
     default:
-      return 0;  // matrices, which no attribute of ours has
+      return 0;
   }
 }
-
-}  // namespace
 
 GltfAccessor::GltfAccessor(const GltfDocument& document, int index, std::size_t most_elements,
                            const ModelBuilder& builder)
@@ -76,7 +76,7 @@ GltfAccessor::GltfAccessor(const GltfDocument& document, int index, std::size_t 
   }
   const tinygltf::Accessor& accessor = accessors[static_cast<std::size_t>(index)];
   component_type_ = accessor.componentType;
-  components_ = component_count(accessor.type);
+  components_ = static_cast<int>(gltf_component_count(accessor.type));
   normalised_ = accessor.normalized;
   const std::size_t element_bytes =
       component_bytes(component_type_) * static_cast<std::size_t>(components_);

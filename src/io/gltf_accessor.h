@@ -10,6 +10,9 @@
 
 namespace vantage {
 
+/// Numbers an element of an accessor's type has; 0 for matrices, which no attribute of ours has.
+std::size_t gltf_component_count(int type);
+
 /// Numbers of one accessor, bounds checked at construction: no read can leave its buffer.
 class GltfAccessor {
  public:

@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/byte_cursor.h"
+#include "io/gltf_compression.h"
 #include "io/gltf_document.h"
 #include "io/gltf_materials.h"
 #include "io/gltf_uri.h"
@@ -25,8 +26,6 @@ namespace vantage {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
 
 /// Containers nested deeper than this are no glTF: the format itself needs 7 levels.
 constexpr int kDeepestNesting = 64;
@@ -126,16 +125,11 @@ bool names(const Json& root, const char* list, std::string_view extension) {
 }
 
 void check_extensions(const Json& root, ModelBuilder& builder) {
-  if (names(root, "extensionsRequired", kDraco)) {
+  if (names(root, "extensionsRequired", "KHR_meshopt_compression")) {
     builder.fail(
-        "needs the extension KHR_draco_mesh_compression, which is not read; unpack it "
-        "first, with gltf-transform copy IN.glb OUT.glb");
-  }
-  if (names(root, "extensionsRequired", "EXT_meshopt_compression")) {
-    builder.fail(
-        "needs the extension EXT_meshopt_compression, which is not read; unpack it "
-        "first, with gltf-transform copy IN.glb OUT.glb, or pack it again with gltfpack "
-        "without -c");
+        "needs the extension KHR_meshopt_compression, which is not read; pack it again with "
+        "EXT_meshopt_compression (gltfpack -c), or unpack it, with gltf-transform copy IN.glb "
+        "OUT.glb");
   }
   if (names(root, "extensionsUsed", "EXT_mesh_gpu_instancing")) {
     builder.note("EXT_mesh_gpu_instancing is not read: one instance of each mesh is shown");
@@ -162,6 +156,9 @@ void check_version(const Json& root, const ModelBuilder& builder) {
 std::string read_buffer(const Json& buffer, std::size_t index, const Chunks& chunks,
                         const BufferSource& source, const ModelBuilder& builder) {
   const std::string label = "buffer " + std::to_string(index);
+  if (is_fallback_buffer(buffer)) {
+    return {};
+  }
   const auto entry = buffer.is_object() ? buffer.find("uri") : buffer.end();
   if (!buffer.is_object() || entry == buffer.end()) {
     return index == 0 && chunks.has_binary ? std::string(chunks.binary) : std::string();
@@ -190,9 +187,25 @@ std::string read_buffer(const Json& buffer, std::size_t index, const Chunks& chu
   return source(*path);
 }
 
+/// Leaves their extensions out, but not which of them each one is.
+void number_primitives(Json& primitives, std::size_t& number) {
+  for (Json& primitive : primitives) {
+    if (primitive.is_object()) {
+      primitive["extras"] = {{kPrimitiveNumber, number}};
+      if (is_packed_primitive(primitive)) {  // its own indices have no data, which tinygltf minds
+        primitive.erase("indices");
+      }
+      primitive.erase("extensions");
+      primitive.erase("targets");
+    }
+    ++number;
+  }
+}
+
 /// Copies what describes geometry and leaves out what tinygltf would walk recursively or load.
 Json geometry_only(const Json& root) {
   Json kept = Json::object();
+  std::size_t primitives = 0;
   kept["asset"] = {{"version", "2.0"}};
   for (const char* const member :
        {"scene", "scenes", "nodes", "meshes", "accessors", "bufferViews"}) {
@@ -200,6 +213,7 @@ Json geometry_only(const Json& root) {
     if (found == root.end()) {
       continue;
     }
+    primitives = 0;  // a malformed file may have some outside its meshes
     Json value = *found;
     for (Json& item : value) {
       if (item.is_object()) {
@@ -207,13 +221,7 @@ Json geometry_only(const Json& root) {
         item.erase("extensions");
       }
       if (item.is_object() && item.contains("primitives")) {
-        for (Json& primitive : item["primitives"]) {
-          if (primitive.is_object()) {
-            primitive.erase("extras");
-            primitive.erase("extensions");
-            primitive.erase("targets");
-          }
-        }
+        number_primitives(item["primitives"], primitives);
       }
     }
     kept[member] = std::move(value);
@@ -258,7 +266,6 @@ GltfDocument read_gltf_document(std::string_view bytes, const Surroundings& surr
   check_extensions(root, builder);
   GltfDocument document;
   document.structure = parse_structure(root, builder);
-  document.has_draco = names(root, "extensionsUsed", kDraco);
   document.base_colours = gltf_base_colours(root);
   document.texcoord_sets = gltf_texcoord_sets(root);
   document.total_bytes = bytes.size();
@@ -268,6 +275,7 @@ GltfDocument read_gltf_document(std::string_view bytes, const Surroundings& surr
       document.total_bytes += document.buffers.back().size();
     }
   }
+  unpack_gltf(root, document, builder);
   if (builder.keeps_appearance()) {
     read_gltf_materials(root, document, surroundings, builder);
   }

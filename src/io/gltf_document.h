@@ -22,12 +22,12 @@ struct GltfDocument {
   std::vector<std::array<double, 3>> base_colours{};
   /// Which TEXCOORD_n the colour texture of each material uses.
   std::vector<int> texcoord_sets{};
-  std::size_t total_bytes = 0;  ///< Of the file and its buffers.
-  bool has_draco = false;       ///< KHR_draco_mesh_compression is used somewhere.
+  std::size_t total_bytes = 0;     ///< Of the file and its buffers.
+  std::size_t unpacked_bytes = 0;  ///< Of what was packed in them.
 };
 
 /// Reads the container, the JSON and the buffers. tinygltf sees only the part of the JSON that
-/// describes geometry: no pictures, no extras, no URIs, hence no file access and no deep nesting. If
+/// describes geometry: no pictures, no extras of the file, no URIs, hence no file access and no deep nesting. If
 /// the builder keeps what faces look like, it receives the materials too.
 /// \throw FormatError, IoError
 GltfDocument read_gltf_document(std::string_view bytes, const Surroundings& surroundings,

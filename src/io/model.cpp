@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/io/model.h"
 
+#include <cerrno>
 #include <filesystem>
 #include <new>
 #include <system_error>
@@ -36,6 +37,8 @@ Model parse_with(std::string_view bytes, std::string_view name, const RunContext
         return parse_point_list(bytes, name, detected.format, run);
       case ModelFormat::Pcd:
         return parse_pcd(bytes, name, run);
+      case ModelFormat::Threemf:
+        return parse_threemf(bytes, name, run, surroundings);
       case ModelFormat::Gltf:
       case ModelFormat::Glb:
         break;
@@ -109,7 +112,7 @@ Model load_model(const std::string& path, const RunContext& run, const ReadOptio
         [&path](const std::string& relative) { return side_file(path, relative); }, options};
     return parse_with(bytes, path, run, surroundings);
   } catch (const std::bad_alloc&) {
-    throw IoError(path, "does not fit into memory");
+    throw IoError(path, "does not fit into memory", ENOMEM);
   }
 }
 

@@ -79,6 +79,8 @@ class ModelBuilder {
 
   [[nodiscard]] std::string_view name() const { return name_; }
 
+  [[nodiscard]] const RunContext& run() const { return run_; }
+
   void reserve_points(std::size_t count) { model_.mesh.positions.reserve(count); }
 
   /// Reports progress now and then. \throw Cancelled

@@ -9,6 +9,7 @@
 #include "io/number_parsing.h"
 #include "io/readers.h"
 #include "io/text_cursor.h"
+#include "io/threemf_package.h"
 
 namespace vantage {
 namespace {
@@ -38,7 +39,7 @@ constexpr std::array<ForeignMagic, 25> kForeignMagics = {{
      "is compressed with xz", kUnpack, "unxz"},
     {"\x28\xB5\x2F\xFD"sv, "is compressed with zstd", kUnpack, "unzstd"},
     {"7z\xBC\xAF\x27\x1C"sv, "is a 7-Zip archive", kUnpack, "7z x"},
-    {"PK\x03\x04"sv, "is a ZIP archive (3MF, USDZ and KMZ files are ZIP archives too)",
+    {"PK\x03\x04"sv, "is a ZIP archive without a 3MF model (USDZ and KMZ files are such)",
      kConvertMesh, ""},
     {"DRACO"sv, "is a Draco file", "; convert it to PLY first, with ", "draco_decoder"},
     {"OCTM"sv, "is an OpenCTM file", kConvertMesh, ""},
@@ -67,9 +68,8 @@ struct ForeignExtension {
   std::string_view remedy;
 };
 
-constexpr std::array<ForeignExtension, 27> kForeignExtensions = {{
+constexpr std::array<ForeignExtension, 26> kForeignExtensions = {{
     {"3ds", "3DS", kConvertMesh},
-    {"3mf", "3MF", kConvertMesh},
     {"ac", "AC3D", kConvertMesh},
     {"amf", "AMF", kConvertMesh},
     {"blend", "Blender", kConvertMesh},
@@ -97,8 +97,8 @@ constexpr std::array<ForeignExtension, 27> kForeignExtensions = {{
     {"x3d", "X3D", kConvertMesh},
 }};
 
-constexpr std::array<std::string_view, 10> kFormatNames = {"obj", "off", "ply", "stl", "gltf",
-                                                           "glb", "xyz", "pts", "pwn", "pcd"};
+constexpr std::array<std::string_view, 11> kFormatNames = {
+    "obj", "off", "ply", "stl", "gltf", "glb", "xyz", "pts", "pwn", "pcd", "3mf"};
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -143,15 +143,19 @@ void reject_foreign_magic(std::string_view bytes, std::string_view name) {
     throw FormatError(
         name, "", std::string(entry->what) + " files are not read" + std::string(entry->remedy));
   }
-  throw FormatError(name, "",
-                    "cannot tell what format this is; OBJ, OFF, PLY, STL, glTF, GLB, PCD, XYZ, PTS "
-                    "and PWN are read");
+  throw FormatError(
+      name, "",
+      "cannot tell what format this is; OBJ, OFF, PLY, STL, glTF, GLB, 3MF, PCD, XYZ, "
+      "PTS and PWN are read");
 }
 
 /// What the first bytes say beyond doubt.
 std::optional<ModelFormat> format_of_magic(std::string_view bytes) {
   if (starts_with(bytes, "glTF")) {
     return ModelFormat::Glb;
+  }
+  if (is_threemf(bytes)) {
+    return ModelFormat::Threemf;
   }
   if (starts_with(bytes, "# .PCD")) {
     return ModelFormat::Pcd;
@@ -210,6 +214,12 @@ DetectedFormat detect_format(std::string_view bytes, std::string_view name) {
     return {*found, contradicts ? "the name says ." + extension + ", but the bytes are " +
                                       std::string(format_name(*found)) + " and were read as such"
                                 : ""};
+  }
+  if (said == ModelFormat::Threemf) {
+    if (!starts_with(bytes, "PK")) {
+      throw FormatError(name, "byte 0", "expected the letters PK, which start every 3MF file");
+    }
+    return {*said, ""};
   }
   // A binary STL may start with any 80 bytes.
   if (!(said == ModelFormat::Stl && has_binary_stl_size(bytes))) {

@@ -59,6 +59,10 @@ Model parse_point_list(std::string_view bytes, std::string_view name, ModelForma
 Model parse_gltf(std::string_view bytes, std::string_view name, const RunContext& run,
                  const Surroundings& surroundings);
 
+/// 3D Manufacturing Format: what is to be built, in the file's unit, with colours of materials.
+Model parse_threemf(std::string_view bytes, std::string_view name, const RunContext& run,
+                    const Surroundings& surroundings);
+
 /// Whether the bytes are a binary STL by their size: 84 bytes and 50 for each declared triangle.
 bool has_binary_stl_size(std::string_view bytes);
 

@@ -149,17 +149,20 @@ std::size_t total_genus(const TriMesh& mesh, const EdgeTable& table,
 
 }  // namespace
 
-MeshReport check_mesh(const TriMesh& mesh) {
+MeshReport check_mesh(const TriMesh& mesh, const RunContext& run) {
   MeshReport report;
   report.vertices = mesh.positions.size();
   report.faces = mesh.triangles.size();
-  report.duplicate_vertices = weld(mesh).merged_vertices;
+  report.duplicate_vertices = weld(mesh, run).merged_vertices;
   report.isolated_vertices = count_unnamed_vertices(mesh);
   report.components = connected_components(mesh).count - report.isolated_vertices;
-
+  run.check();
   const EdgeTable table = build_edge_table(mesh);
+  run.check();
   count_faces(mesh, table, report);
+  run.check();
   count_edges(mesh, table, report);
+  run.check();
   const std::vector<std::uint32_t> fans = count_fans(mesh);
   report.non_manifold_vertices = static_cast<std::size_t>(
       std::count_if(fans.begin(), fans.end(), [](std::uint32_t count) { return count > 1; }));
@@ -167,6 +170,7 @@ MeshReport check_mesh(const TriMesh& mesh) {
       !table.edges.empty() && report.boundary_edges == 0 && report.non_manifold_edges == 0;
   report.oriented =
       !table.edges.empty() && report.non_manifold_edges == 0 && report.inconsistent_edges == 0;
+  run.check();
   report.signed_volume = signed_volume(mesh);
   if (report.closed && (report.oriented || is_orientable(mesh, table))) {
     report.genus = total_genus(mesh, table, fans);

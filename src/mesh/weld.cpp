@@ -38,9 +38,11 @@ std::vector<std::uint32_t> first_of_position(const std::vector<Vec3>& points) {
 
 }  // namespace
 
-WeldedMesh weld(const TriMesh& mesh) {
+WeldedMesh weld(const TriMesh& mesh, const RunContext& run) {
+  run.check();
   const std::size_t vertex_count = mesh.positions.size();
   const std::vector<std::uint32_t> first = first_of_position(mesh.positions);
+  run.check();
   WeldedMesh welded;
   welded.welded_of_vertex.resize(vertex_count);
   for (std::uint32_t v = 0; v < vertex_count; ++v) {
@@ -52,6 +54,7 @@ WeldedMesh weld(const TriMesh& mesh) {
       ++welded.merged_vertices;
     }
   }
+  run.check();
   welded.mesh.triangles.reserve(mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles) {
     Triangle triangle{welded.welded_of_vertex[a], welded.welded_of_vertex[b],

@@ -103,7 +103,7 @@ ShapeAnalysis analyse_for(const Model& model, const ViewOptions& options,
   const bool deep = std::any_of(measures.begin(), measures.end(),
                                 [](const Measure& m) { return m.needs.kssm || m.needs.skeleton; });
   return deep || !options.focus.empty() ? analyse_shape(model, options, run)
-                                        : prepare_surface(model);
+                                        : prepare_surface(model, run);
 }
 
 void require_area(const ShapeAnalysis& shape, const std::string& name) {

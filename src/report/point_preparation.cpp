@@ -19,7 +19,7 @@ constexpr int kVotes = 1;
 
 /// The triangles among the points that are not left out.
 std::vector<Triangle> join(const std::vector<Vec3>& points,
-                           const std::vector<std::uint8_t>& outlier) {
+                           const std::vector<std::uint8_t>& outlier, const RunContext& run) {
   std::vector<std::uint32_t> kept;
   std::vector<Vec3> places;
   for (std::uint32_t i = 0; i < points.size(); ++i) {
@@ -29,7 +29,7 @@ std::vector<Triangle> join(const std::vector<Vec3>& points,
     }
   }
   std::vector<Triangle> triangles =
-      agreed_triangles(point_rings(places, neighbourhood_size(places.size())), kVotes);
+      agreed_triangles(point_rings(places, neighbourhood_size(places.size()), run), kVotes);
   for (Triangle& t : triangles) {
     t = {kept[t[0]], kept[t[1]], kept[t[2]]};
   }
@@ -38,14 +38,14 @@ std::vector<Triangle> join(const std::vector<Vec3>& points,
 
 }  // namespace
 
-ShapeAnalysis prepare_points(const Model& model) {
-  WeldedMesh welded = weld(model.mesh);
+ShapeAnalysis prepare_points(const Model& model, const RunContext& run) {
+  WeldedMesh welded = weld(model.mesh, run);
   ShapeAnalysis shape;
   shape.cloud.emplace();
   std::vector<std::uint8_t>& outlier = shape.cloud->outlier;
-  outlier = find_outliers(welded.mesh.positions);
+  outlier = find_outliers(welded.mesh.positions, run);
   shape.surface.positions = std::move(welded.mesh.positions);
-  shape.surface.triangles = join(shape.surface.positions, outlier);
+  shape.surface.triangles = join(shape.surface.positions, outlier, run);
   shape.surface_vertex = std::move(welded.welded_of_vertex);
   const std::size_t n = shape.surface.positions.size();
   if (shape.surface.triangles.empty()) {

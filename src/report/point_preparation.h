@@ -7,8 +7,8 @@ namespace vantage {
 
 /// prepare_surface() for a model without faces: welds, finds outliers, and joins the points by the
 /// triangles that their local Delaunay rings hold. Lists everything left out in `warnings`.
-/// \throw InvalidInput if the points have no extent or all lie on one line.
-ShapeAnalysis prepare_points(const Model& model);
+/// \throw InvalidInput if the points have no extent or all lie on one line; Cancelled
+ShapeAnalysis prepare_points(const Model& model, const RunContext& run);
 
 /// The contraction of a cloud, with what the skeleton needs of it. \throw Cancelled
 void add_point_history(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run);

@@ -59,15 +59,16 @@ void list_repairs(const WeldedMesh& welded, const OrientedMesh& oriented, const 
 
 }  // namespace
 
-ShapeAnalysis prepare_surface(const Model& model) {
+ShapeAnalysis prepare_surface(const Model& model, const RunContext& run) {
   if (model.mesh.triangles.empty()) {
-    return prepare_points(model);
+    return prepare_points(model, run);
   }
-  WeldedMesh welded = weld(model.mesh);
+  WeldedMesh welded = weld(model.mesh, run);
   ShapeAnalysis shape;
-  shape.check = check_mesh(welded.mesh);
-  OrientedMesh oriented = orient_shells(welded.mesh);
+  shape.check = check_mesh(welded.mesh, run);
+  OrientedMesh oriented = orient_shells(welded.mesh, run);
   list_repairs(welded, oriented, shape.check, shape.warnings);
+  run.check();
   shape.sphere = enclosing_sphere(referenced_points(welded.mesh));
   if (welded.mesh.triangles.empty() || !(shape.sphere.diameter > 0.0)) {
     throw InvalidInput(
@@ -114,7 +115,7 @@ ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options, cons
   auto mark = std::chrono::steady_clock::now();
   StageSeconds ignored;
   StageSeconds& took = seconds != nullptr ? *seconds : ignored;
-  ShapeAnalysis shape = prepare_surface(model);
+  ShapeAnalysis shape = prepare_surface(model, run);
   std::optional<SceneObject> focus;  // found before the work, lest a wrong name costs minutes
   if (!options.focus.empty()) {
     focus = find_object(list_objects(model, shape), options.focus);

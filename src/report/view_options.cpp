@@ -58,7 +58,8 @@ std::string_view up_name(UpAxis axis) {
 }
 
 UpAxis default_up(ModelFormat format) {
-  return format == ModelFormat::Stl ? UpAxis::Z : UpAxis::Y;
+  // A printer's plate lies in x and y.
+  return format == ModelFormat::Stl || format == ModelFormat::Threemf ? UpAxis::Z : UpAxis::Y;
 }
 
 std::string_view strategy_name(SearchStrategy strategy) {

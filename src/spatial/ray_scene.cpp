@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,15 @@ constexpr float kBoxMargin = 1e-5F;
 // is pinned because wider ones fuse multiply and add, which changes pictures in the last bit.
 constexpr const char* kDeviceConfig = "ignore_config_files=1,verbose=0,isa=sse4.2";
 
+/// What an error of Embree means to the caller.
+[[noreturn]] void fail(const char* what, RTCError error) {
+  if (error == RTC_ERROR_OUT_OF_MEMORY) {
+    throw std::bad_alloc();
+  }
+  throw Error(std::string("the ray tracing library could not ") + what + ": error " +
+              std::to_string(static_cast<int>(error)));
+}
+
 /// Owns a device and one committed scene with a single geometry.
 struct Embree {
   RTCDevice device = nullptr;
@@ -31,8 +41,7 @@ struct Embree {
 
   Embree() : device(rtcNewDevice(kDeviceConfig)) {
     if (device == nullptr) {
-      throw Error("the ray tracing library could not be started: error " +
-                  std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))));
+      fail("be started", rtcGetDeviceError(nullptr));
     }
     scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
@@ -54,8 +63,7 @@ struct Embree {
     rtcCommitScene(scene);
     const RTCError error = rtcGetDeviceError(device);
     if (error != RTC_ERROR_NONE) {
-      throw Error("the ray tracing library could not build its search structure: error " +
-                  std::to_string(static_cast<int>(error)));
+      fail("build its search structure", error);
     }
   }
 };
@@ -136,7 +144,7 @@ RayScene::RayScene(const TriMesh& mesh, OpacityOfHit opacity) : scene_(std::make
                                 3 * sizeof(std::uint32_t), mesh.triangles.size()));
     if (vertices == nullptr || indices == nullptr) {
       rtcReleaseGeometry(geometry);
-      throw Error("not enough memory to prepare the model for ray tracing");
+      throw std::bad_alloc();
     }
     for (const Vec3& p : mesh.positions) {
       vertices = std::copy_n(p.cast<float>().eval().data(), 3, vertices);

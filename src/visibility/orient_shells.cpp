@@ -67,7 +67,8 @@ bool balanced(std::span<const std::uint32_t> faces_at_edge, const std::vector<Tr
 
 /// Joins faces across edges of two; across edges of more only if their shells need each other to
 /// be closed there: two cubes that share an edge remain two shells.
-DisjointSets join_faces(const std::vector<Triangle>& faces, const EdgeTable& edges) {
+DisjointSets join_faces(const std::vector<Triangle>& faces, const EdgeTable& edges,
+                        const RunContext& run) {
   DisjointSets sets(faces.size());
   const auto join_all = [&](std::span<const std::uint32_t> at_edge) {
     bool joined = false;
@@ -82,6 +83,7 @@ DisjointSets join_faces(const std::vector<Triangle>& faces, const EdgeTable& edg
     }
   }
   for (bool changed = true; changed;) {
+    run.check();
     changed = false;
     for (std::size_t e = 0; e < edges.edges.size(); ++e) {
       const auto at_edge = edges.faces_of_edge[e];
@@ -93,7 +95,7 @@ DisjointSets join_faces(const std::vector<Triangle>& faces, const EdgeTable& edg
   return sets;
 }
 
-Shells find_shells(const TriMesh& mesh, const WeldedMesh& welded) {
+Shells find_shells(const TriMesh& mesh, const WeldedMesh& welded, const RunContext& run) {
   Shells shells;
   const UnitFrame frame = unit_frame(welded.mesh.positions);
   for (const Vec3& p : welded.mesh.positions) {
@@ -109,8 +111,10 @@ Shells find_shells(const TriMesh& mesh, const WeldedMesh& welded) {
       shells.face_of.push_back(f);
     }
   }
+  run.check();
   const EdgeTable edges = build_edge_table({.positions = {}, .triangles = shells.faces});
-  DisjointSets sets = join_faces(shells.faces, edges);
+  DisjointSets sets = join_faces(shells.faces, edges, run);
+  run.check();
   shells.shell_of.resize(shells.faces.size());
   for (std::uint32_t f = 0; f < shells.faces.size(); ++f) {
     const std::uint32_t root = sets.root(f);
@@ -251,11 +255,12 @@ class Nesting {
 
 }  // namespace
 
-OrientedMesh orient_shells(const TriMesh& mesh) {
+OrientedMesh orient_shells(const TriMesh& mesh, const RunContext& run) {
   OrientedMesh result;
   result.mesh = mesh;
-  const WeldedMesh welded = weld(mesh);
-  const Shells shells = find_shells(mesh, welded);
+  const WeldedMesh welded = weld(mesh, run);
+  const Shells shells = find_shells(mesh, welded, run);
+  run.check();
   const Components components = connected_components(mesh);
   const Components welded_components = connected_components(welded.mesh);
 
@@ -278,8 +283,10 @@ OrientedMesh orient_shells(const TriMesh& mesh) {
   if (shells.faces.empty()) {
     return result;
   }
+  run.check();
   Nesting nesting(shells);
   for (std::uint32_t s = 0; s < shells.members.size(); ++s) {
+    run.check();
     if (shells.closed[s] == 0) {
       continue;
     }

@@ -23,8 +23,8 @@ bool matches(const std::string& pattern, const std::string& path) {
          ::fnmatch(pattern.c_str(), file.c_str(), FNM_CASEFOLD) == 0;
 }
 
-constexpr const char* kReadable[] = {"*.obj", "*.off", "*.ply", "*.stl", "*.gltf",
-                                     "*.glb", "*.xyz", "*.pts", "*.pwn", "*.pcd"};
+constexpr const char* kReadable[] = {"*.obj", "*.off", "*.ply", "*.stl", "*.gltf", "*.glb",
+                                     "*.xyz", "*.pts", "*.pwn", "*.pcd", "*.3mf"};
 constexpr const char* kArchives[] = {"*.zip",     "*.tar",    "*.tar.gz", "*.tgz",
                                      "*.tar.bz2", "*.tar.xz", "*.tar.zst"};
 

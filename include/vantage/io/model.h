@@ -15,12 +15,13 @@
 /// \file
 /// Reading models. Vertex order is sacred: vertex i of the result is vertex i of the file (for
 /// .stl the welded vertices in order of first appearance; for glTF the concatenated primitives in
-/// world space), because every per-vertex result refers to it.
+/// world space, for 3MF the objects in the order in which they are built), because every per-vertex
+/// result refers to it.
 
 namespace vantage {
 
 /// File formats that can be read.
-enum class ModelFormat { Obj, Off, Ply, Stl, Gltf, Glb, Xyz, Pts, Pwn, Pcd };
+enum class ModelFormat { Obj, Off, Ply, Stl, Gltf, Glb, Xyz, Pts, Pwn, Pcd, Threemf };
 
 /// Lower-case name as used in results, e.g. "obj".
 std::string_view format_name(ModelFormat format);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "vantage/core/run_context.h"
 #include "vantage/mesh/tri_mesh.h"
 
 namespace vantage {
@@ -32,7 +33,8 @@ struct MeshReport {
   std::optional<std::size_t> genus{};
 };
 
-/// Looks for every defect in the table above; never throws on a mesh with valid indices.
-MeshReport check_mesh(const TriMesh& mesh);
+/// Looks for every defect in the table above; of a mesh with valid indices there always is a report.
+/// \throw Cancelled
+MeshReport check_mesh(const TriMesh& mesh, const RunContext& run = {});
 
 }  // namespace vantage

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "vantage/core/run_context.h"
 #include "vantage/mesh/tri_mesh.h"
 
 namespace vantage {
@@ -20,7 +21,7 @@ struct WeldedMesh {
 /// Merges vertices with exactly equal positions (−0 equals 0) and drops the faces this, or the
 /// input, makes name a vertex twice. Order of vertices and faces is kept. Each face starts at its
 /// lowest vertex: which corner a file names first must not show in the rounding of what follows,
-/// which the late steps of a contraction magnify.
-WeldedMesh weld(const TriMesh& mesh);
+/// which the late steps of a contraction magnify. \throw Cancelled
+WeldedMesh weld(const TriMesh& mesh, const RunContext& run = {});
 
 }  // namespace vantage

@@ -46,7 +46,7 @@ enum class UpAxis { X, Y, Z, MinusX, MinusY, MinusZ };
 Vec3 up_vector(UpAxis axis);
 /// "x", "-y", …
 std::string_view up_name(UpAxis axis);
-/// The axis a format implies when nothing is said: z for STL, y otherwise.
+/// The axis a format implies when nothing is said: z for STL and 3MF, y otherwise.
 UpAxis default_up(ModelFormat format);
 
 /// Everything that shapes the result of a view.
@@ -119,8 +119,8 @@ struct ShapeAnalysis {
 /// Welds and orients the model's surface; the only place that repairs, and it lists every repair.
 /// Leaves history, skeleton and map empty.
 /// The points of a model without faces are joined by their local Delaunay rings.
-/// \throw InvalidInput if the model has no extent.
-ShapeAnalysis prepare_surface(const Model& model);
+/// \throw InvalidInput if the model has no extent; Cancelled
+ShapeAnalysis prepare_surface(const Model& model, const RunContext& run = {});
 
 /// Adds the contraction history to a prepared surface. \throw Cancelled
 void add_history(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});

@@ -52,7 +52,8 @@ struct OrientedMesh {
 
 /// Turns closed, consistently wound components that are inside out. A shell inside an odd number
 /// of other closed shells bounds a cavity and should be wound inwards; an even number, outwards.
-OrientedMesh orient_shells(const TriMesh& mesh);
+/// \throw Cancelled
+OrientedMesh orient_shells(const TriMesh& mesh, const RunContext& run = {});
 
 /// Which vertices of a mesh an eye sees; all there is to call for a single view of triangles from
 /// anywhere. Closed shells that are inside out are turned first, and open or inconsistently wound

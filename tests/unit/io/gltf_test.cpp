@@ -274,15 +274,6 @@ TEST(Gltf, RefusesPositionsThatAreNotFinite) {
   EXPECT_THAT(scene.error(), HasSubstr("position 0 of accessor 0 is not finite"));
 }
 
-TEST(Gltf, NamesTheCompressionItCannotReadAndTheRemedy) {
-  Scene scene;
-  scene.more = R"(,"extensionsRequired":["KHR_draco_mesh_compression"])";
-  EXPECT_THAT(scene.error(), HasSubstr("KHR_draco_mesh_compression, which is not read; unpack it "
-                                       "first, with gltf-transform"));
-  scene.more = R"(,"extensionsRequired":["EXT_meshopt_compression"])";
-  EXPECT_THAT(scene.error(), HasSubstr("EXT_meshopt_compression"));
-}
-
 TEST(Gltf, RefusesBuffersOutsideTheModelsFolder) {
   for (const char* uri : {"../a.bin", "/dev/zero", "http://127.0.0.1/a.bin", "file:///a",
                           "%2e%2e/a", "b/../../a", "C:/a", "..\\\\a"}) {

@@ -47,7 +47,7 @@ TEST(ModelFormat, RefusesCompressedFilesWithTheToolThatUnpacksThem) {
 }
 
 TEST(ModelFormat, RefusesForeignFormatsByTheirBytes) {
-  EXPECT_THAT(error_text("PK\x03\x04", "a.3mf"), HasSubstr("is a ZIP archive"));
+  EXPECT_THAT(error_text("PK\x03\x04", "a.usdz"), HasSubstr("is a ZIP archive"));
   EXPECT_THAT(error_text("DRACO\x02", "a"), HasSubstr("draco_decoder"));
   EXPECT_THAT(error_text("<?xml version", "a.dae"), HasSubstr("COLLADA"));
   EXPECT_THAT(error_text("\x89PNG\r\n", "a.ply"), HasSubstr("is a PNG picture, not a model"));

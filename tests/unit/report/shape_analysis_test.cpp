@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "vantage/mesh/weld.h"
 #include "vantage/report/view_report.h"
 
 #include "support/shapes.h"
@@ -85,6 +86,26 @@ TEST(AnalyseShape, FindsTheLoopOfATorus) {
   const ShapeAnalysis shape = analyse_shape(model_of(torus(1.0, 0.3, 48, 20)), {});
   EXPECT_EQ(cycle_count(shape.skeleton.graph), 1U);
   EXPECT_EQ(*shape.check.genus, 1U);
+}
+
+TEST(PrepareSurface, StopsWhenAskedWithAndWithoutFaces) {
+  std::stop_source stop;
+  stop.request_stop();
+  const RunContext run{.report = {}, .stop = stop.get_token()};
+  Model model = model_of(torus(1.0, 0.3, 24, 12));
+  EXPECT_THROW(prepare_surface(model, run), Cancelled);
+  model.mesh.triangles.clear();
+  EXPECT_THROW(prepare_surface(model, run), Cancelled);
+}
+
+TEST(PrepareSurface, EachOfItsPartsStopsWhenAsked) {
+  std::stop_source stop;
+  stop.request_stop();
+  const RunContext run{.report = {}, .stop = stop.get_token()};
+  const TriMesh mesh = torus(1.0, 0.3, 24, 12);
+  EXPECT_THROW(weld(mesh, run), Cancelled);
+  EXPECT_THROW(check_mesh(mesh, run), Cancelled);
+  EXPECT_THROW(orient_shells(mesh, run), Cancelled);
 }
 
 TEST(AnalyseShape, StopsWhenAsked) {

@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Runs the program over every file of a folder and checks how it ends: by itself, in time, within memory, in one sentence.
+
+    check_hostile.py FOLDER [--program build/release/apps/vantage/vantage] [--command info|view] [--seconds 60]
+                     [--max-memory 4GB] [--stride N]
+
+Prints a table of exit codes, the slowest files and those with the largest peak of memory for each byte; exit code 1 if a
+run crashed, hung, or failed without one clear sentence. Works with a sanitizer's build too (without --max-memory).
+"""
+import argparse
+import collections
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+MODELS = {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".3mf", ".xyz", ".pcd", ".pts", ".pwn", ".gz", ".drc", ".txt",
+          ".dae", ".fbx", ".3ds", ".x3d", ".wrl", ".step", ".stp", ".zip"}
+SMALL = 1 << 20  # bytes: below, the program itself is most of the memory
+
+
+def run(arguments, folder, seconds):
+    """Exit code (None: it took too long), seconds, peak of memory in bytes, what it said."""
+    with tempfile.TemporaryFile() as said:
+        start = time.monotonic()
+        process = subprocess.Popen(arguments, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                   stderr=said)
+        status = None
+        while status is None and time.monotonic() - start < seconds:
+            pid, code, usage = os.wait4(process.pid, os.WNOHANG)
+            status = code if pid else None
+            time.sleep(0.002)
+        took = time.monotonic() - start
+        if status is None:
+            process.kill()
+            _, _, usage = os.wait4(process.pid, 0)
+        process.returncode = 0  # it has been waited for
+        said.seek(0)
+        code = None if status is None else os.waitstatus_to_exitcode(status)
+        return code, took, usage.ru_maxrss * 1024, said.read().decode(errors="replace").strip()
+
+
+def problem_of(code, words):
+    if code is None:
+        return "took too long"
+    if code not in (0, 1, 3):
+        return f"exit code {code}: {words[-300:]}"
+    if code != 0 and len(words.splitlines()) != 1:
+        return f"not one sentence: {words[-300:]}"
+    return None
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--program", default="build/release/apps/vantage/vantage")
+    parser.add_argument("--command", choices=("info", "view"), default="info")
+    parser.add_argument("--seconds", type=float, default=60.0)
+    parser.add_argument("--max-memory", default="")
+    parser.add_argument("--stride", type=int, default=1)
+    options = parser.parse_args()
+    program = str(pathlib.Path(options.program).resolve())
+    files = sorted(p for p in options.folder.resolve().rglob("*") if p.is_file() and p.suffix.lower() in MODELS)
+    files = files[::options.stride]
+    codes, problems, slowest, hungriest = collections.Counter(), [], [], []
+    with tempfile.TemporaryDirectory() as scratch:
+        for file in files:
+            flags = ["-o", "out", "--no-images", "--search", "rapid", "-q"] if options.command == "view" else ["-q"]
+            if options.max_memory:
+                flags += ["--max-memory", options.max_memory]
+            code, took, peak, words = run([program, options.command, str(file), *flags], scratch, options.seconds)
+            codes[code] += 1
+            name = str(file.relative_to(options.folder.resolve()))
+            problem = problem_of(code, words)
+            if problem:
+                problems.append(f"{name}: {problem}")
+            size = file.stat().st_size
+            slowest.append((took, name))
+            if size >= SMALL:
+                hungriest.append((peak / size, name, peak))
+    print(f"{len(files)} files, {options.command}; exit codes: " +
+          ", ".join(f"{code}: {count}" for code, count in sorted(codes.items(), key=str)))
+    for took, name in sorted(slowest)[-3:]:
+        print(f"  {took:8.2f} s  {name}")
+    for ratio, name, peak in sorted(hungriest)[-3:]:
+        print(f"  {ratio:8.1f} bytes of memory a byte of the file ({peak / 1e6:.0f} MB)  {name}")
+    for problem in problems:
+        print("WRONG:", problem)
+    sys.exit(1 if problems else 0)
+
+
+if __name__ == "__main__":
+    main()

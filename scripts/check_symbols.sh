@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# The functions of the public headers, as the linker knows them, against the committed list: what has gone or has
+# changed its arguments breaks programs that are linked to an older library.
+#
+#   scripts/check_symbols.sh [BUILD]             compares; exit code 1 where something has gone
+#   scripts/check_symbols.sh --update [BUILD]    writes the list anew: a decision, which the changelog names
+set -euo pipefail
+cd "$(dirname "$0")/.."
+update=
+if [[ ${1:-} == --update ]]; then update=yes; shift; fi
+build=${1:-build/release}
+list=cmake/public_symbols.txt
+
+# Names that the public headers declare.
+declared=$(grep -rhoE '\b[A-Za-z_][A-Za-z0-9_]*\s*\(' include | tr -d ' (' | sort -u)
+symbols() {
+  nm -C --defined-only "$build"/libvantage.* 2>/dev/null | awk '$2 == "T"' | cut -d' ' -f3- |
+    grep -E '^vantage::' | grep -vE '\(anonymous namespace\)|\{lambda|\[clone|\[abi' |
+    awk -v names="$declared" 'BEGIN { n = split(names, list, "\n"); for (i = 1; i <= n; ++i) known[list[i]] = 1 }
+      { plain = $0; gsub(/<[^<>]*>/, "", plain); gsub(/<[^<>]*>/, "", plain); gsub(/<[^<>]*>/, "", plain)
+        sub(/\(.*/, "", plain); n = split(plain, parts, "::"); name = parts[n]; sub(/^~/, "", name)
+        if (known[name]) print }' | LC_ALL=C sort -u
+}
+if [[ -n $update ]]; then
+  symbols >"$list"
+  echo "$list: $(wc -l <"$list") functions"
+  exit 0
+fi
+now=$(symbols)
+gone=$(LC_ALL=C comm -23 "$list" - <<<"$now")
+new=$(LC_ALL=C comm -13 "$list" - <<<"$now" | wc -l)
+if [[ -n $gone ]]; then
+  printf 'gone or changed, which breaks programs linked to an older library:\n%s\n' "$gone"
+  exit 1
+fi
+echo "every function of $list is there; $new new ones"

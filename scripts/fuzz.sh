@@ -1,0 +1,99 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Runs the fuzzers, one after the other, and prints a table of what they did.
+#
+#   scripts/fuzz.sh SECONDS [TARGET…]     each target (default: all) for so many seconds
+#   scripts/fuzz.sh --minimise [TARGET…]  then: the fewest small inputs that reach the same code, into fuzz/corpus/
+#
+# Seeds are fuzz/corpus/TARGET/ and, where VANTAGE_DATA names a folder of models, its small files. What is learnt stays
+# in build/fuzz/learnt/; inputs that break something go to build/fuzz/found/ and end the script with exit code 1.
+# FUZZ_BUILD=no takes the programs as they are.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+seed_bytes=20000     # larger seeds are slow to mutate
+corpus_files=60      # of each target, at most, when minimising
+corpus_bytes=4000    # of each of them
+
+usage() { sed -n '3,11p' "$0" | sed 's/^# \{0,1\}//'; exit 2; }
+(($# > 0)) || usage
+what=$1
+shift
+[[ $what == --minimise || $what =~ ^[0-9]+$ ]] || usage
+
+build=build/fuzz
+if [[ ${FUZZ_BUILD:-yes} == yes ]]; then
+  cmake --preset fuzz >/dev/null
+  nice cmake --build --preset fuzz --target fuzzers >/dev/null
+fi
+mkdir -p $build/learnt $build/found
+
+targets=("$@")
+if ((${#targets[@]} == 0)); then
+  for program in "$build"/fuzz/*_fuzz; do
+    name=${program##*/}
+    targets+=("${name%_fuzz}")
+  done
+fi
+
+# The folder of the data pack's files that a target reads, copied once.
+seed_from_data() {
+  local target=$1 ending=$1 place=$build/seeds/$1
+  [[ -n ${VANTAGE_DATA:-} && ! -d $place ]] || return 0
+  mkdir -p "$place"
+  case $target in
+    picture) ending='png -o -iname *.jpg -o -iname *.webp' ;;
+    packed) ending='drc' ;;
+    camera | csv | prior | manifest | settings | pipeline | threemf_xml) return 0 ;;
+  esac
+  set -f  # the pattern is for find
+  local words=()
+  for word in $ending; do words+=("$word"); done
+  find "$VANTAGE_DATA" -type f -size -"$seed_bytes"c \( -iname "*.${words[0]}" "${words[@]:1}" \) -print0 |
+    while IFS= read -r -d '' file; do
+      cp -n "$file" "$place/$(sha1sum <"$file" | cut -c1-16)"
+    done
+  set +f
+}
+
+minimise() {
+  local target=$1 small=$build/small/$1
+  rm -rf "$small"
+  mkdir -p "$small" "fuzz/corpus/$target"
+  "$build/fuzz/${target}_fuzz" -merge=1 -max_len=$corpus_bytes -rss_limit_mb=3000 "$small" "$build/learnt/$target" \
+    >/dev/null 2>&1
+  # The smallest ones: each of them reached something when it came.
+  find "$small" -type f -size -${corpus_bytes}c -printf '%s %p\n' | sort -n | awk -v most=$corpus_files 'NR <= most' |
+    while read -r _ file; do
+      cp "$file" "fuzz/corpus/$target/$(sha1sum <"$file" | cut -c1-12)"
+    done
+  printf '%-12s %4d files\n' "$target" "$(find "fuzz/corpus/$target" -type f | wc -l)"
+}
+
+if [[ $what == --minimise ]]; then
+  for target in "${targets[@]}"; do minimise "$target"; done
+  exit 0
+fi
+
+printf '| %-11s | %10s | %8s | %8s | %6s | %8s |\n' target executions seconds edges inputs findings
+printf '| %-11s | %10s | %8s | %8s | %6s | %8s |\n' --- ---: ---: ---: ---: ---:
+broken=0
+for target in "${targets[@]}"; do
+  learnt=$build/learnt/$target
+  log=$build/found/$target.log
+  mkdir -p "$learnt" "fuzz/corpus/$target"
+  seed_from_data "$target"
+  seeds=("fuzz/corpus/$target")
+  [[ -d $build/seeds/$target ]] && seeds+=("$build/seeds/$target")
+  rm -f "$build/found/$target"-*
+  started=$SECONDS
+  nice "$build/fuzz/${target}_fuzz" -max_total_time="$what" -timeout=120 -rss_limit_mb=3000 -max_len=$seed_bytes \
+    -print_final_stats=1 -artifact_prefix="$build/found/$target-" "$learnt" "${seeds[@]}" >"$log" 2>&1 || true
+  found=$(find $build/found -name "$target-*" | wc -l)
+  executions=$(awk '/number_of_executed_units/ {print $2}' "$log")
+  edges=$(grep -o 'cov: [0-9]*' "$log" | tail -1 | cut -c6- || true)
+  printf '| %-11s | %10s | %8d | %8s | %6d | %8d |\n' "$target" "${executions:-?}" $((SECONDS - started)) \
+    "${edges:-?}" "$(find "$learnt" -type f | wc -l)" "$found"
+  ((found == 0)) || broken=1
+done
+exit $broken

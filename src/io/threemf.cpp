@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "io/model_builder.h"
+#include "io/number_parsing.h"
+#include "io/readers.h"
+#include "io/threemf_package.h"
+#include "io/threemf_parts.h"
+
+namespace vantage {
+namespace {
+
+constexpr const char* kRelationships = "_rels/.rels";
+constexpr const char* kUsualRoot = "3d/3dmodel.model";
+
+/// A file may show one object many times. All that is shown together may have this many vertices
+/// and corners for each byte of the file …
+constexpr std::size_t kMostPerByte = 64;
+/// … and this many in any case; objects may be visited as often. [ours]
+constexpr std::size_t kMostInSmallFile = 1'000'000;
+/// Larger relationships are none. [ours]
+constexpr std::size_t kLargestRelationships = 1'000'000;
+
+using Parts = std::map<std::string, ThreemfPart>;
+
+/// The name of the part to begin with.
+std::string root_of(std::string_view bytes, const ModelBuilder& builder) {
+  std::string relationships;
+  std::string first;
+  bool has_usual = false;
+  const PartSink sink{[&](const std::string& name) {
+                        const bool is_model = name.ends_with(".model");
+                        first = is_model && first.empty() ? name : first;
+                        has_usual = has_usual || name == kUsualRoot;
+                        return name == kRelationships;
+                      },
+                      [&](std::string_view piece) {
+                        if (relationships.size() < kLargestRelationships) {
+                          relationships += piece;
+                        }
+                      },
+                      [] {}};
+  read_package(bytes, sink, builder);
+  std::string root = threemf_root(relationships);
+  if (root.empty()) {
+    root = has_usual ? kUsualRoot : first;
+  }
+  if (root.empty()) {
+    builder.fail("the archive holds no 3D model; is it a 3MF file?");
+  }
+  return root;
+}
+
+Parts read_parts(std::string_view bytes, const std::string& root, ModelBuilder& builder) {
+  Parts parts;
+  std::string name;
+  std::optional<ThreemfPartReader> reader;
+  std::size_t done = 0;
+  const PartSink sink{[&](const std::string& part) {
+                        name = part;
+                        const bool is_wanted = part == root || part.ends_with(".model");
+                        if (is_wanted) {
+                          reader.emplace(part, builder);
+                        }
+                        return is_wanted;
+                      },
+                      [&](std::string_view piece) {
+                        reader->add(piece);
+                        done += piece.size();
+                        builder.advance(0, 1);
+                      },
+                      [&] { parts[name] = reader->finish(); }};
+  read_package(bytes, sink, builder);
+  return parts;
+}
+
+/// Puts the items of the build plate where they stand.
+class PlateReader {
+ public:
+  PlateReader(const Parts& parts, std::size_t file_bytes, ModelBuilder& builder)
+      : parts_(parts),
+        builder_(builder),
+        budget_(kMostInSmallFile + kMostPerByte * file_bytes),
+        visits_left_(budget_) {
+    std::uint32_t first = 0;
+    for (const auto& [name, part] : parts) {
+      objects_ += part.objects.size();
+      first_material_[name] = first;
+      first += static_cast<std::uint32_t>(part.materials.size());
+    }
+  }
+
+  void read(const std::string& root) {
+    const ThreemfPart& part = parts_.at(root);
+    std::vector<Visit> pending;
+    add_visits(part.items, root, Eigen::Affine3d::Identity(), 1, pending);
+    if (part.items.empty()) {
+      builder_.note("nothing is to be built: each object of the file is shown once");
+      for (const auto& [id, object] : part.objects) {
+        pending.push_back({root, id, Eigen::Affine3d::Identity(), 1});
+      }
+      std::reverse(pending.begin(), pending.end());
+    }
+    while (!pending.empty()) {
+      const Visit visit = std::move(pending.back());
+      pending.pop_back();
+      read_object(visit, pending);
+    }
+    if (left_out_ > 0) {
+      builder_.note("objects that only support others left out: " + std::to_string(left_out_));
+    }
+    if (part.unit != "millimeter") {
+      builder_.note("the file's unit is the " + in_quotes(part.unit) +
+                    "; coordinates are in that unit, as they stand there");
+    }
+  }
+
+  [[nodiscard]] std::vector<Material> materials() const {
+    std::vector<Material> all;
+    for (const auto& [name, part] : parts_) {
+      all.insert(all.end(), part.materials.begin(), part.materials.end());
+    }
+    return all;
+  }
+
+ private:
+  struct Visit {
+    std::string part;
+    std::uint32_t object;
+    Eigen::Affine3d transform;
+    std::size_t depth;
+  };
+
+  /// Puts uses on the stack, the first on top.
+  static void add_visits(const std::vector<ThreemfUse>& uses, const std::string& part,
+                         const Eigen::Affine3d& outer, std::size_t depth,
+                         std::vector<Visit>& pending) {
+    const auto first = static_cast<std::ptrdiff_t>(pending.size());
+    for (const ThreemfUse& use : uses) {
+      Eigen::Affine3d inner = Eigen::Affine3d::Identity();
+      inner.affine() = use.transform.transpose();
+      pending.push_back({use.part.empty() ? part : use.part, use.object, outer * inner, depth});
+    }
+    std::reverse(pending.begin() + first, pending.end());
+  }
+
+  void spend(std::size_t amount) {
+    if (amount > budget_) {
+      builder_.fail("shows its objects so often that the model is out of proportion to the file");
+    }
+    budget_ -= amount;
+  }
+
+  [[nodiscard]] const ThreemfObject& object_of(const Visit& visit) const {
+    const auto part = parts_.find(visit.part);
+    if (part == parts_.end()) {
+      builder_.fail("names the part " + in_quotes(visit.part) + ", which is not in the archive");
+    }
+    const auto object = part->second.objects.find(visit.object);
+    if (object == part->second.objects.end()) {
+      builder_.fail("shows object " + std::to_string(visit.object) + " of part " +
+                    in_quotes(visit.part) + ", which does not exist");
+    }
+    return object->second;
+  }
+
+  void read_object(const Visit& visit, std::vector<Visit>& pending) {
+    const ThreemfObject& object = object_of(visit);
+    if (visit.depth > objects_) {
+      builder_.fail("object " + std::to_string(visit.object) + " is a component of itself");
+    }
+    if (visits_left_-- == 0) {
+      builder_.fail("shows its objects so often that the model is out of proportion to the file");
+    }
+    if (!object.is_model) {
+      ++left_out_;
+      return;
+    }
+    add_mesh(object, visit);
+    add_visits(object.components, visit.part, visit.transform, visit.depth + 1, pending);
+  }
+
+  void add_mesh(const ThreemfObject& object, const Visit& visit) {
+    if (object.points.empty()) {
+      return;
+    }
+    spend(object.points.size() + object.triangles.size() * 3);
+    builder_.begin_part(object.name);
+    const std::size_t first = builder_.point_count();
+    for (const Vec3& point : object.points) {
+      builder_.add_point(visit.transform * point, {"vertex", builder_.point_count()});
+      builder_.advance(1, 1);
+    }
+    // A reflection turns the surface inside out, which is taken back.
+    const bool is_mirrored = visit.transform.linear().determinant() < 0.0;
+    for (std::size_t t = 0; t < object.triangles.size(); ++t) {
+      const auto& [a, b, c] = object.triangles[t];
+      if (builder_.keeps_appearance()) {
+        const std::uint32_t material = object.materials[t];
+        builder_.begin_material(
+            material == Appearance::kNone ? material : material + first_material_.at(visit.part));
+      }
+      builder_.add_triangle(first + a, first + (is_mirrored ? c : b), first + (is_mirrored ? b : c),
+                            {"vertex", first});
+    }
+  }
+
+  const Parts& parts_;
+  ModelBuilder& builder_;
+  std::size_t budget_;
+  std::size_t visits_left_;
+  std::size_t objects_ = 0;
+  std::size_t left_out_ = 0;
+  std::map<std::string, std::uint32_t> first_material_{};
+};
+
+}  // namespace
+
+Model parse_threemf(std::string_view bytes, std::string_view name, const RunContext& run,
+                    const Surroundings& surroundings) {
+  ModelBuilder builder(ModelFormat::Threemf, name, run, 0);
+  if (surroundings.options.appearance) {
+    builder.keep_appearance(/*of_vertices=*/false);
+  }
+  const std::string root = root_of(bytes, builder);
+  const Parts parts = read_parts(bytes, root, builder);
+  if (parts.find(root) == parts.end()) {
+    builder.fail("names the part " + in_quotes(root) + ", which is not in the archive");
+  }
+  for (const auto& [part_name, part] : parts) {
+    if (part.needs_double) {
+      builder.coordinates_need_double();
+    }
+  }
+  PlateReader reader(parts, bytes.size(), builder);
+  reader.read(root);
+  if (builder.keeps_appearance()) {
+    builder.set_materials(reader.materials(), {});
+  }
+  return builder.finish();
+}
+
+}  // namespace vantage

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: MIT
+#include "io/threemf_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <optional>
+#include <utility>
+
+#include <expat.h>
+
+#include "vantage/core/error.h"
+
+#include "core/srgb.h"
+#include "io/number_parsing.h"
+#include "io/text_cursor.h"
+#include "io/threemf_package.h"
+
+namespace vantage {
+namespace {
+
+/// Between the namespace of an element and its name, as expat is told to write them.
+constexpr XML_Char kBetween = '|';
+
+/// The name without its namespace: no two that matter have the same one.
+std::string_view local(const XML_Char* name) {
+  const std::string_view whole = name;
+  return whole.substr(whole.rfind(kBetween) + 1);
+}
+
+/// Attributes of an element, as expat hands them over.
+class Attributes {
+ public:
+  explicit Attributes(const XML_Char** list) : list_(list) {}
+
+  [[nodiscard]] std::optional<std::string_view> text(std::string_view name) const {
+    for (const XML_Char** at = list_; *at != nullptr; at += 2) {
+      if (local(at[0]) == name) {
+        return at[1];
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// A number from 0 to 2³² − 2.
+  [[nodiscard]] std::optional<std::uint32_t> index(std::string_view name) const {
+    const auto value = integer_from(trimmed(text(name).value_or("")));
+    return value && *value >= 0 && *value < std::int64_t{Appearance::kNone}
+               ? std::optional(static_cast<std::uint32_t>(*value))
+               : std::nullopt;
+  }
+
+ private:
+  const XML_Char** list_;
+};
+
+/// Half a byte, or 16.
+unsigned hexadecimal(char c) {
+  return c >= '0' && c <= '9'   ? static_cast<unsigned>(c - '0')
+         : c >= 'a' && c <= 'f' ? static_cast<unsigned>(c - 'a' + 10)
+         : c >= 'A' && c <= 'F' ? static_cast<unsigned>(c - 'A' + 10)
+                                : 16U;
+}
+
+/// "#RRGGBB" or "#RRGGBBAA", sRGB; white for anything else. Opacity counts for nothing here.
+Material material_of(std::string_view text) {
+  Material material;
+  std::array<double, 3> colour{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const bool is_there = text.size() >= 7 && text[0] == '#';
+    const unsigned high = is_there ? hexadecimal(text[1 + 2 * c]) : 16U;
+    const unsigned low = is_there ? hexadecimal(text[2 + 2 * c]) : 16U;
+    if (high > 15 || low > 15) {
+      return material;
+    }
+    colour[c] = linear_of_srgb(static_cast<std::uint8_t>(16 * high + low));
+  }
+  material.colour = colour;
+  return material;
+}
+
+struct FreeParser {
+  void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
+};
+
+using Parser = std::unique_ptr<XML_ParserStruct, FreeParser>;
+
+}  // namespace
+
+/// Where the reader is in the document. expat is C: what is thrown inside its calls is kept and
+/// thrown again outside.
+class ThreemfPartReader::State {
+ public:
+  State(const std::string& name, const ModelBuilder& builder)
+      : name_(name), builder_(builder), parser_(XML_ParserCreateNS(nullptr, kBetween)) {
+    XML_SetUserData(parser_.get(), this);
+    XML_SetElementHandler(parser_.get(), &on_start, &on_end);
+    XML_SetStartDoctypeDeclHandler(parser_.get(), &on_document_type);
+  }
+
+  void add(std::string_view piece, bool is_last) {
+    const XML_Status status =
+        XML_Parse(parser_.get(), piece.data(), static_cast<int>(piece.size()), is_last ? 1 : 0);
+    if (failure_) {
+      std::rethrow_exception(failure_);
+    }
+    if (status != XML_STATUS_OK) {
+      fail(std::string("is not well-formed XML: ") +
+           XML_ErrorString(XML_GetErrorCode(parser_.get())));
+    }
+  }
+
+  ThreemfPart finish() {
+    add({}, true);
+    return std::move(part_);
+  }
+
+ private:
+  static void on_start(void* state, const XML_Char* name, const XML_Char** attributes) {
+    static_cast<State*>(state)->guarded(
+        [&](State& self) { self.start(local(name), Attributes(attributes)); });
+  }
+
+  static void on_end(void* state, const XML_Char* name) {
+    static_cast<State*>(state)->guarded([&](State& self) { self.end(local(name)); });
+  }
+
+  static void on_document_type(void* state, const XML_Char* /*name*/, const XML_Char* /*system*/,
+                               const XML_Char* /*publisher*/, int /*has_subset*/) {
+    static_cast<State*>(state)->guarded(
+        [](State& self) { self.fail("has a document type, which 3MF does not allow"); });
+  }
+
+  template <class Step>
+  void guarded(const Step& step) {
+    if (failure_) {
+      return;
+    }
+    try {
+      step(*this);
+    } catch (...) {
+      failure_ = std::current_exception();
+      XML_StopParser(parser_.get(), XML_FALSE);
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw FormatError(builder_.name(),
+                      "part " + in_quotes(name_) + ", line " +
+                          std::to_string(XML_GetCurrentLineNumber(parser_.get())),
+                      problem);
+  }
+
+  void start(std::string_view element, const Attributes& attributes) {
+    if (element == "vertex") {
+      add_vertex(attributes);
+    } else if (element == "triangle") {
+      add_triangle(attributes);
+    } else if (element == "object") {
+      begin_object(attributes);
+    } else if (element == "component") {
+      if (object_ == nullptr) {
+        fail("a component belongs to no object");
+      }
+      object_->components.push_back(use(attributes));
+    } else if (element == "item") {
+      part_.items.push_back(use(attributes));
+    } else if (element == "model") {
+      part_.unit = attributes.text("unit").value_or("millimeter");
+    } else {
+      add_colour(element, attributes);
+    }
+  }
+
+  void end(std::string_view element) {
+    if (element == "object") {
+      object_ = nullptr;
+    }
+  }
+
+  void add_colour(std::string_view element, const Attributes& attributes) {
+    if (element == "basematerials" || element == "colorgroup") {
+      const auto id = attributes.index("id");
+      group_ = id ? &groups_[*id] : nullptr;
+    } else if ((element == "base" || element == "color") && group_ != nullptr) {
+      group_->push_back(static_cast<std::uint32_t>(part_.materials.size()));
+      part_.materials.push_back(
+          material_of(attributes.text(element == "base" ? "displaycolor" : "color").value_or("")));
+    }
+  }
+
+  void begin_object(const Attributes& attributes) {
+    const auto id = attributes.index("id");
+    if (!id) {
+      fail("an object has no id");
+    }
+    const auto [place, is_new] = part_.objects.try_emplace(*id);
+    if (!is_new) {
+      fail("two objects have the id " + std::to_string(*id));
+    }
+    object_ = &place->second;
+    object_->name = attributes.text("name").value_or("");
+    const std::string_view type = attributes.text("type").value_or("model");
+    object_->is_model = type == "model" || type == "surface";
+    object_colours_ = attributes.index("pid");
+    object_material_ = material_at(object_colours_, attributes.index("pindex"));
+  }
+
+  [[nodiscard]] std::uint32_t material_at(std::optional<std::uint32_t> group,
+                                          std::optional<std::uint32_t> index) const {
+    const auto found = group ? groups_.find(*group) : groups_.end();
+    return found != groups_.end() && index && *index < found->second.size() ? found->second[*index]
+                                                                            : Appearance::kNone;
+  }
+
+  double coordinate(const Attributes& attributes, std::string_view name) {
+    const std::optional<std::string_view> text = attributes.text(name);
+    if (!text) {
+      fail("a vertex has no " + std::string(name));
+    }
+    const std::string_view token = trimmed(*text);
+    const std::optional<double> value = number_from(token);
+    if (!value || !(std::abs(*value) <= kLargestCoordinate)) {
+      fail(value ? "a coordinate is not finite, or beyond 1e100" : number_problem(token));
+    }
+    part_.needs_double = part_.needs_double || needs_double(token, *value);
+    return *value;
+  }
+
+  void add_vertex(const Attributes& attributes) {
+    if (object_ == nullptr) {
+      fail("a vertex belongs to no object");
+    }
+    const double x = coordinate(attributes, "x");
+    const double y = coordinate(attributes, "y");
+    object_->points.emplace_back(x, y, coordinate(attributes, "z"));
+  }
+
+  void add_triangle(const Attributes& attributes) {
+    if (object_ == nullptr) {
+      fail("a triangle belongs to no object");
+    }
+    Triangle triangle{};
+    constexpr std::array<const char*, 3> kCorners{"v1", "v2", "v3"};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto vertex = attributes.index(kCorners[c]);
+      if (!vertex || *vertex >= object_->points.size()) {
+        fail(std::string("a triangle's ") + kCorners[c] +
+             " names no vertex: " + in_quotes(attributes.text(kCorners[c]).value_or("")) + " of " +
+             std::to_string(object_->points.size()));
+      }
+      triangle[c] = *vertex;
+    }
+    object_->triangles.push_back(triangle);
+    const auto colour = attributes.index("p1");
+    const auto group = attributes.index("pid");
+    object_->materials.push_back(colour ? material_at(group ? group : object_colours_, colour)
+                                        : object_material_);
+  }
+
+  ThreemfUse use(const Attributes& attributes) const {
+    const auto object = attributes.index("objectid");
+    if (!object) {
+      fail("something is shown that has no objectid");
+    }
+    ThreemfUse use;
+    use.object = *object;
+    use.part = part_name(attributes.text("path").value_or(""));
+    use.transform << 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0;
+    if (const auto text = attributes.text("transform")) {
+      TextCursor numbers(*text);
+      for (Eigen::Index i = 0; i < use.transform.size(); ++i) {
+        const std::optional<double> value = number_from(numbers.next_token());
+        if (!value || !(std::abs(*value) <= kLargestCoordinate)) {
+          fail("a transform is not 12 finite numbers: " + in_quotes(*text));
+        }
+        use.transform(i / 3, i % 3) = *value;
+      }
+    }
+    return use;
+  }
+
+  const std::string name_;
+  const ModelBuilder& builder_;
+  Parser parser_;
+  std::exception_ptr failure_{};
+  ThreemfPart part_{};
+  ThreemfObject* object_ = nullptr;  ///< Being read; a map keeps its place.
+  std::map<std::uint32_t, std::vector<std::uint32_t>> groups_{};  ///< Materials of each group.
+  std::vector<std::uint32_t>* group_ = nullptr;                   ///< Being read.
+  std::optional<std::uint32_t> object_colours_{};
+  std::uint32_t object_material_ = Appearance::kNone;
+};
+
+ThreemfPartReader::ThreemfPartReader(const std::string& name, const ModelBuilder& builder)
+    : state_(std::make_unique<State>(name, builder)) {}
+
+ThreemfPartReader::~ThreemfPartReader() = default;
+
+void ThreemfPartReader::add(std::string_view piece) {
+  state_->add(piece, false);
+}
+
+ThreemfPart ThreemfPartReader::finish() {
+  return state_->finish();
+}
+
+std::string threemf_root(std::string_view relationships) {
+  struct Found {
+    std::string target{};
+  } found;
+
+  const Parser parser(XML_ParserCreateNS(nullptr, kBetween));
+  XML_SetUserData(parser.get(), &found);
+  XML_SetStartElementHandler(
+      parser.get(), [](void* state, const XML_Char* name, const XML_Char** attributes) {
+        const Attributes list(attributes);
+        const bool is_model =
+            local(name) == "Relationship" && list.text("Type").value_or("").ends_with("/3dmodel");
+        if (is_model) {
+          static_cast<Found*>(state)->target = part_name(list.text("Target").value_or(""));
+        }
+      });
+  // What is not well formed names no root.
+  XML_Parse(parser.get(), relationships.data(), static_cast<int>(relationships.size()), 1);
+  return found.target;
+}
+
+}  // namespace vantage

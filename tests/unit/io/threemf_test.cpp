@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "vantage/io/model.h"
+#include "vantage/mesh/measures.h"
+
+#include "unit/io/error_text.h"
+#include "unit/io/zip_archive.h"
+
+namespace vantage::test {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* kRelationships =
+    R"(<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">)"
+    R"(<Relationship Target="/3D/3dmodel.model" Id="rel0" )"
+    R"(Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>)";
+
+constexpr const char* kTetrahedron =
+    R"(<mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="2" y="0" z="0"/>)"
+    R"(<vertex x="0" y="2" z="0"/><vertex x="0" y="0" z="2"/></vertices>)"
+    R"(<triangles><triangle v1="0" v2="2" v3="1"/><triangle v1="0" v2="1" v3="3"/>)"
+    R"(<triangle v1="0" v2="3" v3="2"/><triangle v1="1" v2="2" v3="3"/></triangles></mesh>)";
+
+/// The parts of a file that a test may change.
+struct Plate {
+  std::string before{};  ///< In front of the root element.
+  std::string attributes = R"(unit="millimeter")";
+  std::string resources =
+      std::string(R"(<object id="1" type="model" name="one">)") + kTetrahedron + "</object>";
+  std::string items = R"(<item objectid="1"/>)";
+  std::vector<std::pair<std::string, std::string>> more{};
+
+  [[nodiscard]] std::string model() const {
+    return before + "<model " + attributes +
+           R"( xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02")"
+           R"( xmlns:m="http://schemas.microsoft.com/3dmanufacturing/material/2015/02")"
+           R"( xmlns:p="http://schemas.microsoft.com/3dmanufacturing/production/2015/06">)"
+           "<resources>" +
+           resources + "</resources><build>" + items + "</build></model>";
+  }
+
+  [[nodiscard]] std::string bytes() const {
+    auto files = more;
+    files.insert(files.begin(), {{"_rels/.rels", kRelationships}, {"3D/3dmodel.model", model()}});
+    return zip_archive(files);
+  }
+
+  [[nodiscard]] Model parsed(bool appearance = false) const {
+    return parse_model(bytes(), "a.3mf", {}, {.appearance = appearance});
+  }
+
+  [[nodiscard]] std::string error() const { return error_text(bytes(), "a.3mf"); }
+};
+
+TEST(Threemf, ReadsVerticesAndTrianglesInTheirOrder) {
+  const Model model = Plate().parsed();
+  EXPECT_EQ(model.format, ModelFormat::Threemf);
+  EXPECT_EQ(format_name(model.format), "3mf");
+  ASSERT_EQ(model.mesh.positions.size(), 4U);
+  EXPECT_EQ(model.mesh.positions[2], Vec3(0.0, 2.0, 0.0));
+  EXPECT_THAT(model.mesh.triangles[3], ElementsAre(1, 2, 3));
+  EXPECT_DOUBLE_EQ(6.0 * signed_volume(model.mesh), 8.0);
+  ASSERT_EQ(model.parts.size(), 1U);
+  EXPECT_EQ(model.parts[0].name, "one");
+}
+
+TEST(Threemf, IsFoundByItsContentUnderAnyName) {
+  EXPECT_EQ(parse_model(Plate().bytes(), "a.bin").format, ModelFormat::Threemf);
+}
+
+TEST(Threemf, MovesEachItemByItsRowOfTwelveNumbers) {
+  Plate plate;
+  // Rows: x goes to y, y to z, z to x; then a shift.
+  plate.items =
+      R"(<item objectid="1" transform="0 1 0 0 0 1 1 0 0 10 20 30"/><item objectid="1"/>)";
+  const Model model = plate.parsed();
+  ASSERT_EQ(model.mesh.positions.size(), 8U);
+  EXPECT_EQ(model.mesh.positions[0], Vec3(10.0, 20.0, 30.0));
+  EXPECT_EQ(model.mesh.positions[1], Vec3(10.0, 22.0, 30.0));
+  EXPECT_EQ(model.mesh.positions[5], Vec3(2.0, 0.0, 0.0));
+}
+
+TEST(Threemf, AppliesTheInnerTransformOfAComponentFirst) {
+  Plate plate;
+  plate.resources += R"(<object id="2"><components>)"
+                     R"(<component objectid="1" transform="2 0 0 0 2 0 0 0 2 0 0 0"/>)"
+                     R"(<component objectid="1"/></components></object>)";
+  plate.items = R"(<item objectid="2" transform="1 0 0 0 1 0 0 0 1 5 0 0"/>)";
+  const Model model = plate.parsed();
+  ASSERT_EQ(model.mesh.positions.size(), 8U);
+  EXPECT_EQ(model.mesh.positions[1], Vec3(9.0, 0.0, 0.0));  // 2 · 2 + 5
+  EXPECT_EQ(model.mesh.positions[5], Vec3(7.0, 0.0, 0.0));
+}
+
+TEST(Threemf, KeepsAMirroredShellTheRightSideOut) {
+  Plate plate;
+  plate.items = R"(<item objectid="1" transform="-1 0 0 0 1 0 0 0 1 0 0 0"/>)";
+  EXPECT_DOUBLE_EQ(6.0 * signed_volume(plate.parsed().mesh), 8.0);
+}
+
+TEST(Threemf, ReadsObjectsOfOtherParts) {
+  Plate plate;
+  Plate other;
+  other.items.clear();
+  plate.resources =
+      R"(<object id="3"><components>)"
+      R"(<component p:path="/3D/Objects/a.model" objectid="1"/></components></object>)";
+  plate.items = R"(<item objectid="3"/>)";
+  plate.more = {{"3D/Objects/a.model", other.model()}};
+  EXPECT_EQ(plate.parsed().mesh.positions.size(), 4U);
+}
+
+TEST(Threemf, KeepsTheFilesUnitAndNamesIt) {
+  Plate plate;
+  plate.attributes = R"(unit="inch")";
+  const Model model = plate.parsed();
+  EXPECT_EQ(model.mesh.positions[1], Vec3(2.0, 0.0, 0.0));
+  EXPECT_THAT(model.notes, Contains(HasSubstr("inch")));
+}
+
+TEST(Threemf, LeavesSupportsOut) {
+  Plate plate;
+  plate.resources += std::string(R"(<object id="2" type="support">)") + kTetrahedron + "</object>";
+  plate.items += R"(<item objectid="2"/>)";
+  const Model model = plate.parsed();
+  EXPECT_EQ(model.mesh.positions.size(), 4U);
+  EXPECT_THAT(model.notes, Contains(HasSubstr("support")));
+}
+
+TEST(Threemf, ShowsEveryObjectOfAFileThatBuildsNothing) {
+  Plate plate;
+  plate.items.clear();
+  EXPECT_EQ(plate.parsed().mesh.positions.size(), 4U);
+}
+
+TEST(Threemf, GivesTrianglesTheColoursOfTheirGroups) {
+  Plate plate;
+  plate.resources =
+      R"(<basematerials id="7"><base name="red" displaycolor="#FF0000"/>)"
+      R"(<base name="blue" displaycolor="#0000FFFF"/></basematerials>)"
+      R"(<m:colorgroup id="8"><m:color color="#00FF00"/></m:colorgroup>)"
+      R"(<object id="1" pid="7" pindex="1"><mesh><vertices><vertex x="0" y="0" z="0"/>)"
+      R"(<vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/></vertices><triangles>)"
+      R"(<triangle v1="0" v2="1" v3="2"/><triangle v1="0" v2="1" v3="2" p1="0"/>)"
+      R"(<triangle v1="0" v2="1" v3="2" pid="8" p1="0"/></triangles></mesh></object>)";
+  const Appearance look = plate.parsed(true).appearance;
+  ASSERT_EQ(look.material_of_triangle.size(), 3U);
+  const auto colour = [&](std::size_t t) {
+    return look.materials[look.material_of_triangle[t]].colour;
+  };
+  EXPECT_THAT(colour(0), ElementsAre(0.0, 0.0, 1.0));
+  EXPECT_THAT(colour(1), ElementsAre(1.0, 0.0, 0.0));
+  EXPECT_THAT(colour(2), ElementsAre(0.0, 1.0, 0.0));
+}
+
+TEST(ThreemfError, NamesThePartAndTheLineOfAMissingVertex) {
+  Plate plate;
+  plate.resources = std::string("\n<object id=\"1\">\n") + kTetrahedron + "</object>";
+  plate.resources.replace(plate.resources.find("v3=\"3\""), 6, "v3=\"4\"");
+  EXPECT_THAT(plate.error(), HasSubstr("line 3"));
+  EXPECT_THAT(plate.error(), HasSubstr("'4' of 4"));
+}
+
+TEST(ThreemfError, RefusesADocumentTypeAndWithItEveryEntity) {
+  Plate plate;
+  plate.before = R"(<!DOCTYPE model [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;">]>)";
+  EXPECT_THAT(plate.error(), HasSubstr("document type"));
+  plate.before = R"(<!DOCTYPE model SYSTEM "file:///etc/passwd">)";
+  EXPECT_THAT(plate.error(), HasSubstr("document type"));
+}
+
+TEST(ThreemfError, RefusesAComponentOfItself) {
+  Plate plate;
+  plate.resources +=
+      R"(<object id="2"><components><component objectid="3"/></components></object>)"
+      R"(<object id="3"><components><component objectid="2"/></components></object>)";
+  plate.items = R"(<item objectid="2"/>)";
+  EXPECT_THAT(plate.error(), HasSubstr("component of itself"));
+}
+
+TEST(ThreemfError, RefusesObjectsThatDoubleAtEveryLevel) {
+  Plate plate;
+  for (int id = 2; id < 60; ++id) {
+    const std::string use = "<component objectid=\"" + std::to_string(id - 1) + "\"/>";
+    plate.resources += "<object id=\"" + std::to_string(id) + "\"><components>" + use + use +
+                       "</components></object>";
+  }
+  plate.items = R"(<item objectid="59"/>)";
+  EXPECT_THAT(plate.error(), HasSubstr("out of proportion"));
+}
+
+TEST(ThreemfError, RefusesNumbersThatAreNone) {
+  for (const char* number : {"nan", "inf", "1e200", "", "0x1", "1,5"}) {
+    Plate plate;
+    plate.resources.replace(plate.resources.find("x=\"2\""), 5,
+                            std::string("x=\"") + number + "\"");
+    EXPECT_THAT(plate.error(), HasSubstr("line 1")) << number;
+  }
+}
+
+TEST(ThreemfError, RefusesATransformOfElevenNumbers) {
+  Plate plate;
+  plate.items = R"(<item objectid="1" transform="1 0 0 0 1 0 0 0 1 0 0"/>)";
+  EXPECT_THAT(plate.error(), HasSubstr("12 finite numbers"));
+}
+
+TEST(ThreemfError, IsOneSentenceWhereverTheArchiveIsCutInItsModel) {
+  const std::string whole = Plate().bytes();
+  const std::size_t directory = whole.find("PK\x01\x02");
+  ASSERT_LT(directory, whole.size());
+  for (std::size_t size = 2; size + 40 < directory; size += 7) {
+    EXPECT_THAT(error_text(whole.substr(0, size), "a.3mf"), HasSubstr("a.3mf")) << size;
+  }
+}
+
+TEST(ThreemfError, RefusesAnArchiveThatUnpacksToAThousandTimesItsSize) {
+  Plate plate;
+  plate.before = std::string(80'000'000, ' ');
+  EXPECT_THAT(plate.error(), HasSubstr("more than the size of the file allows"));
+}
+
+TEST(ThreemfError, RefusesPartsOfAnArchiveThatAreNotDeflated) {
+  const Plate plate;
+  std::string bytes = plate.bytes();
+  // The method, in the local header and in the directory: 14 is LZMA, which may ask for gigabytes.
+  for (std::size_t at = 0; (at = bytes.find("PK\x03\x04", at)) != std::string::npos; ++at) {
+    bytes[at + 8] = 14;
+  }
+  for (std::size_t at = 0; (at = bytes.find("PK\x01\x02", at)) != std::string::npos; ++at) {
+    bytes[at + 10] = 14;
+  }
+  EXPECT_THAT(error_text(bytes, "a.3mf"), HasSubstr("deflate"));
+}
+
+}  // namespace
+}  // namespace vantage::test
