@@ -2,6 +2,7 @@
 #include "vantage/view/measurer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -76,10 +77,11 @@ struct ViewMeasurer::State {
   MeasuredModel model{};
   std::vector<Measure> measures{};
   MeasureNeeds needs{};
-  std::optional<VertexVisibility> vertices{};
+  std::optional<VertexVisibility> vertices{};  // unless `faces` answers for them too
   std::optional<FaceVisibility> faces{};
   std::optional<OutlineTracer> outlines{};
   MeasureValues of_set{};
+  std::vector<std::array<double, 2>> set_sums{};  // SightTable's projected_area and area_logs
 
   void prepare(const RunContext& run);
   void prepare_maps(const RunContext& run);
@@ -99,7 +101,7 @@ void ViewMeasurer::State::prepare(const RunContext& run) {
   model.log_face_areas.reserve(model.face_areas.size());
   for (const double area : model.face_areas) {
     model.surface_area += area;
-    model.log_face_areas.push_back(area > 0.0 ? std::log2(area) : 0.0);
+    model.log_face_areas.push_back(area > 0.0 ? log_2(area) : 0.0);
   }
   if (!(model.surface_area > 0.0) || !(model.given.camera.sphere.diameter > 0.0)) {
     throw InvalidInput("a surface without area cannot be measured");
@@ -123,7 +125,9 @@ void ViewMeasurer::State::prepare(const RunContext& run) {
     }
   }
   if (needs.vertices) {
-    vertices.emplace(mesh, sides);
+    if (!faces) {
+      vertices.emplace(mesh, sides);
+    }
     model.angle_deficits = angle_deficits(mesh);
   }
   if (needs.outline) {
@@ -169,13 +173,11 @@ SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& w
   sight.eye = eye;
   sight.towards = disc.towards;
   sight.disc_area = 0.25 * std::numbers::pi * disc.diameter * disc.diameter;
-  if (wanted.vertices) {
-    sight.vertices = vertices->visible_vertices(eye, alone);
-    sight.sees_vertices =
-        std::find(sight.vertices.begin(), sight.vertices.end(), 1) != sight.vertices.end();
-  }
   if (wanted.faces) {
     SeenSurface seen = faces->seen_surface(eye, alone);
+    if (wanted.vertices) {
+      sight.vertices = std::move(seen.vertices);
+    }
     for (const SeenFace& face : seen.faces) {
       const auto area = static_cast<float>(face.projected_area);
       if (area > 0.0F && std::isfinite(area)) {
@@ -185,7 +187,9 @@ SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& w
       }
     }
     sight.faces.shrink_to_fit();
-    sight.samples = std::move(seen.samples);
+    if (model.given.weight == Weight::Area && (wanted.kssm || wanted.saliency)) {
+      sight.samples = faces->seen_samples(eye, alone);
+    }
     sight.depths = seen.depths;
     sight.deepest = seen.deepest;
     const Sphere& sphere = model.given.camera.sphere;
@@ -195,7 +199,12 @@ SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& w
         sight.deepest = std::max(sight.deepest, 0.5 - p.dot(sight.towards) / sphere.diameter);
       }
     }
+  } else if (wanted.vertices) {
+    sight.vertices =
+        faces ? faces->visible_vertices(eye, alone) : vertices->visible_vertices(eye, alone);
   }
+  sight.sees_vertices =
+      std::find(sight.vertices.begin(), sight.vertices.end(), 1) != sight.vertices.end();
   if (wanted.skeleton) {
     sight.skeleton = skeleton_sight(model, sight);
   }
@@ -264,6 +273,7 @@ std::vector<FaceArea> ViewMeasurer::State::measure_early(std::size_t i) {
   for (std::size_t m = 0; m < measures.size(); ++m) {
     of_set[m][i] = is_late(m) ? 0.0 : value(m, sight);
   }
+  set_sums[i] = {sight.projected_area, sight.area_logs};
   return std::move(sight.faces);
 }
 
@@ -272,10 +282,8 @@ void ViewMeasurer::State::measure_late(std::size_t i) {
   const Viewpoint eye = model.given.camera.viewpoint(model.set.directions[i]);
   SightTable sight = look(eye, {.neighbours = needs.neighbours}, i);
   sight.faces = model.set_views[i];
-  for (const FaceArea& a : sight.faces) {
-    sight.projected_area += a.area;
-    sight.area_logs += x_log_x(a.area);
-  }
+  sight.projected_area = set_sums[i][0];
+  sight.area_logs = set_sums[i][1];
   if (needs.channel) {
     sight.channel = channel_measures(sight.faces, model.terms, model.face_areas);
   }
@@ -291,6 +299,7 @@ void ViewMeasurer::State::survey(const RunContext& run) {
   const std::size_t count = model.set.directions.size();
   const bool keeps_faces = needs.channel || needs.neighbours;
   of_set.assign(measures.size(), std::vector<double>(count, 0.0));
+  set_sums.assign(count, {0.0, 0.0});
   std::vector<std::vector<FaceArea>> kept(keeps_faces ? count : 0);
   // In a few batches, so that progress can be told and a stop be heard.
   constexpr std::size_t kBatch = 64;
