@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <numeric>
 #include <tuple>
 
@@ -89,7 +88,7 @@ struct NodeName {
   double share = 0.0;
   double other_share = 0.0;
 
-  auto operator<=>(const NodeName&) const = default;
+  [[nodiscard]] auto key() const { return std::tie(first, second, share, other_share); }
 };
 
 NodeName name_of(const Triangle& face, std::uint32_t f, const Vec3& weights) {
@@ -117,7 +116,8 @@ void number_nodes(const std::vector<NodeName>& names, const std::vector<std::uin
   std::vector<std::uint32_t> order(names.size());
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return std::tie(names[a], a) < std::tie(names[b], b);
+    return std::tuple_cat(names[a].key(), std::tie(a)) <
+           std::tuple_cat(names[b].key(), std::tie(b));
   });
   net.nodes.resize(face_of.size());
   net.node_count = sites;
@@ -129,7 +129,7 @@ void number_nodes(const std::vector<NodeName>& names, const std::vector<std::uin
       number = name.first;
       continue;
     }
-    const bool is_new = last == nullptr || *last != name;
+    const bool is_new = last == nullptr || last->key() != name.key();
     const bool on_edge = name.first != Surface::kNoSite;
     net.node_count += is_new ? 1 : 0;
     number = static_cast<std::uint32_t>(net.node_count - 1);
