@@ -38,7 +38,7 @@ double timed(const std::function<void()>& work) {
 }
 
 void row_of(const std::string& path) {
-  const std::vector<vantage::Measure> measures = vantage::builtin_measures();
+  const std::vector<vantage::Measure>& measures = vantage::builtin_measures();
   const vantage::ViewOptions options;
   vantage::ShapeAnalysis shape;
   std::vector<double> saliency;

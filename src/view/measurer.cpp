@@ -91,6 +91,7 @@ struct ViewMeasurer::State {
   void measure_late(std::size_t i);
   [[nodiscard]] SightTable look(const Viewpoint& eye, const MeasureNeeds& wanted,
                                 std::size_t set_index) const;
+  void look_at_faces(const MeasureNeeds& wanted, SightTable& sight) const;
   [[nodiscard]] std::vector<std::uint32_t> neighbours(const Vec3& towards) const;
   [[nodiscard]] double value(std::size_t m, const SightTable& sight) const;
 };
@@ -165,6 +166,36 @@ void ViewMeasurer::State::prepare_maps(const RunContext& run) {
   }
 }
 
+/// Fills in what one look at the surface tells. \param sight has the eye.
+void ViewMeasurer::State::look_at_faces(const MeasureNeeds& wanted, SightTable& sight) const {
+  const RunContext alone{.max_threads = 1};
+  SeenSurface seen = faces->seen_surface(sight.eye, alone);
+  if (wanted.vertices) {
+    sight.vertices = std::move(seen.vertices);
+  }
+  for (const SeenFace& face : seen.faces) {
+    const auto area = static_cast<float>(face.projected_area);
+    if (area > 0.0F && std::isfinite(area)) {
+      sight.faces.push_back({face.face, area});
+      sight.projected_area += area;
+      sight.area_logs += x_log_x(area);
+    }
+  }
+  sight.faces.shrink_to_fit();
+  if (model.given.weight == Weight::Area && (wanted.kssm || wanted.saliency)) {
+    sight.samples = faces->seen_samples(sight.eye, alone);
+  }
+  sight.depths = seen.depths;
+  sight.deepest = seen.deepest;
+  const Sphere& sphere = model.given.camera.sphere;
+  for (std::size_t v = 0; v < sight.vertices.size(); ++v) {
+    if (sight.vertices[v] != 0) {
+      const Vec3 p = model.given.surface->positions[v] - sphere.centre;
+      sight.deepest = std::max(sight.deepest, 0.5 - p.dot(sight.towards) / sphere.diameter);
+    }
+  }
+}
+
 SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& wanted,
                                      std::size_t set_index) const {
   const RunContext alone{.max_threads = 1};
@@ -174,31 +205,7 @@ SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& w
   sight.towards = disc.towards;
   sight.disc_area = 0.25 * std::numbers::pi * disc.diameter * disc.diameter;
   if (wanted.faces) {
-    SeenSurface seen = faces->seen_surface(eye, alone);
-    if (wanted.vertices) {
-      sight.vertices = std::move(seen.vertices);
-    }
-    for (const SeenFace& face : seen.faces) {
-      const auto area = static_cast<float>(face.projected_area);
-      if (area > 0.0F && std::isfinite(area)) {
-        sight.faces.push_back({face.face, area});
-        sight.projected_area += area;
-        sight.area_logs += x_log_x(area);
-      }
-    }
-    sight.faces.shrink_to_fit();
-    if (model.given.weight == Weight::Area && (wanted.kssm || wanted.saliency)) {
-      sight.samples = faces->seen_samples(eye, alone);
-    }
-    sight.depths = seen.depths;
-    sight.deepest = seen.deepest;
-    const Sphere& sphere = model.given.camera.sphere;
-    for (std::size_t v = 0; v < sight.vertices.size(); ++v) {
-      if (sight.vertices[v] != 0) {
-        const Vec3 p = model.given.surface->positions[v] - sphere.centre;
-        sight.deepest = std::max(sight.deepest, 0.5 - p.dot(sight.towards) / sphere.diameter);
-      }
-    }
+    look_at_faces(wanted, sight);
   } else if (wanted.vertices) {
     sight.vertices =
         faces ? faces->visible_vertices(eye, alone) : vertices->visible_vertices(eye, alone);
