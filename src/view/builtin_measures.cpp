@@ -59,7 +59,7 @@ double visibility_ratio(const MeasuredModel& model, const SightTable& sight) {
 }
 
 double viewpoint_entropy(const MeasuredModel& /*model*/, const SightTable& sight) {
-  return std::max(0.0, std::log2(sight.projected_area) - sight.area_logs / sight.projected_area);
+  return std::max(0.0, log_2(sight.projected_area) - sight.area_logs / sight.projected_area);
 }
 
 /// The background is one more face: −Σ p log p = log A − Σ a log a / A over both.
@@ -67,7 +67,7 @@ double viewpoint_entropy_2001(const MeasuredModel& /*model*/, const SightTable& 
   const double square = kSquareOverDisc * sight.disc_area;
   const double picture = std::max(square, sight.projected_area);
   const double logs = sight.area_logs + x_log_x(picture - sight.projected_area);
-  return std::max(0.0, std::log2(picture) - logs / picture);
+  return std::max(0.0, log_2(picture) - logs / picture);
 }
 
 double kullback_leibler(const MeasuredModel& model, const SightTable& sight) {
@@ -76,7 +76,7 @@ double kullback_leibler(const MeasuredModel& model, const SightTable& sight) {
   for (const FaceArea& a : sight.faces) {
     logs += a.area * model.log_face_areas[a.face];
   }
-  return std::max(0.0, std::log2(model.surface_area) - viewpoint_entropy(model, sight) -
+  return std::max(0.0, log_2(model.surface_area) - viewpoint_entropy(model, sight) -
                            logs / sight.projected_area);
 }
 

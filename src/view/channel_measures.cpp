@@ -176,6 +176,40 @@ double area_seen(std::span<const FaceArea> seen) {
   return sum;
 }
 
+/// a log a of each face seen.
+std::vector<double> area_logs(std::span<const FaceArea> seen) {
+  std::vector<double> logs;
+  logs.reserve(seen.size());
+  for (const FaceArea& a : seen) {
+    logs.push_back(x_log_x(a.area));
+  }
+  return logs;
+}
+
+/// A view with what every divergence from another needs of it.
+struct ViewWithLogs {
+  std::span<const FaceArea> seen{};
+  double area = 0.0;
+  std::vector<double> logs{};
+};
+
+double divergence_of(const ViewWithLogs& a, const ViewWithLogs& b) {
+  double shared = 0.0;
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < a.seen.size() && j < b.seen.size()) {
+    if (a.seen[i].face < b.seen[j].face) {
+      ++i;
+    } else if (b.seen[j].face < a.seen[i].face) {
+      ++j;
+    } else {
+      const double both = static_cast<double>(a.seen[i].area) + static_cast<double>(b.seen[j].area);
+      shared += x_log_x(both) - (a.logs[i++] + b.logs[j++]);
+    }
+  }
+  return divergence(a.area, b.area, shared);
+}
+
 /// Logarithms, that of the least positive value for those that are not positive.
 std::vector<double> logarithms(const std::vector<double>& values) {
   double least = kNever;
@@ -185,7 +219,7 @@ std::vector<double> logarithms(const std::vector<double>& values) {
   std::vector<double> logs;
   logs.reserve(values.size());
   for (const double value : values) {
-    logs.push_back(std::log2(value > 0.0 ? value : least));
+    logs.push_back(log_2(value > 0.0 ? value : least));
   }
   return logs;
 }
@@ -220,7 +254,7 @@ ChannelTerms channel_terms(const ViewChannel& channel, const TriMesh& mesh, cons
     }
     if (area > 0.0) {
       // H(V|z) = log A − (1/A) Σ a log a
-      const double entropy = std::log2(area) - logs / area;
+      const double entropy = log_2(area) - logs / area;
       terms.area_of_face[z] = area;
       terms.p_of_face[z] = area / total;
       terms.i2_of_face[z] = entropy_of_views - entropy;
@@ -253,7 +287,7 @@ ChannelMeasures channel_measures(std::span<const FaceArea> seen, const ChannelTe
   double seen_surface = 0.0;
   for (const FaceArea& a : seen) {
     const double p = a.area / m.projected_area;
-    const double log_p = std::log2(p);
+    const double log_p = log_2(p);
     m.entropy -= p * log_p;
     m.kullback_leibler += p * (log_p - terms.log_share[a.face]);
     m.vmi += p * (log_p - terms.log_p[a.face]);
@@ -271,19 +305,7 @@ ChannelMeasures channel_measures(std::span<const FaceArea> seen, const ChannelTe
 }
 
 double view_divergence(std::span<const FaceArea> a, std::span<const FaceArea> b) {
-  double shared = 0.0;
-  std::size_t i = 0;
-  std::size_t j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (a[i].face < b[j].face) {
-      ++i;
-    } else if (b[j].face < a[i].face) {
-      ++j;
-    } else {
-      shared += shared_term(a[i++].area, b[j++].area);
-    }
-  }
-  return divergence(area_seen(a), area_seen(b), shared);
+  return divergence_of({a, area_seen(a), area_logs(a)}, {b, area_seen(b), area_logs(b)});
 }
 
 double instability(std::span<const FaceArea> view,
@@ -307,6 +329,12 @@ double mean_divergence(std::span<const double> divergences) {
 std::vector<double> neighbour_divergences(const std::vector<std::vector<FaceArea>>& views,
                                           const IndexLists& next, const RunContext& run) {
   std::vector<double> divergences(next.values.size(), 1.0);
+  std::vector<ViewWithLogs> with_logs(views.size());
+  parallel_for(run, views.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      with_logs[i] = {views[i], area_seen(views[i]), area_logs(views[i])};
+    }
+  });
   parallel_for(run, views.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       for (std::uint32_t k = next.offsets[i]; k < next.offsets[i + 1]; ++k) {
@@ -314,7 +342,7 @@ std::vector<double> neighbour_divergences(const std::vector<std::vector<FaceArea
         if (j > i && !views[i].empty() && !views[j].empty()) {
           const auto back = next[j];
           const auto at = std::lower_bound(back.begin(), back.end(), i) - back.begin();
-          divergences[k] = view_divergence(views[i], views[j]);
+          divergences[k] = divergence_of(with_logs[i], with_logs[j]);
           divergences[next.offsets[j] + static_cast<std::size_t>(at)] = divergences[k];
         }
       }

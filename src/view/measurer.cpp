@@ -2,6 +2,7 @@
 #include "vantage/view/measurer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -76,10 +77,11 @@ struct ViewMeasurer::State {
   MeasuredModel model{};
   std::vector<Measure> measures{};
   MeasureNeeds needs{};
-  std::optional<VertexVisibility> vertices{};
+  std::optional<VertexVisibility> vertices{};  // unless `faces` answers for them too
   std::optional<FaceVisibility> faces{};
   std::optional<OutlineTracer> outlines{};
   MeasureValues of_set{};
+  std::vector<std::array<double, 2>> set_sums{};  // SightTable's projected_area and area_logs
 
   void prepare(const RunContext& run);
   void prepare_maps(const RunContext& run);
@@ -89,6 +91,7 @@ struct ViewMeasurer::State {
   void measure_late(std::size_t i);
   [[nodiscard]] SightTable look(const Viewpoint& eye, const MeasureNeeds& wanted,
                                 std::size_t set_index) const;
+  void look_at_faces(const MeasureNeeds& wanted, SightTable& sight) const;
   [[nodiscard]] std::vector<std::uint32_t> neighbours(const Vec3& towards) const;
   [[nodiscard]] double value(std::size_t m, const SightTable& sight) const;
 };
@@ -99,7 +102,7 @@ void ViewMeasurer::State::prepare(const RunContext& run) {
   model.log_face_areas.reserve(model.face_areas.size());
   for (const double area : model.face_areas) {
     model.surface_area += area;
-    model.log_face_areas.push_back(area > 0.0 ? std::log2(area) : 0.0);
+    model.log_face_areas.push_back(area > 0.0 ? log_2(area) : 0.0);
   }
   if (!(model.surface_area > 0.0) || !(model.given.camera.sphere.diameter > 0.0)) {
     throw InvalidInput("a surface without area cannot be measured");
@@ -123,7 +126,9 @@ void ViewMeasurer::State::prepare(const RunContext& run) {
     }
   }
   if (needs.vertices) {
-    vertices.emplace(mesh, sides);
+    if (!faces) {
+      vertices.emplace(mesh, sides);
+    }
     model.angle_deficits = angle_deficits(mesh);
   }
   if (needs.outline) {
@@ -161,6 +166,36 @@ void ViewMeasurer::State::prepare_maps(const RunContext& run) {
   }
 }
 
+/// Fills in what one look at the surface tells. \param sight has the eye.
+void ViewMeasurer::State::look_at_faces(const MeasureNeeds& wanted, SightTable& sight) const {
+  const RunContext alone{.max_threads = 1};
+  SeenSurface seen = faces->seen_surface(sight.eye, alone);
+  if (wanted.vertices) {
+    sight.vertices = std::move(seen.vertices);
+  }
+  for (const SeenFace& face : seen.faces) {
+    const auto area = static_cast<float>(face.projected_area);
+    if (area > 0.0F && std::isfinite(area)) {
+      sight.faces.push_back({face.face, area});
+      sight.projected_area += area;
+      sight.area_logs += x_log_x(area);
+    }
+  }
+  sight.faces.shrink_to_fit();
+  if (model.given.weight == Weight::Area && (wanted.kssm || wanted.saliency)) {
+    sight.samples = faces->seen_samples(sight.eye, alone);
+  }
+  sight.depths = seen.depths;
+  sight.deepest = seen.deepest;
+  const Sphere& sphere = model.given.camera.sphere;
+  for (std::size_t v = 0; v < sight.vertices.size(); ++v) {
+    if (sight.vertices[v] != 0) {
+      const Vec3 p = model.given.surface->positions[v] - sphere.centre;
+      sight.deepest = std::max(sight.deepest, 0.5 - p.dot(sight.towards) / sphere.diameter);
+    }
+  }
+}
+
 SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& wanted,
                                      std::size_t set_index) const {
   const RunContext alone{.max_threads = 1};
@@ -169,33 +204,14 @@ SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& w
   sight.eye = eye;
   sight.towards = disc.towards;
   sight.disc_area = 0.25 * std::numbers::pi * disc.diameter * disc.diameter;
-  if (wanted.vertices) {
-    sight.vertices = vertices->visible_vertices(eye, alone);
-    sight.sees_vertices =
-        std::find(sight.vertices.begin(), sight.vertices.end(), 1) != sight.vertices.end();
-  }
   if (wanted.faces) {
-    SeenSurface seen = faces->seen_surface(eye, alone);
-    for (const SeenFace& face : seen.faces) {
-      const auto area = static_cast<float>(face.projected_area);
-      if (area > 0.0F && std::isfinite(area)) {
-        sight.faces.push_back({face.face, area});
-        sight.projected_area += area;
-        sight.area_logs += x_log_x(area);
-      }
-    }
-    sight.faces.shrink_to_fit();
-    sight.samples = std::move(seen.samples);
-    sight.depths = seen.depths;
-    sight.deepest = seen.deepest;
-    const Sphere& sphere = model.given.camera.sphere;
-    for (std::size_t v = 0; v < sight.vertices.size(); ++v) {
-      if (sight.vertices[v] != 0) {
-        const Vec3 p = model.given.surface->positions[v] - sphere.centre;
-        sight.deepest = std::max(sight.deepest, 0.5 - p.dot(sight.towards) / sphere.diameter);
-      }
-    }
+    look_at_faces(wanted, sight);
+  } else if (wanted.vertices) {
+    sight.vertices =
+        faces ? faces->visible_vertices(eye, alone) : vertices->visible_vertices(eye, alone);
   }
+  sight.sees_vertices =
+      std::find(sight.vertices.begin(), sight.vertices.end(), 1) != sight.vertices.end();
   if (wanted.skeleton) {
     sight.skeleton = skeleton_sight(model, sight);
   }
@@ -264,6 +280,7 @@ std::vector<FaceArea> ViewMeasurer::State::measure_early(std::size_t i) {
   for (std::size_t m = 0; m < measures.size(); ++m) {
     of_set[m][i] = is_late(m) ? 0.0 : value(m, sight);
   }
+  set_sums[i] = {sight.projected_area, sight.area_logs};
   return std::move(sight.faces);
 }
 
@@ -272,10 +289,8 @@ void ViewMeasurer::State::measure_late(std::size_t i) {
   const Viewpoint eye = model.given.camera.viewpoint(model.set.directions[i]);
   SightTable sight = look(eye, {.neighbours = needs.neighbours}, i);
   sight.faces = model.set_views[i];
-  for (const FaceArea& a : sight.faces) {
-    sight.projected_area += a.area;
-    sight.area_logs += x_log_x(a.area);
-  }
+  sight.projected_area = set_sums[i][0];
+  sight.area_logs = set_sums[i][1];
   if (needs.channel) {
     sight.channel = channel_measures(sight.faces, model.terms, model.face_areas);
   }
@@ -291,6 +306,7 @@ void ViewMeasurer::State::survey(const RunContext& run) {
   const std::size_t count = model.set.directions.size();
   const bool keeps_faces = needs.channel || needs.neighbours;
   of_set.assign(measures.size(), std::vector<double>(count, 0.0));
+  set_sums.assign(count, {0.0, 0.0});
   std::vector<std::vector<FaceArea>> kept(keeps_faces ? count : 0);
   // In a few batches, so that progress can be told and a stop be heard.
   constexpr std::size_t kBatch = 64;

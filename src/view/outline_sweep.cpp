@@ -95,6 +95,7 @@ void join_sides(std::vector<Side>& sides) {
 struct Active {
   std::uint32_t chain = 0;         // its first side
   std::uint32_t side = 0;          // the one that leaves the slab's lower line upwards
+  std::uint32_t above = 0;         // the one that leaves its upper line
   double bottom = 0.0, top = 0.0;  // x
   int step = 0;
 };
@@ -138,7 +139,9 @@ class Sweep {
     lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
     std::size_t next = 0;
     for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
-      std::erase_if(active_, [&](const Active& a) { return sides_[a.side].high <= lines[i]; });
+      if (has_ends_) {
+        std::erase_if(active_, [&](const Active& a) { return sides_[a.side].high <= lines[i]; });
+      }
       for (; next < sides_.size() && sides_[next].low <= lines[i]; ++next) {
         if (sides_[next].is_first) {
           insert(static_cast<std::uint32_t>(next));
@@ -168,7 +171,7 @@ class Sweep {
     const auto at =
         std::upper_bound(active_.begin(), active_.end(), x,
                          [](double place, const Active& a) { return place < a.bottom; });
-    active_.insert(at, {side, side, x, 0.0, sides_[side].step});
+    active_.insert(at, {side, side, side, x, 0.0, sides_[side].step});
   }
 
   /// Sorts what is active by its places half way up; it nearly is.
@@ -191,6 +194,9 @@ class Sweep {
     if (left.bottom > right.bottom || left.top > right.top) {
       return true;
     }
+    if (left.side == left.above && right.side == right.above) {
+      return false;
+    }
     std::uint32_t a = left.side;
     std::uint32_t b = right.side;
     for (double y = std::min(sides_[a].high, sides_[b].high); y < top;
@@ -205,28 +211,34 @@ class Sweep {
   }
 
   void slab(double bottom, double top) {
-    for (Active& a : active_) {
-      a.top = sides_[side_at(a.side, top)].at(top);
-    }
-    sort_active();
     bool is_crossed = false;
-    for (std::size_t i = 1; i < active_.size() && !is_crossed; ++i) {
-      is_crossed = crosses(active_[i - 1], active_[i], top);
+    if (!reach(top)) {
+      sort_active();
+      for (std::size_t i = 1; i < active_.size() && !is_crossed; ++i) {
+        is_crossed = crosses(active_[i - 1], active_[i], top);
+      }
     }
     if (is_crossed) {
       slabs_between_corners(bottom, top);
     } else {
       intervals(bottom);
-      go_up(top);
     }
   }
 
-  /// Makes the upper line of a slab the lower one of the next.
-  void go_up(double top) {
-    for (Active& a : active_) {
-      a.side = side_at(a.side, top);
-      a.bottom = a.top;
+  /// Finds where the chains pass the upper line of a slab. \return whether each is on the left of the
+  /// next everywhere in the slab.
+  bool reach(double top) {
+    bool is_ordered = true;
+    has_ends_ = false;
+    for (std::size_t i = 0; i < active_.size(); ++i) {
+      Active& a = active_[i];
+      a.above = side_at(a.side, top);
+      const Side& side = sides_[a.above];
+      a.top = side.at(top);
+      has_ends_ = has_ends_ || side.high <= top;
+      is_ordered = is_ordered && (i == 0 || !crosses(active_[i - 1], a, top));
     }
+    return is_ordered;
   }
 
   /// A slab in which chains cross: cut at all corners of chains, and again where sides cross.
@@ -250,9 +262,7 @@ class Sweep {
   /// A slab of straight sides.
   void straight_slab(double bottom, double top) {
     cuts_.clear();
-    for (Active& a : active_) {
-      a.top = sides_[a.side].at(top);
-    }
+    reach(top);
     sort_active();
     find_crossings(&Active::bottom, bottom, top);
     find_crossings(&Active::top, bottom, top);
@@ -260,12 +270,9 @@ class Sweep {
     std::sort(cuts_.begin(), cuts_.end());
     for (const double to : cuts_) {
       if (to > bottom) {
-        for (Active& a : active_) {
-          a.top = sides_[a.side].at(to);
-        }
+        reach(to);
         sort_active();
         intervals(bottom);
-        go_up(to);
         bottom = to;
       }
     }
@@ -293,16 +300,19 @@ class Sweep {
     }
   }
 
-  /// Finds what bounds the shape in the slab that begins at `y`, and what changes there.
+  /// Finds what bounds the shape in the slab that begins at `y`, and what changes there; then makes the
+  /// slab's upper line the lower one of the next.
   void intervals(double y) {
     above_.clear();
     int layers = 0;
-    for (const Active& a : active_) {
+    for (Active& a : active_) {
       const int after = layers + a.step;
       if ((layers > 0) != (after > 0)) {
         above_.push_back({a.chain, a.side, kNone});
       }
       layers = after;
+      a.side = a.above;
+      a.bottom = a.top;
     }
     if (above_.size() % 2 != 0) {
       above_.pop_back();  // the chain of edges was not closed
@@ -411,6 +421,7 @@ class Sweep {
 
   std::vector<Side> sides_;
   std::vector<Active> active_{};
+  bool has_ends_ = false;  // chains that go no further than the last slab's upper line
   std::vector<Active> order_{};
   std::vector<double> cuts_{};
   std::vector<Bound> below_{};

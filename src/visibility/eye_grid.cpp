@@ -17,21 +17,14 @@
 namespace vantage {
 namespace {
 
-// The grid is used when the nearest site has at least this share of the farthest one's depth; a
-// closer eye makes pictures too wide for a flat grid. [ours]
-constexpr float kNearestShare = 1.0F / 64.0F;
-// Points per cell, and the longest side of the grid in cells: 16 MB of counters at most. Both
-// chosen by measurement on models of 10 K to 170 K vertices. [ours]
-constexpr double kPointsPerCell = 1.0;
-constexpr std::uint32_t kMaxCells = 2048;
 // Cells per side of a tile that knows its deepest point, as a shift. [ours, by measurement]
 constexpr unsigned kTileShift = 2;
-// A float coordinate of a UnitFrame (below 1 in size) projected to an axis is wrong by less than
-// this: twelve roundings of 2^-24.
-constexpr float kAxisError = 0x1p-20F;
 // Faces whose normal makes a larger cosine than this with the line of sight are steep: points
 // clearly behind them (by 2^-21 of the frame) lie off their plane far more than a touch.
 constexpr float kSteep = 0x1p-10F;
+// A point's height over a face's plane, both of them rounded to float in a UnitFrame, is wrong by less
+// than this: a dozen roundings of numbers below 1. It is also far more than a touch.
+constexpr float kHeightError = 0x1p-19F;
 // A face whose normal is this close to a right angle with the line of sight is seen edge on: the
 // rounding of positions in a UnitFrame and of the dot product, in radians.
 constexpr double kEdgeOn = 0x1p-46;
@@ -60,39 +53,22 @@ std::uint8_t exact_side(const Surface& surface, std::size_t f, const Viewpoint& 
 
 }  // namespace
 
-/// A face in the picture: corners, and its extent rounded outwards.
-struct EyeGrid::Outline {
-  Spot a, b, c;
-  float x_low, x_high, y_low, y_high, nearest, farthest;
-};
-
 /// Ready to tell which points may lie behind a face.
 struct EyeGrid::Probe {
   std::array<std::array<float, 3>, 3> sides;  // x, y, 1: positive inside, length times distance
   float doubt;                                // error of these values
   float least;                                // points with less than this are outside
-  Triangle keys;                              // of points that the face holds
+  std::array<std::uint32_t, 4> keys;          // of points that the face holds
 };
 
-bool EyeGrid::aim(const Viewpoint& eye) {
+void EyeGrid::begin(const Surface& surface, const Viewpoint& eye, const RunContext& run) {
   eye_ = eye;
-  const double distance = eye.position.norm();
-  if (!(distance > 0.0) || !(distance < 1e6)) {
-    return false;
-  }
-  const Vec3 towards = eye.position / distance;  // from the frame's origin to the eye
-  const Vec3 right = towards.unitOrthogonal();
-  const Vec3 up = towards.cross(right);
-  for (int i = 0; i < 3; ++i) {
-    right_[i] = static_cast<float>(right[i]);
-    up_[i] = static_cast<float>(up[i]);
-    towards_[i] = static_cast<float>(towards[i]);
-  }
-  distance_ = static_cast<float>(distance);
-  return true;
+  aim_ = Aim::None;
+  face_sides(surface, run);
 }
 
-void EyeGrid::face_sides(const Surface& surface, const Viewpoint& eye, const RunContext& run) {
+void EyeGrid::face_sides(const Surface& surface, const RunContext& run) {
+  const Viewpoint& eye = eye_;
   const FacePlanes& planes = surface.planes;
   const std::size_t count = surface.faces.size();
   turned_.resize(count);
@@ -121,77 +97,16 @@ void EyeGrid::face_sides(const Surface& surface, const Viewpoint& eye, const Run
   });
 }
 
-void EyeGrid::project(const FloatPoints& points, std::vector<Spot>& spots,
-                      const RunContext& run) const {
-  spots.resize(points.x.size());
-  const bool perspective = eye_.projection == Projection::Perspective;
-  const float shift = perspective ? distance_ : 0.0F;
-  const float slope = perspective ? 1.0F : 0.0F;
-  parallel_for(run, spots.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const float x = points.x[i];
-      const float y = points.y[i];
-      const float z = points.z[i];
-      const float depth = -(x * towards_[0] + y * towards_[1] + z * towards_[2]);
-      const float shrink = 1.0F / (slope * (depth + shift) + (1.0F - slope));
-      spots[i] = {(x * right_[0] + y * right_[1] + z * right_[2]) * shrink,
-                  (x * up_[0] + y * up_[1] + z * up_[2]) * shrink, depth};
-    }
-  });
-}
-
-void EyeGrid::choose_cells(const std::vector<Spot>& corners, std::size_t active) {
-  float x_high = -kInfinity;
-  float y_high = -kInfinity;
-  x_low_ = kInfinity;
-  y_low_ = kInfinity;
-  float nearest = kInfinity;
-  for (const Spot& s : corners) {
-    x_low_ = std::min(x_low_, s.x);
-    x_high = std::max(x_high, s.x);
-    y_low_ = std::min(y_low_, s.y);
-    y_high = std::max(y_high, s.y);
-    nearest = std::min(nearest, s.depth);
-  }
-  const float width = x_high - x_low_;
-  const float height = y_high - y_low_;
-  const double wanted = std::max(1.0, static_cast<double>(active) / kPointsPerCell);
-  const double longest = std::max({width, height, 0x1p-20F});
-  const double area = std::max(static_cast<double>(width) * height, longest * longest / wanted);
-  const double limit = static_cast<double>(kMaxCells - 1) / longest;
-  cells_per_unit_ = static_cast<float>(std::min(limit, std::sqrt(wanted / area)));
-  columns_ = static_cast<std::uint32_t>(width * cells_per_unit_) + 1;
-  rows_ = static_cast<std::uint32_t>(height * cells_per_unit_) + 1;
-
-  float error = kAxisError;  // of x and y in the picture
-  if (eye_.projection == Projection::Perspective) {
-    const float closest = nearest + distance_;
-    const float widest =
-        std::max({std::abs(x_low_), std::abs(x_high), std::abs(y_low_), std::abs(y_high)});
-    const float depth_error = kAxisError + 0x1p-23F * (distance_ + 2.0F);
-    error = 2.0F * (kAxisError + widest * depth_error) / closest + 0x1p-22F * widest;
-  }
-  margin_ = error * cells_per_unit_ + 0x1p-22F * static_cast<float>(std::max(columns_, rows_));
-}
-
-void EyeGrid::to_cells(std::vector<Spot>& spots, const RunContext& run) const {
-  parallel_for(run, spots.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      spots[i].x = (spots[i].x - x_low_) * cells_per_unit_;
-      spots[i].y = (spots[i].y - y_low_) * cells_per_unit_;
-    }
-  });
-}
-
-void EyeGrid::sort_points(const std::vector<Spot>& spots, std::span<const std::uint32_t> owner,
-                          const std::vector<std::uint8_t>& seen) {
+void EyeGrid::sort_points(const SurfacePoints& points, const std::vector<std::uint8_t>& seen) {
+  const std::size_t sites = points.sites.size();
+  const auto held_by = static_cast<std::uint32_t>(corners_.size());  // keys of faces begin here
   const auto cell_of = [&](const Spot& s) {
     return std::size_t{cell_at(s.y, rows_)} * columns_ + cell_at(s.x, columns_);
   };
   begin_.assign(std::size_t{rows_} * columns_ + 1, 0);
-  for (std::size_t i = 0; i < spots.size(); ++i) {
+  for (std::size_t i = 0; i < seen.size(); ++i) {
     if (seen[i] != 0) {
-      ++begin_[cell_of(spots[i])];
+      ++begin_[cell_of(i < sites ? corners_[i] : spots_[i - sites])];
     }
   }
   std::uint32_t total = 0;
@@ -205,14 +120,16 @@ void EyeGrid::sort_points(const std::vector<Spot>& spots, std::span<const std::u
     field->resize(total + kLanes);  // so that the last cell can be read by whole lanes
   }
   key_.resize(total + kLanes);
-  for (std::size_t i = spots.size(); i-- > 0;) {
+  for (std::size_t i = seen.size(); i-- > 0;) {
     if (seen[i] != 0) {
-      const std::uint32_t slot = --begin_[cell_of(spots[i])];
+      const bool is_site = i < sites;
+      const Spot& spot = is_site ? corners_[i] : spots_[i - sites];
+      const std::uint32_t slot = --begin_[cell_of(spot)];
       point_of_[slot] = static_cast<std::uint32_t>(i);
-      key_[slot] = owner.empty() ? static_cast<std::uint32_t>(i) : owner[i];
-      x_[slot] = spots[i].x;
-      y_[slot] = spots[i].y;
-      depth_[slot] = spots[i].depth;
+      key_[slot] = is_site ? static_cast<std::uint32_t>(i) : held_by + points.owner[i - sites];
+      x_[slot] = spot.x;
+      y_[slot] = spot.y;
+      depth_[slot] = spot.depth;
     }
   }
 }
@@ -237,22 +154,6 @@ void EyeGrid::find_deepest() {
   }
 }
 
-EyeGrid::Outline EyeGrid::outline(const Triangle& face) const {
-  const Spot& a = corners_[face[0]];
-  const Spot& b = corners_[face[1]];
-  const Spot& c = corners_[face[2]];
-  const float reach = 2.0F * margin_;  // the face's error and the point's
-  return {a,
-          b,
-          c,
-          std::min({a.x, b.x, c.x}) - reach,
-          std::max({a.x, b.x, c.x}) + reach,
-          std::min({a.y, b.y, c.y}) - reach,
-          std::max({a.y, b.y, c.y}) + reach,
-          std::min({a.depth, b.depth, c.depth}) - 2.0F * kAxisError,
-          std::max({a.depth, b.depth, c.depth}) + 2.0F * kAxisError};
-}
-
 bool EyeGrid::behind_all(const Outline& o) const {
   const std::uint32_t x_low = cell_at(o.x_low, columns_) >> kTileShift;
   const std::uint32_t x_high = cell_at(o.x_high, columns_) >> kTileShift;
@@ -274,13 +175,12 @@ bool EyeGrid::blocks(const Surface& surface, const SurfacePoints& points, std::u
   if (points.held(point, face, corners)) {
     return false;
   }
-  return segment_to(points.exact[point], eye_)
+  return segment_to(points.place(point), eye_)
       .crosses(surface.sites[corners[0]], surface.sites[corners[1]], surface.sites[corners[2]],
                surface.twice_areas[face]);
 }
 
-EyeGrid::Probe EyeGrid::probe(const SurfacePoints& points, std::uint32_t face,
-                              const Triangle& corners, const Outline& o) const {
+EyeGrid::Probe EyeGrid::probe(std::uint32_t face, const Triangle& corners, const Outline& o) const {
   Probe p;
   const float area = (o.b.x - o.a.x) * (o.c.y - o.b.y) - (o.b.y - o.a.y) * (o.c.x - o.b.x);
   const float sign = area < 0.0F ? -1.0F : 1.0F;
@@ -295,7 +195,7 @@ EyeGrid::Probe EyeGrid::probe(const SurfacePoints& points, std::uint32_t face,
   p.doubt = 16.0F * margin_ * std::max(o.x_high - o.x_low, o.y_high - o.y_low);
   // A face whose sense is in doubt excludes nothing in its cells.
   p.least = std::abs(area) > p.doubt ? -p.doubt : -kInfinity;
-  p.keys = points.owner.empty() ? corners : Triangle{face, face, face};
+  p.keys = {corners[0], corners[1], corners[2], static_cast<std::uint32_t>(corners_.size()) + face};
   return p;
 }
 
@@ -315,7 +215,7 @@ inline unsigned EyeGrid::near(const Outline& o, const Probe& p, std::size_t slot
   for (const auto& [along_x, along_y, offset] : p.sides) {
     out |= x * along_x + y * along_y + offset < p.least;
   }
-  out |= (key == p.keys[0]) | (key == p.keys[1]) | (key == p.keys[2]);
+  out |= (key == p.keys[0]) | (key == p.keys[1]) | (key == p.keys[2]) | (key == p.keys[3]);
   std::array<std::uint64_t, kLanes / 2> halves{};
   std::memcpy(halves.data(), &out, sizeof halves);
   if ((halves[0] & halves[1]) == ~std::uint64_t{0}) {
@@ -326,6 +226,18 @@ inline unsigned EyeGrid::near(const Outline& o, const Probe& p, std::size_t slot
     found |= out[lane] == 0 ? 1U << lane : 0U;
   }
   return found;
+}
+
+/// How far the point is behind the face's plane as the eye sees it; 0 for faces seen edge on.
+float EyeGrid::depth_behind(const Surface& surface, const SurfacePoints& points,
+                            std::uint32_t point, std::uint32_t face) const {
+  const bool is_site = point < points.sites.size();
+  const FloatPoints& places = is_site ? surface.rounded : *points.rounded;
+  const std::size_t at = is_site ? point : point - points.sites.size();
+  const FacePlanes& planes = surface.planes;
+  const float height = planes.x[face] * places.x[at] + planes.y[face] * places.y[at] +
+                       planes.z[face] * places.z[at] - planes.offset[face];
+  return turned_[face] == 1 ? -height : turned_[face] == 2 ? height : 0.0F;
 }
 
 void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points, std::uint32_t face,
@@ -339,8 +251,16 @@ void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points, 
   for (const auto& [along_x, along_y, offset] : p.sides) {
     inside = std::min(inside, x_[slot] * along_x + y_[slot] * along_y + offset);
   }
-  const bool clear = inside > p.doubt && depth_[slot] > o.farthest && steep_[face] != 0;
-  if (clear || blocks(surface, points, point_of_[slot], face)) {
+  bool is_hidden = inside > p.doubt && depth_[slot] > o.farthest && steep_[face] != 0;
+  if (!is_hidden) {
+    const std::uint32_t point = point_of_[slot];
+    const float behind = depth_behind(surface, points, point, face);
+    if (behind < -kHeightError) {
+      return;  // on the eye's side
+    }
+    is_hidden = (behind > kHeightError && inside > p.doubt) || blocks(surface, points, point, face);
+  }
+  if (is_hidden) {
     hidden.store(1, std::memory_order_relaxed);
   }
 }
@@ -350,7 +270,7 @@ std::size_t EyeGrid::strike(const Surface& surface, const SurfacePoints& points,
   const std::uint32_t left = cell_at(o.x_low, columns_);
   const std::uint32_t right = cell_at(o.x_high, columns_);
   const std::uint32_t bottom = cell_at(o.y_high, rows_);
-  const Probe p = probe(points, face, surface.faces[face], o);
+  const Probe p = probe(face, surface.faces[face], o);
   std::size_t work = 1;
   for (std::uint32_t row = cell_at(o.y_low, rows_); row <= bottom; ++row) {
     const std::size_t first = std::size_t{row} * columns_;
@@ -378,6 +298,10 @@ bool EyeGrid::walk(const Surface& surface, const SurfacePoints& points, std::uin
   parallel_for(run, surface.faces.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     std::size_t work = 0;
     for (std::size_t f = begin; f < end; ++f) {
+      if (f % FaceBlocks::kFaces == 0 && behind_all(blocks_[f / FaceBlocks::kFaces])) {
+        f += FaceBlocks::kFaces - 1;
+        continue;
+      }
       if ((turned_[f] == 1) != (side == 1)) {
         continue;
       }
@@ -394,31 +318,24 @@ bool EyeGrid::walk(const Surface& surface, const SurfacePoints& points, std::uin
   return spent.load() <= limit;
 }
 
-bool EyeGrid::hide(const Surface& surface, const Viewpoint& eye, const SurfacePoints& points,
+bool EyeGrid::hide(const Surface& surface, const SurfacePoints& points,
                    std::vector<std::uint8_t>& seen, const RunContext& run) {
-  if (surface.faces.empty() || !aim(eye)) {
+  if (aim_ == Aim::None) {
+    aim_ = aim(surface, run) ? Aim::Taken : Aim::Failed;
+    if (aim_ == Aim::Taken) {
+      choose_cells(corners_, static_cast<std::size_t>(std::count(seen.begin(), seen.end(), 1)));
+      to_cells(corners_, run);
+      outline_blocks(surface.blocks, run);
+    }
+  }
+  if (aim_ == Aim::Failed) {
     return surface.faces.empty();
   }
-  project(surface.rounded, corners_, run);
-  if (eye.projection == Projection::Perspective) {
-    float nearest = kInfinity;
-    float farthest = -kInfinity;
-    for (const Spot& s : corners_) {
-      nearest = std::min(nearest, s.depth);
-      farthest = std::max(farthest, s.depth);
-    }
-    if (!(nearest + distance_ > kNearestShare * (farthest + distance_))) {
-      return false;
-    }
-  }
-  const auto active = static_cast<std::size_t>(std::count(seen.begin(), seen.end(), 1));
-  choose_cells(corners_, active);
-  to_cells(corners_, run);
-  if (!points.owner.empty()) {
+  if (!points.exact.empty()) {
     project(*points.rounded, spots_, run);
     to_cells(spots_, run);
   }
-  sort_points(points.owner.empty() ? corners_ : spots_, points.owner, seen);
+  sort_points(points, seen);
   // Fronts first: most of what is hidden lies behind one. The backs then have little left to do.
   bool complete = true;
   for (const std::uint8_t side : {std::uint8_t{1}, std::uint8_t{2}}) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
+#include <mutex>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -12,92 +12,147 @@
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 
+#include "visibility/face_pieces.h"
 #include "visibility/sight.h"
 
 namespace vantage {
 namespace {
 
-// A piece below this share of the area of an equilateral one of the wanted size is not cut again,
-// however long: it bounds the number of pieces by area, and a fan of needles is still sampled in
-// proportion to its area. [ours]
-constexpr double kLeastArea = 1.0 / 4.0;
 // Pieces grow when the surface is so folded that more than this many would be needed. [ours]
 constexpr double kMaxPieces = 4e6;
+// What was found of a piece or of a node; both: what hides one end of it ends within.
+constexpr std::uint8_t kSeen = 1;
+constexpr std::uint8_t kHidden = 2;
+constexpr std::uint8_t kInPart = kSeen | kHidden;
 
-/// A piece of a face, by the barycentric coordinates of its corners.
-using Piece = std::array<Vec3, 3>;
+// How far from its corner a part at a corner of a face is judged, over how far its centroid is. [ours]
+constexpr double kNextTo = 1.0 / 16.0;
 
-/// Cuts a face across the longest side until its pieces are small.
-class Cutter {
- public:
-  Cutter(double longest, double least_area) : longest_(longest), least_area_(least_area) {}
+std::uint8_t finding(std::uint8_t seen) {
+  return seen != 0 ? kSeen : kHidden;
+}
 
-  /// Calls take(centroid, area) with the pieces of the triangle: their centroids in barycentric
-  /// coordinates, and their areas in units of the corners.
-  template <class Take>
-  void cut(const std::array<Vec3, 3>& corners, double area, const Take& take) {
-    stack_.assign(1, {{Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}, area});
-    while (!stack_.empty()) {
-      const auto [piece, size] = stack_.back();
-      stack_.pop_back();
-      const std::size_t side = longest_side(corners, piece);
-      if (size <= least_area_ || length(corners, piece, side) <= longest_) {
-        take(Vec3((piece[0] + piece[1] + piece[2]) / 3.0), size);
-        continue;
+/// Pieces that may be seen in part, divided, and what is seen of that.
+struct CloserLook {
+  std::vector<std::uint32_t> pieces{};  // ascending, and one beyond all
+  std::vector<std::uint32_t> first{};   // part of each, and one past the last part
+  std::vector<Vec3> places{};           // centroids of the parts
+  std::vector<std::uint32_t> owner{};   // the face each part is of
+  std::vector<std::uint8_t> seen{};     // of each part
+
+  /// Divides a piece into squared `parts` alike. \param at_site whether each of its corners is one of
+  /// the face's: the part there is judged next to it, as what is seen of a face often ends there.
+  void add(std::uint32_t piece, std::uint32_t face, const std::array<Vec3, 3>& corners,
+           const std::array<bool, 3>& at_site, int parts) {
+    pieces.push_back(piece);
+    const std::size_t begin = places.size();
+    first.push_back(static_cast<std::uint32_t>(begin));
+    const Vec3& a = corners[0];
+    const Vec3 right = (corners[1] - a) / parts;
+    const Vec3 up = (corners[2] - a) / parts;
+    for (int i = 0; i < parts; ++i) {
+      for (int j = 0; i + j < parts; ++j) {
+        places.emplace_back(a + (i + 1.0 / 3.0) * right + (j + 1.0 / 3.0) * up);
+        if (i + j + 1 < parts) {
+          places.emplace_back(a + (i + 2.0 / 3.0) * right + (j + 2.0 / 3.0) * up);
+        }
       }
-      const Vec3 middle = 0.5 * (piece[side] + piece[(side + 1) % 3]);
-      Piece first = piece;
-      Piece second = piece;
-      first[side] = middle;
-      second[(side + 1) % 3] = middle;
-      stack_.push_back({first, 0.5 * size});
-      stack_.push_back({second, 0.5 * size});
     }
+    // In the order above: the first part, the last, and that which ends the first row.
+    const std::array<std::size_t, 3> part_at{begin, places.size() - 1,
+                                             begin + 2 * static_cast<std::size_t>(parts) - 2};
+    for (std::size_t k = 0; parts > 1 && k < 3; ++k) {
+      if (at_site[k]) {
+        places[part_at[k]] = corners[k] + kNextTo * (places[part_at[k]] - corners[k]);
+      }
+    }
+    owner.resize(places.size(), face);
+  }
+};
+
+/// Adds up what is seen, face by face.
+class Tally {
+ public:
+  Tally(const Surface& surface, const Sphere& sphere, const Viewpoint& local, SeenSurface& result)
+      : surface_(surface),
+        local_(local),
+        centre_(surface.frame.to_frame(sphere.centre)),
+        towards_(local.projection == Projection::Perspective
+                     ? Vec3((local.position - centre_).normalized())
+                     : local.position),
+        diameter_(sphere.diameter * surface.frame.scale),
+        plane_((local.position - centre_).dot(towards_)),
+        result_(result) {}
+
+  /// Adds a part of a face. \pre faces come one after the other. \param area model units squared.
+  void add(std::uint32_t face, const Vec3& place, double area) {
+    if (face != last_) {
+      last_ = face;
+      normal_ = surface_.area_vectors[face] / surface_.twice_areas[face];
+      result_.faces.push_back({.face = surface_.face_of_mesh[face]});
+    }
+    const double projected = area * shrink(place);
+    result_.faces.back().visible_area += area;
+    result_.faces.back().projected_area += projected;
+    const double depth = std::clamp(0.5 - (place - centre_).dot(towards_) / diameter_, 0.0, 1.0);
+    constexpr auto kBins = static_cast<double>(SeenSurface::kDepthBins);
+    result_.depths[static_cast<std::size_t>(std::min(depth * kBins, kBins - 1.0))] += projected;
+    result_.deepest = std::max(result_.deepest, depth);
   }
 
  private:
-  static Vec3 place(const std::array<Vec3, 3>& corners, const Vec3& weights) {
-    return weights.x() * corners[0] + weights.y() * corners[1] + weights.z() * corners[2];
-  }
-
-  static double length(const std::array<Vec3, 3>& corners, const Piece& piece, std::size_t side) {
-    return (place(corners, piece[side]) - place(corners, piece[(side + 1) % 3])).norm();
-  }
-
-  static std::size_t longest_side(const std::array<Vec3, 3>& corners, const Piece& piece) {
-    std::size_t longest = 0;
-    for (const std::size_t side : {std::size_t{1}, std::size_t{2}}) {
-      if (length(corners, piece, side) > length(corners, piece, longest)) {
-        longest = side;
-      }
+  /// Projected area over area, at a place of the face at hand.
+  [[nodiscard]] double shrink(const Vec3& place) const {
+    if (local_.projection == Projection::Orthographic) {
+      return std::abs(normal_.dot(towards_));
     }
-    return longest;
+    const Vec3 sight_line = local_.position - place;
+    const double depth = sight_line.dot(towards_);
+    return depth > 0.0
+               ? std::abs(normal_.dot(sight_line)) * plane_ * plane_ / (depth * depth * depth)
+               : 0.0;
   }
 
-  struct Part {
-    Piece piece{};
-    double area = 0.0;
-  };
-
-  double longest_;
-  double least_area_;
-  std::vector<Part> stack_{};
+  const Surface& surface_;
+  const Viewpoint& local_;
+  Vec3 centre_;   // of the sphere
+  Vec3 towards_;  // unit, from there to the eye
+  double diameter_;
+  double plane_;  // how far the eye is from the plane of projection
+  SeenSurface& result_;
+  std::uint32_t last_ = Surface::kNoSite;
+  Vec3 normal_ = Vec3::Zero();
 };
+
+/// The faces in the mesh's order; quicker than sorting, as about half of all are seen.
+std::vector<SeenFace> in_order(const std::vector<SeenFace>& faces, std::size_t count) {
+  constexpr std::uint32_t kUnseen = ~std::uint32_t{0};
+  std::vector<std::uint32_t> place(count, kUnseen);
+  for (std::uint32_t k = 0; k < faces.size(); ++k) {
+    place[faces[k].face] = k;
+  }
+  std::vector<SeenFace> ordered;
+  ordered.reserve(faces.size());
+  for (const std::uint32_t k : place) {
+    if (k != kUnseen) {
+      ordered.push_back(faces[k]);
+    }
+  }
+  return ordered;
+}
 
 }  // namespace
 
 struct FaceVisibility::Samples {
   Samples(const TriMesh& mesh, std::span<const FaceSides> sides)
-      : sight(prepare_surface(mesh, sides)) {}
+      : sight(prepare_surface(mesh, sides)),
+        triangles(mesh.triangles),
+        sphere(enclosing_sphere(referenced_points(mesh))) {}
 
   Sight sight;
-  std::vector<Triangle> triangles{};   // of the mesh
-  Sphere sphere{};                     // of the mesh
-  std::vector<Vec3> places{};          // in the surface's frame, by face of the surface
-  FloatPoints rounded{};               // the same
-  std::vector<std::uint32_t> owner{};  // face of the surface
-  std::vector<Vec3> weights{};         // barycentric, in the corners of the mesh's face
-  std::vector<double> areas{};         // model units squared
+  std::vector<Triangle> triangles;  // of the mesh
+  Sphere sphere;                    // of the mesh
+  FacePieces pieces{};
   double total_area = 0.0;
 
   /// Cuts every face of the surface into pieces.
@@ -109,40 +164,138 @@ struct FaceVisibility::Samples {
     }
     // About 6 pieces a squared side.
     const double least_side = std::sqrt(6.0 * total_area / kMaxPieces);
-    const double longest = unit * std::max(spacing * sphere.diameter, least_side);
-    Cutter cutter(longest, kLeastArea * 0.25 * std::sqrt(3.0) * longest * longest);
-    for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
-      const auto& [a, b, c] = surface.faces[f];
-      const std::array<Vec3, 3> corners{surface.sites[a], surface.sites[b], surface.sites[c]};
-      cutter.cut(corners, 0.5 * surface.twice_areas[f], [&](const Vec3& w, double area) {
-        places.emplace_back(w.x() * corners[0] + w.y() * corners[1] + w.z() * corners[2]);
-        owner.push_back(f);
-        weights.push_back(w);
-        areas.push_back(area / (unit * unit));
-      });
-    }
-    rounded = rounded_points(places);
+    pieces = cut_faces(surface, unit * std::max(spacing * sphere.diameter, least_side));
   }
 
-  [[nodiscard]] std::vector<std::uint8_t> seen(const Viewpoint& local, const RunContext& run) {
-    return sight.seen_points({places, &rounded, owner}, local, run);
+  /// The centroids of all pieces, to be asked about.
+  [[nodiscard]] SurfacePoints points() const {
+    return {.exact = pieces.places, .rounded = &pieces.rounded, .owner = pieces.owner};
   }
 
-  /// Projected area over area, at a sample. \param towards unit vector to the eye from the centre.
-  [[nodiscard]] double shrink(std::size_t sample, const Viewpoint& local, const Vec3& centre,
-                              const Vec3& towards) const {
+  const PieceNet& net() {
+    std::call_once(net_once_, [&] { net_ = piece_net(sight.surface(), pieces); });
+    return net_;
+  }
+
+  /// What is seen of all sites, of the pieces' centroids and of the nodes on edges, in this order.
+  /// A small face whose corners all agree is not asked about but goes with them; but not where the
+  /// surface turns away from the eye, because the faces at a corner do not hide it and might hide
+  /// the face.
+  [[nodiscard]] std::vector<std::uint8_t> first_look(Look& look) {
     const Surface& surface = sight.surface();
-    const std::uint32_t f = owner[sample];
-    const Vec3 normal = surface.area_vectors[f] / surface.twice_areas[f];
-    if (local.projection == Projection::Orthographic) {
-      return std::abs(normal.dot(towards));
+    const std::size_t sites = surface.sites.size();
+    const SurfacePoints points{.sites = surface.sites,
+                               .exact = net().places,
+                               .rounded = &net_.rounded,
+                               .owner = net_.owner,
+                               .also = net_.also};
+    std::vector<std::uint8_t> asked = look.faces_at_sites();
+    asked.resize(points.size(), 0);
+    std::vector<std::uint32_t> goes_with_corners;
+    for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
+      if (!look.is_turned(f)) {
+        continue;
+      }
+      const auto& [a, b, c] = surface.faces[f];
+      const bool is_small = is_whole(f) && net_.is_small[pieces.first[f]] != 0;
+      if (is_small && surface.sides[f] == FaceSides::Front &&
+          ((asked[a] | asked[b] | asked[c]) & Look::kNotTurned) == 0) {
+        goes_with_corners.push_back(f);
+      } else {
+        std::fill(asked.begin() + static_cast<std::ptrdiff_t>(sites + pieces.first[f]),
+                  asked.begin() + static_cast<std::ptrdiff_t>(sites + pieces.first[f + 1]), 1);
+      }
     }
-    const Vec3 sight_line = local.position - places[sample];
-    const double depth = sight_line.dot(towards);
-    const double plane = (local.position - centre).dot(towards);
-    return depth > 0.0 ? std::abs(normal.dot(sight_line)) * plane * plane / (depth * depth * depth)
-                       : 0.0;
+    for (std::size_t site = 0; site < sites; ++site) {
+      asked[site] &= Look::kTurned;
+    }
+    for (std::size_t i = pieces.places.size(); i < points.exact.size(); ++i) {
+      const bool turned = look.is_turned(points.owner[i]) || look.is_turned(points.also_of(i));
+      asked[sites + i] = turned ? 1 : 0;
+    }
+    std::vector<std::uint8_t> seen = look.not_hidden(points, std::move(asked));
+    for (const std::uint32_t f : goes_with_corners) {
+      const auto& [a, b, c] = surface.faces[f];
+      seen[sites + pieces.first[f]] = seen[a] & seen[b] & seen[c];
+    }
+    return seen;
   }
+
+  /// Whether the face is a single piece.
+  [[nodiscard]] bool is_whole(std::size_t f) const {
+    return pieces.first[f + 1] - pieces.first[f] == 1;
+  }
+
+  /// What is known of the nodes. \param seen first_look().
+  [[nodiscard]] std::vector<std::uint8_t> node_findings(const Look& look,
+                                                        std::span<const std::uint8_t> seen) const {
+    const std::size_t sites = sight.surface().sites.size();
+    const std::span<const std::uint8_t> of_piece = seen.subspan(sites);
+    std::vector<std::uint8_t> found(net_.node_count, 0);
+    std::transform(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(sites), found.begin(),
+                   finding);
+    std::transform(seen.end() - static_cast<std::ptrdiff_t>(net_.also.size()), seen.end(),
+                   found.begin() + static_cast<std::ptrdiff_t>(sites), finding);
+    const std::size_t asked = sites + net_.also.size();
+    std::size_t cut = 0;
+    for (std::size_t f = 0; f + 1 < pieces.first.size(); ++f) {
+      if (is_whole(f)) {
+        continue;
+      }
+      for (std::uint32_t piece = pieces.first[f]; piece < pieces.first[f + 1]; ++piece, ++cut) {
+        for (const std::uint32_t node : net_.nodes[cut]) {
+          if (node >= asked && look.is_turned(f)) {
+            found[node] |= finding(of_piece[piece]);
+          }
+        }
+      }
+    }
+    return found;
+  }
+
+  /// Divides every piece of which, with its nodes, some was seen and some was hidden.
+  /// \param seen first_look().
+  [[nodiscard]] CloserLook look_closer(Look& look, std::span<const std::uint8_t> seen) const {
+    const Surface& surface = sight.surface();
+    const std::vector<std::uint8_t> found = node_findings(look, seen);
+    const std::span<const std::uint8_t> of_piece = seen.subspan(surface.sites.size());
+    const auto is_in_part = [&](std::uint32_t piece, const Triangle& nodes) {
+      return (finding(of_piece[piece]) | found[nodes[0]] | found[nodes[1]] | found[nodes[2]]) ==
+             kInPart;
+    };
+    CloserLook closer;
+    std::size_t cut = 0;
+    for (std::uint32_t f = 0; f + 1 < pieces.first.size(); ++f) {
+      const std::uint32_t begin = pieces.first[f];
+      const Triangle& face = surface.faces[f];
+      if (is_whole(f)) {
+        if (look.is_turned(f) && is_in_part(begin, face)) {
+          closer.add(begin, f,
+                     {surface.sites[face[0]], surface.sites[face[1]], surface.sites[face[2]]},
+                     {true, true, true}, net_.parts[begin]);
+        }
+        continue;
+      }
+      for (std::uint32_t piece = begin; piece < pieces.first[f + 1]; ++piece, ++cut) {
+        if (look.is_turned(f) && is_in_part(piece, net_.nodes[cut])) {
+          const auto& [a, b, c] = net_.nodes[cut];
+          const std::size_t sites = surface.sites.size();
+          closer.add(piece, f, net_.corners[cut], {a < sites, b < sites, c < sites},
+                     net_.parts[piece]);
+        }
+      }
+    }
+    closer.first.push_back(static_cast<std::uint32_t>(closer.places.size()));
+    closer.pieces.push_back(Surface::kNoSite);  // beyond all
+    const FloatPoints rounded = rounded_points(closer.places);
+    closer.seen =
+        look.seen_points({.exact = closer.places, .rounded = &rounded, .owner = closer.owner});
+    return closer;
+  }
+
+ private:
+  std::once_flag net_once_{};
+  PieceNet net_{};
 };
 
 FaceVisibility::FaceVisibility(const TriMesh& mesh, std::vector<FaceSides> sides, double spacing)
@@ -150,8 +303,6 @@ FaceVisibility::FaceVisibility(const TriMesh& mesh, std::vector<FaceSides> sides
   if (!(spacing > 0.0 && spacing <= 1.0)) {
     throw InvalidInput("the spacing of samples must be above 0 and at most 1");
   }
-  samples_->triangles = mesh.triangles;
-  samples_->sphere = enclosing_sphere(referenced_points(mesh));
   samples_->cut(spacing);
 }
 
@@ -164,7 +315,7 @@ double FaceVisibility::total_area() const {
 }
 
 std::size_t FaceVisibility::sample_count() const {
-  return samples_->places.size();
+  return samples_->pieces.places.size();
 }
 
 std::vector<SeenFace> FaceVisibility::seen_faces(const Viewpoint& eye,
@@ -174,67 +325,66 @@ std::vector<SeenFace> FaceVisibility::seen_faces(const Viewpoint& eye,
 
 SeenSurface FaceVisibility::seen_surface(const Viewpoint& eye, const RunContext& run) const {
   const Surface& surface = samples_->sight.surface();
+  const FacePieces& pieces = samples_->pieces;
   const Viewpoint local = eye_in_frame(eye, surface.frame);
-  const Vec3 centre = surface.frame.to_frame(samples_->sphere.centre);
-  const Vec3 towards = local.projection == Projection::Perspective
-                           ? Vec3((local.position - centre).normalized())
-                           : local.position;
-  const double diameter = samples_->sphere.diameter * surface.frame.scale;
+  Look look(samples_->sight, local, run);
+  const std::vector<std::uint8_t> seen = samples_->first_look(look);
+  const CloserLook closer = samples_->look_closer(look, seen);
   SeenSurface result;
-  result.samples = samples_->seen(local, run);
-  std::vector<SeenFace>& faces = result.faces;
-  std::uint32_t last = Surface::kNoSite;
-  for (std::size_t i = 0; i < result.samples.size(); ++i) {
-    if (result.samples[i] == 0) {
+  result.vertices = vertices_of_sites(surface, seen);
+  const auto of_piece = std::span(seen).subspan(surface.sites.size(), sample_count());
+  Tally tally(surface, samples_->sphere, local, result);
+  std::size_t next = 0;  // piece that was looked at closely
+  for (std::uint32_t i = 0; i < of_piece.size(); ++i) {
+    if (closer.pieces[next] != i) {
+      if (of_piece[i] != 0) {
+        tally.add(pieces.owner[i], pieces.places[i], pieces.areas[i]);
+      }
       continue;
     }
-    if (samples_->owner[i] != last) {
-      last = samples_->owner[i];
-      faces.push_back({.face = surface.face_of_mesh[last]});
+    const std::uint32_t end = closer.first[next + 1];
+    const double area = pieces.areas[i] / (end - closer.first[next]);
+    for (std::uint32_t part = closer.first[next]; part < end; ++part) {
+      if (closer.seen[part] != 0) {
+        tally.add(pieces.owner[i], closer.places[part], area);
+      }
     }
-    const double area = samples_->areas[i] * samples_->shrink(i, local, centre, towards);
-    faces.back().visible_area += samples_->areas[i];
-    faces.back().projected_area += area;
-    const double depth =
-        std::clamp(0.5 - (samples_->places[i] - centre).dot(towards) / diameter, 0.0, 1.0);
-    constexpr auto kBins = static_cast<double>(SeenSurface::kDepthBins);
-    result.depths[static_cast<std::size_t>(std::min(depth * kBins, kBins - 1.0))] += area;
-    result.deepest = std::max(result.deepest, depth);
+    ++next;
   }
-  // Into the mesh's order; quicker than sorting, as about half of all faces are seen.
-  constexpr std::uint32_t kUnseen = ~std::uint32_t{0};
-  std::vector<std::uint32_t> place(samples_->triangles.size(), kUnseen);
-  for (std::uint32_t k = 0; k < faces.size(); ++k) {
-    place[faces[k].face] = k;
-  }
-  std::vector<SeenFace> ordered;
-  ordered.reserve(faces.size());
-  for (const std::uint32_t k : place) {
-    if (k != kUnseen) {
-      ordered.push_back(faces[k]);
-    }
-  }
-  faces = std::move(ordered);
+  result.faces = in_order(result.faces, samples_->triangles.size());
   return result;
 }
 
+std::vector<std::uint8_t> FaceVisibility::visible_vertices(const Viewpoint& eye,
+                                                           const RunContext& run) const {
+  const Surface& surface = samples_->sight.surface();
+  Look look(samples_->sight, eye_in_frame(eye, surface.frame), run);
+  return vertices_of_sites(surface, look.seen_sites());
+}
+
 std::vector<double> FaceVisibility::integrals(std::span<const double> of_vertex) const {
+  const FacePieces& pieces = samples_->pieces;
   std::vector<double> result;
   result.reserve(sample_count());
   for (std::size_t i = 0; i < sample_count(); ++i) {
     const auto& [a, b, c] =
-        samples_->triangles[samples_->sight.surface().face_of_mesh[samples_->owner[i]]];
-    const Vec3& w = samples_->weights[i];
-    result.push_back(samples_->areas[i] *
+        samples_->triangles[samples_->sight.surface().face_of_mesh[pieces.owner[i]]];
+    const Vec3& w = pieces.weights[i];
+    result.push_back(pieces.areas[i] *
                      (w.x() * of_vertex[a] + w.y() * of_vertex[b] + w.z() * of_vertex[c]));
   }
   return result;
 }
 
+std::vector<std::uint8_t> FaceVisibility::seen_samples(const Viewpoint& eye,
+                                                       const RunContext& run) const {
+  Look look(samples_->sight, eye_in_frame(eye, samples_->sight.surface().frame), run);
+  return look.seen_points(samples_->points());
+}
+
 double FaceVisibility::visible_sum(std::span<const double> of_sample, const Viewpoint& eye,
                                    const RunContext& run) const {
-  const Viewpoint local = eye_in_frame(eye, samples_->sight.surface().frame);
-  const std::vector<std::uint8_t> seen = samples_->seen(local, run);
+  const std::vector<std::uint8_t> seen = seen_samples(eye, run);
   double sum = 0.0;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     sum += seen[i] != 0 ? of_sample[i] : 0.0;

@@ -12,11 +12,6 @@ namespace {
 
 constexpr std::size_t kGrain = 2048;  // points per chunk: a few tenths of a millisecond
 
-/// Whether a face counts as turned to the eye, by the component's rule for sides.
-bool counts(std::uint8_t turned, FaceSides sides) {
-  return turned == 1 || (turned == 2 && sides == FaceSides::Both);
-}
-
 }  // namespace
 
 std::unique_ptr<EyeGrid> GridPool::borrow() {
@@ -36,7 +31,7 @@ void GridPool::give_back(std::unique_ptr<EyeGrid> grid) {
 
 bool Sight::hidden(const SurfacePoints& points, std::uint32_t point, const Viewpoint& eye) {
   std::call_once(candidates_once_, [&] { candidates_.emplace(surface_.sites, surface_.faces); });
-  const Vec3& start = points.exact[point];
+  const Vec3& start = points.place(point);
   const bool bounded = eye.projection == Projection::Perspective;
   const Vec3 direction = bounded ? Vec3(eye.position - start) : eye.position;
   if (!(direction.squaredNorm() > 0.0)) {
@@ -53,46 +48,60 @@ bool Sight::hidden(const SurfacePoints& points, std::uint32_t point, const Viewp
   });
 }
 
-void Sight::finish(EyeGrid& grid, const SurfacePoints& points, const Viewpoint& eye,
-                   std::vector<std::uint8_t>& seen, const RunContext& run) {
-  if (grid.hide(surface_, eye, points, seen, run)) {
-    return;
+Look::Look(Sight& sight, const Viewpoint& eye, const RunContext& run)
+    : sight_(sight), eye_(eye), run_(run), grid_(sight.grids_.borrow()) {
+  grid_->begin(sight.surface_, eye, run);
+}
+
+Look::~Look() {
+  sight_.grids_.give_back(std::move(grid_));
+}
+
+bool Look::is_turned(std::size_t face) const {
+  const std::uint8_t turned = grid_->turned()[face];
+  return turned == 1 || (turned == 2 && sight_.surface_.sides[face] == FaceSides::Both);
+}
+
+std::vector<std::uint8_t> Look::faces_at_sites() const {
+  const Surface& surface = sight_.surface_;
+  std::vector<std::uint8_t> at(surface.sites.size(), 0);
+  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    const std::uint8_t turned = is_turned(f) ? kTurned : kNotTurned;
+    for (const std::uint32_t site : surface.faces[f]) {
+      at[site] |= turned;
+    }
   }
-  parallel_for(run, seen.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (seen[i] != 0 && hidden(points, static_cast<std::uint32_t>(i), eye)) {
-        seen[i] = 0;
+  return at;
+}
+
+std::vector<std::uint8_t> Look::seen_sites() {
+  std::vector<std::uint8_t> asked = faces_at_sites();
+  for (std::uint8_t& site : asked) {
+    site &= kTurned;
+  }
+  return not_hidden({.sites = sight_.surface_.sites}, std::move(asked));
+}
+
+std::vector<std::uint8_t> Look::seen_points(const SurfacePoints& points) {
+  std::vector<std::uint8_t> asked(points.exact.size(), 0);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    asked[i] = is_turned(points.owner[i]) ? 1 : 0;
+  }
+  return not_hidden(points, std::move(asked));
+}
+
+std::vector<std::uint8_t> Look::not_hidden(const SurfacePoints& points,
+                                           std::vector<std::uint8_t> asked) {
+  std::vector<std::uint8_t> seen = std::move(asked);
+  if (!grid_->hide(sight_.surface_, points, seen, run_)) {
+    parallel_for(run_, seen.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (seen[i] != 0 && sight_.hidden(points, static_cast<std::uint32_t>(i), eye_)) {
+          seen[i] = 0;
+        }
       }
-    }
-  });
-}
-
-std::vector<std::uint8_t> Sight::seen_sites(const Viewpoint& eye, const RunContext& run) {
-  std::unique_ptr<EyeGrid> grid = grids_.borrow();
-  grid->face_sides(surface_, eye, run);
-  std::vector<std::uint8_t> seen(surface_.sites.size(), 0);
-  for (std::size_t f = 0; f < surface_.faces.size(); ++f) {
-    if (counts(grid->turned()[f], surface_.sides[f])) {
-      const auto& [a, b, c] = surface_.faces[f];
-      seen[a] = seen[b] = seen[c] = 1;
-    }
+    });
   }
-  finish(*grid, sites(), eye, seen, run);
-  grids_.give_back(std::move(grid));
-  return seen;
-}
-
-std::vector<std::uint8_t> Sight::seen_points(const SurfacePoints& points, const Viewpoint& eye,
-                                             const RunContext& run) {
-  std::unique_ptr<EyeGrid> grid = grids_.borrow();
-  grid->face_sides(surface_, eye, run);
-  std::vector<std::uint8_t> seen(points.exact.size(), 0);
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    const std::uint32_t f = points.owner[i];
-    seen[i] = counts(grid->turned()[f], surface_.sides[f]) ? 1 : 0;
-  }
-  finish(*grid, points, eye, seen, run);
-  grids_.give_back(std::move(grid));
   return seen;
 }
 

@@ -31,6 +31,8 @@ class GridPool {
   std::vector<std::unique_ptr<EyeGrid>> grids_{};
 };
 
+class Look;
+
 /// Queries may run on many threads at once.
 class Sight {
  public:
@@ -38,28 +40,52 @@ class Sight {
 
   [[nodiscard]] const Surface& surface() const { return surface_; }
 
-  /// The surface's sites as points to ask about.
-  [[nodiscard]] SurfacePoints sites() const { return {surface_.sites, &surface_.rounded, {}}; }
-
-  /// 1 for each site that the eye (in the frame) sees.
-  std::vector<std::uint8_t> seen_sites(const Viewpoint& eye, const RunContext& run);
-
-  /// 1 for each point that the eye sees. \pre points.owner is there.
-  std::vector<std::uint8_t> seen_points(const SurfacePoints& points, const Viewpoint& eye,
-                                        const RunContext& run);
-
   /// Whether a face hides the point from the eye; asks the hierarchy in space, which is built when
   /// first needed. Whether a face at the point is turned to the eye is not asked.
   bool hidden(const SurfacePoints& points, std::uint32_t point, const Viewpoint& eye);
 
  private:
-  void finish(EyeGrid& grid, const SurfacePoints& points, const Viewpoint& eye,
-              std::vector<std::uint8_t>& seen, const RunContext& run);
+  friend class Look;
 
   Surface surface_;
   GridPool grids_{};
   std::once_flag candidates_once_{};
   std::optional<CandidateScene> candidates_{};
+};
+
+/// What one eye sees; any number of queries. For one thread to call.
+class Look {
+ public:
+  /// \param eye in the surface's frame.
+  Look(Sight& sight, const Viewpoint& eye, const RunContext& run);
+  ~Look();
+  Look(const Look&) = delete;
+  Look& operator=(const Look&) = delete;
+
+  /// Whether a side of the face that can be seen is turned to the eye.
+  [[nodiscard]] bool is_turned(std::size_t face) const;
+
+  /// For each site which faces it has: kTurned, kNotTurned or both.
+  [[nodiscard]] std::vector<std::uint8_t> faces_at_sites() const;
+  static constexpr std::uint8_t kTurned = 1;
+  static constexpr std::uint8_t kNotTurned = 2;
+
+  /// 1 for each site at which a face is turned to the eye and that no face hides.
+  [[nodiscard]] std::vector<std::uint8_t> seen_sites();
+
+  /// The same of points on faces.
+  [[nodiscard]] std::vector<std::uint8_t> seen_points(const SurfacePoints& points);
+
+  /// 1 for each point asked about that no face hides. The first query should be the largest.
+  /// \param asked 1 for each point to be asked about, else 0.
+  [[nodiscard]] std::vector<std::uint8_t> not_hidden(const SurfacePoints& points,
+                                                     std::vector<std::uint8_t> asked);
+
+ private:
+  Sight& sight_;
+  Viewpoint eye_;
+  RunContext run_;
+  std::unique_ptr<EyeGrid> grid_;
 };
 
 }  // namespace vantage

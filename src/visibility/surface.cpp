@@ -112,6 +112,32 @@ FacePlanes planes_of(const Surface& surface) {
   return planes;
 }
 
+FaceBlocks blocks_of(const Surface& surface) {
+  FaceBlocks blocks;
+  const std::size_t count = surface.faces.size();
+  for (std::size_t begin = 0; begin < count; begin += FaceBlocks::kFaces) {
+    std::vector<Vec3> corners;
+    for (std::size_t f = begin; f < std::min(count, begin + FaceBlocks::kFaces); ++f) {
+      for (const std::uint32_t site : surface.faces[f]) {
+        corners.push_back(surface.sites[site]);
+      }
+    }
+    const Box box = bounding_box(corners);
+    const Vec3 centre = 0.5 * (box.low + box.high);
+    double squared = 0.0;
+    for (const Vec3& p : corners) {
+      squared = std::max(squared, (p - centre).squaredNorm());
+    }
+    // More than the centre and the radius lose to float.
+    constexpr double kRounding = 0x1p-22;
+    blocks.centres.x.push_back(static_cast<float>(centre.x()));
+    blocks.centres.y.push_back(static_cast<float>(centre.y()));
+    blocks.centres.z.push_back(static_cast<float>(centre.z()));
+    blocks.radius.push_back(static_cast<float>(std::sqrt(squared) * (1.0 + kRounding) + kRounding));
+  }
+  return blocks;
+}
+
 }  // namespace
 
 FloatPoints rounded_points(std::span<const Vec3> points) {
@@ -122,6 +148,16 @@ FloatPoints rounded_points(std::span<const Vec3> points) {
     rounded.z.push_back(static_cast<float>(p.z()));
   }
   return rounded;
+}
+
+std::vector<std::uint8_t> vertices_of_sites(const Surface& surface,
+                                            std::span<const std::uint8_t> of_site) {
+  std::vector<std::uint8_t> of_vertex(surface.site_of_vertex.size(), 0);
+  for (std::size_t v = 0; v < of_vertex.size(); ++v) {
+    const std::uint32_t site = surface.site_of_vertex[v];
+    of_vertex[v] = site == Surface::kNoSite ? std::uint8_t{0} : of_site[site];
+  }
+  return of_vertex;
 }
 
 Viewpoint eye_in_frame(const Viewpoint& eye, const UnitFrame& frame) {
@@ -187,6 +223,7 @@ Surface prepare_surface(const TriMesh& mesh, std::span<const FaceSides> sides) {
   }
   surface.rounded = rounded_points(surface.sites);
   surface.planes = planes_of(surface);
+  surface.blocks = blocks_of(surface);
 
   // A vertex that no face names is never seen, even at a position that others use.
   surface.site_of_vertex.assign(mesh.positions.size(), Surface::kNoSite);

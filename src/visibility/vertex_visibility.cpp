@@ -14,15 +14,9 @@ VertexVisibility& VertexVisibility::operator=(VertexVisibility&&) noexcept = def
 
 std::vector<std::uint8_t> VertexVisibility::visible_vertices(const Viewpoint& eye,
                                                              const RunContext& run) const {
-  const Surface& surface = scene_->sight.surface();
-  const std::vector<std::uint8_t> seen =
-      scene_->sight.seen_sites(eye_in_frame(eye, surface.frame), run);
-  std::vector<std::uint8_t> visible(surface.site_of_vertex.size(), 0);
-  for (std::size_t v = 0; v < visible.size(); ++v) {
-    const std::uint32_t site = surface.site_of_vertex[v];
-    visible[v] = site == Surface::kNoSite ? std::uint8_t{0} : seen[site];
-  }
-  return visible;
+  Sight& sight = scene_->sight;
+  Look look(sight, eye_in_frame(eye, sight.surface().frame), run);
+  return vertices_of_sites(sight.surface(), look.seen_sites());
 }
 
 std::vector<std::uint8_t> visible_vertices(const TriMesh& mesh, const Vec3& eye) {

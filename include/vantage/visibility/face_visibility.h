@@ -31,15 +31,17 @@ struct SeenSurface {
   /// Bins of `depths`, over the diameter of the enclosing sphere. [Secord 2011 leaves them open]
   static constexpr std::size_t kDepthBins = 64;
 
-  std::vector<SeenFace> faces{};        ///< As seen_faces() gives them.
-  std::vector<std::uint8_t> samples{};  ///< 1 for each sample seen.
+  std::vector<SeenFace> faces{};         ///< As seen_faces() gives them.
+  std::vector<std::uint8_t> vertices{};  ///< 1 for each vertex seen, as VertexVisibility says.
   /// Projected area by depth: bin 0 begins where the enclosing sphere does, the last ends with it.
   std::array<double, kDepthBins> depths{};
   double deepest = 0.0;  ///< Depth of the deepest sample seen over the diameter, in [0, 1].
 };
 
 /// Samples a surface and asks which samples an eye sees: every face is cut into pieces, and each
-/// piece is judged by its centroid. Immutable after construction; queries are const and may run on
+/// piece is judged by its centroid. A piece that may be seen in part, because its centroid, its
+/// corners and the pieces beside it disagree, is divided again where areas and depths are asked for,
+/// and its parts are judged so. Immutable after construction; queries are const and may run on
 /// many threads at once. Answers do not depend on the number of threads.
 ///
 /// Projected areas are measured on a plane across the line of sight; seen in perspective, on the
@@ -68,12 +70,20 @@ class FaceVisibility {
   [[nodiscard]] std::vector<SeenFace> seen_faces(const Viewpoint& eye,
                                                  const RunContext& run = {}) const;
 
-  /// The same faces with the samples and depths that they were made of. \throw Cancelled
+  /// The same faces with all else that one look tells. \throw Cancelled
   [[nodiscard]] SeenSurface seen_surface(const Viewpoint& eye, const RunContext& run = {}) const;
+
+  /// 1 for each vertex that the eye sees: what VertexVisibility answers. \throw Cancelled
+  [[nodiscard]] std::vector<std::uint8_t> visible_vertices(const Viewpoint& eye,
+                                                           const RunContext& run = {}) const;
 
   /// The integral over each sample's piece of a field that is given at the vertices and linear in
   /// each face. \pre one finite value per vertex.
   [[nodiscard]] std::vector<double> integrals(std::span<const double> of_vertex) const;
+
+  /// 1 for each sample seen: for each piece that faces were cut into first. \throw Cancelled
+  [[nodiscard]] std::vector<std::uint8_t> seen_samples(const Viewpoint& eye,
+                                                       const RunContext& run = {}) const;
 
   /// Sum of a quantity over the samples seen, in sample order. \pre one value per sample.
   [[nodiscard]] double visible_sum(std::span<const double> of_sample, const Viewpoint& eye,

@@ -325,6 +325,30 @@ TEST(Measures, DoNotDependOnPlaceAndSize) {
   }
 }
 
+TEST(Measures, OfTheFacesSeenChangeByNoHundredthWithSamplesTwiceAsNear) {
+  // Large faces that hide each other in part: the hardest for sampling.
+  const Subject rings(test::together(test::torus(1.0, 0.4, 24, 12), test::torus(0.8, 0.2, 18, 9),
+                                     Vec3(0.3, 0.2, 0.9)),
+                      Projection::Perspective);
+  MeasureSubject denser = rings.given;
+  denser.sampling = 2;
+  std::vector<Measure> measures;
+  for (const char* name : {"visible-triangles", "plemenos", "visibility-ratio", "i3", "instability",
+                           "pmi-saliency", "evmi", "max-depth"}) {
+    measures.push_back(find_measure(name));
+  }
+  ViewMeasurer used(rings.given, measures, 1);
+  ViewMeasurer finer(denser, measures, 1);
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    const std::vector<double>& values = used.set_values()[m];
+    const std::vector<double>& better = finer.set_values()[m];
+    const auto [low, high] = std::minmax_element(better.begin(), better.end());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      EXPECT_NEAR(values[i], better[i], 0.01 * (*high - *low)) << measures[m].name;
+    }
+  }
+}
+
 TEST(Measures, OfOnesOwnTakePart) {
   const Subject cube(test::box(1, 1, 1, 1));
   const Measure own{.name = "own",

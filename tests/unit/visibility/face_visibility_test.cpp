@@ -61,6 +61,53 @@ TEST(FaceVisibility, SplitsAFaceThatIsPartlyHidden) {
   EXPECT_NEAR(faces[2].visible_area + faces[3].visible_area, 8.0, 1e-12);
 }
 
+TEST(FaceVisibility, FindsASliverNarrowerThanItsPieces) {
+  // Of a sheet of 4 × 4 all but a strip at one side lies under another sheet.
+  const double strip = 0.2 * FaceVisibility::kSpacing * std::hypot(4.0, 4.0, 1.0);
+  const TriMesh mesh = test::together(test::sheet(4.0, 4.0, 1), test::sheet(4.0 - strip, 4.0, 1),
+                                      Vec3(0.0, 0.0, 1.0));
+  double seen = 0.0;
+  for (const SeenFace& face : FaceVisibility(mesh, {FaceSides::Both}).seen_faces(kAbove)) {
+    seen += face.face < 2 ? face.visible_area : 0.0;
+  }
+  // Only what is divided once more than pieces are can tell.
+  EXPECT_NEAR(seen, 4.0 * strip, 0.5 * 4.0 * strip);
+}
+
+TEST(FaceVisibility, LooksCloserAtPiecesThatAreSeenInPart) {
+  // The upper sheet ends across the pieces of the lower one.
+  const TriMesh mesh =
+      test::together(test::sheet(4.0, 4.0, 1), test::sheet(1.37, 4.0, 1), Vec3(0.0, 0.0, 1.0));
+  double seen = 0.0;
+  for (const SeenFace& face : FaceVisibility(mesh, {FaceSides::Both}).seen_faces(kAbove)) {
+    seen += face.face < 2 ? face.visible_area : 0.0;
+  }
+  const double part = FaceVisibility::kSpacing * std::hypot(4.0, 4.0, 1.0) / 4.0;
+  EXPECT_NEAR(seen, 4.0 * (4.0 - 1.37), 4.0 * 0.5 * part);
+}
+
+TEST(FaceVisibility, AnswersForVerticesAsVertexVisibilityDoes) {
+  const TriMesh mesh = test::y_of_tubes(0.2, 14);
+  const FaceVisibility faces(mesh, {FaceSides::Front});
+  const VertexVisibility vertices(mesh, {FaceSides::Front});
+  for (const Vec3& eye : {Vec3(5.0, 1.0, 2.0), Vec3(0.1, -4.0, 0.3), Vec3(0.0, 0.0, 0.05)}) {
+    const Viewpoint view{Projection::Perspective, eye};
+    EXPECT_EQ(faces.seen_surface(view).vertices, vertices.visible_vertices(view));
+    EXPECT_EQ(faces.visible_vertices(view), vertices.visible_vertices(view));
+  }
+}
+
+TEST(FaceVisibility, HidesAFaceBehindOneThatSharesItsCorners) {
+  // A flap that is hinged on one side of a face hangs over it: none of the face's corners is hidden,
+  // but 0.6 of its area.
+  TriMesh mesh;
+  mesh.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 1, 0), Vec3(0.5, 0.6, 0.5)};
+  mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
+  const auto faces = FaceVisibility(mesh, {FaceSides::Front}, 1.0).seen_faces(kAbove);
+  ASSERT_EQ(faces.size(), 1U);
+  EXPECT_NEAR(faces[0].visible_area, 0.4 * 0.5, 0.1 * 0.5);
+}
+
 TEST(FaceVisibility, SeesEveryFrontFaceOfAConvexMeshAndNoOther) {
   const TriMesh mesh = test::sphere(7);  // 327 680 faces
   const FaceVisibility visibility(mesh, {FaceSides::Front});
