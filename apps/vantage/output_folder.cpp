@@ -128,6 +128,26 @@ void OutputFolder::write() {
     }
     throw;
   }
+  remove_leftovers();
+}
+
+void OutputFolder::remove_leftovers() const {
+  if (replaced_ == nullptr) {
+    return;
+  }
+  std::error_code error;
+  std::vector<fs::path> leftovers;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path_, error)) {
+    const std::string name = entry.path().filename().string();
+    const bool written = std::any_of(files_.begin(), files_.end(),
+                                     [&](const auto& file) { return file.first == name; });
+    if (!written && replaced_(name) && entry.is_regular_file(error)) {
+      leftovers.push_back(entry.path());
+    }
+  }
+  for (const fs::path& leftover : leftovers) {
+    fs::remove(leftover, error);  // one that stays is no reason to fail
+  }
 }
 
 std::vector<std::string> OutputFolder::names() const {

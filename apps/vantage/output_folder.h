@@ -22,6 +22,10 @@ class OutputFolder {
   /// Takes a file to write.
   void add(std::string name, std::string bytes);
 
+  /// Says that this run replaces all files of some names: what a former run left of them and this
+  /// one does not write is removed.
+  void replace_all(bool (*named)(std::string_view)) { replaced_ = named; }
+
   /// Writes all files. \throw IoError
   void write();
 
@@ -30,8 +34,11 @@ class OutputFolder {
   [[nodiscard]] std::vector<std::string> names() const;
 
  private:
+  void remove_leftovers() const;
+
   std::string path_;
   std::vector<std::pair<std::string, std::string>> files_{};
+  bool (*replaced_)(std::string_view) = nullptr;
 };
 
 /// Makes a folder and its parents. \throw IoError

@@ -51,6 +51,18 @@ class ViewSets(ProgramTest):
         tour = json.loads((self.dir / "out" / "tour.gltf").read_text())
         self.assertEqual(len(tour["animations"]), 1)
 
+    def test_views_of_a_former_run_are_removed_and_other_files_stay(self):
+        self.vantage("view", FAN, "-o", "out", "--views", 3, "--size", "64x48")
+        self.write("out/view-of-mine.png", "mine")
+        self.vantage("view", FAN, "-o", "out", "--views", 2, "--size", "64x48")
+        names = {path.name for path in (self.dir / "out").iterdir()}
+        self.assertTrue({"view-01.png", "view-02.png", "view-of-mine.png"} <= names)
+        self.assertFalse({"view-03.png", "camera-view-03.gltf"} & names)
+        self.vantage("view", FAN, "-o", "out", "--no-images")
+        names = {path.name for path in (self.dir / "out").iterdir()}
+        self.assertFalse({"view-01.png", "views.png", "views.transforms.json", "tour.gltf"} & names)
+        self.assertIn("best.png", names)
+
     def test_coverage_is_reached_with_no_view_too_many(self):
         self.vantage("view", FAN, "-o", "out", "--coverage", 0.9, "--no-images")
         report = self.report()
