@@ -64,7 +64,7 @@ bool holds_leftovers_only(const fs::path& folder) {
 }
 
 /// Removes temporary files whose writers were killed.
-void remove_leftovers(const fs::path& folder) {
+void remove_parts_of_killed_runs(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> leftovers;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
@@ -111,7 +111,7 @@ void OutputFolder::write() {
   std::error_code error;
   const bool fresh = !fs::exists(path_, error);
   make_folder(path_);
-  remove_leftovers(path_);
+  remove_parts_of_killed_runs(path_);
   std::vector<fs::path> written;
   try {
     for (const auto& [name, bytes] : files_) {
@@ -128,10 +128,10 @@ void OutputFolder::write() {
     }
     throw;
   }
-  remove_leftovers();
+  remove_former_views();
 }
 
-void OutputFolder::remove_leftovers() const {
+void OutputFolder::remove_former_views() const {
   if (replaced_ == nullptr) {
     return;
   }

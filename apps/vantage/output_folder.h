@@ -34,7 +34,7 @@ class OutputFolder {
   [[nodiscard]] std::vector<std::string> names() const;
 
  private:
-  void remove_leftovers() const;
+  void remove_former_views() const;
 
   std::string path_;
   std::vector<std::pair<std::string, std::string>> files_{};
