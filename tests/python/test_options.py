@@ -17,6 +17,7 @@ NOT_KEYWORDS = {"help", "output", "trace", "no-images", "no-report", "preview", 
                 "tour-seconds", "fps", "tour-size", "json", "quiet", "verbose", "config", "sampling",
                 "depth",  # arrays have 8 bits a channel
                 "seed",  # every command has it, but only the gradient search draws
+                "max-memory", "timeout",  # limits of a process; Python's own belongs to its user
                 "levels",
                 "meso"}
 # Switches that turn something off are keywords that are on.

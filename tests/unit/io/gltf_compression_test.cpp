@@ -16,6 +16,7 @@
 #include "io/byte_cursor.h"
 #include "io/draco_mesh.h"
 #include "unit/io/error_text.h"
+#include "unit/io/glb_bytes.h"
 
 namespace vantage::test {
 namespace {
@@ -27,18 +28,6 @@ using Point = std::array<float, 3>;
 const std::vector<Point> kCorners = {
     {0.F, 0.F, 0.F}, {2.F, 0.F, 0.F}, {0.F, 2.F, 0.F}, {0.F, 0.F, 2.F}};
 const std::vector<std::uint32_t> kFaces = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
-
-std::string glb(std::string json, std::string binary) {
-  json.resize((json.size() + 3) / 4 * 4, ' ');
-  binary.resize((binary.size() + 3) / 4 * 4, '\0');
-  std::string bytes = "glTF";
-  append_little_endian(bytes, std::uint32_t{2});
-  append_little_endian(bytes, static_cast<std::uint32_t>(28 + json.size() + binary.size()));
-  append_little_endian(bytes, static_cast<std::uint32_t>(json.size()));
-  bytes += "JSON" + json;
-  append_little_endian(bytes, static_cast<std::uint32_t>(binary.size()));
-  return bytes + std::string("BIN\0", 4) + binary;
-}
 
 std::string text(const std::vector<unsigned char>& bytes) {
   return {bytes.begin(), bytes.end()};

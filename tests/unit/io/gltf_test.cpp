@@ -6,25 +6,13 @@
 
 #include "io/byte_cursor.h"
 #include "unit/io/error_text.h"
+#include "unit/io/glb_bytes.h"
 
 namespace vantage::test {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-/// A GLB from its JSON and its binary chunk.
-std::string glb(std::string json, std::string binary) {
-  json.resize((json.size() + 3) / 4 * 4, ' ');
-  binary.resize((binary.size() + 3) / 4 * 4, '\0');
-  std::string bytes = "glTF";
-  append_little_endian(bytes, std::uint32_t{2});
-  append_little_endian(bytes, static_cast<std::uint32_t>(28 + json.size() + binary.size()));
-  append_little_endian(bytes, static_cast<std::uint32_t>(json.size()));
-  bytes += "JSON" + json;
-  append_little_endian(bytes, static_cast<std::uint32_t>(binary.size()));
-  return bytes + std::string("BIN\0", 4) + binary;
-}
 
 /// Four points of a unit square (48 bytes) and the indices 0 1 2 3 as bytes.
 std::string square_bytes() {
