@@ -24,16 +24,20 @@ TEST(Background, IsSetByItsWords) {
   EXPECT_FALSE(look.background || look.background_bottom);
 }
 
-TEST(Background, OfAnyOtherWordIsRefusedAndNothingChanges) {
-  for (const char* text : {"", "mauve", "white:", ":white", "#12345", "#1234567", "#12345g",
-                           "#-1-1-1", "white:black:white", "transparent:white"}) {
-    RenderOptions look;
-    set_background(look, "black:white");
-    EXPECT_THROW(set_background(look, text), InvalidInput) << text;
-    EXPECT_THAT(look.background, Optional(Rgb8{0, 0, 0})) << text;
-    EXPECT_THAT(look.background_bottom, Optional(Rgb8{255, 255, 255})) << text;
-  }
+class RefusedBackground : public testing::TestWithParam<const char*> {};
+
+TEST_P(RefusedBackground, ChangesNothing) {
+  RenderOptions look;
+  set_background(look, "black:white");
+  EXPECT_THROW(set_background(look, GetParam()), InvalidInput);
+  EXPECT_THAT(look.background, Optional(Rgb8{0, 0, 0}));
+  EXPECT_THAT(look.background_bottom, Optional(Rgb8{255, 255, 255}));
 }
+
+INSTANTIATE_TEST_SUITE_P(Words, RefusedBackground,
+                         testing::Values("", "mauve", "white:", ":white", "#12345", "#1234567",
+                                         "#12345g", "#-1-1-1", "white:black:white",
+                                         "transparent:white"));
 
 }  // namespace
 }  // namespace vantage
