@@ -7,7 +7,5 @@ set(VANTAGE_SHARED_HEADERS <algorithm> <array> <cmath> <cstdint> <limits> <map> 
 function(vantage_precompile target)
   if(VANTAGE_PRECOMPILE)
     target_precompile_headers(${target} PRIVATE ${VANTAGE_SHARED_HEADERS} ${ARGN})
-    # False alarms of gcc 12 at -O3 about strings put together, which precompiled headers bring out.
-    target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overread>")
   endif()
 endfunction()
