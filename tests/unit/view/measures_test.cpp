@@ -326,7 +326,8 @@ TEST(Measures, DoNotDependOnPlaceAndSize) {
 }
 
 TEST(Measures, OfTheFacesSeenChangeByNoHundredthWithSamplesTwiceAsNear) {
-  // Large faces that hide each other in part: the hardest for sampling.
+  // Large faces that hide each other in part. These eight hang on slivers in view; docs/measures.md
+  // names what still changes by more.
   const Subject rings(test::together(test::torus(1.0, 0.4, 24, 12), test::torus(0.8, 0.2, 18, 9),
                                      Vec3(0.3, 0.2, 0.9)),
                       Projection::Perspective);
