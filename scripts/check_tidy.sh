@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs clang-tidy 14 over all sources, or with --changed over those of the last commit:
-# over 40 of them at most, spread evenly, when a large merge was the last.
+# over 12 of them at most, spread evenly, when a large merge was the last.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 mapfile -t files < <(
@@ -12,7 +12,7 @@ mapfile -t files < <(
 if ((${#files[@]} == 0)); then
   exit 0
 fi
-most=40
+most=12
 if [[ ${1:-} == --changed ]] && ((${#files[@]} > most)); then
   echo "clang-tidy: $most of the ${#files[@]} files that changed; scripts/check_tidy.sh takes all"
   for ((i = 0; i < most; ++i)); do some+=("${files[i * ${#files[@]} / most]}"); done

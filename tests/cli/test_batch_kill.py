@@ -17,7 +17,7 @@ from program import PROGRAM, ProgramTest
 from shapes import box
 
 KILLS = int(os.environ.get("VANTAGE_KILLS", "40"))
-MODELS = 40
+MODELS = 20
 RUN = ["--write", "camera", "--search", "rapid", "--jobs", "2", "-q"]
 
 
