@@ -162,8 +162,9 @@ struct InfoCommand {
       std::string number = std::to_string(i);
       number.insert(0, number.size() < 3 ? 3 - number.size() : 0, ' ');
       const std::string name = objects[i].name.empty() ? "" : "  " + printable(objects[i].name);
-      session.tell((i == 0 ? "  objects     " : "              ") + number + "  " +
-                   plural(objects[i].faces, "face") + name);
+      std::string line = i == 0 ? "  objects     " : "              ";
+      line.append(number).append("  ").append(plural(objects[i].faces, "face")).append(name);
+      session.tell(line);
     }
     if (objects.size() > kShownObjects) {
       session.tell("              … " + grouped(objects.size() - kShownObjects) +
