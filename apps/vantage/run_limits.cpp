@@ -18,7 +18,7 @@ constexpr double kMostMemory = 1e18;
 constexpr double kLeastSeconds = 0.001;
 constexpr double kMostSeconds = 1e7;
 /// A run that has not ended by then, though it was asked to, is ended. [ours]
-constexpr time_t kSecondAlarm_s = 5;
+constexpr time_t kSecondAlarm = 5;
 
 /// Some libraries end the process where an allocation fails on one of their threads.
 [[noreturn]] void end_for_want_of_memory() {
@@ -46,7 +46,7 @@ void limit_time(double seconds) {
   itimerval alarm{};
   alarm.it_value.tv_sec = static_cast<time_t>(seconds);
   alarm.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (seconds - std::floor(seconds)));
-  alarm.it_interval.tv_sec = kSecondAlarm_s;
+  alarm.it_interval.tv_sec = kSecondAlarm;
   ::setitimer(ITIMER_REAL, &alarm, nullptr);
 }
 
