@@ -141,11 +141,15 @@ Vec3 position_of(const CoarsePlace& place, const TriMesh& coarse,
          place.weight[2] * positions[t[2]];
 }
 
-Proxy make_proxy(const TriMesh& fine, std::size_t target, const RunContext& run) {
+Proxy make_proxy(const TriMesh& fine, std::size_t between, std::size_t target,
+                 const RunContext& run) {
   Proxy proxy;
-  Decimation coarse = decimate(fine, target, run);
-  proxy.mesh = std::move(coarse.mesh);
-  proxy.of_vertex = std::move(coarse.of_vertex);
+  TwoDecimations two = decimate_twice(fine, between, target, run);
+  proxy.merged = {.vertex_count = two.between.mesh.positions.size(),
+                  .triangles = std::move(two.between.mesh.triangles),
+                  .of_vertex = std::move(two.between.of_vertex)};
+  proxy.mesh = std::move(two.coarse.mesh);
+  proxy.of_vertex = std::move(two.coarse.of_vertex);
   const Walker walker(proxy.mesh);
   proxy.place.resize(fine.positions.size());
   parallel_for(run, fine.positions.size(), kGrain, [&](std::size_t begin, std::size_t end) {

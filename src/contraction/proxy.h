@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "vantage/contraction/contraction.h"
 #include "vantage/core/run_context.h"
 #include "vantage/mesh/tri_mesh.h"
 
@@ -24,10 +25,12 @@ struct Proxy {
   std::vector<std::uint32_t> of_vertex{};  ///< |V| coarse vertex that each fine one was merged in.
   std::vector<CoarsePlace> place{};        ///< |V| nearest place around that vertex.
   FineShares shares{};
+  MergedSurface merged{};  ///< Between `fine` and `mesh`.
 };
 
-/// Decimates `fine` to about `target` vertices. \pre as decimate(). \throw Cancelled
-Proxy make_proxy(const TriMesh& fine, std::size_t target, const RunContext& run);
+/// Decimates `fine` to about `target` vertices; `merged` has at most `between`. \pre as decimate(). \throw Cancelled
+Proxy make_proxy(const TriMesh& fine, std::size_t between, std::size_t target,
+                 const RunContext& run);
 
 /// Position of a place when the coarse vertices stand at `positions`.
 Vec3 position_of(const CoarsePlace& place, const TriMesh& coarse,

@@ -205,9 +205,10 @@ class Decimator {
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
 
-  /// Collapses until `target` vertices are left, no edge that may go costs less than `limit`.
-  void reduce_to(std::size_t target, double limit) {
-    while (live_ > target) {
+  /// Collapses until `target` vertices are left, no edge that may go costs less than `limit`, or, between two passes,
+  /// at most `rest` are left.
+  void reduce_to(std::size_t target, double limit, std::size_t rest = 0) {
+    while (live_ > std::max(target, rest)) {
       run_.check();
       const std::size_t before = live_;
       pass(target, limit);
@@ -431,8 +432,13 @@ class Decimator {
   std::vector<std::uint32_t> ring_b_{};
 };
 
-/// Costs are fourth powers of lengths, held in float: they need lengths of about 1. A power of two
-/// never rounds.
+/// Costs are fourth powers of lengths, held in float: they need lengths of about 1.
+int unit_exponent(const TriMesh& mesh) {
+  return std::ilogb(
+      std::max(bounding_box(mesh.positions).longest_side(), std::numeric_limits<double>::min()));
+}
+
+/// A power of two never rounds.
 void scale_by_power(TriMesh& mesh, int exponent) {
   for (Vec3& p : mesh.positions) {
     p = {std::ldexp(p.x(), exponent), std::ldexp(p.y(), exponent), std::ldexp(p.z(), exponent)};
@@ -443,8 +449,7 @@ void scale_by_power(TriMesh& mesh, int exponent) {
 
 Decimation decimate(const TriMesh& fine, std::size_t target, const RunContext& run,
                     std::span<const double> weights) {
-  const int exponent = std::ilogb(
-      std::max(bounding_box(fine.positions).longest_side(), std::numeric_limits<double>::min()));
+  const int exponent = unit_exponent(fine);
   TriMesh scaled = fine;
   scale_by_power(scaled, -exponent);
   Decimator decimator(scaled, ByQuadric(scaled, weights), run);
@@ -452,6 +457,23 @@ Decimation decimate(const TriMesh& fine, std::size_t target, const RunContext& r
   Decimation coarse = decimator.result();
   scale_by_power(coarse.mesh, exponent);
   return coarse;
+}
+
+TwoDecimations decimate_twice(const TriMesh& fine, std::size_t between, std::size_t target,
+                              const RunContext& run) {
+  constexpr double kAnyCost = std::numeric_limits<double>::infinity();
+  const int exponent = unit_exponent(fine);
+  TriMesh scaled = fine;
+  scale_by_power(scaled, -exponent);
+  Decimator decimator(scaled, ByQuadric(scaled, {}), run);
+  TwoDecimations two;
+  decimator.reduce_to(target, kAnyCost, between);
+  two.between = decimator.result();
+  decimator.reduce_to(target, kAnyCost);
+  two.coarse = decimator.result();
+  scale_by_power(two.between.mesh, exponent);
+  scale_by_power(two.coarse.mesh, exponent);
+  return two;
 }
 
 Decimation merge_short_edges(const TriMesh& fine, const std::vector<double>& weights,

@@ -30,6 +30,16 @@ struct Decimation {
 Decimation decimate(const TriMesh& fine, std::size_t target, const RunContext& run,
                     std::span<const double> weights = {});
 
+/// A surface on the way to a coarser one.
+struct TwoDecimations {
+  Decimation between{};  ///< The first state between two passes of at most so many vertices.
+  Decimation coarse{};   ///< As decimate() gives it.
+};
+
+/// decimate(), and what it was when at most `between` vertices were left, ≥ target.
+TwoDecimations decimate_twice(const TriMesh& fine, std::size_t between, std::size_t target,
+                              const RunContext& run);
+
 /// Collapses edges shorter than `longest`, shortest first, under the same condition on neighbours;
 /// faces may turn over. Merged vertices stand at their weighted mean.
 /// \param weights |V| shares, > 0. Vertices without faces stay. \throw Cancelled

@@ -75,8 +75,11 @@ EdgeTable build_edge_table(const TriMesh& mesh) {
 }
 
 IndexLists vertex_neighbours(const TriMesh& mesh) {
-  std::vector<std::uint32_t> degree(mesh.positions.size() + 1, 0);
-  const EdgeTable table = build_edge_table(mesh);
+  return vertex_neighbours(build_edge_table(mesh), mesh.positions.size());
+}
+
+IndexLists vertex_neighbours(const EdgeTable& table, std::size_t vertex_count) {
+  std::vector<std::uint32_t> degree(vertex_count + 1, 0);
   for (const auto& [a, b] : table.edges) {
     ++degree[a + 1];
     ++degree[b + 1];

@@ -133,7 +133,7 @@ class Search {
 InteriorPaths::InteriorPaths(const TriMesh& mesh, const Shell& shell)
     : mesh_(mesh),
       shell_(shell),
-      neighbours_(vertex_neighbours(mesh)),
+      neighbours_(shell.neighbours()),
       wall_is_(mesh.positions.size(), Wall::Unknown),
       wall_(mesh.positions.size(), Vec3::Zero()) {}
 

@@ -36,7 +36,7 @@ class InteriorPaths {
 
   const TriMesh& mesh_;
   const Shell& shell_;
-  IndexLists neighbours_;
+  const IndexLists& neighbours_;
   std::size_t looks_left_ = kMostLooksInAll;
   enum class Wall : std::uint8_t { Unknown, None, Known };
   std::vector<Wall> wall_is_{};  ///< Of each vertex: many ways ask for the same walls.

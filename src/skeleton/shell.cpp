@@ -50,11 +50,11 @@ Shell::Shell(const TriMesh& mesh, std::span<const std::uint32_t> component_of_ve
       frame_(unit_frame(mesh.positions)),
       scene_(in_frame(mesh, frame_)),
       normal_(vertex_normals(mesh)) {
-  mark_open_components();
+  look_at_edges();
   sort_into_cells();
 }
 
-void Shell::mark_open_components() {
+void Shell::look_at_edges() {
   const EdgeTable table = build_edge_table(mesh_);
   for (std::size_t e = 0; e < table.edges.size(); ++e) {
     const std::uint32_t component = component_of_vertex_[table.edges[e][0]];
@@ -63,6 +63,7 @@ void Shell::mark_open_components() {
       is_open_[component] = 1;
     }
   }
+  neighbours_ = vertex_neighbours(table, mesh_.positions.size());
 }
 
 void Shell::sort_into_cells() {
@@ -79,17 +80,20 @@ void Shell::sort_into_cells() {
   }
   cells_ = {static_cast<int>(width / cell_size_) + 1, static_cast<int>(height / cell_size_) + 1};
 
+  // Cells grow with coordinates, so those of a face's box are between those of its corners.
+  std::vector<std::array<int, 2>> cell_of_vertex;
+  cell_of_vertex.reserve(mesh_.positions.size());
+  for (const Vec3& p : mesh_.positions) {
+    cell_of_vertex.push_back(cell_of(p));
+  }
   const auto for_each_cell = [&](const Triangle& t, const auto& visit) {
-    Vec3 low = mesh_.positions[t[0]];
-    Vec3 high = low;
-    for (const std::uint32_t v : t) {
-      low = low.cwiseMin(mesh_.positions[v]);
-      high = high.cwiseMax(mesh_.positions[v]);
-    }
-    const auto first = cell_of(low);
-    const auto last = cell_of(high);
-    for (int y = first[1]; y <= last[1]; ++y) {
-      for (int x = first[0]; x <= last[0]; ++x) {
+    const auto& a = cell_of_vertex[t[0]];
+    const auto& b = cell_of_vertex[t[1]];
+    const auto& c = cell_of_vertex[t[2]];
+    const auto [left, right] = std::minmax({a[0], b[0], c[0]});
+    const auto [bottom, top] = std::minmax({a[1], b[1], c[1]});
+    for (int y = bottom; y <= top; ++y) {
+      for (int x = left; x <= right; ++x) {
         visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_[0]) +
               static_cast<std::size_t>(x));
       }
@@ -256,7 +260,10 @@ bool Shell::inside(std::uint32_t component, const Vec3& a, const Vec3& b) const 
   if (is_open(component)) {
     return true;
   }
-  // As outside_length(), but the first piece outside decides.
+  // As outside_length(), but the first piece outside decides; most that fail do so in the middle.
+  if (!inside(component, 0.5 * (a + b))) {
+    return false;
+  }
   const std::vector<double> places = cuts(component, a, b);
   for (std::size_t i = 1; i < places.size(); ++i) {
     const double s = 0.5 * (places[i] + places[i - 1]);

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "vantage/mesh/topology.h"
 #include "vantage/mesh/tri_mesh.h"
 
 #include "spatial/ray_scene.h"
@@ -39,13 +40,16 @@ class Shell {
   /// \return false, and `middle` as it was, if neither way leads through the inside.
   [[nodiscard]] bool middle_at(std::uint32_t vertex, Vec3& middle) const;
 
+  /// The vertices that share an edge with each vertex.
+  [[nodiscard]] const IndexLists& neighbours() const { return neighbours_; }
+
   /// Whether the component has an edge with an odd number of faces: nothing is inside or outside.
   [[nodiscard]] bool is_open(std::uint32_t component) const {
     return component >= is_open_.size() || is_open_[component] != 0;
   }
 
  private:
-  void mark_open_components();
+  void look_at_edges();
   void sort_into_cells();
   [[nodiscard]] std::array<int, 2> cell_of(const Vec3& p) const;
   [[nodiscard]] int crossing(std::uint32_t from, std::uint32_t to, const Vec3& p) const;
@@ -56,6 +60,7 @@ class Shell {
   const TriMesh& mesh_;
   std::span<const std::uint32_t> component_of_vertex_;
   std::vector<std::uint8_t> is_open_{};  ///< Of each component.
+  IndexLists neighbours_{};
   // Faces by the cell of a plane grid that their projection along `up_` touches.
   int up_ = 2;
   Vec3 low_ = Vec3::Zero();

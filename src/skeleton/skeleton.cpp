@@ -69,6 +69,27 @@ void place_nodes(CurveGraph& graph, const std::vector<Vec3>& positions,
   }
 }
 
+/// Sums of the weights of the vertices that were merged in each of `count`.
+std::vector<double> sums_of_merged(const std::vector<double>& weights,
+                                   const std::vector<std::uint32_t>& of_vertex, std::size_t count) {
+  std::vector<double> sums(count, 0.0);
+  for (std::size_t v = 0; v < weights.size(); ++v) {
+    sums[of_vertex[v]] += weights[v];
+  }
+  return sums;
+}
+
+/// Nodes of the vertices that were merged, from those of what they were merged in.
+std::vector<std::uint32_t> nodes_of_merged(const std::vector<std::uint32_t>& of_vertex,
+                                           const std::vector<std::uint32_t>& node_of_merged) {
+  std::vector<std::uint32_t> nodes;
+  nodes.reserve(of_vertex.size());
+  for (const std::uint32_t v : of_vertex) {
+    nodes.push_back(node_of_merged[v]);
+  }
+  return nodes;
+}
+
 /// Collapses the surface with its vertices at `positions`. Large surfaces lose their shortest edges
 /// first, in passes; the graph is as fine as before, because spacing is much longer than they are.
 Collapsed collapse_level(const TriMesh& mesh, const std::vector<Vec3>& positions,
@@ -83,18 +104,28 @@ Collapsed collapse_level(const TriMesh& mesh, const std::vector<Vec3>& positions
   }
   const Decimation merged =
       merge_short_edges({positions, mesh.triangles}, weights, kMergedLength * spacing, run);
-  std::vector<double> merged_weights(merged.mesh.positions.size(), 0.0);
-  for (std::size_t v = 0; v < weights.size(); ++v) {
-    merged_weights[merged.of_vertex[v]] += weights[v];
-  }
-  ClusterComplex complex(merged.mesh, merged.mesh.positions, std::move(merged_weights));
+  ClusterComplex complex(merged.mesh, merged.mesh.positions,
+                         sums_of_merged(weights, merged.of_vertex, merged.mesh.positions.size()));
   collapsed.lost_handles = collapse_to_graph(complex, run);
   std::vector<std::uint32_t> node_of_merged;
   collapsed.graph = complex.graph(node_of_merged);
-  collapsed.node_of_vertex.reserve(weights.size());
-  for (const std::uint32_t v : merged.of_vertex) {
-    collapsed.node_of_vertex.push_back(node_of_merged[v]);
+  collapsed.node_of_vertex = nodes_of_merged(merged.of_vertex, node_of_merged);
+  return collapsed;
+}
+
+/// collapse_level() of the surface with vertices merged, each at the weighted mean of what was merged in it.
+Collapsed collapse_merged(const MergedSurface& merged, const std::vector<Vec3>& positions,
+                          const std::vector<double>& weights, double spacing,
+                          const RunContext& run) {
+  const std::vector<double> sums = sums_of_merged(weights, merged.of_vertex, merged.vertex_count);
+  TriMesh mesh{.positions = std::vector<Vec3>(merged.vertex_count, Vec3::Zero()),
+               .triangles = merged.triangles};
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    const std::uint32_t to = merged.of_vertex[v];
+    mesh.positions[to] += (weights[v] / sums[to]) * positions[v];
   }
+  Collapsed collapsed = collapse_level(mesh, mesh.positions, sums, spacing, run);
+  collapsed.node_of_vertex = nodes_of_merged(merged.of_vertex, collapsed.node_of_vertex);
   return collapsed;
 }
 
@@ -107,8 +138,11 @@ Collapsed collapse_history(const TriMesh& mesh, const ContractionHistory& histor
   Collapsed best;
   double share = 0.0;
   for (std::size_t level = history.levels.size(); level-- > 0;) {
-    Collapsed trial = collapse_level(mesh, history.levels[level], weights, spacing,
-                                     run.part(share, 0.5 * (1.0 + share)));
+    const std::vector<Vec3>& positions = history.levels[level];
+    const RunContext part = run.part(share, 0.5 * (1.0 + share));
+    Collapsed trial = history.merged
+                          ? collapse_merged(*history.merged, positions, weights, spacing, part)
+                          : collapse_level(mesh, positions, weights, spacing, part);
     share = 0.5 * (1.0 + share);
     if (best.graph.nodes.empty() || trial.lost_handles < best.lost_handles) {
       best = std::move(trial);

@@ -88,6 +88,14 @@ struct ContractedRefinement {
   std::vector<std::uint32_t> component_of_vertex{};  ///< As in ContractionHistory.
 };
 
+/// The surface with some vertices merged: the same components, borders and genus, fewer faces. A skeleton that starts
+/// from it need not collapse every edge of a large surface.
+struct MergedSurface {
+  std::size_t vertex_count = 0;
+  std::vector<Triangle> triangles{};       ///< Of merged vertices.
+  std::vector<std::uint32_t> of_vertex{};  ///< |V| merged vertex that each vertex is part of.
+};
+
 /// Positions of every vertex at every level.
 struct ContractionHistory {
   /// K + 1 levels of |V| points in model units; level 0 is the input itself.
@@ -99,6 +107,8 @@ struct ContractionHistory {
   std::vector<std::string> warnings{};  ///< One sentence each.
   /// If some component was made of few huge faces.
   std::optional<ContractedRefinement> refinement{};
+  /// If some component is large.
+  std::optional<MergedSurface> merged{};
 
   /// Marks vertices that no face names; they stay where they are.
   static constexpr std::uint32_t kIsolated = 0xffffffffu;

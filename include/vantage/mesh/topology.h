@@ -39,6 +39,9 @@ EdgeTable build_edge_table(const TriMesh& mesh);
 /// The one-ring of each vertex: vertices that share an edge with it, ascending.
 IndexLists vertex_neighbours(const TriMesh& mesh);
 
+/// The same from a mesh's edges, if they are at hand.
+IndexLists vertex_neighbours(const EdgeTable& table, std::size_t vertex_count);
+
 /// The faces at each vertex, ascending; a face that names a vertex twice is listed once.
 IndexLists vertex_faces(const TriMesh& mesh);
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,7 +31,7 @@ double distance_to_unit_circle(const Vec3& p) {
 
 TEST(MakeProxy, PlacesEveryVertexWithinTheSagOfItsFaces) {
   const TriMesh torus = large_torus();
-  const Proxy proxy = make_proxy(torus, 4000, {});
+  const Proxy proxy = make_proxy(torus, 8000, 4000, {});
   ASSERT_EQ(proxy.place.size(), torus.positions.size());
   for (std::size_t v = 0; v < torus.positions.size(); ++v) {
     const Vec3 p = position_of(proxy.place[v], proxy.mesh, proxy.mesh.positions);
@@ -40,12 +42,43 @@ TEST(MakeProxy, PlacesEveryVertexWithinTheSagOfItsFaces) {
 }
 
 TEST(MakeProxy, SharesAllFineVerticesOut) {
-  const Proxy proxy = make_proxy(large_torus(), 4000, {});
+  const Proxy proxy = make_proxy(large_torus(), 8000, 4000, {});
   double sum = 0.0;
   for (const double count : proxy.shares.count) {
     sum += count;
   }
   EXPECT_NEAR(sum, 240.0 * 96.0, 1e-2 * 240.0 * 96.0);  // a small share is rounded up
+}
+
+TEST(MakeProxy, MergesOnTheWayWithoutLosingTheHandle) {
+  const TriMesh torus = large_torus();
+  const MergedSurface merged = make_proxy(torus, 8000, 4000, {}).merged;
+  EXPECT_LE(merged.vertex_count, 8000U);
+  EXPECT_GT(merged.vertex_count, 4000U);
+  const std::set<std::uint32_t> used(merged.of_vertex.begin(), merged.of_vertex.end());
+  EXPECT_EQ(used.size(), merged.vertex_count);
+  EXPECT_EQ(*used.rbegin(), merged.vertex_count - 1);
+  // A closed surface has 3/2 edges a face, and a torus V − E + F = 0.
+  EXPECT_EQ(2 * merged.vertex_count, merged.triangles.size());
+}
+
+TEST(ContractByProxy, MergesLargeComponentsOnlyAndKeepsAllOthersApart) {
+  TriMesh mesh = large_torus();  // 23 040 vertices
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  const TriMesh ball = test::sphere(1);
+  for (const Vec3& p : ball.positions) {
+    mesh.positions.push_back(p + Vec3(5.0, 0.0, 0.0));
+  }
+  for (const Triangle& t : ball.triangles) {
+    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  mesh.positions.emplace_back(0.0, 9.0, 0.0);  // of no face
+  const auto merged = contract(mesh, {.max_steps = 1}).merged;
+  ASSERT_TRUE(merged.has_value());
+  const std::set<std::uint32_t> small(merged->of_vertex.begin() + first, merged->of_vertex.end());
+  EXPECT_EQ(small.size(), ball.positions.size() + 1);
+  const std::set<std::uint32_t> large(merged->of_vertex.begin(), merged->of_vertex.begin() + first);
+  EXPECT_EQ(large.size() + small.size(), merged->vertex_count);
 }
 
 TEST(ContractByProxy, SaysSo) {

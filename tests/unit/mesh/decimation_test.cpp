@@ -125,5 +125,14 @@ TEST(Decimate, DoesNotDependOnTheUnitOfLength) {
   }
 }
 
+TEST(DecimateTwice, EndsWhereDecimateEndsAndRestsBetweenPasses) {
+  const TriMesh ball = test::sphere(4);  // 2 562 vertices
+  const TwoDecimations two = decimate_twice(ball, 1500, 400, {});
+  EXPECT_EQ(two.coarse.mesh.positions, decimate(ball, 400, {}).mesh.positions);
+  EXPECT_EQ(two.coarse.of_vertex, decimate(ball, 400, {}).of_vertex);
+  EXPECT_LE(two.between.mesh.positions.size(), 1500U);
+  EXPECT_GT(two.between.mesh.positions.size(), 400U);
+}
+
 }  // namespace
 }  // namespace vantage
