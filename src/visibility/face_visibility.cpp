@@ -25,8 +25,10 @@ constexpr std::uint8_t kSeen = 1;
 constexpr std::uint8_t kHidden = 2;
 constexpr std::uint8_t kInPart = kSeen | kHidden;
 
-// How far from its corner a part at a corner of a face is judged, over how far its centroid is. [ours]
+// What is seen of a face often ends at a corner: there its tip is judged too, so far from the corner over
+// how far the centroid of the part there is, and counts this share of that part. [ours]
 constexpr double kNextTo = 1.0 / 16.0;
+constexpr double kTip = 1.0 / 16.0;
 
 std::uint8_t finding(std::uint8_t seen) {
   return seen != 0 ? kSeen : kHidden;
@@ -37,13 +39,13 @@ struct CloserLook {
   std::vector<std::uint32_t> pieces{};  // ascending, and one beyond all
   std::vector<std::uint32_t> first{};   // part of each, and one past the last part
   std::vector<Vec3> places{};           // centroids of the parts
+  std::vector<double> shares{};         // of each part in its piece's area
   std::vector<std::uint32_t> owner{};   // the face each part is of
   std::vector<std::uint8_t> seen{};     // of each part
 
-  /// Divides a piece into squared `parts` alike. \param at_site whether each of its corners is one of
-  /// the face's: the part there is judged next to it, as what is seen of a face often ends there.
+  /// Divides a piece into squared `parts` alike, and takes the tips apart. \param has_tip of each corner.
   void add(std::uint32_t piece, std::uint32_t face, const std::array<Vec3, 3>& corners,
-           const std::array<bool, 3>& at_site, int parts) {
+           const std::array<bool, 3>& has_tip, int parts) {
     pieces.push_back(piece);
     const std::size_t begin = places.size();
     first.push_back(static_cast<std::uint32_t>(begin));
@@ -61,9 +63,14 @@ struct CloserLook {
     // In the order above: the first part, the last, and that which ends the first row.
     const std::array<std::size_t, 3> part_at{begin, places.size() - 1,
                                              begin + 2 * static_cast<std::size_t>(parts) - 2};
-    for (std::size_t k = 0; parts > 1 && k < 3; ++k) {
-      if (at_site[k]) {
-        places[part_at[k]] = corners[k] + kNextTo * (places[part_at[k]] - corners[k]);
+    const double share = 1.0 / (parts * parts);
+    shares.resize(places.size(), share);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (has_tip[k]) {
+        const Vec3 tip = corners[k] + kNextTo * (places[part_at[k]] - corners[k]);
+        places.push_back(tip);
+        shares.push_back(kTip * share);
+        shares[part_at[k]] -= kTip * share;
       }
     }
     owner.resize(places.size(), face);
@@ -76,11 +83,10 @@ class Tally {
   Tally(const Surface& surface, const Sphere& sphere, const Viewpoint& local, SeenSurface& result)
       : surface_(surface),
         local_(local),
+        is_perspective_(local.projection == Projection::Perspective),
         centre_(surface.frame.to_frame(sphere.centre)),
-        towards_(local.projection == Projection::Perspective
-                     ? Vec3((local.position - centre_).normalized())
-                     : local.position),
-        diameter_(sphere.diameter * surface.frame.scale),
+        towards_(is_perspective_ ? Vec3((local.position - centre_).normalized()) : local.position),
+        per_diameter_(1.0 / (sphere.diameter * surface.frame.scale)),
         plane_((local.position - centre_).dot(towards_)),
         result_(result) {}
 
@@ -88,40 +94,44 @@ class Tally {
   void add(std::uint32_t face, const Vec3& place, double area) {
     if (face != last_) {
       last_ = face;
-      normal_ = surface_.area_vectors[face] / surface_.twice_areas[face];
+      normal_ = &surface_.area_vectors[face];
+      // Finite even for faces of next to no area.
+      scale_ =
+          std::min((is_perspective_ ? plane_ * plane_ : 1.0) / surface_.twice_areas[face], 1e300);
       result_.faces.push_back({.face = surface_.face_of_mesh[face]});
     }
-    const double projected = area * shrink(place);
+    const double projected = area * scale_ * shrink(place);
     result_.faces.back().visible_area += area;
     result_.faces.back().projected_area += projected;
-    const double depth = std::clamp(0.5 - (place - centre_).dot(towards_) / diameter_, 0.0, 1.0);
+    const double depth =
+        std::clamp(0.5 - (place - centre_).dot(towards_) * per_diameter_, 0.0, 1.0);
     constexpr auto kBins = static_cast<double>(SeenSurface::kDepthBins);
     result_.depths[static_cast<std::size_t>(std::min(depth * kBins, kBins - 1.0))] += projected;
     result_.deepest = std::max(result_.deepest, depth);
   }
 
  private:
-  /// Projected area over area, at a place of the face at hand.
+  /// Projected area over area and `scale_`, at a place of the face at hand.
   [[nodiscard]] double shrink(const Vec3& place) const {
-    if (local_.projection == Projection::Orthographic) {
-      return std::abs(normal_.dot(towards_));
+    if (!is_perspective_) {
+      return std::abs(normal_->dot(towards_));
     }
     const Vec3 sight_line = local_.position - place;
     const double depth = sight_line.dot(towards_);
-    return depth > 0.0
-               ? std::abs(normal_.dot(sight_line)) * plane_ * plane_ / (depth * depth * depth)
-               : 0.0;
+    return depth > 0.0 ? std::abs(normal_->dot(sight_line)) / (depth * depth * depth) : 0.0;
   }
 
   const Surface& surface_;
   const Viewpoint& local_;
+  bool is_perspective_;
   Vec3 centre_;   // of the sphere
   Vec3 towards_;  // unit, from there to the eye
-  double diameter_;
+  double per_diameter_;
   double plane_;  // how far the eye is from the plane of projection
   SeenSurface& result_;
   std::uint32_t last_ = Surface::kNoSite;
-  Vec3 normal_ = Vec3::Zero();
+  const Vec3* normal_ = nullptr;  // of the face at hand, as long as twice its area
+  double scale_ = 1.0;            // makes up for that, and for the plane's distance
 };
 
 /// The faces in the mesh's order; quicker than sorting, as about half of all are seen.
@@ -173,14 +183,22 @@ struct FaceVisibility::Samples {
   }
 
   const PieceNet& net() {
-    std::call_once(net_once_, [&] { net_ = piece_net(sight.surface(), pieces); });
+    std::call_once(net_once_, [&] {
+      const Surface& surface = sight.surface();
+      net_ = piece_net(surface, pieces);
+      // Of an open surface corners do not tell enough.
+      for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+        const bool is_plain = net_.is_plain[f] != 0 && surface.sides[f] == FaceSides::Front;
+        net_.is_plain[f] = is_plain ? 1 : 0;
+      }
+    });
     return net_;
   }
 
   /// What is seen of all sites, of the pieces' centroids and of the nodes on edges, in this order.
-  /// A small face whose corners all agree is not asked about but goes with them; but not where the
-  /// surface turns away from the eye, because the faces at a corner do not hide it and might hide
-  /// the face.
+  /// Of a plain face that turns to the eye with all faces at its corners only the corners are asked
+  /// about, and the rest goes with them. Not where the surface turns away from the eye, because the
+  /// faces at a corner do not hide it and might hide the face.
   [[nodiscard]] std::vector<std::uint8_t> first_look(Look& look) {
     const Surface& surface = sight.surface();
     const std::size_t sites = surface.sites.size();
@@ -191,17 +209,17 @@ struct FaceVisibility::Samples {
                                .also = net_.also};
     std::vector<std::uint8_t> asked = look.faces_at_sites();
     asked.resize(points.size(), 0);
+    std::vector<std::uint8_t> is_asked(surface.faces.size(), 0);
     std::vector<std::uint32_t> goes_with_corners;
     for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
       if (!look.is_turned(f)) {
         continue;
       }
       const auto& [a, b, c] = surface.faces[f];
-      const bool is_small = is_whole(f) && net_.is_small[pieces.first[f]] != 0;
-      if (is_small && surface.sides[f] == FaceSides::Front &&
-          ((asked[a] | asked[b] | asked[c]) & Look::kNotTurned) == 0) {
+      if (net_.is_plain[f] != 0 && ((asked[a] | asked[b] | asked[c]) & Look::kNotTurned) == 0) {
         goes_with_corners.push_back(f);
       } else {
+        is_asked[f] = 1;
         std::fill(asked.begin() + static_cast<std::ptrdiff_t>(sites + pieces.first[f]),
                   asked.begin() + static_cast<std::ptrdiff_t>(sites + pieces.first[f + 1]), 1);
       }
@@ -209,14 +227,23 @@ struct FaceVisibility::Samples {
     for (std::size_t site = 0; site < sites; ++site) {
       asked[site] &= Look::kTurned;
     }
-    for (std::size_t i = pieces.places.size(); i < points.exact.size(); ++i) {
-      const bool turned = look.is_turned(points.owner[i]) || look.is_turned(points.also_of(i));
-      asked[sites + i] = turned ? 1 : 0;
+    const std::size_t pieces_end = pieces.places.size();
+    for (std::size_t i = pieces_end; i < points.exact.size(); ++i) {
+      asked[sites + i] = is_asked[points.owner[i]] | is_asked[points.also_of(i)];
     }
-    std::vector<std::uint8_t> seen = look.not_hidden(points, std::move(asked));
+    std::vector<std::uint8_t> seen = look.not_hidden(points, asked);
     for (const std::uint32_t f : goes_with_corners) {
       const auto& [a, b, c] = surface.faces[f];
-      seen[sites + pieces.first[f]] = seen[a] & seen[b] & seen[c];
+      const std::uint8_t all = seen[a] & seen[b] & seen[c];
+      for (std::uint32_t piece = pieces.first[f]; piece < pieces.first[f + 1]; ++piece) {
+        seen[sites + piece] = all;
+      }
+    }
+    for (std::size_t i = pieces_end; i < points.exact.size(); ++i) {
+      if (asked[sites + i] == 0) {
+        const auto [a, b] = net_.ends[i - pieces_end];
+        seen[sites + i] = seen[a] & seen[b];
+      }
     }
     return seen;
   }
@@ -263,25 +290,30 @@ struct FaceVisibility::Samples {
       return (finding(of_piece[piece]) | found[nodes[0]] | found[nodes[1]] | found[nodes[2]]) ==
              kInPart;
     };
+    const auto has_tip = [&](std::uint32_t node) {
+      return node < surface.sites.size() && seen[node] != 0;
+    };
     CloserLook closer;
     std::size_t cut = 0;
     for (std::uint32_t f = 0; f + 1 < pieces.first.size(); ++f) {
       const std::uint32_t begin = pieces.first[f];
-      const Triangle& face = surface.faces[f];
+      const auto& [a, b, c] = surface.faces[f];
       if (is_whole(f)) {
-        if (look.is_turned(f) && is_in_part(begin, face)) {
-          closer.add(begin, f,
-                     {surface.sites[face[0]], surface.sites[face[1]], surface.sites[face[2]]},
-                     {true, true, true}, net_.parts[begin]);
+        const int all = seen[a] + seen[b] + seen[c] + of_piece[begin];
+        if (all != 0 && all != 4 && look.is_turned(f)) {
+          closer.add(begin, f, {surface.sites[a], surface.sites[b], surface.sites[c]},
+                     {seen[a] != 0, seen[b] != 0, seen[c] != 0}, net_.parts[begin]);
         }
         continue;
       }
+      // The pieces of a plain face may never have been asked about.
+      const int corners = seen[a] + seen[b] + seen[c];
+      const bool all = net_.is_plain[f] != 0 && corners != 0 && corners != 3;
       for (std::uint32_t piece = begin; piece < pieces.first[f + 1]; ++piece, ++cut) {
-        if (look.is_turned(f) && is_in_part(piece, net_.nodes[cut])) {
-          const auto& [a, b, c] = net_.nodes[cut];
-          const std::size_t sites = surface.sites.size();
-          closer.add(piece, f, net_.corners[cut], {a < sites, b < sites, c < sites},
-                     net_.parts[piece]);
+        if (look.is_turned(f) && (all || is_in_part(piece, net_.nodes[cut]))) {
+          const Triangle& nodes = net_.nodes[cut];
+          closer.add(piece, f, net_.corners[cut],
+                     {has_tip(nodes[0]), has_tip(nodes[1]), has_tip(nodes[2])}, net_.parts[piece]);
         }
       }
     }
@@ -343,10 +375,9 @@ SeenSurface FaceVisibility::seen_surface(const Viewpoint& eye, const RunContext&
       continue;
     }
     const std::uint32_t end = closer.first[next + 1];
-    const double area = pieces.areas[i] / (end - closer.first[next]);
     for (std::uint32_t part = closer.first[next]; part < end; ++part) {
       if (closer.seen[part] != 0) {
-        tally.add(pieces.owner[i], closer.places[part], area);
+        tally.add(pieces.owner[i], closer.places[part], pieces.areas[i] * closer.shares[part]);
       }
     }
     ++next;
