@@ -12,6 +12,7 @@
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 
+#include "visibility/closer_look.h"
 #include "visibility/face_pieces.h"
 #include "visibility/sight.h"
 
@@ -25,56 +26,14 @@ constexpr std::uint8_t kSeen = 1;
 constexpr std::uint8_t kHidden = 2;
 constexpr std::uint8_t kInPart = kSeen | kHidden;
 
-// What is seen of a face often ends at a corner: there its tip is judged too, so far from the corner over
-// how far the centroid of the part there is, and counts this share of that part. [ours]
-constexpr double kNextTo = 1.0 / 16.0;
-constexpr double kTip = 1.0 / 16.0;
-
 std::uint8_t finding(std::uint8_t seen) {
   return seen != 0 ? kSeen : kHidden;
 }
 
-/// Pieces that may be seen in part, divided, and what is seen of that.
-struct CloserLook {
-  std::vector<std::uint32_t> pieces{};  // ascending, and one beyond all
-  std::vector<std::uint32_t> first{};   // part of each, and one past the last part
-  std::vector<Vec3> places{};           // centroids of the parts
-  std::vector<double> shares{};         // of each part in its piece's area
-  std::vector<std::uint32_t> owner{};   // the face each part is of
-  std::vector<std::uint8_t> seen{};     // of each part
-
-  /// Divides a piece into squared `parts` alike, and takes the tips apart. \param has_tip of each corner.
-  void add(std::uint32_t piece, std::uint32_t face, const std::array<Vec3, 3>& corners,
-           const std::array<bool, 3>& has_tip, int parts) {
-    pieces.push_back(piece);
-    const std::size_t begin = places.size();
-    first.push_back(static_cast<std::uint32_t>(begin));
-    const Vec3& a = corners[0];
-    const Vec3 right = (corners[1] - a) / parts;
-    const Vec3 up = (corners[2] - a) / parts;
-    for (int i = 0; i < parts; ++i) {
-      for (int j = 0; i + j < parts; ++j) {
-        places.emplace_back(a + (i + 1.0 / 3.0) * right + (j + 1.0 / 3.0) * up);
-        if (i + j + 1 < parts) {
-          places.emplace_back(a + (i + 2.0 / 3.0) * right + (j + 2.0 / 3.0) * up);
-        }
-      }
-    }
-    // In the order above: the first part, the last, and that which ends the first row.
-    const std::array<std::size_t, 3> part_at{begin, places.size() - 1,
-                                             begin + 2 * static_cast<std::size_t>(parts) - 2};
-    const double share = 1.0 / (parts * parts);
-    shares.resize(places.size(), share);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (has_tip[k]) {
-        const Vec3 tip = corners[k] + kNextTo * (places[part_at[k]] - corners[k]);
-        places.push_back(tip);
-        shares.push_back(kTip * share);
-        shares[part_at[k]] -= kTip * share;
-      }
-    }
-    owner.resize(places.size(), face);
-  }
+/// What one look tells of all sites, of the pieces' centroids and of the nodes on edges.
+struct FirstLook {
+  std::vector<std::uint8_t> seen{};      // of each, in this order
+  std::vector<std::uint8_t> at_sites{};  // Look::faces_at_sites()
 };
 
 /// Adds up what is seen, face by face.
@@ -195,11 +154,10 @@ struct FaceVisibility::Samples {
     return net_;
   }
 
-  /// What is seen of all sites, of the pieces' centroids and of the nodes on edges, in this order.
-  /// Of a plain face that turns to the eye with all faces at its corners only the corners are asked
+  /// Looks at all sites, at the pieces' centroids and the nodes on edges. Of a plain face that turns to the eye with all faces at its corners only the corners are asked
   /// about, and the rest goes with them. Not where the surface turns away from the eye, because the
   /// faces at a corner do not hide it and might hide the face.
-  [[nodiscard]] std::vector<std::uint8_t> first_look(Look& look) {
+  [[nodiscard]] FirstLook first_look(Look& look) {
     const Surface& surface = sight.surface();
     const std::size_t sites = surface.sites.size();
     const SurfacePoints points{.sites = surface.sites,
@@ -207,8 +165,8 @@ struct FaceVisibility::Samples {
                                .rounded = &net_.rounded,
                                .owner = net_.owner,
                                .also = net_.also};
-    std::vector<std::uint8_t> asked = look.faces_at_sites();
-    asked.resize(points.size(), 0);
+    const std::vector<std::uint8_t> at_sites = look.faces_at_sites();
+    std::vector<std::uint8_t> asked(points.size(), 0);
     std::vector<std::uint8_t> is_asked(surface.faces.size(), 0);
     std::vector<std::uint32_t> goes_with_corners;
     for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
@@ -216,7 +174,8 @@ struct FaceVisibility::Samples {
         continue;
       }
       const auto& [a, b, c] = surface.faces[f];
-      if (net_.is_plain[f] != 0 && ((asked[a] | asked[b] | asked[c]) & Look::kNotTurned) == 0) {
+      if (net_.is_plain[f] != 0 &&
+          ((at_sites[a] | at_sites[b] | at_sites[c]) & Look::kNotTurned) == 0) {
         goes_with_corners.push_back(f);
       } else {
         is_asked[f] = 1;
@@ -225,7 +184,7 @@ struct FaceVisibility::Samples {
       }
     }
     for (std::size_t site = 0; site < sites; ++site) {
-      asked[site] &= Look::kTurned;
+      asked[site] = at_sites[site] & Look::kTurned;
     }
     const std::size_t pieces_end = pieces.places.size();
     for (std::size_t i = pieces_end; i < points.exact.size(); ++i) {
@@ -245,7 +204,7 @@ struct FaceVisibility::Samples {
         seen[sites + i] = seen[a] & seen[b];
       }
     }
-    return seen;
+    return {std::move(seen), at_sites};
   }
 
   /// Whether the face is a single piece.
@@ -281,17 +240,21 @@ struct FaceVisibility::Samples {
   }
 
   /// Divides every piece of which, with its nodes, some was seen and some was hidden.
-  /// \param seen first_look().
-  [[nodiscard]] CloserLook look_closer(Look& look, std::span<const std::uint8_t> seen) const {
+  [[nodiscard]] CloserLook look_closer(Look& look, const FirstLook& first) const {
     const Surface& surface = sight.surface();
+    const std::vector<std::uint8_t>& seen = first.seen;
     const std::vector<std::uint8_t> found = node_findings(look, seen);
-    const std::span<const std::uint8_t> of_piece = seen.subspan(surface.sites.size());
+    const std::span<const std::uint8_t> of_piece = std::span(seen).subspan(surface.sites.size());
     const auto is_in_part = [&](std::uint32_t piece, const Triangle& nodes) {
       return (finding(of_piece[piece]) | found[nodes[0]] | found[nodes[1]] | found[nodes[2]]) ==
              kInPart;
     };
-    const auto has_tip = [&](std::uint32_t node) {
-      return node < surface.sites.size() && seen[node] != 0;
+    const auto tip = [&](std::size_t face, std::uint32_t node) {
+      if (node >= surface.sites.size() || seen[node] == 0) {
+        return Tip::Plain;
+      }
+      const bool turns = (first.at_sites[node] & Look::kNotTurned) == 0;
+      return turns && surface.sides[face] == FaceSides::Front ? Tip::Seen : Tip::Asked;
     };
     CloserLook closer;
     std::size_t cut = 0;
@@ -302,7 +265,7 @@ struct FaceVisibility::Samples {
         const int all = seen[a] + seen[b] + seen[c] + of_piece[begin];
         if (all != 0 && all != 4 && look.is_turned(f)) {
           closer.add(begin, f, {surface.sites[a], surface.sites[b], surface.sites[c]},
-                     {seen[a] != 0, seen[b] != 0, seen[c] != 0}, net_.parts[begin]);
+                     {tip(f, a), tip(f, b), tip(f, c)}, net_.parts[begin]);
         }
         continue;
       }
@@ -313,15 +276,19 @@ struct FaceVisibility::Samples {
         if (look.is_turned(f) && (all || is_in_part(piece, net_.nodes[cut]))) {
           const Triangle& nodes = net_.nodes[cut];
           closer.add(piece, f, net_.corners[cut],
-                     {has_tip(nodes[0]), has_tip(nodes[1]), has_tip(nodes[2])}, net_.parts[piece]);
+                     {tip(f, nodes[0]), tip(f, nodes[1]), tip(f, nodes[2])}, net_.parts[piece]);
         }
       }
     }
-    closer.first.push_back(static_cast<std::uint32_t>(closer.places.size()));
-    closer.pieces.push_back(Surface::kNoSite);  // beyond all
+    closer.end();
     const FloatPoints rounded = rounded_points(closer.places);
-    closer.seen =
-        look.seen_points({.exact = closer.places, .rounded = &rounded, .owner = closer.owner});
+    closer.seen = look.not_hidden(
+        {.exact = closer.places, .rounded = &rounded, .owner = closer.owner}, closer.asked);
+    for (std::size_t i = 0; i < closer.seen.size(); ++i) {
+      if (closer.asked[i] == 0) {
+        closer.seen[i] = 1;
+      }
+    }
     return closer;
   }
 
@@ -360,11 +327,11 @@ SeenSurface FaceVisibility::seen_surface(const Viewpoint& eye, const RunContext&
   const FacePieces& pieces = samples_->pieces;
   const Viewpoint local = eye_in_frame(eye, surface.frame);
   Look look(samples_->sight, local, run);
-  const std::vector<std::uint8_t> seen = samples_->first_look(look);
-  const CloserLook closer = samples_->look_closer(look, seen);
+  const FirstLook first = samples_->first_look(look);
+  const CloserLook closer = samples_->look_closer(look, first);
   SeenSurface result;
-  result.vertices = vertices_of_sites(surface, seen);
-  const auto of_piece = std::span(seen).subspan(surface.sites.size(), sample_count());
+  result.vertices = vertices_of_sites(surface, first.seen);
+  const auto of_piece = std::span(first.seen).subspan(surface.sites.size(), sample_count());
   Tally tally(surface, samples_->sphere, local, result);
   std::size_t next = 0;  // piece that was looked at closely
   for (std::uint32_t i = 0; i < of_piece.size(); ++i) {
