@@ -16,8 +16,15 @@ constexpr std::size_t kLanes = 4;
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
 
 std::vector<Side> sorted_sides(const std::vector<LayerEdge>& edges) {
+  struct Key {
+    double low = 0.0, x_low = 0.0;
+    std::size_t side = 0;
+  };
+
   std::vector<Side> sides;
+  std::vector<Key> keys;
   sides.reserve(edges.size());
+  keys.reserve(edges.size());
   for (const LayerEdge& edge : edges) {
     const bool falls = edge.from.y() > edge.to.y();
     const PicturePoint& low = falls ? edge.to : edge.from;
@@ -25,6 +32,7 @@ std::vector<Side> sorted_sides(const std::vector<LayerEdge>& edges) {
     // Level edges come back as the ways between what ends and what begins on their line.
     if (low.y() < high.y() && edge.layers != 0) {
       const double slope = (high.x() - low.x()) / (high.y() - low.y());
+      keys.push_back({low.y(), low.x(), sides.size()});
       sides.push_back({.low = low.y(),
                        .high = high.y(),
                        .x_low = low.x(),
@@ -33,10 +41,16 @@ std::vector<Side> sorted_sides(const std::vector<LayerEdge>& edges) {
                        .step = falls ? edge.layers : -edge.layers});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.low < b.low || (a.low == b.low && a.x_low < b.x_low);
+  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+    return a.low < b.low ||
+           (a.low == b.low && (a.x_low < b.x_low || (a.x_low == b.x_low && a.side < b.side)));
   });
-  return sides;
+  std::vector<Side> sorted;
+  sorted.reserve(sides.size());
+  for (const Key& key : keys) {
+    sorted.push_back(sides[key.side]);
+  }
+  return sorted;
 }
 
 /// Joins sides to chains that rise without anything else happening on them. \pre sides as sorted_sides()

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
@@ -178,6 +179,14 @@ std::size_t places_of(std::span<const FaceArea> list) {
   return list.empty() ? 0 : std::size_t{list.back().face} + 1;
 }
 
+/// Whether `a` is the one to lay out of two lists, so that a divergence has the same bits either way.
+bool is_first(std::span<const FaceArea> a, std::span<const FaceArea> b) {
+  const auto key = [](const FaceArea& entry) { return std::pair(entry.face, entry.area); };
+  return std::lexicographical_compare(
+      a.begin(), a.end(), b.begin(), b.end(),
+      [&](const FaceArea& x, const FaceArea& y) { return key(x) < key(y); });
+}
+
 SummedAreas summed(std::span<const FaceArea> list) {
   return {list, area_seen(list), sum_of_logs(list)};
 }
@@ -285,9 +294,10 @@ ChannelMeasures channel_measures(std::span<const FaceArea> seen, const ChannelTe
 }
 
 double view_divergence(std::span<const FaceArea> a, std::span<const FaceArea> b) {
+  const auto& [first, second] = is_first(a, b) ? std::pair(a, b) : std::pair(b, a);
   LaidOutAreas laid_out(std::max(places_of(a), places_of(b)));
-  laid_out.put(a);
-  return divergence_of(summed(a), laid_out, summed(b));
+  laid_out.put(first);
+  return divergence_of(summed(first), laid_out, summed(second));
 }
 
 double instability(std::span<const FaceArea> view,
@@ -295,17 +305,10 @@ double instability(std::span<const FaceArea> view,
   if (view.empty()) {
     return kNever;
   }
-  std::size_t places = places_of(view);
-  for (const auto& other : neighbours) {
-    places = std::max(places, places_of(other));
-  }
-  LaidOutAreas laid_out(places);
-  laid_out.put(view);
-  const SummedAreas own = summed(view);
   std::vector<double> divergences;
   for (const auto& other : neighbours) {
     // A neighbour that sees nothing shares nothing with this view.
-    divergences.push_back(other.empty() ? 1.0 : divergence_of(own, laid_out, summed(other)));
+    divergences.push_back(other.empty() ? 1.0 : view_divergence(view, other));
   }
   return mean_divergence(divergences);
 }
@@ -330,7 +333,9 @@ std::vector<double> neighbour_divergences(const std::vector<std::vector<FaceArea
       laid_out.put(views[i]);
       for (std::uint32_t k = next.offsets[i]; k < next.offsets[i + 1]; ++k) {
         const std::uint32_t j = next.values[k];
-        if (j > i && !views[i].empty() && !views[j].empty()) {
+        const bool is_here =
+            is_first(views[i], views[j]) || (i < j && !is_first(views[j], views[i]));
+        if (is_here && !views[i].empty() && !views[j].empty()) {
           const auto back = next[j];
           const auto at = std::lower_bound(back.begin(), back.end(), i) - back.begin();
           divergences[k] = divergence_of(sums[i], laid_out, sums[j]);

@@ -27,10 +27,6 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t kNotOfSet = ~std::size_t{0};
-// Below this number of faces a sliver of one weighs so much that samples must be nearer to each other: as
-// the root of the number, at most so many times the usual spacing. [ours: docs/measures.md]
-constexpr double kFewFaces = 4000.0;
-constexpr double kFinestSpacing = 0.5;
 
 MeasureNeeds both(MeasureNeeds a, const MeasureNeeds& b) {
   a.vertices |= b.vertices;
@@ -121,9 +117,7 @@ void ViewMeasurer::State::prepare(const RunContext& run) {
   const std::vector<FaceSides> sides(model.given.sides.begin(), model.given.sides.end());
   needs.faces |= needs.channel || needs.neighbours || by_area;
   if (needs.faces) {
-    const double few = std::sqrt(static_cast<double>(mesh.triangles.size()) / kFewFaces);
-    const double finer = std::clamp(few, kFinestSpacing, 1.0);
-    faces.emplace(mesh, sides, finer * FaceVisibility::kSpacing / model.given.sampling);
+    faces.emplace(mesh, sides, FaceVisibility::kSpacing / model.given.sampling);
   }
   if (needs.skeleton) {
     const Vec3& centre = model.given.camera.sphere.centre;

@@ -334,20 +334,25 @@ SeenSurface FaceVisibility::seen_surface(const Viewpoint& eye, const RunContext&
   const auto of_piece = std::span(first.seen).subspan(surface.sites.size(), sample_count());
   Tally tally(surface, samples_->sphere, local, result);
   std::size_t next = 0;  // piece that was looked at closely
-  for (std::uint32_t i = 0; i < of_piece.size(); ++i) {
-    if (closer.pieces[next] != i) {
-      if (of_piece[i] != 0) {
-        tally.add(pieces.owner[i], pieces.places[i], pieces.areas[i]);
-      }
+  result.faces.reserve(surface.faces.size());
+  for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
+    if (!look.is_turned(f)) {
       continue;
     }
-    const std::uint32_t end = closer.first[next + 1];
-    for (std::uint32_t part = closer.first[next]; part < end; ++part) {
-      if (closer.seen[part] != 0) {
-        tally.add(pieces.owner[i], closer.places[part], pieces.areas[i] * closer.shares[part]);
+    for (std::uint32_t i = pieces.first[f]; i < pieces.first[f + 1]; ++i) {
+      if (closer.pieces[next] != i) {
+        if (of_piece[i] != 0) {
+          tally.add(f, pieces.places[i], pieces.areas[i]);
+        }
+        continue;
       }
+      for (std::uint32_t part = closer.first[next]; part < closer.first[next + 1]; ++part) {
+        if (closer.seen[part] != 0) {
+          tally.add(f, closer.places[part], pieces.areas[i] * closer.shares[part]);
+        }
+      }
+      ++next;
     }
-    ++next;
   }
   result.faces = in_order(result.faces, samples_->triangles.size());
   return result;
