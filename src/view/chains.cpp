@@ -210,8 +210,9 @@ void ActiveChains::take_side(std::size_t i, std::uint32_t side) {
   slope_[i] = s.slope;
   high_[i] = s.high;
   // Near a level side rounding may reach beyond its end.
-  least_[i] = s.slope > 0.0 ? -kInfinity : s.x_high;
-  most_[i] = s.slope > 0.0 ? s.x_high : kInfinity;
+  least_[i] = -kInfinity;
+  most_[i] = kInfinity;
+  (s.slope > 0.0 ? most_ : least_)[i] = s.x_high;
 }
 
 void ActiveChains::insert(std::uint32_t side) {

@@ -14,7 +14,7 @@ constexpr double kTipShare = 1.0 / 16.0;
 
 }  // namespace
 
-void CloserLook::add_part(Vec3 place, double share, bool is_asked) {
+void CloserLook::add_part(const Vec3& place, double share, bool is_asked) {
   places.push_back(place);
   shares.push_back(share);
   asked.push_back(is_asked ? 1 : 0);

@@ -38,7 +38,7 @@ struct CloserLook {
   void end();
 
  private:
-  void add_part(Vec3 place, double share, bool is_asked);
+  void add_part(const Vec3& place, double share, bool is_asked);
 };
 
 }  // namespace vantage
