@@ -5,10 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-// Written with the vector types of gcc and clang, compiled for processors with 256-bit registers and
-// for all others. Neither version may contract products and sums (the project is compiled without):
-// that would round differently.
-#define VANTAGE_INLINE [[gnu::always_inline]] inline
+#include "core/wide_registers.h"
 
 namespace vantage {
 namespace {
@@ -148,11 +145,6 @@ bool factorize_anywhere(double* panel, std::size_t height, std::size_t columns) 
 [[gnu::target("avx2")]] bool factorize_wide(double* panel, std::size_t height,
                                             std::size_t columns) {
   return factorize_all(panel, height, columns);
-}
-
-bool has_wide_registers() {
-  static const bool has = __builtin_cpu_supports("avx2") != 0;
-  return has;
 }
 #endif
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
@@ -12,22 +13,28 @@
 
 #include "core/parallel.h"
 #include "core/shannon.h"
+#include "view/shared_logs.h"
 
 namespace vantage {
 namespace {
 
-constexpr std::size_t kGrain = 256;  // faces a task
+constexpr std::size_t kGrain = 256;      // faces a task
+constexpr std::size_t kRowGrain = 4096;  // faces a task whose rows are filled
+constexpr std::size_t kViewGrain = 16;   // views a task that are compared with their neighbours
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// The channel by face: which views see it, and how much of it.
+/// The channel turned round: for each face the views that see it and how much of it. FaceArea::face
+/// is the index of a view here.
 struct FaceRows {
   std::vector<std::size_t> offsets{};
-  std::vector<std::uint32_t> view{};
-  std::vector<float> area{};
-  std::vector<double> area_log{};  // a log a
+  std::vector<FaceArea> values{};
+
+  [[nodiscard]] std::span<const FaceArea> operator[](std::size_t face) const {
+    return std::span(values).subspan(offsets[face], offsets[face + 1] - offsets[face]);
+  }
 };
 
-FaceRows rows_by_face(const ViewChannel& channel) {
+FaceRows rows_by_face(const ViewChannel& channel, const RunContext& run) {
   FaceRows rows;
   rows.offsets.assign(channel.face_count + 1, 0);
   for (const auto& seen : channel.views) {
@@ -36,54 +43,44 @@ FaceRows rows_by_face(const ViewChannel& channel) {
     }
   }
   std::partial_sum(rows.offsets.begin(), rows.offsets.end(), rows.offsets.begin());
-  rows.view.resize(rows.offsets.back());
-  rows.area.resize(rows.offsets.back());
-  rows.area_log.resize(rows.offsets.back());
-  std::vector<std::size_t> next(rows.offsets.begin(), rows.offsets.end() - 1);
-  for (std::uint32_t v = 0; v < channel.views.size(); ++v) {
-    for (const FaceArea& a : channel.views[v]) {
-      rows.view[next[a.face]] = v;
-      rows.area_log[next[a.face]] = x_log_x(a.area);
-      rows.area[next[a.face]++] = a.area;
+  rows.values.resize(rows.offsets.back());
+  // Some thousand faces at a time: the ends of their rows stay in the second cache.
+  parallel_for(run, channel.face_count, kRowGrain, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::size_t> next(rows.offsets.begin() + static_cast<std::ptrdiff_t>(begin),
+                                  rows.offsets.begin() + static_cast<std::ptrdiff_t>(end));
+    for (std::uint32_t v = 0; v < channel.views.size(); ++v) {
+      const auto& seen = channel.views[v];
+      const auto is_before = [](const FaceArea& a, std::size_t face) { return a.face < face; };
+      auto at = std::lower_bound(seen.begin(), seen.end(), begin, is_before);
+      for (; at != seen.end() && at->face < end; ++at) {
+        rows.values[next[at->face - begin]++] = {v, at->area};
+      }
     }
-  }
+  });
   return rows;
 }
 
-/// What a pair adds to the weighted Jensen–Shannon divergence where both distributions have mass:
-/// (a + b) log (a + b) − a log a − b log b; where only one has, the terms cancel. The same bits for
-/// (b, a).
+/// (a + b) log (a + b) − a log a − b log b. The same bits for (b, a).
 double shared_term(double a, double b) {
   return x_log_x(a + b) - (x_log_x(a) + x_log_x(b));
 }
 
+/// A sparse list of areas with the sums that divergences from others need.
+struct SummedAreas {
+  std::span<const FaceArea> list{};
+  double area = 0.0;
+  double logs = 0.0;  // Σ a log a
+};
+
 /// Weighted Jensen–Shannon divergence of two distributions a/A and b/B with weights A/(A+B) and
-/// B/(A+B), from the sum of their shared terms:
-/// ((A+B) log (A+B) − A log A − B log B − Σ shared) / (A+B).
-double divergence(double a_sum, double b_sum, double shared) {
-  if (!(a_sum > 0.0) || !(b_sum > 0.0)) {
+/// B/(A+B): ((A+B) log (A+B) − A log A − B log B − Σ ((a+b) log (a+b) − a log a − b log b)) / (A+B).
+/// \param laid_out the list of `a`.
+double divergence_of(const SummedAreas& a, const LaidOutAreas& laid_out, const SummedAreas& b) {
+  if (!(a.area > 0.0) || !(b.area > 0.0)) {
     return 0.0;
   }
-  const double whole = shared_term(a_sum, b_sum);
-  return std::clamp((whole - shared) / (a_sum + b_sum), 0.0, 1.0);
-}
-
-double face_divergence(const FaceRows& rows, const std::vector<double>& area_of_face,
-                       std::uint32_t a, std::uint32_t b) {
-  double shared = 0.0;
-  std::size_t i = rows.offsets[a];
-  std::size_t j = rows.offsets[b];
-  while (i < rows.offsets[a + 1] && j < rows.offsets[b + 1]) {
-    if (rows.view[i] < rows.view[j]) {
-      ++i;
-    } else if (rows.view[j] < rows.view[i]) {
-      ++j;
-    } else {
-      const double both = static_cast<double>(rows.area[i]) + static_cast<double>(rows.area[j]);
-      shared += x_log_x(both) - rows.area_log[i++] - rows.area_log[j++];
-    }
-  }
-  return divergence(area_of_face[a], area_of_face[b], shared);
+  const double shared = laid_out.logs_with(b.list) - b.logs;
+  return std::clamp((shared_term(a.area, b.area) - shared) / (a.area + b.area), 0.0, 1.0);
 }
 
 /// Around a vertex of more faces than this only those count that share an edge: the tip of a fan
@@ -114,22 +111,23 @@ IndexLists faces_around(const TriMesh& mesh) {
   return lists;
 }
 
-std::vector<double> face_saliency(const FaceRows& rows, const std::vector<double>& area_of_face,
-                                  const TriMesh& mesh, const RunContext& run) {
+std::vector<double> face_saliency(const FaceRows& rows, const std::vector<SummedAreas>& faces,
+                                  std::size_t views, const TriMesh& mesh, const RunContext& run) {
   const IndexLists around = faces_around(mesh);
   // Each pair once, at the lower face.
   std::vector<double> of_pair(around.values.size(), 0.0);
   parallel_for(run, around.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    LaidOutAreas laid_out(views);
     for (std::size_t f = begin; f < end; ++f) {
+      laid_out.put(rows[f]);
       for (std::uint32_t k = around.offsets[f]; k < around.offsets[f + 1]; ++k) {
         if (around.values[k] > f) {
-          of_pair[k] =
-              face_divergence(rows, area_of_face, static_cast<std::uint32_t>(f), around.values[k]);
+          of_pair[k] = divergence_of(faces[f], laid_out, faces[around.values[k]]);
         }
       }
     }
   });
-  std::vector<double> saliency(area_of_face.size(), 0.0);
+  std::vector<double> saliency(faces.size(), 0.0);
   for (std::uint32_t f = 0; f < saliency.size(); ++f) {
     double sum = 0.0;
     for (std::uint32_t k = around.offsets[f]; k < around.offsets[f + 1]; ++k) {
@@ -142,7 +140,7 @@ std::vector<double> face_saliency(const FaceRows& rows, const std::vector<double
         sum += of_pair[around.offsets[other] + static_cast<std::size_t>(at)];
       }
     }
-    if (area_of_face[f] > 0.0 && !around[f].empty()) {
+    if (faces[f].area > 0.0 && !around[f].empty()) {
       saliency[f] = sum / static_cast<double>(around[f].size());
     }
   }
@@ -176,38 +174,21 @@ double area_seen(std::span<const FaceArea> seen) {
   return sum;
 }
 
-/// a log a of each face seen.
-std::vector<double> area_logs(std::span<const FaceArea> seen) {
-  std::vector<double> logs;
-  logs.reserve(seen.size());
-  for (const FaceArea& a : seen) {
-    logs.push_back(x_log_x(a.area));
-  }
-  return logs;
+/// One more than the last place of an ascending list.
+std::size_t places_of(std::span<const FaceArea> list) {
+  return list.empty() ? 0 : std::size_t{list.back().face} + 1;
 }
 
-/// A view with what every divergence from another needs of it.
-struct ViewWithLogs {
-  std::span<const FaceArea> seen{};
-  double area = 0.0;
-  std::vector<double> logs{};
-};
+/// Whether `a` is the one to lay out of two lists, so that a divergence has the same bits either way.
+bool is_first(std::span<const FaceArea> a, std::span<const FaceArea> b) {
+  const auto key = [](const FaceArea& entry) { return std::pair(entry.face, entry.area); };
+  return std::lexicographical_compare(
+      a.begin(), a.end(), b.begin(), b.end(),
+      [&](const FaceArea& x, const FaceArea& y) { return key(x) < key(y); });
+}
 
-double divergence_of(const ViewWithLogs& a, const ViewWithLogs& b) {
-  double shared = 0.0;
-  std::size_t i = 0;
-  std::size_t j = 0;
-  while (i < a.seen.size() && j < b.seen.size()) {
-    if (a.seen[i].face < b.seen[j].face) {
-      ++i;
-    } else if (b.seen[j].face < a.seen[i].face) {
-      ++j;
-    } else {
-      const double both = static_cast<double>(a.seen[i].area) + static_cast<double>(b.seen[j].area);
-      shared += x_log_x(both) - (a.logs[i++] + b.logs[j++]);
-    }
-  }
-  return divergence(a.area, b.area, shared);
+SummedAreas summed(std::span<const FaceArea> list) {
+  return {list, area_seen(list), sum_of_logs(list)};
 }
 
 /// Logarithms, that of the least positive value for those that are not positive.
@@ -230,7 +211,7 @@ ChannelTerms channel_terms(const ViewChannel& channel, const TriMesh& mesh, cons
   if (mesh.triangles.size() != channel.face_count) {
     throw InvalidInput("the channel does not belong to this mesh");
   }
-  const FaceRows rows = rows_by_face(channel);
+  const FaceRows rows = rows_by_face(channel, run);
   ChannelTerms terms;
   double total = 0.0;
   for (const auto& seen : channel.views) {
@@ -245,16 +226,14 @@ ChannelTerms channel_terms(const ViewChannel& channel, const TriMesh& mesh, cons
   terms.area_of_face.assign(faces, 0.0);
   terms.p_of_face.assign(faces, 0.0);
   terms.i2_of_face.assign(faces, 0.0);
+  std::vector<SummedAreas> sums;
+  sums.reserve(faces);
   for (std::size_t z = 0; z < faces; ++z) {
-    double area = 0.0;
-    double logs = 0.0;
-    for (std::size_t k = rows.offsets[z]; k < rows.offsets[z + 1]; ++k) {
-      area += rows.area[k];
-      logs += rows.area_log[k];
-    }
+    sums.push_back(summed(rows[z]));
+    const double area = sums.back().area;
     if (area > 0.0) {
       // H(V|z) = log A − (1/A) Σ a log a
-      const double entropy = log_2(area) - logs / area;
+      const double entropy = log_2(area) - sums.back().logs / area;
       terms.area_of_face[z] = area;
       terms.p_of_face[z] = area / total;
       terms.i2_of_face[z] = entropy_of_views - entropy;
@@ -262,14 +241,18 @@ ChannelTerms channel_terms(const ViewChannel& channel, const TriMesh& mesh, cons
       terms.mutual_information += terms.p_of_face[z] * terms.i2_of_face[z];
     }
   }
-  terms.saliency_of_face = face_saliency(rows, terms.area_of_face, mesh, run);
+  terms.saliency_of_face = face_saliency(rows, sums, channel.views.size(), mesh, run);
+  terms.saliency_share = terms.saliency_of_face;
+  for (std::size_t z = 0; z < faces; ++z) {
+    terms.saliency_share[z] /= terms.area_of_face[z] > 0.0 ? terms.area_of_face[z] : 1.0;
+  }
   terms.weighted_p = weighted_by_saliency(terms.p_of_face, terms.saliency_of_face);
   terms.log_p = logarithms(terms.p_of_face);
   terms.log_weighted_p = logarithms(terms.weighted_p);
   std::vector<double> shares = face_areas(mesh);
-  const double surface = std::accumulate(shares.begin(), shares.end(), 0.0);
+  terms.surface_area = std::accumulate(shares.begin(), shares.end(), 0.0);
   for (double& share : shares) {
-    share /= surface;
+    share /= terms.surface_area;
   }
   terms.log_share = logarithms(shares);
   return terms;
@@ -283,29 +266,38 @@ ChannelMeasures channel_measures(std::span<const FaceArea> seen, const ChannelTe
     m.kullback_leibler = m.vmi = m.i2 = m.evmi = kNever;
     return m;
   }
-  const double surface = std::accumulate(face_areas.begin(), face_areas.end(), 0.0);
+  // Σ p log (p / q) = (Σ a log a − Σ a log q) / A − log A
+  const double logs = sum_of_logs(seen);
+  double log_share = 0.0;
+  double log_p = 0.0;
+  double log_weighted_p = 0.0;
   double seen_surface = 0.0;
   for (const FaceArea& a : seen) {
-    const double p = a.area / m.projected_area;
-    const double log_p = log_2(p);
-    m.entropy -= p * log_p;
-    m.kullback_leibler += p * (log_p - terms.log_share[a.face]);
-    m.vmi += p * (log_p - terms.log_p[a.face]);
-    m.i3 += p * terms.i2_of_face[a.face];
-    m.evmi += p * (log_p - terms.log_weighted_p[a.face]);
-    if (terms.area_of_face[a.face] > 0.0) {
-      m.pmi_saliency += terms.saliency_of_face[a.face] * a.area / terms.area_of_face[a.face];
-    }
+    log_share += a.area * terms.log_share[a.face];
+    log_p += a.area * terms.log_p[a.face];
+    log_weighted_p += a.area * terms.log_weighted_p[a.face];
+    m.i3 += a.area * terms.i2_of_face[a.face];
+    m.pmi_saliency += a.area * terms.saliency_share[a.face];
     seen_surface += face_areas[a.face];
   }
+  const double area = m.projected_area;
+  const double log_area = log_2(area);
+  m.entropy = log_area - logs / area;
+  m.kullback_leibler = (logs - log_share) / area - log_area;
+  m.vmi = (logs - log_p) / area - log_area;
+  m.evmi = (logs - log_weighted_p) / area - log_area;
+  m.i3 /= area;
   m.visible_triangles = static_cast<double>(seen.size());
-  m.visibility_ratio = surface > 0.0 ? seen_surface / surface : 0.0;
+  m.visibility_ratio = terms.surface_area > 0.0 ? seen_surface / terms.surface_area : 0.0;
   m.i2 = terms.entropy_of_faces - m.entropy;
   return m;
 }
 
 double view_divergence(std::span<const FaceArea> a, std::span<const FaceArea> b) {
-  return divergence_of({a, area_seen(a), area_logs(a)}, {b, area_seen(b), area_logs(b)});
+  const auto& [first, second] = is_first(a, b) ? std::pair(a, b) : std::pair(b, a);
+  LaidOutAreas laid_out(std::max(places_of(a), places_of(b)));
+  laid_out.put(first);
+  return divergence_of(summed(first), laid_out, summed(second));
 }
 
 double instability(std::span<const FaceArea> view,
@@ -329,20 +321,24 @@ double mean_divergence(std::span<const double> divergences) {
 std::vector<double> neighbour_divergences(const std::vector<std::vector<FaceArea>>& views,
                                           const IndexLists& next, const RunContext& run) {
   std::vector<double> divergences(next.values.size(), 1.0);
-  std::vector<ViewWithLogs> with_logs(views.size());
-  parallel_for(run, views.size(), 1, [&](std::size_t begin, std::size_t end) {
+  std::vector<SummedAreas> sums(views.size());
+  std::size_t places = 0;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    sums[i] = summed(views[i]);
+    places = std::max(places, places_of(views[i]));
+  }
+  parallel_for(run, views.size(), kViewGrain, [&](std::size_t begin, std::size_t end) {
+    LaidOutAreas laid_out(places);
     for (std::size_t i = begin; i < end; ++i) {
-      with_logs[i] = {views[i], area_seen(views[i]), area_logs(views[i])};
-    }
-  });
-  parallel_for(run, views.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
+      laid_out.put(views[i]);
       for (std::uint32_t k = next.offsets[i]; k < next.offsets[i + 1]; ++k) {
         const std::uint32_t j = next.values[k];
-        if (j > i && !views[i].empty() && !views[j].empty()) {
+        const bool is_here =
+            is_first(views[i], views[j]) || (i < j && !is_first(views[j], views[i]));
+        if (is_here && !views[i].empty() && !views[j].empty()) {
           const auto back = next[j];
           const auto at = std::lower_bound(back.begin(), back.end(), i) - back.begin();
-          divergences[k] = divergence_of(with_logs[i], with_logs[j]);
+          divergences[k] = divergence_of(sums[i], laid_out, sums[j]);
           divergences[next.offsets[j] + static_cast<std::size_t>(at)] = divergences[k];
         }
       }

@@ -20,6 +20,7 @@
 
 #include "core/parallel.h"
 #include "core/shannon.h"
+#include "view/shared_logs.h"
 #include "view/skeleton_sight.h"
 
 namespace vantage {
@@ -120,9 +121,14 @@ void ViewMeasurer::State::prepare(const RunContext& run) {
   }
   if (needs.skeleton) {
     const Vec3& centre = model.given.camera.sphere.centre;
-    for (const Triangle& face : mesh.triangles) {
+    model.areas_at_vertex.assign(mesh.positions.size(), 0.0);
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+      const Triangle& face = mesh.triangles[f];
       const Vec3 normal = area_vector(mesh, face);
       model.planes.push_back({normal, normal.dot(mesh.positions[face[0]] - centre)});
+      for (const std::uint32_t v : face) {
+        model.areas_at_vertex[v] += model.face_areas[f];
+      }
     }
   }
   if (needs.vertices) {
@@ -178,9 +184,9 @@ void ViewMeasurer::State::look_at_faces(const MeasureNeeds& wanted, SightTable& 
     if (area > 0.0F && std::isfinite(area)) {
       sight.faces.push_back({face.face, area});
       sight.projected_area += area;
-      sight.area_logs += x_log_x(area);
     }
   }
+  sight.area_logs = sum_of_logs(sight.faces);
   sight.faces.shrink_to_fit();
   if (model.given.weight == Weight::Area && (wanted.kssm || wanted.saliency)) {
     sight.samples = faces->seen_samples(sight.eye, alone);

@@ -15,6 +15,7 @@
 
 #include "core/shannon.h"
 #include "view/outline_sweep.h"
+#include "view/turning.h"
 
 namespace vantage {
 namespace {
@@ -25,6 +26,7 @@ constexpr std::size_t kTurningBins = 9;
 constexpr double kInside = 1e-6;
 // What lies outside the square around the disc is left out; only an eye within the sphere meets it.
 constexpr double kReach = 0.5;
+constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
 /// Adds an edge, cut where it leaves the square and what is outside moved to its border: a shape that
 /// reaches out ends there.
@@ -88,10 +90,6 @@ std::vector<PicturePoint> resampled(const std::vector<PicturePoint>& loop, doubl
   return points;
 }
 
-double turning(const PicturePoint& before, const PicturePoint& after) {
-  return std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after));
-}
-
 using TurningBins = std::array<double, kTurningBins>;
 
 /// Counts an angle in its bin. Within a quarter of a bin of the border to the next it counts in both,
@@ -110,10 +108,18 @@ void count_turning(double angle, TurningBins& bins) {
 void add_turning(const std::vector<PicturePoint>& points, std::size_t stride, TurningBins& bins,
                  OutlineMeasures& measures) {
   const std::size_t count = points.size();
+  std::vector<double> sine(count);
+  std::vector<double> cosine(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const PicturePoint& here = points[i];
-    const PicturePoint& before = points[(i + count - stride) % count];
-    const double angle = turning(here - before, points[(i + stride) % count] - here);
+    const PicturePoint before = points[i] - points[i < stride ? i + count - stride : i - stride];
+    const PicturePoint after =
+        points[i + stride < count ? i + stride : i + stride - count] - points[i];
+    sine[i] = before.x() * after.y() - before.y() * after.x();
+    cosine[i] = before.dot(after);
+  }
+  std::vector<double> angles(count);
+  angles_of(sine, cosine, angles);
+  for (const double angle : angles) {
     count_turning(angle, bins);
     measures.curvature += std::abs(angle);
     measures.curvature_extrema += angle * angle;
@@ -175,12 +181,18 @@ OutlineTracer::OutlineTracer(const TriMesh& mesh, std::span<const FaceSides> sid
   edges_ = std::move(table.edges);
   faces_of_edge_ = std::move(table.faces_of_edge);
   follows_.reserve(faces_of_edge_.values.size());
+  beside_.assign(edges_.size(), {kNone, kNone});
   for (std::size_t e = 0; e < edges_.size(); ++e) {
-    for (const std::uint32_t f : faces_of_edge_[e]) {
+    const auto faces = faces_of_edge_[e];
+    for (const std::uint32_t f : faces) {
       const Triangle& t = mesh.triangles[f];
       const auto at =
           static_cast<std::size_t>(std::find(t.begin(), t.end(), edges_[e][0]) - t.begin());
       follows_.push_back(t[(at + 1) % 3] == edges_[e][1] ? std::int8_t{1} : std::int8_t{-1});
+    }
+    if (faces.size() == 2 && follows_.end()[-1] != follows_.end()[-2]) {
+      const std::size_t first = follows_.end()[-2] > 0 ? 0 : 1;
+      beside_[e] = {faces[first], faces[1 - first]};
     }
   }
 }
@@ -222,6 +234,12 @@ Outline OutlineTracer::trace(const Viewpoint& eye) const {
   }
   std::vector<LayerEdge> edges;
   for (std::size_t e = 0; e < edges_.size(); ++e) {
+    if (const auto [left, right] = beside_[e]; left != kNone) {
+      if (layer[left] != layer[right]) {
+        add_clipped({place[edges_[e][0]], place[edges_[e][1]], layer[left] - layer[right]}, edges);
+      }
+      continue;
+    }
     int layers = 0;
     for (std::uint32_t k = faces_of_edge_.offsets[e]; k < faces_of_edge_.offsets[e + 1]; ++k) {
       layers += follows_[k] * layer[faces_of_edge_.values[k]];

@@ -7,98 +7,12 @@
 #include <limits>
 #include <utility>
 
+#include "view/chains.h"
+
 namespace vantage {
 namespace {
 
-constexpr std::uint32_t kNone = ~std::uint32_t{0};
-
-/// An edge that is not level, from its lower end to its upper one.
-struct Side {
-  double low = 0.0, high = 0.0;      // y
-  double x_low = 0.0, x_high = 0.0;  // x there
-  double slope = 0.0;                // x for each y
-  int step = 0;                      // what is added to the layers from its left to its right
-  std::uint32_t next = kNone;  // the side that goes on where this one ends, and nothing else there
-  bool is_first = true;        // none goes on into this one
-
-  [[nodiscard]] double at(double y) const {
-    // Near a level side rounding may reach beyond its end.
-    const double x = x_low + (y - low) * slope;
-    const double inside = slope > 0.0 ? std::min(x, x_high) : std::max(x, x_high);
-    return y < high ? inside : x_high;
-  }
-};
-
-std::vector<Side> sides_of(const std::vector<LayerEdge>& edges) {
-  std::vector<Side> sides;
-  sides.reserve(edges.size());
-  for (const LayerEdge& edge : edges) {
-    const bool falls = edge.from.y() > edge.to.y();
-    const PicturePoint& low = falls ? edge.to : edge.from;
-    const PicturePoint& high = falls ? edge.from : edge.to;
-    // Level edges come back as the ways between what ends and what begins on their line.
-    if (low.y() < high.y() && edge.layers != 0) {
-      const double slope = (high.x() - low.x()) / (high.y() - low.y());
-      sides.push_back({.low = low.y(),
-                       .high = high.y(),
-                       .x_low = low.x(),
-                       .x_high = high.x(),
-                       .slope = slope,
-                       .step = falls ? edge.layers : -edge.layers});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.low < b.low || (a.low == b.low && a.x_low < b.x_low);
-  });
-  return sides;
-}
-
-/// Joins sides to chains that rise without anything else happening on them. \pre sides as sides_of()
-void join_sides(std::vector<Side>& sides) {
-  struct End {
-    double y = 0.0, x = 0.0;
-    std::uint32_t side = 0;
-  };
-
-  std::vector<End> ends;
-  ends.reserve(sides.size());
-  for (std::uint32_t i = 0; i < sides.size(); ++i) {
-    ends.push_back({sides[i].high, sides[i].x_high, i});
-  }
-  std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
-    return a.y < b.y || (a.y == b.y && (a.x < b.x || (a.x == b.x && a.side < b.side)));
-  });
-  const auto is_at = [](const Side& side, const End& end) {
-    return side.low == end.y && side.x_low == end.x;
-  };
-  std::size_t begin = 0;
-  for (std::size_t e = 0; e < ends.size(); ++e) {
-    const End& end = ends[e];
-    while (begin < sides.size() && (sides[begin].low < end.y ||
-                                    (sides[begin].low == end.y && sides[begin].x_low < end.x))) {
-      ++begin;
-    }
-    const auto same = [&](std::size_t k) {
-      return k < ends.size() && ends[k].y == end.y && ends[k].x == end.x;
-    };
-    const bool is_alone = !same(e + 1) && (e == 0 || !same(e - 1)) && begin < sides.size() &&
-                          is_at(sides[begin], end) &&
-                          (begin + 1 == sides.size() || !is_at(sides[begin + 1], end));
-    if (is_alone && sides[begin].step == sides[end.side].step) {
-      sides[end.side].next = static_cast<std::uint32_t>(begin);
-      sides[begin].is_first = false;
-    }
-  }
-}
-
-/// A chain where it passes the slab at hand.
-struct Active {
-  std::uint32_t chain = 0;         // its first side
-  std::uint32_t side = 0;          // the one that leaves the slab's lower line upwards
-  std::uint32_t above = 0;         // the one that leaves its upper line
-  double bottom = 0.0, top = 0.0;  // x
-  int step = 0;
-};
+constexpr std::uint32_t kNone = kNoSide;
 
 /// A stretch of one chain that bounds the shape: down where the shape is on its right, else up.
 struct Stretch {
@@ -123,7 +37,7 @@ struct Bound {
 /// what to join however near to each other they are.
 class Sweep {
  public:
-  explicit Sweep(std::vector<Side> sides) : sides_(std::move(sides)) { join_sides(sides_); }
+  explicit Sweep(const std::vector<LayerEdge>& edges) : sides_(rising_sides(edges)) {}
 
   Outline run() {
     std::vector<double> lines;
@@ -139,12 +53,10 @@ class Sweep {
     lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
     std::size_t next = 0;
     for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
-      if (has_ends_) {
-        std::erase_if(active_, [&](const Active& a) { return sides_[a.side].high <= lines[i]; });
-      }
+      active_.drop_ended(lines[i]);
       for (; next < sides_.size() && sides_[next].low <= lines[i]; ++next) {
         if (sides_[next].is_first) {
-          insert(static_cast<std::uint32_t>(next));
+          active_.insert(static_cast<std::uint32_t>(next));
         }
       }
       slab(lines[i], lines[i + 1]);
@@ -157,162 +69,76 @@ class Sweep {
   }
 
  private:
-  /// The side of the chain on which `y` lies, from one below on: of two that meet there the upper.
-  [[nodiscard]] std::uint32_t side_at(std::uint32_t side, double y) const {
-    while (sides_[side].high <= y && sides_[side].next != kNone) {
-      side = sides_[side].next;
-    }
-    return side;
-  }
-
-  /// Puts a chain where it begins among the others.
-  void insert(std::uint32_t side) {
-    const double x = sides_[side].x_low;
-    const auto at =
-        std::upper_bound(active_.begin(), active_.end(), x,
-                         [](double place, const Active& a) { return place < a.bottom; });
-    active_.insert(at, {side, side, side, x, 0.0, sides_[side].step});
-  }
-
-  /// Sorts what is active by its places half way up; it nearly is.
-  void sort_active() {
-    for (std::size_t i = 1; i < active_.size(); ++i) {
-      const double place = active_[i].bottom + active_[i].top;
-      if (active_[i - 1].bottom + active_[i - 1].top > place) {
-        const Active here = active_[i];
-        std::size_t k = i;
-        for (; k > 0 && active_[k - 1].bottom + active_[k - 1].top > place; --k) {
-          active_[k] = active_[k - 1];
-        }
-        active_[k] = here;
-      }
-    }
-  }
-
-  /// Whether `left` is right of `right` somewhere in the slab that ends at `top`.
-  [[nodiscard]] bool crosses(const Active& left, const Active& right, double top) const {
-    if (left.bottom > right.bottom || left.top > right.top) {
-      return true;
-    }
-    if (left.side == left.above && right.side == right.above) {
-      return false;
-    }
-    std::uint32_t a = left.side;
-    std::uint32_t b = right.side;
-    for (double y = std::min(sides_[a].high, sides_[b].high); y < top;
-         y = std::min(sides_[a].high, sides_[b].high)) {
-      if (sides_[a].at(y) > sides_[b].at(y)) {
-        return true;
-      }
-      a = side_at(a, y);
-      b = side_at(b, y);
-    }
-    return false;
-  }
-
   void slab(double bottom, double top) {
-    bool is_crossed = false;
-    if (!reach(top)) {
-      sort_active();
-      for (std::size_t i = 1; i < active_.size() && !is_crossed; ++i) {
-        is_crossed = crosses(active_[i - 1], active_[i], top);
+    if (!active_.reach(top)) {
+      active_.sort_half_way();
+      if (active_.is_crossed(top)) {
+        crossed_slab(bottom, top);
+        return;
       }
     }
-    if (is_crossed) {
-      slabs_between_corners(bottom, top);
+    find_bounds(bottom);
+    active_.pass();
+  }
+
+  /// A slab in which chains cross. Where that can change the shape it is cut at all corners of those
+  /// chains, and again where their sides cross.
+  void crossed_slab(double bottom, double top) {
+    ranges_ = active_.mattering(top);
+    if (ranges_.empty()) {
+      find_bounds(bottom);
     } else {
-      intervals(bottom);
-    }
-  }
-
-  /// Finds where the chains pass the upper line of a slab. \return whether each is on the left of the
-  /// next everywhere in the slab.
-  bool reach(double top) {
-    bool is_ordered = true;
-    has_ends_ = false;
-    for (std::size_t i = 0; i < active_.size(); ++i) {
-      Active& a = active_[i];
-      a.above = side_at(a.side, top);
-      const Side& side = sides_[a.above];
-      a.top = side.at(top);
-      has_ends_ = has_ends_ || side.high <= top;
-      is_ordered = is_ordered && (i == 0 || !crosses(active_[i - 1], a, top));
-    }
-    return is_ordered;
-  }
-
-  /// A slab in which chains cross: cut at all corners of chains, and again where sides cross.
-  void slabs_between_corners(double bottom, double top) {
-    std::vector<double> corners;
-    for (const Active& a : active_) {
-      for (std::uint32_t s = a.side; sides_[s].high < top; s = sides_[s].next) {
-        corners.push_back(sides_[s].high);
+      corners_.assign(1, top);
+      for (const ActiveChains::Range& range : ranges_) {
+        active_.add_corners(range, top, corners_);
+        active_.rewind(range);
       }
-    }
-    corners.push_back(top);
-    std::sort(corners.begin(), corners.end());
-    for (const double corner : corners) {
-      if (corner > bottom) {
-        straight_slab(bottom, corner);
-        bottom = corner;
+      std::sort(corners_.begin(), corners_.end());
+      for (const double corner : corners_) {
+        if (corner > bottom) {
+          straight_slab(bottom, corner);
+          bottom = corner;
+        }
       }
+      active_.reach(top);
     }
+    active_.pass();
+    active_.sort_at_bottom();
   }
 
-  /// A slab of straight sides.
+  /// A slab in which the sides are straight of all chains whose crossings matter.
   void straight_slab(double bottom, double top) {
-    cuts_.clear();
-    reach(top);
-    sort_active();
-    find_crossings(&Active::bottom, bottom, top);
-    find_crossings(&Active::top, bottom, top);
-    cuts_.push_back(top);
+    cuts_.assign(1, top);
+    for (const ActiveChains::Range& range : ranges_) {
+      active_.climb(range, top);
+      active_.add_crossings(range, bottom, top, cuts_);
+      active_.rewind(range);
+    }
     std::sort(cuts_.begin(), cuts_.end());
     for (const double to : cuts_) {
       if (to > bottom) {
-        reach(to);
-        sort_active();
-        intervals(bottom);
+        for (const ActiveChains::Range& range : ranges_) {
+          active_.climb(range, to);
+        }
+        find_bounds(bottom);
+        for (const ActiveChains::Range& range : ranges_) {
+          active_.pass(range);
+        }
         bottom = to;
       }
     }
   }
 
-  /// Where sides cross whose order half way up is not that at one end.
-  void find_crossings(double Active::*place, double bottom, double top) {
-    order_ = active_;
-    for (std::size_t i = 1; i < order_.size(); ++i) {
-      const Active here = order_[i];
-      std::size_t k = i;
-      for (; k > 0 && order_[k - 1].*place > here.*place; --k) {
-        const Active& other = order_[k - 1];
-        const double before = std::abs(other.bottom - here.bottom);
-        const double after = std::abs(other.top - here.top);
-        if (before + after > 0.0) {
-          const double y = bottom + (top - bottom) * before / (before + after);
-          if (y > bottom && y < top) {
-            cuts_.push_back(y);
-          }
-        }
-        order_[k] = other;
-      }
-      order_[k] = here;
-    }
-  }
-
-  /// Finds what bounds the shape in the slab that begins at `y`, and what changes there; then makes the
-  /// slab's upper line the lower one of the next.
-  void intervals(double y) {
+  /// Finds what bounds the shape in the slab that begins at `y`, and what changes there.
+  void find_bounds(double y) {
     above_.clear();
     int layers = 0;
-    for (Active& a : active_) {
-      const int after = layers + a.step;
+    for (const ActiveChains::Chain& chain : active_.chains()) {
+      const int after = layers + chain.step;
       if ((layers > 0) != (after > 0)) {
-        above_.push_back({a.chain, a.side, kNone});
+        above_.push_back({chain.first, chain.side, kNone});
       }
       layers = after;
-      a.side = a.above;
-      a.bottom = a.top;
     }
     if (above_.size() % 2 != 0) {
       above_.pop_back();  // the chain of edges was not closed
@@ -354,7 +180,9 @@ class Sweep {
     std::size_t b = first;
     std::size_t a = first;
     double least = -std::numeric_limits<double>::max();  // of x: rounding must not change the order
-    const auto x_of = [&](const Bound& bound) { return sides_[side_at(bound.side, y)].at(y); };
+    const auto x_of = [&](const Bound& bound) {
+      return sides_[active_.side_at(bound.side, y)].at(y);
+    };
     End open{};
     bool is_open = false;
     while (b < below_end || a < above_end) {
@@ -420,9 +248,9 @@ class Sweep {
   }
 
   std::vector<Side> sides_;
-  std::vector<Active> active_{};
-  bool has_ends_ = false;  // chains that go no further than the last slab's upper line
-  std::vector<Active> order_{};
+  ActiveChains active_{sides_};
+  std::vector<ActiveChains::Range> ranges_{};  // of chains whose crossings matter
+  std::vector<double> corners_{};
   std::vector<double> cuts_{};
   std::vector<Bound> below_{};
   std::vector<Bound> above_{};
@@ -432,7 +260,7 @@ class Sweep {
 }  // namespace
 
 Outline boundary_of_layers(const std::vector<LayerEdge>& edges) {
-  return Sweep(sides_of(edges)).run();
+  return Sweep(edges).run();
 }
 
 }  // namespace vantage

@@ -22,18 +22,23 @@ std::vector<double> shown_nodes(const MeasuredModel& model, const SightTable& si
   const bool is_perspective = sight.eye.projection == Projection::Perspective;
   const Vec3 eye = is_perspective ? Vec3(sight.eye.position - model.given.camera.sphere.centre)
                                   : sight.eye.position;
-  std::vector<double> facing(count, 0.0);
   std::vector<double> seen(count, 0.0);
+  for (std::size_t v = 0; v < sight.vertices.size(); ++v) {
+    const std::uint32_t node = model.given.node_of_vertex[v];
+    if (sight.vertices[v] != 0 && node < count) {
+      seen[node] += model.areas_at_vertex[v];
+    }
+  }
+  // From behind counts where the vertex is seen: on surfaces with two sides.
+  std::vector<double> facing = seen;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    const Triangle& face = mesh.triangles[f];
     const FacePlane& plane = model.planes[f];
-    const bool is_turned = plane.normal.dot(eye) > (is_perspective ? plane.offset : 0.0);
-    for (const std::uint32_t v : face) {
-      const std::uint32_t node = model.given.node_of_vertex[v];
-      // From behind counts where the vertex is seen: on surfaces with two sides.
-      if (node < count && (is_turned || sight.vertices[v] != 0)) {
-        facing[node] += model.face_areas[f];
-        seen[node] += sight.vertices[v] != 0 ? model.face_areas[f] : 0.0;
+    if (plane.normal.dot(eye) > (is_perspective ? plane.offset : 0.0)) {
+      for (const std::uint32_t v : mesh.triangles[f]) {
+        const std::uint32_t node = model.given.node_of_vertex[v];
+        if (sight.vertices[v] == 0 && node < count) {
+          facing[node] += model.face_areas[f];
+        }
       }
     }
   }

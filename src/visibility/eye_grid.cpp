@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -35,10 +36,6 @@ constexpr std::size_t kGrain = 4096;  // faces or points per chunk: some tenths 
 constexpr unsigned kLanes = 4;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-std::uint32_t cell_at(float at, std::uint32_t count) {
-  return static_cast<std::uint32_t>(std::clamp(at, 0.0F, static_cast<float>(count - 1)));
-}
-
 /// Which side of the face is turned to the eye, in double: 1 front, 2 back, 0 edge on.
 std::uint8_t exact_side(const Surface& surface, std::size_t f, const Viewpoint& eye) {
   const Vec3 sight = eye.projection == Projection::Perspective
@@ -53,12 +50,13 @@ std::uint8_t exact_side(const Surface& surface, std::size_t f, const Viewpoint& 
 
 }  // namespace
 
-/// Ready to tell which points may lie behind a face.
+/// Ready to tell which points may lie behind a face. Along a side x, y, 1 are worth what is positive
+/// inside, its length times the distance; one lane a side.
 struct EyeGrid::Probe {
-  std::array<std::array<float, 3>, 3> sides;  // x, y, 1: positive inside, length times distance
-  float doubt;                                // error of these values
-  float least;                                // points with less than this are outside
-  std::array<std::uint32_t, 4> keys;          // of points that the face holds
+  Spot along_x, along_y, offset;
+  float doubt;                        // error of these values
+  float least;                        // points with less than this are outside
+  std::array<std::uint32_t, 4> keys;  // of points that the face holds
 };
 
 void EyeGrid::begin(const Surface& surface, const Viewpoint& eye, const RunContext& run) {
@@ -97,17 +95,35 @@ void EyeGrid::face_sides(const Surface& surface, const RunContext& run) {
   });
 }
 
-void EyeGrid::sort_points(const SurfacePoints& points, const std::vector<std::uint8_t>& seen) {
+/// Lists the points asked about and where they are.
+void EyeGrid::place_points(const SurfacePoints& points, const std::vector<std::uint8_t>& seen,
+                           const RunContext& run) {
+  asked_.resize(seen.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    asked_[count] = static_cast<std::uint32_t>(i);
+    count += seen[i] != 0 ? 1 : 0;
+  }
+  asked_.resize(count);
+  spots_.resize(count);
+  cell_.resize(count);
+  const std::size_t sites = points.sites.size();
+  parallel_for(run, count, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t i = asked_[k];
+      spots_[k] = i < sites ? corners_[i] : in_cells(in_picture(*points.rounded, i - sites));
+      const CellRange at = cells_of({spots_[k], spots_[k]});
+      cell_[k] = at.top * columns_ + at.left;
+    }
+  });
+}
+
+void EyeGrid::sort_points(const SurfacePoints& points) {
   const std::size_t sites = points.sites.size();
   const auto held_by = static_cast<std::uint32_t>(corners_.size());  // keys of faces begin here
-  const auto cell_of = [&](const Spot& s) {
-    return std::size_t{cell_at(s.y, rows_)} * columns_ + cell_at(s.x, columns_);
-  };
   begin_.assign(std::size_t{rows_} * columns_ + 1, 0);
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (seen[i] != 0) {
-      ++begin_[cell_of(i < sites ? corners_[i] : spots_[i - sites])];
-    }
+  for (const std::uint32_t cell : cell_) {
+    ++begin_[cell];
   }
   std::uint32_t total = 0;
   for (std::uint32_t& count : begin_) {
@@ -120,17 +136,14 @@ void EyeGrid::sort_points(const SurfacePoints& points, const std::vector<std::ui
     field->resize(total + kLanes);  // so that the last cell can be read by whole lanes
   }
   key_.resize(total + kLanes);
-  for (std::size_t i = seen.size(); i-- > 0;) {
-    if (seen[i] != 0) {
-      const bool is_site = i < sites;
-      const Spot& spot = is_site ? corners_[i] : spots_[i - sites];
-      const std::uint32_t slot = --begin_[cell_of(spot)];
-      point_of_[slot] = static_cast<std::uint32_t>(i);
-      key_[slot] = is_site ? static_cast<std::uint32_t>(i) : held_by + points.owner[i - sites];
-      x_[slot] = spot.x;
-      y_[slot] = spot.y;
-      depth_[slot] = spot.depth;
-    }
+  for (std::size_t k = asked_.size(); k-- > 0;) {
+    const std::uint32_t i = asked_[k];
+    const std::uint32_t slot = --begin_[cell_[k]];
+    point_of_[slot] = i;
+    key_[slot] = i < sites ? i : held_by + points.owner[i - sites];
+    x_[slot] = spots_[k][0];
+    y_[slot] = spots_[k][1];
+    depth_[slot] = spots_[k][2];
   }
 }
 
@@ -154,14 +167,13 @@ void EyeGrid::find_deepest() {
   }
 }
 
-bool EyeGrid::behind_all(const Outline& o) const {
-  const std::uint32_t x_low = cell_at(o.x_low, columns_) >> kTileShift;
-  const std::uint32_t x_high = cell_at(o.x_high, columns_) >> kTileShift;
-  const std::uint32_t y_low = cell_at(o.y_low, rows_) >> kTileShift;
-  const std::uint32_t y_high = cell_at(o.y_high, rows_) >> kTileShift;
-  for (std::uint32_t y = y_low; y <= y_high; ++y) {
-    for (std::uint32_t x = x_low; x <= x_high; ++x) {
-      if (o.nearest <= deepest_[std::size_t{y} * tile_columns_ + x]) {
+bool EyeGrid::behind_all(const Extent& extent, const CellRange& cells) const {
+  const float nearest = extent.low[2];
+  const std::uint32_t right = cells.right >> kTileShift;
+  const std::uint32_t bottom = cells.bottom >> kTileShift;
+  for (std::uint32_t y = cells.top >> kTileShift; y <= bottom; ++y) {
+    for (std::uint32_t x = cells.left >> kTileShift; x <= right; ++x) {
+      if (nearest <= deepest_[std::size_t{y} * tile_columns_ + x]) {
         return false;
       }
     }
@@ -182,17 +194,19 @@ bool EyeGrid::blocks(const Surface& surface, const SurfacePoints& points, std::u
 
 EyeGrid::Probe EyeGrid::probe(std::uint32_t face, const Triangle& corners, const Outline& o) const {
   Probe p;
-  const float area = (o.b.x - o.a.x) * (o.c.y - o.b.y) - (o.b.y - o.a.y) * (o.c.x - o.b.x);
+  const float area = (o.b[0] - o.a[0]) * (o.c[1] - o.b[1]) - (o.b[1] - o.a[1]) * (o.c[0] - o.b[0]);
   const float sign = area < 0.0F ? -1.0F : 1.0F;
-  const auto side = [sign](const Spot& from, const Spot& to) -> std::array<float, 3> {
-    const float x = sign * (from.y - to.y);
-    const float y = sign * (to.x - from.x);
-    return {x, y, -(x * from.x + y * from.y)};
-  };
-  p.sides = {side(o.a, o.b), side(o.b, o.c), side(o.c, o.a)};
+  const Spot x{o.a[0], o.b[0], o.c[0], 0.0F};
+  const Spot y{o.a[1], o.b[1], o.c[1], 0.0F};
+  const Spot x_next{o.b[0], o.c[0], o.a[0], 0.0F};
+  const Spot y_next{o.b[1], o.c[1], o.a[1], 0.0F};
+  p.along_x = sign * (y - y_next);
+  p.along_y = sign * (x_next - x);
+  p.offset = -(p.along_x * x + p.along_y * y);
   // Bounds the error of a side's value at a spot: of the spots, and of a dozen roundings of
   // products of the grid's and the outline's size, which margin_ holds a share of.
-  p.doubt = 16.0F * margin_ * std::max(o.x_high - o.x_low, o.y_high - o.y_low);
+  const Spot size = o.extent.high - o.extent.low;
+  p.doubt = 16.0F * margin_ * std::max(size[0], size[1]);
   // A face whose sense is in doubt excludes nothing in its cells.
   p.least = std::abs(area) > p.doubt ? -p.doubt : -kInfinity;
   p.keys = {corners[0], corners[1], corners[2], static_cast<std::uint32_t>(corners_.size()) + face};
@@ -211,9 +225,9 @@ inline unsigned EyeGrid::near(const Outline& o, const Probe& p, std::size_t slot
   std::memcpy(&y, y_.data() + slot, sizeof y);
   std::memcpy(&depth, depth_.data() + slot, sizeof depth);
   std::memcpy(&key, key_.data() + slot, sizeof key);
-  auto out = depth < o.nearest;
-  for (const auto& [along_x, along_y, offset] : p.sides) {
-    out |= x * along_x + y * along_y + offset < p.least;
+  auto out = depth < o.extent.low[2];
+  for (int side = 0; side < 3; ++side) {
+    out |= x * p.along_x[side] + y * p.along_y[side] + p.offset[side] < p.least;
   }
   out |= (key == p.keys[0]) | (key == p.keys[1]) | (key == p.keys[2]) | (key == p.keys[3]);
   std::array<std::uint64_t, kLanes / 2> halves{};
@@ -247,11 +261,9 @@ void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points, 
   if (hidden.load(std::memory_order_relaxed) != 0) {
     return;
   }
-  float inside = kInfinity;
-  for (const auto& [along_x, along_y, offset] : p.sides) {
-    inside = std::min(inside, x_[slot] * along_x + y_[slot] * along_y + offset);
-  }
-  bool is_hidden = inside > p.doubt && depth_[slot] > o.farthest && steep_[face] != 0;
+  const Spot values = x_[slot] * p.along_x + y_[slot] * p.along_y + p.offset;
+  const float inside = std::min({values[0], values[1], values[2]});
+  bool is_hidden = inside > p.doubt && depth_[slot] > o.extent.high[2] && steep_[face] != 0;
   if (!is_hidden) {
     const std::uint32_t point = point_of_[slot];
     const float behind = depth_behind(surface, points, point, face);
@@ -266,24 +278,24 @@ void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points, 
 }
 
 std::size_t EyeGrid::strike(const Surface& surface, const SurfacePoints& points, std::uint32_t face,
-                            const Outline& o) {
-  const std::uint32_t left = cell_at(o.x_low, columns_);
-  const std::uint32_t right = cell_at(o.x_high, columns_);
-  const std::uint32_t bottom = cell_at(o.y_high, rows_);
-  const Probe p = probe(face, surface.faces[face], o);
+                            const Outline& o, const CellRange& cells) {
+  std::optional<Probe> p;  // in most rows there is nothing
   std::size_t work = 1;
-  for (std::uint32_t row = cell_at(o.y_low, rows_); row <= bottom; ++row) {
+  for (std::uint32_t row = cells.top; row <= cells.bottom; ++row) {
     const std::size_t first = std::size_t{row} * columns_;
-    const std::uint32_t end = begin_[first + right + 1];
-    const std::uint32_t begin = begin_[first + left];
+    const std::uint32_t end = begin_[first + cells.right + 1];
+    const std::uint32_t begin = begin_[first + cells.left];
     work += 1 + end - begin;
+    if (begin < end && !p) {
+      p = probe(face, surface.faces[face], o);
+    }
     for (std::uint32_t slot = begin; slot < end; slot += kLanes) {
-      unsigned found = near(o, p, slot);
+      unsigned found = near(o, *p, slot);
       if (end - slot < kLanes) {
         found &= (1U << (end - slot)) - 1U;
       }
       for (; found != 0; found &= found - 1) {
-        strike_point(surface, points, face, o, p,
+        strike_point(surface, points, face, o, *p,
                      slot + static_cast<std::uint32_t>(std::countr_zero(found)));
       }
     }
@@ -298,16 +310,20 @@ bool EyeGrid::walk(const Surface& surface, const SurfacePoints& points, std::uin
   parallel_for(run, surface.faces.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     std::size_t work = 0;
     for (std::size_t f = begin; f < end; ++f) {
-      if (f % FaceBlocks::kFaces == 0 && behind_all(blocks_[f / FaceBlocks::kFaces])) {
-        f += FaceBlocks::kFaces - 1;
-        continue;
+      if (f % FaceBlocks::kFaces == 0) {
+        const Extent& block = blocks_[f / FaceBlocks::kFaces];
+        if (behind_all(block, cells_of(block))) {
+          f += FaceBlocks::kFaces - 1;
+          continue;
+        }
       }
       if ((turned_[f] == 1) != (side == 1)) {
         continue;
       }
       const Outline o = outline(surface.faces[f]);
-      if (!behind_all(o)) {
-        work += strike(surface, points, static_cast<std::uint32_t>(f), o);
+      const CellRange cells = cells_of(o.extent);
+      if (!behind_all(o.extent, cells)) {
+        work += strike(surface, points, static_cast<std::uint32_t>(f), o, cells);
       }
       if (work > limit || spent.load(std::memory_order_relaxed) > limit) {
         break;
@@ -323,7 +339,7 @@ bool EyeGrid::hide(const Surface& surface, const SurfacePoints& points,
   if (aim_ == Aim::None) {
     aim_ = aim(surface, run) ? Aim::Taken : Aim::Failed;
     if (aim_ == Aim::Taken) {
-      choose_cells(corners_, static_cast<std::size_t>(std::count(seen.begin(), seen.end(), 1)));
+      choose_cells(static_cast<std::size_t>(std::count(seen.begin(), seen.end(), 1)));
       to_cells(corners_, run);
       outline_blocks(surface.blocks, run);
     }
@@ -331,11 +347,8 @@ bool EyeGrid::hide(const Surface& surface, const SurfacePoints& points,
   if (aim_ == Aim::Failed) {
     return surface.faces.empty();
   }
-  if (!points.exact.empty()) {
-    project(*points.rounded, spots_, run);
-    to_cells(spots_, run);
-  }
-  sort_points(points, seen);
+  place_points(points, seen, run);
+  sort_points(points);
   // Fronts first: most of what is hidden lies behind one. The backs then have little left to do.
   bool complete = true;
   for (const std::uint8_t side : {std::uint8_t{1}, std::uint8_t{2}}) {

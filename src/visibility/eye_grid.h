@@ -68,15 +68,29 @@ class EyeGrid {
   [[nodiscard]] const std::vector<std::uint8_t>& turned() const { return turned_; }
 
  private:
-  /// A place in the picture: x, y in cells, depth along the view axis in frame units.
-  struct Spot {
-    float x, y, depth;
+  // A float coordinate of a UnitFrame (below 1 in size) projected to an axis is wrong by less than
+  // this: twelve roundings of 2^-24.
+  static constexpr float kAxisError = 0x1p-20F;
+
+  /// A place in the picture: x, y in cells, depth along the view axis in frame units; the fourth is 0.
+  using Spot = float __attribute__((vector_size(4 * sizeof(float))));
+
+  using Cells = std::int32_t __attribute__((vector_size(4 * sizeof(std::int32_t))));
+
+  /// What something spans in the picture, rounded outwards: its least x, y and depth, and its largest.
+  struct Extent {
+    Spot low, high;
   };
 
-  /// A face in the picture: corners, and its extent rounded outwards.
+  /// The cells that an extent touches: columns and rows, from first to last.
+  struct CellRange {
+    std::uint32_t left, right, top, bottom;
+  };
+
+  /// A face in the picture.
   struct Outline {
     Spot a, b, c;
-    float x_low, x_high, y_low, y_high, nearest, farthest;
+    Extent extent;
   };
 
   struct Probe;
@@ -85,13 +99,44 @@ class EyeGrid {
   bool aim(const Surface& surface, const RunContext& run);
   bool set_axes();
   void project(const FloatPoints& points, std::vector<Spot>& spots, const RunContext& run) const;
-  void choose_cells(const std::vector<Spot>& corners, std::size_t active);
+  void choose_cells(std::size_t active);
   void to_cells(std::vector<Spot>& spots, const RunContext& run) const;
-  void sort_points(const SurfacePoints& points, const std::vector<std::uint8_t>& seen);
+  void place_points(const SurfacePoints& points, const std::vector<std::uint8_t>& seen,
+                    const RunContext& run);
+  void sort_points(const SurfacePoints& points);
+
+  static Spot lower(const Spot& a, const Spot& b) { return b < a ? b : a; }
+
+  static Spot higher(const Spot& a, const Spot& b) { return a < b ? b : a; }
+
+  [[nodiscard]] Spot in_picture(const FloatPoints& points, std::size_t at) const {
+    const Spot spot = points.x[at] * along_x_ + points.y[at] * along_y_ + points.z[at] * along_z_;
+    const float shrink = 1.0F / (slope_ * (spot[2] + shift_) + (1.0F - slope_));
+    return spot * Spot{shrink, shrink, 1.0F, 0.0F};
+  }
+
+  [[nodiscard]] Spot in_cells(const Spot& spot) const { return (spot - origin_) * scale_; }
+
+  [[nodiscard]] CellRange cells_of(const Extent& extent) const {
+    const Cells low = __builtin_convertvector(lower(higher(extent.low, Spot{}), last_), Cells);
+    const Cells high = __builtin_convertvector(lower(higher(extent.high, Spot{}), last_), Cells);
+    return {static_cast<std::uint32_t>(low[0]), static_cast<std::uint32_t>(high[0]),
+            static_cast<std::uint32_t>(low[1]), static_cast<std::uint32_t>(high[1])};
+  }
+
   void find_deepest();
-  [[nodiscard]] Outline outline(const Triangle& face) const;
+
+  [[nodiscard]] Outline outline(const Triangle& face) const {
+    const Spot a = corners_[face[0]];
+    const Spot b = corners_[face[1]];
+    const Spot c = corners_[face[2]];
+    // The face's error and the point's.
+    const Spot reach{2.0F * margin_, 2.0F * margin_, 2.0F * kAxisError, 0.0F};
+    return {a, b, c, {lower(lower(a, b), c) - reach, higher(higher(a, b), c) + reach}};
+  }
+
   void outline_blocks(const FaceBlocks& blocks, const RunContext& run);
-  [[nodiscard]] bool behind_all(const Outline& outline) const;
+  [[nodiscard]] bool behind_all(const Extent& extent, const CellRange& cells) const;
   bool walk(const Surface& surface, const SurfacePoints& points, std::uint8_t side,
             const RunContext& run);
   [[nodiscard]] Probe probe(std::uint32_t face, const Triangle& corners,
@@ -102,7 +147,7 @@ class EyeGrid {
   void strike_point(const Surface& surface, const SurfacePoints& points, std::uint32_t face,
                     const Outline& outline, const Probe& probe, std::size_t slot);
   std::size_t strike(const Surface& surface, const SurfacePoints& points, std::uint32_t face,
-                     const Outline& outline);
+                     const Outline& outline, const CellRange& cells);
   [[nodiscard]] bool blocks(const Surface& surface, const SurfacePoints& points,
                             std::uint32_t point, std::uint32_t face) const;
 
@@ -111,17 +156,23 @@ class EyeGrid {
 
   Viewpoint eye_{};
   Aim aim_ = Aim::None;
-  float right_[3]{}, up_[3]{}, towards_[3]{};  // axes of the picture
-  float distance_ = 0.0F;                      // of the eye from the frame's origin
-  float x_low_ = 0.0F, y_low_ = 0.0F;          // corner of the picture
+  Spot along_x_{}, along_y_{}, along_z_{};  // what each coordinate adds to a spot
+  float distance_ = 0.0F;                   // of the eye from the frame's origin
+  float shift_ = 0.0F, slope_ = 0.0F;  // a spot shrinks by 1 / (slope (depth + shift) + 1 − slope)
+  Extent spanned_{};                   // by all corners
+  Spot origin_{};                      // corner of the picture
   float cells_per_unit_ = 1.0F;
+  Spot scale_{};         // cells a unit, of depth 1
+  Spot last_{};          // cell of each row and column
   float margin_ = 0.0F;  // bound of the error of a spot's x and y, in cells
   std::uint32_t columns_ = 1, rows_ = 1;
   std::uint32_t tile_columns_ = 1, tile_rows_ = 1;
   std::vector<Spot> corners_{};            // of each site
   std::vector<Spot> centres_{};            // of each block of faces
-  std::vector<Outline> blocks_{};          // extents of each block; no corners
-  std::vector<Spot> spots_{};              // of each point on a face
+  std::vector<Extent> blocks_{};           // of each block
+  std::vector<std::uint32_t> asked_{};     // points asked about, ascending
+  std::vector<Spot> spots_{};              // of each of them
+  std::vector<std::uint32_t> cell_{};      // of each of them
   std::vector<std::uint8_t> turned_{};     // of each face
   std::vector<std::uint8_t> steep_{};      // of each face: far from edge on
   std::vector<std::uint32_t> begin_{};     // where each cell begins in the arrays below

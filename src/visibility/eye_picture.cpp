@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -20,11 +19,7 @@ constexpr float kNearestShare = 1.0F / 64.0F;
 // chosen by measurement on models of 10 K to 170 K vertices. [ours]
 constexpr double kPointsPerCell = 1.0;
 constexpr std::uint32_t kMaxCells = 2048;
-// A float coordinate of a UnitFrame (below 1 in size) projected to an axis is wrong by less than
-// this: twelve roundings of 2^-24.
-constexpr float kAxisError = 0x1p-20F;
 constexpr std::size_t kGrain = 4096;  // points per chunk: some tenths of a millisecond
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
@@ -36,12 +31,17 @@ bool EyeGrid::set_axes() {
   const Vec3 towards = eye_.position / distance;  // from the frame's origin to the eye
   const Vec3 right = towards.unitOrthogonal();
   const Vec3 up = towards.cross(right);
-  for (int i = 0; i < 3; ++i) {
-    right_[i] = static_cast<float>(right[i]);
-    up_[i] = static_cast<float>(up[i]);
-    towards_[i] = static_cast<float>(towards[i]);
-  }
+  const auto added = [&](Eigen::Index i) {
+    return Spot{static_cast<float>(right[i]), static_cast<float>(up[i]),
+                -static_cast<float>(towards[i]), 0.0F};
+  };
+  along_x_ = added(0);
+  along_y_ = added(1);
+  along_z_ = added(2);
   distance_ = static_cast<float>(distance);
+  const bool perspective = eye_.projection == Projection::Perspective;
+  shift_ = perspective ? distance_ : 0.0F;
+  slope_ = perspective ? 1.0F : 0.0F;
   return true;
 }
 
@@ -50,52 +50,27 @@ bool EyeGrid::aim(const Surface& surface, const RunContext& run) {
     return false;
   }
   project(surface.rounded, corners_, run);
-  if (eye_.projection == Projection::Perspective) {
-    float nearest = kInfinity;
-    float farthest = -kInfinity;
-    for (const Spot& s : corners_) {
-      nearest = std::min(nearest, s.depth);
-      farthest = std::max(farthest, s.depth);
-    }
-    return nearest + distance_ > kNearestShare * (farthest + distance_);
+  spanned_ = {corners_.front(), corners_.front()};
+  for (const Spot& s : corners_) {
+    spanned_ = {lower(spanned_.low, s), higher(spanned_.high, s)};
   }
-  return true;
+  return eye_.projection == Projection::Orthographic ||
+         spanned_.low[2] + distance_ > kNearestShare * (spanned_.high[2] + distance_);
 }
 
 void EyeGrid::project(const FloatPoints& points, std::vector<Spot>& spots,
                       const RunContext& run) const {
   spots.resize(points.x.size());
-  const bool perspective = eye_.projection == Projection::Perspective;
-  const float shift = perspective ? distance_ : 0.0F;
-  const float slope = perspective ? 1.0F : 0.0F;
   parallel_for(run, spots.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const float x = points.x[i];
-      const float y = points.y[i];
-      const float z = points.z[i];
-      const float depth = -(x * towards_[0] + y * towards_[1] + z * towards_[2]);
-      const float shrink = 1.0F / (slope * (depth + shift) + (1.0F - slope));
-      spots[i] = {(x * right_[0] + y * right_[1] + z * right_[2]) * shrink,
-                  (x * up_[0] + y * up_[1] + z * up_[2]) * shrink, depth};
+      spots[i] = in_picture(points, i);
     }
   });
 }
 
-void EyeGrid::choose_cells(const std::vector<Spot>& corners, std::size_t active) {
-  float x_high = -kInfinity;
-  float y_high = -kInfinity;
-  x_low_ = kInfinity;
-  y_low_ = kInfinity;
-  float nearest = kInfinity;
-  for (const Spot& s : corners) {
-    x_low_ = std::min(x_low_, s.x);
-    x_high = std::max(x_high, s.x);
-    y_low_ = std::min(y_low_, s.y);
-    y_high = std::max(y_high, s.y);
-    nearest = std::min(nearest, s.depth);
-  }
-  const float width = x_high - x_low_;
-  const float height = y_high - y_low_;
+void EyeGrid::choose_cells(std::size_t active) {
+  const float width = spanned_.high[0] - spanned_.low[0];
+  const float height = spanned_.high[1] - spanned_.low[1];
   const double wanted = std::max(1.0, static_cast<double>(active) / kPointsPerCell);
   const double longest = std::max({width, height, 0x1p-20F});
   const double area = std::max(static_cast<double>(width) * height, longest * longest / wanted);
@@ -103,12 +78,15 @@ void EyeGrid::choose_cells(const std::vector<Spot>& corners, std::size_t active)
   cells_per_unit_ = static_cast<float>(std::min(limit, std::sqrt(wanted / area)));
   columns_ = static_cast<std::uint32_t>(width * cells_per_unit_) + 1;
   rows_ = static_cast<std::uint32_t>(height * cells_per_unit_) + 1;
+  origin_ = Spot{spanned_.low[0], spanned_.low[1], 0.0F, 0.0F};
+  scale_ = Spot{cells_per_unit_, cells_per_unit_, 1.0F, 0.0F};
+  last_ = Spot{static_cast<float>(columns_ - 1), static_cast<float>(rows_ - 1), 0.0F, 0.0F};
 
   float error = kAxisError;  // of x and y in the picture
   if (eye_.projection == Projection::Perspective) {
-    const float closest = nearest + distance_;
-    const float widest =
-        std::max({std::abs(x_low_), std::abs(x_high), std::abs(y_low_), std::abs(y_high)});
+    const float closest = spanned_.low[2] + distance_;
+    const float widest = std::max({std::abs(spanned_.low[0]), std::abs(spanned_.high[0]),
+                                   std::abs(spanned_.low[1]), std::abs(spanned_.high[1])});
     const float depth_error = kAxisError + 0x1p-23F * (distance_ + 2.0F);
     error = 2.0F * (kAxisError + widest * depth_error) / closest + 0x1p-22F * widest;
   }
@@ -118,26 +96,9 @@ void EyeGrid::choose_cells(const std::vector<Spot>& corners, std::size_t active)
 void EyeGrid::to_cells(std::vector<Spot>& spots, const RunContext& run) const {
   parallel_for(run, spots.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      spots[i].x = (spots[i].x - x_low_) * cells_per_unit_;
-      spots[i].y = (spots[i].y - y_low_) * cells_per_unit_;
+      spots[i] = in_cells(spots[i]);
     }
   });
-}
-
-EyeGrid::Outline EyeGrid::outline(const Triangle& face) const {
-  const Spot& a = corners_[face[0]];
-  const Spot& b = corners_[face[1]];
-  const Spot& c = corners_[face[2]];
-  const float reach = 2.0F * margin_;  // the face's error and the point's
-  return {a,
-          b,
-          c,
-          std::min({a.x, b.x, c.x}) - reach,
-          std::max({a.x, b.x, c.x}) + reach,
-          std::min({a.y, b.y, c.y}) - reach,
-          std::max({a.y, b.y, c.y}) + reach,
-          std::min({a.depth, b.depth, c.depth}) - 2.0F * kAxisError,
-          std::max({a.depth, b.depth, c.depth}) + 2.0F * kAxisError};
 }
 
 void EyeGrid::outline_blocks(const FaceBlocks& blocks, const RunContext& run) {
@@ -145,10 +106,10 @@ void EyeGrid::outline_blocks(const FaceBlocks& blocks, const RunContext& run) {
   blocks_.resize(centres_.size());
   const bool perspective = eye_.projection == Projection::Perspective;
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    const Spot& spot = centres_[i];
+    const Spot spot = centres_[i];
     const float radius = blocks.radius[i] + kAxisError;
     // A place in the picture is x over the distance along the axis; both are within the radius.
-    const float distance = perspective ? spot.depth + distance_ : 1.0F;
+    const float distance = perspective ? spot[2] + distance_ : 1.0F;
     const float near = perspective ? distance - radius : 1.0F;
     const float far = perspective ? distance + radius : 1.0F;
     const auto extent = [&](float place, float low, float scale) {
@@ -158,18 +119,16 @@ void EyeGrid::outline_blocks(const FaceBlocks& blocks, const RunContext& run) {
       return std::array{(left / (left < 0.0F ? near : far) - low) * scale - reach,
                         (right / (right < 0.0F ? far : near) - low) * scale + reach};
     };
-    const auto [x_low, x_high] = extent(spot.x, x_low_, cells_per_unit_);
-    const auto [y_low, y_high] = extent(spot.y, y_low_, cells_per_unit_);
+    const auto [x_low, x_high] = extent(spot[0], origin_[0], cells_per_unit_);
+    const auto [y_low, y_high] = extent(spot[1], origin_[1], cells_per_unit_);
     const bool whole = near > 0.0F;
-    blocks_[i] = {{},
-                  {},
-                  {},
-                  whole ? x_low : 0.0F,
-                  whole ? x_high : static_cast<float>(columns_),
-                  whole ? y_low : 0.0F,
-                  whole ? y_high : static_cast<float>(rows_),
-                  spot.depth - radius - 2.0F * kAxisError,
-                  spot.depth + radius};
+    const float nearest = spot[2] - radius - 2.0F * kAxisError;
+    const float farthest = spot[2] + radius;
+    const auto columns = static_cast<float>(columns_);
+    const auto rows = static_cast<float>(rows_);
+    blocks_[i] =
+        whole ? Extent{Spot{x_low, y_low, nearest, 0.0F}, Spot{x_high, y_high, farthest, 0.0F}}
+              : Extent{Spot{0.0F, 0.0F, nearest, 0.0F}, Spot{columns, rows, farthest, 0.0F}};
   }
 }
 

@@ -137,6 +137,7 @@ void number_nodes(const std::vector<NodeName>& names, const std::vector<std::uin
       net.places.push_back(net.corners[i / 3][i % 3]);
       net.owner.push_back(face_of[i / 3]);
       net.also.push_back(face_of[i / 3]);
+      net.ends.push_back({name.first, name.second});
     } else if (on_edge && face_of[i / 3] != net.owner.back()) {
       net.also.back() = face_of[i / 3];
     }
@@ -178,18 +179,22 @@ PieceNet piece_net(const Surface& surface, const FacePieces& pieces) {
   net.places = pieces.places;
   net.owner = pieces.owner;
   net.parts.reserve(pieces.places.size());
+  const auto count = static_cast<double>(surface.faces.size());
+  const double closer = std::clamp(PieceNet::kCloser * std::sqrt(PieceNet::kFewFaces / count),
+                                   PieceNet::kLeastParts, PieceNet::kMostParts);
+  const double plain =
+      std::clamp(std::sqrt(count / PieceNet::kManyFaces), 1.0, PieceNet::kLongestPlain);
   const auto divide = [&](const std::array<Vec3, 3>& corners) {
-    const double size = longest_of(corners) / pieces.longest;
-    const double wanted = PieceNet::kCloser * size;
-    net.is_small.push_back(size <= 1.0 ? 1 : 0);
+    const double wanted = closer * longest_of(corners) / pieces.longest;
     net.parts.push_back(static_cast<std::uint8_t>(
-        std::clamp(std::round(wanted), 1.0, static_cast<double>(PieceNet::kCloser))));
+        std::clamp(std::round(wanted), PieceNet::kLeastParts, std::round(closer))));
   };
   std::vector<NodeName> names;
   std::vector<std::uint32_t> face_of;
   Cutter cutter(pieces.longest);
   for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
     const std::array<Vec3, 3> corners = corners_of(surface, f);
+    net.is_plain.push_back(longest_of(corners) <= plain * pieces.longest ? 1 : 0);
     if (pieces.first[f + 1] - pieces.first[f] == 1) {
       divide(corners);
       continue;

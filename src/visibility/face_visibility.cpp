@@ -12,6 +12,7 @@
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 
+#include "visibility/closer_look.h"
 #include "visibility/face_pieces.h"
 #include "visibility/sight.h"
 
@@ -25,49 +26,14 @@ constexpr std::uint8_t kSeen = 1;
 constexpr std::uint8_t kHidden = 2;
 constexpr std::uint8_t kInPart = kSeen | kHidden;
 
-// How far from its corner a part at a corner of a face is judged, over how far its centroid is. [ours]
-constexpr double kNextTo = 1.0 / 16.0;
-
 std::uint8_t finding(std::uint8_t seen) {
   return seen != 0 ? kSeen : kHidden;
 }
 
-/// Pieces that may be seen in part, divided, and what is seen of that.
-struct CloserLook {
-  std::vector<std::uint32_t> pieces{};  // ascending, and one beyond all
-  std::vector<std::uint32_t> first{};   // part of each, and one past the last part
-  std::vector<Vec3> places{};           // centroids of the parts
-  std::vector<std::uint32_t> owner{};   // the face each part is of
-  std::vector<std::uint8_t> seen{};     // of each part
-
-  /// Divides a piece into squared `parts` alike. \param at_site whether each of its corners is one of
-  /// the face's: the part there is judged next to it, as what is seen of a face often ends there.
-  void add(std::uint32_t piece, std::uint32_t face, const std::array<Vec3, 3>& corners,
-           const std::array<bool, 3>& at_site, int parts) {
-    pieces.push_back(piece);
-    const std::size_t begin = places.size();
-    first.push_back(static_cast<std::uint32_t>(begin));
-    const Vec3& a = corners[0];
-    const Vec3 right = (corners[1] - a) / parts;
-    const Vec3 up = (corners[2] - a) / parts;
-    for (int i = 0; i < parts; ++i) {
-      for (int j = 0; i + j < parts; ++j) {
-        places.emplace_back(a + (i + 1.0 / 3.0) * right + (j + 1.0 / 3.0) * up);
-        if (i + j + 1 < parts) {
-          places.emplace_back(a + (i + 2.0 / 3.0) * right + (j + 2.0 / 3.0) * up);
-        }
-      }
-    }
-    // In the order above: the first part, the last, and that which ends the first row.
-    const std::array<std::size_t, 3> part_at{begin, places.size() - 1,
-                                             begin + 2 * static_cast<std::size_t>(parts) - 2};
-    for (std::size_t k = 0; parts > 1 && k < 3; ++k) {
-      if (at_site[k]) {
-        places[part_at[k]] = corners[k] + kNextTo * (places[part_at[k]] - corners[k]);
-      }
-    }
-    owner.resize(places.size(), face);
-  }
+/// What one look tells of all sites, of the pieces' centroids and of the nodes on edges.
+struct FirstLook {
+  std::vector<std::uint8_t> seen{};      // of each, in this order
+  std::vector<std::uint8_t> at_sites{};  // Look::faces_at_sites()
 };
 
 /// Adds up what is seen, face by face.
@@ -76,11 +42,10 @@ class Tally {
   Tally(const Surface& surface, const Sphere& sphere, const Viewpoint& local, SeenSurface& result)
       : surface_(surface),
         local_(local),
+        is_perspective_(local.projection == Projection::Perspective),
         centre_(surface.frame.to_frame(sphere.centre)),
-        towards_(local.projection == Projection::Perspective
-                     ? Vec3((local.position - centre_).normalized())
-                     : local.position),
-        diameter_(sphere.diameter * surface.frame.scale),
+        towards_(is_perspective_ ? Vec3((local.position - centre_).normalized()) : local.position),
+        per_diameter_(1.0 / (sphere.diameter * surface.frame.scale)),
         plane_((local.position - centre_).dot(towards_)),
         result_(result) {}
 
@@ -88,40 +53,44 @@ class Tally {
   void add(std::uint32_t face, const Vec3& place, double area) {
     if (face != last_) {
       last_ = face;
-      normal_ = surface_.area_vectors[face] / surface_.twice_areas[face];
+      normal_ = &surface_.area_vectors[face];
+      // Finite even for faces of next to no area.
+      scale_ =
+          std::min((is_perspective_ ? plane_ * plane_ : 1.0) / surface_.twice_areas[face], 1e300);
       result_.faces.push_back({.face = surface_.face_of_mesh[face]});
     }
-    const double projected = area * shrink(place);
+    const double projected = area * scale_ * shrink(place);
     result_.faces.back().visible_area += area;
     result_.faces.back().projected_area += projected;
-    const double depth = std::clamp(0.5 - (place - centre_).dot(towards_) / diameter_, 0.0, 1.0);
+    const double depth =
+        std::clamp(0.5 - (place - centre_).dot(towards_) * per_diameter_, 0.0, 1.0);
     constexpr auto kBins = static_cast<double>(SeenSurface::kDepthBins);
     result_.depths[static_cast<std::size_t>(std::min(depth * kBins, kBins - 1.0))] += projected;
     result_.deepest = std::max(result_.deepest, depth);
   }
 
  private:
-  /// Projected area over area, at a place of the face at hand.
+  /// Projected area over area and `scale_`, at a place of the face at hand.
   [[nodiscard]] double shrink(const Vec3& place) const {
-    if (local_.projection == Projection::Orthographic) {
-      return std::abs(normal_.dot(towards_));
+    if (!is_perspective_) {
+      return std::abs(normal_->dot(towards_));
     }
     const Vec3 sight_line = local_.position - place;
     const double depth = sight_line.dot(towards_);
-    return depth > 0.0
-               ? std::abs(normal_.dot(sight_line)) * plane_ * plane_ / (depth * depth * depth)
-               : 0.0;
+    return depth > 0.0 ? std::abs(normal_->dot(sight_line)) / (depth * depth * depth) : 0.0;
   }
 
   const Surface& surface_;
   const Viewpoint& local_;
+  bool is_perspective_;
   Vec3 centre_;   // of the sphere
   Vec3 towards_;  // unit, from there to the eye
-  double diameter_;
+  double per_diameter_;
   double plane_;  // how far the eye is from the plane of projection
   SeenSurface& result_;
   std::uint32_t last_ = Surface::kNoSite;
-  Vec3 normal_ = Vec3::Zero();
+  const Vec3* normal_ = nullptr;  // of the face at hand, as long as twice its area
+  double scale_ = 1.0;            // makes up for that, and for the plane's distance
 };
 
 /// The faces in the mesh's order; quicker than sorting, as about half of all are seen.
@@ -173,15 +142,22 @@ struct FaceVisibility::Samples {
   }
 
   const PieceNet& net() {
-    std::call_once(net_once_, [&] { net_ = piece_net(sight.surface(), pieces); });
+    std::call_once(net_once_, [&] {
+      const Surface& surface = sight.surface();
+      net_ = piece_net(surface, pieces);
+      // Of an open surface corners do not tell enough.
+      for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+        const bool is_plain = net_.is_plain[f] != 0 && surface.sides[f] == FaceSides::Front;
+        net_.is_plain[f] = is_plain ? 1 : 0;
+      }
+    });
     return net_;
   }
 
-  /// What is seen of all sites, of the pieces' centroids and of the nodes on edges, in this order.
-  /// A small face whose corners all agree is not asked about but goes with them; but not where the
-  /// surface turns away from the eye, because the faces at a corner do not hide it and might hide
-  /// the face.
-  [[nodiscard]] std::vector<std::uint8_t> first_look(Look& look) {
+  /// Looks at all sites, at the pieces' centroids and the nodes on edges. Of a plain face that turns to the eye with all faces at its corners only the corners are asked
+  /// about, and the rest goes with them. Not where the surface turns away from the eye, because the
+  /// faces at a corner do not hide it and might hide the face.
+  [[nodiscard]] FirstLook first_look(Look& look) {
     const Surface& surface = sight.surface();
     const std::size_t sites = surface.sites.size();
     const SurfacePoints points{.sites = surface.sites,
@@ -189,36 +165,46 @@ struct FaceVisibility::Samples {
                                .rounded = &net_.rounded,
                                .owner = net_.owner,
                                .also = net_.also};
-    std::vector<std::uint8_t> asked = look.faces_at_sites();
-    asked.resize(points.size(), 0);
+    const std::vector<std::uint8_t> at_sites = look.faces_at_sites();
+    std::vector<std::uint8_t> asked(points.size(), 0);
+    std::vector<std::uint8_t> is_asked(surface.faces.size(), 0);
     std::vector<std::uint32_t> goes_with_corners;
     for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
       if (!look.is_turned(f)) {
         continue;
       }
       const auto& [a, b, c] = surface.faces[f];
-      const bool is_small = is_whole(f) && net_.is_small[pieces.first[f]] != 0;
-      if (is_small && surface.sides[f] == FaceSides::Front &&
-          ((asked[a] | asked[b] | asked[c]) & Look::kNotTurned) == 0) {
+      if (net_.is_plain[f] != 0 &&
+          ((at_sites[a] | at_sites[b] | at_sites[c]) & Look::kNotTurned) == 0) {
         goes_with_corners.push_back(f);
       } else {
+        is_asked[f] = 1;
         std::fill(asked.begin() + static_cast<std::ptrdiff_t>(sites + pieces.first[f]),
                   asked.begin() + static_cast<std::ptrdiff_t>(sites + pieces.first[f + 1]), 1);
       }
     }
     for (std::size_t site = 0; site < sites; ++site) {
-      asked[site] &= Look::kTurned;
+      asked[site] = at_sites[site] & Look::kTurned;
     }
-    for (std::size_t i = pieces.places.size(); i < points.exact.size(); ++i) {
-      const bool turned = look.is_turned(points.owner[i]) || look.is_turned(points.also_of(i));
-      asked[sites + i] = turned ? 1 : 0;
+    const std::size_t pieces_end = pieces.places.size();
+    for (std::size_t i = pieces_end; i < points.exact.size(); ++i) {
+      asked[sites + i] = is_asked[points.owner[i]] | is_asked[points.also_of(i)];
     }
-    std::vector<std::uint8_t> seen = look.not_hidden(points, std::move(asked));
+    std::vector<std::uint8_t> seen = look.not_hidden(points, asked);
     for (const std::uint32_t f : goes_with_corners) {
       const auto& [a, b, c] = surface.faces[f];
-      seen[sites + pieces.first[f]] = seen[a] & seen[b] & seen[c];
+      const std::uint8_t all = seen[a] & seen[b] & seen[c];
+      for (std::uint32_t piece = pieces.first[f]; piece < pieces.first[f + 1]; ++piece) {
+        seen[sites + piece] = all;
+      }
     }
-    return seen;
+    for (std::size_t i = pieces_end; i < points.exact.size(); ++i) {
+      if (asked[sites + i] == 0) {
+        const auto [a, b] = net_.ends[i - pieces_end];
+        seen[sites + i] = seen[a] & seen[b];
+      }
+    }
+    return {std::move(seen), at_sites};
   }
 
   /// Whether the face is a single piece.
@@ -254,42 +240,55 @@ struct FaceVisibility::Samples {
   }
 
   /// Divides every piece of which, with its nodes, some was seen and some was hidden.
-  /// \param seen first_look().
-  [[nodiscard]] CloserLook look_closer(Look& look, std::span<const std::uint8_t> seen) const {
+  [[nodiscard]] CloserLook look_closer(Look& look, const FirstLook& first) const {
     const Surface& surface = sight.surface();
+    const std::vector<std::uint8_t>& seen = first.seen;
     const std::vector<std::uint8_t> found = node_findings(look, seen);
-    const std::span<const std::uint8_t> of_piece = seen.subspan(surface.sites.size());
+    const std::span<const std::uint8_t> of_piece = std::span(seen).subspan(surface.sites.size());
     const auto is_in_part = [&](std::uint32_t piece, const Triangle& nodes) {
       return (finding(of_piece[piece]) | found[nodes[0]] | found[nodes[1]] | found[nodes[2]]) ==
              kInPart;
+    };
+    const auto tip = [&](std::size_t face, std::uint32_t node) {
+      if (node >= surface.sites.size() || seen[node] == 0) {
+        return Tip::Plain;
+      }
+      const bool turns = (first.at_sites[node] & Look::kNotTurned) == 0;
+      return turns && surface.sides[face] == FaceSides::Front ? Tip::Seen : Tip::Asked;
     };
     CloserLook closer;
     std::size_t cut = 0;
     for (std::uint32_t f = 0; f + 1 < pieces.first.size(); ++f) {
       const std::uint32_t begin = pieces.first[f];
-      const Triangle& face = surface.faces[f];
+      const auto& [a, b, c] = surface.faces[f];
       if (is_whole(f)) {
-        if (look.is_turned(f) && is_in_part(begin, face)) {
-          closer.add(begin, f,
-                     {surface.sites[face[0]], surface.sites[face[1]], surface.sites[face[2]]},
-                     {true, true, true}, net_.parts[begin]);
+        const int all = seen[a] + seen[b] + seen[c] + of_piece[begin];
+        if (all != 0 && all != 4 && look.is_turned(f)) {
+          closer.add(begin, f, {surface.sites[a], surface.sites[b], surface.sites[c]},
+                     {tip(f, a), tip(f, b), tip(f, c)}, net_.parts[begin]);
         }
         continue;
       }
+      // The pieces of a plain face may never have been asked about.
+      const int corners = seen[a] + seen[b] + seen[c];
+      const bool all = net_.is_plain[f] != 0 && corners != 0 && corners != 3;
       for (std::uint32_t piece = begin; piece < pieces.first[f + 1]; ++piece, ++cut) {
-        if (look.is_turned(f) && is_in_part(piece, net_.nodes[cut])) {
-          const auto& [a, b, c] = net_.nodes[cut];
-          const std::size_t sites = surface.sites.size();
-          closer.add(piece, f, net_.corners[cut], {a < sites, b < sites, c < sites},
-                     net_.parts[piece]);
+        if (look.is_turned(f) && (all || is_in_part(piece, net_.nodes[cut]))) {
+          const Triangle& nodes = net_.nodes[cut];
+          closer.add(piece, f, net_.corners[cut],
+                     {tip(f, nodes[0]), tip(f, nodes[1]), tip(f, nodes[2])}, net_.parts[piece]);
         }
       }
     }
-    closer.first.push_back(static_cast<std::uint32_t>(closer.places.size()));
-    closer.pieces.push_back(Surface::kNoSite);  // beyond all
+    closer.end();
     const FloatPoints rounded = rounded_points(closer.places);
-    closer.seen =
-        look.seen_points({.exact = closer.places, .rounded = &rounded, .owner = closer.owner});
+    closer.seen = look.not_hidden(
+        {.exact = closer.places, .rounded = &rounded, .owner = closer.owner}, closer.asked);
+    for (std::size_t i = 0; i < closer.seen.size(); ++i) {
+      if (closer.asked[i] == 0) {
+        closer.seen[i] = 1;
+      }
+    }
     return closer;
   }
 
@@ -328,28 +327,32 @@ SeenSurface FaceVisibility::seen_surface(const Viewpoint& eye, const RunContext&
   const FacePieces& pieces = samples_->pieces;
   const Viewpoint local = eye_in_frame(eye, surface.frame);
   Look look(samples_->sight, local, run);
-  const std::vector<std::uint8_t> seen = samples_->first_look(look);
-  const CloserLook closer = samples_->look_closer(look, seen);
+  const FirstLook first = samples_->first_look(look);
+  const CloserLook closer = samples_->look_closer(look, first);
   SeenSurface result;
-  result.vertices = vertices_of_sites(surface, seen);
-  const auto of_piece = std::span(seen).subspan(surface.sites.size(), sample_count());
+  result.vertices = vertices_of_sites(surface, first.seen);
+  const auto of_piece = std::span(first.seen).subspan(surface.sites.size(), sample_count());
   Tally tally(surface, samples_->sphere, local, result);
   std::size_t next = 0;  // piece that was looked at closely
-  for (std::uint32_t i = 0; i < of_piece.size(); ++i) {
-    if (closer.pieces[next] != i) {
-      if (of_piece[i] != 0) {
-        tally.add(pieces.owner[i], pieces.places[i], pieces.areas[i]);
-      }
+  result.faces.reserve(surface.faces.size());
+  for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
+    if (!look.is_turned(f)) {
       continue;
     }
-    const std::uint32_t end = closer.first[next + 1];
-    const double area = pieces.areas[i] / (end - closer.first[next]);
-    for (std::uint32_t part = closer.first[next]; part < end; ++part) {
-      if (closer.seen[part] != 0) {
-        tally.add(pieces.owner[i], closer.places[part], area);
+    for (std::uint32_t i = pieces.first[f]; i < pieces.first[f + 1]; ++i) {
+      if (closer.pieces[next] != i) {
+        if (of_piece[i] != 0) {
+          tally.add(f, pieces.places[i], pieces.areas[i]);
+        }
+        continue;
       }
+      for (std::uint32_t part = closer.first[next]; part < closer.first[next + 1]; ++part) {
+        if (closer.seen[part] != 0) {
+          tally.add(f, closer.places[part], pieces.areas[i] * closer.shares[part]);
+        }
+      }
+      ++next;
     }
-    ++next;
   }
   result.faces = in_order(result.faces, samples_->triangles.size());
   return result;

@@ -57,11 +57,6 @@ Look::~Look() {
   sight_.grids_.give_back(std::move(grid_));
 }
 
-bool Look::is_turned(std::size_t face) const {
-  const std::uint8_t turned = grid_->turned()[face];
-  return turned == 1 || (turned == 2 && sight_.surface_.sides[face] == FaceSides::Both);
-}
-
 std::vector<std::uint8_t> Look::faces_at_sites() const {
   const Surface& surface = sight_.surface_;
   std::vector<std::uint8_t> at(surface.sites.size(), 0);

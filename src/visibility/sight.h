@@ -63,7 +63,10 @@ class Look {
   Look& operator=(const Look&) = delete;
 
   /// Whether a side of the face that can be seen is turned to the eye.
-  [[nodiscard]] bool is_turned(std::size_t face) const;
+  [[nodiscard]] bool is_turned(std::size_t face) const {
+    const std::uint8_t turned = grid_->turned()[face];
+    return turned == 1 || (turned == 2 && sight_.surface_.sides[face] == FaceSides::Both);
+  }
 
   /// For each site which faces it has: kTurned, kNotTurned or both.
   [[nodiscard]] std::vector<std::uint8_t> faces_at_sites() const;

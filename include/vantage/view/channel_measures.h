@@ -32,8 +32,10 @@ struct ChannelTerms {
   std::vector<double> weighted_p{};        ///< [p'(z)] ∝ S(z) p(z); see kSaliencyFloor.
   /// Logarithms of both, those of the least where no view sees the face, and of A_z / A_t.
   std::vector<double> log_p{}, log_weighted_p{}, log_share{};
-  double entropy_of_faces = 0.0;    ///< [H(Z)], bits.
-  double mutual_information = 0.0;  ///< [I(V;Z)], bits.
+  std::vector<double> saliency_share{};  ///< S(z) / Σ_v a_z(v); 0 if never seen.
+  double surface_area = 0.0;             ///< [A_t], model units squared.
+  double entropy_of_faces = 0.0;         ///< [H(Z)], bits.
+  double mutual_information = 0.0;       ///< [I(V;Z)], bits.
 };
 
 /// S(z) counts as at least this share of its largest value in p'(z): a face that looks exactly like

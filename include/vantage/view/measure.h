@@ -93,13 +93,14 @@ struct FacePlane {
 
 /// What measures know of the model besides the view.
 struct MeasuredModel {
-  MeasureSubject given{};                ///< As handed in.
-  std::vector<double> face_areas{};      ///< [A_z] model units squared.
-  std::vector<double> log_face_areas{};  ///< Their logarithms to base 2.
-  std::vector<FacePlane> planes{};       ///< Of each face, if the skeleton is looked at.
-  double surface_area = 0.0;             ///< [A_t]
-  std::vector<double> saliency{};        ///< Mesh saliency of each vertex.
-  std::vector<double> angle_deficits{};  ///< Of each vertex, radians.
+  MeasureSubject given{};                 ///< As handed in.
+  std::vector<double> face_areas{};       ///< [A_z] model units squared.
+  std::vector<double> log_face_areas{};   ///< Their logarithms to base 2.
+  std::vector<FacePlane> planes{};        ///< Of each face, if the skeleton is looked at.
+  std::vector<double> areas_at_vertex{};  ///< Of the faces at each vertex, with the planes.
+  double surface_area = 0.0;              ///< [A_t]
+  std::vector<double> saliency{};         ///< Mesh saliency of each vertex.
+  std::vector<double> angle_deficits{};   ///< Of each vertex, radians.
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();  ///< Second moment of the surface over A_t.
   std::vector<double> kssm_of_sample{};              ///< Share of each sample, if weighted by area.
   std::vector<double> saliency_of_sample{};          ///< The same of mesh saliency.

@@ -76,6 +76,8 @@ class OutlineTracer {
   Sphere sphere_;
   std::vector<std::uint8_t> two_sided_{};              // of each face
   std::vector<std::array<std::uint32_t, 2>> edges_{};  // lower vertex first
+  // Where two faces run along an edge, each in its own sense: the one in its sense, then the other.
+  std::vector<std::array<std::uint32_t, 2>> beside_{};
   IndexLists faces_of_edge_{};
   std::vector<std::int8_t> follows_{};  // of each of these: 1 if it has the edge in that sense
 };

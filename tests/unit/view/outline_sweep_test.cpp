@@ -97,6 +97,32 @@ TEST(OutlineSweep, ClosesLoopsWhereSquaresTouchInACorner) {
   EXPECT_NEAR(length(boundary_of_layers(edges)), 4.0, 1e-15);
 }
 
+TEST(OutlineSweep, TakesNoNoticeOfWhatCrossesOverAnotherLayer) {
+  // A star of crossing sides over the middle of a square, and a bar that reaches out of it.
+  std::vector<LayerEdge> edges;
+  add(edges, square(-2.0, -2.0, 4.0));
+  add(edges, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}});
+  add(edges, {{0, -1.4}, {1.4, 0}, {0, 1.4}, {-1.4, 0}});
+  add(edges, {{0.5, -0.25}, {3.0, -0.25}, {3.0, 0.25}, {0.5, 0.25}});
+  const Outline outline = boundary_of_layers(edges);
+  ASSERT_EQ(outline.size(), 1U);
+  EXPECT_NEAR(area(outline), 16.0 + 1.0 * 0.5, 1e-14);
+  EXPECT_NEAR(length(outline), 16.0 + 2.0, 1e-14);
+}
+
+TEST(OutlineSweep, FindsAHoleThatCrossingsLeaveOpen) {
+  // Two holes turned by 45° to each other, one in each of two sheets: both see through where both are.
+  std::vector<LayerEdge> edges;
+  add(edges, square(-2.0, -2.0, 4.0), 2);
+  add(edges, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, -1);
+  const double reach = std::numbers::sqrt2;
+  add(edges, {{0, -reach}, {reach, 0}, {0, reach}, {-reach, 0}}, -1);
+  // What both share is an octagon: either square less four tips of (√2 − 1)².
+  const Outline outline = boundary_of_layers(edges);
+  ASSERT_EQ(outline.size(), 2U);
+  EXPECT_NEAR(area(outline), 16.0 - (4.0 - 4.0 * (reach - 1.0) * (reach - 1.0)), 1e-14);
+}
+
 TEST(OutlineSweep, HasNoOutlineOfNothing) {
   EXPECT_TRUE(boundary_of_layers({}).empty());
 }
