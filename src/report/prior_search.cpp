@@ -15,7 +15,6 @@ FoundViews search_under_prior(const ScoreBatch& score, double total, const ViewP
   }
   Evaluator pure(score);
   Evaluator estimated(hints.estimate);
-  Evaluator better(hints.better_estimate);
   const ScoreBatch remembered = [&](const std::vector<Vec3>& directions) {
     return pure.scores(directions, 0);
   };
@@ -30,18 +29,14 @@ FoundViews search_under_prior(const ScoreBatch& score, double total, const ViewP
   };
   SearchHints plain = hints;
   SearchHints weighty = hints;
-  const auto remember = [&](Evaluator& evaluator, ScoreBatch SearchHints::*estimate) {
-    if (hints.*estimate) {
-      plain.*estimate = [&](const std::vector<Vec3>& directions) {
-        return evaluator.scores(directions, 0);
-      };
-      weighty.*estimate = [&](const std::vector<Vec3>& directions) {
-        return weigh(evaluator.scores(directions, 0), directions);
-      };
-    }
-  };
-  remember(estimated, &SearchHints::estimate);
-  remember(better, &SearchHints::better_estimate);
+  if (hints.estimate) {
+    plain.estimate = [&](const std::vector<Vec3>& directions) {
+      return estimated.scores(directions, 0);
+    };
+    weighty.estimate = [&](const std::vector<Vec3>& directions) {
+      return weigh(estimated.scores(directions, 0), directions);
+    };
+  }
   FoundViews views;
   views.best = search_view(weighted, total, Goal::Best, options, run.part(0.0, 0.8), weighty);
   for (SearchStep& step : views.best.trace) {
@@ -50,7 +45,7 @@ FoundViews search_under_prior(const ScoreBatch& score, double total, const ViewP
   views.best.score = pure.scores({views.best.direction}, 0).front();
   const std::size_t scored = pure.trace().size();
   views.worst = search_view(remembered, total, Goal::Worst, options, run.part(0.8, 1.0), plain);
-  views.worst.estimates = estimated.trace().size() + better.trace().size() - views.best.estimates;
+  views.worst.estimates = estimated.trace().size() - views.best.estimates;
   // What the best view had scored before is not the worst view's cost.
   std::vector<SearchStep> fresh;
   std::size_t next = scored;

@@ -115,9 +115,7 @@ DenseGap gap_to_dense(const FoundViews& found, const ScoreBatch& score, double t
 // A model of fewer vertices is searched more thoroughly: its scores are rough, and one costs less
 // than a millisecond. One of very few is looked over by its scores. [ours, docs/search.md]
 constexpr std::size_t kCheapBelow = 6000;
-constexpr std::size_t kEstimatedFrom = 500;
-constexpr SketchOptions kRoughSketch{.points = 1200, .faces = 1400, .cells = 56, .slack = 0.027F};
-constexpr SketchOptions kFineSketch{.points = 5000, .faces = 5000, .cells = 112, .slack = 0.013F};
+constexpr std::size_t kEstimatedFrom = 1000;
 
 }  // namespace
 
@@ -146,22 +144,17 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
     return scorer.score_all(directions, batch_run);
   };
   SearchHints hints;
-  std::optional<SketchScorer> rough;
-  std::optional<SketchScorer> fine;
+  std::optional<SketchScorer> sketch;
   if (options.search.strategy == SearchStrategy::Global) {
     hints.landmarks = landmark_directions(shape.surface);
     hints.brinks = brink_directions(shape.surface, report.camera);
     const std::size_t size = shape.surface.positions.size();
     hints.scores_are_cheap = size < kCheapBelow;
     if (size >= (faces ? kCheapBelow : kEstimatedFrom)) {
-      const std::vector<double> shares = vertex_shares(shape, options.weight);
-      rough.emplace(shape.surface, shape.sides, shares, report.camera, kRoughSketch);
-      fine.emplace(shape.surface, shape.sides, shares, report.camera, kFineSketch);
+      sketch.emplace(shape.surface, shape.sides, vertex_shares(shape, options.weight),
+                     report.camera);
       hints.estimate = [&](const std::vector<Vec3>& directions) {
-        return rough->score_all(directions, batch_run);
-      };
-      hints.better_estimate = [&](const std::vector<Vec3>& directions) {
-        return fine->score_all(directions, batch_run);
+        return sketch->score_all(directions, batch_run);
       };
     }
   }

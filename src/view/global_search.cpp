@@ -65,9 +65,8 @@ std::vector<Candidate> best_apart(std::vector<Candidate> candidates, std::size_t
   return chosen;
 }
 
-/// Looks for the largest value of sign · score: cheap estimates choose where better ones are worth
-/// their cost, these choose what is scored, and what the scores teach about them decides what is
-/// scored next.
+/// Looks for the largest value of sign · score: estimates choose what is scored, and what the scores
+/// teach about them decides what is scored next.
 class Hunt {
  public:
   Hunt(const Guides& guides, Goal goal)
@@ -75,7 +74,7 @@ class Hunt {
         sign_(goal == Goal::Best ? 1.0 : -1.0),
         listed_(dense_.directions.size(), 0) {}
 
-  /// Rough estimates of the whole sphere, finer where they promise something.
+  /// Estimates of the whole sphere, closer where they promise something.
   void look_over(const RunContext& run);
 
   /// Scores the first landmarks and the best of the others, and directions that no estimate is
@@ -89,7 +88,7 @@ class Hunt {
   [[nodiscard]] std::vector<Candidate> best_known() const;
 
  private:
-  void list(const std::vector<std::uint32_t>& dense);
+  void list(const std::vector<std::uint32_t>& dense, const RunContext& run);
   void open(std::vector<Candidate> places);
   void score(const std::vector<std::size_t>& chosen);
   [[nodiscard]] std::vector<std::uint32_t> near(const Vec3& centre, double reach_rad,
@@ -121,8 +120,8 @@ std::vector<std::uint32_t> Hunt::near(const Vec3& centre, double reach_rad,
   return found;
 }
 
-/// Has directions take part, by their better estimates.
-void Hunt::list(const std::vector<std::uint32_t>& dense) {
+/// Has directions take part, by their estimates.
+void Hunt::list(const std::vector<std::uint32_t>& dense, const RunContext& run) {
   std::vector<Vec3> fresh;
   for (const std::uint32_t i : dense) {
     if (listed_[i] == 0) {
@@ -130,45 +129,24 @@ void Hunt::list(const std::vector<std::uint32_t>& dense) {
       fresh.push_back(dense_.directions[i]);
     }
   }
-  const std::vector<double> values = guides_.fine.scores(fresh, 0);
+  const std::vector<double> values = guides_.estimates.scores(fresh, 0, run);
   for (std::size_t i = 0; i < fresh.size(); ++i) {
     model_.add(fresh[i], sign_ * values[i]);
   }
 }
 
 void Hunt::look_over(const RunContext& run) {
-  std::vector<double> estimates(kCloserLook, 0.0);
-  std::vector<std::uint32_t> seen(kFirstLook);
-  std::iota(seen.begin(), seen.end(), 0U);
-  const auto estimate = [&](std::size_t begin, const RunContext& part) {
-    std::vector<Vec3> directions;
-    for (std::size_t k = begin; k < seen.size(); ++k) {
-      directions.push_back(dense_.directions[seen[k]]);
-    }
-    const std::vector<double> values = guides_.rough.scores(directions, 0, part);
-    for (std::size_t k = begin; k < seen.size(); ++k) {
-      estimates[seen[k]] = sign_ * values[k - begin];
-    }
-    std::stable_sort(seen.begin(), seen.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return estimates[a] > estimates[b]; });
-  };
-  estimate(0, run.part(0.0, 0.6));
-  std::vector<std::uint8_t> taken(kCloserLook, 0);
-  std::fill_n(taken.begin(), kFirstLook, std::uint8_t{1});
-  const std::vector<std::uint32_t> promising(
-      seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(guides_.effort.promising));
-  for (const std::uint32_t centre : promising) {
-    for (const std::uint32_t i : near(dense_.directions[centre], kHalfwayRad, kCloserLook)) {
-      if (taken[i] == 0) {
-        taken[i] = 1;
-        seen.push_back(i);
-      }
-    }
+  std::vector<std::uint32_t> first(kFirstLook);
+  std::iota(first.begin(), first.end(), 0U);
+  list(first, run);
+  const std::vector<std::size_t> best = ranked(0.0);
+  std::vector<std::uint32_t> halfway;
+  for (std::size_t k = 0; k < guides_.effort.promising; ++k) {
+    const std::vector<std::uint32_t> around =
+        near(model_.direction(best[k]), kHalfwayRad, kCloserLook);
+    halfway.insert(halfway.end(), around.begin(), around.end());
   }
-  estimate(kFirstLook, run.part(0.6, 0.8));
-  seen.resize(std::min(seen.size(), guides_.effort.shortlist));
-  list(seen);
-  run.advance("search", 1.0);
+  list(halfway, {});
 }
 
 void Hunt::score(const std::vector<std::size_t>& chosen) {
@@ -186,7 +164,7 @@ void Hunt::score(const std::vector<std::size_t>& chosen) {
 
 void Hunt::score_marks(const std::vector<Vec3>& landmarks, const std::vector<Vec3>& brinks) {
   const auto by_estimate = [&](const std::vector<Vec3>& directions) {
-    const std::vector<double> values = guides_.fine.scores(directions, 0);
+    const std::vector<double> values = guides_.estimates.scores(directions, 0);
     std::vector<Candidate> marks;
     for (std::size_t i = 0; i < directions.size(); ++i) {
       marks.push_back({directions[i], sign_ * values[i]});
@@ -249,7 +227,7 @@ std::vector<std::size_t> Hunt::pick(std::size_t count, double apart_rad, double 
 /// Has all dense directions around the best few of some places take part.
 void Hunt::open(std::vector<Candidate> places) {
   for (const Candidate& top : best_apart(std::move(places), kHills, kHillRad)) {
-    list(near(top.direction, kHillRad, dense_.directions.size()));
+    list(near(top.direction, kHillRad, dense_.directions.size()), {});
   }
 }
 

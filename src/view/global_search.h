@@ -13,16 +13,14 @@ namespace vantage {
 /// How much the global search looks at. [ours, docs/search.md]
 struct Effort {
   std::size_t promising;  ///< Directions of the first look around which it looks closer.
-  std::size_t shortlist;  ///< So many of what is looked at are estimated better.
   std::size_t places;     ///< About so many are scored before the climb.
   std::size_t brinks;     ///< So many of the best brinks are scored.
 };
 
-/// What the global search asks, from the cheapest to the exact one; some or all may be the same.
+/// What the global search asks.
 struct Guides {
-  Evaluator& rough;  ///< Looks over the sphere.
-  Evaluator& fine;   ///< Looks at what that promises.
-  Evaluator& exact;  ///< Decides.
+  Evaluator& estimates;  ///< Look over the sphere; may be the exact scores.
+  Evaluator& exact;      ///< Decide.
   Effort effort;
 };
 

@@ -29,9 +29,9 @@ constexpr std::size_t kDenseSeeds = 3;
 constexpr RingSteps kDenseSteps{4.0 * kRadPerDeg, 0.01 * kRadPerDeg};
 // Global search: usually; where scores are cheap; and where there is nothing cheaper than scores,
 // so that the first look is at 2 562 directions. [ours, docs/search.md]
-constexpr Effort kUsual{.promising = 60, .shortlist = 80, .places = 24, .brinks = 12};
-constexpr Effort kThorough{.promising = 90, .shortlist = 160, .places = 48, .brinks = 150};
-constexpr Effort kByScores{.promising = 642, .shortlist = 160, .places = 48, .brinks = 150};
+constexpr Effort kUsual{.promising = 30, .places = 36, .brinks = 12};
+constexpr Effort kThorough{.promising = 60, .places = 96, .brinks = 150};
+constexpr Effort kByScores{.promising = 642, .places = 96, .brinks = 150};
 // Share of the progress bar that the start set takes.
 constexpr double kStartShare = 0.7;
 
@@ -145,24 +145,22 @@ void check_options(double total, const SearchOptions& options) {
   }
 }
 
-/// What the global search asks, and the record of it. Estimates that are not given are the next
-/// better ones.
+/// What a search asks, and the record of it.
 class Inquiry {
  public:
   Inquiry(const ScoreBatch& score, const SearchHints& hints)
       : exact_(score),
-        fine_(hints.better_estimate ? hints.better_estimate : hints.estimate),
-        rough_(hints.estimate),
-        has_fine_(hints.better_estimate || hints.estimate),
-        has_rough_(hints.better_estimate && hints.estimate),
-        cheap_(hints.scores_are_cheap) {}
+        estimates_(hints.estimate),
+        has_estimates_(static_cast<bool>(hints.estimate)),
+        is_thorough_(hints.scores_are_cheap) {}
 
   Evaluator& exact() { return exact_; }
 
   Guides guides() {
-    Evaluator& fine = has_fine_ ? fine_ : exact_;
-    const Effort& effort = !has_fine_ ? kByScores : cheap_ ? kThorough : kUsual;
-    return {has_rough_ ? rough_ : fine, fine, exact_, effort};
+    if (!has_estimates_) {
+      return {exact_, exact_, kByScores};
+    }
+    return {estimates_, exact_, is_thorough_ ? kThorough : kUsual};
   }
 
   /// Reports a view as found by all that was asked since the last report.
@@ -173,7 +171,7 @@ class Inquiry {
     view.trace.assign(exact_.trace().begin() + static_cast<std::ptrdiff_t>(reported_),
                       exact_.trace().end());
     view.evaluations = view.trace.size();
-    const std::size_t estimated = fine_.trace().size() + rough_.trace().size();
+    const std::size_t estimated = estimates_.trace().size();
     view.estimates = estimated - estimates_reported_;
     reported_ = exact_.trace().size();
     estimates_reported_ = estimated;
@@ -182,11 +180,9 @@ class Inquiry {
 
  private:
   Evaluator exact_;
-  Evaluator fine_;
-  Evaluator rough_;
-  bool has_fine_;
-  bool has_rough_;
-  bool cheap_;
+  Evaluator estimates_;
+  bool has_estimates_;
+  bool is_thorough_;
   std::size_t reported_ = 0;
   std::size_t estimates_reported_ = 0;
 };

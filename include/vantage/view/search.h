@@ -84,8 +84,6 @@ struct SearchHints {
   /// If given, scores that are nearly right and much cheaper: the sphere is looked over by them, and
   /// exact scores are asked for only where they lead.
   ScoreBatch estimate{};
-  /// If given, better and dearer estimates, asked for where the others lead; unset: the others.
-  ScoreBatch better_estimate{};
   /// Directions to look at whatever their neighbours say, such as landmark_directions().
   std::vector<Vec3> landmarks{};
   /// Directions to score whatever the estimate says, such as brink_directions().
