@@ -27,8 +27,8 @@ FoundViews search_under_prior(const ScoreBatch& score, double total, const ViewP
   const ScoreBatch weighted = [&](const std::vector<Vec3>& directions) {
     return weigh(pure.scores(directions, 0), directions);
   };
-  SearchHints plain{.landmarks = hints.landmarks};
-  SearchHints weighty = plain;
+  SearchHints plain = hints;
+  SearchHints weighty = hints;
   if (hints.estimate) {
     plain.estimate = [&](const std::vector<Vec3>& directions) {
       return estimated.scores(directions, 0);

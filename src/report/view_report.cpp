@@ -12,7 +12,7 @@
 #include "report/prior_search.h"
 #include "report/twins.h"
 #include "report/vertex_share.h"
-#include "view/proxy_scorer.h"
+#include "view/sketch_scorer.h"
 
 namespace vantage {
 namespace {
@@ -112,6 +112,11 @@ DenseGap gap_to_dense(const FoundViews& found, const ScoreBatch& score, double t
   return gap;
 }
 
+// A model of fewer vertices is searched more thoroughly: its scores are rough, and one costs less
+// than a millisecond. One of very few is looked over by its scores. [ours, docs/search.md]
+constexpr std::size_t kCheapBelow = 6000;
+constexpr std::size_t kEstimatedFrom = 1000;
+
 }  // namespace
 
 ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& options,
@@ -138,20 +143,23 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
   const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
     return scorer.score_all(directions, batch_run);
   };
-  std::optional<ProxyScorer> proxy;
   SearchHints hints;
+  std::optional<SketchScorer> sketch;
   if (options.search.strategy == SearchStrategy::Global) {
-    proxy = ProxyScorer::make(shape.surface, shape.sides, vertex_shares(shape, options.weight),
-                              report.camera, batch_run);
-  }
-  if (proxy) {
-    hints.estimate = [&](const std::vector<Vec3>& directions) {
-      return proxy->score_all(directions, batch_run);
-    };
+    hints.landmarks = landmark_directions(shape.surface);
+    hints.brinks = brink_directions(shape.surface, report.camera);
+    const std::size_t size = shape.surface.positions.size();
+    hints.scores_are_cheap = size < kCheapBelow;
+    if (size >= (faces ? kCheapBelow : kEstimatedFrom)) {
+      sketch.emplace(shape.surface, shape.sides, vertex_shares(shape, options.weight),
+                     report.camera);
+      hints.estimate = [&](const std::vector<Vec3>& directions) {
+        return sketch->score_all(directions, batch_run);
+      };
+    }
   }
   const double search_share = options.view_set || options.certify ? 0.25 : 1.0;  // of the bar
   const UprightFrame frame = upright_frame(up_vector(up));
-  hints.landmarks = landmark_directions(shape.surface);
   FoundViews found = search_under_prior(score, report.total, options.prior, frame, options.search,
                                         run.part(0.0, search_share), hints);
   if (options.certify) {

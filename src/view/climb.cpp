@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "vantage/mesh/topology.h"
 
@@ -45,30 +44,8 @@ std::vector<Candidate> local_peaks(Goal goal, const DirectionSet& set,
   return result;
 }
 
-namespace {
-
-/// The directions of a ring that are worth scoring: all, or those that the guide likes best.
-std::vector<Vec3> worth_scoring(std::vector<Vec3> ring, Goal goal, Evaluator* guide, int level) {
-  if (guide == nullptr) {
-    return ring;
-  }
-  const std::vector<double> estimates = guide->scores(ring, level);
-  std::vector<std::size_t> order(ring.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return is_better(goal, estimates[a], estimates[b]);
-  });
-  std::vector<Vec3> chosen;
-  for (std::size_t k = 0; k < std::min(kGuided, ring.size()); ++k) {
-    chosen.push_back(ring[order[k]]);
-  }
-  return chosen;
-}
-
-}  // namespace
-
 void climb(std::vector<Candidate>& candidates, Goal goal, const RingSteps& steps,
-           Evaluator& evaluator, int level, const RunContext& run, Evaluator* guide) {
+           Evaluator& evaluator, int level, const RunContext& run) {
   std::vector<double> width(candidates.size(), steps.first_rad);
   double done = 0.0;
   for (;; ++level) {
@@ -77,8 +54,7 @@ void climb(std::vector<Candidate>& candidates, Goal goal, const RingSteps& steps
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (width[i] >= steps.last_rad) {
         active.push_back(i);
-        const std::vector<Vec3> ring =
-            worth_scoring(ring_around(candidates[i].direction, width[i]), goal, guide, level);
+        const std::vector<Vec3> ring = ring_around(candidates[i].direction, width[i]);
         batch.insert(batch.end(), ring.begin(), ring.end());
       }
     }

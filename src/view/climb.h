@@ -42,13 +42,8 @@ struct RingSteps {
 /// Moves each candidate to the best of a ring of six around it if that is strictly better, and
 /// halves the ring if not, until the ring would be narrower than the last. All candidates advance
 /// together, in one batch a round; rounds are recorded as levels from `level` on.
-/// \param guide if given, estimates of the scores: only the kGuided of each ring that it likes best
-/// are scored.
 void climb(std::vector<Candidate>& candidates, Goal goal, const RingSteps& steps,
-           Evaluator& evaluator, int level, const RunContext& run, Evaluator* guide = nullptr);
-
-/// Of a ring of six, so many are scored where a guide ranks them. [ours]
-inline constexpr std::size_t kGuided = 3;
+           Evaluator& evaluator, int level, const RunContext& run);
 
 /// The best of the candidates; the first of equals. \pre not empty.
 Candidate winner_of(Goal goal, const std::vector<Candidate>& candidates);

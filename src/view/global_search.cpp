@@ -2,173 +2,296 @@
 #include "view/global_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "vantage/spatial/directions.h"
 
+#include "view/error_model.h"
 #include "view/sphere_angles.h"
 
 namespace vantage {
 namespace {
 
-/// How much is looked at on the way. All ours, chosen on the models of docs/search.md: the fewest
-/// evaluations that found what a dense search finds.
-struct Effort {
-  std::size_t peaks = 0;      ///< At most so many peaks of the first look are climbed.
-  std::size_t landmarks = 0;  ///< So many of the best landmarks are climbed as well.
-  std::size_t first = 0;      ///< Places that are scored exactly whatever their estimate.
-  std::size_t finalists = 0;  ///< Places around which exact scores are looked for.
-  std::size_t looks = 0;      ///< Directions around each that are scored exactly.
+// How much is looked at on the way. All ours, chosen on the models that docs/search.md names.
+constexpr int kDenseLevel = 5;           // 10 242 directions, 2° apart, of which are looked at …
+constexpr std::size_t kFirstLook = 642;  // … the first, 8° apart, which are level 3, …
+constexpr std::size_t kCloserLook = 2562;  // … of the next, halfway, those next to a promising one,
+constexpr double kHalfwayRad = 5.8 * kRadPerDeg;  // which reaches the six around it,
+constexpr double kHillRad = 4.0 * kRadPerDeg;     // and all as near to the top of a hill as this.
+constexpr std::size_t kHills = 3;                 // so many at a time
+constexpr std::size_t kFirst = 12;                // scored before anything is learnt, …
+constexpr double kFirstApartRad = 8.0 * kRadPerDeg;  // … far from each other
+constexpr std::size_t kBatch = 6;                    // scored at a time from then on
+constexpr double kApartRad = 1.0 * kRadPerDeg;
+constexpr double kBoldness = 0.5;  // doubts added to an expected score to rank directions
+constexpr double kGivenUp = 5.0;   // doubts by which all must lie below the best to end it
+constexpr std::size_t kSureMarks = 4;
+constexpr std::size_t kLikedMarks = 8;
+constexpr double kSameHillRad = 2.0 * kRadPerDeg;
+
+/// Hills are rough: the best few places climb by rings, and the fewer are left the finer.
+struct Climb {
+  std::size_t places;
+  double ring_rad;
 };
 
-// Estimates cost little and mislead: many peaks, and each place looked at twice.
-constexpr Effort kByEstimates{
-    .peaks = 30, .landmarks = 8, .first = 12, .finalists = 3, .looks = 16};
-constexpr Effort kByScores{.peaks = 6, .landmarks = 4, .first = 3, .finalists = 2, .looks = 20};
+constexpr std::array<Climb, 4> kClimbs{{{3, 1.0 * kRadPerDeg},
+                                        {2, 0.5 * kRadPerDeg},
+                                        {1, 0.25 * kRadPerDeg},
+                                        {1, 0.125 * kRadPerDeg}}};
 
-constexpr int kFirstLevel = 4;                    // of the first look: 2 562 directions, 4° apart
-constexpr int kDenseLevel = 5;                    // of the look around: 2° apart
-constexpr double kAroundRad = 12.0 * kRadPerDeg;  // how far that look goes
-constexpr double kSameRad = 1.5 * kRadPerDeg;     // peaks nearer than this have climbed to the same
-// The first ring is half the spacing of the first look, so that it reaches between neighbours.
-constexpr RingSteps kFirstClimb{2.0 * kRadPerDeg, 1.0 * kRadPerDeg};
-constexpr RingSteps kFinal{1.0 * kRadPerDeg, 0.5 * kRadPerDeg};
-constexpr RingSteps kWinner{0.25 * kRadPerDeg, 0.01 * kRadPerDeg};
-
-/// Which end is looked for, how hard, and by what.
-struct Quest {
-  Evaluator& exact;
-  Evaluator& estimates;
-  Goal goal;
-  Effort effort;
-};
-
-void sort_best_first(std::vector<Candidate>& candidates, Goal goal) {
-  std::stable_sort(
-      candidates.begin(), candidates.end(),
-      [&](const Candidate& a, const Candidate& b) { return is_better(goal, a.score, b.score); });
+bool best_first(const Candidate& a, const Candidate& b) {
+  return a.score > b.score;
 }
 
-/// The best few of the directions, best first.
-std::vector<Candidate> best_few(const std::vector<Vec3>& directions, Evaluator& evaluator,
-                                std::size_t count, Goal goal) {
-  const std::vector<double> scores = evaluator.scores(directions, 1);
-  std::vector<Candidate> ranked;
-  for (std::size_t i = 0; i < directions.size(); ++i) {
-    ranked.push_back({directions[i], scores[i]});
-  }
-  sort_best_first(ranked, goal);
-  ranked.resize(std::min(ranked.size(), count));
-  return ranked;
-}
-
-/// Peaks and landmarks climbed by the estimate, each place once, best estimate first.
-std::vector<Candidate> climbed_peaks(const Quest& quest, const std::vector<Vec3>& landmarks,
-                                     const RunContext& run) {
-  const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, kFirstLevel);
-  const std::vector<double> scores = quest.estimates.scores(set.directions, 0, run.part(0.0, 0.6));
-  std::vector<Candidate> peaks = local_peaks(quest.goal, set, scores, quest.effort.peaks);
-  for (const Candidate& landmark :
-       best_few(landmarks, quest.estimates, quest.effort.landmarks, quest.goal)) {
-    peaks.push_back(landmark);
-  }
-  climb(peaks, quest.goal, kFirstClimb, quest.estimates, 1, run.part(0.6, 1.0));
-  sort_best_first(peaks, quest.goal);
-  std::vector<Candidate> places;
-  for (const Candidate& peak : peaks) {
-    const bool known = std::any_of(places.begin(), places.end(), [&](const Candidate& place) {
-      return angle_between(place.direction, peak.direction) < kSameRad;
+/// The best few, best first, no two nearer to each other than an angle.
+std::vector<Candidate> best_apart(std::vector<Candidate> candidates, std::size_t count,
+                                  double apart_rad) {
+  std::stable_sort(candidates.begin(), candidates.end(), best_first);
+  std::vector<Candidate> chosen;
+  const double limit = std::cos(apart_rad);
+  for (const Candidate& one : candidates) {
+    const bool taken = std::any_of(chosen.begin(), chosen.end(), [&](const Candidate& other) {
+      return other.direction.dot(one.direction) > limit;
     });
-    if (!known) {
-      places.push_back(peak);
+    if (!taken && chosen.size() < count) {
+      chosen.push_back(one);
     }
   }
-  return places;
+  return chosen;
 }
 
-/// How exact scores differ from estimates where both are known.
-struct Calibration {
-  double shift = 0.0;  ///< Mean of score − estimate: a coarser copy sees a little more.
-  double error = 0.0;  ///< Largest difference that is left then.
+/// Looks for the largest value of sign · score: estimates choose what is scored, and what the scores
+/// teach about them decides what is scored next.
+class Hunt {
+ public:
+  Hunt(const Guides& guides, Goal goal)
+      : guides_(guides),
+        sign_(goal == Goal::Best ? 1.0 : -1.0),
+        listed_(dense_.directions.size(), 0) {}
+
+  /// Estimates of the whole sphere, closer where they promise something.
+  void look_over(const RunContext& run);
+
+  /// Scores the first landmarks and the best of the others, and directions that no estimate is
+  /// trusted with.
+  void score_marks(const std::vector<Vec3>& landmarks, const std::vector<Vec3>& brinks);
+
+  /// Scores directions until none is left that could be better, or enough are scored.
+  void settle(const RunContext& run);
+
+  /// The best of what was scored, as they were scored, each hill once.
+  [[nodiscard]] std::vector<Candidate> best_known() const;
+
+ private:
+  void list(const std::vector<std::uint32_t>& dense, const RunContext& run);
+  void open(std::vector<Candidate> places);
+  void score(const std::vector<std::size_t>& chosen);
+  [[nodiscard]] std::vector<std::uint32_t> near(const Vec3& centre, double reach_rad,
+                                                std::size_t count) const;
+  [[nodiscard]] std::vector<std::size_t> ranked(double boldness) const;
+  [[nodiscard]] std::vector<std::size_t> pick(std::size_t count, double apart_rad,
+                                              double boldness) const;
+  [[nodiscard]] std::vector<Candidate> expectations() const;
+  [[nodiscard]] bool is_hopeless() const;
+
+  const Guides& guides_;
+  double sign_;
+  DirectionSet dense_ = direction_set(ViewSphereBase::Icosahedron, kDenseLevel);
+  std::vector<std::uint8_t> listed_;  // of the dense directions: in the model
+  ErrorModel model_{};
+  std::vector<Candidate> known_{};  // scored exactly, as sign · score
 };
 
-Calibration calibrate(const std::vector<Candidate>& places, const std::vector<Candidate>& scored) {
-  Calibration result;
-  for (std::size_t i = 0; i < scored.size(); ++i) {
-    result.shift += (scored[i].score - places[i].score) / static_cast<double>(scored.size());
+/// The dense directions near one, of the first `count`.
+std::vector<std::uint32_t> Hunt::near(const Vec3& centre, double reach_rad,
+                                      std::size_t count) const {
+  std::vector<std::uint32_t> found;
+  const double limit = std::cos(reach_rad);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (dense_.directions[i].dot(centre) > limit) {
+      found.push_back(i);
+    }
   }
-  for (std::size_t i = 0; i < scored.size(); ++i) {
-    const double left = scored[i].score - places[i].score - result.shift;
-    result.error = std::max(result.error, std::abs(left));
+  return found;
+}
+
+/// Has directions take part, by their estimates.
+void Hunt::list(const std::vector<std::uint32_t>& dense, const RunContext& run) {
+  std::vector<Vec3> fresh;
+  for (const std::uint32_t i : dense) {
+    if (listed_[i] == 0) {
+      listed_[i] = 1;
+      fresh.push_back(dense_.directions[i]);
+    }
+  }
+  const std::vector<double> values = guides_.estimates.scores(fresh, 0, run);
+  for (std::size_t i = 0; i < fresh.size(); ++i) {
+    model_.add(fresh[i], sign_ * values[i]);
+  }
+}
+
+void Hunt::look_over(const RunContext& run) {
+  std::vector<std::uint32_t> first(kFirstLook);
+  std::iota(first.begin(), first.end(), 0U);
+  list(first, run);
+  const std::vector<std::size_t> best = ranked(0.0);
+  std::vector<std::uint32_t> halfway;
+  for (std::size_t k = 0; k < guides_.effort.promising; ++k) {
+    const std::vector<std::uint32_t> around =
+        near(model_.direction(best[k]), kHalfwayRad, kCloserLook);
+    halfway.insert(halfway.end(), around.begin(), around.end());
+  }
+  list(halfway, {});
+}
+
+void Hunt::score(const std::vector<std::size_t>& chosen) {
+  std::vector<Vec3> directions;
+  directions.reserve(chosen.size());
+  for (const std::size_t c : chosen) {
+    directions.push_back(model_.direction(c));
+  }
+  const std::vector<double> values = guides_.exact.scores(directions, 0);
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    known_.push_back({directions[i], sign_ * values[i]});
+    model_.learn(chosen[i], sign_ * values[i]);
+  }
+}
+
+void Hunt::score_marks(const std::vector<Vec3>& landmarks, const std::vector<Vec3>& brinks) {
+  const auto by_estimate = [&](const std::vector<Vec3>& directions) {
+    const std::vector<double> values = guides_.estimates.scores(directions, 0);
+    std::vector<Candidate> marks;
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      marks.push_back({directions[i], sign_ * values[i]});
+    }
+    return marks;
+  };
+  std::vector<Candidate> marks = by_estimate(landmarks);
+  const std::size_t sure = std::min(kSureMarks, marks.size());
+  std::stable_sort(marks.begin() + static_cast<std::ptrdiff_t>(sure), marks.end(), best_first);
+  marks.resize(std::min(marks.size(), sure + kLikedMarks));
+  std::vector<std::size_t> chosen;
+  for (const Candidate& mark : marks) {
+    chosen.push_back(model_.add(mark.direction, mark.score));
+  }
+  score(chosen);
+  open(known_);
+  // What estimates are wrong by there says nothing of other directions.
+  std::vector<Candidate> edges = by_estimate(brinks);
+  std::stable_sort(edges.begin(), edges.end(), best_first);
+  std::vector<Vec3> directions;
+  for (std::size_t i = 0; i < std::min(edges.size(), guides_.effort.brinks); ++i) {
+    directions.push_back(edges[i].direction);
+  }
+  const std::vector<double> values = guides_.exact.scores(directions, 0);
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    known_.push_back({directions[i], sign_ * values[i]});
+  }
+}
+
+/// All candidates by what is expected of them, and some of the doubt, best first.
+std::vector<std::size_t> Hunt::ranked(double boldness) const {
+  std::vector<double> prospects;
+  prospects.reserve(model_.size());
+  for (std::size_t c = 0; c < model_.size(); ++c) {
+    prospects.push_back(model_.expected(c) + boldness * model_.doubt(c));
+  }
+  std::vector<std::size_t> order(model_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return prospects[a] > prospects[b]; });
+  return order;
+}
+
+/// The unknown candidates of the best prospects, best first, no two nearer than `apart_rad`.
+std::vector<std::size_t> Hunt::pick(std::size_t count, double apart_rad, double boldness) const {
+  std::vector<std::size_t> chosen;
+  const double limit = std::cos(apart_rad);
+  for (const std::size_t c : ranked(boldness)) {
+    const bool taken =
+        model_.knows(c) || std::any_of(chosen.begin(), chosen.end(), [&](std::size_t other) {
+          return model_.direction(other).dot(model_.direction(c)) > limit;
+        });
+    if (!taken && chosen.size() < count) {
+      chosen.push_back(c);
+    }
+  }
+  return chosen;
+}
+
+/// Has all dense directions around the best few of some places take part.
+void Hunt::open(std::vector<Candidate> places) {
+  for (const Candidate& top : best_apart(std::move(places), kHills, kHillRad)) {
+    list(near(top.direction, kHillRad, dense_.directions.size()), {});
+  }
+}
+
+/// All candidates with what is expected of them.
+std::vector<Candidate> Hunt::expectations() const {
+  std::vector<Candidate> result;
+  for (std::size_t c = 0; c < model_.size(); ++c) {
+    result.push_back({model_.direction(c), model_.expected(c)});
   }
   return result;
 }
 
-/// Exact scores of the first places, and of all further ones that could still be better, given how
-/// wrong the estimates were where both are known. The best few, best first.
-/// \param places with their estimates, best first.
-std::vector<Candidate> finalists(const std::vector<Candidate>& places, const Quest& quest) {
-  std::vector<Candidate> scored;
-  const auto score_up_to = [&](std::size_t end) {
-    std::vector<Vec3> directions;
-    for (std::size_t i = scored.size(); i < end; ++i) {
-      directions.push_back(places[i].direction);
-    }
-    const std::vector<double> scores = quest.exact.scores(directions, 0);
-    for (std::size_t i = 0; i < scores.size(); ++i) {
-      scored.push_back({directions[i], scores[i]});
-    }
-  };
-  score_up_to(std::min(quest.effort.first, places.size()));
-  const Calibration seen = calibrate(places, scored);
-  const double margin = quest.goal == Goal::Best ? seen.error : -seen.error;
-  const double best = winner_of(quest.goal, scored).score;
-  std::size_t end = scored.size();
-  while (end < places.size() &&
-         is_better(quest.goal, places[end].score + seen.shift + margin, best)) {
-    ++end;
+std::vector<Candidate> Hunt::best_known() const {
+  std::vector<Candidate> tops = best_apart(known_, kClimbs.front().places, kSameHillRad);
+  for (Candidate& top : tops) {
+    top.score *= sign_;
   }
-  score_up_to(end);
-  sort_best_first(scored, quest.goal);
-  scored.resize(std::min(scored.size(), quest.effort.finalists));
-  return scored;
+  return tops;
 }
 
-/// The best of a place and of the directions around it that the estimate likes best: hills are
-/// rough, and a climb alone ends on the first bump.
-Candidate best_around(const Candidate& place, const DirectionSet& dense, const Quest& quest) {
-  std::vector<Vec3> near;
-  for (const Vec3& d : dense.directions) {
-    if (d.dot(place.direction) > std::cos(kAroundRad)) {
-      near.push_back(d);
+/// Whether what is not known is most unlikely to be better than the best known.
+bool Hunt::is_hopeless() const {
+  const double best = winner_of(Goal::Best, known_).score;
+  for (std::size_t c = 0; c < model_.size(); ++c) {
+    if (!model_.knows(c) && model_.expected(c) + kGivenUp * model_.doubt(c) > best) {
+      return false;
     }
   }
-  std::vector<Vec3> chosen;
-  for (const Candidate& liked : best_few(near, quest.estimates, quest.effort.looks, quest.goal)) {
-    chosen.push_back(liked.direction);
+  return true;
+}
+
+void Hunt::settle(const RunContext& run) {
+  score(pick(kFirst, kFirstApartRad, 0.0));
+  for (std::size_t scored = kFirst; scored < guides_.effort.places; scored += kBatch) {
+    run.advance("search", static_cast<double>(scored) / static_cast<double>(guides_.effort.places));
+    open(expectations());
+    if (is_hopeless()) {
+      return;
+    }
+    score(pick(kBatch, kApartRad, kBoldness));
   }
-  const std::vector<Candidate> found = best_few(chosen, quest.exact, 1, quest.goal);
-  return winner_of(quest.goal, {place, found.front()});
 }
 
 }  // namespace
 
-Candidate search_globally(Evaluator& exact, Evaluator& estimates, Goal goal,
-                          const std::vector<Vec3>& landmarks, const RunContext& run) {
-  const Quest quest{exact, estimates, goal, &exact == &estimates ? kByScores : kByEstimates};
-  std::vector<Candidate> best =
-      finalists(climbed_peaks(quest, landmarks, run.part(0.0, 0.5)), quest);
-  const DirectionSet dense = direction_set(ViewSphereBase::Icosahedron, kDenseLevel);
-  for (Candidate& finalist : best) {
-    run.advance("search", 0.6);
-    finalist = best_around(finalist, dense, quest);
+Candidate search_globally(const Guides& guides, Goal goal, const SearchHints& hints,
+                          const RunContext& run) {
+  Hunt hunt(guides, goal);
+  hunt.look_over(run.part(0.0, 0.3));
+  hunt.score_marks(hints.landmarks, hints.brinks);
+  hunt.settle(run.part(0.3, 0.7));
+  std::vector<Candidate> tops = hunt.best_known();
+  for (std::size_t k = 0; k < kClimbs.size(); ++k) {
+    const auto at = [&](std::size_t stage) {
+      return 0.7 + 0.3 * static_cast<double>(stage) / static_cast<double>(kClimbs.size());
+    };
+    tops.resize(std::min(tops.size(), kClimbs[k].places));
+    const RingSteps ring{kClimbs[k].ring_rad, kClimbs[k].ring_rad};
+    climb(tops, goal, ring, guides.exact, static_cast<int>(k) + 1, run.part(at(k), at(k + 1)));
+    std::stable_sort(tops.begin(), tops.end(), [&](const Candidate& one, const Candidate& other) {
+      return is_better(goal, one.score, other.score);
+    });
   }
-  climb(best, goal, kFinal, exact, 2, run.part(0.7, 0.9));
-  std::vector<Candidate> winner{winner_of(goal, best)};
-  climb(winner, goal, kWinner, exact, 2, run.part(0.9, 1.0), &estimates);
-  return winner.front();
+  return tops.front();
 }
 
 }  // namespace vantage

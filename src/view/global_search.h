@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+
 #include "vantage/view/search.h"
 
 #include "view/climb.h"
@@ -8,14 +10,22 @@
 
 namespace vantage {
 
-/// The global search: the sphere is looked over by `estimates`, its peaks are climbed by them, and
-/// exact scores decide between the places they lead to, look around the best of these and finish
-/// the climb. Where the estimates are not the scores themselves, a peak is passed over only if its
-/// estimate lies further below the best exact score than estimates have been seen to be wrong.
-/// docs/search.md has the numbers.
-/// \param exact scores. \param estimates cheaper ones of the same objective, or `exact` itself.
-/// \param landmarks directions to look at whatever their neighbours say. \throw Cancelled
-Candidate search_globally(Evaluator& exact, Evaluator& estimates, Goal goal,
-                          const std::vector<Vec3>& landmarks, const RunContext& run);
+/// How much the global search looks at. [ours, docs/search.md]
+struct Effort {
+  std::size_t promising;  ///< Directions of the first look around which it looks closer.
+  std::size_t places;     ///< About so many are scored before the climb.
+  std::size_t brinks;     ///< So many of the best brinks are scored.
+};
+
+/// What the global search asks.
+struct Guides {
+  Evaluator& estimates;  ///< Look over the sphere; may be the exact scores.
+  Evaluator& exact;      ///< Decide.
+  Effort effort;
+};
+
+/// The global search: docs/search.md has the steps and the numbers. \throw Cancelled
+Candidate search_globally(const Guides& guides, Goal goal, const SearchHints& hints,
+                          const RunContext& run);
 
 }  // namespace vantage

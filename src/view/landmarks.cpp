@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include <Eigen/Eigenvalues>
@@ -23,6 +24,13 @@ constexpr double kSameFlatRad = 2.0 * kRadPerDeg;
 constexpr double kLeastShare = 0.02;
 constexpr std::size_t kMostFlats = 12;
 constexpr double kSameRad = 0.1 * kRadPerDeg;
+// Of brinks: how many of the largest flat parts are looked at, whose walls stand across them to
+// this cosine; how far before and behind a wall's plane, as a sine (0.6°); and how far aside of
+// the front's normal it may lie, as a sine.
+constexpr std::size_t kMostFronts = 3;
+constexpr double kAcross = 0.2;
+constexpr double kBrink = 0.01;
+constexpr double kMostAside = 0.9;
 
 /// Area vectors of the faces whose normals fall in one cell; largest areas first.
 std::vector<Vec3> area_vectors_by_normal(const TriMesh& surface, double area) {
@@ -102,7 +110,64 @@ std::vector<Vec3> principal_axes(const TriMesh& surface, const std::vector<doubl
   return axes;
 }
 
+/// How far the faces of about one normal lie along it at most.
+double farthest_along(const TriMesh& surface, const Vec3& normal) {
+  double farthest = -std::numeric_limits<double>::infinity();
+  const double least = std::cos(kSameFlatRad);
+  for (const Triangle& t : surface.triangles) {
+    const Vec3 vector = area_vector(surface, t);
+    if (vector.dot(normal) > least * vector.norm()) {
+      for (const std::uint32_t v : t) {
+        farthest = std::max(farthest, surface.positions[v].dot(normal));
+      }
+    }
+  }
+  return farthest;
+}
+
 }  // namespace
+
+std::vector<Vec3> brink_directions(const TriMesh& surface, const ScoringCamera& camera) {
+  double area = 0.0;
+  for (const double a : face_areas(surface)) {
+    area += a;
+  }
+  if (!(area > 0.0) || !std::isfinite(area)) {
+    return {};
+  }
+  std::vector<Vec3> walls;
+  for (const Vec3& flat : flat_normals(surface, area)) {
+    walls.push_back(flat.normalized());
+  }
+  std::vector<Vec3> fronts;
+  for (const Vec3& wall : walls) {
+    const bool known = std::any_of(fronts.begin(), fronts.end(), [&](const Vec3& front) {
+      return std::abs(front.dot(wall)) > std::cos(kSameFlatRad);
+    });
+    if (!known && fronts.size() < 2 * kMostFronts) {
+      fronts.push_back(wall);
+      fronts.emplace_back(-wall);
+    }
+  }
+  std::vector<Vec3> directions;
+  for (const Vec3& wall : walls) {
+    // In perspective the eye passes the wall's plane aside of the front's normal.
+    const double aside =
+        camera.projection == Projection::Perspective
+            ? (farthest_along(surface, wall) - wall.dot(camera.sphere.centre)) / camera.distance()
+            : 0.0;
+    for (const Vec3& front : fronts) {
+      if (std::abs(front.dot(wall)) > kAcross || !(std::abs(aside) < kMostAside)) {
+        continue;
+      }
+      const Vec3 along = (front - front.dot(wall) * wall).normalized();
+      for (const double by : {aside + kBrink, aside - kBrink}) {
+        directions.push_back((by * wall + std::sqrt(1.0 - by * by) * along).normalized());
+      }
+    }
+  }
+  return directions;
+}
 
 std::vector<Vec3> landmark_directions(const TriMesh& surface) {
   const std::vector<double> areas = face_areas(surface);

@@ -27,6 +27,11 @@ constexpr double kFinestRingRad = 0.001 * kRadPerDeg;
 constexpr int kDenseLevel = 5;
 constexpr std::size_t kDenseSeeds = 3;
 constexpr RingSteps kDenseSteps{4.0 * kRadPerDeg, 0.01 * kRadPerDeg};
+// Global search: usually; where scores are cheap; and where there is nothing cheaper than scores,
+// so that the first look is at 2 562 directions. [ours, docs/search.md]
+constexpr Effort kUsual{.promising = 30, .places = 36, .brinks = 12};
+constexpr Effort kThorough{.promising = 60, .places = 96, .brinks = 150};
+constexpr Effort kByScores{.promising = 642, .places = 96, .brinks = 150};
 // Share of the progress bar that the start set takes.
 constexpr double kStartShare = 0.7;
 
@@ -140,17 +145,47 @@ void check_options(double total, const SearchOptions& options) {
   }
 }
 
-FoundView report(const Candidate& found, const Evaluator& exact, std::size_t begin,
-                 const Evaluator& estimates, std::size_t estimated) {
-  FoundView view;
-  view.direction = found.direction;
-  view.score = found.score;
-  view.trace.assign(exact.trace().begin() + static_cast<std::ptrdiff_t>(begin),
-                    exact.trace().end());
-  view.evaluations = view.trace.size();
-  view.estimates = estimates.trace().size() - estimated;
-  return view;
-}
+/// What a search asks, and the record of it.
+class Inquiry {
+ public:
+  Inquiry(const ScoreBatch& score, const SearchHints& hints)
+      : exact_(score),
+        estimates_(hints.estimate),
+        has_estimates_(static_cast<bool>(hints.estimate)),
+        is_thorough_(hints.scores_are_cheap) {}
+
+  Evaluator& exact() { return exact_; }
+
+  Guides guides() {
+    if (!has_estimates_) {
+      return {exact_, exact_, kByScores};
+    }
+    return {estimates_, exact_, is_thorough_ ? kThorough : kUsual};
+  }
+
+  /// Reports a view as found by all that was asked since the last report.
+  FoundView report(const Candidate& found) {
+    FoundView view;
+    view.direction = found.direction;
+    view.score = found.score;
+    view.trace.assign(exact_.trace().begin() + static_cast<std::ptrdiff_t>(reported_),
+                      exact_.trace().end());
+    view.evaluations = view.trace.size();
+    const std::size_t estimated = estimates_.trace().size();
+    view.estimates = estimated - estimates_reported_;
+    reported_ = exact_.trace().size();
+    estimates_reported_ = estimated;
+    return view;
+  }
+
+ private:
+  Evaluator exact_;
+  Evaluator estimates_;
+  bool has_estimates_;
+  bool is_thorough_;
+  std::size_t reported_ = 0;
+  std::size_t estimates_reported_ = 0;
+};
 
 /// Whether the global search has anything to look for.
 bool is_global(double total, const SearchOptions& options) {
@@ -163,46 +198,38 @@ FoundView search_view(const ScoreBatch& score, double total, Goal goal,
                       const SearchOptions& options, const RunContext& run,
                       const SearchHints& hints) {
   check_options(total, options);
-  Evaluator evaluator(score);
-  Evaluator estimates(hints.estimate);
+  Inquiry inquiry(score, hints);
   Candidate found;
   if (is_global(total, options)) {
-    found = search_globally(evaluator, hints.estimate ? estimates : evaluator, goal,
-                            hints.landmarks, run);
+    found = search_globally(inquiry.guides(), goal, hints, run);
   } else {
+    Evaluator& evaluator = inquiry.exact();
     const Start start = evaluate_start(evaluator, options, run.part(0.0, kStartShare));
     found = refine({evaluator, start, options, total, goal, run.part(kStartShare, 1.0)});
   }
   run.advance("search", 1.0);
-  return report(found, evaluator, 0, estimates, 0);
+  return inquiry.report(found);
 }
 
 FoundViews search_best_and_worst(const ScoreBatch& score, double total,
                                  const SearchOptions& options, const RunContext& run,
                                  const SearchHints& hints) {
   check_options(total, options);
-  Evaluator evaluator(score);
-  Evaluator estimates(hints.estimate);
+  Inquiry inquiry(score, hints);
   FoundViews views;
   if (is_global(total, options)) {
-    Evaluator& guide = hints.estimate ? estimates : evaluator;
-    const Candidate best =
-        search_globally(evaluator, guide, Goal::Best, hints.landmarks, run.part(0.0, 0.6));
-    views.best = report(best, evaluator, 0, estimates, 0);
-    const Candidate worst =
-        search_globally(evaluator, guide, Goal::Worst, hints.landmarks, run.part(0.6, 1.0));
-    views.worst = report(worst, evaluator, views.best.evaluations, estimates, views.best.estimates);
-    run.advance("search", 1.0);
-    return views;
+    const Guides guides = inquiry.guides();
+    views.best = inquiry.report(search_globally(guides, Goal::Best, hints, run.part(0.0, 0.6)));
+    views.worst = inquiry.report(search_globally(guides, Goal::Worst, hints, run.part(0.6, 1.0)));
+  } else {
+    Evaluator& evaluator = inquiry.exact();
+    const double middle = 0.5 * (1.0 + kStartShare);
+    const Start start = evaluate_start(evaluator, options, run.part(0.0, kStartShare));
+    views.best = inquiry.report(
+        refine({evaluator, start, options, total, Goal::Best, run.part(kStartShare, middle)}));
+    views.worst = inquiry.report(
+        refine({evaluator, start, options, total, Goal::Worst, run.part(middle, 1.0)}));
   }
-  const double middle = 0.5 * (1.0 + kStartShare);
-  const Start start = evaluate_start(evaluator, options, run.part(0.0, kStartShare));
-  const Candidate best =
-      refine({evaluator, start, options, total, Goal::Best, run.part(kStartShare, middle)});
-  views.best = report(best, evaluator, 0, estimates, 0);
-  const Candidate worst =
-      refine({evaluator, start, options, total, Goal::Worst, run.part(middle, 1.0)});
-  views.worst = report(worst, evaluator, views.best.evaluations, estimates, 0);
   run.advance("search", 1.0);
   return views;
 }

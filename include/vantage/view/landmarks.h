@@ -5,6 +5,7 @@
 
 #include "vantage/core/vec3.h"
 #include "vantage/mesh/tri_mesh.h"
+#include "vantage/view/scoring.h"
 
 /// \file
 /// Directions from which made things look special.
@@ -17,5 +18,10 @@ namespace vantage {
 /// \return unit vectors, at most 36, no two of them nearer than 0.1°, in an order that depends on
 /// the surface alone; none for a surface without area.
 std::vector<Vec3> landmark_directions(const TriMesh& surface);
+
+/// Directions just before and just behind the brinks where a wall comes into sight: the camera's eye
+/// faces a large flat part and passes the plane of another that stands across it. There many
+/// vertices come and go at once. Empty for surfaces without flat parts.
+std::vector<Vec3> brink_directions(const TriMesh& surface, const ScoringCamera& camera);
 
 }  // namespace vantage

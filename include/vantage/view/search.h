@@ -86,6 +86,10 @@ struct SearchHints {
   ScoreBatch estimate{};
   /// Directions to look at whatever their neighbours say, such as landmark_directions().
   std::vector<Vec3> landmarks{};
+  /// Directions to score whatever the estimate says, such as brink_directions().
+  std::vector<Vec3> brinks{};
+  /// Whether scores cost so little that the search may take many more of them, as of small models.
+  bool scores_are_cheap = false;
 };
 
 /// Searches the sphere. Ties go to the lowest index of the set, then to what was found first.

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "vantage/core/vec3.h"
+#include "vantage/mesh/tri_mesh.h"
+#include "vantage/view/scoring.h"
+
+#include "view/sketch_scorer.h"
+
+/// \file
+/// What a sketch of a model is made of. Coordinates are those of the unit sphere that the scoring
+/// camera's sphere becomes.
+
+namespace vantage {
+
+/// Coordinates of points, one array an axis, so that four at a time can be worked on.
+struct SketchCoordinates {
+  std::vector<float> x{}, y{}, z{};
+};
+
+/// Points that stand for vertices.
+struct SketchPoints {
+  /// Normals of the faces at a point are gathered in so many cones; most vertices have six faces.
+  static constexpr std::size_t kCones = 8;
+
+  /// Axes of cones and how far the eye must rise over the plane across them to see into them.
+  struct Cones {
+    SketchCoordinates axis{};
+    std::vector<float> offset{};
+  };
+
+  std::vector<float> weight{};   ///< What a point adds to the score, one entry a point.
+  SketchCoordinates position{};  ///< Padded to whole fours, like the cones.
+  std::array<Cones, kCones> cones{};
+};
+
+/// A coarse surface that hides them.
+struct SketchSurface {
+  SketchCoordinates corners{};
+  std::vector<Triangle> faces{};
+  std::vector<std::uint8_t> two_sided{};  ///< One per face.
+};
+
+/// Takes at most `count` vertices, spread over the surface in proportion to their significance.
+SketchPoints sketch_points(const TriMesh& surface, const std::vector<FaceSides>& sides,
+                           std::span<const double> significance, const ScoringCamera& camera,
+                           std::size_t count);
+
+/// The surface, or one of about `count` faces if it has more.
+SketchSurface sketch_surface(const TriMesh& surface, const std::vector<FaceSides>& sides,
+                             const ScoringCamera& camera, std::size_t count);
+
+}  // namespace vantage

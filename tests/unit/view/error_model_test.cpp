@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "view/error_model.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace vantage {
+namespace {
+
+Vec3 turned(double degrees) {
+  const double angle = degrees * std::acos(-1.0) / 180.0;
+  return {std::cos(angle), std::sin(angle), 0.0};
+}
+
+TEST(ErrorModel, TakesAnEstimateForTheScoreBeforeItHasLearnt) {
+  ErrorModel model;
+  const std::size_t c = model.add(Vec3::UnitX(), 3.0);
+  EXPECT_EQ(model.expected(c), 3.0);
+  EXPECT_EQ(model.doubt(c), 0.0);
+  EXPECT_FALSE(model.knows(c));
+}
+
+TEST(ErrorModel, KnowsWhatItWasTold) {
+  ErrorModel model;
+  const std::size_t c = model.add(Vec3::UnitX(), 3.0);
+  model.learn(c, 5.0);
+  EXPECT_TRUE(model.knows(c));
+  EXPECT_EQ(model.expected(c), 5.0);
+  EXPECT_EQ(model.doubt(c), 0.0);
+}
+
+TEST(ErrorModel, CarriesAnErrorThatIsTheSameEverywhereToTheFarSide) {
+  ErrorModel model;
+  const std::size_t far = model.add(-Vec3::UnitX(), 1.0);
+  for (int k = 0; k < 4; ++k) {
+    model.learn(model.add(turned(20.0 * k), 3.0), 5.0);
+  }
+  // Its prior variance is 25 against 1.35 of the rest: at least 25 / 26.35 of it is carried over.
+  EXPECT_NEAR(model.expected(far), 3.0, 2.0 * (1.0 - 25.0 / 26.35));
+}
+
+TEST(ErrorModel, CorrectsNeighboursMoreThanStrangers) {
+  ErrorModel model;
+  const std::size_t near = model.add(turned(3.0), 0.0);
+  const std::size_t far = model.add(turned(90.0), 0.0);
+  model.learn(model.add(turned(180.0), 0.0), 0.0);
+  model.learn(model.add(turned(0.0), 0.0), 1.0);
+  EXPECT_GT(model.expected(near), model.expected(far) + 0.1);
+  EXPECT_LT(model.doubt(near), model.doubt(far));
+}
+
+TEST(ErrorModel, GivesOneAnswerWhateverTheOrderOfLessonsAndCandidates) {
+  const auto expected_after = [](bool candidate_first, bool reversed) {
+    ErrorModel model;
+    std::size_t asked = candidate_first ? model.add(turned(8.0), 0.5) : 0;
+    const std::size_t a = model.add(turned(0.0), 1.0);
+    const std::size_t b = model.add(turned(15.0), 2.0);
+    model.learn(reversed ? b : a, reversed ? 2.2 : 1.7);
+    model.learn(reversed ? a : b, reversed ? 1.7 : 2.2);
+    if (!candidate_first) {
+      asked = model.add(turned(8.0), 0.5);
+    }
+    return model.expected(asked);
+  };
+  const double value = expected_after(true, false);
+  EXPECT_NEAR(expected_after(false, false), value, 1e-12);
+  EXPECT_NEAR(expected_after(true, true), value, 1e-12);
+}
+
+}  // namespace
+}  // namespace vantage
