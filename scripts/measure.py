@@ -107,9 +107,7 @@ def global_table(program, models):
                 return seconds, json.loads(said)
             dense = once(kept, pathlib.Path(model).name, lambda: search("dense")[1])
             ways = [("global",), *(("exhaustive", "--subdivisions", n) for n in ("1", "3"))]
-            rounds = [[search(*way) for way in ways] for _ in range(2)]
-            found, few, many = (result for _, result in rounds[0])
-            t_found, t_few, t_many = (min(seconds for seconds, _ in runs) for runs in zip(*rounds))
+            (t_found, found), (t_few, few), (t_many, many) = (search(*way) for way in ways)
             few, many = (r["search"]["evaluations"] for r in (few, many))
             score_seconds = (t_many - t_few) / (many - few)
             seconds = t_found - (t_few - score_seconds * few)

@@ -115,7 +115,7 @@ DenseGap gap_to_dense(const FoundViews& found, const ScoreBatch& score, double t
 // A model of fewer vertices is searched more thoroughly: its scores are rough, and one costs less
 // than a millisecond. One of very few is looked over by its scores. [ours, docs/search.md]
 constexpr std::size_t kCheapBelow = 6000;
-constexpr std::size_t kEstimatedFrom = 1000;
+constexpr std::size_t kEstimatedFrom = 500;
 
 }  // namespace
 

@@ -176,6 +176,7 @@ void Hunt::score_marks(const std::vector<Vec3>& landmarks, const std::vector<Vec
   std::stable_sort(marks.begin() + static_cast<std::ptrdiff_t>(sure), marks.end(), best_first);
   marks.resize(std::min(marks.size(), sure + kLikedMarks));
   std::vector<std::size_t> chosen;
+  chosen.reserve(marks.size());
   for (const Candidate& mark : marks) {
     chosen.push_back(model_.add(mark.direction, mark.score));
   }
@@ -285,7 +286,9 @@ Candidate search_globally(const Guides& guides, Goal goal, const SearchHints& hi
       return 0.7 + 0.3 * static_cast<double>(stage) / static_cast<double>(kClimbs.size());
     };
     tops.resize(std::min(tops.size(), kClimbs[k].places));
-    const RingSteps ring{kClimbs[k].ring_rad, kClimbs[k].ring_rad};
+    const bool is_last = k + 1 == kClimbs.size();
+    const RingSteps ring{kClimbs[k].ring_rad,
+                         is_last ? guides.effort.finest_rad : kClimbs[k].ring_rad};
     climb(tops, goal, ring, guides.exact, static_cast<int>(k) + 1, run.part(at(k), at(k + 1)));
     std::stable_sort(tops.begin(), tops.end(), [&](const Candidate& one, const Candidate& other) {
       return is_better(goal, one.score, other.score);

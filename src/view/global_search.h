@@ -15,6 +15,7 @@ struct Effort {
   std::size_t promising;  ///< Directions of the first look around which it looks closer.
   std::size_t places;     ///< About so many are scored before the climb.
   std::size_t brinks;     ///< So many of the best brinks are scored.
+  double finest_rad;      ///< The last ring is not narrower; at most 0.125°.
 };
 
 /// What the global search asks.
