@@ -164,7 +164,8 @@ void Sketch::draw_faces(const Frame& frame) {
 
 /// Draws a face whose corners turn counter-clockwise.
 void Sketch::draw_face(std::uint32_t face, const Spot& a, const Spot& b, const Spot& c) {
-  const auto cell_after = [](float at) { return static_cast<std::int32_t>(at + 0.5F); };
+  constexpr float kCentre = 0.5F;  // of a cell
+  const auto cell_after = [](float at) { return static_cast<std::int32_t>(at + kCentre); };
   const auto last = static_cast<std::int32_t>(cells_) - 1;
   // Cells whose middles may lie inside.
   const std::int32_t left = std::max(0, cell_after(std::min({a.x, b.x, c.x})));
