@@ -12,15 +12,18 @@ if [[ ${1:-} == --update ]]; then update=yes; shift; fi
 build=${1:-build/release}
 list=cmake/public_symbols.txt
 
-# Names that the public headers declare.
+# Functions and classes that the public headers declare: what only src/ knows may come and go.
+classes=$(grep -rhoE '\b(class|struct|namespace) [A-Za-z_][A-Za-z0-9_]*' include | cut -d' ' -f2 | sort -u)
 declared=$(grep -rhoE '\b[A-Za-z_][A-Za-z0-9_]*\s*\(' include | tr -d ' (' | sort -u)
 symbols() {
   nm -C --defined-only "$build"/libvantage.* 2>/dev/null | awk '$2 == "T"' | cut -d' ' -f3- |
     grep -E '^vantage::' | grep -vE '\(anonymous namespace\)|\{lambda|\[clone|\[abi' |
-    awk -v names="$declared" 'BEGIN { n = split(names, list, "\n"); for (i = 1; i <= n; ++i) known[list[i]] = 1 }
+    awk -v names="$declared" -v classes="$classes" 'BEGIN {
+        n = split(names, list, "\n"); for (i = 1; i <= n; ++i) known[list[i]] = 1
+        n = split(classes, list, "\n"); for (i = 1; i <= n; ++i) owner[list[i]] = 1 }
       { plain = $0; gsub(/<[^<>]*>/, "", plain); gsub(/<[^<>]*>/, "", plain); gsub(/<[^<>]*>/, "", plain)
         sub(/\(.*/, "", plain); n = split(plain, parts, "::"); name = parts[n]; sub(/^~/, "", name)
-        if (known[name]) print }' | LC_ALL=C sort -u
+        if (known[name] && owner[parts[n - 1]]) print }' | LC_ALL=C sort -u
 }
 if [[ -n $update ]]; then
   symbols >"$list"
