@@ -4,8 +4,8 @@ target_compile_options(vantage_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion
   -ffp-contract=off                       # a fused multiply-add would make bytes depend on the machine
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> # false alarm of gcc 12 at -O3 (GCC bug 105329)
-  # The same about strings put together, which precompiled headers bring out.
-  "$<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${VANTAGE_PRECOMPILE}>>:-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-array-bounds>"
+  # Quick builds: the same about strings put together; and in a united source the main file is not that of the class.
+  "$<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${VANTAGE_QUICK_BUILD}>>:-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-array-bounds;-Wno-subobject-linkage>"
   $<$<BOOL:${VANTAGE_WERROR}>:-Werror>)
 target_compile_definitions(vantage_options INTERFACE EIGEN_DONT_PARALLELIZE EIGEN_MPL2_ONLY)
 
