@@ -8,7 +8,7 @@ command -v patchelf >/dev/null || { echo "make_release.sh: install patchelf" >&2
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}
 export SOURCE_DATE_EPOCH
 build=build/dist
-cmake -G Ninja -B $build -DCMAKE_BUILD_TYPE=Release -DVANTAGE_BUILD_TESTS=OFF >/dev/null
+cmake -G Ninja -B $build -DCMAKE_BUILD_TYPE=Release -DVANTAGE_BUILD_TESTS=OFF -DVANTAGE_QUICK_BUILD=ON >/dev/null
 cmake --build $build
 (cd $build && cpack -G DEB >/dev/null)
 
