@@ -209,5 +209,14 @@ TEST(CoverBound, CountsDisjointViewsExactly) {
   EXPECT_EQ(bound.least_views(3.0), 3U);
 }
 
+TEST(CoverBound, AsksForNoViewWhereNothingIsWanted) {
+  VisibleSets sets(1, 1);
+  sets.set(0, std::vector<std::uint8_t>(1, 1));
+  const GreedyCover cover(sets, std::vector<double>(1, 1.0));
+  CoverBound bound;
+  bound.add_state(0.0, cover.gains());
+  EXPECT_EQ(bound.least_views(0.0), 0U);
+}
+
 }  // namespace
 }  // namespace vantage
