@@ -2,6 +2,7 @@
 #include "vantage/contraction/contraction.h"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -124,6 +125,17 @@ TEST(Contract, SurvivesNeedlesAndZeroAreaFaces) {
   const ContractionHistory history = contract(mesh);
   expect_finite(history);
   EXPECT_GE(history.level_count(), 1U);
+  EXPECT_LT(history.shrinkage.back(), 0.5);
+}
+
+TEST(Contract, SurvivesAVertexOfWhichEveryFaceHasNoArea) {
+  TriMesh mesh = test::sphere(2);
+  const auto [a, b, c] = mesh.triangles.front();
+  const auto middle = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.emplace_back(0.5 * (mesh.positions[a] + mesh.positions[b]));
+  mesh.triangles.push_back({a, b, middle});
+  const ContractionHistory history = contract(mesh);
+  expect_finite(history);
   EXPECT_LT(history.shrinkage.back(), 0.5);
 }
 
