@@ -51,7 +51,7 @@ inline constexpr double kTurningSteps = 256.0;
 
 /// Places a step at which turning is measured: a corner turns in one step or in two by chance, so that
 /// the mean over places is taken. Measures of all shapes tried are converged (docs/measures.md). [ours]
-inline constexpr int kTurningPhases = 8;
+inline constexpr int kTurningPhases = 16;
 
 /// Measures an outline. \param phases at least 1.
 OutlineMeasures measure_outline(const Outline& outline, int phases = kTurningPhases);
