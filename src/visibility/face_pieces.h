@@ -37,7 +37,7 @@ struct PieceNet {
   /// Parts a side of a piece that is looked at closely: so many where a surface has kFewFaces faces, and
   /// in the inverse proportion to the root of their number, as of many faces each weighs little. At
   /// least, at most. [ours: docs/visibility.md]
-  static constexpr double kCloser = 4.0, kLeastParts = 2.0, kMostParts = 8.0;
+  static constexpr double kCloser = 4.0, kLeastParts = 2.0, kMostParts = 5.0;
   static constexpr double kFewFaces = 1e4;
   /// Longest side of a plain face over the side wanted: 1 up to this number of faces, then as its root,
   /// at most. [ours: docs/visibility.md]

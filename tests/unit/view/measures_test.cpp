@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "vantage/core/error.h"
@@ -191,6 +192,16 @@ TEST(Measures, CountTheCurvatureOfACubesVertices) {
   // 19 of 26 vertices are seen: 7 corners of deficit π/2, 12 flat ones.
   const double p = 7.0 / 19.0;
   EXPECT_NEAR(cube.value("curvature-entropy", Vec3(1, 1.1, 1.2)),
+              -p * std::log2(p) - (1.0 - p) * std::log2(1.0 - p), 1e-12);
+}
+
+TEST(Measures, CountFlatVerticesAlikeWhateverRoundingMakesOfThem) {
+  const Vec3 axis = Vec3(1, 2, 3);
+  const Subject cube(test::moved(test::box(1, 1, 1, 6), 1.0, 0.7, axis, Vec3::Zero()));
+  // Three sides of 49 vertices share three rows of 7 and a corner: 127, of which 7 are corners.
+  const double p = 7.0 / 127.0;
+  const Vec3 towards = Eigen::AngleAxisd(0.7, axis.normalized()) * Vec3(1, 1.1, 1.2);
+  EXPECT_NEAR(cube.value("curvature-entropy", towards),
               -p * std::log2(p) - (1.0 - p) * std::log2(1.0 - p), 1e-12);
 }
 
