@@ -17,8 +17,8 @@ using Value = double (*)(const MeasuredModel&, const SightTable&);
 
 // Bins of Gaussian curvature over [−2π, 2π]. [Page 2003]
 constexpr std::size_t kCurvatureBins = 256;
-// Flat is on the border of two bins, and rounding must not choose between them: far more than rounding
-// of angles and far less than a bin, radians. [ours]
+// Flat is on the border of two bins, and rounding must not choose between them: far more than
+// rounding of angles and far less than a bin, radians. [ours]
 constexpr double kFlat = 1e-9;
 /// The square around the disc over the disc: the picture that `plemenos` divides by.
 constexpr double kSquareOverDisc = 4.0 / std::numbers::pi;

@@ -166,7 +166,8 @@ void SliverSearch::add_crossings(std::size_t edge, const Viewpoint& eye, const P
   }
 }
 
-/// Adds the middle of each part of an edge, if a wanted face is in view beside it where it is in view.
+/// Adds the middle of each part of an edge, if a wanted face is in view beside it where it is in
+/// view.
 /// \param cuts in any order.
 void SliverSearch::add_places(std::size_t edge, const Viewpoint& eye, const Asked& asked,
                               std::vector<double>& cuts, EdgePlaces& result) const {

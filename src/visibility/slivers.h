@@ -13,10 +13,11 @@
 #include "visibility/surface.h"
 
 /// \file
-/// Faces that no sample sees and of which a sliver may be in view all the same. Along an edge what is
-/// hidden begins and ends where the edge passes behind a contour, an edge past which the surface turns
-/// away from the eye, or through a face (Appel, "The notion of quantitative invisibility and the
-/// machine rendering of solids", 1967). Between two such places one answer holds for all of the edge.
+/// Faces that no sample sees and of which a sliver may be in view all the same. Along an edge
+/// what is hidden begins and ends where the edge passes behind a contour, an edge past which the
+/// surface turns away from the eye, or through a face (Appel, "The notion of quantitative
+/// invisibility and the machine rendering of solids", 1967). Between two such places one answer
+/// holds for all of the edge.
 
 namespace vantage {
 
@@ -32,8 +33,8 @@ struct EdgePlaces {
 /// Immutable after construction.
 class SliverSearch {
  public:
-  /// The work grows with the square of the number of faces, and what a face weighs falls: beyond so many
-  /// it is not worth it. [ours, by measurement]
+  /// The work grows with the square of the number of faces, and what a face weighs falls: beyond so
+  /// many it is not worth it. [ours, by measurement]
   static constexpr std::size_t kMostFaces = 4000;
 
   /// Finds where edges pass through faces. \param surface must outlive this.
@@ -46,8 +47,8 @@ class SliverSearch {
     std::span<const std::uint8_t> wanted{};  ///< 1 for those to be looked for, else 0.
   };
 
-  /// One place for each part of the edges of the wanted faces that may be seen for itself. None for an
-  /// eye that has some of the surface behind it.
+  /// One place for each part of the edges of the wanted faces that may be seen for itself. None for
+  /// an eye that has some of the surface behind it.
   [[nodiscard]] EdgePlaces places(const Viewpoint& eye, const Asked& asked) const;
 
  private:

@@ -74,8 +74,8 @@ TEST(FaceVisibility, FindsASliverNarrowerThanItsPieces) {
   EXPECT_NEAR(seen, 4.0 * strip, 0.5 * 4.0 * strip);
 }
 
-/// Faces seen from the front of two unit cubes that stand side by side, `gap` apart, before a smaller
-/// box that is behind the gap.
+/// Faces seen from the front of two unit cubes that stand side by side, `gap` apart, before a
+/// smaller box that is behind the gap.
 std::vector<SeenFace> faces_seen_through(double gap) {
   const TriMesh pair = test::together(test::box(1.0, 1.0, 1.0, 1), test::box(1.0, 1.0, 1.0, 1),
                                       Vec3(1.0 + gap, 0.0, 0.0));
@@ -142,8 +142,8 @@ TEST(FaceVisibility, AnswersForVerticesAsVertexVisibilityDoes) {
 }
 
 TEST(FaceVisibility, HidesAFaceBehindOneThatSharesItsCorners) {
-  // A flap that is hinged on one side of a face hangs over it: none of the face's corners is hidden,
-  // but 0.6 of its area.
+  // A flap that is hinged on one side of a face hangs over it: none of the face's corners is
+  // hidden, but 0.6 of its area.
   TriMesh mesh;
   mesh.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 1, 0), Vec3(0.5, 0.6, 0.5)};
   mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
