@@ -336,18 +336,19 @@ TEST(Measures, DoNotDependOnPlaceAndSize) {
   }
 }
 
-TEST(Measures, OfTheFacesSeenChangeByNoHundredthWithSamplesTwiceAsNear) {
-  // Large faces that hide each other in part. These eight hang on slivers in view; docs/measures.md
-  // names what still changes by more.
+TEST(Measures, ChangeByNoHundredthWithSamplesTwiceAsNear) {
+  // Large faces that hide each other in part: the hardest for sampling.
   const Subject rings(test::together(test::torus(1.0, 0.4, 24, 12), test::torus(0.8, 0.2, 18, 9),
                                      Vec3(0.3, 0.2, 0.9)),
                       Projection::Perspective);
   MeasureSubject denser = rings.given;
   denser.sampling = 2;
   std::vector<Measure> measures;
-  for (const char* name : {"visible-triangles", "plemenos", "visibility-ratio", "i3", "instability",
-                           "pmi-saliency", "evmi", "max-depth"}) {
-    measures.push_back(find_measure(name));
+  for (const Measure& measure : builtin_measures()) {
+    // A piece of these faces spans half a bin of depth: docs/measures.md.
+    if (measure.name != "depth-distribution" && !measure.needs.saliency) {
+      measures.push_back(measure);
+    }
   }
   ViewMeasurer used(rings.given, measures, 1);
   ViewMeasurer finer(denser, measures, 1);
