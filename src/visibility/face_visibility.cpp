@@ -161,7 +161,7 @@ struct FaceVisibility::Samples {
         const bool is_plain = net_.is_plain[f] != 0 && surface.sides[f] == FaceSides::Front;
         net_.is_plain[f] = is_plain ? 1 : 0;
       }
-      if (surface.faces.size() <= SliverSearch::kMostFaces) {
+      if (!surface.faces.empty() && surface.faces.size() <= SliverSearch::kMostFaces) {
         slivers_.emplace(surface);
       }
     });
