@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What all measures of all 642 views of a model cost:
 //   measure_table MODEL…
-// One Markdown row a model: processor seconds, of the user's and of the system's time and of all threads together,
-// for what happens before views are looked at (reading, contraction, skeleton, maps), and for the views
-// themselves: what every view sees of every vertex and face, all outlines, and every measure of
-// `vantage measures`. And the largest memory that the process ever held.
+// One Markdown row a model: processor seconds, of the user's and of the system's time and of all
+// threads together, for what happens before views are looked at (reading, contraction, skeleton,
+// maps), and for the views themselves: what every view sees of every vertex and face, all outlines,
+// and every measure of `vantage measures`. And the largest memory that the process ever held.
 #include <cstdio>
 #include <exception>
 #include <functional>

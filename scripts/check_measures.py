@@ -25,6 +25,8 @@ import numpy as np
 IDENTITY_BAR = 1e-9
 BEGIN, END = "<!-- check_measures begins -->\n", "<!-- check_measures ends -->"
 SUFFIXES = {".off", ".obj", ".ply", ".stl", ".glb"}
+SALIENCY_SCALE = 0.003  # the default of --saliency-scale
+SAME_SCALE = "turned, mesh-saliency's scale kept"
 # A fifth of a turn about a corner of the icosahedron carries the set of views into itself.
 PHI = (1 + 5**0.5) / 2
 AXIS = np.array([0.0, 1.0, PHI]) / np.hypot(1.0, PHI)
@@ -119,13 +121,13 @@ def similarity(program, models, folder):
     turn = rotation(AXIS, 2 * math.pi / 5)
     random = np.random.default_rng(1)
     changes = {"scaled by 1e-8": {}, "scaled by 1e8": {}, "moved by 10 diameters": {},
-               "turned by 72°": {}, "each vertex by 1e-15": {}}
+               "turned by 72°": {}, SAME_SCALE: {}, "each vertex by 1e-15": {}}
     for model in models:
         positions, faces = read_off(model)
         span = np.linalg.norm(np.ptp(positions, axis=0))
         moved = {"scaled by 1e-8": positions * 1e-8, "scaled by 1e8": positions * 1e8,
                  "moved by 10 diameters": positions + 10 * span * np.array([1.0, -2.0, 0.5]),
-                 "turned by 72°": positions @ turn.T,
+                 "turned by 72°": positions @ turn.T, SAME_SCALE: positions @ turn.T,
                  "each vertex by 1e-15": positions + 1e-15 * span * random.uniform(-1, 1, positions.shape)}
         directions, here = program.scores(model, "all", "--sphere", 2, "--view-set", 2)
         for what, there in moved.items():
@@ -133,7 +135,11 @@ def similarity(program, models, folder):
             turned = directions @ turn.T if what.startswith("turned") else directions
             table = folder / "views.csv"
             table.write_text("dx,dy,dz\n" + "".join(",".join(map(repr, map(float, d))) + "\n" for d in turned))
-            _, values = program.scores(folder / "moved.off", "all", "--directions", table, "--view-set", 2)
+            # Mesh saliency's scale is a share of the box's diagonal, which turning changes.
+            longer = np.linalg.norm(np.ptp(there, axis=0)) / np.linalg.norm(np.ptp(positions, axis=0))
+            scale = ["--saliency-scale", SALIENCY_SCALE / longer] if what == SAME_SCALE else []
+            _, values = program.scores(folder / "moved.off", "all", "--directions", table, "--view-set", 2,
+                                       *scale)
             for name, v in values.items():
                 span_of = max(np.ptp(here[name]), 1e-300)
                 change = float(np.max(np.abs(v - here[name])) / span_of)

@@ -17,6 +17,9 @@ using Value = double (*)(const MeasuredModel&, const SightTable&);
 
 // Bins of Gaussian curvature over [−2π, 2π]. [Page 2003]
 constexpr std::size_t kCurvatureBins = 256;
+// Flat is on the border of two bins, and rounding must not choose between them: far more than
+// rounding of angles and far less than a bin, radians. [ours]
+constexpr double kFlat = 1e-9;
 /// The square around the disc over the disc: the picture that `plemenos` divides by.
 constexpr double kSquareOverDisc = 4.0 / std::numbers::pi;
 
@@ -105,7 +108,7 @@ double curvature_entropy(const MeasuredModel& model, const SightTable& sight) {
   std::array<double, kCurvatureBins> bins{};
   for (std::size_t v = 0; v < sight.vertices.size(); ++v) {
     if (sight.vertices[v] != 0) {
-      const double place = 0.5 + model.angle_deficits[v] / (4.0 * std::numbers::pi);
+      const double place = 0.5 + (model.angle_deficits[v] + kFlat) / (4.0 * std::numbers::pi);
       const double bin = std::clamp(place, 0.0, 1.0) * kCurvatureBins;
       bins[std::min(kCurvatureBins - 1, static_cast<std::size_t>(bin))] += 1.0;
     }

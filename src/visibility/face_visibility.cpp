@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -15,6 +16,7 @@
 #include "visibility/closer_look.h"
 #include "visibility/face_pieces.h"
 #include "visibility/sight.h"
+#include "visibility/slivers.h"
 
 namespace vantage {
 namespace {
@@ -25,6 +27,9 @@ constexpr double kMaxPieces = 4e6;
 constexpr std::uint8_t kSeen = 1;
 constexpr std::uint8_t kHidden = 2;
 constexpr std::uint8_t kInPart = kSeen | kHidden;
+// Area of a sliver over that of the rectangle along the edge that it is beside: that it is there
+// matters, not how large it is. [ours]
+constexpr double kSliverShare = 1.0 / 16.0;
 
 std::uint8_t finding(std::uint8_t seen) {
   return seen != 0 ? kSeen : kHidden;
@@ -47,12 +52,17 @@ class Tally {
         towards_(is_perspective_ ? Vec3((local.position - centre_).normalized()) : local.position),
         per_diameter_(1.0 / (sphere.diameter * surface.frame.scale)),
         plane_((local.position - centre_).dot(towards_)),
-        result_(result) {}
+        result_(result),
+        has_(surface.faces.size(), 0) {}
+
+  /// Whether something of a face was added.
+  [[nodiscard]] bool has(std::size_t face) const { return has_[face] != 0; }
 
   /// Adds a part of a face. \pre faces come one after the other. \param area model units squared.
   void add(std::uint32_t face, const Vec3& place, double area) {
     if (face != last_) {
       last_ = face;
+      has_[face] = 1;
       normal_ = &surface_.area_vectors[face];
       // Finite even for faces of next to no area.
       scale_ =
@@ -88,6 +98,7 @@ class Tally {
   double per_diameter_;
   double plane_;  // how far the eye is from the plane of projection
   SeenSurface& result_;
+  std::vector<std::uint8_t> has_;  // of each face
   std::uint32_t last_ = Surface::kNoSite;
   const Vec3* normal_ = nullptr;  // of the face at hand, as long as twice its area
   double scale_ = 1.0;            // makes up for that, and for the plane's distance
@@ -150,13 +161,17 @@ struct FaceVisibility::Samples {
         const bool is_plain = net_.is_plain[f] != 0 && surface.sides[f] == FaceSides::Front;
         net_.is_plain[f] = is_plain ? 1 : 0;
       }
+      if (!surface.faces.empty() && surface.faces.size() <= SliverSearch::kMostFaces) {
+        slivers_.emplace(surface);
+      }
     });
     return net_;
   }
 
-  /// Looks at all sites, at the pieces' centroids and the nodes on edges. Of a plain face that turns to the eye with all faces at its corners only the corners are asked
-  /// about, and the rest goes with them. Not where the surface turns away from the eye, because the
-  /// faces at a corner do not hide it and might hide the face.
+  /// Looks at all sites, at the pieces' centroids and the nodes on edges. Of a plain face that
+  /// turns to the eye with all faces at its corners only the corners are asked about, and the rest
+  /// goes with them. Not where the surface turns away from the eye, because the faces at a corner
+  /// do not hide it and might hide the face.
   [[nodiscard]] FirstLook first_look(Look& look) {
     const Surface& surface = sight.surface();
     const std::size_t sites = surface.sites.size();
@@ -292,10 +307,50 @@ struct FaceVisibility::Samples {
     return closer;
   }
 
+  /// Adds slivers of faces of which no sample was seen. \pre net() was asked for.
+  void add_slivers(Look& look, const Viewpoint& local, Tally& tally) const;
+
  private:
   std::once_flag net_once_{};
   PieceNet net_{};
+  std::optional<SliverSearch> slivers_{};  // where faces are few
 };
+
+void FaceVisibility::Samples::add_slivers(Look& look, const Viewpoint& local, Tally& tally) const {
+  const Surface& surface = sight.surface();
+  if (!slivers_) {
+    return;
+  }
+  std::vector<std::uint8_t> wanted(surface.faces.size(), 0);
+  for (std::size_t f = 0; f < wanted.size(); ++f) {
+    wanted[f] = look.is_turned(f) && !tally.has(f) ? 1 : 0;
+  }
+  const EdgePlaces edges = slivers_->places(local, {look.turned(), wanted});
+  const FloatPoints rounded = rounded_points(edges.places);
+  const std::vector<std::uint8_t> seen = look.not_hidden(
+      {.exact = edges.places, .rounded = &rounded, .owner = edges.owner, .also = edges.also},
+      std::vector<std::uint8_t>(edges.places.size(), 1));
+  std::vector<std::array<std::uint32_t, 2>> found;  // face and place
+  for (std::uint32_t i = 0; i < seen.size(); ++i) {
+    if (seen[i] == 0) {
+      continue;
+    }
+    if (wanted[edges.owner[i]] != 0) {
+      found.push_back({edges.owner[i], i});
+    }
+    if (edges.of_both[i] != 0 && wanted[edges.also[i]] != 0) {
+      found.push_back({edges.also[i], i});
+    }
+  }
+  std::sort(found.begin(), found.end());
+  const double unit = surface.frame.scale;
+  const double widest = pieces.longest / PieceNet::kMostParts;  // else a sample would have seen it
+  for (const auto& [f, i] : found) {
+    const double length = edges.lengths[i];
+    const double area = std::min(0.5 * surface.twice_areas[f], length * std::min(length, widest));
+    tally.add(f, edges.places[i], kSliverShare * area / (unit * unit));
+  }
+}
 
 FaceVisibility::FaceVisibility(const TriMesh& mesh, std::vector<FaceSides> sides, double spacing)
     : samples_(std::make_unique<Samples>(mesh, sides)) {
@@ -354,6 +409,7 @@ SeenSurface FaceVisibility::seen_surface(const Viewpoint& eye, const RunContext&
       ++next;
     }
   }
+  samples_->add_slivers(look, local, tally);
   result.faces = in_order(result.faces, samples_->triangles.size());
   return result;
 }

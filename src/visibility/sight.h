@@ -68,6 +68,9 @@ class Look {
     return turned == 1 || (turned == 2 && sight_.surface_.sides[face] == FaceSides::Both);
   }
 
+  /// Which side each face turns to the eye: 1 its front, 2 its back, 0 neither.
+  [[nodiscard]] const std::vector<std::uint8_t>& turned() const { return grid_->turned(); }
+
   /// For each site which faces it has: kTurned, kNotTurned or both.
   [[nodiscard]] std::vector<std::uint8_t> faces_at_sites() const;
   static constexpr std::uint8_t kTurned = 1;

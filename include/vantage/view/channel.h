@@ -41,10 +41,10 @@ struct ChannelPick {
 };
 
 /// Vázquez's greedy choice: the view of greatest entropy over the faces not yet seen, until `count`
-/// views are chosen or no view is left whose entropy is above 0. The terms −p log p of faces already
-/// seen are dropped while p stays a share of all that the view sees, so that a view of two last
-/// slivers does not count as much as one of half the model. `value` is that entropy; of equals the
-/// lower index.
+/// views are chosen or no view is left whose entropy is above 0. The terms −p log p of faces
+/// already seen are dropped while p stays a share of all that the view sees, so that a view of two
+/// last slivers does not count as much as one of half the model. `value` is that entropy; of equals
+/// the lower index.
 /// \throw InvalidInput if the channel is malformed. \throw Cancelled
 std::vector<ChannelPick> greedy_entropy_views(const ViewChannel& channel, std::size_t count,
                                               const RunContext& run = {});
@@ -55,16 +55,16 @@ struct MergedViews {
   double channel_information = 0.0;  ///< I(V;Z) of the whole channel, bits.
 };
 
-/// Feixas's greedy merge into one view v̂ with p(Z|v̂) = Σ p(v_i) p(Z|v_i) / p(v̂): first the view of
-/// least VMI, then always the view that makes I(v̂;Z) smallest, until `count` views are merged or
-/// I(v̂;Z) ≤ ratio · I(V;Z). Of equals the lower index. Views that see nothing are never chosen.
+/// Feixas's greedy merge into one view v̂ with p(Z|v̂) = Σ p(v_i) p(Z|v_i) / p(v̂): first the view
+/// of least VMI, then always the view that makes I(v̂;Z) smallest, until `count` views are merged
+/// or I(v̂;Z) ≤ ratio · I(V;Z). Of equals the lower index. Views that see nothing are never chosen.
 /// \param ratio in [0, 1]; 0 stops by count alone.
 /// \throw InvalidInput if the channel is malformed or ratio is out of range. \throw Cancelled
 MergedViews merge_views(const ViewChannel& channel, std::size_t count, double ratio = 0.0,
                         const RunContext& run = {});
 
-/// A channel from vertex visibility, approximate: a face turned to the eye counts its projected area
-/// (perspective: its solid angle) times the share of its corners that are visible.
+/// A channel from vertex visibility, approximate: a face turned to the eye counts its projected
+/// area (perspective: its solid angle) times the share of its corners that are visible.
 /// \param sides as for VertexVisibility. \param sets row i belongs to eyes[i].
 /// \throw InvalidInput, Cancelled
 ViewChannel channel_table(const TriMesh& mesh, std::span<const FaceSides> sides,

@@ -11,10 +11,11 @@
 #include "vantage/view/channel.h"
 
 /// \file
-/// Measures of a view made of the projected areas of the faces it sees, and the terms that they take
-/// from a whole set of views. Feixas, Sbert, González, "A Unified Information-Theoretic Framework
-/// for Viewpoint Selection and Mesh Saliency", ACM Transactions on Applied Perception 6(1), 2009;
-/// Bonaventura, Feixas, Sbert, "Viewpoint Information", 2011. docs/measures.md defines each.
+/// Measures of a view made of the projected areas of the faces it sees, and the terms that
+/// they take from a whole set of views. Feixas, Sbert, González, "A Unified Information-Theoretic
+/// Framework for Viewpoint Selection and Mesh Saliency", ACM Transactions on Applied Perception
+/// 6(1), 2009; Bonaventura, Feixas, Sbert, "Viewpoint Information", 2011. docs/measures.md defines
+/// each.
 ///
 /// [a_z(v)] is the area that view v sees of face z, [a_t(v)] their sum; p(v) = a_t(v) / Σ a_t,
 /// p(z|v) = a_z(v) / a_t(v), p(z) = Σ p(v) p(z|v), p(v|z) = a_z(v) / Σ_v a_z(v). All logarithms are
@@ -71,8 +72,8 @@ struct ChannelMeasures {
 ChannelMeasures channel_measures(std::span<const FaceArea> seen, const ChannelTerms& terms,
                                  std::span<const double> face_areas);
 
-/// Jensen–Shannon divergence of p(Z|a) and p(Z|b), weighted by the areas the two views see: bits, in
-/// [0, 1]. 0 if one of them sees nothing.
+/// Jensen–Shannon divergence of p(Z|a) and p(Z|b), weighted by the areas the two views see: bits,
+/// in [0, 1]. 0 if one of them sees nothing.
 double view_divergence(std::span<const FaceArea> a, std::span<const FaceArea> b);
 
 /// Mean of the divergences from the neighbours: `instability`, bits in [0, 1]; min. Infinite for a
@@ -84,7 +85,8 @@ double instability(std::span<const FaceArea> view,
 double mean_divergence(std::span<const double> divergences);
 
 /// The divergence of each view of a set from those beside it, 1 where one of both sees nothing.
-/// \param next for each view the views beside it, ascending and mutual. \return one a value of `next`.
+/// \param next for each view the views beside it, ascending and mutual. \return one a value of
+/// `next`.
 /// \throw Cancelled
 std::vector<double> neighbour_divergences(const std::vector<std::vector<FaceArea>>& views,
                                           const IndexLists& next, const RunContext& run = {});

@@ -15,8 +15,8 @@
 #include "vantage/visibility/vertex_visibility.h"
 
 /// \file
-/// The outline of the shape that an eye sees, and what measures make of it. Lengths are in diameters
-/// of the silhouette disc: the picture of the model's enclosing sphere. docs/measures.md.
+/// The outline of the shape that an eye sees, and what measures make of it. Lengths are in
+/// diameters of the silhouette disc: the picture of the model's enclosing sphere. docs/measures.md.
 
 namespace vantage {
 
@@ -49,16 +49,17 @@ struct OutlineMeasures {
 /// loops shorter than three steps have no turning.
 inline constexpr double kTurningSteps = 256.0;
 
-/// Places a step at which turning is measured: a corner turns in one step or in two by chance, so that
-/// the mean over places is taken. Measures of all shapes tried are converged (docs/measures.md). [ours]
-inline constexpr int kTurningPhases = 8;
+/// Places a step at which turning is measured: a corner turns in one step or in two by chance, so
+/// that the mean over places is taken. Measures of all shapes tried are converged
+/// (docs/measures.md). [ours]
+inline constexpr int kTurningPhases = 16;
 
 /// Measures an outline. \param phases at least 1.
 OutlineMeasures measure_outline(const Outline& outline, int phases = kTurningPhases);
 
 /// Traces outlines of one surface: not on a grid, but along the edges where layers of the surface
-/// end, so that they are exact but for rounding. Holds references: the mesh must outlive it. Queries
-/// are const and may run on many threads at once.
+/// end, so that they are exact but for rounding. Holds references: the mesh must outlive it.
+/// Queries are const and may run on many threads at once.
 class OutlineTracer {
  public:
   /// \param sides as for VertexVisibility. \param sphere of the mesh. \throw InvalidInput

@@ -40,8 +40,8 @@ struct SeenSurface {
 
 /// Samples a surface and asks which samples an eye sees: every face is cut into pieces, and each
 /// piece is judged by its centroid. A piece that may be seen in part, because its centroid, its
-/// corners and the pieces beside it disagree, is divided again where areas and depths are asked for,
-/// and its parts are judged so. Immutable after construction; queries are const and may run on
+/// corners and the pieces beside it disagree, is divided again where areas and depths are asked
+/// for, and its parts are judged so. Immutable after construction; queries are const and may run on
 /// many threads at once. Answers do not depend on the number of threads.
 ///
 /// Projected areas are measured on a plane across the line of sight; seen in perspective, on the

@@ -74,6 +74,50 @@ TEST(FaceVisibility, FindsASliverNarrowerThanItsPieces) {
   EXPECT_NEAR(seen, 4.0 * strip, 0.5 * 4.0 * strip);
 }
 
+/// Faces seen from the front of two unit cubes that stand side by side, `gap` apart, before a
+/// smaller box that is behind the gap.
+std::vector<SeenFace> faces_seen_through(double gap) {
+  const TriMesh pair = test::together(test::box(1.0, 1.0, 1.0, 1), test::box(1.0, 1.0, 1.0, 1),
+                                      Vec3(1.0 + gap, 0.0, 0.0));
+  const TriMesh mesh = test::together(pair, test::box(0.6, 0.4, 0.2, 1), Vec3(0.7123, 0.3, -2.0));
+  return FaceVisibility(mesh, {FaceSides::Front}).seen_faces(kAbove);
+}
+
+TEST(FaceVisibility, SeesFacesThroughAGapThatNoSampleMeets) {
+  // Two triangles a front; the gap is a thousandth of what pieces are divided into.
+  constexpr double kGap = 1e-6;
+  const std::vector<SeenFace> faces = faces_seen_through(kGap);
+  ASSERT_EQ(faces.size(), 6U);
+  // It is 0.4 high, and parts of the box's two triangles are seen through it.
+  EXPECT_LT(faces[4].visible_area + faces[5].visible_area, 0.4 * kGap);
+}
+
+TEST(FaceVisibility, SeesNothingThroughAGapThatIsClosed) {
+  EXPECT_EQ(faces_seen_through(-1e-6).size(), 4U);
+}
+
+TEST(FaceVisibility, SeesTheFaceThatAnEdgeIsSeenOfOnlyBetweenWhereItPassesThroughOthers) {
+  // A needle lies in a slab but for its back, which comes out along its middle: ends are inside.
+  TriMesh slab = test::box(4.0, 1.0, 4.0, 1);
+  const std::size_t slab_faces = slab.triangles.size();
+  const auto base = static_cast<std::uint32_t>(slab.positions.size());
+  // Two roofs, back to back: the ridge rises out of the slab's top at y = 1 between x = 1 and 3 …
+  for (const Vec3& p : {Vec3(1.0, 0.9, 2.0), Vec3(2.013, 1.0 + 1e-6, 2.0), Vec3(3.0, 0.9, 2.0),
+                        Vec3(2.013, 0.9, 1.9), Vec3(2.013, 0.9, 2.1)}) {
+    slab.positions.push_back(p);
+  }
+  for (const Triangle& t : {Triangle{0, 1, 3}, Triangle{1, 2, 3}, Triangle{0, 4, 1},
+                            Triangle{1, 4, 2}, Triangle{0, 3, 4}, Triangle{3, 2, 4}}) {
+    slab.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+  }
+  std::size_t seen = 0;
+  for (const SeenFace& face : FaceVisibility(slab, {FaceSides::Both})
+                                  .seen_faces({Projection::Orthographic, Vec3::UnitY()})) {
+    seen += face.face >= slab_faces ? 1 : 0;
+  }
+  EXPECT_EQ(seen, 4U);
+}
+
 TEST(FaceVisibility, LooksCloserAtPiecesThatAreSeenInPart) {
   // The upper sheet ends across the pieces of the lower one.
   const TriMesh mesh =
@@ -98,8 +142,8 @@ TEST(FaceVisibility, AnswersForVerticesAsVertexVisibilityDoes) {
 }
 
 TEST(FaceVisibility, HidesAFaceBehindOneThatSharesItsCorners) {
-  // A flap that is hinged on one side of a face hangs over it: none of the face's corners is hidden,
-  // but 0.6 of its area.
+  // A flap that is hinged on one side of a face hangs over it: none of the face's corners is
+  // hidden, but 0.6 of its area.
   TriMesh mesh;
   mesh.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 1, 0), Vec3(0.5, 0.6, 0.5)};
   mesh.triangles = {{0, 1, 2}, {1, 0, 3}};

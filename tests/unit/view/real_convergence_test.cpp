@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Convergence of all measures that look at samples, on meshes of few large faces in the folder that
+// VANTAGE_DATA names: there a sliver of a face weighs most.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "vantage/io/model.h"
+#include "vantage/view/measurer.h"
+
+#include "support/data_pack.h"
+
+namespace vantage {
+namespace {
+
+/// A model and the set of views that it is looked at from: 42 at level 1, 162 at level 2.
+struct Case {
+  const char* file;
+  int level;
+};
+
+/// The measures that hang on samples: the others ask for vertices alone.
+std::vector<Measure> sampled_measures() {
+  std::vector<Measure> measures;
+  for (const Measure& measure : builtin_measures()) {
+    if (measure.needs.faces || measure.needs.channel || measure.needs.outline) {
+      measures.push_back(measure);
+    }
+  }
+  return measures;
+}
+
+MeasureValues values_at(const OrientedMesh& oriented, int level, int sampling) {
+  MeasureSubject subject;
+  subject.surface = &oriented.mesh;
+  subject.sides = oriented.sides;
+  subject.camera = {.sphere = enclosing_sphere(referenced_points(oriented.mesh))};
+  subject.sampling = sampling;
+  return ViewMeasurer(subject, sampled_measures(), level).set_values();
+}
+
+class SamplesTwiceAsNear : public test::DataPackTest<testing::TestWithParam<Case>> {};
+
+TEST_P(SamplesTwiceAsNear, ChangeNoMeasureByAHundredthOfItsRange) {
+  const auto& [file, level] = GetParam();
+  const OrientedMesh oriented = orient_shells(load_model((root() / file).string()).mesh);
+  const std::vector<Measure> measures = sampled_measures();
+  const MeasureValues used = values_at(oriented, level, 1);
+  const MeasureValues finer = values_at(oriented, level, 2);
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    const auto [low, high] = std::minmax_element(finer[m].begin(), finer[m].end());
+    double change = 0.0;
+    for (std::size_t i = 0; i < finer[m].size(); ++i) {
+      change = std::max(change, std::abs(used[m][i] - finer[m][i]));
+    }
+    EXPECT_LE(change, 0.01 * (*high - *low)) << measures[m].name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(DataPack, SamplesTwiceAsNear,
+                         testing::Values(Case{"clean/scad_example009.off", 1},
+                                         Case{"clean/sh3d_cat.obj", 2},
+                                         Case{"clean/sh3d_dog.obj", 2}, Case{"clean/block.off", 1},
+                                         Case{"clean/torus.obj", 1},
+                                         Case{"clean/triceratops.off", 1}));
+
+}  // namespace
+}  // namespace vantage
