@@ -129,6 +129,19 @@ TEST_P(SurgeryProperty, KeepsHandlesOfARandomEmbedding) {
   }
 }
 
+TEST(Surgery, KeepsMoreHandlesThanClassesOfLoopsFitInAWord) {
+  constexpr int kHandles = 33;  // 66 classes
+  const TriMesh ring = test::torus(1.0, 0.4, 8, 5);
+  TriMesh chain = ring;
+  for (int k = 1; k < kHandles; ++k) {
+    chain = test::joined(chain, ring, 2.9 * k);
+  }
+  const std::vector<Vec3> point(chain.positions.size(), Vec3::Zero());
+  ClusterComplex complex = complex_of(chain, point);
+  EXPECT_EQ(collapse_to_graph(complex, {}), 0U);
+  expect_topology(complex, {"chain", chain, 1, kHandles});
+}
+
 INSTANTIATE_TEST_SUITE_P(Surfaces, SurgeryProperty, testing::ValuesIn(surfaces()),
                          [](const auto& each) { return each.param.name; });
 
