@@ -63,21 +63,22 @@ TEST(MakeProxy, MergesOnTheWayWithoutLosingTheHandle) {
 }
 
 TEST(ContractByProxy, MergesLargeComponentsOnlyAndKeepsAllOthersApart) {
-  TriMesh mesh = large_torus();  // 23 040 vertices
-  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  // Two points of no face, the first and the last, and between them the torus and a ball.
+  TriMesh point;
+  point.positions.emplace_back(0.0, 9.0, 0.0);
+  const TriMesh torus = large_torus();  // 23 040 vertices
   const TriMesh ball = test::sphere(1);
-  for (const Vec3& p : ball.positions) {
-    mesh.positions.push_back(p + Vec3(5.0, 0.0, 0.0));
-  }
-  for (const Triangle& t : ball.triangles) {
-    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
-  mesh.positions.emplace_back(0.0, 9.0, 0.0);  // of no face
+  const TriMesh mesh =
+      test::together(test::together(point, torus, Vec3::Zero()),
+                     test::together(ball, point, Vec3::Zero()), Vec3(5.0, 0.0, 0.0));
   const auto merged = contract(mesh, {.max_steps = 1}).merged;
   ASSERT_TRUE(merged.has_value());
-  const std::set<std::uint32_t> small(merged->of_vertex.begin() + first, merged->of_vertex.end());
-  EXPECT_EQ(small.size(), ball.positions.size() + 1);
-  const std::set<std::uint32_t> large(merged->of_vertex.begin(), merged->of_vertex.begin() + first);
+  const auto of_torus = merged->of_vertex.begin() + 1;
+  const auto of_ball = of_torus + static_cast<std::ptrdiff_t>(torus.positions.size());
+  std::set<std::uint32_t> small(of_ball, merged->of_vertex.end());
+  small.insert(merged->of_vertex.front());
+  EXPECT_EQ(small.size(), ball.positions.size() + 2);
+  const std::set<std::uint32_t> large(of_torus, of_ball);
   EXPECT_EQ(large.size() + small.size(), merged->vertex_count);
 }
 
