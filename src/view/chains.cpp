@@ -53,7 +53,8 @@ std::vector<Side> sorted_sides(const std::vector<LayerEdge>& edges) {
   return sorted;
 }
 
-/// Joins sides to chains that rise without anything else happening on them. \pre sides as sorted_sides()
+/// Joins sides to chains that rise without anything else happening on them.
+/// \pre sides as sorted_sides()
 void join_sides(std::vector<Side>& sides) {
   struct End {
     double y = 0.0, x = 0.0;

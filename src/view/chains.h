@@ -9,8 +9,8 @@
 #include "view/outline_sweep.h"
 
 /// \file
-/// Edges of layers as chains that rise, and those of them that a line across the picture meets, from
-/// left to right.
+/// Edges of layers as chains that rise, and those of them that a line across the picture meets,
+/// from left to right.
 
 namespace vantage {
 
@@ -34,8 +34,8 @@ struct Side {
   }
 };
 
-/// The edges that are not level, by their lower ends, joined to chains that rise without anything else
-/// happening on them.
+/// The edges that are not level, by their lower ends, joined to chains that rise without anything
+/// else happening on them.
 std::vector<Side> rising_sides(const std::vector<LayerEdge>& edges);
 
 /// The chains that pass the slab at hand between two level lines, from left to right.
@@ -67,8 +67,8 @@ class ActiveChains {
   /// Takes out the chains that go no further than `line`, if reach() met any.
   void drop_ended(double line);
 
-  /// Finds where the chains pass the upper line of a slab. \return whether each is on the left of the
-  /// next everywhere in the slab.
+  /// Finds where the chains pass the upper line of a slab. \return whether each is on the left of
+  /// the next everywhere in the slab.
   bool reach(double line);
 
   /// Sorts the chains by their places half way up; they nearly are.
@@ -80,7 +80,8 @@ class ActiveChains {
   /// Sorts the chains by their places on the lower line.
   void sort_at_bottom();
 
-  /// Whether some chain is right of the next somewhere in the slab that ends at `line`. \pre reach()
+  /// Whether some chain is right of the next somewhere in the slab that ends at `line`.
+  /// \pre reach()
   [[nodiscard]] bool is_crossed(double line) const;
 
   /// Chains next to each other: none of them crosses any other in the slab at hand.
@@ -88,15 +89,15 @@ class ActiveChains {
     std::size_t begin, end;
   };
 
-  /// Where chains cross so that it could change what the shape is: where, of those that come near to
-  /// each other, so many end layers that none might be left. \pre is_crossed(), sort_half_way()
+  /// Where chains cross so that it could change what the shape is: where, of those that come near
+  /// to each other, so many end layers that none might be left. \pre is_crossed(), sort_half_way()
   [[nodiscard]] std::vector<Range> mattering(double line) const;
 
   /// The corners of these chains inside the slab that ends at `line`, in no order. \pre reach()
   void add_corners(const Range& range, double line, std::vector<double>& corners) const;
 
-  /// Goes up to a line inside the slab with these chains alone: finds where they pass it, and sorts them
-  /// by their places half way from where they were.
+  /// Goes up to a line inside the slab with these chains alone: finds where they pass it, and sorts
+  /// them by their places half way from where they were.
   void climb(const Range& range, double line);
 
   /// Goes on from there.
@@ -105,7 +106,8 @@ class ActiveChains {
   /// Goes back to where these chains came from.
   void rewind(const Range& range);
 
-  /// Adds where sides cross whose order half way up is not that at one end of a slab of straight sides.
+  /// Adds where sides cross whose order half way up is not that at one end of a slab of straight
+  /// sides.
   void add_crossings(const Range& range, double low, double high, std::vector<double>& cuts) const;
 
  private:

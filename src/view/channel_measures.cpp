@@ -73,7 +73,8 @@ struct SummedAreas {
 };
 
 /// Weighted Jensen–Shannon divergence of two distributions a/A and b/B with weights A/(A+B) and
-/// B/(A+B): ((A+B) log (A+B) − A log A − B log B − Σ ((a+b) log (a+b) − a log a − b log b)) / (A+B).
+/// B/(A+B): ((A+B) log (A+B) − A log A − B log B − Σ ((a+b) log (a+b) − a log a − b log b)) /
+/// (A+B).
 /// \param laid_out the list of `a`.
 double divergence_of(const SummedAreas& a, const LaidOutAreas& laid_out, const SummedAreas& b) {
   if (!(a.area > 0.0) || !(b.area > 0.0)) {
@@ -179,7 +180,8 @@ std::size_t places_of(std::span<const FaceArea> list) {
   return list.empty() ? 0 : std::size_t{list.back().face} + 1;
 }
 
-/// Whether `a` is the one to lay out of two lists, so that a divergence has the same bits either way.
+/// Whether `a` is the one to lay out of two lists, so that a divergence has the same bits either
+/// way.
 bool is_first(std::span<const FaceArea> a, std::span<const FaceArea> b) {
   const auto key = [](const FaceArea& entry) { return std::pair(entry.face, entry.area); };
   return std::lexicographical_compare(

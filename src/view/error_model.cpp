@@ -65,7 +65,8 @@ void ErrorModel::learn(std::size_t candidate, double score) {
   if (row > 0) {
     surprise_ += lessons_[row] * lessons_[row];
   }
-  // weight_of() of every candidate, row by row: this is where a search by estimates spends its time.
+  // weight_of() of every candidate, row by row: this is where a search by estimates spends its
+  // time.
   std::vector<double> weights;
   weights.reserve(directions_.size());
   for (const Vec3& direction : directions_) {

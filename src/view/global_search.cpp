@@ -65,8 +65,8 @@ std::vector<Candidate> best_apart(std::vector<Candidate> candidates, std::size_t
   return chosen;
 }
 
-/// Looks for the largest value of sign · score: estimates choose what is scored, and what the scores
-/// teach about them decides what is scored next.
+/// Looks for the largest value of sign · score: estimates choose what is scored, and what the
+/// scores teach about them decides what is scored next.
 class Hunt {
  public:
   Hunt(const Guides& guides, Goal goal)

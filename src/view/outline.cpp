@@ -28,8 +28,8 @@ constexpr double kInside = 1e-6;
 constexpr double kReach = 0.5;
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-/// Adds an edge, cut where it leaves the square and what is outside moved to its border: a shape that
-/// reaches out ends there.
+/// Adds an edge, cut where it leaves the square and what is outside moved to its border: a shape
+/// that reaches out ends there.
 void add_clipped(const LayerEdge& edge, std::vector<LayerEdge>& edges) {
   const auto is_out = [](const PicturePoint& p) { return p.cwiseAbs().maxCoeff() > kReach; };
   if (!is_out(edge.from) && !is_out(edge.to)) {
@@ -92,8 +92,8 @@ std::vector<PicturePoint> resampled(const std::vector<PicturePoint>& loop, doubl
 
 using TurningBins = std::array<double, kTurningBins>;
 
-/// Counts an angle in its bin. Within a quarter of a bin of the border to the next it counts in both,
-/// in proportion: it must not jump from one to the other.
+/// Counts an angle in its bin. Within a quarter of a bin of the border to the next it counts in
+/// both, in proportion: it must not jump from one to the other.
 void count_turning(double angle, TurningBins& bins) {
   const double place = (angle / (2.0 * std::numbers::pi) + 1.5) * kTurningBins - 0.5;
   const double low = std::floor(place);
@@ -221,7 +221,8 @@ std::vector<PicturePoint> OutlineTracer::places(const Viewpoint& eye,
 Outline OutlineTracer::trace(const Viewpoint& eye) const {
   std::vector<std::uint8_t> ahead(mesh_->positions.size(), 1);
   const std::vector<PicturePoint> place = places(eye, ahead);
-  // Layers that each face adds on the left of its sides: 1, -1 if it is seen from its back, or none.
+  // Layers that each face adds on the left of its sides: 1, -1 if it is seen from its back, or
+  // none.
   std::vector<std::int8_t> layer(mesh_->triangles.size(), 0);
   for (std::size_t f = 0; f < layer.size(); ++f) {
     const auto& [a, b, c] = mesh_->triangles[f];

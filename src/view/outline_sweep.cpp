@@ -31,10 +31,10 @@ struct Bound {
   std::uint32_t stretch = kNone;
 };
 
-/// Cuts the plane into slabs in which nothing begins, ends or crosses, so that the shape is a row of
-/// intervals in each; then joins what bounds them. On the line between two slabs the shape may differ
-/// only between the first and the second, the third and the fourth … of all ends there, which tells
-/// what to join however near to each other they are.
+/// Cuts the plane into slabs in which nothing begins, ends or crosses, so that the shape is a row
+/// of intervals in each; then joins what bounds them. On the line between two slabs the shape may
+/// differ only between the first and the second, the third and the fourth … of all ends there,
+/// which tells what to join however near to each other they are.
 class Sweep {
  public:
   explicit Sweep(const std::vector<LayerEdge>& edges) : sides_(rising_sides(edges)) {}
@@ -81,8 +81,8 @@ class Sweep {
     active_.pass();
   }
 
-  /// A slab in which chains cross. Where that can change the shape it is cut at all corners of those
-  /// chains, and again where their sides cross.
+  /// A slab in which chains cross. Where that can change the shape it is cut at all corners of
+  /// those chains, and again where their sides cross.
   void crossed_slab(double bottom, double top) {
     ranges_ = active_.mattering(top);
     if (ranges_.empty()) {

@@ -22,8 +22,8 @@ VANTAGE_INLINE void load_areas(const FaceArea* entries, LogLanes& areas) {
   areas = __builtin_convertvector(__builtin_shufflevector(both, both, 1, 3, 5, 7), LogLanes);
 }
 
-/// Calls add(entries, how many of them count) for kLogLanes at a time. What fills up the last has area
-/// 1, whose logarithm is 0, and the place of an entry of the list.
+/// Calls add(entries, how many of them count) for kLogLanes at a time. What fills up the last has
+/// area 1, whose logarithm is 0, and the place of an entry of the list.
 template <class Add>
 VANTAGE_INLINE void for_lanes(std::span<const FaceArea> list, const Add& add) {
   std::size_t i = 0;

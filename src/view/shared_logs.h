@@ -9,8 +9,8 @@
 #include "vantage/view/channel.h"
 
 /// \file
-/// What divergences between sparse lists of areas are made of. A model's views and faces are compared
-/// some two hundred million times, so this is done several at a time.
+/// What divergences between sparse lists of areas are made of. A model's views and faces are
+/// compared some two hundred million times, so this is done several at a time.
 
 namespace vantage {
 

@@ -27,8 +27,8 @@ VANTAGE_INLINE void angles_of_lanes(const Lanes& sine, const Lanes& cosine, Lane
   const auto is_high = height > width;
   const Lanes longer = is_high ? height : width;
   const Lanes t = (is_high ? width : height) / (longer > zero ? longer : one);
-  // atan t = atan c + atan ((t − c) / (1 + t c)) with the nearest of three c, so that the rest is at
-  // most tan(π/16).
+  // atan t = atan c + atan ((t − c) / (1 + t c)) with the nearest of three c, so that the rest is
+  // at most tan(π/16).
   const auto is_first = t <= kTanSixteenth + zero;
   const auto is_second = t <= kTanThree + zero;
   const Lanes c = is_first ? zero : (is_second ? kTanEighth + zero : one);

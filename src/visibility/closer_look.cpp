@@ -7,8 +7,8 @@
 namespace vantage {
 namespace {
 
-// How far from its corner a tip is judged over how far the centroid of the part there is, and its share
-// of that part. [ours]
+// How far from its corner a tip is judged over how far the centroid of the part there is, and its
+// share of that part. [ours]
 constexpr double kNextTo = 1.0 / 16.0;
 constexpr double kTipShare = 1.0 / 16.0;
 
@@ -37,7 +37,8 @@ void CloserLook::add(std::uint32_t piece, std::uint32_t face, const std::array<V
       }
     }
   }
-  // The parts at the corners, in the order above: the first, the last, and the end of the first row.
+  // The parts at the corners, in the order above: the first, the last, and the end of the first
+  // row.
   const std::array<std::size_t, 3> part_at{begin, places.size() - 1,
                                            begin + 2 * static_cast<std::size_t>(parts) - 2};
   for (std::size_t k = 0; k < 3; ++k) {

@@ -29,8 +29,8 @@ struct CloserLook {
   std::vector<std::uint8_t> asked{};    ///< 0 for parts that are known to be seen.
   std::vector<std::uint8_t> seen{};     ///< Of each part; for others to fill in.
 
-  /// Divides a piece into squared `parts` alike, and takes tips apart: what is seen of a face often ends
-  /// at a corner. \param tips of each corner.
+  /// Divides a piece into squared `parts` alike, and takes tips apart: what is seen of a face often
+  /// ends at a corner. \param tips of each corner.
   void add(std::uint32_t piece, std::uint32_t face, const std::array<Vec3, 3>& corners,
            const std::array<Tip, 3>& tips, int parts);
 

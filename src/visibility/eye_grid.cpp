@@ -23,8 +23,8 @@ constexpr unsigned kTileShift = 2;
 // Faces whose normal makes a larger cosine than this with the line of sight are steep: points
 // clearly behind them (by 2^-21 of the frame) lie off their plane far more than a touch.
 constexpr float kSteep = 0x1p-10F;
-// A point's height over a face's plane, both of them rounded to float in a UnitFrame, is wrong by less
-// than this: a dozen roundings of numbers below 1. It is also far more than a touch.
+// A point's height over a face's plane, both of them rounded to float in a UnitFrame, is wrong by
+// less than this: a dozen roundings of numbers below 1. It is also far more than a touch.
 constexpr float kHeightError = 0x1p-19F;
 // A face whose normal is this close to a right angle with the line of sight is seen edge on: the
 // rounding of positions in a UnitFrame and of the dot product, in radians.
@@ -50,8 +50,8 @@ std::uint8_t exact_side(const Surface& surface, std::size_t f, const Viewpoint& 
 
 }  // namespace
 
-/// Ready to tell which points may lie behind a face. Along a side x, y, 1 are worth what is positive
-/// inside, its length times the distance; one lane a side.
+/// Ready to tell which points may lie behind a face. Along a side x, y, 1 are worth what is
+/// positive inside, its length times the distance; one lane a side.
 struct EyeGrid::Probe {
   Spot along_x, along_y, offset;
   float doubt;                        // error of these values

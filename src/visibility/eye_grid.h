@@ -12,9 +12,9 @@
 #include "visibility/surface.h"
 
 /// \file
-/// Which of many points one eye sees, all at once. All segments of one query end in the same eye, so
-/// the points are sorted into a flat grid over the picture, and every face strikes out the points
-/// behind it: what a hierarchy in space would do, at a fraction of the cost.
+/// Which of many points one eye sees, all at once. All segments of one query end in the same eye,
+/// so the points are sorted into a flat grid over the picture, and every face strikes out the
+/// points behind it: what a hierarchy in space would do, at a fraction of the cost.
 
 namespace vantage {
 
@@ -72,12 +72,14 @@ class EyeGrid {
   // this: twelve roundings of 2^-24.
   static constexpr float kAxisError = 0x1p-20F;
 
-  /// A place in the picture: x, y in cells, depth along the view axis in frame units; the fourth is 0.
+  /// A place in the picture: x, y in cells, depth along the view axis in frame units; the fourth is
+  /// 0.
   using Spot = float __attribute__((vector_size(4 * sizeof(float))));
 
   using Cells = std::int32_t __attribute__((vector_size(4 * sizeof(std::int32_t))));
 
-  /// What something spans in the picture, rounded outwards: its least x, y and depth, and its largest.
+  /// What something spans in the picture, rounded outwards: its least x, y and depth, and its
+  /// largest.
   struct Extent {
     Spot low, high;
   };

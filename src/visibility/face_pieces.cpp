@@ -81,7 +81,8 @@ std::array<Vec3, 3> corners_of(const Surface& surface, std::size_t f) {
 }
 
 /// What tells one node from another: the lowest two sites that it lies between and its share of the
-/// first, or the face that it lies in and its shares. Shares are sums of powers of two, hence exact.
+/// first, or the face that it lies in and its shares. Shares are sums of powers of two, hence
+/// exact.
 struct NodeName {
   std::uint32_t first = 0;
   std::uint32_t second = 0;
@@ -110,7 +111,8 @@ NodeName name_of(const Triangle& face, std::uint32_t f, const Vec3& weights) {
 }
 
 /// Numbers the names: sites by themselves, then nodes on edges, which are to be asked about, then
-/// those in faces. \param face_of of each three names. \pre net holds the corners and all centroids.
+/// those in faces. \param face_of of each three names. \pre net holds the corners and all
+/// centroids.
 void number_nodes(const std::vector<NodeName>& names, const std::vector<std::uint32_t>& face_of,
                   std::size_t sites, PieceNet& net) {
   std::vector<std::uint32_t> order(names.size());

@@ -34,13 +34,13 @@ FacePieces cut_faces(const Surface& surface, double longest);
 /// How pieces meet, and how to divide them. *Nodes* are the corners of pieces: the surface's sites
 /// first, then what lies on an edge of it (one node for all faces there), then what lies in a face.
 struct PieceNet {
-  /// Parts a side of a piece that is looked at closely: so many where a surface has kFewFaces faces, and
-  /// in the inverse proportion to the root of their number, as of many faces each weighs little. At
-  /// least, at most. [ours: docs/visibility.md]
+  /// Parts a side of a piece that is looked at closely: so many where a surface has kFewFaces
+  /// faces, and in the inverse proportion to the root of their number, as of many faces each weighs
+  /// little. At least, at most. [ours: docs/visibility.md]
   static constexpr double kCloser = 4.0, kLeastParts = 2.0, kMostParts = 8.0;
   static constexpr double kFewFaces = 1e4;
-  /// Longest side of a plain face over the side wanted: 1 up to this number of faces, then as its root,
-  /// at most. [ours: docs/visibility.md]
+  /// Longest side of a plain face over the side wanted: 1 up to this number of faces, then as its
+  /// root, at most. [ours: docs/visibility.md]
   static constexpr double kManyFaces = 2e4, kLongestPlain = 2.0;
 
   std::vector<std::uint8_t> parts{};           ///< A side of each piece, 1 to kMostParts.

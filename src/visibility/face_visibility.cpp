@@ -154,9 +154,10 @@ struct FaceVisibility::Samples {
     return net_;
   }
 
-  /// Looks at all sites, at the pieces' centroids and the nodes on edges. Of a plain face that turns to the eye with all faces at its corners only the corners are asked
-  /// about, and the rest goes with them. Not where the surface turns away from the eye, because the
-  /// faces at a corner do not hide it and might hide the face.
+  /// Looks at all sites, at the pieces' centroids and the nodes on edges. Of a plain face that
+  /// turns to the eye with all faces at its corners only the corners are asked about, and the rest
+  /// goes with them. Not where the surface turns away from the eye, because the faces at a corner
+  /// do not hide it and might hide the face.
   [[nodiscard]] FirstLook first_look(Look& look) {
     const Surface& surface = sight.surface();
     const std::size_t sites = surface.sites.size();

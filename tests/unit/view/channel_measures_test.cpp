@@ -16,7 +16,8 @@
 namespace vantage {
 namespace {
 
-// Sums of a few thousand terms in double over areas stored as float, both sides from the same areas.
+// Sums of a few thousand terms in double over areas stored as float, both sides from the same
+// areas.
 constexpr double kBits = 1e-9;
 
 /// Every view sees about half of the faces, at random areas; face 0 is never seen and the last view

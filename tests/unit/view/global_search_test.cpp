@@ -155,8 +155,8 @@ class SketchScores : public testing::Test {
     const std::vector<double> estimates = sketch.score_all(directions);
     const std::vector<double> scores = exact.score_all(directions);
     for (std::size_t i = 0; i < scores.size(); ++i) {
-      // A cell is 1/112 of the picture, which is little wider than the sphere: the tube, 0.8 of 2.8, is at least 28 of them
-      // wide and known to half a cell a side.
+      // A cell is 1/112 of the picture, which is little wider than the sphere: the tube, 0.8 of
+      // 2.8, is at least 28 of them wide and known to half a cell a side.
       EXPECT_NEAR(estimates[i], scores[i], exact.total() / 28.0);
     }
   }

@@ -148,8 +148,8 @@ TEST(Measures, OutlineTheHoleOfATorusToo) {
   EXPECT_NEAR(ring.value("silhouette-length", Vec3::UnitZ()), std::numbers::pi * 1.6, 5e-3);
 }
 
-/// Largest change of a measure of the outline where twice as many places of each step are looked at,
-/// over its range.
+/// Largest change of a measure of the outline where twice as many places of each step are looked
+/// at, over its range.
 double change_when_halved(double OutlineMeasures::*member) {
   const Subject tubes(test::y_of_tubes(0.2, 40), Projection::Perspective);
   const ScoringCamera& camera = tubes.given.camera;

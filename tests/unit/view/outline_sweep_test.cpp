@@ -111,7 +111,8 @@ TEST(OutlineSweep, TakesNoNoticeOfWhatCrossesOverAnotherLayer) {
 }
 
 TEST(OutlineSweep, FindsAHoleThatCrossingsLeaveOpen) {
-  // Two holes turned by 45° to each other, one in each of two sheets: both see through where both are.
+  // Two holes turned by 45° to each other, one in each of two sheets: both see through where both
+  // are.
   std::vector<LayerEdge> edges;
   add(edges, square(-2.0, -2.0, 4.0), 2);
   add(edges, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, -1);
@@ -164,7 +165,8 @@ TEST(OutlineSweep, OfRandomTrianglesCoversWhatTheyCover) {
   }
   const double cell = 1.4 / kLines;
   const Outline outline = boundary_of_layers(edges);
-  // The count is wrong by about the square root of the cells that the outline meets; allow all of 2 %.
+  // The count is wrong by about the square root of the cells that the outline meets; allow all of 2
+  // %.
   EXPECT_NEAR(area(outline), covered * cell * cell, 0.02 * length(outline) * cell);
 }
 

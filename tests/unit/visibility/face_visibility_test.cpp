@@ -98,8 +98,8 @@ TEST(FaceVisibility, AnswersForVerticesAsVertexVisibilityDoes) {
 }
 
 TEST(FaceVisibility, HidesAFaceBehindOneThatSharesItsCorners) {
-  // A flap that is hinged on one side of a face hangs over it: none of the face's corners is hidden,
-  // but 0.6 of its area.
+  // A flap that is hinged on one side of a face hangs over it: none of the face's corners is
+  // hidden, but 0.6 of its area.
   TriMesh mesh;
   mesh.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 1, 0), Vec3(0.5, 0.6, 0.5)};
   mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
