@@ -10,7 +10,6 @@
 #include <Eigen/Geometry>
 
 #include "core/parallel.h"
-#include "view/sketch_parts.h"
 
 namespace vantage {
 namespace {
@@ -87,19 +86,6 @@ Projected<Number> project(const Frame& f, const Number& x, const Number& y, cons
   return {across * shrink * f.per_cell + f.middle, along * shrink * f.per_cell + f.middle,
           f.slope * shrink + (1.0F - f.slope) * rise};
 }
-
-}  // namespace
-
-/// What a scorer keeps.
-struct SketchScorer::Parts {
-  ScoringCamera camera{};
-  std::size_t cells = 0;
-  float slack = 0.0F;
-  SketchPoints points{};
-  SketchSurface surface{};
-};
-
-namespace {
 
 /// Draws one model from one eye after the other.
 class Sketch {
@@ -283,26 +269,19 @@ double Sketch::sum_of_seen(const Frame& frame) {
 SketchScorer::SketchScorer(const TriMesh& surface, const std::vector<FaceSides>& sides,
                            std::span<const double> significance, const ScoringCamera& camera,
                            const SketchOptions& options)
-    : parts_(std::make_unique<Parts>()) {
-  parts_->camera = camera;
-  parts_->cells = options.cells;
-  parts_->slack = options.slack;
-  parts_->points = sketch_points(surface, sides, significance, camera, options.points);
-  parts_->surface = sketch_surface(surface, sides, camera, options.faces);
-}
-
-SketchScorer::~SketchScorer() = default;
-SketchScorer::SketchScorer(SketchScorer&&) noexcept = default;
-SketchScorer& SketchScorer::operator=(SketchScorer&&) noexcept = default;
+    : camera_(camera),
+      cells_(options.cells),
+      slack_(options.slack),
+      points_(sketch_points(surface, sides, significance, camera, options.points)),
+      surface_(sketch_surface(surface, sides, camera, options.faces)) {}
 
 std::vector<double> SketchScorer::score_all(std::span<const Vec3> directions,
                                             const RunContext& run) const {
   std::vector<double> scores(directions.size(), 0.0);
   parallel_for(run, directions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    Sketch sketch(parts_->points, parts_->surface, parts_->cells, parts_->slack);
+    Sketch sketch(points_, surface_, cells_, slack_);
     for (std::size_t i = begin; i < end; ++i) {
-      scores[i] =
-          sketch.score(directions[i], frame_of(directions[i], parts_->camera, parts_->cells));
+      scores[i] = sketch.score(directions[i], frame_of(directions[i], camera_, cells_));
     }
   });
   return scores;

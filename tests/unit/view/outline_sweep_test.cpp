@@ -165,8 +165,8 @@ TEST(OutlineSweep, OfRandomTrianglesCoversWhatTheyCover) {
   }
   const double cell = 1.4 / kLines;
   const Outline outline = boundary_of_layers(edges);
-  // The count is wrong by about the square root of the cells that the outline meets; allow all of 2
-  // %.
+  // The count is wrong by about the square root of the cells that the outline meets; allow all
+  // of 2 %.
   EXPECT_NEAR(area(outline), covered * cell * cell, 0.02 * length(outline) * cell);
 }
 

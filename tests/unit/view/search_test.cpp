@@ -61,8 +61,8 @@ SearchOptions paper() {
 
 // By hand, for the score 1 + z on the cube, ε = 0.1 (s = 1/√3 = 0.5774):
 // Start: the four corners with z = s tie at 1.5774; the first of them is a = (−s,−s,s), the
-// smallest   corner of the square z = +, so that its ring is (−s,−s,−s), (−s,s,s), (s,−s,s) and,
-// along the   diagonal, c = (s,s,s).
+//   smallest corner of the square z = +, so that its ring is (−s,−s,−s), (−s,s,s), (s,−s,s) and,
+//   along the diagonal, c = (s,s,s).
 // Level 1, four new vertices. The diagonal's, m, has the opposite corners (−s,s,s) and (s,−s,s):
 //   3/8 (a + c) + 1/8 (0, 0, 2s) = s (0, 0, 1), that is (0, 0, 1), score 2. Gain 0.4226: move to m.
 // Level 2, six new vertices around m. Its neighbours are a, c and the new vertices of the square's
