@@ -14,6 +14,9 @@ namespace {
 constexpr double kConstant = 25.0;
 constexpr double kNoise = 0.35;
 constexpr double kReach = 0.6;
+// From so many lessons on the scale of the process does not fall again: a search that stays on one
+// hill learns from ever more of the same, which says nothing of the others. [ours, docs/search.md]
+constexpr std::size_t kSettled = 23;
 
 /// Covariance of the errors in two directions: Wendland's function C2, zero from kReach on.
 double covariance(const Vec3& a, const Vec3& b) {
@@ -64,8 +67,11 @@ void ErrorModel::learn(std::size_t candidate, double score) {
   lessons_.push_back((score - estimates_[candidate] - error_[candidate]) / spread_[row]);
   if (row > 0) {
     surprise_ += lessons_[row] * lessons_[row];
+    const double mean = surprise_ / static_cast<double>(row);
+    scale_ = row < kSettled ? mean : std::max(scale_, mean);
   }
-  // weight_of() of every candidate, row by row: this is where a search by estimates spends its time.
+  // weight_of() of every candidate, row by row: this is where a search by estimates spends its
+  // time.
   std::vector<double> weights;
   weights.reserve(directions_.size());
   for (const Vec3& direction : directions_) {
@@ -93,8 +99,11 @@ double ErrorModel::doubt(std::size_t candidate) const {
   if (known_[candidate] != 0 || rows_.size() < 2) {
     return 0.0;
   }
-  const double scale = surprise_ / static_cast<double>(rows_.size() - 1);
-  return std::sqrt(scale * (std::max(variance_[candidate], 0.0) + kNoise));
+  return std::sqrt(scale_ * (std::max(variance_[candidate], 0.0) + kNoise));
+}
+
+double ErrorModel::noise() const {
+  return std::sqrt(scale_ * kNoise);
 }
 
 }  // namespace vantage

@@ -35,6 +35,9 @@ class ErrorModel {
   /// By how much the score may differ from that (one standard deviation); 0 where it is known.
   [[nodiscard]] double doubt(std::size_t candidate) const;
 
+  /// The part of a doubt that no neighbour's score can take away: how rough scores or estimates are.
+  [[nodiscard]] double noise() const;
+
   [[nodiscard]] bool knows(std::size_t candidate) const { return known_[candidate] != 0; }
 
  private:
@@ -52,6 +55,7 @@ class ErrorModel {
   std::vector<std::vector<double>> rows_{};
   std::vector<double> lessons_{};
   double surprise_ = 0.0;  // sum of squared lessons, but for the first
+  double scale_ = 0.0;     // of the process: their mean, or the largest that it has been
 };
 
 }  // namespace vantage

@@ -28,30 +28,23 @@ constexpr double kFirstApartRad = 8.0 * kRadPerDeg;  // … far from each other
 constexpr std::size_t kBatch = 6;                    // scored at a time from then on
 constexpr double kApartRad = 1.0 * kRadPerDeg;
 constexpr double kBoldness = 0.5;  // doubts added to an expected score to rank directions
-constexpr double kGivenUp = 5.0;   // doubts by which all must lie below the best to end it
+constexpr double kGivenUp = 3.0;   // doubts by which all must lie below the best to end it
+constexpr std::size_t kScouts =
+    3;  // of each batch: where they could be better by so many doubts, …
+constexpr double kScoutsApartRad = 8.0 * kRadPerDeg;  // … and far from all that is scored
 constexpr std::size_t kSureMarks = 4;
 constexpr std::size_t kLikedMarks = 8;
-constexpr double kSameHillRad = 2.0 * kRadPerDeg;
-
-/// Hills are rough: the best few places climb by rings, and the fewer are left the finer.
-struct Climb {
-  std::size_t places;
-  double ring_rad;
-};
-
-constexpr std::array<Climb, 4> kClimbs{{{3, 1.0 * kRadPerDeg},
-                                        {2, 0.5 * kRadPerDeg},
-                                        {1, 0.25 * kRadPerDeg},
-                                        {1, 0.125 * kRadPerDeg}}};
+constexpr double kSameHillRad = 1.0 * kRadPerDeg;
+constexpr double kTooLow = 2.0;  // a place below the best by so much of the noise does not climb
+constexpr double kWidestRingRad = 1.0 * kRadPerDeg;  // of a climb; each climb halves it
 
 bool best_first(const Candidate& a, const Candidate& b) {
   return a.score > b.score;
 }
 
-/// The best few, best first, no two nearer to each other than an angle.
-std::vector<Candidate> best_apart(std::vector<Candidate> candidates, std::size_t count,
-                                  double apart_rad) {
-  std::stable_sort(candidates.begin(), candidates.end(), best_first);
+/// The first few of those that are not nearer than an angle to one before.
+std::vector<Candidate> first_apart(const std::vector<Candidate>& candidates, std::size_t count,
+                                   double apart_rad) {
   std::vector<Candidate> chosen;
   const double limit = std::cos(apart_rad);
   for (const Candidate& one : candidates) {
@@ -65,8 +58,15 @@ std::vector<Candidate> best_apart(std::vector<Candidate> candidates, std::size_t
   return chosen;
 }
 
-/// Looks for the largest value of sign · score: estimates choose what is scored, and what the scores
-/// teach about them decides what is scored next.
+/// The best few, best first, no two nearer to each other than an angle.
+std::vector<Candidate> best_apart(std::vector<Candidate> candidates, std::size_t count,
+                                  double apart_rad) {
+  std::stable_sort(candidates.begin(), candidates.end(), best_first);
+  return first_apart(candidates, count, apart_rad);
+}
+
+/// Looks for the largest value of sign · score: estimates choose what is scored, and what the
+/// scores teach about them decides what is scored next.
 class Hunt {
  public:
   Hunt(const Guides& guides, Goal goal)
@@ -84,8 +84,8 @@ class Hunt {
   /// Scores directions until none is left that could be better, or enough are scored.
   void settle(const RunContext& run);
 
-  /// The best of what was scored, as they were scored, each hill once.
-  [[nodiscard]] std::vector<Candidate> best_known() const;
+  /// The best few of what was scored, as they were scored, each hill once, but for those too low.
+  [[nodiscard]] std::vector<Candidate> best_known(std::size_t count) const;
 
  private:
   void list(const std::vector<std::uint32_t>& dense, const RunContext& run);
@@ -93,9 +93,16 @@ class Hunt {
   void score(const std::vector<std::size_t>& chosen);
   [[nodiscard]] std::vector<std::uint32_t> near(const Vec3& centre, double reach_rad,
                                                 std::size_t count) const;
+
+  /// What is expected of a candidate, and some doubts.
+  [[nodiscard]] double prospect(std::size_t c, double boldness) const {
+    return model_.expected(c) + boldness * model_.doubt(c);
+  }
+
   [[nodiscard]] std::vector<std::size_t> ranked(double boldness) const;
   [[nodiscard]] std::vector<std::size_t> pick(std::size_t count, double apart_rad,
                                               double boldness) const;
+  void add_scouts(std::vector<std::size_t>& chosen) const;
   [[nodiscard]] std::vector<Candidate> expectations() const;
   [[nodiscard]] bool is_hopeless() const;
 
@@ -200,7 +207,7 @@ std::vector<std::size_t> Hunt::ranked(double boldness) const {
   std::vector<double> prospects;
   prospects.reserve(model_.size());
   for (std::size_t c = 0; c < model_.size(); ++c) {
-    prospects.push_back(model_.expected(c) + boldness * model_.doubt(c));
+    prospects.push_back(prospect(c, boldness));
   }
   std::vector<std::size_t> order(model_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -225,6 +232,34 @@ std::vector<std::size_t> Hunt::pick(std::size_t count, double apart_rad, double 
   return chosen;
 }
 
+/// Adds the unknown candidates that could be best by kGivenUp doubts, far from all that is scored or
+/// chosen: lest the search stays on the hills it knows.
+void Hunt::add_scouts(std::vector<std::size_t>& chosen) const {
+  std::vector<Vec3> taken;
+  taken.reserve(known_.size() + chosen.size() + kScouts);
+  for (const Candidate& known : known_) {
+    taken.push_back(known.direction);
+  }
+  for (const std::size_t c : chosen) {
+    taken.push_back(model_.direction(c));
+  }
+  const double best = winner_of(Goal::Best, known_).score;
+  const double limit = std::cos(kScoutsApartRad);
+  const std::size_t full = chosen.size() + kScouts;
+  for (const std::size_t c : ranked(kGivenUp)) {
+    if (chosen.size() == full || prospect(c, kGivenUp) <= best) {
+      return;
+    }
+    const bool is_far = std::none_of(taken.begin(), taken.end(), [&](const Vec3& other) {
+      return other.dot(model_.direction(c)) > limit;
+    });
+    if (is_far && !model_.knows(c)) {
+      chosen.push_back(c);
+      taken.push_back(model_.direction(c));
+    }
+  }
+}
+
 /// Has all dense directions around the best few of some places take part.
 void Hunt::open(std::vector<Candidate> places) {
   for (const Candidate& top : best_apart(std::move(places), kHills, kHillRad)) {
@@ -241,8 +276,14 @@ std::vector<Candidate> Hunt::expectations() const {
   return result;
 }
 
-std::vector<Candidate> Hunt::best_known() const {
-  std::vector<Candidate> tops = best_apart(known_, kClimbs.front().places, kSameHillRad);
+std::vector<Candidate> Hunt::best_known(std::size_t count) const {
+  std::vector<Candidate> tops = best_apart(known_, count, kSameHillRad);
+  if (model_.noise() > 0.0) {  // 0 where estimates are exact and teach nothing
+    const double least = tops.front().score - kTooLow * model_.noise();
+    tops.erase(std::find_if(tops.begin(), tops.end(),
+                            [&](const Candidate& top) { return top.score < least; }),
+               tops.end());
+  }
   for (Candidate& top : tops) {
     top.score *= sign_;
   }
@@ -253,7 +294,7 @@ std::vector<Candidate> Hunt::best_known() const {
 bool Hunt::is_hopeless() const {
   const double best = winner_of(Goal::Best, known_).score;
   for (std::size_t c = 0; c < model_.size(); ++c) {
-    if (!model_.knows(c) && model_.expected(c) + kGivenUp * model_.doubt(c) > best) {
+    if (!model_.knows(c) && prospect(c, kGivenUp) > best) {
       return false;
     }
   }
@@ -268,8 +309,33 @@ void Hunt::settle(const RunContext& run) {
     if (is_hopeless()) {
       return;
     }
-    score(pick(kBatch, kApartRad, kBoldness));
+    std::vector<std::size_t> next = pick(kBatch - kScouts, kApartRad, kBoldness);
+    add_scouts(next);
+    score(next);
   }
+}
+
+/// Hills are rough: places climb by rings, and the fewer are left the finer.
+Candidate climb_finely(std::vector<Candidate> tops, const Guides& guides, Goal goal,
+                       const RunContext& run) {
+  const Climbs& climbs = goal == Goal::Best ? guides.effort.to_best : guides.effort.to_worst;
+  const std::size_t count = climbs.size();
+  double ring_rad = kWidestRingRad;
+  for (std::size_t k = 0; k < count && climbs[k] > 0; ++k, ring_rad *= 0.5) {
+    // Two places within one ring have climbed to the same top, or would.
+    tops = first_apart(tops, climbs[k], ring_rad);
+    const bool is_last = k + 1 == count || climbs[k + 1] == 0;
+    const RingSteps rings{ring_rad,
+                          is_last ? std::min(ring_rad, guides.effort.finest_rad) : ring_rad};
+    const auto at = [&](std::size_t stage) {
+      return static_cast<double>(stage) / static_cast<double>(count);
+    };
+    climb(tops, goal, rings, guides.exact, static_cast<int>(k) + 1, run.part(at(k), at(k + 1)));
+    std::stable_sort(tops.begin(), tops.end(), [&](const Candidate& one, const Candidate& other) {
+      return is_better(goal, one.score, other.score);
+    });
+  }
+  return tops.front();
 }
 
 }  // namespace
@@ -280,21 +346,8 @@ Candidate search_globally(const Guides& guides, Goal goal, const SearchHints& hi
   hunt.look_over(run.part(0.0, 0.3));
   hunt.score_marks(hints.landmarks, hints.brinks);
   hunt.settle(run.part(0.3, 0.7));
-  std::vector<Candidate> tops = hunt.best_known();
-  for (std::size_t k = 0; k < kClimbs.size(); ++k) {
-    const auto at = [&](std::size_t stage) {
-      return 0.7 + 0.3 * static_cast<double>(stage) / static_cast<double>(kClimbs.size());
-    };
-    tops.resize(std::min(tops.size(), kClimbs[k].places));
-    const bool is_last = k + 1 == kClimbs.size();
-    const RingSteps ring{kClimbs[k].ring_rad,
-                         is_last ? guides.effort.finest_rad : kClimbs[k].ring_rad};
-    climb(tops, goal, ring, guides.exact, static_cast<int>(k) + 1, run.part(at(k), at(k + 1)));
-    std::stable_sort(tops.begin(), tops.end(), [&](const Candidate& one, const Candidate& other) {
-      return is_better(goal, one.score, other.score);
-    });
-  }
-  return tops.front();
+  const Climbs& climbs = goal == Goal::Best ? guides.effort.to_best : guides.effort.to_worst;
+  return climb_finely(hunt.best_known(climbs.front()), guides, goal, run.part(0.7, 1.0));
 }
 
 }  // namespace vantage

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <limits>
 
 #include "vantage/view/search.h"
 
@@ -10,12 +12,18 @@
 
 namespace vantage {
 
+/// How many of the best places climb by rings of 1°, 0.5°, …; a 0 ends it.
+using Climbs = std::array<std::size_t, 5>;
+
 /// How much the global search looks at. [ours, docs/search.md]
 struct Effort {
   std::size_t promising;  ///< Directions of the first look around which it looks closer.
-  std::size_t places;     ///< About so many are scored before the climb.
+  std::size_t places;     ///< About so many are scored at most before the climb.
   std::size_t brinks;     ///< So many of the best brinks are scored.
-  double finest_rad;      ///< The last ring is not narrower; at most 0.125°.
+  Climbs to_best;
+  Climbs to_worst;
+  /// The last climb goes on to rings as narrow as this.
+  double finest_rad = std::numeric_limits<double>::infinity();
 };
 
 /// What the global search asks.

@@ -14,8 +14,8 @@ namespace {
 // The gradient is that over this angle to both sides: scores are sums over what is seen, with jumps
 // too small to see at this width. [ours]
 constexpr double kReachRad = 2.0 * kRadPerDeg;
-// The first way that is tried along the gradient; halved where it does not help, until it is shorter
-// than the last. [ours]
+// The first way that is tried along the gradient; halved where it does not help, until it is
+// shorter than the last. [ours]
 constexpr double kFirstWayRad = 8.0 * kRadPerDeg;
 constexpr double kLastWayRad = 0.25 * kRadPerDeg;
 // The climb from one start ends after this many steps in any case. [ours]

@@ -29,12 +29,20 @@ constexpr std::size_t kDenseSeeds = 3;
 constexpr RingSteps kDenseSteps{4.0 * kRadPerDeg, 0.01 * kRadPerDeg};
 // Global search: usually; where scores are cheap; and where there is nothing cheaper than scores,
 // so that the first look is at 2 562 directions. [ours, docs/search.md]
-constexpr double kFineEnoughRad = 0.125 * kRadPerDeg;
-constexpr Effort kUsual{.promising = 30, .places = 36, .brinks = 12, .finest_rad = kFineEnoughRad};
+constexpr Climbs kManyClimbs{6, 4, 3, 2, 1};
+constexpr Effort kUsual{.promising = 30,
+                        .places = 108,
+                        .brinks = 12,
+                        .to_best = {4, 3, 2, 1, 1},
+                        .to_worst = {3, 2, 1, 1, 0}};
 constexpr Effort kThorough{
-    .promising = 60, .places = 96, .brinks = 150, .finest_rad = kFineEnoughRad};
-constexpr Effort kByScores{
-    .promising = 642, .places = 96, .brinks = 150, .finest_rad = 0.01 * kRadPerDeg};
+    .promising = 30, .places = 288, .brinks = 150, .to_best = kManyClimbs, .to_worst = kManyClimbs};
+constexpr Effort kByScores{.promising = 642,
+                           .places = 288,
+                           .brinks = 150,
+                           .to_best = kManyClimbs,
+                           .to_worst = kManyClimbs,
+                           .finest_rad = 0.01 * kRadPerDeg};
 // Share of the progress bar that the start set takes.
 constexpr double kStartShare = 0.7;
 

@@ -11,8 +11,6 @@
 #include "vantage/mesh/tri_mesh.h"
 #include "vantage/view/scoring.h"
 
-#include "view/sketch_scorer.h"
-
 /// \file
 /// What a sketch of a model is made of. Coordinates are those of the unit sphere that the scoring
 /// camera's sphere becomes.

@@ -5,12 +5,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <utility>
 
 #include <Eigen/Geometry>
 
 #include "core/parallel.h"
-#include "view/sketch_parts.h"
 
 namespace vantage {
 namespace {
@@ -18,6 +16,15 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // A face's plane is followed so many slacks beyond its nearness in the middle of a cell. [ours]
 constexpr float kReach = 4.0F;
+// The eye is drawn from so many radii at least and, up to so many, in perspective: nearer, what is
+// close to it would fill thousands of pictures, and farther, depths would round to one another. The
+// range of --distance begins there, too; at the far end an eye is off the parallel by 0.06°. [ours]
+constexpr double kNearestEye = 1.001;
+constexpr double kFarthestEye = 1000.0;
+// Nothing is drawn nearer to the eye: what the sphere encloses is not. [ours]
+constexpr float kLeastDepth = 0.0009F;
+// Corners farther outside count as so many cells away. [ours]
+constexpr float kFarOutside = 1e6F;
 constexpr std::size_t kLanes = 4;
 constexpr std::size_t kGrain = 16;  // directions a chunk: some tenths of a millisecond
 
@@ -55,6 +62,18 @@ struct Frame {
   float middle = 0.0F;
 };
 
+/// A camera like this one that a picture in single precision can be drawn from.
+ScoringCamera drawable(ScoringCamera camera) {
+  const double factor = camera.distance() / (0.5 * camera.sphere.diameter);
+  if (factor > kFarthestEye) {
+    camera.projection = Projection::Orthographic;
+  }
+  if (factor < kNearestEye) {
+    camera.distance_factor = kNearestEye;
+  }
+  return camera;
+}
+
 Frame frame_of(const Vec3& direction, const ScoringCamera& camera, std::size_t cells) {
   const Vec3 right = direction.unitOrthogonal();
   Frame frame;
@@ -81,25 +100,13 @@ struct Projected {
 template <class Number>
 Projected<Number> project(const Frame& f, const Number& x, const Number& y, const Number& z) {
   const Number rise = x * f.towards.x() + y * f.towards.y() + z * f.towards.z();
-  const Number shrink = 1.0F / (f.slope * (f.distance - rise) + (1.0F - f.slope));
+  const Number depth = f.slope * (f.distance - rise) + (1.0F - f.slope);
+  const Number shrink = 1.0F / (depth > kLeastDepth ? depth : Number{} + kLeastDepth);
   const Number across = x * f.right.x() + y * f.right.y() + z * f.right.z();
   const Number along = x * f.up.x() + y * f.up.y() + z * f.up.z();
   return {across * shrink * f.per_cell + f.middle, along * shrink * f.per_cell + f.middle,
           f.slope * shrink + (1.0F - f.slope) * rise};
 }
-
-}  // namespace
-
-/// What a scorer keeps.
-struct SketchScorer::Parts {
-  ScoringCamera camera{};
-  std::size_t cells = 0;
-  float slack = 0.0F;
-  SketchPoints points{};
-  SketchSurface surface{};
-};
-
-namespace {
 
 /// Draws one model from one eye after the other.
 class Sketch {
@@ -165,7 +172,9 @@ void Sketch::draw_faces(const Frame& frame) {
 /// Draws a face whose corners turn counter-clockwise.
 void Sketch::draw_face(std::uint32_t face, const Spot& a, const Spot& b, const Spot& c) {
   constexpr float kCentre = 0.5F;  // of a cell
-  const auto cell_after = [](float at) { return static_cast<std::int32_t>(at + kCentre); };
+  const auto cell_after = [](float at) {
+    return static_cast<std::int32_t>(std::clamp(at, -kFarOutside, kFarOutside) + kCentre);
+  };
   const auto last = static_cast<std::int32_t>(cells_) - 1;
   // Cells whose middles may lie inside.
   const std::int32_t left = std::max(0, cell_after(std::min({a.x, b.x, c.x})));
@@ -283,26 +292,19 @@ double Sketch::sum_of_seen(const Frame& frame) {
 SketchScorer::SketchScorer(const TriMesh& surface, const std::vector<FaceSides>& sides,
                            std::span<const double> significance, const ScoringCamera& camera,
                            const SketchOptions& options)
-    : parts_(std::make_unique<Parts>()) {
-  parts_->camera = camera;
-  parts_->cells = options.cells;
-  parts_->slack = options.slack;
-  parts_->points = sketch_points(surface, sides, significance, camera, options.points);
-  parts_->surface = sketch_surface(surface, sides, camera, options.faces);
-}
-
-SketchScorer::~SketchScorer() = default;
-SketchScorer::SketchScorer(SketchScorer&&) noexcept = default;
-SketchScorer& SketchScorer::operator=(SketchScorer&&) noexcept = default;
+    : camera_(drawable(camera)),
+      cells_(options.cells),
+      slack_(options.slack),
+      points_(sketch_points(surface, sides, significance, camera_, options.points)),
+      surface_(sketch_surface(surface, sides, camera_, options.faces)) {}
 
 std::vector<double> SketchScorer::score_all(std::span<const Vec3> directions,
                                             const RunContext& run) const {
   std::vector<double> scores(directions.size(), 0.0);
   parallel_for(run, directions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    Sketch sketch(parts_->points, parts_->surface, parts_->cells, parts_->slack);
+    Sketch sketch(points_, surface_, cells_, slack_);
     for (std::size_t i = begin; i < end; ++i) {
-      scores[i] =
-          sketch.score(directions[i], frame_of(directions[i], parts_->camera, parts_->cells));
+      scores[i] = sketch.score(directions[i], frame_of(directions[i], camera_, cells_));
     }
   });
   return scores;

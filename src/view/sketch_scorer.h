@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -10,6 +9,8 @@
 #include "vantage/core/vec3.h"
 #include "vantage/mesh/tri_mesh.h"
 #include "vantage/view/scoring.h"
+
+#include "view/sketch_parts.h"
 
 /// \file
 /// Scores guessed from a small picture: some points stand for all vertices, a coarse surface hides
@@ -36,17 +37,17 @@ class SketchScorer {
   SketchScorer(const TriMesh& surface, const std::vector<FaceSides>& sides,
                std::span<const double> significance, const ScoringCamera& camera,
                const SketchOptions& options = {});
-  ~SketchScorer();
-  SketchScorer(SketchScorer&&) noexcept;             ///< Leaves the other unusable.
-  SketchScorer& operator=(SketchScorer&&) noexcept;  ///< The same.
 
   /// About the score of each direction, in parallel over directions. \throw Cancelled
   [[nodiscard]] std::vector<double> score_all(std::span<const Vec3> directions,
                                               const RunContext& run = {}) const;
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  ScoringCamera camera_;
+  std::size_t cells_;
+  float slack_;
+  SketchPoints points_;
+  SketchSurface surface_;
 };
 
 }  // namespace vantage

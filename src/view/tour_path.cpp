@@ -13,8 +13,9 @@
 namespace vantage {
 namespace {
 
-// The roll follows upright within about this much of the way at the equator, and the more slowly the
-// nearer to a pole. [ours]: by eye; half of it shows the turn as a jerk, twice tilts the horizon.
+// The roll follows upright within about this much of the way at the equator, and the more slowly
+// the nearer to a pole. [ours]: by eye; half of it shows the turn as a jerk, twice tilts the
+// horizon.
 constexpr double kRollLengthRad = 8.0 * kRadPerDeg;
 // Weight of upright at a pole, where it means nothing; keeps the system definite.
 constexpr double kLeastWeight = 1e-6;

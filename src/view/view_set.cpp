@@ -152,7 +152,8 @@ class Selection {
     seen_ += gain;
     const double share = result_.reachable > 0.0 ? seen_ / result_.reachable : 1.0;
     result_.views.push_back({direction, gain, std::min(1.0, share)});
-    // States after 1, 2, 4, … views: the tightest bound comes from an early one, its cost is a pass.
+    // States after 1, 2, 4, … views: the tightest bound comes from an early one, its cost is a
+    // pass.
     if (std::has_single_bit(result_.views.size())) {
       bound_.add_state(seen_, cover.gains(quiet_));
     }

@@ -70,7 +70,22 @@ TEST(GlobalSearchByEstimates, ScoresExactlyOnlyWhereTheEstimateLeads) {
   EXPECT_EQ(views.best.evaluations + views.worst.evaluations, exact);
   EXPECT_EQ(views.best.estimates + views.worst.estimates, estimated);
   EXPECT_LT(exact, 250U);
-  EXPECT_GE(estimated, 642U);
+  EXPECT_GE(estimated, 642U);  // the whole sphere, 8° apart
+}
+
+TEST(GlobalSearchByEstimates, FindsAHillThatTheEstimateRanksBelowManyThatAreNotThere) {
+  // The estimate ranks the highest hill below seven others that are not there at all.
+  const auto misled = [](const Vec3& d) {
+    double value = hills(d) - 1.5 * std::exp(-std::pow(angle_between(d, kHigh) / 0.4, 2));
+    for (int k = 0; k < 7; ++k) {
+      const Vec3 ghost(std::cos(0.9 * k), std::sin(0.9 * k), 0.6 - 0.2 * k);
+      value += 3.0 * std::exp(-std::pow(angle_between(d, ghost.normalized()) / 0.15, 2));
+    }
+    return value;
+  };
+  const FoundView best =
+      search_view(batch_of(hills), 10.0, Goal::Best, {}, {}, {.estimate = batch_of(misled)});
+  EXPECT_LT(angle_between(best.direction, kHigh), kFoundRad);
 }
 
 TEST(GlobalSearchByEstimates, LearnsThatTheEstimateUnderratesAHill) {
@@ -155,8 +170,8 @@ class SketchScores : public testing::Test {
     const std::vector<double> estimates = sketch.score_all(directions);
     const std::vector<double> scores = exact.score_all(directions);
     for (std::size_t i = 0; i < scores.size(); ++i) {
-      // A cell is 1/112 of the picture, which is little wider than the sphere: the tube, 0.8 of 2.8, is at least 28 of them
-      // wide and known to half a cell a side.
+      // A cell is 1/112 of the picture, which is little wider than the sphere: the tube, 0.8 of
+      // 2.8, is at least 28 of them wide and known to half a cell a side.
       EXPECT_NEAR(estimates[i], scores[i], exact.total() / 28.0);
     }
   }
@@ -168,6 +183,22 @@ TEST_F(SketchScores, FollowTheExactOnesInPerspective) {
 
 TEST_F(SketchScores, FollowTheExactOnesInParallelProjection) {
   expect_near_exact({.sphere = {Vec3::Zero(), 2.8}, .projection = Projection::Orthographic});
+}
+
+TEST_F(SketchScores, FollowTheExactOnesFromVeryFar) {
+  expect_near_exact({.sphere = {Vec3::Zero(), 2.8}, .distance_factor = 1e6});
+}
+
+TEST_F(SketchScores, AreFiniteFromAnEyeOnTheSphereAndInsideTheModel) {
+  // The torus has a radius of 1.4: of these spheres it fills the first and reaches out of the
+  // others, so that corners lie beside the eye and behind it. (Casts are checked by sanitizers.)
+  for (const double diameter : {2.8, 2.0, 1e-3, 1e-12}) {
+    const SketchScorer sketch(mesh, sides, significance,
+                              {.sphere = {Vec3::Zero(), diameter}, .distance_factor = 1.0 + 1e-15});
+    for (const double score : sketch.score_all(directions)) {
+      EXPECT_TRUE(score >= 0.0 && std::isfinite(score));
+    }
+  }
 }
 
 TEST_F(SketchScores, AreTheSameForAnyNumberOfThreads) {

@@ -60,9 +60,9 @@ SearchOptions paper() {
 }
 
 // By hand, for the score 1 + z on the cube, ε = 0.1 (s = 1/√3 = 0.5774):
-// Start: the four corners with z = s tie at 1.5774; the first of them is a = (−s,−s,s), the smallest
-//   corner of the square z = +, so that its ring is (−s,−s,−s), (−s,s,s), (s,−s,s) and, along the
-//   diagonal, c = (s,s,s).
+// Start: the four corners with z = s tie at 1.5774; the first of them is a = (−s,−s,s), the
+//   smallest corner of the square z = +, so that its ring is (−s,−s,−s), (−s,s,s), (s,−s,s) and,
+//   along the diagonal, c = (s,s,s).
 // Level 1, four new vertices. The diagonal's, m, has the opposite corners (−s,s,s) and (s,−s,s):
 //   3/8 (a + c) + 1/8 (0, 0, 2s) = s (0, 0, 1), that is (0, 0, 1), score 2. Gain 0.4226: move to m.
 // Level 2, six new vertices around m. Its neighbours are a, c and the new vertices of the square's
@@ -179,7 +179,8 @@ TEST(ExhaustiveSearch, GivesTiesToTheLowestIndex) {
 
 TEST(GlobalSearch, FindsTheTallestOfSeveralHills) {
   const FoundView found = search_view(scoring(hills), 1.0, Goal::Best);
-  // The two other hills shift the top of the first; at the top the score is at least that of peak().
+  // The two other hills shift the top of the first; at the top the score is at least that of
+  // peak().
   EXPECT_GE(found.score, hills(peak()));
   EXPECT_LT(degrees_between(found.direction, peak()), 1.0);
 }
@@ -209,9 +210,9 @@ double needle(const Vec3& d) {
   return 0.1 * (1.0 - d.z()) + std::exp(3000.0 * (d.dot(top) - 1.0));
 }
 
-// The last ring has a radius of 4°/2^8 = 0.015625°. None of its six directions is better, so that the
-// summit is at most 0.015625° / (2 cos 30°) = 0.00902° away; the slope, at most 0.1 per radian on a
-// curvature of 3000, moves it by at most 0.1/3000 rad = 0.0019° from the needle's top.
+// The last ring has a radius of 4°/2^8 = 0.015625°. None of its six directions is better, so that
+// the summit is at most 0.015625° / (2 cos 30°) = 0.00902° away; the slope, at most 0.1 per radian
+// on a curvature of 3000, moves it by at most 0.1/3000 rad = 0.0019° from the needle's top.
 TEST(DenseSearch, FindsANarrowPeakBetweenTheDirectionsOfACoarseSet) {
   const Vec3 top = Vec3(0.31, 0.52, 0.79).normalized();
   const FoundView found =
