@@ -2,6 +2,9 @@
 #include "vantage/view/landmarks.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -69,6 +72,46 @@ TEST(Landmarks, OfNothingAreNone) {
   const TriMesh flat{.positions = {Vec3::Zero(), Vec3::UnitX(), 2.0 * Vec3::UnitX()},
                      .triangles = {{0, 1, 2}}};
   EXPECT_TRUE(landmark_directions(flat).empty());
+}
+
+/// A cube around the origin, of which all corners lie on the camera's sphere.
+std::vector<Vec3> brinks_of_cube(double side, const ScoringCamera& camera) {
+  TriMesh cube = test::box(side, side, side, 1);
+  for (Vec3& p : cube.positions) {
+    p -= Vec3::Constant(0.5 * side);
+  }
+  return brink_directions(cube, camera);
+}
+
+TEST(Brinks, OfACubeLieJustBeforeAndBehindThePlanesOfItsWalls) {
+  for (const double side : {1e-4, 1.0, 1e4}) {
+    const ScoringCamera camera{.sphere = {Vec3::Zero(), std::sqrt(3.0) * side}};
+    const std::vector<Vec3> found = brinks_of_cube(side, camera);
+    // Six walls, four fronts across each of them, before and behind.
+    EXPECT_EQ(found.size(), 48U);
+    for (const Vec3& direction : found) {
+      // One coordinate of the eye is half a side and a hundredth of its distance more or less; of
+      // the others one is 0, and one is almost all of the distance.
+      const Vec3 eye = camera.distance() * direction;
+      std::array<double, 3> sorted{std::abs(eye.x()), std::abs(eye.y()), std::abs(eye.z())};
+      std::sort(sorted.begin(), sorted.end());
+      EXPECT_NEAR(sorted[0], 0.0, 1e-12 * side);
+      EXPECT_NEAR(std::abs(sorted[1] - 0.5 * side), 0.01 * camera.distance(), 1e-12 * side);
+    }
+  }
+}
+
+TEST(Brinks, InParallelProjectionLieAlmostAcrossTheWalls) {
+  const std::vector<Vec3> found = brinks_of_cube(
+      1.0, {.sphere = {Vec3::Zero(), std::sqrt(3.0)}, .projection = Projection::Orthographic});
+  EXPECT_EQ(found.size(), 48U);
+  for (const Vec3& direction : found) {
+    EXPECT_NEAR(direction.cwiseAbs().maxCoeff(), std::sqrt(1.0 - 0.01 * 0.01), 1e-12);
+  }
+}
+
+TEST(Brinks, OfARoundSurfaceAreNone) {
+  EXPECT_TRUE(brink_directions(test::sphere(4), {.sphere = {Vec3::Zero(), 2.0}}).empty());
 }
 
 }  // namespace
