@@ -81,7 +81,7 @@ class Cluster:
             SlurmUser=root
             SlurmdUser=root
             AuthType=auth/munge
-            AuthInfo=socket={f}/munge/socket,cred_expire=5
+            AuthInfo=socket={f}/munge/socket,cred_expire=10
             StateSaveLocation={f}/state
             SlurmdSpoolDir={f}/%n.spool
             SlurmctldPidFile={f}/controller.pid

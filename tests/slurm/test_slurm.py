@@ -88,6 +88,16 @@ class SlurmTest(unittest.TestCase):
     def setUp(self):
         self.out = self.folder / self.id().rsplit(".", 1)[1]
 
+    def run(self, result=None):
+        """A failure tells what Slurm and the shards said: the folder is gone when one reads of it."""
+        before = len(result.failures) + len(result.errors)
+        super().run(result)
+        if len(result.failures) + len(result.errors) > before:
+            for log in [*sorted(self.out.glob("slurm/*.log")),
+                        *sorted((self.folder / "cluster" / "log").iterdir())]:
+                print(f"== {log.name}", *log.read_text(errors="replace").splitlines()[-60:], sep="\n",
+                      file=sys.stderr)
+
     def command(self, models, out, *flags):
         return [VANTAGE, "batch", models, "-o", str(out), *flags]
 
@@ -147,6 +157,7 @@ class SlurmTest(unittest.TestCase):
     def test_a_worker_that_is_killed_costs_an_attempt_and_no_model(self):
         process = self.start("waves", "--shards", "2", *SLOW)
         wait_until(lambda: list(self.out.glob("models/*/view.json")), "a model is done")
+        time.sleep(0.3)  # into the next one
         for worker in processes("batch-worker", "exhaustive"):  # all: one may be between two models
             os.kill(worker, signal.SIGKILL)
         self.check_waves(process)
