@@ -68,5 +68,43 @@ TEST(ErrorModel, GivesOneAnswerWhateverTheOrderOfLessonsAndCandidates) {
   EXPECT_NEAR(expected_after(true, true), value, 1e-12);
 }
 
+/// A model that was wrong by 1 in so many directions, 15° apart, up and down by turns.
+ErrorModel taught(int lessons) {
+  ErrorModel model;
+  for (int k = 0; k < lessons; ++k) {
+    model.learn(model.add(turned(15.0 * k), 0.0), k % 2 == 0 ? 1.0 : -1.0);
+  }
+  return model;
+}
+
+/// Lessons that say what was expected.
+void teach_nothing_new(ErrorModel& model, int lessons) {
+  for (int k = 0; k < lessons; ++k) {
+    const std::size_t c = model.add(turned(0.1 * k), 0.0);
+    model.learn(c, model.expected(c));
+  }
+}
+
+TEST(ErrorModel, GrowsSurerByItsFirstLessons) {
+  ErrorModel model = taught(12);
+  const double before = model.noise();
+  teach_nothing_new(model, 8);
+  EXPECT_LT(model.noise(), before);
+}
+
+TEST(ErrorModel, DoesNotGrowSurerByWhatItLearnsOfOneHillLater) {
+  ErrorModel model = taught(24);
+  const double before = model.noise();
+  teach_nothing_new(model, 40);
+  EXPECT_EQ(model.noise(), before);
+}
+
+TEST(ErrorModel, GrowsLessSureByASurpriseAtAnyTime) {
+  ErrorModel model = taught(24);
+  const double before = model.noise();
+  model.learn(model.add(Vec3::UnitZ(), 0.0), 100.0);
+  EXPECT_GT(model.noise(), before);
+}
+
 }  // namespace
 }  // namespace vantage
