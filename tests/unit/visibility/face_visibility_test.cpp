@@ -74,13 +74,13 @@ TEST(FaceVisibility, FindsASliverNarrowerThanItsPieces) {
   EXPECT_NEAR(seen, 4.0 * strip, 0.5 * 4.0 * strip);
 }
 
-/// Faces seen from the front of two unit cubes that stand side by side, `gap` apart, before a
-/// smaller box that is behind the gap.
-std::vector<SeenFace> faces_seen_through(double gap) {
-  const TriMesh pair = test::together(test::box(1.0, 1.0, 1.0, 1), test::box(1.0, 1.0, 1.0, 1),
+/// Faces seen from the front of two boxes that stand side by side, `gap` apart and aside of the
+/// middle, before a smaller box that is behind the gap.
+std::vector<SeenFace> faces_seen_through(double gap, const Viewpoint& eye = kAbove) {
+  const TriMesh pair = test::together(test::box(1.0, 1.0, 1.0, 1), test::box(3.0, 1.0, 1.0, 1),
                                       Vec3(1.0 + gap, 0.0, 0.0));
   const TriMesh mesh = test::together(pair, test::box(0.6, 0.4, 0.2, 1), Vec3(0.7123, 0.3, -2.0));
-  return FaceVisibility(mesh, {FaceSides::Front}).seen_faces(kAbove);
+  return FaceVisibility(mesh, {FaceSides::Front}).seen_faces(eye);
 }
 
 TEST(FaceVisibility, SeesFacesThroughAGapThatNoSampleMeets) {
@@ -90,6 +90,18 @@ TEST(FaceVisibility, SeesFacesThroughAGapThatNoSampleMeets) {
   ASSERT_EQ(faces.size(), 6U);
   // It is 0.4 high, and parts of the box's two triangles are seen through it.
   EXPECT_LT(faces[4].visible_area + faces[5].visible_area, 0.4 * kGap);
+}
+
+TEST(FaceVisibility, SeesFacesThroughAGapInPerspectiveToo) {
+  // The eye stands in the plane in the middle of the gap, so that its walls do not hide the box.
+  constexpr double kGap = 1e-6;
+  const Viewpoint eye{Projection::Perspective, Vec3(1.0 + 0.5 * kGap, 0.45, 6.0)};
+  const std::vector<SeenFace> faces = faces_seen_through(kGap, eye);
+  constexpr std::uint32_t kFacesOfThePair = 24;
+  const auto of_box = std::count_if(faces.begin(), faces.end(), [](const SeenFace& face) {
+    return face.face >= kFacesOfThePair;
+  });
+  EXPECT_EQ(of_box, 2);
 }
 
 TEST(FaceVisibility, SeesNothingThroughAGapThatIsClosed) {
