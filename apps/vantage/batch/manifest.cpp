@@ -131,7 +131,7 @@ class ManifestSource : public EntrySource {
   /// An entry as write_plan() put it, or nothing if the line is none.
   static std::optional<Entry> planned_entry(const std::string& line) {
     const auto json = nlohmann::json::parse(line, nullptr, false);
-    if (!json.is_object() || !json.contains("planned")) {
+    if (!json.is_object() || json.value("planned", nlohmann::json()) != true) {
       return std::nullopt;
     }
     const auto text = [&](const char* name) {
@@ -145,6 +145,9 @@ class ManifestSource : public EntrySource {
     entry.name = text("name");
     entry.up = text("up");
     entry.problem = text("problem");
+    if (entry.key.empty() || (entry.path.empty() && entry.problem.empty())) {
+      return std::nullopt;
+    }
     if (json.contains("shard") && json["shard"].is_number_unsigned()) {
       entry.shard = json["shard"].get<std::uint32_t>();
     }

@@ -73,6 +73,19 @@ TEST(EntriesOfManifest, CellsOfCsvMayHoldCommasQuotesAndLineEnds) {
   EXPECT_EQ(entries[0].up, "-z");
 }
 
+// Found by fuzzing: any line with a field of that name was an entry of ours, without path or key.
+TEST(EntriesOfManifest, AFieldCalledPlannedMakesNoPlan) {
+  const ScratchFolder scratch;
+  const auto source = entries_of_manifest(
+      scratch.write("list", "{\"planned\": 2}\n{\"planned\": true, \"path\": \"a.ply\"}\n"));
+  const std::vector<Entry> entries = all_of(*source);
+  ASSERT_EQ(entries.size(), 2U);
+  EXPECT_EQ(entries[0].problem, "line 1 of the manifest names no path");
+  EXPECT_EQ(entries[1].problem, "");
+  EXPECT_EQ(entries[1].path, scratch.path("a.ply"));
+  EXPECT_EQ(entries[1].key, "a.ply");
+}
+
 TEST(EntriesOfManifest, OneThatIsNotThereIsRefused) {
   EXPECT_THROW(entries_of_manifest("/nowhere/list"), IoError);
 }

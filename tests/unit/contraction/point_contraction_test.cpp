@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/contraction/point_contraction.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -61,6 +64,56 @@ TEST(PointContraction, CommutesWithScaling) {
     worst = std::max(worst, (large.levels.back()[i] / kScale - small.levels.back()[i]).norm());
   }
   EXPECT_LT(worst, 1e-6);
+}
+
+/// Oracle: mean distance of a point to its 16 nearest neighbours, and those, by looking at all.
+std::pair<double, std::vector<std::size_t>> surroundings(const std::vector<Vec3>& points,
+                                                         std::size_t i) {
+  std::vector<std::pair<double, std::size_t>> others;
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    if (j != i) {
+      others.emplace_back((points[j] - points[i]).norm(), j);
+    }
+  }
+  std::sort(others.begin(), others.end());
+  std::pair<double, std::vector<std::size_t>> result;
+  for (std::size_t k = 0; k < 16; ++k) {
+    result.first += others[k].first / 16.0;
+    result.second.push_back(others[k].second);
+  }
+  return result;
+}
+
+TEST(FindOutliers, AreFourTimesAsFarFromTheirSixteenNeighboursAsTheseAreFromTheirs) {
+  std::vector<Vec3> points = sphere(3).positions;
+  // Ever farther from the sphere, so that some are only just outliers.
+  for (int k = 0; k < 400; ++k) {
+    const double turn = 2.4 * k;
+    const double z = 1.0 - (2.0 * k + 1.0) / 400.0;
+    const double across = std::sqrt(1.0 - z * z);
+    points.push_back((1.0 + 0.005 * ((k * 173) % 400)) *
+                     Vec3(across * std::cos(turn), across * std::sin(turn), z));
+  }
+  std::vector<double> mean;
+  std::vector<std::vector<std::size_t>> neighbours;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    auto [distance, near] = surroundings(points, i);
+    mean.push_back(distance);
+    neighbours.push_back(std::move(near));
+  }
+  std::vector<std::uint8_t> expected(points.size(), 0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::vector<double> theirs{mean[i]};  // 17 with its own: the ninth is the median
+    for (const std::size_t j : neighbours[i]) {
+      theirs.push_back(mean[j]);
+    }
+    std::sort(theirs.begin(), theirs.end());
+    expected[i] = mean[i] > 4.0 * theirs[8] ? 1 : 0;
+  }
+  const auto outliers = std::count(expected.begin(), expected.end(), 1);
+  ASSERT_GT(outliers, 20);
+  ASSERT_LT(outliers, 380);
+  EXPECT_EQ(find_outliers(points), expected);
 }
 
 TEST(PointContraction, LeavesAFarPointOutAndInItsPlace) {

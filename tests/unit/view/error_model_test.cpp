@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "view/error_model.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
+#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 namespace vantage {
@@ -66,6 +70,74 @@ TEST(ErrorModel, GivesOneAnswerWhateverTheOrderOfLessonsAndCandidates) {
   const double value = expected_after(true, false);
   EXPECT_NEAR(expected_after(false, false), value, 1e-12);
   EXPECT_NEAR(expected_after(true, true), value, 1e-12);
+}
+
+/// Oracle: Gaussian process regression by its textbook formulas, all at once (Rasmussen and
+/// Williams, "Gaussian Processes for Machine Learning", 2006, equations 2.25 and 2.26), with the
+/// constants of docs/search.md.
+struct DenseRegression {
+  std::vector<Vec3> taught;
+  Eigen::VectorXd errors;  // score − estimate
+
+  static double covariance(const Vec3& a, const Vec3& b) {
+    const double t = std::min((a - b).norm() / 0.6, 1.0);
+    return 25.0 + std::pow(1.0 - t, 4.0) * (1.0 + 4.0 * t);
+  }
+
+  [[nodiscard]] Eigen::LLT<Eigen::MatrixXd> factor(std::size_t count) const {
+    const auto size = static_cast<Eigen::Index>(count);
+    Eigen::MatrixXd matrix = 0.35 * Eigen::MatrixXd::Identity(size, size);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      matrix.col(i) += towards(taught[static_cast<std::size_t>(i)], count);
+    }
+    return matrix.llt();
+  }
+
+  [[nodiscard]] Eigen::VectorXd towards(const Vec3& direction, std::size_t count) const {
+    Eigen::VectorXd result(static_cast<Eigen::Index>(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      result[static_cast<Eigen::Index>(i)] = covariance(direction, taught[i]);
+    }
+    return result;
+  }
+
+  /// Mean and variance of the error in a direction after the first lessons, of unit scale.
+  [[nodiscard]] std::pair<double, double> at(const Vec3& direction, std::size_t count) const {
+    const Eigen::VectorXd k = towards(direction, count);
+    const auto matrix = factor(count);
+    const Eigen::VectorXd known = errors.head(static_cast<Eigen::Index>(count));
+    return {k.dot(matrix.solve(known)), 26.0 - k.dot(matrix.solve(k))};
+  }
+
+  /// Mean square of what each lesson but the first added, over the variance that was expected.
+  [[nodiscard]] double scale() const {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < taught.size(); ++i) {
+      const auto [mean, variance] = at(taught[i], i);
+      const double surprise = errors[static_cast<Eigen::Index>(i)] - mean;
+      sum += surprise * surprise / (variance + 0.35);
+    }
+    return sum / static_cast<double>(taught.size() - 1);
+  }
+};
+
+TEST(ErrorModel, AgreesWithRegressionSolvedAtOnce) {
+  DenseRegression dense;
+  constexpr std::size_t kLessons = 15;
+  dense.errors.resize(kLessons);
+  ErrorModel model;
+  for (std::size_t k = 0; k < kLessons; ++k) {
+    dense.taught.push_back(turned(11.0 * static_cast<double>(k)));
+    const double error = 3.0 + std::sin(7.0 * static_cast<double>(k));
+    dense.errors[static_cast<Eigen::Index>(k)] = error;
+    model.learn(model.add(dense.taught.back(), 0.25), 0.25 + error);
+  }
+  for (const double degrees : {-40.0, 4.0, 57.5, 150.0, 230.0}) {
+    const std::size_t asked = model.add(turned(degrees), 0.5);
+    const auto [mean, variance] = dense.at(turned(degrees), kLessons);
+    EXPECT_NEAR(model.expected(asked), 0.5 + mean, 1e-9) << degrees;
+    EXPECT_NEAR(model.doubt(asked), std::sqrt(dense.scale() * (variance + 0.35)), 1e-9) << degrees;
+  }
 }
 
 /// A model that was wrong by 1 in so many directions, 15° apart, up and down by turns.
