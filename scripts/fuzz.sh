@@ -44,7 +44,7 @@ seed_from_data() {
   case $target in
     picture) ending='png -o -iname *.jpg -o -iname *.webp' ;;
     packed) ending='drc' ;;
-    camera | csv | prior | manifest | settings | pipeline | threemf_xml) return 0 ;;
+    archive | camera | csv | dataset | manifest | pipeline | prior | record | settings | site | threemf_xml) return 0 ;;
   esac
   set -f  # the pattern is for find
   local words=()

@@ -31,7 +31,10 @@ std::unique_ptr<batch::ResultsStore> open_store(Session& session, const std::str
 class RowFile {
  public:
   explicit RowFile(const std::string& path) : path_(path), temporary_(path + ".part") {
-    file_ = path == "-" ? stdout : std::fopen(temporary_.c_str(), "wbe");
+    if (path != "-") {
+      std::remove(temporary_.c_str());  // a dead process's, or a link not to be written through
+    }
+    file_ = path == "-" ? stdout : std::fopen(temporary_.c_str(), "wbxe");
     if (file_ == nullptr) {
       throw IoError(path, "cannot be created", errno);
     }

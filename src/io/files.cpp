@@ -99,10 +99,21 @@ int flush(int descriptor) {
   return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP ? 0 : errno;
 }
 
+/// A new file for writing, or -1 and errno. What bears its name already is a dead process's, or a
+/// link that somebody laid in a shared folder: it goes, and is never written through.
+int create_alone(const std::string& path) {
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+  const int first = ::open(path.c_str(), kFlags, 0666);
+  if (first >= 0 || errno != EEXIST || ::unlink(path.c_str()) != 0) {
+    return first;
+  }
+  return ::open(path.c_str(), kFlags, 0666);
+}
+
 /// \param path name for messages. \param target the file behind it, links followed.
 void replace_file(const std::string& path, const std::string& target, std::string_view bytes) {
   const std::string temporary = temporary_path(target);
-  Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  Descriptor file(create_alone(temporary));
   if (file.number() < 0) {
     throw IoError(path, "cannot be created", errno);
   }

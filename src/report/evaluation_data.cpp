@@ -105,9 +105,13 @@ void read_views(const fs::path& folder, std::vector<RecordedModel>& records) {
     }
   }
   for (auto& [name, record] : by_name) {
+    if (fs::path(name).filename() != name) {
+      throw FormatError((folder / "views.csv").string(), "column 'model'",
+                        "'" + name.substr(0, 40) + "' is no name of a file in models/");
+    }
     record.name = name;
     record.path = (folder / "models" / name).string();
-    if (fs::exists(record.path)) {
+    if (fs::is_regular_file(record.path)) {
       records.push_back(std::move(record));
     }
   }

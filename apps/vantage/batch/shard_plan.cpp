@@ -31,7 +31,8 @@ constexpr std::uint64_t kCostOfAnyModel = 500'000;
 class WholeFile {
  public:
   explicit WholeFile(std::string path) : path_(std::move(path)), partial_(path_ + ".part") {
-    file_.reset(std::fopen(partial_.c_str(), "wbe"));
+    std::remove(partial_.c_str());  // a dead process's, or a link that is not to be written through
+    file_.reset(std::fopen(partial_.c_str(), "wbxe"));
     if (!file_) {
       throw IoError(partial_, "cannot be written", errno);
     }

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <png.h>
+#include <unistd.h>
 
 #include "vantage/core/error.h"
 #include "vantage/io/model.h"
@@ -20,6 +21,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::UnorderedElementsAre;
 
 std::vector<std::string> names_in(const std::filesystem::path& folder) {
   std::vector<std::string> names;
@@ -55,6 +57,17 @@ TEST(WriteFile, WritesThroughALink) {
   write_file(folder.file("link"), "new");
   EXPECT_TRUE(std::filesystem::is_symlink(folder.file("link")));
   EXPECT_EQ(read_file(folder.file("target")), "new");
+}
+
+TEST(WriteFile, DoesNotWriteThroughALinkLaidUnderItsTemporaryName) {
+  const TemporaryFolder folder;
+  write_file(folder.file("victim"), "kept");
+  const std::string temporary = ".a.txt.part." + std::to_string(::getpid());
+  std::filesystem::create_symlink("victim", folder.file(temporary));
+  write_file(folder.file("a.txt"), "new");
+  EXPECT_EQ(read_file(folder.file("victim")), "kept");
+  EXPECT_EQ(read_file(folder.file("a.txt")), "new");
+  EXPECT_THAT(names_in(folder.path()), UnorderedElementsAre("a.txt", "victim"));
 }
 
 TEST(WriteFile, DoesNotReplaceADevice) {
