@@ -1,9 +1,11 @@
 """Odd but legal surfaces through the whole program; real broken files where VANTAGE_DATA is set."""
 
+import base64
 import json
 import os
 import pathlib
 import resource
+import struct
 import subprocess
 import sys
 import unittest
@@ -23,6 +25,59 @@ def off(vertices, faces):
 
 TETRAHEDRON = ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
                [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
+
+
+def written(form, vertices):
+    """The tetrahedron with other coordinates, in a text format."""
+    faces = TETRAHEDRON[1]
+    rows = [" ".join(map(str, v)) for v in vertices]
+    if form == "off":
+        return off(vertices, faces)
+    if form == "obj":
+        return "".join(f"v {row}\n" for row in rows) + "".join("f %d %d %d\n" % tuple(i + 1 for i in f) for f in faces)
+    if form == "ply":
+        properties = "".join(f"property double {axis}\n" for axis in "xyz")
+        return (f"ply\nformat ascii 1.0\nelement vertex 4\n{properties}element face 4\n"
+                "property list uchar int vertex_indices\nend_header\n" + "\n".join(rows) + "\n" +
+                "".join("3 %d %d %d\n" % f for f in faces))
+    return "solid\n" + "".join("facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {rows[i]}\n" for i in f) +
+                               "endloop\nendfacet\n" for f in faces) + "endsolid\n"
+
+
+class Extremes(ProgramTest):
+    """Numbers and nesting at the ends of what formats allow."""
+
+    def refusal(self, form, vertices):
+        name = self.write(f"m.{form}", written(form, vertices))
+        done = self.vantage("view", name, "-o", "out", *QUICK, exit_code=3)
+        self.assertEqual(len(done.err.strip().splitlines()), 1, done.err)
+        self.assertFalse((self.dir / "out").exists())
+        return done.err
+
+    def test_coordinates_that_vanish_are_refused_in_a_sentence(self):
+        tiny = "5e-324"
+        for form in ("obj", "off", "ply", "stl"):
+            with self.subTest(form=form):
+                self.assertIn("too small", self.refusal(form, [(0, 0, 0), (tiny, 0, 0), (0, tiny, 0), (0, 0, tiny)]))
+
+    def test_coordinates_whose_squares_overflow_are_refused_in_a_sentence(self):
+        huge = "1.7e308"
+        for form in ("obj", "off", "ply", "stl"):
+            with self.subTest(form=form):
+                self.assertIn("beyond 1e100", self.refusal(form, [(0, 0, 0), (huge, 0, 0), (0, huge, 0), (0, 0, huge)]))
+
+    def test_a_chain_of_two_hundred_thousand_nodes_is_walked(self):
+        count = 200_000
+        nodes = [{"children": [i + 1]} for i in range(count - 1)] + [{"mesh": 0}]
+        points = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+        self.write("deep.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": nodes,
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64," +
+                         base64.b64encode(points).decode()}]}))
+        self.assertEqual(json.loads(self.vantage("info", "deep.gltf", "--json").out)["vertices"], 3)
 
 
 class OddSurfaces(ProgramTest):

@@ -70,6 +70,16 @@ class Limits(ProgramTest):
             self.assertEqual(len(done.err.strip().splitlines()), 1, done.err)
 
 
+def processor_seconds(process):
+    """What a running process has computed so far."""
+    fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def total(usage):
+    return usage.ru_utime + usage.ru_stime
+
+
 class Interrupts(ProgramTest):
     """Each command that computes, interrupted where it is busy."""
 
@@ -83,9 +93,14 @@ class Interrupts(ProgramTest):
                 process = subprocess.Popen([PROGRAM, *command], cwd=self.dir, stdout=subprocess.PIPE,
                                            stderr=subprocess.PIPE)
                 time.sleep(0.3)  # into the work, which takes far longer
+                ended = resource.getrusage(resource.RUSAGE_CHILDREN)
+                before = processor_seconds(process)
                 process.send_signal(signal.SIGINT)
                 _, err = process.communicate(timeout=60)
                 self.assertEqual(process.returncode, 130, err)
+                # A second of every core: seconds by the clock would measure what else the machine does.
+                spent = total(resource.getrusage(resource.RUSAGE_CHILDREN)) - total(ended) - before
+                self.assertLess(spent, 1.0 * os.cpu_count())
                 self.assertEqual(len(err.decode().strip().splitlines()), 1, err)
                 self.assertEqual(list(self.dir.iterdir()), [])
 
