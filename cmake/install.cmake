@@ -22,7 +22,14 @@ endif()
 file(RELATIVE_PATH VANTAGE_PC_UP "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 configure_file(cmake/vantage.pc.in vantage.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/vantage.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
-install(FILES THIRD_PARTY.md DESTINATION ${VANTAGE_DOC_DIR}/libvantage-dev COMPONENT development)
+set(words ${PROJECT_BINARY_DIR}/words)
+file(MAKE_DIRECTORY ${words}/man)
+add_custom_command(OUTPUT ${words}/NOTICES
+  COMMAND ${CMAKE_COMMAND} -DOUTPUT=${words}/NOTICES -DTHREE=${PROJECT_BINARY_DIR}/viewer/node_modules/three/LICENSE
+          -P ${PROJECT_SOURCE_DIR}/cmake/write_notices.cmake
+  DEPENDS vantage ${PROJECT_SOURCE_DIR}/cmake/write_notices.cmake VERBATIM)
+add_custom_target(vantage_notices ALL DEPENDS ${words}/NOTICES)
+install(FILES THIRD_PARTY.md ${words}/NOTICES DESTINATION ${VANTAGE_DOC_DIR}/libvantage-dev COMPONENT development)
 install(FILES LICENSE DESTINATION ${VANTAGE_DOC_DIR}/libvantage-dev RENAME copyright COMPONENT development)
 
 if(TARGET vantage_program)
@@ -32,12 +39,10 @@ if(TARGET vantage_program)
     COMPONENT program)
   install(FILES apps/vantage/desktop/vantage-mime.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages
     RENAME vantage.xml COMPONENT program)
-  install(FILES THIRD_PARTY.md README.md DESTINATION ${VANTAGE_DOC_DIR}/vantage COMPONENT program)
+  install(FILES THIRD_PARTY.md ${words}/NOTICES README.md DESTINATION ${VANTAGE_DOC_DIR}/vantage COMPONENT program)
   install(FILES LICENSE DESTINATION ${VANTAGE_DOC_DIR}/vantage RENAME copyright COMPONENT program)
 
   # Manual pages and completions, written by the program itself from the options that it parses.
-  set(words ${PROJECT_BINARY_DIR}/words)
-  file(MAKE_DIRECTORY ${words}/man)
   add_custom_command(OUTPUT ${words}/written
     COMMAND vantage_program manual ${words}/man
     COMMAND vantage_program completion bash > ${words}/vantage

@@ -12,6 +12,7 @@ scripts/fuzz.sh "$seconds"
 scripts/check_symbols.sh  # of the build with the preset release
 scripts/check_without_npm.sh
 scripts/build_docs.sh
+scripts/check_reproducible.sh
 if [[ $(id -u) -eq 0 ]] && command -v debootstrap >/dev/null; then
   scripts/test_packages.sh
 else

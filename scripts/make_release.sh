@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds what a release consists of into build/dist: two Debian packages, a tarball that runs from any folder with
-# its libraries inside (glibc 2.34 or newer), the bill of materials, and checksums. The same commit gives the same bytes.
+# its libraries inside (glibc 2.36 or newer: Debian 12's), the bill of materials, and
+# checksums. The same commit gives the same bytes: scripts/check_reproducible.sh looks.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install_dependencies.sh build
@@ -8,7 +9,8 @@ command -v patchelf >/dev/null || { echo "make_release.sh: install patchelf" >&2
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}
 export SOURCE_DATE_EPOCH
 build=build/dist
-cmake -G Ninja -B $build -DCMAKE_BUILD_TYPE=Release -DVANTAGE_BUILD_TESTS=OFF -DVANTAGE_QUICK_BUILD=ON >/dev/null
+# With the flags that the tests run with: assertions stay.
+cmake --preset release -B $build -DVANTAGE_BUILD_TESTS=OFF -DVANTAGE_BUILD_BENCH=OFF -DVANTAGE_QUICK_BUILD=ON >/dev/null
 cmake --build $build
 (cd $build && cpack -G DEB >/dev/null)
 
@@ -24,9 +26,12 @@ patchelf --set-rpath "\$ORIGIN/../lib/vantage" "$stage/bin/vantage"
 for library in "$stage"/lib/vantage/*; do
   patchelf --set-rpath "\$ORIGIN" "$library"
 done
-python3 scripts/make_sbom.py $build/apps/vantage/vantage --epoch "$SOURCE_DATE_EPOCH" >"$stage/vantage.spdx.json"
+python3 scripts/make_sbom.py $build/apps/vantage/vantage --epoch "$SOURCE_DATE_EPOCH" \
+  --licences "$stage/share/doc/vantage/licences" >"$stage/vantage.spdx.json"
 cp LICENSE "$stage/"
+chmod -R u=rwX,go=rX "$stage"
 tar --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner -C $build/stage -cf - "$name" |
   gzip -9n >"$build/packages/$name.tar.gz"
 cp "$stage/vantage.spdx.json" $build/packages/
+scripts/test_release.sh "$build/packages/$name.tar.gz"
 (cd $build/packages && rm -rf _CPack_Packages && sha256sum -- *.deb *.tar.gz *.json | tee SHA256SUMS)

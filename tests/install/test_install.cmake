@@ -44,7 +44,7 @@ else()
   message("pkg-config is not installed: vantage.pc is not tested")
 endif()
 foreach(file IN ITEMS man/man1/vantage.1.gz man/man1/vantage-view.1.gz bash-completion/completions/vantage
-        zsh/vendor-completions/_vantage fish/vendor_completions.d/vantage.fish doc/vantage/copyright)
+        zsh/vendor-completions/_vantage fish/vendor_completions.d/vantage.fish doc/vantage/copyright doc/vantage/NOTICES)
   if(NOT EXISTS ${SCRATCH}/prefix/share/${file})
     message(FATAL_ERROR "share/${file} is not installed")
   endif()
