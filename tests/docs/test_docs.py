@@ -23,7 +23,7 @@ ELSEWHERE = re.compile(r"/etc/|fpath|~/|vantage serve|slurm|--shard|--manifest (
 
 def commands_of_pages():
     for page in PAGES:
-        for line in re.findall(r"^ {4}(vantage .*)$", page.read_text(encoding="utf-8"), re.MULTILINE):
+        for line in re.findall(r"^ {4}((?:vantage|jq) .*)$", page.read_text(encoding="utf-8"), re.MULTILINE):
             yield page.name, re.split(r"  +|  #", line)[0]
 
 
