@@ -20,6 +20,13 @@ constexpr double kMostSeconds = 1e7;
 /// A run that has not ended by then, though it was asked to, is ended. [ours]
 constexpr time_t kSecondAlarm = 5;
 
+// The address sanitizer's shadow memory alone is terabytes.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kCanLimitMemory = false;
+#else
+constexpr bool kCanLimitMemory = true;
+#endif
+
 /// Some libraries end the process where an allocation fails on one of their threads.
 [[noreturn]] void end_for_want_of_memory() {
   constexpr std::string_view kWords =
@@ -30,16 +37,15 @@ constexpr time_t kSecondAlarm = 5;
 }
 
 void limit_memory(std::uint64_t bytes) {
-#if defined(__SANITIZE_ADDRESS__)
-  static_cast<void>(bytes);  // its shadow memory alone is terabytes
-#else
+  if (!kCanLimitMemory) {
+    return;
+  }
   // Not the address space: libraries reserve much more of it than they ever use.
   rlimit both{};
   ::getrlimit(RLIMIT_DATA, &both);
   both.rlim_cur = std::min<rlim_t>(bytes, both.rlim_max);
   ::setrlimit(RLIMIT_DATA, &both);
   std::set_terminate(&end_for_want_of_memory);
-#endif
 }
 
 void limit_time(double seconds) {

@@ -11,6 +11,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("VANTAGE", "")
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+OTHER_PAGES = [ROOT / name for name in ("SECURITY.md", "CONTRIBUTING.md", "THIRD_PARTY.md", "CHANGELOG.md", "models/SOURCES.md")]
 COMMANDS = ("view", "skeleton", "map", "score", "compare", "eval", "measures", "render", "thumb", "info", "batch",
             "results query", "results export", "results diff", "results merge", "figures", "completion")
 # What a reader puts in for the words in capitals.
@@ -99,16 +100,40 @@ class Commands(unittest.TestCase):
         self.assertEqual({where.removesuffix(" --help") for where, _ in commands_of_help()}, set(COMMANDS))
 
 
+def anchors_of(page):
+    """As web pages of repositories name headings, and as Doxygen is told to."""
+    text = page.read_text(encoding="utf-8")
+    heads = re.findall(r"^#+ +(.*?)(?: *\{#([\w-]+)\})?$", text, re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", head.lower()).replace(" ", "-") for head, _ in heads} | {name for _, name in heads}
+
+
 class Pages(unittest.TestCase):
 
     def test_links_and_file_names_lead_somewhere(self):
-        for page in PAGES:
+        for page in PAGES + OTHER_PAGES:
             text = page.read_text(encoding="utf-8")
-            for target in re.findall(r"\]\(([^)#]+)[^)]*\)", text):
-                if not re.match(r"[a-z]+:", target):
-                    self.assertTrue((page.parent / target).exists(), f"{page.name}: {target}")
+            for target, anchor in re.findall(r"\]\(([^)#]*)#?([^)]*)\)", text):
+                if re.match(r"[a-z]+:", target):
+                    continue
+                file = page.parent / target if target else page
+                self.assertTrue(file.exists(), f"{page.name}: {target}")
+                if anchor:
+                    self.assertIn(anchor, anchors_of(file), f"{page.name}: {target}#{anchor}")
             for name in re.findall(r"`((?:docs|scripts|models|examples|bench|tests|src|include)/[a-z0-9_./-]+)`", text):
                 self.assertTrue((ROOT / name).exists(), f"{page.name}: {name}")
+
+    def test_promises_name_tests_that_are_there(self):
+        sources = "".join(path.read_text(encoding="utf-8", errors="replace")
+                          for path in (ROOT / "tests").rglob("*.*") if path.suffix in (".cpp", ".py"))
+        named = 0
+        for page in (ROOT / "SECURITY.md", ROOT / "docs/security.md", ROOT / "docs/mutations.md"):
+            for suite, test in re.findall(r"`(\w+)\.([A-Z]\w+)\*?`", page.read_text(encoding="utf-8")):
+                named += 1
+                self.assertRegex(sources, rf"TEST(_[FP])?\({suite}\w*,\s*{test}", page.name)
+            for script in re.findall(r"`cli\.(test_\w+)", page.read_text(encoding="utf-8")):
+                named += 1
+                self.assertTrue((ROOT / f"tests/cli/{script}.py").exists(), script)
+        self.assertGreater(named, 20)
 
     def test_code_compiles(self):
         blocks = 0
