@@ -8,7 +8,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 build=build/coverage
 cmake -G Ninja -B $build -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1 --coverage -fprofile-update=atomic" \
-  -DVANTAGE_BUILD_PYTHON=OFF >/dev/null
+  -DVANTAGE_BUILD_PYTHON=OFF -DVANTAGE_BUILD_BENCH=OFF -DVANTAGE_QUICK_BUILD=ON >/dev/null
 cmake --build $build >/dev/null
 find $build -name '*.gcda' -delete
 if (($# == 0)); then set -- -L 'unit|property|replay|cli'; fi
