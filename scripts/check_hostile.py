@@ -3,10 +3,11 @@
 """Runs the program over every file of a folder and checks how it ends: by itself, in time, within memory, in one sentence.
 
     check_hostile.py FOLDER [--program build/release/apps/vantage/vantage] [--command info|view] [--seconds 60]
-                     [--max-memory 4GB] [--stride N]
+                     [--max-memory 4GB] [--stride N] [--most-bytes N]
 
 Prints a table of exit codes, the slowest files and those with the largest peak of memory for each byte; exit code 1 if a
-run crashed, hung, or failed without one clear sentence. Works with a sanitizer's build too (without --max-memory).
+run crashed, hung, failed without one clear sentence, or took more than --most-bytes of memory for each byte of its file
+(and 100 MB for itself). Works with a sanitizer's build too (without --max-memory).
 """
 import argparse
 import collections
@@ -19,6 +20,7 @@ import time
 
 MODELS = {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".3mf", ".xyz", ".pcd", ".pts", ".pwn", ".gz", ".drc", ".txt",
           ".dae", ".fbx", ".3ds", ".x3d", ".wrl", ".step", ".stp", ".zip"}
+ITSELF = 100e6  # bytes that the program takes for a file of a few
 SMALL = 1 << 20  # bytes: below, the program itself is most of the memory
 
 
@@ -61,6 +63,7 @@ def main():
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--max-memory", default="")
     parser.add_argument("--stride", type=int, default=1)
+    parser.add_argument("--most-bytes", type=float, default=0.0)
     options = parser.parse_args()
     program = str(pathlib.Path(options.program).resolve())
     files = sorted(p for p in options.folder.resolve().rglob("*") if p.is_file() and p.suffix.lower() in MODELS)
@@ -75,9 +78,11 @@ def main():
             codes[code] += 1
             name = str(file.relative_to(options.folder.resolve()))
             problem = problem_of(code, words)
+            size = file.stat().st_size
+            if options.most_bytes > 0 and peak > options.most_bytes * size + ITSELF:
+                problem = problem or f"took {peak / 1e6:.0f} MB for {size} bytes"
             if problem:
                 problems.append(f"{name}: {problem}")
-            size = file.stat().st_size
             slowest.append((took, name))
             if size >= SMALL:
                 hungriest.append((peak / size, name, peak))
