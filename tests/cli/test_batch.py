@@ -169,12 +169,17 @@ class Archives(BatchTest):
             link.type = tarfile.SYMTYPE
             link.linkname = "/etc/passwd"
             archive.addfile(link)
-            for content in (box(1), box(2)):
-                info = tarfile.TarInfo("a.off")
+            hard = tarfile.TarInfo("hard.off")
+            hard.type = tarfile.LNKTYPE
+            hard.linkname = "/etc/passwd"
+            archive.addfile(hard)
+            for name, content in (("a.off", box(1)), ("a.off", box(2)), ("../../evil.off", box(3))):
+                info = tarfile.TarInfo(name)
                 info.size = len(content)
                 archive.addfile(info, io.BytesIO(content.encode()))
         self.batch("m.tar")
-        self.assertEqual(sorted(self.rows()), ["m.tar//a.off", "m.tar//a.off//2"])
+        self.assertEqual(sorted(self.rows()), ["m.tar//../../evil.off", "m.tar//a.off", "m.tar//a.off//2"])
+        self.assertEqual(sorted(p.name for p in self.dir.iterdir()), ["m.tar", "out"])
 
     def test_a_torn_archive_gives_what_can_be_read_and_fails_for_the_rest(self):
         with tarfile.open(self.dir / "m.tar", "w") as archive:

@@ -106,9 +106,9 @@ def test_wheel_installs_without_network_and_runs(tmp_path):
 
 
 def test_the_cookbook_runs(tmp_path, models):
-    text = (ROOT / "docs/python.md").read_text()
+    text = "".join((ROOT / page).read_text() for page in ("README.md", "docs/python.md"))
     blocks = re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
-    assert len(blocks) >= 8
+    assert len(blocks) >= 9
     names = {}
     before = os.getcwd()
     for name in ("horse.ply", "deer.ply"):
@@ -118,7 +118,7 @@ def test_the_cookbook_runs(tmp_path, models):
         for block in blocks:
             if "matplotlib" in block and not has("matplotlib") or "tqdm" in block and not has("tqdm"):
                 continue
-            exec(compile(block, "docs/python.md", "exec"), names)  # the page is ours
+            exec(compile(block, "a page", "exec"), names)  # the pages are ours
     finally:
         os.chdir(before)
 
