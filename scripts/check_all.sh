@@ -9,6 +9,10 @@ scripts/check_tidy.sh
 cmake --preset asan >/dev/null && cmake --build --preset asan
 ctest --test-dir build/asan -j "$(nproc)" --output-on-failure
 scripts/fuzz.sh "$seconds"
+if [[ -n ${VANTAGE_DATA:-} ]]; then
+  scripts/check_hostile.py "$VANTAGE_DATA" --command info --most-bytes 200
+  scripts/check_hostile.py "$VANTAGE_DATA" --command view --program build/asan/apps/vantage/vantage --seconds 600
+fi
 scripts/check_symbols.sh  # of the build with the preset release
 scripts/check_without_npm.sh
 scripts/build_docs.sh

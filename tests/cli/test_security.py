@@ -1,5 +1,6 @@
 """What SECURITY.md promises, with the real program: limits, paths, names, full disks, killed runs, the network."""
 
+import base64
 import http.server
 import json
 import os
@@ -50,6 +51,22 @@ class Limits(ProgramTest):
         for out, limit in (("a", ()), ("b", ("--max-memory", "4GB", "--timeout", "600"))):
             self.vantage("view", "m.off", "-o", out, "--no-images", *FAST, *limit)
         self.assertEqual((self.dir / "a/view.json").read_bytes(), (self.dir / "b/view.json").read_bytes())
+
+    def test_a_small_file_of_many_instances_takes_little_memory(self):
+        points = b"".join(struct.pack("<3f", i % 10, i // 10 % 10, i // 100) for i in range(1000))
+        corners = b"".join(struct.pack("<3H", i, (i + 1) % 1000, (i + 7) % 1000) for i in range(1000))
+        for count, exit_code in ((480, 0), (2000, 3)):
+            self.write("m.gltf", json.dumps({
+                "asset": {"version": "2.0"}, "scenes": [{"nodes": list(range(count))}], "nodes": [{"mesh": 0}] * count,
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": 1000, "type": "VEC3"},
+                              {"bufferView": 1, "componentType": 5123, "count": 3000, "type": "SCALAR"}],
+                "bufferViews": [{"buffer": 0, "byteLength": 12000},
+                                {"buffer": 0, "byteOffset": 12000, "byteLength": 6000}],
+                "buffers": [{"byteLength": 18000, "uri": "data:application/octet-stream;base64," +
+                             base64.b64encode(points + corners).decode()}]}))
+            self.assertLess((self.dir / "m.gltf").stat().st_size, 70_000)
+            self.vantage("info", "m.gltf", "--max-memory", "200MB", exit_code=exit_code)
 
     def test_a_run_that_takes_longer_than_allowed_ends_in_one_sentence_and_leaves_nothing(self):
         done = self.vantage("view", MODELS / "mannequin.ply", "-o", "out", "--search", "exhaustive", "--subdivisions",
