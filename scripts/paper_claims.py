@@ -12,7 +12,6 @@ minutes on two cores.
 
 import argparse
 import csv
-import hashlib
 import io
 import json
 import subprocess
@@ -23,6 +22,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent))
+from number_cache import Cache, fingerprint  # noqa: E402
 from paper_page import page  # noqa: E402
 from paper_shapes import LIMBS, belly, hidden_by, limb, read_ply  # noqa: E402
 
@@ -172,31 +172,6 @@ def measure(program, name, model):
         found["belly"]["paper preset"] = of_dinosaur(program, model, {
             m: program.view(model, "--method", m, "--preset", "paper") for m in METHODS})
     return found
-
-
-def fingerprint(*files):
-    """Of the bytes of all files."""
-    digest = hashlib.sha256()
-    for file in files:
-        digest.update(hashlib.sha256(Path(file).read_bytes()).digest())
-    return digest.hexdigest()
-
-
-class Cache:
-    """Numbers by name, kept in a file; each with the fingerprint of all that it was made from."""
-
-    def __init__(self, file):
-        self.file = file
-        self.entries = json.loads(file.read_text()) if file.exists() else {}
-
-    def find(self, name, made_from):
-        entry = self.entries.get(name, {})
-        return entry.get("numbers") if entry.get("made_from") == made_from else None
-
-    def put(self, name, made_from, numbers):
-        self.entries[name] = {"made_from": made_from, "numbers": numbers}
-        self.file.parent.mkdir(parents=True, exist_ok=True)
-        self.file.write_text(json.dumps(self.entries, indent=1))
 
 
 def main():
