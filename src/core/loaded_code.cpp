@@ -9,7 +9,8 @@ namespace vantage {
 namespace {
 
 struct Search {
-  std::uintptr_t address = 0;
+  const void* place = nullptr;
+  std::uintptr_t address = 0;  // of the place
   std::uint64_t hash = 0;
 };
 
@@ -34,7 +35,9 @@ int hash_if_it_holds(dl_phdr_info* object, std::size_t /*size*/, void* data) {
     if (part.p_type != PT_LOAD || (part.p_flags & PF_W) != 0 || (part.p_flags & PF_R) == 0) {
       continue;
     }
-    const auto* bytes = reinterpret_cast<const unsigned char*>(object->dlpi_addr + part.p_vaddr);
+    const auto before =
+        static_cast<std::ptrdiff_t>(search.address - (object->dlpi_addr + part.p_vaddr));
+    const unsigned char* bytes = static_cast<const unsigned char*>(search.place) - before;
     for (std::size_t k = 0; k < part.p_filesz; ++k) {
       search.hash = (search.hash ^ bytes[k]) * 0x100000001b3ULL;
     }
@@ -45,7 +48,7 @@ int hash_if_it_holds(dl_phdr_info* object, std::size_t /*size*/, void* data) {
 }  // namespace
 
 std::uint64_t loaded_code(const void* address) {
-  Search search{reinterpret_cast<std::uintptr_t>(address)};
+  Search search{address, reinterpret_cast<std::uintptr_t>(address)};
   dl_iterate_phdr(hash_if_it_holds, &search);
   return search.hash;
 }

@@ -199,6 +199,7 @@ class Measures(ProgramTest):
         self.assertTrue(page.startswith("before\n") and page.endswith("after\n"))
         self.assertNotIn("stale", page)
         self.assertIn("| plemenos |", page)
+        self.assertRegex(page, "Made by vantage [0-9.]+ with Eigen .*, options_hash [0-9a-f]+, 1 method of 642 views")
 
     def test_eval_says_what_is_wrong_with_a_data_set(self):
         (self.dir / "empty").mkdir()
