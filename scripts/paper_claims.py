@@ -5,8 +5,9 @@
     scripts/paper_claims.py MODELS [--vantage PROGRAM] [-o docs/paper.md] [--only NAME …]
 
 MODELS is a folder with the paper's models (the names are in MODEL_FILES). Needs NumPy. The measured
-numbers are kept in a JSON file beside the page (--cache) so that an interrupted run goes on; delete it
-to measure again. Takes some ten minutes on two cores.
+numbers are kept in a JSON file (--cache) so that an interrupted run goes on. They count for the same
+program, scripts and model file only: what another program measured is measured again. Takes some ten
+minutes on two cores.
 """
 
 import argparse
@@ -21,6 +22,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent))
+from number_cache import Cache, fingerprint  # noqa: E402
 from paper_page import page  # noqa: E402
 from paper_shapes import LIMBS, belly, hidden_by, limb, read_ply  # noqa: E402
 
@@ -181,16 +183,21 @@ def main():
     parser.add_argument("--times", action="store_true", help="with the seconds measured; on a quiet machine")
     parser.add_argument("--only", nargs="*", default=list(MODEL_FILES))
     options = parser.parse_args()
-    cache = json.loads(options.cache.read_text()) if options.cache.exists() else {}
+    cache, numbers = Cache(options.cache), {}
+    here = Path(__file__).parent
+    code = (options.vantage, here / "paper_claims.py", here / "paper_shapes.py")
     with tempfile.TemporaryDirectory() as folder:
         program = Program(options.vantage, Path(folder), options.models)
-        for name in options.only:
-            if name not in cache:
+        for name, file in MODEL_FILES.items():
+            made_from = fingerprint(*code, options.models / file)
+            found = cache.find(name, made_from)
+            if found is None and name in options.only:
                 print(name, file=sys.stderr)
-                cache[name] = measure(program, name, options.models / MODEL_FILES[name])
-                options.cache.parent.mkdir(parents=True, exist_ok=True)
-                options.cache.write_text(json.dumps(cache, indent=1))
-    options.output.write_text(page(cache, MODEL_FILES, options.times))
+                found = measure(program, name, options.models / file)
+                cache.put(name, made_from, found)
+            if found is not None:
+                numbers[name] = found
+    options.output.write_text(page(numbers, MODEL_FILES, options.times))
 
 
 if __name__ == "__main__":

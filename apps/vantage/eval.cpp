@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "vantage/core/error.h"
+#include "vantage/core/version.h"
 #include "vantage/io/write.h"
 #include "vantage/report/evaluation.h"
 
@@ -66,7 +67,7 @@ struct EvalCommand {
       session.say("note: " + std::to_string(known) + " of " + std::to_string(records.size()) +
                   " models were evaluated by an earlier run");
     }
-    const std::string tables = evidence_tables(views, gaze);
+    const std::string tables = made_by(options, measures) + evidence_tables(views, gaze);
     write_file("-", tables);
     if (!output.empty()) {
       write_file(output + "/tables.md", tables);
@@ -86,6 +87,13 @@ struct EvalCommand {
   }
 
  private:
+  /// What the tables were made by: all that changes them but the data.
+  static std::string made_by(const ViewOptions& options, const std::vector<Measure>& measures) {
+    return "Made by vantage " + std::string(version()) + " with " + library_versions() +
+           ", options_hash " + options_hash(options) + ", " + plural(measures.size(), "method") +
+           " of 642 views.\n\n";
+  }
+
   /// In the folder for results, which is made.
   [[nodiscard]] std::string journal_file() const {
     std::error_code error;

@@ -4,138 +4,27 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "vantage/core/error.h"
 #include "vantage/core/random.h"
 #include "vantage/mesh/curvature.h"
 #include "vantage/mesh/measures.h"
 
+#include "report/agreement.h"
+
 namespace vantage {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kNearDeg = 45.0;
 
-double mean_of(std::span<const double> values) {
-  double sum = 0.0;
-  for (const double value : values) {
-    sum += value;
-  }
-  return values.empty() ? kNone : sum / static_cast<double>(values.size());
-}
-
-/// How near one direction is to people's.
-ViewAgreement agreement(const std::string& method, const RecordedModel& record,
-                        const Vec3& direction) {
-  std::vector<double> plain;
-  std::vector<double> folded;
-  std::vector<double> all;
-  double near = 0.0;
-  for (const ChosenByPerson& view : record.views) {
-    all.push_back(folded_angle_deg(direction, view.direction, record.planes));
-    if (view.moved) {
-      plain.push_back(angle_deg(direction, view.direction));
-      folded.push_back(all.back());
-      near += folded.back() < kNearDeg ? 1.0 : 0.0;
-    }
-  }
-  return {method,         record.name,
-          mean_of(plain), mean_of(folded),
-          mean_of(all),   plain.empty() ? kNone : near / static_cast<double>(plain.size()),
-          kNone};
-}
-
-/// The mean of several agreements of one method and model.
-ViewAgreement mean_agreement(const std::string& method, const std::vector<ViewAgreement>& rows) {
-  ViewAgreement mean{method, rows.empty() ? "" : rows.front().model, 0, 0, 0, 0, kNone};
-  const auto share = 1.0 / static_cast<double>(rows.size());
-  for (const ViewAgreement& row : rows) {
-    mean.mean_deg += share * row.mean_deg;
-    mean.mean_folded_deg += share * row.mean_folded_deg;
-    mean.all_folded_deg += share * row.all_folded_deg;
-    mean.within_45 += share * row.within_45;
-  }
-  return mean;
-}
-
-/// Each person who moved against all the others.
-ViewAgreement another_person(const RecordedModel& record) {
-  std::vector<ViewAgreement> rows;
-  for (std::size_t i = 0; i < record.views.size(); ++i) {
-    if (record.views[i].moved) {
-      RecordedModel others = record;
-      others.views.erase(others.views.begin() + static_cast<std::ptrdiff_t>(i));
-      rows.push_back(agreement("another person", others, record.views[i].direction));
-    }
-  }
-  return mean_agreement("another person", rows);
-}
-
-/// The reference rows.
-void add_references(const RecordedModel& record, const DirectionSet& set, const UprightFrame& frame,
-                    std::vector<ViewAgreement>& rows) {
-  const ViewPrior prior = upright_prior();
-  std::vector<ViewAgreement> every;
-  ViewAgreement best;
-  best.mean_deg = best.mean_folded_deg = std::numeric_limits<double>::infinity();
-  std::size_t likeliest = 0;
-  for (std::size_t i = 0; i < set.directions.size(); ++i) {
-    every.push_back(agreement("random", record, set.directions[i]));
-    best.mean_deg = std::min(best.mean_deg, every.back().mean_deg);
-    if (every.back().mean_folded_deg < best.mean_folded_deg) {
-      const double plain = best.mean_deg;
-      best = every.back();
-      best.mean_deg = plain;
-    }
-    likeliest =
-        prior.factor(frame, set.directions[i]) > prior.factor(frame, set.directions[likeliest])
-            ? i
-            : likeliest;
-  }
-  best.method = "best possible single view";
-  rows.push_back(best);
-  rows.push_back(another_person(record));
-  const auto camera = [&](const char* name, double side, double up, double front) {
-    const Vec3 d = (side * frame.side + up * frame.up + front * frame.front).normalized();
-    rows.push_back(agreement(name, record, d));
-  };
-  camera("three-quarter (1, 0.6, 1)", 1.0, 0.6, 1.0);
-  camera("isometric (1, 1, 1)", 1.0, 1.0, 1.0);
-  camera("f3d's default (1, 0.5, 1)", 1.0, 0.5, 1.0);
-  camera("straight front", 0.0, 0.0, 1.0);
-  rows.push_back(agreement("prior alone", record, set.directions[likeliest]));
-  rows.push_back(mean_agreement("random", every));
-}
-
-/// Mean share of the set's views that are no better than each view people chose.
-double human_percentile(const Measure& measure, std::span<const double> of_set,
-                        std::span<const double> of_people) {
-  double sum = 0.0;
-  for (const double value : of_people) {
-    double below = 0.0;
-    for (const double other : of_set) {
-      below += measure.is_better(value, other) ? 1.0 : value == other ? 0.5 : 0.0;
-    }
-    sum += below / static_cast<double>(of_set.size());
-  }
-  return of_people.empty() ? kNone : sum / static_cast<double>(of_people.size());
-}
-
-/// The best view of the set under the upright prior.
-Vec3 best_under_prior(const DirectionSet& set, std::span<const double> values,
-                      const UprightFrame& frame) {
-  const ViewPrior prior = upright_prior();
-  std::size_t best = 0;
-  double highest = -1.0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double objective = values[i] * prior.factor(frame, set.directions[i]);
-    if (objective > highest) {
-      highest = objective;
-      best = i;
-    }
-  }
-  return set.directions[best];
+/// The best view of `vantage view` as it is without flags, but for the map's and the camera's.
+Vec3 default_view(const Model& model, const ShapeAnalysis& shape, ViewOptions options,
+                  const RunContext& run) {
+  options.method = "kssm";
+  options.prior = upright_prior();
+  options.view_set.reset();
+  const UpChoice up = choose_up(model, shape, options);
+  return find_views(shape, up, options, run).best.direction;
 }
 
 /// Mean and standard deviation over the surface.
@@ -172,29 +61,6 @@ double pearson(std::span<const double> a, std::span<const double> b) {
   return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : kNone;
 }
 
-/// Chance that a vertex of the twentieth of most gaze has a larger value than another one.
-double roc_area(std::span<const double> map, std::span<const double> gaze) {
-  constexpr double kTop = 0.05;
-  std::vector<std::size_t> order(map.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return gaze[a] > gaze[b] || (gaze[a] == gaze[b] && a < b);
-  });
-  const auto count = static_cast<std::size_t>(std::ceil(kTop * static_cast<double>(map.size())));
-  std::vector<double> rest;
-  for (std::size_t k = count; k < order.size(); ++k) {
-    rest.push_back(map[order[k]]);
-  }
-  std::sort(rest.begin(), rest.end());
-  double sum = 0.0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto [low, high] = std::equal_range(rest.begin(), rest.end(), map[order[k]]);
-    sum += 0.5 * static_cast<double>((low - rest.begin()) + (high - rest.begin()));
-  }
-  return rest.empty() ? kNone
-                      : sum / (static_cast<double>(count) * static_cast<double>(rest.size()));
-}
-
 GazeAgreement gaze_agreement(const std::string& map, const RecordedModel& record,
                              std::span<const double> values, std::span<const double> areas) {
   std::vector<double> looked;
@@ -225,8 +91,8 @@ std::vector<ViewAgreement> evaluate_views(const RecordedModel& record, const Mod
   const UpAxis up = options.up.value_or(default_up(model.format));
   const UprightFrame frame = upright_frame(up_vector(up));
   constexpr int kLevel = 3;
-  ViewMeasurer measurer(measure_subject(shape, options), measures, kLevel, run.part(0.3, 0.8));
-  const MeasureValues values = measurer.set_values(run.part(0.3, 0.8));
+  ViewMeasurer measurer(measure_subject(shape, options), measures, kLevel, run.part(0.3, 0.7));
+  const MeasureValues values = measurer.set_values(run.part(0.3, 0.7));
   std::vector<Vec3> moved;
   for (const ChosenByPerson& view : record.views) {
     if (view.moved) {
@@ -236,16 +102,17 @@ std::vector<ViewAgreement> evaluate_views(const RecordedModel& record, const Mod
   RunContext quiet = run;
   quiet.report = nullptr;
   const MeasureValues of_people = measurer.values(moved, quiet);
-  std::vector<ViewAgreement> rows;
-  add_references(record, measurer.set(), frame, rows);
+  std::vector<ViewAgreement> rows = reference_rows(record, measurer.set(), frame);
   for (std::size_t m = 0; m < measures.size(); ++m) {
     if (measures[m].name == "kssm") {
-      rows.push_back(agreement("kssm × prior (the default of view)", record,
-                               best_under_prior(measurer.set(), values[m], frame)));
+      rows.push_back(agreement(std::string(kDefaultView), record,
+                               default_view(model, shape, options, run.part(0.7, 0.8))));
     }
     const MeasuredView best = best_view(measurer, m, run.part(0.8, 1.0));
     rows.push_back(agreement(measures[m].name, record, best.direction));
     rows.back().percentile = human_percentile(measures[m], values[m], of_people[m]);
+    rows.push_back(agreement(measures[m].name + std::string(kUnderPrior), record,
+                             best_under_prior(measures[m], measurer.set(), values[m], frame)));
   }
   return rows;
 }

@@ -6,6 +6,7 @@
 #include <locale>
 #include <map>
 #include <sstream>
+#include <utility>
 
 #include "vantage/core/error.h"
 #include "vantage/report/evaluation.h"
@@ -133,6 +134,21 @@ void read_gaze(const fs::path& folder, std::vector<RecordedModel>& records) {
   }
 }
 
+/// Models of different folders may have one name: their folders then become a part of it.
+/// \param folder_of of each record.
+void tell_apart(std::vector<RecordedModel>& records, const std::vector<std::string>& folder_of) {
+  std::map<std::pair<std::string, bool>, int> count;
+  const auto key = [](const RecordedModel& r) { return std::pair(r.name, r.views.empty()); };
+  for (const RecordedModel& record : records) {
+    ++count[key(record)];
+  }
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (count[key(records[i])] > 1) {
+      records[i].name = folder_of[i] + "/" + records[i].name;
+    }
+  }
+}
+
 bool read_folder(const fs::path& folder, std::vector<RecordedModel>& records) {
   if (fs::exists(folder / "views.csv")) {
     read_views(folder, records);
@@ -173,9 +189,12 @@ std::vector<RecordedModel> read_records(const std::string& folder) {
       }
     }
     std::sort(parts.begin(), parts.end());
+    std::vector<std::string> folder_of;
     for (const fs::path& part : parts) {
       read_folder(part, records);
+      folder_of.resize(records.size(), part.filename().string());
     }
+    tell_apart(records, folder_of);
   }
   if (records.empty()) {
     throw InvalidInput(

@@ -30,7 +30,14 @@ class Manifest : private JsonReader {
     }
     std::vector<RecordedModel> records;
     for (const Json& entry : root()["models"]) {
-      records.push_back(record_of(entry, "models[" + std::to_string(records.size()) + "]"));
+      const std::string where = "models[" + std::to_string(records.size()) + "]";
+      RecordedModel record = record_of(entry, where);
+      for (const RecordedModel& other : records) {
+        if (other.name == record.name) {
+          fail(where + " is \"" + record.name + "\" again; put all about a model into one entry");
+        }
+      }
+      records.push_back(std::move(record));
     }
     return records;
   }
@@ -78,7 +85,7 @@ class Manifest : private JsonReader {
     }
     RecordedModel record;
     const fs::path model = text(entry["model"], where + ".model");
-    record.name = model.filename().string();
+    record.name = model.lexically_normal().generic_string();
     record.path = (folder_ / model).string();
     std::error_code error;
     if (!fs::is_regular_file(record.path, error)) {

@@ -3,9 +3,15 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <string_view>
+#include <utility>
 
 #include "vantage/io/write.h"
 #include "vantage/report/evaluation.h"
+
+#include "report/agreement.h"
+#include "report/csv_field.h"
 
 namespace vantage {
 namespace {
@@ -19,9 +25,13 @@ std::string fixed(double value, int decimals) {
   return text.data();
 }
 
-std::string interval_text(const Interval& interval, double scale, int decimals) {
-  return fixed(scale * interval.mean, decimals) + " [" + fixed(scale * interval.low, decimals) +
-         ", " + fixed(scale * interval.high, decimals) + "]";
+std::string interval_text(const Interval& interval, double scale, int decimals, const char* unit) {
+  if (!std::isfinite(interval.mean)) {
+    return "–";
+  }
+  return fixed(scale * interval.mean, decimals) + unit + " [" +
+         fixed(scale * interval.low, decimals) + ", " + fixed(scale * interval.high, decimals) +
+         "]";
 }
 
 /// Names in order of first appearance.
@@ -58,55 +68,136 @@ double median_of(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-std::string view_table(const std::vector<ViewAgreement>& rows) {
-  struct Line {
-    double error = 0.0;
-    std::string text{};
-  };
+/// What a view's row says in either table.
+class ViewRow {
+ public:
+  ViewRow(const std::vector<ViewAgreement>& rows, std::string name)
+      : rows_(&rows), name_(std::move(name)) {}
 
-  std::vector<Line> lines;
+  [[nodiscard]] std::vector<double> values(double ViewAgreement::*value) const {
+    return column(*rows_, &ViewAgreement::method, name_, value);
+  }
+
+  /// Mean and interval of a column.
+  [[nodiscard]] std::string mean(double ViewAgreement::*value, double scale, int decimals,
+                                 const char* unit = "") const {
+    return interval_text(bootstrap_mean(values(value)), scale, decimals, unit);
+  }
+
+  [[nodiscard]] std::string median(double ViewAgreement::*value) const {
+    return fixed(median_of(values(value)), 1);
+  }
+
+  /// What rows are sorted by; those without a number come last.
+  [[nodiscard]] double error() const {
+    const double mean = bootstrap_mean(values(&ViewAgreement::mean_folded_deg)).mean;
+    return std::isfinite(mean) ? mean : std::numeric_limits<double>::infinity();
+  }
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+ private:
+  const std::vector<ViewAgreement>* rows_;
+  std::string name_;
+};
+
+constexpr double kOfHalfTurn = 1.0 / 180.0;
+
+bool is_under_prior(std::string_view name) {
+  return name.size() >= kUnderPrior.size() &&
+         name.substr(name.size() - kUnderPrior.size()) == kUnderPrior;
+}
+
+/// The rows of some methods, least error first. \param tells what a line says of a method.
+template <class Wanted, class Tells>
+std::string sorted_lines(const std::vector<ViewAgreement>& rows, Wanted wanted, Tells tells) {
+  std::vector<ViewRow> lines;
   for (const std::string& name : names_of(rows, &ViewAgreement::method)) {
-    const auto values = [&](double ViewAgreement::*value) {
-      return column(rows, &ViewAgreement::method, name, value);
-    };
-    const Interval folded = bootstrap_mean(values(&ViewAgreement::mean_folded_deg));
-    const Interval plain = bootstrap_mean(values(&ViewAgreement::mean_deg));
-    lines.push_back(
-        {folded.mean,
-         "| " + name + " | " + interval_text(folded, 1.0 / 180.0, 3) + " | " +
-             fixed(plain.mean / 180.0, 3) + " | " + fixed(folded.mean, 1) + " | " +
-             fixed(median_of(values(&ViewAgreement::mean_folded_deg)), 1) + " | " +
-             fixed(100.0 * bootstrap_mean(values(&ViewAgreement::within_45)).mean, 0) + " % | " +
-             fixed(bootstrap_mean(values(&ViewAgreement::all_folded_deg)).mean / 180.0, 3) + " | " +
-             fixed(bootstrap_mean(values(&ViewAgreement::percentile)).mean, 2) + " |\n"});
+    if (wanted(name)) {
+      lines.emplace_back(rows, name);
+    }
   }
   std::stable_sort(lines.begin(), lines.end(),
-                   [](const Line& a, const Line& b) { return a.error < b.error; });
-  std::string text =
-      "| view | error, folded [95 %] | error | mean angle, folded | median | within 45° | error "
-      "with "
-      "kept starts, folded | people's views in its own scores |\n"
-      "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
-  for (const Line& line : lines) {
-    text += line.text;
+                   [](const ViewRow& a, const ViewRow& b) { return a.error() < b.error(); });
+  std::string text;
+  for (const ViewRow& line : lines) {
+    text += tells(line);
   }
   return text;
 }
 
+std::string view_table(const std::vector<ViewAgreement>& rows) {
+  const auto tells = [](const ViewRow& row) {
+    return "| " + row.name() + " | " + row.mean(&ViewAgreement::mean_folded_deg, kOfHalfTurn, 3) +
+           " | " + row.mean(&ViewAgreement::mean_deg, kOfHalfTurn, 3) + " | " +
+           row.median(&ViewAgreement::mean_folded_deg) + " | " +
+           row.median(&ViewAgreement::mean_deg) + " | " +
+           row.mean(&ViewAgreement::within_45, 100.0, 0, " %") + " | " +
+           row.mean(&ViewAgreement::all_folded_deg, kOfHalfTurn, 3) + " | " +
+           row.mean(&ViewAgreement::percentile, 1.0, 2) + " |\n";
+  };
+  return "| view | error, folded [95 %] | error [95 %] | median, folded | median | within 45° "
+         "[95 %] | error with kept starts, folded [95 %] | people's views in its own scores "
+         "[95 %] |\n"
+         "| --- | --- | --- | --- | --- | --- | --- | --- |\n" +
+         sorted_lines(
+             rows, [](const std::string& name) { return !is_under_prior(name); }, tells);
+}
+
+/// A method's values less those of the prior alone on the same models.
+std::vector<double> beyond_prior(const std::vector<ViewAgreement>& rows, const std::string& method,
+                                 double ViewAgreement::*value) {
+  std::vector<double> differences;
+  for (const ViewAgreement& row : rows) {
+    for (const ViewAgreement& other : rows) {
+      if (row.method == method && other.method == kPriorAlone && row.model == other.model) {
+        differences.push_back(row.*value - other.*value);
+      }
+    }
+  }
+  return differences;
+}
+
+/// Empty if there is no method under the prior.
+std::string prior_table(const std::vector<ViewAgreement>& rows) {
+  const auto tells = [&](const ViewRow& row) {
+    const std::vector<double> less =
+        beyond_prior(rows, row.name(), &ViewAgreement::mean_folded_deg);
+    const auto nearer = std::count_if(less.begin(), less.end(), [](double d) { return d < 0.0; });
+    const auto farther = std::count_if(less.begin(), less.end(), [](double d) { return d > 0.0; });
+    return "| " + row.name() + " | " + row.mean(&ViewAgreement::mean_folded_deg, kOfHalfTurn, 3) +
+           " | " + interval_text(bootstrap_mean(less), kOfHalfTurn, 3, "") + " | " +
+           std::to_string(nearer) + " / " + std::to_string(farther) + " | " +
+           interval_text(bootstrap_mean(beyond_prior(rows, row.name(), &ViewAgreement::within_45)),
+                         100.0, 0, " %") +
+           " | " + row.mean(&ViewAgreement::mean_deg, kOfHalfTurn, 3) + " |\n";
+  };
+  const std::string lines = sorted_lines(
+      rows, [](const std::string& name) { return is_under_prior(name) || name == kDefaultView; },
+      tells);
+  return lines.empty()
+             ? ""
+             : "### Under the prior\n"
+               "| view | error, folded [95 %] | less the prior's alone, folded [95 %, paired] | "
+               "models nearer / farther | within 45°, less the prior's alone [95 %, paired] | "
+               "error [95 %] |\n"
+               "| --- | --- | --- | --- | --- | --- |\n" +
+                   lines + "\n";
+}
+
 std::string gaze_table(const std::vector<GazeAgreement>& rows) {
   std::string text =
-      "| map | CC [95 %] | Spearman | area under ROC | chance-adjusted | normalised | z |\n"
+      "| map | CC [95 %] | Spearman [95 %] | area under ROC [95 %] | chance-adjusted [95 %] | "
+      "normalised [95 %] | z [95 %] |\n"
       "| --- | --- | --- | --- | --- | --- | --- |\n";
   for (const std::string& name : names_of(rows, &GazeAgreement::map)) {
-    const auto mean = [&](double GazeAgreement::*value) {
-      return bootstrap_mean(column(rows, &GazeAgreement::map, name, value));
+    const auto mean = [&](double GazeAgreement::*value, int decimals) {
+      return " | " + interval_text(bootstrap_mean(column(rows, &GazeAgreement::map, name, value)),
+                                   1.0, decimals, "");
     };
-    text += "| " + name + " | " + interval_text(mean(&GazeAgreement::correlation), 1.0, 3) + " | " +
-            fixed(mean(&GazeAgreement::rank).mean, 3) + " | " +
-            fixed(mean(&GazeAgreement::area).mean, 3) + " | " +
-            fixed(mean(&GazeAgreement::chance_adjusted).mean, 4) + " | " +
-            fixed(mean(&GazeAgreement::normalised).mean, 3) + " | " +
-            fixed(mean(&GazeAgreement::z_score).mean, 3) + " |\n";
+    text += "| " + name + mean(&GazeAgreement::correlation, 3) + mean(&GazeAgreement::rank, 3) +
+            mean(&GazeAgreement::area, 3) + mean(&GazeAgreement::chance_adjusted, 4) +
+            mean(&GazeAgreement::normalised, 3) + mean(&GazeAgreement::z_score, 3) + " |\n";
   }
   return text;
 }
@@ -119,7 +210,7 @@ std::string evidence_tables(const std::vector<ViewAgreement>& views,
   if (!views.empty()) {
     text += "## Views that people chose\n" +
             std::to_string(names_of(views, &ViewAgreement::model).size()) + " models.\n\n" +
-            view_table(views) + "\n";
+            view_table(views) + "\n" + prior_table(views);
   }
   if (!gaze.empty()) {
     text += "## Where people looked\n" +
@@ -132,7 +223,7 @@ std::string evidence_tables(const std::vector<ViewAgreement>& views,
 std::string view_agreement_csv(const std::vector<ViewAgreement>& rows) {
   std::string csv = "method,model,mean_deg,mean_folded_deg,all_folded_deg,within_45,percentile\n";
   for (const ViewAgreement& row : rows) {
-    csv += '"' + row.method + "\"," + row.model;
+    csv += csv_field(row.method) + "," + csv_field(row.model);
     for (const double value :
          {row.mean_deg, row.mean_folded_deg, row.all_folded_deg, row.within_45, row.percentile}) {
       csv += ',' + number_text(value);
@@ -145,7 +236,7 @@ std::string view_agreement_csv(const std::vector<ViewAgreement>& rows) {
 std::string gaze_agreement_csv(const std::vector<GazeAgreement>& rows) {
   std::string csv = "map,model,correlation,rank,roc_area,chance_adjusted,normalised,z_score\n";
   for (const GazeAgreement& row : rows) {
-    csv += '"' + row.map + "\"," + row.model;
+    csv += csv_field(row.map) + "," + csv_field(row.model);
     for (const double value :
          {row.correlation, row.rank, row.area, row.chance_adjusted, row.normalised, row.z_score}) {
       csv += ',' + number_text(value);

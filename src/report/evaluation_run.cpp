@@ -23,6 +23,7 @@
 #include "vantage/io/write.h"
 #include "vantage/report/evaluation.h"
 
+#include "core/loaded_code.h"
 #include "core/parallel.h"
 #include "io/files.h"
 
@@ -91,11 +92,14 @@ class Fingerprint {
   std::uint64_t hash_ = 0xcbf29ce484222325ULL;
 };
 
-/// Of all that a record's rows depend on.
+/// Of all that a record's rows depend on; the program itself too, whose version stays the same while
+/// it is worked on.
 std::string key_of(const RecordedModel& record, const ViewOptions& options,
                    const std::vector<Measure>& measures) {
   Fingerprint print;
   print.add(version());
+  print.add(library_versions());
+  print.add(std::to_string(loaded_code()));
   print.add(options_hash(options));
   print.add(record.name);
   print.add(read_file(record.path));

@@ -6,6 +6,7 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/weld.h"
 #include "vantage/report/focus.h"
+#include "vantage/report/measured_shape.h"
 #include "vantage/report/view_report.h"
 
 #include "report/point_preparation.h"
@@ -107,6 +108,8 @@ void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext&
   shape.map = compute_kssm(shape.surface, shape.history, graph, options.kssm, run);
   if (options.method == "mesh-saliency") {
     shape.map.of_vertex = compute_mesh_saliency(shape.surface, options.saliency, run).of_vertex;
+  } else if (options.method == "pmi-saliency" && surface_area(shape.surface) > 0.0) {
+    shape.map.of_vertex = vertex_map(shape, options, options.method, run);
   }
 }
 

@@ -7,6 +7,8 @@
 #include "vantage/io/write.h"
 #include "vantage/report/figures.h"
 
+#include "report/csv_field.h"
+
 namespace vantage {
 namespace {
 
@@ -22,15 +24,6 @@ std::array<std::string, 6> stage_texts(const StageSeconds& s) {
     texts[next++] = number_text(std::round(1000.0 * seconds) / 1000.0);
   }
   return texts;
-}
-
-/// A field of CSV that may hold anything.
-std::string quoted(const std::string& text) {
-  std::string field = "\"";
-  for (const char c : text) {
-    field += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return field + "\"";
 }
 
 /// A cell of Markdown that may hold anything.
@@ -54,7 +47,7 @@ std::string times_csv(const std::vector<StageTimes>& rows) {
   text += "\n";
   for (const StageTimes& row : rows) {
     text +=
-        quoted(row.model) + "," + std::to_string(row.vertices) + "," + std::to_string(row.faces);
+        csv_field(row.model) + "," + std::to_string(row.vertices) + "," + std::to_string(row.faces);
     for (const std::string& seconds : stage_texts(row.seconds)) {
       text += "," + seconds;
     }

@@ -240,9 +240,13 @@ double Measure::worst() const {
 
 std::string_view Measure::cost() const {
   return needs.channel || needs.neighbours ? "set of views"
+         : needs.kssm                      ? "kssm map"
+         : needs.skeleton                  ? "skeleton"
+         : needs.saliency                  ? "saliency map"
          : needs.outline                   ? "outline"
          : needs.faces                     ? "faces"
-                                           : "vertices";
+         : needs.vertices                  ? "vertices"
+                                           : "surface";
 }
 
 const std::vector<Measure>& builtin_measures() {

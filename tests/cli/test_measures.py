@@ -3,9 +3,11 @@
 import csv
 import io
 import json
+import pathlib
+import subprocess
 import unittest
 
-from program import MODELS, ProgramTest, read_ply
+from program import MODELS, PROGRAM, ProgramTest, read_ply
 from shapes import box
 
 FAN = MODELS / "fan.ply"
@@ -93,6 +95,19 @@ class Measures(ProgramTest):
         values = [v["quality"] for v in vertices]
         self.assertGreaterEqual(min(values), 0.0)
         self.assertGreater(max(values), 0.0)
+
+    def test_view_by_pmi_saliency_shows_its_own_map(self):
+        self.vantage("map", FAN, "-o", "map.ply", "--method", "pmi-saliency")
+        own = (self.dir / "map.ply").read_bytes()
+        self.vantage("view", FAN, "-o", "out", "--method", "pmi-saliency", "--no-report", "--size", 64)
+        self.assertEqual((self.dir / "out" / "map.ply").read_bytes(), own)
+        self.vantage("view", FAN, "-o", "vmi", "--method", "vmi", "--no-images")  # has none: KSSM's
+        self.assertNotEqual((self.dir / "vmi" / "map.ply").read_bytes(), own)
+
+    def test_measures_lists_what_is_dearest(self):
+        cost = {m["name"]: m["cost"] for m in json.loads(self.vantage("measures", "--json").out)}
+        self.assertEqual([cost[n] for n in ("kssm", "mesh-saliency", "skeleton-limbs", "projected-area", "i3")],
+                         ["kssm map", "saliency map", "skeleton", "faces", "set of views"])
 
     def test_levels_go_with_the_skeletons_maps_only(self):
         self.vantage("map", FAN, "-o", "map.ply", "--method", "mesh-saliency", "--levels", "l", exit_code=2)
@@ -184,6 +199,7 @@ class Measures(ProgramTest):
         self.assertTrue(page.startswith("before\n") and page.endswith("after\n"))
         self.assertNotIn("stale", page)
         self.assertIn("| plemenos |", page)
+        self.assertRegex(page, "Made by vantage [0-9.]+ with Eigen .*, options_hash [0-9a-f]+, 1 method of 642 views")
 
     def test_eval_says_what_is_wrong_with_a_data_set(self):
         (self.dir / "empty").mkdir()
@@ -225,6 +241,54 @@ class Measures(ProgramTest):
             self.assertEqual((self.dir / "half" / name).read_bytes(), (self.dir / "whole" / name).read_bytes())
         other = self.vantage("eval", "people.json", "--method", "plemenos,vmi", "-o", "half")
         self.assertNotIn("earlier run", other.err)
+
+    def test_eval_measures_anew_where_the_program_is_another(self):
+        self.people()
+        run = ["eval", "people.json", "--method", "plemenos", "-o", "out"]
+        self.vantage(*run)
+        self.assertIn("2 of 2 models", self.vantage(*run).err)
+        code = pathlib.Path(PROGRAM).read_bytes()
+        word = b"score methods against recorded choices"
+        self.assertIn(word, code)
+        for name, other, known in (("same", code, True), ("changed", code.replace(word, word.upper()), False)):
+            (self.dir / name).write_bytes(other)
+            (self.dir / name).chmod(0o755)
+            done = subprocess.run([self.dir / name, *run], cwd=self.dir, capture_output=True, text=True, check=True)
+            self.assertEqual("earlier run" in done.stderr, known, name)
+
+    def test_eval_tells_models_of_one_file_name_apart(self):
+        for folder, size in (("a", 1), ("b, too", 2)):
+            (self.dir / folder).mkdir()
+            self.write(f"{folder}/box.off", box(size))
+        views = [{"direction": [1, 1, 1]}, {"direction": [0, 0.2, 1]}]
+        entries = [{"model": name, "views": views} for name in ("a/box.off", "./b, too/box.off")]
+        self.write("people.json", json.dumps({"models": entries}))
+        self.vantage("eval", "people.json", "--method", "plemenos", "-o", "out")
+        self.assertIn("\n2 models.", (self.dir / "out" / "tables.md").read_text())
+        rows = list(csv.DictReader(io.StringIO((self.dir / "out" / "views.csv").read_text())))
+        self.assertEqual({r["model"] for r in rows}, {"a/box.off", "b, too/box.off"})
+        self.assertTrue(all(None not in r for r in rows), "a cell too many")
+        self.write("people.json", json.dumps({"models": [entries[0], {**entries[0], "model": "./a/box.off"}]}))
+        self.assertIn("again", self.vantage("eval", "people.json", exit_code=3).err)
+
+    def test_eval_tells_models_of_one_name_in_two_folders_apart(self):
+        for part, size in (("one", 1), ("two", 2)):
+            (self.dir / "set" / part / "models").mkdir(parents=True)
+            self.write(f"set/{part}/models/box.off", box(size))
+            self.write(f"set/{part}/views.csv", "model,subject,status,vx,vy,vz\nbox.off,A,moved,1,1,1\n")
+        self.vantage("eval", "set", "--method", "plemenos", "--views-csv", "rows.csv")
+        rows = csv.DictReader(io.StringIO((self.dir / "rows.csv").read_text()))
+        self.assertEqual({r["model"] for r in rows}, {"one/box.off", "two/box.off"})
+
+    def test_eval_gives_nobody_a_perfect_score_where_all_kept_the_start(self):
+        self.write("box.off", box(2))
+        kept = [{"direction": [0, 0, 1], "status": "kept"}] * 3
+        self.write("people.json", json.dumps({"models": [{"model": "box.off", "views": kept}]}))
+        self.vantage("eval", "people.json", "--method", "plemenos", "-o", "out")
+        rows = list(csv.DictReader(io.StringIO((self.dir / "out" / "views.csv").read_text())))
+        self.assertEqual({r["model"] for r in rows}, {"box.off"})
+        self.assertEqual({r["mean_deg"] for r in rows}, {"null"})
+        self.assertNotIn("another person", {r["method"] for r in rows})
 
     def test_eval_gives_the_same_rows_side_by_side_and_one_by_one(self):
         self.people()

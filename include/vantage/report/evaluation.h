@@ -22,8 +22,8 @@ struct ChosenByPerson {
 
 /// A model with what people did with it.
 struct RecordedModel {
-  std::string name{};                   ///< File name.
-  std::string path{};                   ///< To read it from.
+  std::string name{};  ///< Of the file; of a manifest its path there. One model has it.
+  std::string path{};  ///< To read it from.
   std::vector<ChosenByPerson> views{};  ///< Empty if none were recorded.
   std::vector<MirrorPlane> planes{};    ///< As recorded with the views; normals only matter.
   std::vector<double> gaze{};           ///< Seconds a vertex, or empty.
@@ -40,7 +40,7 @@ std::vector<RecordedModel> read_records(const std::string& folder);
 struct ViewAgreement {
   std::string method{};
   std::string model{};
-  double mean_deg = 0.0;         ///< Mean angle to the views of people who moved.
+  double mean_deg = 0.0;         ///< Mean angle to the views of people who moved; NaN if none did.
   double mean_folded_deg = 0.0;  ///< The same to the nearest mirror image of each.
   double all_folded_deg = 0.0;   ///< The same of all people, those who kept the start included.
   double within_45 = 0.0;        ///< Share of views nearer than 45°, folded.
@@ -60,7 +60,8 @@ struct GazeAgreement {
   double z_score = 0.0;          ///< (s_f − s_r) / σ_r
 };
 
-/// Agreement with views of one model: reference cameras first, then the measures. \throw Cancelled
+/// Agreement with views of one model: reference cameras first, then the measures, each alone and, of
+/// the directions of the set, under the upright prior. \throw Cancelled
 std::vector<ViewAgreement> evaluate_views(const RecordedModel& record, const Model& model,
                                           const ViewOptions& options,
                                           const std::vector<Measure>& measures,
@@ -117,7 +118,7 @@ struct Interval {
 /// 2000 seeded resamples of the values that are finite; NaN if there are none.
 Interval bootstrap_mean(std::span<const double> values, std::uint64_t seed = 0);
 
-/// Both tables as Markdown. Either list may be empty.
+/// The tables as Markdown, intervals included. Either list may be empty.
 std::string evidence_tables(const std::vector<ViewAgreement>& views,
                             const std::vector<GazeAgreement>& gaze);
 

@@ -134,7 +134,8 @@ struct Measure {
     return better == Better::More ? a > b : a < b;
   }
 
-  /// The dearest thing it needs: "surface", "vertices", "faces", "outline", "set of views".
+  /// The dearest thing it needs: "surface", "vertices", "faces", "outline", "saliency map",
+  /// "skeleton", "kssm map" (a skeleton and more), "set of views".
   [[nodiscard]] std::string_view cost() const;
 };
 

@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "vantage/core/error.h"
+#include "vantage/spatial/directions.h"
 
+#include "report/agreement.h"
 #include "support/shapes.h"
 
 namespace vantage {
@@ -59,6 +63,196 @@ TEST(Bootstrap, HoldsTheMeanAndLeavesOutWhatHasNoValue) {
 
 TEST(Bootstrap, OfNothingIsNoNumber) {
   EXPECT_TRUE(std::isnan(bootstrap_mean({}).mean));
+}
+
+/// Seen by people from the directions given, in the plane of x and z, by degrees from +z.
+RecordedModel seen_from(const std::vector<double>& degrees, bool moved = true) {
+  RecordedModel record{.name = "thing"};
+  for (const double angle : degrees) {
+    const double a = angle / 180.0 * std::numbers::pi;
+    record.views.push_back({Vec3(std::sin(a), 0.0, std::cos(a)), moved});
+  }
+  return record;
+}
+
+const ViewAgreement* row_of(const std::vector<ViewAgreement>& rows, std::string_view method) {
+  for (const ViewAgreement& row : rows) {
+    if (row.method == method) {
+      return &row;
+    }
+  }
+  return nullptr;
+}
+
+TEST(Agreement, IsTheMeanAngleToTheViewsOfThoseWhoMoved) {
+  RecordedModel record = seen_from({0.0, 30.0, 60.0, 90.0});
+  record.views.push_back({-Vec3::UnitZ(), false});
+  const ViewAgreement front = agreement("front", record, Vec3::UnitZ());
+  EXPECT_NEAR(front.mean_deg, (0.0 + 30.0 + 60.0 + 90.0) / 4.0, 1e-9);
+  EXPECT_EQ(front.mean_folded_deg, front.mean_deg);
+  EXPECT_NEAR(front.all_folded_deg, (0.0 + 30.0 + 60.0 + 90.0 + 180.0) / 5.0, 1e-9);
+  EXPECT_EQ(front.within_45, 2.0 / 4.0);
+}
+
+TEST(Agreement, FoldsViewsAtMirrorPlanes) {
+  RecordedModel record = seen_from({-90.0, -60.0, 20.0});
+  record.planes.push_back({.normal = Vec3::UnitX()});  // the image of −60° is 60°
+  const ViewAgreement right = agreement("right", record, Vec3::UnitX());
+  EXPECT_NEAR(right.mean_deg, (180.0 + 150.0 + 70.0) / 3.0, 1e-9);
+  EXPECT_NEAR(right.mean_folded_deg, (0.0 + 30.0 + 70.0) / 3.0, 1e-9);
+  EXPECT_EQ(right.within_45, 2.0 / 3.0);
+}
+
+TEST(Agreement, OfAnotherPersonIsEachAgainstTheOthers) {
+  const auto person = another_person(seen_from({0.0, 30.0, 90.0}));
+  ASSERT_TRUE(person.has_value());
+  // 0° has 30 and 90 from it, 30° has 30 and 60, 90° has 90 and 60.
+  EXPECT_NEAR(person->mean_deg, (60.0 + 45.0 + 75.0) / 3.0, 1e-9);
+  EXPECT_NEAR(person->within_45, (0.5 + 0.5 + 0.0) / 3.0, 1e-12);
+  EXPECT_EQ(person->model, "thing");
+}
+
+TEST(Agreement, OfAModelWhoseViewsWereAllKeptHasNoPerfectReferences) {
+  const RecordedModel record = seen_from({0.0, 0.0}, false);
+  const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, 1);
+  const auto rows = reference_rows(record, set, upright_frame(Vec3::UnitY()));
+  EXPECT_EQ(row_of(rows, "another person"), nullptr);
+  EXPECT_EQ(row_of(rows, "best possible single view"), nullptr);
+  for (const ViewAgreement& row : rows) {
+    EXPECT_EQ(row.model, "thing") << row.method;
+    EXPECT_TRUE(std::isnan(row.mean_deg) && std::isnan(row.mean_folded_deg)) << row.method;
+    EXPECT_TRUE(std::isnan(row.within_45)) << row.method;
+  }
+  // What counts kept starts too has a number.
+  EXPECT_NEAR(row_of(rows, "straight front")->all_folded_deg, 0.0, 1e-9);
+  EXPECT_NEAR(row_of(rows, "random")->all_folded_deg, 90.0, 1e-9);
+}
+
+TEST(Agreement, OfTheOnlyOneWhoMovedWithNobodyElseIsNoNumber) {
+  RecordedModel record = seen_from({10.0});
+  record.views.push_back({Vec3::UnitZ(), false});
+  const auto person = another_person(record);
+  ASSERT_TRUE(person.has_value());
+  EXPECT_TRUE(std::isnan(person->mean_deg));
+  EXPECT_NEAR(person->all_folded_deg, 10.0, 1e-9);
+}
+
+TEST(Agreement, OfTheBestViewIsTheLeastOfTheSetAndOfRandomItsMean) {
+  const RecordedModel record = seen_from({0.0});
+  const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, 2);
+  const auto rows = reference_rows(record, set, upright_frame(Vec3::UnitY()));
+  double least = 180.0;
+  for (const Vec3& d : set.directions) {
+    least = std::min(least, angle_deg(d, Vec3::UnitZ()));
+  }
+  EXPECT_EQ(row_of(rows, "best possible single view")->mean_deg, least);
+  EXPECT_NEAR(row_of(rows, "random")->mean_deg, 90.0, 1e-9);  // the set has d and −d
+  EXPECT_NEAR(row_of(rows, "isometric (1, 1, 1)")->mean_deg,
+              std::acos(1.0 / std::sqrt(3.0)) * 180.0 / std::numbers::pi, 1e-9);
+}
+
+TEST(Percentile, IsTheShareOfViewsThatAreNoBetter) {
+  const std::vector<double> of_set{1.0, 2.0, 2.0, 5.0};
+  // More is better: 2 beats one and ties with two, 6 beats all.
+  EXPECT_EQ(human_percentile({.better = Better::More}, of_set, std::vector<double>{2.0}), 0.5);
+  EXPECT_EQ(human_percentile({.better = Better::More}, of_set, std::vector<double>{2.0, 6.0}),
+            0.75);
+  // Less is better: 1 beats three and ties with one; a blind view beats none.
+  const std::vector<double> blind{1.0, std::numeric_limits<double>::infinity()};
+  EXPECT_EQ(human_percentile({.better = Better::Less}, of_set, blind), (3.5 / 4.0 + 0.0) / 2.0);
+  EXPECT_TRUE(std::isnan(human_percentile({}, of_set, {})));
+}
+
+TEST(UnderThePrior, TheLargestProductWinsWhicheverWayTheMeasureGoes) {
+  const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, 1);
+  const UprightFrame frame = upright_frame(Vec3::UnitY());
+  const ViewPrior prior = upright_prior();
+  std::vector<double> rising;
+  std::vector<double> falling;
+  for (const Vec3& d : set.directions) {
+    rising.push_back(2.0 + d.z());
+    falling.push_back(3.0 - rising.back());
+  }
+  falling[0] = std::numeric_limits<double>::infinity();  // a blind view
+  rising[0] = 0.0;
+  const Vec3 best = best_under_prior({.better = Better::More}, set, rising, frame);
+  for (std::size_t i = 0; i < rising.size(); ++i) {
+    EXPECT_LE(rising[i] * prior.factor(frame, set.directions[i]),
+              (2.0 + best.z()) * prior.factor(frame, best));
+  }
+  double largest = 0.0;
+  for (std::size_t i = 1; i < falling.size(); ++i) {
+    largest = std::max(largest, falling[i]);
+  }
+  const Vec3 least = best_under_prior({.better = Better::Less}, set, falling, frame);
+  for (std::size_t i = 1; i < falling.size(); ++i) {
+    EXPECT_LE((largest - falling[i]) * prior.factor(frame, set.directions[i]),
+              (largest - 1.0 + least.z()) * prior.factor(frame, least) + 1e-12);
+  }
+}
+
+TEST(RocArea, IsTheChanceThatTheMostLookedAtIsLarger) {
+  // Forty vertices, of which the two of most gaze count.
+  std::vector<double> gaze(40, 0.0);
+  gaze[7] = 3.0;
+  gaze[9] = 2.0;
+  std::vector<double> map(40, 1.0);
+  EXPECT_EQ(roc_area(map, gaze), 0.5);  // ties count half
+  map[7] = 2.0;
+  EXPECT_EQ(roc_area(map, gaze), 0.75);  // one above all, one ties with all
+  map[9] = 0.0;
+  EXPECT_EQ(roc_area(map, gaze), 0.5);  // one above all, one below all
+  map[0] = 3.0;                         // above both
+  EXPECT_NEAR(roc_area(map, gaze), 37.0 / 76.0, 1e-12);
+}
+
+/// Rows of two methods and the prior on two models: `near` is 9° and 18° nearer than the prior.
+std::vector<ViewAgreement> rows_of_two_models() {
+  std::vector<ViewAgreement> rows;
+  for (const auto& [model, prior] : {std::pair("a,b.off", 36.0), std::pair("b.off", 54.0)}) {
+    rows.push_back({std::string(kPriorAlone), model, 90.0, prior, prior, 0.5, std::nan("")});
+    rows.push_back({"near × prior", model, 90.0, prior - prior / 6 - 3, 9.0, 1.0, std::nan("")});
+    rows.push_back({"near", model, 45.0, 72.0, 72.0, 0.25, 0.75});
+  }
+  return rows;
+}
+
+TEST(EvidenceTables, CompareMethodsUnderThePriorWithThePriorModelByModel) {
+  const std::string text = evidence_tables(rows_of_two_models(), {});
+  const std::size_t under = text.find("### Under the prior");
+  ASSERT_NE(under, std::string::npos);
+  // 9° and 12° less than the prior: 0.050 and 0.067 of a half turn.
+  EXPECT_NE(text.find("-0.058 [-0.067, -0.050] | 2 / 0 | 50 % [50, 50]", under), std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("near × prior"), text.find("near × prior", under));
+}
+
+TEST(EvidenceTables, GiveAnIntervalToEachMeanAndDashesWhereThereIsNone) {
+  const std::string text = evidence_tables(rows_of_two_models(), {});
+  EXPECT_NE(text.find("| near | 0.400 [0.400, 0.400] | 0.250 [0.250, 0.250] | 72.0 | 45.0 | "
+                      "25 % [25, 25] | 0.400 [0.400, 0.400] | 0.75 [0.75, 0.75] |"),
+            std::string::npos)
+      << text;
+  const GazeAgreement gaze{"height", "a", 0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+  EXPECT_NE(
+      evidence_tables({}, {gaze})
+          .find("| height | 0.100 [0.100, 0.100] | 0.200 [0.200, 0.200] | 0.300 [0.300, 0.300] | "
+                "0.4000 [0.4000, 0.4000] | 0.500 [0.500, 0.500] | 0.600 [0.600, 0.600] |"),
+      std::string::npos);
+  std::vector<ViewAgreement> kept = rows_of_two_models();
+  for (ViewAgreement& row : kept) {
+    row.mean_deg = row.mean_folded_deg = row.within_45 = std::nan("");
+  }
+  EXPECT_NE(evidence_tables(kept, {}).find("| near | – | – | – | – | – | 0.400"),
+            std::string::npos);
+}
+
+TEST(AgreementCsv, HoldsNamesWithCommasAndQuotes) {
+  const GazeAgreement gaze{"a \"map\"", "x,y.off", 0, 0, 0, 0, 0, 0};
+  EXPECT_NE(gaze_agreement_csv({gaze}).find("\n\"a \"\"map\"\"\",\"x,y.off\",0,"),
+            std::string::npos);
+  EXPECT_NE(view_agreement_csv(rows_of_two_models()).find("\n\"near\",\"a,b.off\",45,"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -66,6 +66,27 @@ TEST(Measures, AreFoundByAliasToo) {
   EXPECT_EQ(find_measure("i1").name, "vmi");
 }
 
+TEST(Measures, SayWhatIsDearestOfWhatTheyNeed) {
+  EXPECT_EQ(find_measure("kssm").cost(), "kssm map");
+  EXPECT_EQ(find_measure("mesh-saliency").cost(), "saliency map");
+  EXPECT_EQ(find_measure("skeleton-visibility").cost(), "skeleton");
+  EXPECT_EQ(find_measure("skeleton-limbs").cost(), "skeleton");
+  EXPECT_EQ(find_measure("principal-axis").cost(), "vertices");
+  EXPECT_EQ(find_measure("plemenos").cost(), "faces");
+  EXPECT_EQ(find_measure("silhouette-entropy").cost(), "outline");
+  EXPECT_EQ(find_measure("instability").cost(), "set of views");
+  EXPECT_EQ(find_measure("pmi-saliency").cost(), "set of views");
+  EXPECT_EQ(Measure{}.cost(), "surface");
+  // No measure hides a need behind a cheaper one.
+  for (const Measure& measure : builtin_measures()) {
+    const bool is_plain = measure.cost() == "vertices" || measure.cost() == "faces";
+    EXPECT_EQ(is_plain, !measure.needs.kssm && !measure.needs.saliency && !measure.needs.skeleton &&
+                            !measure.needs.outline && !measure.needs.channel &&
+                            !measure.needs.neighbours)
+        << measure.name;
+  }
+}
+
 TEST(Measures, ListTheNamesThereAreForAnUnknownOne) {
   try {
     find_measure("beauty");
@@ -275,6 +296,7 @@ TEST(Measures, KeepTheIdentitiesOfTheChannel) {
   const Subject ring(test::torus(1.0, 0.4, 24, 12), Projection::Perspective);
   ViewMeasurer measurer(ring.given, test::channel_measures(), 2);
   test::expect_channel_identities(measurer);
+  test::expect_merging_tells_no_more(measurer.model());
 }
 
 TEST(Measures, OfTheSetAreThoseOfTheSameDirectionsAskedForAlone) {

@@ -22,6 +22,7 @@ TEST_P(MeasuresOfRealModel, KeepTheIdentitiesOfTheChannel) {
   // 42 views: identities hold for any set.
   ViewMeasurer measurer(subject, test::channel_measures(), 1);
   test::expect_channel_identities(measurer);
+  test::expect_merging_tells_no_more(measurer.model());
 }
 
 INSTANTIATE_TEST_SUITE_P(DataPack, MeasuresOfRealModel,
