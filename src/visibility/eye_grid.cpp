@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 
 #include "core/parallel.h"
+#include "core/wide_registers.h"
 #include "visibility/segment.h"
 
 namespace vantage {
@@ -32,9 +33,29 @@ constexpr double kEdgeOn = 0x1p-46;
 // Point tests per point and face that are worth more than a hierarchy in space. [ours]
 constexpr std::size_t kPatience = 64;
 constexpr std::size_t kGrain = 4096;  // faces or points per chunk: some tenths of a millisecond
-// Points tested at a time: what baseline vector units hold.
+// Points tested at a time: what vector registers hold, those of every machine and wide ones.
 constexpr unsigned kLanes = 4;
+constexpr unsigned kWideLanes = 8;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// What holds so many numbers side by side. gcc 12 forgets the size of a vector that depends on a
+/// template's parameter, so each is written out.
+template <unsigned Lanes>
+struct Registers;
+
+template <>
+struct Registers<kLanes> {
+  using Floats = float __attribute__((vector_size(4 * kLanes)));
+  using Keys = std::uint32_t __attribute__((vector_size(4 * kLanes)));
+  using Truths = std::int32_t __attribute__((vector_size(4 * kLanes)));
+};
+
+template <>
+struct Registers<kWideLanes> {
+  using Floats = float __attribute__((vector_size(4 * kWideLanes)));
+  using Keys = std::uint32_t __attribute__((vector_size(4 * kWideLanes)));
+  using Truths = std::int32_t __attribute__((vector_size(4 * kWideLanes)));
+};
 
 /// Which side of the face is turned to the eye, in double: 1 front, 2 back, 0 edge on.
 std::uint8_t exact_side(const Surface& surface, std::size_t f, const Viewpoint& eye) {
@@ -59,9 +80,11 @@ struct EyeGrid::Probe {
   std::array<std::uint32_t, 4> keys;  // of points that the face holds
 };
 
-void EyeGrid::begin(const Surface& surface, const Viewpoint& eye, const RunContext& run) {
+void EyeGrid::begin(const Surface& surface, const Viewpoint& eye,
+                    std::span<const std::uint8_t> backs, const RunContext& run) {
   eye_ = eye;
   aim_ = Aim::None;
+  backs_ = backs;
   face_sides(surface, run);
 }
 
@@ -133,9 +156,9 @@ void EyeGrid::sort_points(const SurfacePoints& points) {
   point_of_.resize(total);
   hidden_.assign(total, 0);
   for (std::vector<float>* field : {&x_, &y_, &depth_}) {
-    field->resize(total + kLanes);  // so that the last cell can be read by whole lanes
+    field->resize(total + kWideLanes);  // so that the last cell can be read by whole lanes
   }
-  key_.resize(total + kLanes);
+  key_.resize(total + kWideLanes);
   for (std::size_t k = asked_.size(); k-- > 0;) {
     const std::uint32_t i = asked_[k];
     const std::uint32_t slot = --begin_[cell_[k]];
@@ -167,7 +190,7 @@ void EyeGrid::find_deepest() {
   }
 }
 
-bool EyeGrid::behind_all(const Extent& extent, const CellRange& cells) const {
+VANTAGE_INLINE bool EyeGrid::behind_all(const Extent& extent, const CellRange& cells) const {
   const float nearest = extent.low[2];
   const std::uint32_t right = cells.right >> kTileShift;
   const std::uint32_t bottom = cells.bottom >> kTileShift;
@@ -192,7 +215,8 @@ bool EyeGrid::blocks(const Surface& surface, const SurfacePoints& points, std::u
                surface.twice_areas[face]);
 }
 
-EyeGrid::Probe EyeGrid::probe(std::uint32_t face, const Triangle& corners, const Outline& o) const {
+VANTAGE_INLINE EyeGrid::Probe EyeGrid::probe(std::uint32_t face, const Triangle& corners,
+                                             const Outline& o) const {
   Probe p;
   const float area = (o.b[0] - o.a[0]) * (o.c[1] - o.b[1]) - (o.b[1] - o.a[1]) * (o.c[0] - o.b[0]);
   const float sign = area < 0.0F ? -1.0F : 1.0F;
@@ -214,9 +238,10 @@ EyeGrid::Probe EyeGrid::probe(std::uint32_t face, const Triangle& corners, const
 }
 
 /// Bit i is set if the point in slot + i may lie behind the face.
-inline unsigned EyeGrid::near(const Outline& o, const Probe& p, std::size_t slot) const {
-  using Floats = float __attribute__((vector_size(4 * kLanes)));
-  using Keys = std::uint32_t __attribute__((vector_size(4 * kLanes)));
+template <unsigned Lanes>
+VANTAGE_INLINE unsigned EyeGrid::near(const Outline& o, const Probe& p, std::size_t slot) const {
+  using Floats = typename Registers<Lanes>::Floats;
+  using Keys = typename Registers<Lanes>::Keys;
   Floats x;
   Floats y;
   Floats depth;
@@ -225,18 +250,22 @@ inline unsigned EyeGrid::near(const Outline& o, const Probe& p, std::size_t slot
   std::memcpy(&y, y_.data() + slot, sizeof y);
   std::memcpy(&depth, depth_.data() + slot, sizeof depth);
   std::memcpy(&key, key_.data() + slot, sizeof key);
-  auto out = depth < o.extent.low[2];
+  typename Registers<Lanes>::Truths out = depth < o.extent.low[2];
   for (int side = 0; side < 3; ++side) {
     out |= x * p.along_x[side] + y * p.along_y[side] + p.offset[side] < p.least;
   }
   out |= (key == p.keys[0]) | (key == p.keys[1]) | (key == p.keys[2]) | (key == p.keys[3]);
-  std::array<std::uint64_t, kLanes / 2> halves{};
-  std::memcpy(halves.data(), &out, sizeof halves);
-  if ((halves[0] & halves[1]) == ~std::uint64_t{0}) {
+  std::array<std::uint64_t, Lanes / 2> pairs{};
+  std::memcpy(pairs.data(), &out, sizeof pairs);
+  std::uint64_t all = pairs[0];
+  for (const std::uint64_t pair : pairs) {
+    all &= pair;
+  }
+  if (all == ~std::uint64_t{0}) {
     return 0;
   }
   unsigned found = 0;
-  for (unsigned lane = 0; lane < kLanes; ++lane) {
+  for (unsigned lane = 0; lane < Lanes; ++lane) {
     found |= out[lane] == 0 ? 1U << lane : 0U;
   }
   return found;
@@ -277,8 +306,10 @@ void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points, 
   }
 }
 
-std::size_t EyeGrid::strike(const Surface& surface, const SurfacePoints& points, std::uint32_t face,
-                            const Outline& o, const CellRange& cells) {
+template <unsigned Lanes>
+VANTAGE_INLINE std::size_t EyeGrid::strike(const Surface& surface, const SurfacePoints& points,
+                                           std::uint32_t face, const Outline& o,
+                                           const CellRange& cells) {
   std::optional<Probe> p;  // in most rows there is nothing
   std::size_t work = 1;
   for (std::uint32_t row = cells.top; row <= cells.bottom; ++row) {
@@ -289,9 +320,9 @@ std::size_t EyeGrid::strike(const Surface& surface, const SurfacePoints& points,
     if (begin < end && !p) {
       p = probe(face, surface.faces[face], o);
     }
-    for (std::uint32_t slot = begin; slot < end; slot += kLanes) {
-      unsigned found = near(o, *p, slot);
-      if (end - slot < kLanes) {
+    for (std::uint32_t slot = begin; slot < end; slot += Lanes) {
+      unsigned found = near<Lanes>(o, *p, slot);
+      if (end - slot < Lanes) {
         found &= (1U << (end - slot)) - 1U;
       }
       for (; found != 0; found &= found - 1) {
@@ -303,35 +334,63 @@ std::size_t EyeGrid::strike(const Surface& surface, const SurfacePoints& points,
   return work;
 }
 
-bool EyeGrid::walk(const Surface& surface, const SurfacePoints& points, std::uint8_t side,
-                   const RunContext& run) {
-  const std::size_t limit = kPatience * (point_of_.size() + surface.faces.size());
+/// Of some of the faces those of one side.
+struct EyeGrid::Walk {
+  const Surface& surface;
+  const SurfacePoints& points;
+  std::uint8_t side;
+  std::size_t limit;  // of work, for all faces
   std::atomic<std::size_t> spent{0};
-  parallel_for(run, surface.faces.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    std::size_t work = 0;
-    for (std::size_t f = begin; f < end; ++f) {
-      if (f % FaceBlocks::kFaces == 0) {
-        const Extent& block = blocks_[f / FaceBlocks::kFaces];
-        if (behind_all(block, cells_of(block))) {
-          f += FaceBlocks::kFaces - 1;
-          continue;
-        }
-      }
-      if ((turned_[f] == 1) != (side == 1)) {
+};
+
+template <unsigned Lanes>
+VANTAGE_INLINE void EyeGrid::walk_some(Walk& walk, std::size_t begin, std::size_t end) {
+  const Surface& surface = walk.surface;
+  const std::uint8_t side = walk.side;
+  // Fronts have their own corners behind them then, as far as boxes can tell.
+  const bool holds_asked = side == 1 && !walk.points.sites.empty();
+  std::size_t work = 0;
+  for (std::size_t f = begin; f < end; ++f) {
+    if (f % FaceBlocks::kFaces == 0) {
+      const Extent& block = blocks_[f / FaceBlocks::kFaces];
+      if (behind_all(block, cells_of(block))) {
+        f += FaceBlocks::kFaces - 1;
         continue;
       }
-      const Outline o = outline(surface.faces[f]);
-      const CellRange cells = cells_of(o.extent);
-      if (!behind_all(o.extent, cells)) {
-        work += strike(surface, points, static_cast<std::uint32_t>(f), o, cells);
-      }
-      if (work > limit || spent.load(std::memory_order_relaxed) > limit) {
-        break;
-      }
     }
-    spent.fetch_add(work, std::memory_order_relaxed);
+    if ((turned_[f] == 2) != (side == 2) || (side == 2 && !backs_.empty() && backs_[f] == 0)) {
+      continue;
+    }
+    const Outline o = outline(surface.faces[f]);
+    const CellRange cells = cells_of(o.extent);
+    if (holds_asked || !behind_all(o.extent, cells)) {
+      work += strike<Lanes>(surface, walk.points, static_cast<std::uint32_t>(f), o, cells);
+    }
+    if (work > walk.limit || walk.spent.load(std::memory_order_relaxed) > walk.limit) {
+      break;
+    }
+  }
+  walk.spent.fetch_add(work, std::memory_order_relaxed);
+}
+
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] void EyeGrid::walk_wide(Walk& walk, std::size_t begin, std::size_t end) {
+  walk_some<kWideLanes>(walk, begin, end);
+}
+#endif
+
+bool EyeGrid::walk(const Surface& surface, const SurfacePoints& points, std::uint8_t side,
+                   const RunContext& run) {
+  Walk walk{surface, points, side, kPatience * (point_of_.size() + surface.faces.size())};
+  parallel_for(run, surface.faces.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+#if defined(__x86_64__)
+    if (has_wide_registers()) {
+      return walk_wide(walk, begin, end);
+    }
+#endif
+    walk_some<kLanes>(walk, begin, end);
   });
-  return spent.load() <= limit;
+  return walk.spent.load() <= walk.limit;
 }
 
 bool EyeGrid::hide(const Surface& surface, const SurfacePoints& points,
@@ -349,11 +408,14 @@ bool EyeGrid::hide(const Surface& surface, const SurfacePoints& points,
   }
   place_points(points, seen, run);
   sort_points(points);
-  // Fronts first: most of what is hidden lies behind one. The backs then have little left to do.
-  bool complete = true;
-  for (const std::uint8_t side : {std::uint8_t{1}, std::uint8_t{2}}) {
+  // Fronts first, and what is seen edge on: most of what is hidden lies behind one. The backs then
+  // have little left to do, or nothing: the eye is outside of every shell, because all sites are
+  // ahead of it where cells were chosen.
+  find_deepest();
+  bool complete = walk(surface, points, 1, run);
+  if (complete && (backs_.empty() || std::find(backs_.begin(), backs_.end(), 1) != backs_.end())) {
     find_deepest();
-    complete = complete && walk(surface, points, side, run);
+    complete = walk(surface, points, 2, run);
   }
   for (std::size_t slot = 0; slot < point_of_.size(); ++slot) {
     if (hidden_[slot] != 0) {

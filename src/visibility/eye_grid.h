@@ -9,6 +9,7 @@
 #include "vantage/core/camera.h"
 #include "vantage/core/run_context.h"
 
+#include "core/wide_registers.h"
 #include "visibility/surface.h"
 
 /// \file
@@ -53,7 +54,10 @@ struct SurfacePoints {
 class EyeGrid {
  public:
   /// Begins with an eye in the surface's frame: fills turned().
-  void begin(const Surface& surface, const Viewpoint& eye, const RunContext& run);
+  /// \param backs hiding_backs() of the surface, which must outlive the eye's queries; none: all
+  ///              backs are asked what they hide, to the same answers.
+  void begin(const Surface& surface, const Viewpoint& eye, std::span<const std::uint8_t> backs,
+             const RunContext& run);
 
   /// Sets seen[i] to 0 for every point that some face hides from the eye. Float arithmetic with
   /// error bounds settles clear cases, the double test of segment.h the doubtful ones.
@@ -96,6 +100,7 @@ class EyeGrid {
   };
 
   struct Probe;
+  struct Walk;
 
   void face_sides(const Surface& surface, const RunContext& run);
   bool aim(const Surface& surface, const RunContext& run);
@@ -107,9 +112,9 @@ class EyeGrid {
                     const RunContext& run);
   void sort_points(const SurfacePoints& points);
 
-  static Spot lower(const Spot& a, const Spot& b) { return b < a ? b : a; }
+  VANTAGE_INLINE static Spot lower(const Spot& a, const Spot& b) { return b < a ? b : a; }
 
-  static Spot higher(const Spot& a, const Spot& b) { return a < b ? b : a; }
+  VANTAGE_INLINE static Spot higher(const Spot& a, const Spot& b) { return a < b ? b : a; }
 
   [[nodiscard]] Spot in_picture(const FloatPoints& points, std::size_t at) const {
     const Spot spot = points.x[at] * along_x_ + points.y[at] * along_y_ + points.z[at] * along_z_;
@@ -119,7 +124,7 @@ class EyeGrid {
 
   [[nodiscard]] Spot in_cells(const Spot& spot) const { return (spot - origin_) * scale_; }
 
-  [[nodiscard]] CellRange cells_of(const Extent& extent) const {
+  [[nodiscard]] VANTAGE_INLINE CellRange cells_of(const Extent& extent) const {
     const Cells low = __builtin_convertvector(lower(higher(extent.low, Spot{}), last_), Cells);
     const Cells high = __builtin_convertvector(lower(higher(extent.high, Spot{}), last_), Cells);
     return {static_cast<std::uint32_t>(low[0]), static_cast<std::uint32_t>(high[0]),
@@ -128,7 +133,7 @@ class EyeGrid {
 
   void find_deepest();
 
-  [[nodiscard]] Outline outline(const Triangle& face) const {
+  [[nodiscard]] VANTAGE_INLINE Outline outline(const Triangle& face) const {
     const Spot a = corners_[face[0]];
     const Spot b = corners_[face[1]];
     const Spot c = corners_[face[2]];
@@ -139,15 +144,20 @@ class EyeGrid {
 
   void outline_blocks(const FaceBlocks& blocks, const RunContext& run);
   [[nodiscard]] bool behind_all(const Extent& extent, const CellRange& cells) const;
+  template <unsigned Lanes>
+  void walk_some(Walk& walk, std::size_t begin, std::size_t end);
+  void walk_wide(Walk& walk, std::size_t begin, std::size_t end);
   bool walk(const Surface& surface, const SurfacePoints& points, std::uint8_t side,
             const RunContext& run);
   [[nodiscard]] Probe probe(std::uint32_t face, const Triangle& corners,
                             const Outline& outline) const;
+  template <unsigned Lanes>
   [[nodiscard]] unsigned near(const Outline& outline, const Probe& probe, std::size_t slot) const;
   [[nodiscard]] float depth_behind(const Surface& surface, const SurfacePoints& points,
                                    std::uint32_t point, std::uint32_t face) const;
   void strike_point(const Surface& surface, const SurfacePoints& points, std::uint32_t face,
                     const Outline& outline, const Probe& probe, std::size_t slot);
+  template <unsigned Lanes>
   std::size_t strike(const Surface& surface, const SurfacePoints& points, std::uint32_t face,
                      const Outline& outline, const CellRange& cells);
   [[nodiscard]] bool blocks(const Surface& surface, const SurfacePoints& points,
@@ -157,6 +167,7 @@ class EyeGrid {
   enum class Aim { None, Taken, Failed };
 
   Viewpoint eye_{};
+  std::span<const std::uint8_t> backs_{};  // of each face: whether its back is asked; none: all are
   Aim aim_ = Aim::None;
   Spot along_x_{}, along_y_{}, along_z_{};  // what each coordinate adds to a spot
   float distance_ = 0.0F;                   // of the eye from the frame's origin

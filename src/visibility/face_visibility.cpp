@@ -15,6 +15,7 @@
 
 #include "visibility/closer_look.h"
 #include "visibility/face_pieces.h"
+#include "visibility/hiding_backs.h"
 #include "visibility/sight.h"
 #include "visibility/slivers.h"
 
@@ -161,12 +162,16 @@ struct FaceVisibility::Samples {
         const bool is_plain = net_.is_plain[f] != 0 && surface.sides[f] == FaceSides::Front;
         net_.is_plain[f] = is_plain ? 1 : 0;
       }
+      backs_ = hiding_backs(surface);
       if (!surface.faces.empty() && surface.faces.size() <= SliverSearch::kMostFaces) {
         slivers_.emplace(surface);
       }
     });
     return net_;
   }
+
+  /// Faces whose backs are to be asked what they hide. \pre net() was asked for.
+  [[nodiscard]] std::span<const std::uint8_t> backs() const { return backs_; }
 
   /// Looks at all sites, at the pieces' centroids and the nodes on edges. Of a plain face that
   /// turns to the eye with all faces at its corners only the corners are asked about, and the rest
@@ -313,6 +318,7 @@ struct FaceVisibility::Samples {
  private:
   std::once_flag net_once_{};
   PieceNet net_{};
+  std::vector<std::uint8_t> backs_{};
   std::optional<SliverSearch> slivers_{};  // where faces are few
 };
 
@@ -381,7 +387,8 @@ SeenSurface FaceVisibility::seen_surface(const Viewpoint& eye, const RunContext&
   const Surface& surface = samples_->sight.surface();
   const FacePieces& pieces = samples_->pieces;
   const Viewpoint local = eye_in_frame(eye, surface.frame);
-  Look look(samples_->sight, local, run);
+  samples_->net();
+  Look look(samples_->sight, local, run, samples_->backs());
   const FirstLook first = samples_->first_look(look);
   const CloserLook closer = samples_->look_closer(look, first);
   SeenSurface result;

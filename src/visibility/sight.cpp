@@ -48,9 +48,10 @@ bool Sight::hidden(const SurfacePoints& points, std::uint32_t point, const Viewp
   });
 }
 
-Look::Look(Sight& sight, const Viewpoint& eye, const RunContext& run)
+Look::Look(Sight& sight, const Viewpoint& eye, const RunContext& run,
+           std::span<const std::uint8_t> backs)
     : sight_(sight), eye_(eye), run_(run), grid_(sight.grids_.borrow()) {
-  grid_->begin(sight.surface_, eye, run);
+  grid_->begin(sight.surface_, eye, backs, run);
 }
 
 Look::~Look() {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "vantage/core/camera.h"
@@ -56,8 +57,9 @@ class Sight {
 /// What one eye sees; any number of queries. For one thread to call.
 class Look {
  public:
-  /// \param eye in the surface's frame.
-  Look(Sight& sight, const Viewpoint& eye, const RunContext& run);
+  /// \param eye in the surface's frame. \param backs as EyeGrid::begin() takes them.
+  Look(Sight& sight, const Viewpoint& eye, const RunContext& run,
+       std::span<const std::uint8_t> backs = {});
   ~Look();
   Look(const Look&) = delete;
   Look& operator=(const Look&) = delete;

@@ -7,6 +7,7 @@
 
 #include "vantage/io/model.h"
 #include "vantage/mesh/measures.h"
+#include "vantage/visibility/face_visibility.h"
 #include "vantage/visibility/vertex_visibility.h"
 
 #include "support/data_pack.h"
@@ -44,6 +45,21 @@ TEST_P(VisibilityOfRealModel, EqualsBruteForce) {
     }
   }
   EXPECT_GT(decided, kAsked);
+}
+
+TEST_P(VisibilityOfRealModel, IsTheSameWhetherAllBacksAreAskedOrThoseThatMatter) {
+  const OrientedMesh oriented = orient_shells(load_model((root() / GetParam()).string()).mesh);
+  const FaceVisibility visibility(oriented.mesh, oriented.sides, 0.1);
+  const Sphere sphere = enclosing_sphere(referenced_points(oriented.mesh));
+  for (const Vec3& towards : {Vec3(0, 0, 1), Vec3(-1, 0, 0), Vec3(0, 1, 1), Vec3(-0.7, 0.2, -0.6),
+                              Vec3(0.3, -0.8, 0.5)}) {
+    for (const Viewpoint& eye :
+         {Viewpoint{Projection::Perspective, sphere.centre + 1.3 * sphere.diameter * towards},
+          Viewpoint{Projection::Orthographic, towards}}) {
+      ASSERT_EQ(visibility.seen_surface(eye).vertices, visibility.visible_vertices(eye))
+          << towards.transpose();
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "visibility/hiding_backs.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "vantage/visibility/face_visibility.h"
+
+#include "support/shapes.h"
+#include "support/voxel_surface.h"
+
+namespace vantage {
+namespace {
+
+constexpr double kCoarse = 0.1;  // spacing of samples: only vertices are looked at here
+
+/// Faces whose backs are to be asked, and all faces.
+struct Count {
+  std::size_t asked = 0, all = 0;
+
+  bool operator==(const Count&) const = default;
+};
+
+Count backs_of(const TriMesh& mesh) {
+  const std::vector<FaceSides> sides{FaceSides::Front};
+  const auto asked = hiding_backs(prepare_surface(mesh, sides));
+  return {static_cast<std::size_t>(std::count(asked.begin(), asked.end(), 1)), asked.size()};
+}
+
+/// A unit box whose top is drawn in to a point below its middle; beyond the bottom the funnel is an
+/// inside-out pocket.
+TriMesh funnel(double depth, const Vec3& aside = Vec3::Zero()) {
+  TriMesh mesh = test::box(1.0, 1.0, 1.0, 2);
+  for (Vec3& p : mesh.positions) {
+    if (p == Vec3(0.5, 0.5, 1.0)) {
+      p = Vec3(0.5, 0.5, 1.0 - depth) + aside;
+    }
+  }
+  return mesh;
+}
+
+/// Whether what seen_surface() leaves out of its walk changes no vertex from any of these eyes.
+void expect_no_change(const TriMesh& mesh, const std::vector<FaceSides>& sides) {
+  const FaceVisibility visibility(mesh, sides, kCoarse);
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        const Vec3 place(x, 2 * y, z);
+        for (const Viewpoint& eye : {Viewpoint{Projection::Orthographic, place},
+                                     Viewpoint{Projection::Perspective, 4.0 * place},
+                                     Viewpoint{Projection::Perspective, 0.31 * place}}) {
+          if (x != 0 || y != 0 || z != 0) {
+            ASSERT_EQ(visibility.seen_surface(eye).vertices, visibility.visible_vertices(eye))
+                << place.transpose();
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(HidingBacks, AreNoneOfShellsThatAreClosedAndOutward) {
+  EXPECT_EQ(backs_of(test::box(1.0, 2.0, 3.0, 2)).asked, 0U);
+  EXPECT_EQ(backs_of(test::torus(1.0, 0.3, 20, 12)).asked, 0U);
+  EXPECT_EQ(backs_of(test::soup(test::sphere(2))).asked, 0U);
+  EXPECT_EQ(backs_of(test::plate_with_holes(3)).asked, 0U);
+  EXPECT_EQ(backs_of(funnel(0.5)).asked, 0U);
+}
+
+TEST(HidingBacks, AreAllOfShellsThatAreOpenOrInsideOut) {
+  EXPECT_EQ(backs_of(test::sheet(1.0, 1.0, 3)), (Count{18, 18}));
+  EXPECT_EQ(backs_of(test::inside_out(test::box(1.0, 1.0, 1.0, 1))), (Count{12, 12}));
+}
+
+TEST(HidingBacks, AreCountedShellByShell) {
+  const TriMesh box = test::box(1.0, 1.0, 1.0, 1);
+  // Shells that pass through each other are none the worse for it.
+  EXPECT_EQ(backs_of(test::together(box, box, Vec3(0.5, 0.4, 0.3))), (Count{0, 24}));
+  EXPECT_EQ(backs_of(test::together(box, test::inside_out(box), Vec3(3.0, 0.0, 0.0))),
+            (Count{12, 24}));
+}
+
+TEST(HidingBacks, AreAllOfAShellThatPassesThroughItself) {
+  // Edges pass through faces, and, straight below, exactly through edges and the corner between.
+  EXPECT_EQ(backs_of(funnel(1.5, Vec3(0.1, 0.03, 0.0))), (Count{48, 48}));
+  EXPECT_EQ(backs_of(funnel(2.0)), (Count{48, 48}));
+  EXPECT_EQ(backs_of(funnel(1.0, Vec3(0.1, 0.03, 0.0))), (Count{48, 48}));  // a touch
+  EXPECT_EQ(backs_of(funnel(1.0)), (Count{0, 48}));  // corners that are one enclose nothing
+}
+
+TEST(HidingBacks, OfAPocketHideWhatNoFrontHides) {
+  const FaceVisibility visibility(funnel(1.5, Vec3(0.1, 0.03, 0.0)), {FaceSides::Front}, kCoarse);
+  const auto seen =
+      visibility.seen_surface({Projection::Orthographic, Vec3(0.0, 0.0, -1.0)}).vertices;
+  const TriMesh mesh = funnel(1.5, Vec3(0.1, 0.03, 0.0));
+  for (std::size_t v = 0; v < seen.size(); ++v) {
+    if (mesh.positions[v] == Vec3(0.5, 0.5, 0.0)) {
+      EXPECT_EQ(seen[v], 0);  // inside the pocket, whose backs are all that is below it
+    }
+  }
+}
+
+TEST(HidingBacks, AreAllThatMatter) {
+  expect_no_change(test::box(1.0, 2.0, 1.0, 3), {FaceSides::Front});
+  expect_no_change(test::torus(1.0, 0.3, 24, 12), {FaceSides::Front});
+  expect_no_change(test::plate_with_holes(3), {FaceSides::Front});
+  expect_no_change(test::cube_frame(), {FaceSides::Front});
+  expect_no_change(test::inside_out(test::box(1.0, 1.0, 1.0, 3)), {FaceSides::Front});
+  expect_no_change(funnel(0.9), {FaceSides::Front});
+  expect_no_change(funnel(1.5, Vec3(0.1, 0.03, 0.0)), {FaceSides::Front});
+  expect_no_change(test::together(test::torus(1.0, 0.3, 24, 12), test::sheet(2.0, 2.0, 5),
+                                  Vec3(-1.0, -1.0, 0.1)),
+                   {FaceSides::Front, FaceSides::Both});
+}
+
+}  // namespace
+}  // namespace vantage
