@@ -37,6 +37,7 @@ PAPER_SECONDS = {"rocker-arm_10044": 5.3, "cow_29000": 14.8, "venus_33066": 17.6
 EPSILONS = ["0.001", "0.01", "0.1", "1", "10", "100", "1000"]
 MOST_MISSED_VERTICES, MOST_PICTURED = 60_000, 6
 MISSED_BEST, MISSED_WORST = 0.99, 1  # share of the global search's best; % of the range above its worst
+RATIO_BINS = (0.99, 0.995, 0.998, 0.999, 0.9999, 1.0, 1.0001, 1.001)
 BROKEN_SECONDS = 60
 BROKEN_BYTES = 4 << 30
 
@@ -115,7 +116,8 @@ def missed_table(program, models):
             tried.append((ratio, gap))
             if ratio >= MISSED_BEST and gap <= MISSED_WORST:
                 continue
-            failed.append((ratio, model, rapid["best"], found["best"]))
+            if ratio < MISSED_BEST:
+                failed.append((ratio, model, rapid["best"], found["best"]))
             costs = " and ".join(str(r["search"]["evaluations"] + r["search"]["worst_evaluations"])
                                  for r in (rapid, found))
             print(f"| {rapid['model']['name']} | {rapid['model']['vertices']} | {ratio:.4f} | {gap:.2f} "
@@ -164,6 +166,16 @@ def global_table(program, models):
           f"{len(ratios)}, at least 0.995 on {sum(r >= 0.995 for r in ratios)}; worst: largest gap {max(gaps):.3f} % of "
           f"the range, at most 0.5 on {sum(g <= 0.5 for g in gaps)}; cost: median {statistics.median(costs):.2f} × 200 "
           f"scores, largest {max(costs):.2f}, at most 1 on {sum(c <= 1 for c in costs)}")
+    print_histogram(ratios)
+
+
+def print_histogram(ratios):
+    """How many of the ratios are in each bin."""
+    print("\n| best / dense | models |\n| --- | --- |")
+    for low, high in itertools.pairwise((-math.inf, *RATIO_BINS, math.inf)):
+        count = sum(low <= r < high for r in ratios)
+        ends = [f"from {low}"] * (low > 0) + [f"below {high}"] * (high < math.inf)
+        print(f"| {' '.join(ends)} | {count} {'#' * count} |")
 
 
 def smooth_table(program, models):
