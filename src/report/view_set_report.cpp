@@ -11,7 +11,6 @@
 #include "vantage/view/channel.h"
 
 #include "report/scored_view.h"
-#include "report/vertex_share.h"
 
 namespace vantage {
 namespace {
@@ -97,15 +96,20 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
   const ScoringCamera& camera = scorer.camera();
   const ViewSetRequest& request = options.view_set.value();
   check_fields(request, kViewSetRequestFields);
-  const std::vector<double> significance = vertex_shares(shape, options.weight);
+  const auto select = [&](const auto& visible) {
+    return select_views(visible, scorer.shares(), camera, best, request.set, run);
+  };
+  const auto measure = [&](const auto& visible, const std::vector<Vec3>& chosen) {
+    return measure_views(visible, scorer.shares(), camera, chosen, request.set, run.part(0.3, 1.0));
+  };
+  const FaceVisibility* faces = scorer.faces();
   ReportedViewSet result;
   if (request.selection == ViewSelection::Kssm) {
-    result.choice = select_views(visibility, significance, camera, best, request.set, run);
+    result.choice = faces != nullptr ? select(*faces) : select(visibility);
   } else {
     const std::vector<Vec3> chosen =
         channel_views(shape, camera, request, warnings, run.part(0.0, 0.3));
-    result.choice =
-        measure_views(visibility, significance, camera, chosen, request.set, run.part(0.3, 1.0));
+    result.choice = faces != nullptr ? measure(*faces, chosen) : measure(visibility, chosen);
   }
   warn_of(result.choice, request, warnings);
   std::vector<Vec3> directions;

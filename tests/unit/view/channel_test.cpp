@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include "vantage/core/error.h"
 #include "vantage/core/random.h"
@@ -211,6 +212,7 @@ TEST_F(TriangleBehindPlates, IsInTheChannelThoughNoCornerIsSeen) {
 }
 
 TEST_F(TriangleBehindPlates, IsTheSameChannelForAnyThreads) {
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 3);
   const FaceVisibility faces(mesh, sides);
   eyes.resize(7, {Projection::Perspective, Vec3(20, 3, 1)});
   const ViewChannel one = channel_table(faces, mesh.triangles.size(), eyes, {.max_threads = 1});
