@@ -26,6 +26,7 @@ IDENTITY_BAR = 1e-9
 BEGIN, END = "<!-- check_measures begins -->\n", "<!-- check_measures ends -->"
 SUFFIXES = {".off", ".obj", ".ply", ".stl", ".glb"}
 SALIENCY_SCALE = 0.003  # the default of --saliency-scale
+SUMS = "kssm,mesh-saliency"  # what --weight changes
 SAME_SCALE = "turned, mesh-saliency's scale kept"
 # A fifth of a turn about a corner of the icosahedron carries the set of views into itself.
 PHI = (1 + 5**0.5) / 2
@@ -86,8 +87,11 @@ def convergence(program, models):
     """Largest and 95th percentile change over the range of each measure, by model."""
     changes = {}
     for model in models:
-        _, used = program.scores(model, "all", "--sphere", 2, "--view-set", 2)
-        _, finer = program.scores(model, "all", "--sphere", 2, "--view-set", 2, "--sampling", 2)
+        used, finer = {}, {}
+        for values, flags in ((used, ()), (finer, ("--sampling", 2))):
+            values.update(program.scores(model, "all", "--sphere", 2, "--view-set", 2, *flags)[1])
+            _, sums = program.scores(model, SUMS, "--weight", "area", "--sphere", 2, *flags)
+            values.update((f"{name} --weight area", v) for name, v in sums.items())
         for name, values in finer.items():
             span = np.ptp(values)
             change = np.abs(values - used[name]) / span if span > 0 else np.abs(values - used[name])

@@ -3,9 +3,13 @@
 
     measure.py view   PROGRAM MODEL...    one row a model: sizes, cycles against genus, seconds by stage
     measure.py rapid  PROGRAM MODEL...    the paper's rapid search against 10 242 directions
+    measure.py missed PROGRAM PICTURES MODEL...  where the paper's search misses what the global one finds on the same
+                                          map, and pictures of both best views into that folder
     measure.py global PROGRAM MODEL...    the global search against the dense one, whose results are kept in the
                                           folder that VANTAGE_DENSE names, if it does, and taken from there
     measure.py smooth PROGRAM MODEL...    the largest change of score per degree between neighbouring directions
+    measure.py tessellation PROGRAM MODEL...  what splitting half of a model's faces in their planes does to the map,
+                                          computed anew, and to the best view
     measure.py thumb  PROGRAM MODEL...    thumbnails: seconds, and their view against the best one
     measure.py pictures PROGRAM MODEL...  seconds of whole commands that draw, medians of three
     measure.py broken PROGRAM FOLDER      how every file of a folder ends, under limits
@@ -26,9 +30,14 @@ import sys
 import tempfile
 import time
 
+import tessellation
+
 PAPER_SECONDS = {"rocker-arm_10044": 5.3, "cow_29000": 14.8, "venus_33066": 17.6, "horse_48485": 28.2,
                  "dinosaur_56194": 36.7, "armadillo_172966": 102.5}  # Table 1 of the paper
 EPSILONS = ["0.001", "0.01", "0.1", "1", "10", "100", "1000"]
+MOST_MISSED_VERTICES, MOST_PICTURED = 60_000, 6
+MISSED_BEST, MISSED_WORST = 0.99, 1  # share of the global search's best; % of the range above its worst
+RATIO_BINS = (0.99, 0.995, 0.998, 0.999, 0.9999, 1.0, 1.0001, 1.001)
 BROKEN_SECONDS = 60
 BROKEN_BYTES = 4 << 30
 
@@ -90,6 +99,42 @@ def rapid_table(program, models):
                 row("rapid", epsilon, search("--epsilon", epsilon))
 
 
+def missed_table(program, models):
+    """Closed models on which the paper's whole method misses, and what it costs to find it."""
+    pictures, *models = models
+    print("| model | vertices | best, rapid / global | worst − global, % of range | angle of best views | evaluations |")
+    print("| --- " * 6 + "|")
+    tried, failed = [], []
+    with tempfile.TemporaryDirectory() as folder:
+        for model in models:
+            info = run(program, "info", model, "--json")
+            if not info["welded"]["closed"] or info["vertices"] >= MOST_MISSED_VERTICES:
+                continue
+            search = searcher(program, model, folder, "--preset", "paper")
+            rapid, found = search(), search("--search", "global")
+            ratio, gap = rapid["best"]["score"] / found["best"]["score"], worst_gap(rapid, found)
+            tried.append((ratio, gap))
+            if ratio >= MISSED_BEST and gap <= MISSED_WORST:
+                continue
+            if ratio < MISSED_BEST:
+                failed.append((ratio, model, rapid["best"], found["best"]))
+            costs = " and ".join(str(r["search"]["evaluations"] + r["search"]["worst_evaluations"])
+                                 for r in (rapid, found))
+            print(f"| {rapid['model']['name']} | {rapid['model']['vertices']} | {ratio:.4f} | {gap:.2f} "
+                  f"| {angle_deg(rapid['best']['direction'], found['best']['direction']):.0f}° | {costs} |", flush=True)
+    bests, worsts = (sum(bad) for bad in zip(*((r < MISSED_BEST, g > MISSED_WORST) for r, g in tried)))
+    print(f"\nOf {len(tried)} models: best below {MISSED_BEST} of the global one's on {bests}, worst more than "
+          f"{MISSED_WORST} % of the range above on {worsts}; least {min(r for r, _ in tried):.4f}, largest "
+          f"{max(g for _, g in tried):.2f} %.")
+    pathlib.Path(pictures).mkdir(parents=True, exist_ok=True)
+    for _, model, *views in sorted(failed)[:MOST_PICTURED]:
+        for name, view in zip(("rapid", "global"), views):
+            picture = pathlib.Path(pictures) / f"{pathlib.Path(model).stem}-{name}.webp"
+            direction = ",".join(map(repr, view["direction"]))
+            subprocess.run([program, "render", model, "-q", "--direction", direction, "--size", "256", "--background",
+                            "white", "-o", picture], check=True)
+
+
 def global_table(program, models):
     """Costs are processor time of one thread: those of two sets of directions tell what a score takes, and what
     everything else takes that is not the search."""
@@ -121,6 +166,16 @@ def global_table(program, models):
           f"{len(ratios)}, at least 0.995 on {sum(r >= 0.995 for r in ratios)}; worst: largest gap {max(gaps):.3f} % of "
           f"the range, at most 0.5 on {sum(g <= 0.5 for g in gaps)}; cost: median {statistics.median(costs):.2f} × 200 "
           f"scores, largest {max(costs):.2f}, at most 1 on {sum(c <= 1 for c in costs)}")
+    print_histogram(ratios)
+
+
+def print_histogram(ratios):
+    """How many of the ratios are in each bin."""
+    print("\n| best / dense | models |\n| --- | --- |")
+    for low, high in itertools.pairwise((-math.inf, *RATIO_BINS, math.inf)):
+        count = sum(low <= r < high for r in ratios)
+        ends = [f"from {low}"] * (low > 0) + [f"below {high}"] * (high < math.inf)
+        print(f"| {' '.join(ends)} | {count} {'#' * count} |")
 
 
 def smooth_table(program, models):
@@ -215,6 +270,38 @@ def thumb_table(program, models):
                   f"| {math.degrees(math.acos(min(1.0, cosine))):.0f}° |", flush=True)
 
 
+def angle_deg(a, b):
+    return math.degrees(2 * math.asin(min(1.0, math.dist(a, b) / 2)))
+
+
+def tessellation_table(program, models):
+    """The map of the vertices that both meshes have, its mean by vertex or by area, and the best view without a prior."""
+    print("| model | vertices | split | weight | Spearman | change, mean | largest | angle of the best views | its fraction |")
+    print("| --- " * 9 + "|")
+    for model in models:
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+
+            def mapped(file, *flags):
+                subprocess.run([program, "map", "-q", "-o", folder / "map.ply", file, *flags], check=True)
+                return tessellation.read_map(folder / "map.ply")
+            positions, _, triangles = mapped(model)
+            meshes = [(positions, triangles), tessellation.split_half(positions, triangles)]
+            for i, mesh in enumerate(meshes):
+                tessellation.write_off(folder / f"{i}.off", *mesh)
+            for weight in ("vertex", "area"):
+                flags = ("--weight", weight)
+                before, after = (mapped(folder / f"{i}.off", *flags)[1][:len(positions)] for i in (0, 1))
+                best = [searcher(program, folder / f"{i}.off", folder / "out", "--prior", "none", *flags)()["best"]
+                        for i in (0, 1)]
+                span = max(before) - min(before)
+                changes = [100 * abs(a - b) / span for a, b in zip(before, after)]
+                print(f"| {pathlib.Path(model).stem} | {len(positions)} | {len(meshes[1][0])} | {weight} "
+                      f"| {tessellation.spearman(before, after):.3f} | {statistics.mean(changes):.1f} % "
+                      f"| {max(changes):.0f} % | {angle_deg(*(b['direction'] for b in best)):.1f}° "
+                      f"| {' → '.join(format(b['score_fraction'], '.3f') for b in best)} |", flush=True)
+
+
 def broken_table(program, folder):
     endings = {}
     slowest = (0.0, "")
@@ -248,8 +335,9 @@ def broken_table(program, folder):
 
 
 def main():
-    tables = {"view": view_table, "rapid": rapid_table, "global": global_table, "smooth": smooth_table,
-              "thumb": thumb_table, "pictures": pictures_table}
+    tables = {"view": view_table, "rapid": rapid_table, "missed": missed_table,
+              "global": global_table, "smooth": smooth_table,
+              "tessellation": tessellation_table, "thumb": thumb_table, "pictures": pictures_table}
     if len(sys.argv) >= 4 and sys.argv[1] in tables:
         tables[sys.argv[1]](sys.argv[2], sys.argv[3:])
     elif len(sys.argv) == 4 and sys.argv[1] == "broken":

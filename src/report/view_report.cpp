@@ -10,6 +10,7 @@
 #include "vantage/view/landmarks.h"
 
 #include "report/prior_search.h"
+#include "report/scored_view.h"
 #include "report/twins.h"
 #include "report/vertex_share.h"
 #include "view/sketch_scorer.h"
@@ -26,13 +27,6 @@ double visible_area_fraction(const TriMesh& surface, std::span<const std::uint8_
     seen += visible[v] != 0 ? areas[v] : 0.0;
   }
   return all > 0.0 ? seen / all : 0.0;
-}
-
-/// Replaces the sum over vertices by the scorer's.
-void score_again(ReportedView& view, const ViewScorer& scorer) {
-  view.score = scorer.score(view.direction);
-  view.score_fraction = scorer.total() > 0.0 ? view.score / scorer.total() : 0.0;
-  view.objective = view.score;
 }
 
 }  // namespace
@@ -84,6 +78,18 @@ ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& v
   view.picture = frame_points(referenced_points(shape.surface), camera.viewpoint(direction),
                               camera.sphere.centre, up_vector(up),
                               static_cast<double>(options.width) / options.height, options.margin);
+  return view;
+}
+
+ReportedView describe_scored_view(const ShapeAnalysis& shape, const VertexVisibility& visibility,
+                                  const ViewScorer& scorer, const Vec3& direction, UpAxis up,
+                                  const ViewOptions& options) {
+  ReportedView view = describe_view(shape, visibility, scorer.camera(), direction, up, options);
+  if (options.weight == Weight::Area) {
+    view.score = scorer.score(direction);
+    view.score_fraction = scorer.total() > 0.0 ? view.score / scorer.total() : 0.0;
+  }
+  view.objective = view.score * options.prior.factor(upright_frame(up_vector(up)), direction);
   return view;
 }
 
@@ -162,10 +168,6 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
   const UprightFrame frame = upright_frame(up_vector(up));
   FoundViews found = search_under_prior(score, report.total, options.prior, frame, options.search,
                                         run.part(0.0, search_share), hints);
-  if (options.certify) {
-    report.dense_gap = gap_to_dense(found, score, report.total, options.prior, frame,
-                                    run.part(search_share, options.view_set ? 0.6 : 1.0));
-  }
   auto& [best, worst] = found;
   report.twins = twins_of(best.direction, shape, scorer, options.prior, frame);
   if (!options.prior.is_uniform) {
@@ -175,17 +177,17 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
     best.direction = first.direction;
     best.score = first.score;
   }
-  report.best = describe_view(shape, visibility, report.camera, best.direction, up, options);
-  report.worst = describe_view(shape, visibility, report.camera, worst.direction, up, options);
-  if (options.weight == Weight::Area) {
-    score_again(report.best, scorer);
-    score_again(report.worst, scorer);
+  if (options.certify) {  // what is reported, and so not before near-ties are settled
+    report.dense_gap = gap_to_dense(found, score, report.total, options.prior, frame,
+                                    run.part(search_share, options.view_set ? 0.6 : 1.0));
   }
-  report.best.objective = report.best.score * options.prior.factor(frame, best.direction);
+  report.best = describe_scored_view(shape, visibility, scorer, best.direction, up, options);
+  report.worst = describe_scored_view(shape, visibility, scorer, worst.direction, up, options);
+  report.worst.objective = report.worst.score;  // no prior has a say in it
   if (options.view_set) {
     report.set =
-        find_view_set(shape, visibility, report.camera, best.direction, up, options,
-                      report.warnings, run.part(options.certify ? 0.6 : search_share, 1.0));
+        find_view_set(shape, visibility, scorer, best.direction, up, options, report.warnings,
+                      run.part(options.certify ? 0.6 : search_share, 1.0));
   }
   report.best_search = std::move(best);
   report.worst_search = std::move(worst);

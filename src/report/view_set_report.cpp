@@ -10,7 +10,7 @@
 #include "vantage/spatial/directions.h"
 #include "vantage/view/channel.h"
 
-#include "report/vertex_share.h"
+#include "report/scored_view.h"
 
 namespace vantage {
 namespace {
@@ -22,9 +22,9 @@ constexpr double kMostChannelBytes = 1024.0 * 1024.0 * 1024.0;
 constexpr double kMargin = 0.04;
 
 /// Views chosen on the channel from views to faces, as directions.
-std::vector<Vec3> channel_views(const ShapeAnalysis& shape, const VertexVisibility& visibility,
-                                const ScoringCamera& camera, const ViewSetRequest& request,
-                                std::vector<std::string>& warnings, const RunContext& run) {
+std::vector<Vec3> channel_views(const ShapeAnalysis& shape, const ScoringCamera& camera,
+                                const ViewSetRequest& request, std::vector<std::string>& warnings,
+                                const RunContext& run) {
   int level = kChannelLevel;
   // About half of the faces are seen, eight bytes each.
   while (level > 0 && 10.0 * std::ldexp(1.0, 2 * level) * 4.0 *
@@ -37,13 +37,12 @@ std::vector<Vec3> channel_views(const ShapeAnalysis& shape, const VertexVisibili
     warnings.push_back("the views were chosen from " + std::to_string(directions.size()) +
                        " directions instead of 642 to save memory");
   }
-  const VisibleSets sets =
-      visible_sets(visibility, camera, directions, shape.surface.positions.size(), run);
   std::vector<Viewpoint> eyes;
   for (const Vec3& d : directions) {
     eyes.push_back(camera.viewpoint(d));
   }
-  const ViewChannel channel = channel_table(shape.surface, shape.sides, sets, eyes, run);
+  const FaceVisibility faces(shape.surface, shape.sides);
+  const ViewChannel channel = channel_table(faces, shape.surface.triangles.size(), eyes, run);
   const std::size_t count =
       request.set.views > 0 ? static_cast<std::size_t>(request.set.views) : directions.size();
   const std::vector<ChannelPick> picks =
@@ -84,23 +83,40 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
                               const ScoringCamera& camera, const Vec3& best, UpAxis up,
                               const ViewOptions& options, std::vector<std::string>& warnings,
                               const RunContext& run) {
+  const std::optional<FaceVisibility> faces = faces_to_score(shape, options);
+  const ViewScorer scorer = faces ? ViewScorer(*faces, shape.map.of_vertex, camera)
+                                  : ViewScorer(visibility, shape.map.of_vertex, camera);
+  return find_view_set(shape, visibility, scorer, best, up, options, warnings, run);
+}
+
+ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility& visibility,
+                              const ViewScorer& scorer, const Vec3& best, UpAxis up,
+                              const ViewOptions& options, std::vector<std::string>& warnings,
+                              const RunContext& run) {
+  const ScoringCamera& camera = scorer.camera();
   const ViewSetRequest& request = options.view_set.value();
   check_fields(request, kViewSetRequestFields);
-  const std::vector<double> significance = vertex_shares(shape, options.weight);
+  const auto select = [&](const auto& visible) {
+    return select_views(visible, scorer.shares(), camera, best, request.set, run);
+  };
+  const auto measure = [&](const auto& visible, const std::vector<Vec3>& chosen) {
+    return measure_views(visible, scorer.shares(), camera, chosen, request.set, run.part(0.3, 1.0));
+  };
+  const FaceVisibility* faces = scorer.faces();
   ReportedViewSet result;
   if (request.selection == ViewSelection::Kssm) {
-    result.choice = select_views(visibility, significance, camera, best, request.set, run);
+    result.choice = faces != nullptr ? select(*faces) : select(visibility);
   } else {
     const std::vector<Vec3> chosen =
-        channel_views(shape, visibility, camera, request, warnings, run.part(0.0, 0.3));
-    result.choice =
-        measure_views(visibility, significance, camera, chosen, request.set, run.part(0.3, 1.0));
+        channel_views(shape, camera, request, warnings, run.part(0.0, 0.3));
+    result.choice = faces != nullptr ? measure(*faces, chosen) : measure(visibility, chosen);
   }
   warn_of(result.choice, request, warnings);
   std::vector<Vec3> directions;
   for (const ChosenView& view : result.choice.views) {
     directions.push_back(view.direction);
-    result.views.push_back(describe_view(shape, visibility, camera, view.direction, up, options));
+    result.views.push_back(
+        describe_scored_view(shape, visibility, scorer, view.direction, up, options));
   }
   result.tour = shortest_tour(directions, run);
   return result;

@@ -244,4 +244,24 @@ ViewChannel channel_table(const TriMesh& mesh, std::span<const FaceSides> sides,
   return channel;
 }
 
+ViewChannel channel_table(const FaceVisibility& faces, std::size_t face_count,
+                          std::span<const Viewpoint> eyes, const RunContext& run) {
+  ViewChannel channel;
+  channel.face_count = face_count;
+  channel.views.resize(eyes.size());
+  parallel_for(without_progress(run), eyes.size(), 1, [&](std::size_t begin, std::size_t end) {
+    const RunContext alone{.stop = run.stop, .max_threads = 1};
+    for (std::size_t i = begin; i < end; ++i) {
+      for (const SeenFace& face : faces.seen_faces(eyes[i], alone)) {
+        const auto stored = static_cast<float>(face.projected_area);
+        if (stored > 0.0F && std::isfinite(stored)) {
+          channel.views[i].push_back({face.face, stored});
+        }
+      }
+      channel.views[i].shrink_to_fit();
+    }
+  });
+  return channel;
+}
+
 }  // namespace vantage

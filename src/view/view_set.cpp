@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -27,10 +29,10 @@ constexpr double kLastStepRad = 0.1 * kRadPerDeg;
 // Coverage is met within the rounding of the sums.
 constexpr double kRounding = 1e-12;
 
-int affordable_level(int wanted, std::size_t vertices) {
+int affordable_level(int wanted, std::size_t bits) {
   int level = wanted;
   const auto bytes = [&] {
-    return (10.0 * std::ldexp(1.0, 2 * level) + 2.0) * static_cast<double>(vertices) / 8.0;
+    return (10.0 * std::ldexp(1.0, 2 * level) + 2.0) * static_cast<double>(bits) / 8.0;
   };
   while (level > 0 && bytes() > kMostTableBytes) {
     --level;
@@ -69,26 +71,26 @@ std::vector<double> reachable_significance(const VisibleSets& candidates, const 
   return reachable;
 }
 
+/// What views in some directions see, a bit for each vertex or sample.
+using SetsOf = std::function<VisibleSets(std::span<const Vec3>, const RunContext&)>;
+
 class Selection {
  public:
-  Selection(const VertexVisibility& visibility, std::span<const double> significance,
-            const ScoringCamera& camera, const ViewSetOptions& options, const RunContext& run)
-      : visibility_(visibility),
-        camera_(camera),
+  Selection(SetsOf sets_of, std::size_t bits, const ViewSetOptions& options, const RunContext& run)
+      : sets_of_(std::move(sets_of)),
         options_(options),
-        vertices_(significance.size()),
+        bits_(bits),
         quiet_{.stop = run.stop, .max_threads = run.max_threads} {}
 
   /// \param given the views to measure; if only one, the first of those to choose.
   ViewSet make(std::span<const Vec3> given, bool choose, std::span<const double> significance,
                const RunContext& run) {
-    result_.level = affordable_level(options_.level, vertices_);
+    result_.level = affordable_level(options_.level, bits_);
     directions_ = direction_set(ViewSphereBase::Icosahedron, result_.level).directions;
     result_.candidates = directions_.size();
     result_.evaluations = directions_.size() + given.size();
-    const VisibleSets candidates =
-        visible_sets(visibility_, camera_, directions_, vertices_, run.part(0.0, kTableShare));
-    const VisibleSets bits = visible_sets(visibility_, camera_, given, vertices_, quiet_);
+    const VisibleSets candidates = sets_of_(directions_, run.part(0.0, kTableShare));
+    const VisibleSets bits = sets_of_(given, quiet_);
     const auto weights = reachable_significance(candidates, bits, significance);
     for (const double w : weights) {
       result_.reachable += w;
@@ -162,7 +164,7 @@ class Selection {
   void add_refined(GreedyCover& cover, Vec3 direction, double gain) {
     for (double step = kFirstStepRad; options_.refine && step >= kLastStepRad;) {
       const std::vector<Vec3> ring = ring_around(direction, step);
-      const VisibleSets sets = visible_sets(visibility_, camera_, ring, vertices_, quiet_);
+      const VisibleSets sets = sets_of_(ring, quiet_);
       result_.evaluations += ring.size();
       std::size_t best = ring.size();
       for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -178,15 +180,13 @@ class Selection {
         direction = ring[best];
       }
     }
-    const VisibleSets bits =
-        visible_sets(visibility_, camera_, std::span(&direction, 1), vertices_, quiet_);
+    const VisibleSets bits = sets_of_(std::span(&direction, 1), quiet_);
     add(cover, direction, bits.row(0), gain);
   }
 
-  const VertexVisibility& visibility_;
-  const ScoringCamera& camera_;
+  SetsOf sets_of_;
   const ViewSetOptions& options_;
-  std::size_t vertices_;
+  std::size_t bits_;
   RunContext quiet_;
   std::vector<Vec3> directions_{};
   ViewSet result_{};
@@ -194,27 +194,65 @@ class Selection {
   double seen_ = 0.0;
 };
 
+SetsOf sets_of(const VertexVisibility& visibility, const ScoringCamera& camera,
+               std::size_t vertices) {
+  return [&visibility, &camera, vertices](std::span<const Vec3> views, const RunContext& run) {
+    return visible_sets(visibility, camera, views, vertices, run);
+  };
+}
+
+SetsOf sets_of(const FaceVisibility& faces, const ScoringCamera& camera) {
+  return [&faces, &camera](std::span<const Vec3> views, const RunContext& run) {
+    return visible_sets(faces, camera, views, run);
+  };
+}
+
+ViewSet chosen(SetsOf sets_of, std::span<const double> significance, const Vec3& first,
+               const ViewSetOptions& options, const RunContext& run) {
+  check(options);
+  return Selection(std::move(sets_of), significance.size(), options, run)
+      .make(std::span(&first, 1), true, significance, run);
+}
+
+ViewSet measured(SetsOf sets_of, std::span<const double> significance,
+                 std::span<const Vec3> directions, const ViewSetOptions& options,
+                 const RunContext& run) {
+  check(options);
+  if (directions.empty()) {
+    throw InvalidInput("there must be at least one view to measure");
+  }
+  ViewSet set = Selection(std::move(sets_of), significance.size(), options, run)
+                    .make(directions, false, significance, run);
+  set.stop = ViewSetStop::Count;
+  return set;
+}
+
 }  // namespace
 
 ViewSet select_views(const VertexVisibility& visibility, std::span<const double> significance,
                      const ScoringCamera& camera, const Vec3& first, const ViewSetOptions& options,
                      const RunContext& run) {
-  check(options);
-  return Selection(visibility, significance, camera, options, run)
-      .make(std::span(&first, 1), true, significance, run);
+  return chosen(sets_of(visibility, camera, significance.size()), significance, first, options,
+                run);
+}
+
+ViewSet select_views(const FaceVisibility& faces, std::span<const double> of_sample,
+                     const ScoringCamera& camera, const Vec3& first, const ViewSetOptions& options,
+                     const RunContext& run) {
+  return chosen(sets_of(faces, camera), of_sample, first, options, run);
 }
 
 ViewSet measure_views(const VertexVisibility& visibility, std::span<const double> significance,
                       const ScoringCamera& camera, std::span<const Vec3> directions,
                       const ViewSetOptions& options, const RunContext& run) {
-  check(options);
-  if (directions.empty()) {
-    throw InvalidInput("there must be at least one view to measure");
-  }
-  ViewSet set = Selection(visibility, significance, camera, options, run)
-                    .make(directions, false, significance, run);
-  set.stop = ViewSetStop::Count;
-  return set;
+  return measured(sets_of(visibility, camera, significance.size()), significance, directions,
+                  options, run);
+}
+
+ViewSet measure_views(const FaceVisibility& faces, std::span<const double> of_sample,
+                      const ScoringCamera& camera, std::span<const Vec3> directions,
+                      const ViewSetOptions& options, const RunContext& run) {
+  return measured(sets_of(faces, camera), of_sample, directions, options, run);
 }
 
 }  // namespace vantage

@@ -13,6 +13,27 @@ namespace {
 // Directions a batch: a bar that moves, and a stop that is heard.
 constexpr std::size_t kBatch = 64;
 
+/// \param seen_from what is seen from a viewpoint, one byte a bit.
+template <class SeenFrom>
+VisibleSets sets_of(const ScoringCamera& camera, std::span<const Vec3> directions, std::size_t bits,
+                    const RunContext& run, const SeenFrom& seen_from) {
+  VisibleSets sets(directions.size(), bits);
+  RunContext quiet = run;
+  quiet.report = nullptr;
+  const RunContext alone{.stop = run.stop, .max_threads = 1};
+  for (std::size_t first = 0; first < directions.size(); first += kBatch) {
+    run.advance("views", static_cast<double>(first) / static_cast<double>(directions.size()));
+    const std::size_t count = std::min(kBatch, directions.size() - first);
+    parallel_for(quiet, count, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = first + begin; i < first + end; ++i) {
+        sets.set(i, seen_from(camera.viewpoint(directions[i]), alone));
+      }
+    });
+  }
+  run.advance("views", 1.0);
+  return sets;
+}
+
 }  // namespace
 
 void VisibleSets::set(std::size_t view, std::span<const std::uint8_t> visible) {
@@ -30,21 +51,18 @@ void VisibleSets::set(std::size_t view, std::span<const std::uint8_t> visible) {
 VisibleSets visible_sets(const VertexVisibility& visibility, const ScoringCamera& camera,
                          std::span<const Vec3> directions, std::size_t vertex_count,
                          const RunContext& run) {
-  VisibleSets sets(directions.size(), vertex_count);
-  RunContext quiet = run;
-  quiet.report = nullptr;
-  const RunContext alone{.stop = run.stop, .max_threads = 1};
-  for (std::size_t first = 0; first < directions.size(); first += kBatch) {
-    run.advance("views", static_cast<double>(first) / static_cast<double>(directions.size()));
-    const std::size_t count = std::min(kBatch, directions.size() - first);
-    parallel_for(quiet, count, 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = first + begin; i < first + end; ++i) {
-        sets.set(i, visibility.visible_vertices(camera.viewpoint(directions[i]), alone));
-      }
-    });
-  }
-  run.advance("views", 1.0);
-  return sets;
+  return sets_of(camera, directions, vertex_count, run,
+                 [&](const Viewpoint& eye, const RunContext& alone) {
+                   return visibility.visible_vertices(eye, alone);
+                 });
+}
+
+VisibleSets visible_sets(const FaceVisibility& faces, const ScoringCamera& camera,
+                         std::span<const Vec3> directions, const RunContext& run) {
+  return sets_of(camera, directions, faces.sample_count(), run,
+                 [&](const Viewpoint& eye, const RunContext& alone) {
+                   return faces.seen_samples(eye, alone);
+                 });
 }
 
 }  // namespace vantage

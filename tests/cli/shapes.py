@@ -10,3 +10,15 @@ def box(width, height=1.0, depth=1.0):
     lines += [f"{width * (i >> 2 & 1)} {height * (i >> 1 & 1)} {depth * (i & 1)}" for i in range(8)]
     lines += [f"3 {a} {b} {c}" for a, b, c in BOX_FACES]
     return "\n".join(lines) + "\n"
+
+
+def angle_bar():
+    """A long thin L of two legs: 12 vertices, 20 faces, and little area for its size."""
+    outline = [(0, 0), (10, 0), (10, 0.3), (0.3, 0.3), (0.3, 4), (0, 4)]
+    fan = [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5)]
+    faces = [(c, b, a) for a, b, c in fan] + [(a + 6, b + 6, c + 6) for a, b, c in fan]
+    for a in range(6):
+        b = (a + 1) % 6
+        faces += [(a, b, b + 6), (a, b + 6, a + 6)]
+    lines = ["OFF", "12 20 0"] + [f"{x} {y} {z}" for z in (0, 0.2) for x, y in outline]
+    return "\n".join(lines + [f"3 {a} {b} {c}" for a, b, c in faces]) + "\n"

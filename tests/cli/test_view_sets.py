@@ -5,6 +5,7 @@ import struct
 import unittest
 
 from program import MODELS, ProgramTest
+from shapes import angle_bar
 
 FAN = MODELS / "fan.ply"
 
@@ -50,6 +51,26 @@ class ViewSets(ProgramTest):
         self.assertEqual([f["file_path"] for f in transforms["frames"]], [v["image"] for v in views])
         tour = json.loads((self.dir / "out" / "tour.gltf").read_text())
         self.assertEqual(len(tour["animations"]), 1)
+
+    def test_the_first_view_is_the_best_one_in_every_number(self):
+        keys = ("direction", "eye", "score", "score_fraction", "objective", "visible_area_fraction", "frame")
+        bar = self.write("bar.off", angle_bar())  # of few samples, which makes scores by area quick
+        for model, *flags in ((FAN,), (bar, "--weight", "area"), (bar, "--weight", "area", "--prior", "none")):
+            with self.subTest(flags=flags):
+                self.vantage("view", model, "-o", "out", "--views", 2, "--no-images", *flags)
+                report = self.report()
+                for key in keys:
+                    self.assertEqual(report["views"][0][key], report["best"][key], key)
+                self.assertEqual(report["best"]["objective"] < report["best"]["score"], "--prior" not in flags)
+                self.assertAlmostEqual(report["views"][0]["gain"], report["best"]["score"], places=9)
+                self.assertLessEqual(report["view_set"]["reachable"], report["total"] * (1 + 1e-12))
+                # And the second one's score is what `score` gives, in the best one's unit.
+                self.write("d.csv", "dx,dy,dz\n" + ",".join(map(repr, report["views"][1]["direction"])) + "\n")
+                weight = [f for f in flags if f not in ("--prior", "none")]
+                row = self.vantage("score", model, "--directions", "d.csv", *weight).out.splitlines()[1]
+                self.assertAlmostEqual(report["views"][1]["score"], float(row.split(",")[-1]), places=9)
+                self.assertAlmostEqual(report["views"][1]["score_fraction"],
+                                       report["views"][1]["score"] / report["total"], places=12)
 
     def test_views_of_a_former_run_are_removed_and_other_files_stay(self):
         self.vantage("view", FAN, "-o", "out", "--views", 3, "--size", "64x48")

@@ -229,6 +229,12 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
                               const ViewOptions& options, std::vector<std::string>& warnings,
                               const RunContext& run = {});
 
+/// The same with a scorer that is there already. \pre it adds up options.weight.
+ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility& visibility,
+                              const ViewScorer& scorer, const Vec3& best, UpAxis up,
+                              const ViewOptions& options, std::vector<std::string>& warnings,
+                              const RunContext& run = {});
+
 /// Cameras along the tour of a set, `count` at equal distances, all with the field of view that
 /// shows the whole surface from every one of them. \pre at least two different views.
 /// \param aspect width over height.

@@ -10,6 +10,7 @@
 #include "vantage/core/run_context.h"
 #include "vantage/mesh/tri_mesh.h"
 #include "vantage/view/visible_sets.h"
+#include "vantage/visibility/face_visibility.h"
 #include "vantage/visibility/vertex_visibility.h"
 
 /// \file
@@ -63,12 +64,18 @@ struct MergedViews {
 MergedViews merge_views(const ViewChannel& channel, std::size_t count, double ratio = 0.0,
                         const RunContext& run = {});
 
-/// A channel from vertex visibility, approximate: a face turned to the eye counts its projected
+/// A channel from vertex visibility alone, approximate and quick: a face turned to the eye counts its projected
 /// area (perspective: its solid angle) times the share of its corners that are visible.
 /// \param sides as for VertexVisibility. \param sets row i belongs to eyes[i].
 /// \throw InvalidInput, Cancelled
 ViewChannel channel_table(const TriMesh& mesh, std::span<const FaceSides> sides,
                           const VisibleSets& sets, std::span<const Viewpoint> eyes,
                           const RunContext& run = {});
+
+/// The channel of what is seen of each face, however little and whether a corner is seen or not: the
+/// projected areas that FaceVisibility measures. \param face_count faces of its mesh.
+/// \throw Cancelled
+ViewChannel channel_table(const FaceVisibility& faces, std::size_t face_count,
+                          std::span<const Viewpoint> eyes, const RunContext& run = {});
 
 }  // namespace vantage

@@ -67,6 +67,14 @@ class ViewScorer {
 
   [[nodiscard]] const ScoringCamera& camera() const { return camera_; }  ///< As given.
 
+  /// Of a score by area; null for one by vertices.
+  [[nodiscard]] const FaceVisibility* faces() const { return faces_; }
+
+  /// What each vertex, or by area each sample of faces(), adds to a score that sees it.
+  [[nodiscard]] std::span<const double> shares() const {
+    return faces_ != nullptr ? std::span<const double>(of_sample_) : significance_;
+  }
+
  private:
   ViewScorer(std::span<const double> significance, const ScoringCamera& camera);
 

@@ -8,6 +8,7 @@
 
 #include "vantage/core/run_context.h"
 #include "vantage/view/scoring.h"
+#include "vantage/visibility/face_visibility.h"
 #include "vantage/visibility/vertex_visibility.h"
 
 /// \file
@@ -55,5 +56,9 @@ class VisibleSets {
 VisibleSets visible_sets(const VertexVisibility& visibility, const ScoringCamera& camera,
                          std::span<const Vec3> directions, std::size_t vertex_count,
                          const RunContext& run = {});
+
+/// The same with one bit a sample of the faces in place of one a vertex. \throw Cancelled
+VisibleSets visible_sets(const FaceVisibility& faces, const ScoringCamera& camera,
+                         std::span<const Vec3> directions, const RunContext& run = {});
 
 }  // namespace vantage

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/report/view_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -95,6 +96,30 @@ TEST_F(ReportOfAY, APictureShowsTheModelOnTransparentGround) {
   }
   EXPECT_GT(covered, 64U * 48U / 20U);
   EXPECT_LT(covered, 64U * 48U);
+}
+
+TEST(FindViews, CertifiesTheViewThatIsReportedWhereTiesWereSettled) {
+  // Mirror images see as much; the prior is larger at the back by less than a tie, so that the front
+  // is shown, and what is certified must be the front's objective.
+  ViewOptions options = quick_search();
+  options.certify = true;
+  options.prior = parse_prior(
+      R"({"vantage_prior": 1, "lobes": [{"direction": [0, 0, -1], "weight": 0.006, "width_deg": 60}]})",
+      "back.json");
+  const ShapeAnalysis shape = analyse_shape(model_of(box(1.0, 2.0, 3.0, 12)), options);
+  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  const UprightFrame frame = upright_frame(Vec3::UnitY());
+  ASSERT_GT(frame.front.dot(report.best.direction), 0.1);
+  options.search.strategy = SearchStrategy::Dense;
+  double highest = 0.0;
+  for (const SearchStep& step : find_views(shape, UpAxis::Y, options).best_search.trace) {
+    highest = std::max(highest, step.score * options.prior.factor(frame, step.direction));
+  }
+  ASSERT_TRUE(report.dense_gap.has_value());
+  EXPECT_NEAR(report.dense_gap->best_ratio, report.best.objective / highest, 1e-12);
+  EXPECT_TRUE(std::any_of(report.twins.begin(), report.twins.end(), [&](const TwinView& twin) {
+    return twin.objective > 1.004 * report.best.objective;
+  }));
 }
 
 TEST(FindViews, OfAMapThatIsZeroGivesTheFirstDirectionAndAWarning) {

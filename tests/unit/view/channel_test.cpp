@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include "vantage/core/error.h"
 #include "vantage/core/random.h"
@@ -169,6 +171,58 @@ TEST(ChannelTable, HoldsTheProjectedAreaOfACubesSide) {
     area += static_cast<double>(a.area);
   }
   EXPECT_NEAR(area, 1.0, 1e-6);
+}
+
+/// A triangle of area 18 at x = 0 with a square of area 4 in front of each corner, seen from +x.
+class TriangleBehindPlates : public testing::Test {
+ protected:
+  TriangleBehindPlates() {
+    mesh.positions = {Vec3(0, 0, 0), Vec3(0, 6, 0), Vec3(0, 0, 6)};
+    mesh.triangles = {{0, 1, 2}};
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+      const Vec3 centre = mesh.positions[corner] + Vec3(1, 0, 0);
+      for (const auto& [y, z] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+        mesh.positions.push_back(centre + Vec3(0, y, z));
+      }
+      mesh.triangles.push_back({first, first + 1, first + 2});
+      mesh.triangles.push_back({first, first + 2, first + 3});
+    }
+  }
+
+  TriMesh mesh{};
+  std::vector<FaceSides> sides{FaceSides::Both};
+  std::vector<Viewpoint> eyes{{Projection::Orthographic, Vec3::UnitX()}};
+};
+
+TEST_F(TriangleBehindPlates, IsInTheChannelThoughNoCornerIsSeen) {
+  const VertexVisibility visibility(mesh, sides);
+  const auto visible = visibility.visible_vertices(eyes[0]);
+  EXPECT_EQ(std::count(visible.begin(), visible.begin() + 3, 0), 3);
+  const ViewChannel channel =
+      channel_table(FaceVisibility(mesh, sides), mesh.triangles.size(), eyes);
+  ASSERT_EQ(channel.views[0].size(), 7U);
+  EXPECT_EQ(channel.face_count, 7U);
+  // The squares hide 1, 1/2 and 1/2 of the triangle.
+  EXPECT_EQ(channel.views[0][0].face, 0U);
+  EXPECT_NEAR(static_cast<double>(channel.views[0][0].area), 16.0, 0.16);
+  for (std::size_t f = 1; f < 7; ++f) {
+    EXPECT_NEAR(static_cast<double>(channel.views[0][f].area), 2.0, 1e-5);
+  }
+}
+
+TEST_F(TriangleBehindPlates, IsTheSameChannelForAnyThreads) {
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 3);
+  const FaceVisibility faces(mesh, sides);
+  eyes.resize(7, {Projection::Perspective, Vec3(20, 3, 1)});
+  const ViewChannel one = channel_table(faces, mesh.triangles.size(), eyes, {.max_threads = 1});
+  const ViewChannel three = channel_table(faces, mesh.triangles.size(), eyes, {.max_threads = 3});
+  for (std::size_t v = 0; v < eyes.size(); ++v) {
+    ASSERT_EQ(one.views[v].size(), three.views[v].size());
+    for (std::size_t k = 0; k < one.views[v].size(); ++k) {
+      EXPECT_EQ(one.views[v][k].area, three.views[v][k].area);
+    }
+  }
 }
 
 }  // namespace

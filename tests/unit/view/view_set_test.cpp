@@ -162,5 +162,29 @@ TEST(MeasureViews, GivesTheGainsOfGivenViewsInTheirOrder) {
   EXPECT_EQ(set.views[2].gain, 0.0);
 }
 
+TEST(MeasureViews, ByAreaCountsTheSidesSeenAndNotTheCornersOfHiddenOnes) {
+  const FaceVisibility faces(cube().mesh, {FaceSides::Front}, 0.1);
+  const ViewScorer scorer(faces, cube().significance, cube().camera);
+  const Vec3 corner = Vec3(1, 1, 1).normalized();
+  const std::vector<Vec3> views{Vec3::UnitX(), corner, corner};
+  const ViewSet set = measure_views(faces, scorer.shares(), cube().camera, views, {.level = 2});
+  // One side of six; two more; nothing new.
+  EXPECT_NEAR(set.views[0].gain, 1.0 / 6.0, 1e-12);
+  EXPECT_NEAR(set.views[1].gain, 2.0 / 6.0, 1e-12);
+  EXPECT_EQ(set.views[2].gain, 0.0);
+  EXPECT_NEAR(set.reachable, 1.0, 1e-12);
+}
+
+TEST(SelectViews, ByAreaCoverACubeFromTwoOppositeCorners) {
+  const FaceVisibility faces(cube().mesh, {FaceSides::Front}, 0.1);
+  const ViewScorer scorer(faces, cube().significance, cube().camera);
+  const ViewSet set =
+      select_views(faces, scorer.shares(), cube().camera, Vec3(1, 1, 1).normalized(), {.level = 2});
+  ASSERT_EQ(set.views.size(), 2U);
+  EXPECT_NEAR(set.views[0].gain, 0.5, 1e-12);
+  EXPECT_LT(set.views[1].direction.maxCoeff(), 0.0);
+  EXPECT_NEAR(set.views[1].coverage, 1.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace vantage
