@@ -207,6 +207,7 @@ struct QueryCommand {
 
   static std::vector<std::string> cells_of(const batch::Statement& row) {
     std::vector<std::string> cells;
+    cells.reserve(static_cast<std::size_t>(row.columns()));
     for (int i = 0; i < row.columns(); ++i) {
       cells.push_back(printable(row.is_real(i) ? rounded(row.number(i)) : row.text(i)));
     }
