@@ -50,7 +50,9 @@ class Manifest : private JsonReader {
     }
     for (const auto& [name, value] : object.items()) {
       if (std::find(names.begin(), names.end(), name) == names.end()) {
-        fail(where + " has an unknown member \"" + name + "\"");
+        std::string problem = where;
+        problem.append(" has an unknown member \"").append(name).append("\"");
+        fail(problem);
       }
     }
   }

@@ -38,6 +38,7 @@ std::vector<Vec3> channel_views(const ShapeAnalysis& shape, const ScoringCamera&
                        " directions instead of 642 to save memory");
   }
   std::vector<Viewpoint> eyes;
+  eyes.reserve(directions.size());
   for (const Vec3& d : directions) {
     eyes.push_back(camera.viewpoint(d));
   }
@@ -50,6 +51,7 @@ std::vector<Vec3> channel_views(const ShapeAnalysis& shape, const ScoringCamera&
           ? greedy_entropy_views(channel, count, run)
           : merge_views(channel, count, request.information, run).picks;
   std::vector<Vec3> chosen;
+  chosen.reserve(picks.size());
   for (const ChannelPick& pick : picks) {
     chosen.push_back(directions[pick.view]);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "vantage/core/error.h"
 #include "vantage/view/measure.h"
@@ -239,14 +240,21 @@ double Measure::worst() const {
 }
 
 std::string_view Measure::cost() const {
-  return needs.channel || needs.neighbours ? "set of views"
-         : needs.kssm                      ? "kssm map"
-         : needs.skeleton                  ? "skeleton"
-         : needs.saliency                  ? "saliency map"
-         : needs.outline                   ? "outline"
-         : needs.faces                     ? "faces"
-         : needs.vertices                  ? "vertices"
-                                           : "surface";
+  const std::pair<bool, std::string_view> dearest_first[] = {
+      {needs.channel || needs.neighbours, "set of views"},
+      {needs.kssm, "kssm map"},
+      {needs.skeleton, "skeleton"},
+      {needs.saliency, "saliency map"},
+      {needs.outline, "outline"},
+      {needs.faces, "faces"},
+      {needs.vertices, "vertices"},
+  };
+  for (const auto& [is_needed, name] : dearest_first) {
+    if (is_needed) {
+      return name;
+    }
+  }
+  return "surface";
 }
 
 const std::vector<Measure>& builtin_measures() {
