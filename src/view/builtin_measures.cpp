@@ -249,9 +249,9 @@ std::string_view Measure::cost() const {
       {needs.faces, "faces"},
       {needs.vertices, "vertices"},
   };
-  for (const auto& [is_needed, name] : dearest_first) {
+  for (const auto& [is_needed, thing] : dearest_first) {
     if (is_needed) {
-      return name;
+      return thing;
     }
   }
   return "surface";
