@@ -12,6 +12,6 @@ build() {  # FOLDER LANGUAGE ZONE MASK JOBS
     { tail -20 "$place/log" >&2; exit 1; }
 }
 build a C UTC 022 "$(nproc)"
-build a-longer-name C.UTF-8 Asia/Kathmandu 077 1
+build a-longer-name C.UTF-8 Asia/Kathmandu 077 $(($(nproc) + 1))
 diff "$place/a/build/dist/packages/SHA256SUMS" "$place/a-longer-name/build/dist/packages/SHA256SUMS"
 cat "$place/a/build/dist/packages/SHA256SUMS"
