@@ -8,7 +8,7 @@ import subprocess
 import unittest
 
 from program import MODELS, PROGRAM, ProgramTest, read_ply
-from shapes import box
+from shapes import angle_bar, box
 
 FAN = MODELS / "fan.ply"
 
@@ -97,11 +97,12 @@ class Measures(ProgramTest):
         self.assertGreater(max(values), 0.0)
 
     def test_view_by_pmi_saliency_shows_its_own_map(self):
-        self.vantage("map", FAN, "-o", "map.ply", "--method", "pmi-saliency")
+        bar = self.write("bar.off", angle_bar())
+        self.vantage("map", bar, "-o", "map.ply", "--method", "pmi-saliency")
         own = (self.dir / "map.ply").read_bytes()
-        self.vantage("view", FAN, "-o", "out", "--method", "pmi-saliency", "--no-report", "--size", 64)
+        self.vantage("view", bar, "-o", "out", "--method", "pmi-saliency", "--no-report", "--size", 64)
         self.assertEqual((self.dir / "out" / "map.ply").read_bytes(), own)
-        self.vantage("view", FAN, "-o", "vmi", "--method", "vmi", "--no-images")  # has none: KSSM's
+        self.vantage("view", bar, "-o", "vmi", "--method", "vmi", "--no-images")  # has none: KSSM's
         self.assertNotEqual((self.dir / "vmi" / "map.ply").read_bytes(), own)
 
     def test_measures_lists_what_is_dearest(self):
