@@ -28,4 +28,5 @@ thumbnails; headless, deterministic, for one model or a whole collection.")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
   "Headers and static library of vantage, with its CMake package and
 pkg-config file.")
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/package_permissions.cmake)
 include(CPack)

@@ -4,6 +4,7 @@
 # checksums. The same commit gives the same bytes: scripts/check_reproducible.sh looks.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+umask 022  # the permissions of what is packed, also those that ar writes into a .deb
 scripts/install_dependencies.sh build
 command -v patchelf >/dev/null || { echo "make_release.sh: install patchelf" >&2; exit 1; }
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}

@@ -7,7 +7,14 @@ cd "$(dirname "$0")/.."
 build=${1:-build/release}
 tree=${2:-$(mktemp -d)/debian12}
 cmake --build "$build" --target vantage_program vantage_words
-(cd "$build" && cpack -G DEB >/dev/null)
+# Whatever the builder's umask: others than root have to reach what is installed.
+(cd "$build" && umask 077 && cpack -G DEB >/dev/null && chmod a+r packages/*.deb)
+for package in "$build"/packages/*.deb; do
+  if dpkg-deb -c "$package" | grep -v '^.r..r-.r-'; then
+    echo "test_packages.sh: $package holds what not all may read" >&2
+    exit 1
+  fi
+done
 
 if [[ ! -d $tree/usr ]]; then
   debootstrap --variant=minbase bookworm "$tree" >/dev/null
