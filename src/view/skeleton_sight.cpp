@@ -32,6 +32,10 @@ std::vector<double> shown_nodes(const MeasuredModel& model, const SightTable& si
   // From behind counts where the vertex is seen: on surfaces with two sides.
   std::vector<double> facing = seen;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const auto& [a, b, c] = mesh.triangles[f];
+    if ((sight.vertices[a] & sight.vertices[b] & sight.vertices[c]) != 0) {
+      continue;  // most of those that face the eye
+    }
     const FacePlane& plane = model.planes[f];
     if (plane.normal.dot(eye) > (is_perspective ? plane.offset : 0.0)) {
       for (const std::uint32_t v : mesh.triangles[f]) {

@@ -17,6 +17,7 @@ enum class Tip : std::uint8_t {
   Plain,  ///< Nothing: it is judged with the part that it is of.
   Seen,   ///< It is seen: so is the corner, where all faces turn to the eye.
   Asked,  ///< The corner is seen, but other faces at it may hide the tip.
+  Hidden  ///< As the corner is.
 };
 
 /// The parts of such pieces, and what is seen of each.
@@ -24,7 +25,7 @@ struct CloserLook {
   std::vector<std::uint32_t> pieces{};  ///< Ascending, and after end() one beyond all.
   std::vector<std::uint32_t> first{};   ///< Part of each, and after end() one past the last part.
   std::vector<Vec3> places{};           ///< Where each part is judged.
-  std::vector<double> shares{};         ///< Of each part in its piece's area.
+  std::vector<double> shares{};         ///< Of each part in its piece's area; hidden tips are none.
   std::vector<std::uint32_t> owner{};   ///< The face each part is of.
   std::vector<std::uint8_t> asked{};    ///< 0 for parts that are known to be seen.
   std::vector<std::uint8_t> seen{};     ///< Of each part; for others to fill in.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "visibility/closer_look.h"
 #include "visibility/face_pieces.h"
 #include "visibility/hiding_backs.h"
+#include "visibility/seen_tally.h"
 #include "visibility/sight.h"
 #include "visibility/slivers.h"
 
@@ -31,6 +33,9 @@ constexpr std::uint8_t kInPart = kSeen | kHidden;
 // Area of a sliver over that of the rectangle along the edge that it is beside: that it is there
 // matters, not how large it is. [ours]
 constexpr double kSliverShare = 1.0 / 16.0;
+// Of more faces than these a sliver weighs so little that only what lies deepest is looked for.
+// [ours, by measurement]
+constexpr std::size_t kFewFaces = 4000;
 
 std::uint8_t finding(std::uint8_t seen) {
   return seen != 0 ? kSeen : kHidden;
@@ -42,67 +47,10 @@ struct FirstLook {
   std::vector<std::uint8_t> at_sites{};  // Look::faces_at_sites()
 };
 
-/// Adds up what is seen, face by face.
-class Tally {
- public:
-  Tally(const Surface& surface, const Sphere& sphere, const Viewpoint& local, SeenSurface& result)
-      : surface_(surface),
-        local_(local),
-        is_perspective_(local.projection == Projection::Perspective),
-        centre_(surface.frame.to_frame(sphere.centre)),
-        towards_(is_perspective_ ? Vec3((local.position - centre_).normalized()) : local.position),
-        per_diameter_(1.0 / (sphere.diameter * surface.frame.scale)),
-        plane_((local.position - centre_).dot(towards_)),
-        result_(result),
-        has_(surface.faces.size(), 0) {}
-
-  /// Whether something of a face was added.
-  [[nodiscard]] bool has(std::size_t face) const { return has_[face] != 0; }
-
-  /// Adds a part of a face. \pre faces come one after the other. \param area model units squared.
-  void add(std::uint32_t face, const Vec3& place, double area) {
-    if (face != last_) {
-      last_ = face;
-      has_[face] = 1;
-      normal_ = &surface_.area_vectors[face];
-      // Finite even for faces of next to no area.
-      scale_ =
-          std::min((is_perspective_ ? plane_ * plane_ : 1.0) / surface_.twice_areas[face], 1e300);
-      result_.faces.push_back({.face = surface_.face_of_mesh[face]});
-    }
-    const double projected = area * scale_ * shrink(place);
-    result_.faces.back().visible_area += area;
-    result_.faces.back().projected_area += projected;
-    const double depth =
-        std::clamp(0.5 - (place - centre_).dot(towards_) * per_diameter_, 0.0, 1.0);
-    constexpr auto kBins = static_cast<double>(SeenSurface::kDepthBins);
-    result_.depths[static_cast<std::size_t>(std::min(depth * kBins, kBins - 1.0))] += projected;
-    result_.deepest = std::max(result_.deepest, depth);
-  }
-
- private:
-  /// Projected area over area and `scale_`, at a place of the face at hand.
-  [[nodiscard]] double shrink(const Vec3& place) const {
-    if (!is_perspective_) {
-      return std::abs(normal_->dot(towards_));
-    }
-    const Vec3 sight_line = local_.position - place;
-    const double depth = sight_line.dot(towards_);
-    return depth > 0.0 ? std::abs(normal_->dot(sight_line)) / (depth * depth * depth) : 0.0;
-  }
-
-  const Surface& surface_;
-  const Viewpoint& local_;
-  bool is_perspective_;
-  Vec3 centre_;   // of the sphere
-  Vec3 towards_;  // unit, from there to the eye
-  double per_diameter_;
-  double plane_;  // how far the eye is from the plane of projection
-  SeenSurface& result_;
-  std::vector<std::uint8_t> has_;  // of each face
-  std::uint32_t last_ = Surface::kNoSite;
-  const Vec3* normal_ = nullptr;  // of the face at hand, as long as twice its area
-  double scale_ = 1.0;            // makes up for that, and for the plane's distance
+/// What a second look tells, where the first left it open.
+struct SecondLook {
+  CloserLook parts{};
+  EdgePlaces edges{};
 };
 
 /// The faces in the mesh's order; quicker than sorting, as about half of all are seen.
@@ -163,7 +111,7 @@ struct FaceVisibility::Samples {
         net_.is_plain[f] = is_plain ? 1 : 0;
       }
       backs_ = hiding_backs(surface);
-      if (!surface.faces.empty() && surface.faces.size() <= SliverSearch::kMostFaces) {
+      if (!surface.faces.empty()) {
         slivers_.emplace(surface);
       }
     });
@@ -260,7 +208,7 @@ struct FaceVisibility::Samples {
   }
 
   /// Divides every piece of which, with its nodes, some was seen and some was hidden.
-  [[nodiscard]] CloserLook look_closer(Look& look, const FirstLook& first) const {
+  [[nodiscard]] CloserLook pieces_in_part(const Look& look, const FirstLook& first) const {
     const Surface& surface = sight.surface();
     const std::vector<std::uint8_t>& seen = first.seen;
     const std::vector<std::uint8_t> found = node_findings(look, seen);
@@ -270,8 +218,11 @@ struct FaceVisibility::Samples {
              kInPart;
     };
     const auto tip = [&](std::size_t face, std::uint32_t node) {
-      if (node >= surface.sites.size() || seen[node] == 0) {
+      if (node >= surface.sites.size()) {
         return Tip::Plain;
+      }
+      if (seen[node] == 0) {
+        return Tip::Hidden;
       }
       const bool turns = (first.at_sites[node] & Look::kNotTurned) == 0;
       return turns && surface.sides[face] == FaceSides::Front ? Tip::Seen : Tip::Asked;
@@ -301,50 +252,91 @@ struct FaceVisibility::Samples {
       }
     }
     closer.end();
-    const FloatPoints rounded = rounded_points(closer.places);
-    closer.seen = look.not_hidden(
-        {.exact = closer.places, .rounded = &rounded, .owner = closer.owner}, closer.asked);
-    for (std::size_t i = 0; i < closer.seen.size(); ++i) {
-      if (closer.asked[i] == 0) {
-        closer.seen[i] = 1;
-      }
-    }
     return closer;
   }
 
-  /// Adds slivers of faces of which no sample was seen. \pre net() was asked for.
-  void add_slivers(Look& look, const Viewpoint& local, Tally& tally) const;
+  /// Edges of faces of which no piece was seen; if faces are many, only of such as lie deeper than
+  /// all that was.
+  [[nodiscard]] EdgePlaces edges_of_unseen(const Look& look, const FirstLook& first,
+                                           const Viewpoint& local, const Depths& depths) const;
+
+  /// Asks about what the first look leaves open. \pre net() was asked for.
+  [[nodiscard]] SecondLook second_look(Look& look, const FirstLook& first, const Viewpoint& local,
+                                       const Depths& depths) const;
+
+  /// Adds slivers of faces of which no sample was seen.
+  void add_slivers(const EdgePlaces& edges, Tally& tally) const;
 
  private:
   std::once_flag net_once_{};
   PieceNet net_{};
   std::vector<std::uint8_t> backs_{};
-  std::optional<SliverSearch> slivers_{};  // where faces are few
+  std::optional<SliverSearch> slivers_{};  // unless there are no faces
 };
 
-void FaceVisibility::Samples::add_slivers(Look& look, const Viewpoint& local, Tally& tally) const {
+EdgePlaces FaceVisibility::Samples::edges_of_unseen(const Look& look, const FirstLook& first,
+                                                    const Viewpoint& local,
+                                                    const Depths& depths) const {
   const Surface& surface = sight.surface();
-  if (!slivers_) {
-    return;
+  const std::size_t sites = surface.sites.size();
+  std::vector<std::uint8_t> is_deep(sites, 1);
+  if (surface.faces.size() > kFewFaces) {
+    std::vector<double> depth_of(sites);
+    double deepest = 0.0;
+    for (std::size_t site = 0; site < sites; ++site) {
+      depth_of[site] = depths.at(surface.sites[site]);
+      deepest = std::max(deepest, first.seen[site] != 0 ? depth_of[site] : 0.0);
+    }
+    std::transform(depth_of.begin(), depth_of.end(), is_deep.begin(),
+                   [&](double depth) { return depth > deepest ? 1 : 0; });
   }
+  const auto of_piece = std::span(first.seen).subspan(sites);
   std::vector<std::uint8_t> wanted(surface.faces.size(), 0);
   for (std::size_t f = 0; f < wanted.size(); ++f) {
-    wanted[f] = look.is_turned(f) && !tally.has(f) ? 1 : 0;
+    const auto& [a, b, c] = surface.faces[f];
+    if ((is_deep[a] | is_deep[b] | is_deep[c]) != 0 && look.is_turned(f)) {
+      const std::span<const std::uint8_t> seen =
+          of_piece.subspan(pieces.first[f], pieces.first[f + 1] - pieces.first[f]);
+      wanted[f] = std::find(seen.begin(), seen.end(), 1) == seen.end() ? 1 : 0;
+    }
   }
-  const EdgePlaces edges = slivers_->places(local, {look.turned(), wanted});
-  const FloatPoints rounded = rounded_points(edges.places);
+  return slivers_ ? slivers_->places(local, {look.turned(), wanted}) : EdgePlaces{};
+}
+
+SecondLook FaceVisibility::Samples::second_look(Look& look, const FirstLook& first,
+                                                const Viewpoint& local,
+                                                const Depths& depths) const {
+  SecondLook second{pieces_in_part(look, first), edges_of_unseen(look, first, local, depths)};
+  auto& [parts, edges] = second;
+  std::vector<Vec3> places = parts.places;
+  places.insert(places.end(), edges.places.begin(), edges.places.end());
+  std::vector<std::uint32_t> owner = parts.owner;
+  owner.insert(owner.end(), edges.owner.begin(), edges.owner.end());
+  std::vector<std::uint8_t> asked = parts.asked;
+  asked.resize(places.size(), 1);
+  const FloatPoints rounded = rounded_points(places);
   const std::vector<std::uint8_t> seen = look.not_hidden(
-      {.exact = edges.places, .rounded = &rounded, .owner = edges.owner, .also = edges.also},
-      std::vector<std::uint8_t>(edges.places.size(), 1));
+      {.exact = places, .rounded = &rounded, .owner = owner, .also = edges.also}, asked);
+  const auto edges_begin = seen.begin() + static_cast<std::ptrdiff_t>(parts.places.size());
+  std::transform(seen.begin(), edges_begin, asked.begin(), std::back_inserter(parts.seen),
+                 [](std::uint8_t is_seen, std::uint8_t is_asked) {
+                   return static_cast<std::uint8_t>(is_asked != 0 ? is_seen : 1);
+                 });
+  edges.seen.assign(edges_begin, seen.end());
+  return second;
+}
+
+void FaceVisibility::Samples::add_slivers(const EdgePlaces& edges, Tally& tally) const {
+  const Surface& surface = sight.surface();
   std::vector<std::array<std::uint32_t, 2>> found;  // face and place
-  for (std::uint32_t i = 0; i < seen.size(); ++i) {
-    if (seen[i] == 0) {
+  for (std::uint32_t i = 0; i < edges.seen.size(); ++i) {
+    if (edges.seen[i] == 0) {
       continue;
     }
-    if (wanted[edges.owner[i]] != 0) {
+    if (!tally.has(edges.owner[i])) {
       found.push_back({edges.owner[i], i});
     }
-    if (edges.of_both[i] != 0 && wanted[edges.also[i]] != 0) {
+    if (edges.of_both[i] != 0 && !tally.has(edges.also[i])) {
       found.push_back({edges.also[i], i});
     }
   }
@@ -390,11 +382,12 @@ SeenSurface FaceVisibility::seen_surface(const Viewpoint& eye, const RunContext&
   samples_->net();
   Look look(samples_->sight, local, run, samples_->backs());
   const FirstLook first = samples_->first_look(look);
-  const CloserLook closer = samples_->look_closer(look, first);
+  const Depths depths(surface, samples_->sphere, local);
+  const auto [closer, edges] = samples_->second_look(look, first, local, depths);
   SeenSurface result;
   result.vertices = vertices_of_sites(surface, first.seen);
   const auto of_piece = std::span(first.seen).subspan(surface.sites.size(), sample_count());
-  Tally tally(surface, samples_->sphere, local, result);
+  Tally tally(surface, depths, local, result);
   std::size_t next = 0;  // piece that was looked at closely
   result.faces.reserve(surface.faces.size());
   for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
@@ -416,7 +409,7 @@ SeenSurface FaceVisibility::seen_surface(const Viewpoint& eye, const RunContext&
       ++next;
     }
   }
-  samples_->add_slivers(look, local, tally);
+  samples_->add_slivers(edges, tally);
   result.faces = in_order(result.faces, samples_->triangles.size());
   return result;
 }

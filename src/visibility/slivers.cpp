@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
+#include <tuple>
 
 #include <Eigen/Geometry>
 
@@ -12,6 +14,9 @@
 
 namespace vantage {
 namespace {
+
+using Vec2 = Eigen::Vector2d;
+using Box = Eigen::AlignedBox2d;
 
 // Parts of an edge shorter than this share of it are rounding: where it ends on a contour.
 constexpr double kShortest = 1e-9;
@@ -44,7 +49,7 @@ std::optional<double> piercing(const Vec3& a, const Vec3& b, const std::array<Ve
 
 /// Where the sites are on a plane across the line of sight.
 struct SliverSearch::Picture {
-  std::vector<double> x{}, y{};
+  std::vector<Vec2> places{};
   bool is_whole = true;  // all of them are ahead of the eye
 
   Picture(const Surface& surface, const Viewpoint& eye) {
@@ -52,26 +57,148 @@ struct SliverSearch::Picture {
     const Vec3 towards = eye.position.normalized();
     const Vec3 right = towards.unitOrthogonal();
     const Vec3 up = towards.cross(right);
-    x.reserve(surface.sites.size());
-    y.reserve(surface.sites.size());
+    places.reserve(surface.sites.size());
     for (const Vec3& site : surface.sites) {
       const double depth = is_perspective ? (eye.position - site).dot(towards) : 1.0;
       is_whole = is_whole && depth > 0.0;
-      x.push_back(site.dot(right) / depth);
-      y.push_back(site.dot(up) / depth);
+      places.emplace_back(site.dot(right) / depth, site.dot(up) / depth);
     }
+  }
+
+  [[nodiscard]] Box box(const std::array<std::uint32_t, 2>& edge) const {
+    return Box(places[edge[0]]).extend(places[edge[1]]);
   }
 };
 
 /// An edge past which the surface turns away.
 struct SliverSearch::Contour {
-  double left = 0.0, right = 0.0, low = 0.0, high = 0.0;  // in the picture
-  std::uint32_t c = 0, d = 0;                             // sites
-  Vec3 normal = Vec3::Zero();                             // of the plane through it and the eye
+  Box box{};                            // in the picture
+  std::array<std::uint32_t, 2> edge{};  // sites
+  Vec3 normal = Vec3::Zero();           // of the plane through it and the eye
 };
+
+/// Contours by the cells of a grid in the picture that they pass through.
+class SliverSearch::Contours {
+ public:
+  /// Those that may cross one of the edges.
+  Contours(const SliverSearch& search, const Viewpoint& eye, const Picture& picture,
+           std::span<const std::uint8_t> turned, std::span<const std::uint32_t> edges);
+
+  /// Calls each(contour) for all that may cross an edge, for some more than once.
+  template <typename Each>
+  void near(const std::array<std::uint32_t, 2>& edge, const Each& each) const {
+    over_cells(edge, [&](std::size_t cell) {
+      for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+        each(all_[in_cells_[i]]);
+      }
+    });
+  }
+
+ private:
+  [[nodiscard]] int nearest_cell(double place) const {
+    return static_cast<int>(std::clamp(std::floor(place), 0.0, side_ - 1.0));
+  }
+
+  void lay_grid();
+  template <typename Each>
+  void over_cells(const std::array<std::uint32_t, 2>& edge, const Each& each) const;
+
+  const Picture& picture_;
+  Box box_{};  // of the edges
+  std::vector<Contour> all_{};
+  int side_ = 1;  // cells
+  Vec2 per_cell_ = Vec2::Ones();
+  std::vector<std::uint32_t> first_{}, in_cells_{};  // of each cell, and one past the last
+};
+
+SliverSearch::Contours::Contours(const SliverSearch& search, const Viewpoint& eye,
+                                 const Picture& picture, std::span<const std::uint8_t> turned,
+                                 std::span<const std::uint32_t> edges)
+    : picture_(picture) {
+  for (const std::uint32_t e : edges) {
+    box_.extend(picture.box(search.table_.edges[e]));
+  }
+  const std::vector<Vec3>& sites = search.surface_->sites;
+  for (std::size_t e = 0; e < search.table_.edges.size(); ++e) {
+    if (!search.is_contour(e, turned)) {
+      continue;
+    }
+    const auto& edge = search.table_.edges[e];
+    const Box box = picture.box(edge);
+    if (box.intersects(box_)) {
+      const Vec3& from = sites[edge[0]];
+      all_.push_back({box, edge, (sites[edge[1]] - from).cross(sight_line(from, eye))});
+    }
+  }
+  lay_grid();
+}
+
+/// About as many cells as contours.
+void SliverSearch::Contours::lay_grid() {
+  side_ = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(all_.size() + 1))));
+  for (int k = 0; k < 2; ++k) {
+    const double extent = box_.sizes()[k];
+    per_cell_[k] = extent > 0.0 ? side_ / extent : 1.0;
+  }
+  first_.assign(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_) + 1, 0);
+  for (const Contour& contour : all_) {
+    over_cells(contour.edge, [&](std::size_t cell) { ++first_[cell]; });
+  }
+  std::inclusive_scan(first_.begin(), first_.end(), first_.begin());
+  in_cells_.resize(first_.back());
+  for (std::uint32_t i = 0; i < all_.size(); ++i) {
+    over_cells(all_[i].edge, [&](std::size_t cell) { in_cells_[--first_[cell]] = i; });
+  }
+}
+
+/// Calls each(cell) for the cells that an edge passes through, row by row, and for some beside
+/// them.
+template <typename Each>
+void SliverSearch::Contours::over_cells(const std::array<std::uint32_t, 2>& edge,
+                                        const Each& each) const {
+  constexpr double kSlack = 1e-9;  // cells: rounding moves an edge less
+  constexpr double kLevel = 1e-6;  // cells: where rows say nothing
+  Vec2 from = (picture_.places[edge[0]] - box_.min()).cwiseProduct(per_cell_);
+  Vec2 to = (picture_.places[edge[1]] - box_.min()).cwiseProduct(per_cell_);
+  if (from.y() > to.y()) {
+    std::swap(from, to);
+  }
+  const auto [left, right] = std::minmax(from.x(), to.x());
+  if (right < -kSlack || left > side_ + kSlack || to.y() < -kSlack || from.y() > side_ + kSlack) {
+    return;
+  }
+  const double rise = to.y() - from.y();
+  const auto across = [&](double y) {  // where the edge is at this height, if it gets there
+    return from.x() + std::clamp((y - from.y()) / rise, 0.0, 1.0) * (to.x() - from.x());
+  };
+  const int last = nearest_cell(to.y() + kSlack);
+  for (int row = nearest_cell(from.y() - kSlack); row <= last; ++row) {
+    double a = left;
+    double b = right;
+    if (rise > kLevel) {
+      std::tie(a, b) = std::minmax({across(row), across(row + 1.0)});
+    }
+    const auto begin = static_cast<std::size_t>(row) * static_cast<std::size_t>(side_);
+    const int end = nearest_cell(b + kSlack);
+    for (int column = nearest_cell(a - kSlack); column <= end; ++column) {
+      each(begin + static_cast<std::size_t>(column));
+    }
+  }
+}
 
 SliverSearch::SliverSearch(const Surface& surface)
     : surface_(&surface), table_(build_edge_table({surface.sites, surface.faces})) {
+  pairs_.reserve(table_.edges.size());
+  edges_of_face_.resize(surface.faces.size());
+  std::vector<std::uint8_t> filled(surface.faces.size(), 0);
+  for (std::uint32_t e = 0; e < table_.edges.size(); ++e) {
+    const auto faces = table_.faces_of_edge[e];
+    pairs_.push_back(pair_at(e));
+    beside_.push_back({faces[0], faces.back()});
+    for (const std::uint32_t f : faces) {
+      edges_of_face_[f][filled[f]++] = e;
+    }
+  }
   const CandidateScene candidates(surface.sites, surface.faces);
   for (const auto& [a, b] : table_.edges) {
     const Vec3& from = surface.sites[a];
@@ -97,65 +224,50 @@ SliverSearch::SliverSearch(const Surface& surface)
   }
 }
 
-/// On which side of the edge the face lies in the picture, 1 or −1, 0 if it is seen edge on.
-int SliverSearch::side_in_picture(std::size_t edge, std::uint32_t face,
-                                  std::span<const std::uint8_t> turned) const {
-  const Triangle& t = surface_->faces[face];
-  const auto at =
-      static_cast<std::size_t>(std::find(t.begin(), t.end(), table_.edges[edge][0]) - t.begin());
-  const int along = t[(at + 1) % 3] == table_.edges[edge][1] ? 1 : -1;
-  return turned[face] == 1 ? along : turned[face] == 2 ? -along : 0;
-}
-
-bool SliverSearch::is_contour(std::size_t edge, std::span<const std::uint8_t> turned) const {
+SliverSearch::Pair SliverSearch::pair_at(std::size_t edge) const {
   const auto faces = table_.faces_of_edge[edge];
-  return faces.size() != 2 ||
-         side_in_picture(edge, faces[0], turned) * side_in_picture(edge, faces[1], turned) != -1;
+  if (faces.size() != 2) {
+    return Pair::None;
+  }
+  const auto runs_along = [&](std::uint32_t face) {
+    const Triangle& t = surface_->faces[face];
+    const auto at =
+        static_cast<std::size_t>(std::find(t.begin(), t.end(), table_.edges[edge][0]) - t.begin());
+    return t[(at + 1) % 3] == table_.edges[edge][1];
+  };
+  return runs_along(faces[0]) == runs_along(faces[1]) ? Pair::Same : Pair::Opposite;
 }
 
-std::vector<SliverSearch::Contour> SliverSearch::contours(
-    const Viewpoint& eye, const Picture& picture, std::span<const std::uint8_t> turned) const {
-  std::vector<Contour> found;
-  for (std::size_t e = 0; e < table_.edges.size(); ++e) {
-    if (is_contour(e, turned)) {
-      const auto [c, d] = table_.edges[e];
-      const Vec3& from = surface_->sites[c];
-      const auto [left, right] = std::minmax(picture.x[c], picture.x[d]);
-      const auto [low, high] = std::minmax(picture.y[c], picture.y[d]);
-      found.push_back(
-          {left, right, low, high, c, d, (surface_->sites[d] - from).cross(sight_line(from, eye))});
-    }
+/// Unless two faces lie beside each other at the edge in the picture.
+bool SliverSearch::is_contour(std::size_t edge, std::span<const std::uint8_t> turned) const {
+  if (pairs_[edge] == Pair::None) {
+    return true;
   }
-  std::sort(found.begin(), found.end(),
-            [](const Contour& a, const Contour& b) { return a.left < b.left; });
-  return found;
+  const std::uint8_t one = turned[beside_[edge][0]];
+  const std::uint8_t other = turned[beside_[edge][1]];
+  return one == 0 || other == 0 || (one == other) != (pairs_[edge] == Pair::Opposite);
 }
 
 /// Adds where the edge passes behind a contour.
 void SliverSearch::add_crossings(std::size_t edge, const Viewpoint& eye, const Picture& picture,
-                                 std::span<const Contour> contours,
-                                 std::vector<double>& cuts) const {
-  const auto [s, t] = table_.edges[edge];
-  const Vec3& a = surface_->sites[s];
-  const Vec3& b = surface_->sites[t];
-  const auto [left, right] = std::minmax(picture.x[s], picture.x[t]);
-  const auto [low, high] = std::minmax(picture.y[s], picture.y[t]);
+                                 const Contours& contours, std::vector<double>& cuts) const {
+  const auto& ends = table_.edges[edge];
+  const Vec3& a = surface_->sites[ends[0]];
+  const Vec3& b = surface_->sites[ends[1]];
+  const Box box = picture.box(ends);
   const Vec3 normal = (b - a).cross(sight_line(a, eye));
-  for (const Contour& contour : contours) {
-    if (contour.left >= right) {
-      break;
+  contours.near(ends, [&](const Contour& contour) {
+    if (!box.intersects(contour.box)) {
+      return;
     }
-    if (contour.right <= left || contour.low >= high || contour.high <= low) {
-      continue;
-    }
-    const Vec3& c = surface_->sites[contour.c];
-    const Vec3& d = surface_->sites[contour.d];
+    const Vec3& c = surface_->sites[contour.edge[0]];
+    const Vec3& d = surface_->sites[contour.edge[1]];
     const double of_a = contour.normal.dot(a - c);
     const double of_b = contour.normal.dot(b - c);
     const double of_c = normal.dot(c - a);
     const double of_d = normal.dot(d - a);
     if (!(of_a * of_b < 0.0 && of_c * of_d < 0.0)) {
-      continue;
+      return;
     }
     const double share = of_a / (of_a - of_b);
     const Vec3 here = a + share * (b - a);
@@ -163,7 +275,7 @@ void SliverSearch::add_crossings(std::size_t edge, const Viewpoint& eye, const P
     if ((there - here).dot(sight_line(here, eye)) > 0.0) {
       cuts.push_back(share);
     }
-  }
+  });
 }
 
 /// Adds the middle of each part of an edge, if a wanted face is in view beside it where it is in
@@ -171,9 +283,7 @@ void SliverSearch::add_crossings(std::size_t edge, const Viewpoint& eye, const P
 /// \param cuts in any order.
 void SliverSearch::add_places(std::size_t edge, const Viewpoint& eye, const Asked& asked,
                               std::vector<double>& cuts, EdgePlaces& result) const {
-  const auto faces = table_.faces_of_edge[edge];
-  std::uint32_t owner = faces[0];
-  std::uint32_t also = faces.back();
+  auto [owner, also] = beside_[edge];
   bool of_both = owner != also;
   if (owner != also && is_contour(edge, asked.turned)) {
     // Both on one side: the one that lies behind the other's plane is hidden by it.
@@ -210,22 +320,30 @@ void SliverSearch::add_places(std::size_t edge, const Viewpoint& eye, const Aske
 
 EdgePlaces SliverSearch::places(const Viewpoint& eye, const Asked& asked) const {
   EdgePlaces result;
+  std::vector<std::uint32_t> edges;
+  for (std::size_t f = 0; f < asked.wanted.size(); ++f) {
+    if (asked.wanted[f] != 0) {
+      edges.insert(edges.end(), edges_of_face_[f].begin(), edges_of_face_[f].end());
+    }
+  }
+  if (edges.empty()) {
+    return result;
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   const Picture picture(*surface_, eye);
   if (!picture.is_whole) {
     return result;
   }
-  const std::vector<Contour> all = contours(eye, picture, asked.turned);
+  const Contours contours(*this, eye, picture, asked.turned, edges);
   std::vector<double> cuts;
-  for (std::size_t e = 0; e < table_.edges.size(); ++e) {
-    const auto faces = table_.faces_of_edge[e];
-    const bool is_wanted = std::any_of(faces.begin(), faces.end(),
-                                       [&](std::uint32_t f) { return asked.wanted[f] != 0; });
-    if (!is_wanted || faces.size() > 2) {
+  for (const std::uint32_t e : edges) {
+    if (table_.faces_of_edge[e].size() > 2) {
       continue;
     }
     cuts.assign(pierced_.begin() + static_cast<std::ptrdiff_t>(first_pierced_[e]),
                 pierced_.begin() + static_cast<std::ptrdiff_t>(first_pierced_[e + 1]));
-    add_crossings(e, eye, picture, all, cuts);
+    add_crossings(e, eye, picture, contours, cuts);
     if (!cuts.empty()) {  // else the ends tell
       add_places(e, eye, asked, cuts, result);
     }

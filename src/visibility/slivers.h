@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -28,15 +29,12 @@ struct EdgePlaces {
   std::vector<std::uint32_t> also{};    ///< The other face at the edge, or the same.
   std::vector<std::uint8_t> of_both{};  ///< 1 where that one is in view as well.
   std::vector<double> lengths{};        ///< Of the edge's part with one answer, in the frame.
+  std::vector<std::uint8_t> seen{};     ///< Of each place; for others to fill in.
 };
 
 /// Immutable after construction.
 class SliverSearch {
  public:
-  /// The work grows with the square of the number of faces, and what a face weighs falls: beyond so
-  /// many it is not worth it. [ours, by measurement]
-  static constexpr std::size_t kMostFaces = 4000;
-
   /// Finds where edges pass through faces. \param surface must outlive this.
   explicit SliverSearch(const Surface& surface);
 
@@ -52,21 +50,25 @@ class SliverSearch {
   [[nodiscard]] EdgePlaces places(const Viewpoint& eye, const Asked& asked) const;
 
  private:
+  /// The faces at an edge: two that run along it in opposite ways, two that run the same way, or
+  /// not two.
+  enum class Pair : std::uint8_t { Opposite, Same, None };
   struct Picture;
   struct Contour;
+  class Contours;
 
+  [[nodiscard]] Pair pair_at(std::size_t edge) const;
   [[nodiscard]] bool is_contour(std::size_t edge, std::span<const std::uint8_t> turned) const;
-  [[nodiscard]] int side_in_picture(std::size_t edge, std::uint32_t face,
-                                    std::span<const std::uint8_t> turned) const;
-  [[nodiscard]] std::vector<Contour> contours(const Viewpoint& eye, const Picture& picture,
-                                              std::span<const std::uint8_t> turned) const;
   void add_crossings(std::size_t edge, const Viewpoint& eye, const Picture& picture,
-                     std::span<const Contour> contours, std::vector<double>& cuts) const;
+                     const Contours& contours, std::vector<double>& cuts) const;
   void add_places(std::size_t edge, const Viewpoint& eye, const Asked& asked,
                   std::vector<double>& cuts, EdgePlaces& result) const;
 
   const Surface* surface_;
   EdgeTable table_;
+  std::vector<Pair> pairs_{};                           // of each edge
+  std::vector<std::array<std::uint32_t, 2>> beside_{};  // first and last face at each edge
+  std::vector<std::array<std::uint32_t, 3>> edges_of_face_{};
   std::vector<std::size_t> first_pierced_{0};  // of each edge in pierced_, and one past the last
   std::vector<double> pierced_{};              // share of the way along the edge
 };

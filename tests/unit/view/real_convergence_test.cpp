@@ -16,7 +16,7 @@
 namespace vantage {
 namespace {
 
-/// A model and the set of views that it is looked at from: 42 at level 1, 162 at level 2.
+/// A model and the set of views that it is looked at from: 12 at level 0, 42 at 1, 162 at 2.
 struct Case {
   const char* file;
   int level;
@@ -97,7 +97,8 @@ INSTANTIATE_TEST_SUITE_P(DataPack, SamplesTwiceAsNear,
                                          Case{"clean/sh3d_cat.obj", 2},
                                          Case{"clean/sh3d_dog.obj", 2}, Case{"clean/block.off", 1},
                                          Case{"clean/torus.obj", 1},
-                                         Case{"clean/triceratops.off", 1}));
+                                         Case{"clean/triceratops.off", 1},
+                                         Case{"paper/rocker-arm_10044.off", 0}));
 
 }  // namespace
 }  // namespace vantage

@@ -74,13 +74,18 @@ TEST(FaceVisibility, FindsASliverNarrowerThanItsPieces) {
   EXPECT_NEAR(seen, 4.0 * strip, 0.5 * 4.0 * strip);
 }
 
-/// Faces seen from the front of two boxes that stand side by side, `gap` apart and aside of the
-/// middle, before a smaller box that is behind the gap.
-std::vector<SeenFace> faces_seen_through(double gap, const Viewpoint& eye = kAbove) {
-  const TriMesh pair = test::together(test::box(1.0, 1.0, 1.0, 1), test::box(3.0, 1.0, 1.0, 1),
+/// Two boxes that stand side by side, `gap` apart and aside of the middle, before a smaller box
+/// that is behind the gap.
+TriMesh boxes_with_gap(double gap, int subdivisions) {
+  const int n = subdivisions;
+  const TriMesh pair = test::together(test::box(1.0, 1.0, 1.0, n), test::box(3.0, 1.0, 1.0, n),
                                       Vec3(1.0 + gap, 0.0, 0.0));
-  const TriMesh mesh = test::together(pair, test::box(0.6, 0.4, 0.2, 1), Vec3(0.7123, 0.3, -2.0));
-  return FaceVisibility(mesh, {FaceSides::Front}).seen_faces(eye);
+  return test::together(pair, test::box(0.6, 0.4, 0.2, n), Vec3(0.7123, 0.3, -2.0));
+}
+
+/// Faces of these seen from the front.
+std::vector<SeenFace> faces_seen_through(double gap, const Viewpoint& eye = kAbove) {
+  return FaceVisibility(boxes_with_gap(gap, 1), {FaceSides::Front}).seen_faces(eye);
 }
 
 TEST(FaceVisibility, SeesFacesThroughAGapThatNoSampleMeets) {
@@ -106,6 +111,17 @@ TEST(FaceVisibility, SeesFacesThroughAGapInPerspectiveToo) {
 
 TEST(FaceVisibility, SeesNothingThroughAGapThatIsClosed) {
   EXPECT_EQ(faces_seen_through(-1e-6).size(), 4U);
+}
+
+TEST(FaceVisibility, OfManyFacesSeesTheDeepestThroughAGapThatNoSampleMeets) {
+  for (const double gap : {1e-6, -1e-6}) {
+    const TriMesh mesh = boxes_with_gap(gap, 20);  // 14 400 faces
+    const Sphere sphere = enclosing_sphere(mesh.positions);
+    const double deepest = gap > 0.0 ? -1.8 : 1.0;  // fronts of the small box and of the others
+    EXPECT_NEAR(FaceVisibility(mesh, {FaceSides::Front}).seen_surface(kAbove).deepest,
+                0.5 - (deepest - sphere.centre.z()) / sphere.diameter, 1e-12)
+        << gap;
+  }
 }
 
 TEST(FaceVisibility, SeesTheFaceThatAnEdgeIsSeenOfOnlyBetweenWhereItPassesThroughOthers) {

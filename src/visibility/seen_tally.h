@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "vantage/core/camera.h"
+#include "vantage/core/vec3.h"
+#include "vantage/mesh/measures.h"
+#include "vantage/visibility/face_visibility.h"
+
+#include "visibility/surface.h"
+
+/// \file
+/// Areas, areas in the picture and depths of what is seen, added up face by face. Inline, as it is
+/// asked about every piece of every view.
+
+namespace vantage {
+
+/// Depth along the line of sight to the middle of the enclosing sphere.
+struct Depths {
+  Depths(const Surface& surface, const Sphere& sphere, const Viewpoint& local)
+      : centre(surface.frame.to_frame(sphere.centre)),
+        towards(local.projection == Projection::Perspective
+                    ? Vec3((local.position - centre).normalized())
+                    : local.position),
+        per_diameter(1.0 / (sphere.diameter * surface.frame.scale)) {}
+
+  /// From the side of the sphere next to the eye, over its diameter.
+  [[nodiscard]] double at(const Vec3& place) const {
+    return std::clamp(0.5 - (place - centre).dot(towards) * per_diameter, 0.0, 1.0);
+  }
+
+  Vec3 centre;          ///< Of the sphere.
+  Vec3 towards;         ///< Unit, from there to the eye.
+  double per_diameter;  ///< One over the sphere's.
+};
+
+/// For one view.
+class Tally {
+ public:
+  Tally(const Surface& surface, const Depths& depths, const Viewpoint& local, SeenSurface& result)
+      : surface_(surface),
+        local_(local),
+        is_perspective_(local.projection == Projection::Perspective),
+        depths_(depths),
+        plane_((local.position - depths.centre).dot(depths.towards)),
+        result_(result),
+        has_(surface.faces.size(), 0) {}
+
+  /// Whether something of a face was added.
+  [[nodiscard]] bool has(std::size_t face) const { return has_[face] != 0; }
+
+  /// Adds a part of a face. \pre faces come one after the other. \param area model units squared.
+  void add(std::uint32_t face, const Vec3& place, double area) {
+    if (face != last_) {
+      last_ = face;
+      has_[face] = 1;
+      normal_ = &surface_.area_vectors[face];
+      // Finite even for faces of next to no area.
+      scale_ =
+          std::min((is_perspective_ ? plane_ * plane_ : 1.0) / surface_.twice_areas[face], 1e300);
+      result_.faces.push_back({.face = surface_.face_of_mesh[face]});
+    }
+    const double projected = area * scale_ * shrink(place);
+    result_.faces.back().visible_area += area;
+    result_.faces.back().projected_area += projected;
+    const double depth = depths_.at(place);
+    constexpr auto kBins = static_cast<double>(SeenSurface::kDepthBins);
+    result_.depths[static_cast<std::size_t>(std::min(depth * kBins, kBins - 1.0))] += projected;
+    result_.deepest = std::max(result_.deepest, depth);
+  }
+
+ private:
+  /// Projected area over area and `scale_`, at a place of the face at hand.
+  [[nodiscard]] double shrink(const Vec3& place) const {
+    if (!is_perspective_) {
+      return std::abs(normal_->dot(depths_.towards));
+    }
+    const Vec3 sight_line = local_.position - place;
+    const double depth = sight_line.dot(depths_.towards);
+    return depth > 0.0 ? std::abs(normal_->dot(sight_line)) / (depth * depth * depth) : 0.0;
+  }
+
+  const Surface& surface_;
+  const Viewpoint& local_;
+  bool is_perspective_;
+  const Depths& depths_;
+  double plane_;  // how far the eye is from the plane of projection
+  SeenSurface& result_;
+  std::vector<std::uint8_t> has_;  // of each face
+  std::uint32_t last_ = Surface::kNoSite;
+  const Vec3* normal_ = nullptr;  // of the face at hand, as long as twice its area
+  double scale_ = 1.0;            // makes up for that, and for the plane's distance
+};
+
+}  // namespace vantage
