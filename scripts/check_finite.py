@@ -22,7 +22,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-SUFFIXES = {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".xyz", ".pcd", ".gz", ".drc"}
+SUFFIXES = {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".xyz", ".pcd", ".gz", ".drc", ".3mf"}
 EYES = [(0, 0, 0), (1e-3, 1e-3, 1e-3), (0.5, 0.5, 0.5), (1e3, -1e3, 10), (-1e12, 1e12, 1e12), (1e-300, 0, 0)]
 BYTES = 8 << 30
 BEGIN, END = "<!-- check_finite begins -->\n", "<!-- check_finite ends -->"
@@ -91,11 +91,10 @@ def check(program, model, folder):
         raise Failure("eyes are refused where directions are not")
     more, dark = program.check_scores(text)
     results = folder / "compared"
-    if program.run("compare", model, "-o", results, "--no-images", "-q", "--method",
-                   "kssm,mesh-saliency,vmi,skeleton-visibility,silhouette-entropy,depth-distribution") is None:
+    if program.run("compare", model, "-o", results, "--no-images", "-q", "--method", "all") is None:
         raise Failure("compare refuses what score does not")
     json.loads((results / "compare.json").read_text(), parse_constant=refuse_nonfinite)
-    for table in ("compare.csv", "agreement.csv"):
+    for table in ("compare.csv", "agreement.csv", "sphere.csv"):
         for row in csv.reader(io.StringIO((results / table).read_text())):
             if any(cell.lower().lstrip("+-") in ("nan", "inf", "infinity") for cell in row):
                 raise Failure(f"{table} holds {row}")

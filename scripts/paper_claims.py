@@ -13,6 +13,7 @@ minutes on two cores.
 import argparse
 import csv
 import io
+import itertools
 import json
 import subprocess
 import sys
@@ -98,6 +99,20 @@ def jumps(program, model):
     return result
 
 
+def degrees_between(a, b):
+    return float(np.degrees(np.arccos(np.clip(np.dot(a, b), -1, 1))))
+
+
+def from_best_initial(program, model):
+    """Degrees from the best of the paper's initial views, the corners of a cube, to the best view."""
+    corners = np.array(list(itertools.product((-1.0, 1.0), repeat=3))) / np.sqrt(3.0)
+    file = program.folder / "corners.csv"
+    file.write_text("dx,dy,dz\n" + "".join(",".join(map(repr, map(float, d))) + "\n" for d in corners))
+    scores = program.scores(model, "kssm", "--preset", "paper", "--directions", file)["kssm"]
+    best = program.view(model, "--preset", "paper", "--search", "global")["best"]["direction"]
+    return degrees_between(corners[scores.argmax()], best)
+
+
 def topology(program, model, views):
     """Skeleton visibility and entropy at the extreme views, and over the sphere."""
     sphere = json.loads(program.run("score", model, "--sphere", 2, "--method", "projected-area", "--json"))
@@ -158,8 +173,9 @@ def measure(program, name, model):
     views = extreme_views(program, model)
     found["genus"], found["cycles"] = default["model"]["genus"], default["skeleton"]["cycles"]
     found["topology"] = topology(program, model, views)
-    found["angle"] = {end: float(np.degrees(np.arccos(np.clip(np.dot(*[
-        views[m][end]["direction"] for m in METHODS]), -1, 1)))) for end in ("best", "worst")}
+    found["from_initial"] = from_best_initial(program, model)
+    found["angle"] = {end: degrees_between(*[views[m][end]["direction"] for m in METHODS])
+                      for end in ("best", "worst")}
     kssm, thickness = (program.map(model, m) for m in ("kssm", "thickness"))
     saliency = program.map(model, "mesh-saliency")
     found["displacement"] = rank_correlation(kssm.quality, thickness.quality)

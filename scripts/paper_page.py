@@ -3,6 +3,8 @@
 
 HOLDS, PARTLY, NOT = "holds", "partly", "does not hold"
 
+NEIGHBOURING_CORNERS = 70.53  # degrees: arccos(1/3)
+
 HEAD = """# The paper's claims, checked
 
 Made by `scripts/paper_claims.py` from the program's own output: no number and no verdict on this page is
@@ -123,6 +125,12 @@ def search_rows(models, certified):
          each(models, lambda f: " / ".join(percent(x) for x in steps(f))),
          verdict([steps(f)[1] < 0.65 * steps(f)[0] and steps(f)[2] < 0.65 * steps(f)[1]
                   for f in models.values()])),
+        ("The best view lies in the 1-ring of the best of the initial views, corners of a cube: no farther than "
+         f"its neighbours, {NEIGHBOURING_CORNERS:.1f}°",
+         "`vantage score MODEL --preset paper --directions FILE` and `vantage view MODEL --preset paper "
+         "--search global`: angle between the two",
+         each(models, lambda f: f"{f['from_initial']:.0f}°"),
+         verdict([f["from_initial"] <= NEIGHBOURING_CORNERS for f in models.values()])),
         ("The best view is selected accurately by the rapid search: 99 % of a dense search's score",
          "`vantage view MODEL --preset paper --certify`",
          each(certified, lambda f: percent(f["paper"]["dense"]["best_ratio"], 2)),

@@ -61,6 +61,7 @@ struct CompareCommand {
     output.add("compare.json", json);
     output.add("compare.csv", comparison_csv(comparison));
     output.add("agreement.csv", agreement_csv(comparison));
+    output.add("sphere.csv", sphere_csv(comparison));
     output.add("timings.csv", comparison_timings_csv(comparison));
     if (!no_images) {
       output.add("sheet.png", png_bytes(comparison_sheet(shape, comparison, up.axis, options,

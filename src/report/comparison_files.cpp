@@ -156,6 +156,24 @@ std::string agreement_csv(const Comparison& comparison) {
   return csv;
 }
 
+std::string sphere_csv(const Comparison& comparison) {
+  std::string csv = "dx,dy,dz";
+  for (const ComparedMethod& method : comparison.methods) {
+    csv += ',' + method.measure.name;
+  }
+  csv += '\n';
+  for (std::size_t v = 0; v < comparison.set.directions.size(); ++v) {
+    const Vec3& d = comparison.set.directions[v];
+    std::string row;
+    add_numbers(row, {d.x(), d.y(), d.z()});
+    for (const ComparedMethod& method : comparison.methods) {
+      add_numbers(row, {method.values[v]});
+    }
+    csv += row.substr(1) + '\n';
+  }
+  return csv;
+}
+
 std::string comparison_html(const Model& model, const Comparison& comparison) {
   std::string html =
       "<!doctype html>\n<meta charset=\"utf-8\">\n<title>" + escaped(model.name) +

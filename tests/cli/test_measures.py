@@ -117,7 +117,7 @@ class Measures(ProgramTest):
         for folder, threads in (("a", 1), ("b", 2)):
             self.vantage("compare", FAN, "-o", folder, "--method", "kssm,mesh-saliency,i2",
                          "--threads", threads)
-        names = {"sheet.png", "index.html", "compare.csv", "agreement.csv", "compare.json"}
+        names = {"sheet.png", "index.html", "compare.csv", "agreement.csv", "sphere.csv", "compare.json"}
         self.assertEqual({p.name for p in (self.dir / "a").iterdir()}, names | {"timings.csv"})
         for name in names:
             self.assertEqual((self.dir / "a" / name).read_bytes(), (self.dir / "b" / name).read_bytes(), name)
@@ -125,6 +125,12 @@ class Measures(ProgramTest):
         self.assertEqual(len(report["agreement"]), 3)
         for pair in report["agreement"]:
             self.assertLessEqual(pair["best_folded_deg"], pair["best_deg"])
+        views = list(csv.DictReader(io.StringIO((self.dir / "a" / "sphere.csv").read_text())))
+        self.assertEqual(len(views), 642)
+        for method in report["methods"]:  # the search climbs from the best of these
+            chosen = max if method["better"] == "max" else min
+            best = chosen(float(view[method["method"]]) for view in views)
+            self.assertEqual(chosen(best, method["best"]["score"]), method["best"]["score"], method["method"])
 
     def test_compare_prints_seconds_only_where_bytes_may_differ(self):
         printed = json.loads(self.vantage("compare", FAN, "-o", "out", "--method", "plemenos,vmi",

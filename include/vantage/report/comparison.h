@@ -71,6 +71,8 @@ std::string comparison_json(const Model& model, const Comparison& comparison, Up
 std::string comparison_csv(const Comparison& comparison);
 /// agreement.csv: one row a pair of methods.
 std::string agreement_csv(const Comparison& comparison);
+/// sphere.csv: dx,dy,dz and the value by each method, one row a view of the set.
+std::string sphere_csv(const Comparison& comparison);
 /// A page with sheet.png and all tables but timings.csv, which it refers to.
 std::string comparison_html(const Model& model, const Comparison& comparison);
 /// timings.csv: what,seconds. Other bytes each time.

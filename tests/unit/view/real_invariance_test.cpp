@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What only looks at areas, outlines and depths does not change where a model is turned, moved and
-// scaled: on meshes in the folder that VANTAGE_DATA names.
+// scaled, nor do scores by map and skeleton where these are moved with it: on meshes in the folder
+// that VANTAGE_DATA names.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,6 +14,8 @@
 #include <gtest/gtest.h>
 
 #include "vantage/io/model.h"
+#include "vantage/report/measured_shape.h"
+#include "vantage/significance/mesh_saliency.h"
 #include "vantage/view/measurer.h"
 
 #include "support/data_pack.h"
@@ -43,6 +46,34 @@ MeasureValues values_of(const OrientedMesh& oriented, const TriMesh& surface) {
   subject.sides = oriented.sides;
   subject.camera = {.sphere = enclosing_sphere(referenced_points(surface))};
   return ViewMeasurer(subject, measures_of_areas(), 1).set_values();
+}
+
+/// Those that look at a map or at the skeleton.
+std::vector<Measure> measures_of_maps() {
+  std::vector<Measure> measures;
+  for (const Measure& measure : builtin_measures()) {
+    if (measure.needs.kssm || measure.needs.saliency || measure.needs.skeleton) {
+      measures.push_back(measure);
+    }
+  }
+  return measures;
+}
+
+MeasureValues values_of(const ShapeAnalysis& shape, std::span<const double> saliency,
+                        Weight weight) {
+  MeasureSubject subject = measure_subject(shape, {.weight = weight});
+  subject.saliency = saliency;
+  return ViewMeasurer(subject, measures_of_maps(), 1).set_values();
+}
+
+/// With map and skeleton as they were.
+ShapeAnalysis moved(ShapeAnalysis shape, double scale, double angle_rad, const Vec3& axis,
+                    const Vec3& shift) {
+  shape.surface = test::moved(shape.surface, scale, angle_rad, axis, shift);
+  shape.sphere = enclosing_sphere(referenced_points(shape.surface));
+  std::vector<Vec3>& nodes = shape.skeleton.graph.nodes;
+  nodes = test::moved({nodes, {}}, scale, angle_rad, axis, shift).positions;
+  return shape;
 }
 
 /// A fifth of a turn about a corner of the icosahedron carries the set of views into itself.
@@ -87,9 +118,9 @@ class MeasuresOfAMovedModel : public test::DataPackTest<testing::TestWithParam<C
   }
 
   /// \param to the view there of each view here.
-  static void expect_same(const MeasureValues& here, const MeasureValues& there,
-                          const std::vector<std::size_t>& to, double of_range) {
-    const std::vector<Measure> measures = measures_of_areas();
+  static void expect_same(const std::vector<Measure>& measures, const MeasureValues& here,
+                          const MeasureValues& there, const std::vector<std::size_t>& to,
+                          double of_range) {
     for (std::size_t m = 0; m < measures.size(); ++m) {
       const auto [low, high] = std::minmax_element(here[m].begin(), here[m].end());
       double change = 0.0;
@@ -109,7 +140,8 @@ TEST_P(MeasuresOfAMovedModel, AreThoseOfTheModelWhereItWas) {
     SCOPED_TRACE("scaled by " + std::to_string(scale));
     const Vec3 shift = Vec3(1, -2, 3) * (scale * size);
     const TriMesh there = test::moved(oriented.mesh, scale, kTurn, kAxis, shift);
-    expect_same(here, values_of(oriented, there), turned_views(), GetParam().of_range);
+    expect_same(measures_of_areas(), here, values_of(oriented, there), turned_views(),
+                GetParam().of_range);
   }
 }
 
@@ -122,7 +154,21 @@ TEST_P(MeasuresOfAMovedModel, AreTheSameWhereNothingIsRounded) {
   const MeasureValues here = values_of(oriented, oriented.mesh);
   std::vector<std::size_t> same(here.front().size());
   std::iota(same.begin(), same.end(), std::size_t{0});
-  expect_same(here, values_of(oriented, larger), same, kStrict);
+  expect_same(measures_of_areas(), here, values_of(oriented, larger), same, kStrict);
+}
+
+TEST_P(MeasuresOfAMovedModel, ByMapsAndSkeletonAreTheSameWhereTheseMoveWithIt) {
+  const ShapeAnalysis shape =
+      moved(analyse_shape(load_model((root() / GetParam().file).string()), {}), 1.0, 0.3,
+            Vec3(1, 2, 3), Vec3::Zero());
+  const std::vector<double> saliency = compute_mesh_saliency(shape.surface).of_vertex;
+  for (const Weight weight : {Weight::Vertex, Weight::Area}) {
+    const MeasureValues here = values_of(shape, saliency, weight);
+    const Vec3 shift = Vec3(1, -2, 3) * (1e-6 * shape.sphere.diameter);
+    const ShapeAnalysis there = moved(shape, 1e-6, kTurn, kAxis, shift);
+    expect_same(measures_of_maps(), here, values_of(there, saliency, weight), turned_views(),
+                GetParam().of_range);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(DataPack, MeasuresOfAMovedModel,
