@@ -161,6 +161,7 @@ def main():
     parser.add_argument("--vantage", default="build/release/apps/vantage/vantage")
     parser.add_argument("--models", type=int, default=20)
     parser.add_argument("--converged", type=int, default=4, help="models of the convergence table")
+    parser.add_argument("--also", type=Path, nargs="*", default=[], help="more models of the convergence table")
     parser.add_argument("--moved", type=int, default=2, help="models of the similarity table")
     parser.add_argument("--page", type=Path, help="also put the tables into this page, between its marks")
     options = parser.parse_args()
@@ -173,7 +174,7 @@ def main():
     lines = [f"### Identities on {len(models)} real meshes", "", *text, "",
              f"The largest difference is {worst:.1e} bits; the bar is {IDENTITY_BAR:.0e}.", "",
              "### Convergence: largest change over the range where samples are twice as near", "",
-             *convergence(program, sampled), "",
+             *convergence(program, sampled + options.also), "",
              "### Similarity: largest change over the range, of " + ", ".join(m.stem for m in moved), ""]
     with tempfile.TemporaryDirectory() as folder:
         lines += similarity(program, moved, Path(folder))
