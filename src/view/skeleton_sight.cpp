@@ -33,11 +33,10 @@ std::vector<double> shown_nodes(const MeasuredModel& model, const SightTable& si
   std::vector<double> facing = seen;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     const auto& [a, b, c] = mesh.triangles[f];
-    if ((sight.vertices[a] & sight.vertices[b] & sight.vertices[c]) != 0) {
-      continue;  // most of those that face the eye
-    }
+    // Nothing is hidden of most faces that face the eye.
+    const bool is_seen = (sight.vertices[a] & sight.vertices[b] & sight.vertices[c]) != 0;
     const FacePlane& plane = model.planes[f];
-    if (plane.normal.dot(eye) > (is_perspective ? plane.offset : 0.0)) {
+    if (!is_seen && plane.normal.dot(eye) > (is_perspective ? plane.offset : 0.0)) {
       for (const std::uint32_t v : mesh.triangles[f]) {
         const std::uint32_t node = model.given.node_of_vertex[v];
         if (sight.vertices[v] == 0 && node < count) {
