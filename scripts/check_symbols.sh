@@ -18,7 +18,7 @@ classes=$(grep -rhoE '\b(class|struct|namespace) [A-Za-z_][A-Za-z0-9_]*' include
 declared=$(grep -rhoE '\b[A-Za-z_][A-Za-z0-9_]*\s*\(' include | tr -d ' (' | sort -u)
 symbols() {
   nm -C --defined-only "$build"/libvantage.* 2>/dev/null | awk '$2 == "T"' | cut -d' ' -f3- |
-    grep -E '^vantage::' | grep -vE '\(anonymous namespace\)|\{lambda|\[clone|\[abi' |
+    sed 's/\[abi:cxx11\]//' | grep -E '^vantage::' | grep -vE '\(anonymous namespace\)|\{lambda|\[clone' |
     awk -v names="$declared" -v classes="$classes" 'BEGIN {
         n = split(names, list, "\n"); for (i = 1; i <= n; ++i) known[list[i]] = 1
         n = split(classes, list, "\n"); for (i = 1; i <= n; ++i) owner[list[i]] = 1 }
