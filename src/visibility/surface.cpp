@@ -76,6 +76,41 @@ std::vector<LooseFace> faces_with_area(const TriMesh& mesh, const WeldedMesh& we
   return faces;
 }
 
+/// Corners in an order that faces of the same place share: of faces that are seen from their fronts
+/// alone only those that also run the same way.
+Triangle place_of(const LooseFace& face) {
+  Triangle corners = face.corners;
+  if (face.sides == FaceSides::Both) {
+    std::sort(corners.begin(), corners.end());
+  } else {
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  }
+  return corners;
+}
+
+/// The first of the faces that stand in one place: the others neither show nor hide anything more, and
+/// each would be held against all of them.
+std::vector<LooseFace> without_repeated(const std::vector<LooseFace>& faces) {
+  std::vector<std::pair<Triangle, std::uint32_t>> places;
+  places.reserve(faces.size());
+  for (std::uint32_t f = 0; f < faces.size(); ++f) {
+    places.emplace_back(place_of(faces[f]), f);
+  }
+  std::sort(places.begin(), places.end());
+  std::vector<std::uint8_t> is_repeated(faces.size(), 0);
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    is_repeated[places[i].second] = places[i].first == places[i - 1].first ? 1 : 0;
+  }
+  std::vector<LooseFace> first;
+  first.reserve(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (is_repeated[f] == 0) {
+      first.push_back(faces[f]);
+    }
+  }
+  return first;
+}
+
 /// Numbers the welded vertices that faces use along a Morton curve.
 std::vector<std::uint32_t> number_sites(const std::vector<Vec3>& positions,
                                         const std::vector<LooseFace>& faces, Surface& surface) {
@@ -204,7 +239,8 @@ Surface prepare_surface(const TriMesh& mesh, std::span<const FaceSides> sides) {
   for (const Vec3& p : welded.mesh.positions) {
     positions.push_back(surface.frame.to_frame(p));
   }
-  const std::vector<LooseFace> faces = faces_with_area(mesh, welded, positions, sides);
+  const std::vector<LooseFace> faces =
+      without_repeated(faces_with_area(mesh, welded, positions, sides));
   const std::vector<std::uint32_t> site_of_welded = number_sites(positions, faces, surface);
 
   std::vector<Vec3> centres;

@@ -13,7 +13,7 @@
 
 /// \file
 /// A mesh made ready for visibility queries: in a UnitFrame, one vertex per position, without
-/// faces of zero area, everything in an order in which neighbours in space are close in memory.
+/// faces of zero area and repeated ones, everything in an order in which neighbours in space are close in memory.
 
 namespace vantage {
 

@@ -61,6 +61,33 @@ TEST(FaceVisibility, SplitsAFaceThatIsPartlyHidden) {
   EXPECT_NEAR(faces[2].visible_area + faces[3].visible_area, 8.0, 1e-12);
 }
 
+TEST(FaceVisibility, LooksOnceAtFacesThatStandInOnePlace) {
+  // Of nasty models each of hundreds of repeated faces would be held against all others.
+  const TriMesh sheet = test::sheet(4.0, 4.0, 1);
+  TriMesh repeated = sheet;
+  for (int i = 0; i < 9; ++i) {
+    repeated = test::together(repeated, sheet, Vec3::Zero());
+  }
+  const FaceVisibility once(sheet, {FaceSides::Both});
+  const FaceVisibility often(repeated, {FaceSides::Both});
+  EXPECT_EQ(often.sample_count(), once.sample_count());
+  EXPECT_NEAR(visible_area(often.seen_faces(kAbove)), 16.0, 1e-12);
+}
+
+TEST(FaceVisibility, SeesEachOfTwoSheetsBackToBackFromItsSide) {
+  const TriMesh sheet = test::sheet(4.0, 4.0, 1);
+  TriMesh back = sheet;
+  for (Triangle& t : back.triangles) {
+    std::swap(t[0], t[1]);
+  }
+  const FaceVisibility both(test::together(sheet, back, Vec3::Zero()), {FaceSides::Front});
+  const auto above = both.seen_faces(kAbove);
+  const auto below = both.seen_faces({Projection::Orthographic, Vec3(0.0, 0.0, -1.0)});
+  ASSERT_EQ(above.size(), 2U);
+  ASSERT_EQ(below.size(), 2U);
+  EXPECT_NE(above[0].face / 2, below[0].face / 2);
+}
+
 TEST(FaceVisibility, FindsASliverNarrowerThanItsPieces) {
   // Of a sheet of 4 × 4 all but a strip at one side lies under another sheet.
   const double strip = 0.2 * FaceVisibility::kSpacing * std::hypot(4.0, 4.0, 1.0);
