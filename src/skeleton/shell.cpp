@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
@@ -19,6 +20,13 @@ constexpr float kSkip = 1e-4F;
 constexpr double kRounding = 1e-9;
 /// Rows of cells are taken this much wider, in cells, so that rounding loses no face.
 constexpr double kSlack = 0.01;
+/// A segment that passes a face's plane farther than this share of the model from the face does not
+/// meet it, unless it runs nearly along the plane, where rounding moves the place.
+constexpr double kBeside = 1e-9;
+constexpr double kAlongPlane = 1e-6;
+/// Where a segment is looked at before it is cut.
+constexpr std::array kFirstLooks{0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875};
+constexpr double kFar = std::numeric_limits<double>::infinity();
 
 TriMesh in_frame(const TriMesh& mesh, const UnitFrame& frame) {
   TriMesh moved = mesh;
@@ -71,6 +79,7 @@ void Shell::sort_into_cells() {
   const Vec3 size = box.size();
   size.minCoeff(&up_);  // along the shortest side, projections overlap least
   low_ = box.low;
+  size_ = size.maxCoeff();
   const double width = size[(up_ + 1) % 3];
   const double height = size[(up_ + 2) % 3];
   const double wanted = std::max(1.0, static_cast<double>(mesh_.triangles.size()) / kFacesPerCell);
@@ -92,8 +101,10 @@ void Shell::sort_into_cells() {
     const auto& c = cell_of_vertex[t[2]];
     const auto [left, right] = std::minmax({a[0], b[0], c[0]});
     const auto [bottom, top] = std::minmax({a[1], b[1], c[1]});
+    const bool slanted = right - left > 1 && top - bottom > 1;
     for (int y = bottom; y <= top; ++y) {
-      for (int x = left; x <= right; ++x) {
+      const auto [first, last] = slanted ? cells_in_row(t, y) : std::array{left, right};
+      for (int x = first; x <= last; ++x) {
         visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_[0]) +
               static_cast<std::size_t>(x));
       }
@@ -111,6 +122,36 @@ void Shell::sort_into_cells() {
   for (std::uint32_t f = 0; f < mesh_.triangles.size(); ++f) {
     for_each_cell(mesh_.triangles[f], [&](std::size_t cell) { faces_[cursor[cell]++] = f; });
   }
+}
+
+/// The first and the last cell of a row that the face's projection touches; a needle that lies askew
+/// fills few of the cells of its box.
+std::array<int, 2> Shell::cells_in_row(const Triangle& t, int row) const {
+  const int across = (up_ + 1) % 3;
+  const int along = (up_ + 2) % 3;
+  // Points beyond the grid count to its outermost cells.
+  const double bottom = row == 0 ? -kFar : low_[along] + (row - kSlack) * cell_size_;
+  const double top = row + 1 == cells_[1] ? kFar : low_[along] + (row + 1 + kSlack) * cell_size_;
+  Vec3 left = Vec3::Constant(kFar);
+  Vec3 right = Vec3::Constant(-kFar);
+  const auto touch = [&](double x) {
+    left[across] = std::min(left[across], x);
+    right[across] = std::max(right[across], x);
+  };
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Vec3& p = mesh_.positions[t.at(c)];
+    const Vec3& q = mesh_.positions[t.at((c + 1) % 3)];
+    if (p[along] >= bottom && p[along] <= top) {
+      touch(p[across]);
+    }
+    for (const double border : {bottom, top}) {
+      if ((p[along] < border) != (q[along] < border)) {
+        touch(p[across] + (border - p[along]) / (q[along] - p[along]) * (q[across] - p[across]));
+      }
+    }
+  }
+  const Vec3 margin = Vec3::Constant(kSlack * cell_size_);
+  return {cell_of(left - margin)[0], cell_of(right + margin)[0]};
 }
 
 std::array<int, 2> Shell::cell_of(const Vec3& p) const {
@@ -145,24 +186,30 @@ int Shell::crossing(std::uint32_t from, std::uint32_t to, const Vec3& p) const {
 
 /// How often the face, seen along the up axis, winds around the point, if it lies above it.
 int Shell::winding_of_face(const Triangle& t, const Vec3& p) const {
+  const Vec3& a = mesh_.positions[t[0]];
+  const Vec3& b = mesh_.positions[t[1]];
+  const Vec3& c = mesh_.positions[t[2]];
+  const auto [low, high] = std::minmax({a[up_], b[up_], c[up_]});
+  const int x = (up_ + 1) % 3;
+  const int y = (up_ + 2) % 3;
+  const bool above = a[y] > p[y];
+  if (!(high > p[up_]) || (above == (b[y] > p[y]) && above == (c[y] > p[y]))) {
+    return 0;  // below the point, or no edge passes it
+  }
   const int winding = crossing(t[0], t[1], p) + crossing(t[1], t[2], p) + crossing(t[2], t[0], p);
   if (winding == 0) {
     return 0;
   }
-  const int x = (up_ + 1) % 3;
-  const int y = (up_ + 2) % 3;
   std::array<double, 3> share{};
   double total = 0.0;
   double height = 0.0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const Vec3 u = mesh_.positions[t.at((c + 1) % 3)] - p;
-    const Vec3 v = mesh_.positions[t.at((c + 2) % 3)] - p;
-    share.at(c) = u[x] * v[y] - u[y] * v[x];
-    total += share.at(c);
-    height += share.at(c) * mesh_.positions[t.at(c)][up_];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 u = mesh_.positions[t.at((i + 1) % 3)] - p;
+    const Vec3 v = mesh_.positions[t.at((i + 2) % 3)] - p;
+    share.at(i) = u[x] * v[y] - u[y] * v[x];
+    total += share.at(i);
+    height += share.at(i) * mesh_.positions[t.at(i)][up_];
   }
-  const auto [low, high] = std::minmax(
-      {mesh_.positions[t[0]][up_], mesh_.positions[t[1]][up_], mesh_.positions[t[2]][up_]});
   height = total != 0.0 ? std::clamp(height / total, low, high) : high;
   return height > p[up_] ? winding : 0;
 }
@@ -184,6 +231,19 @@ bool Shell::inside(std::uint32_t component, const Vec3& point) const {
   return winding != 0;
 }
 
+/// Whether a point of the face's plane lies in the face or next to it.
+bool Shell::is_near(const Triangle& t, const Vec3& normal, const Vec3& p) const {
+  const double beside = kBeside * size_;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Vec3& corner = mesh_.positions[t.at(c)];
+    const Vec3 side = mesh_.positions[t.at((c + 1) % 3)] - corner;
+    if (normal.dot(side.cross(p - corner)) < -beside * side.norm()) {
+      return false;
+    }
+  }
+  return true;
+}
+
 /// Where the segment from a (0) to b (1) may pass through the component's surface, sorted; both
 /// ends are among them. Faces whose box the segment's misses are left out.
 std::vector<double> Shell::cuts(std::uint32_t component, const Vec3& a, const Vec3& b) const {
@@ -191,6 +251,7 @@ std::vector<double> Shell::cuts(std::uint32_t component, const Vec3& a, const Ve
   const Vec3 high = a.cwiseMax(b);
   const auto first = cell_of(low);
   const auto last = cell_of(high);
+  const Vec3 way = b - a;
   std::vector<double> places{0.0, 1.0};
   const auto look_at = [&](const Triangle& t) {
     const Vec3& p = mesh_.positions[t[0]];
@@ -203,14 +264,19 @@ std::vector<double> Shell::cuts(std::uint32_t component, const Vec3& a, const Ve
     const Vec3 normal = area_vector(mesh_, t);
     const double from = normal.dot(a - p);
     const double to = normal.dot(b - p);
-    if ((from < 0.0) != (to < 0.0)) {
-      places.push_back(from / (from - to));
+    if ((from < 0.0) == (to < 0.0)) {
+      return;
+    }
+    const double place = from / (from - to);
+    const double length = normal.norm();
+    if (std::abs(from - to) < kAlongPlane * length * way.norm() ||
+        is_near(t, normal / length, a + place * way)) {
+      places.push_back(place);
     }
   };
   // Row by row of cells, from where the segment enters the row to where it leaves it.
   const int across = (up_ + 1) % 3;
   const int along = (up_ + 2) % 3;
-  const Vec3 way = b - a;
   for (int y = first[1]; y <= last[1]; ++y) {
     double enter = 0.0;
     double leave = 1.0;
@@ -260,9 +326,12 @@ bool Shell::inside(std::uint32_t component, const Vec3& a, const Vec3& b) const 
   if (is_open(component)) {
     return true;
   }
-  // As outside_length(), but the first piece outside decides; most that fail do so in the middle.
-  if (!inside(component, 0.5 * (a + b))) {
-    return false;
+  // As outside_length(), but the first place outside decides. Most segments that leave the inside
+  // do so for long enough to be seen at a few places, which are had for less than the cuts.
+  for (const double s : kFirstLooks) {
+    if (!inside(component, (1.0 - s) * a + s * b)) {
+      return false;
+    }
   }
   const std::vector<double> places = cuts(component, a, b);
   for (std::size_t i = 1; i < places.size(); ++i) {

@@ -52,8 +52,10 @@ class Shell {
   void look_at_edges();
   void sort_into_cells();
   [[nodiscard]] std::array<int, 2> cell_of(const Vec3& p) const;
+  [[nodiscard]] std::array<int, 2> cells_in_row(const Triangle& t, int row) const;
   [[nodiscard]] int crossing(std::uint32_t from, std::uint32_t to, const Vec3& p) const;
   [[nodiscard]] int winding_of_face(const Triangle& t, const Vec3& p) const;
+  [[nodiscard]] bool is_near(const Triangle& t, const Vec3& normal, const Vec3& p) const;
   [[nodiscard]] std::vector<double> cuts(std::uint32_t component, const Vec3& a,
                                          const Vec3& b) const;
 
@@ -64,6 +66,7 @@ class Shell {
   // Faces by the cell of a plane grid that their projection along `up_` touches.
   int up_ = 2;
   Vec3 low_ = Vec3::Zero();
+  double size_ = 0.0;  ///< Longest side of the box.
   std::array<int, 2> cells_{1, 1};
   double cell_size_ = 1.0;
   std::vector<std::uint32_t> offsets_{};

@@ -19,9 +19,19 @@ namespace {
 
 using test::one_component;
 
+/// A sphere whose vertices stand at random radii: long faces askew, of which many lie over one another.
+TriMesh spiky_sphere() {
+  Pcg32 random(7);
+  TriMesh mesh = test::sphere(3);
+  for (Vec3& p : mesh.positions) {
+    p *= 0.1 + 0.9 * random.uniform();
+  }
+  return mesh;
+}
+
 TEST(ShellInside, AgreesWithSolidAnglesAtRandomPoints) {
   Pcg32 random(3);
-  for (const TriMesh& mesh : {test::torus(1.0, 0.3, 20, 10), test::cube_frame(),
+  for (const TriMesh& mesh : {test::torus(1.0, 0.3, 20, 10), test::cube_frame(), spiky_sphere(),
                               test::inside_out(test::y_of_tubes(0.3, 12))}) {
     const auto components = one_component(mesh);
     const Shell shell(mesh, components);
@@ -124,6 +134,35 @@ TEST(ShellOutsideLength, AgreesWithSolidAnglesAlongRandomSegments) {
                   static_cast<double>(outside) / kSamples, 8.0 / kSamples);
     }
   }
+}
+
+TEST(ShellOutsideLength, AgreesWithSolidAnglesAmongSpikes) {
+  constexpr int kSamples = 200;
+  Pcg32 random(5);
+  const TriMesh mesh = spiky_sphere();
+  const auto components = one_component(mesh);
+  const Shell shell(mesh, components);
+  int partly_outside = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Vec3 a(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5);
+    const Vec3 b(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5);
+    int outside = 0;
+    int changes = 0;
+    bool was_inside = false;
+    for (int s = 0; s < kSamples; ++s) {
+      const double t = (s + 0.5) / kSamples;
+      const bool is_inside = std::abs(test::winding_number(mesh, (1.0 - t) * a + t * b)) > 0.5;
+      outside += is_inside ? 0 : 1;
+      changes += is_inside == was_inside ? 0 : 1;
+      was_inside = is_inside;
+    }
+    // Every change is found up to one sample; four spikes may be passed between two samples.
+    EXPECT_NEAR(shell.outside_length(0, a, b) / (b - a).norm(),
+                static_cast<double>(outside) / kSamples, (changes + 4.0) / kSamples);
+    EXPECT_EQ(shell.inside(0, a, b), shell.outside_length(0, a, b) == 0.0);
+    partly_outside += outside > 0 && outside < kSamples ? 1 : 0;
+  }
+  EXPECT_GE(partly_outside, 20);
 }
 
 }  // namespace
