@@ -31,6 +31,7 @@ constexpr double kPassShare = 0.4;
 /// A pass that removes less than this share of the vertices ends the decimation: what is left must
 /// not collapse, and more passes would only crawl.
 constexpr double kLeastProgress = 1e-3;
+constexpr std::size_t kAhead = 8;     // edges that memory is asked about what a collapse needs
 constexpr std::size_t kGrain = 4096;  // edges or vertices a task
 
 /// An edge that may go, and where its vertex would stand.
@@ -82,6 +83,11 @@ class ByQuadric {
 
   void move(std::uint32_t from, std::uint32_t to) { quadrics_[to] = quadrics_[from]; }
 
+  void fetch(std::uint32_t v) const {
+    __builtin_prefetch(&quadrics_[v]);
+    __builtin_prefetch(&quadrics_[v].weight);
+  }
+
  private:
   [[nodiscard]] Quadric joint(std::uint32_t a, std::uint32_t b) const {
     Quadric sum = quadrics_[a];
@@ -123,6 +129,8 @@ class ByLength {
   void merge(std::uint32_t a, std::uint32_t b) { weights_[a] += weights_[b]; }
 
   void move(std::uint32_t from, std::uint32_t to) { weights_[to] = weights_[from]; }
+
+  void fetch(std::uint32_t v) const { __builtin_prefetch(&weights_[v]); }
 
  private:
   std::vector<double> weights_;
@@ -245,7 +253,12 @@ class Decimator {
     std::iota(parent_.begin(), parent_.end(), 0U);
     const std::vector<Candidate> edges = cheapest_edges(limit);
     moved_.assign(mesh_.positions.size(), false);
-    for (const Candidate& edge : edges) {
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const Candidate& edge = edges[e];
+      if (e + kAhead < edges.size()) {
+        fetch(edges[e + kAhead].a);
+        fetch(edges[e + kAhead].b);
+      }
       if (live_ <= target) {
         break;
       }
@@ -254,6 +267,13 @@ class Decimator {
       }
     }
     compact();
+  }
+
+  /// Asks for what a collapse needs: edges come by cost, so that each is somewhere else in memory.
+  void fetch(std::uint32_t v) const {
+    __builtin_prefetch(&fans_.corners[fans_.offsets[v]]);
+    __builtin_prefetch(&mesh_.positions[v]);
+    policy_.fetch(v);
   }
 
   void try_collapse(std::uint32_t a, std::uint32_t b) {
