@@ -56,7 +56,7 @@ Shell::Shell(const TriMesh& mesh, std::span<const std::uint32_t> component_of_ve
     : mesh_(mesh),
       component_of_vertex_(component_of_vertex),
       frame_(unit_frame(mesh.positions)),
-      scene_(in_frame(mesh, frame_)),
+      scene_(in_frame(mesh, frame_), {}, RayScene::Boxes::Quick),
       normal_(vertex_normals(mesh)) {
   look_at_edges();
   sort_into_cells();
