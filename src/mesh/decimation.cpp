@@ -136,8 +136,8 @@ class ByLength {
   std::vector<double> weights_;
 };
 
-/// The faces at each vertex, by their two other corners in the order of the face: what a collapse asks
-/// for lies side by side.
+/// The faces at each vertex, by their two other corners in the order of the face: what a collapse
+/// asks for lies side by side.
 struct Fans {
   using Corners = std::array<std::uint32_t, 2>;
   std::vector<std::uint32_t> offsets{};
@@ -361,8 +361,8 @@ class Decimator {
     return false;
   }
 
-  /// Leaves out what was collapsed. Those left keep their order, and with it what ties go by; that they lie together
-  /// is what later passes gain their speed from.
+  /// Leaves out what was collapsed. What is left keeps its order, and with it what ties go by; that
+  /// it lies together is what makes later passes fast.
   void compact() {
     std::vector<std::uint32_t> number(parent_.size());
     std::uint32_t kept = 0;

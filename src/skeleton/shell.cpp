@@ -15,7 +15,7 @@ namespace {
 constexpr double kFacesPerCell = 2.0;
 constexpr int kMostCells = 2048;  // along one side
 /// A ray from a vertex passes over the faces at that vertex: a ten-thousandth of the model.
-constexpr float kSkip = 1e-4F;
+constexpr double kSkip = 1e-4;
 /// Parts of a segment shorter than this share of it are rounding errors of where it is cut.
 constexpr double kRounding = 1e-9;
 /// Rows of cells are taken this much wider, in cells, so that rounding loses no face.
@@ -27,14 +27,6 @@ constexpr double kAlongPlane = 1e-6;
 /// Where a segment is looked at before it is cut.
 constexpr std::array kFirstLooks{0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875};
 constexpr double kFar = std::numeric_limits<double>::infinity();
-
-TriMesh in_frame(const TriMesh& mesh, const UnitFrame& frame) {
-  TriMesh moved = mesh;
-  for (Vec3& p : moved.positions) {
-    p = frame.to_frame(p);
-  }
-  return moved;
-}
 
 std::vector<Vec3> vertex_normals(const TriMesh& mesh) {
   std::vector<Vec3> normals(mesh.positions.size(), Vec3::Zero());
@@ -53,11 +45,7 @@ std::vector<Vec3> vertex_normals(const TriMesh& mesh) {
 }  // namespace
 
 Shell::Shell(const TriMesh& mesh, std::span<const std::uint32_t> component_of_vertex)
-    : mesh_(mesh),
-      component_of_vertex_(component_of_vertex),
-      frame_(unit_frame(mesh.positions)),
-      scene_(in_frame(mesh, frame_), {}, RayScene::Boxes::Quick),
-      normal_(vertex_normals(mesh)) {
+    : mesh_(mesh), component_of_vertex_(component_of_vertex), normal_(vertex_normals(mesh)) {
   look_at_edges();
   sort_into_cells();
 }
@@ -101,7 +89,7 @@ void Shell::sort_into_cells() {
     const auto& c = cell_of_vertex[t[2]];
     const auto [left, right] = std::minmax({a[0], b[0], c[0]});
     const auto [bottom, top] = std::minmax({a[1], b[1], c[1]});
-    const bool slanted = right - left > 1 && top - bottom > 1;
+    const bool slanted = right - left > 2 && top - bottom > 2;
     for (int y = bottom; y <= top; ++y) {
       const auto [first, last] = slanted ? cells_in_row(t, y) : std::array{left, right};
       for (int x = first; x <= last; ++x) {
@@ -244,23 +232,79 @@ bool Shell::is_near(const Triangle& t, const Vec3& normal, const Vec3& p) const 
   return true;
 }
 
-/// Where the segment from a (0) to b (1) may pass through the component's surface, sorted; both
-/// ends are among them. Faces whose box the segment's misses are left out.
+/// What of the segment lies in a slab of cells across one of the grid's two axes.
+Shell::Stretch Shell::stretch_in(int slab, std::size_t axis, const Vec3& a, const Vec3& b) const {
+  const int across = (up_ + 1 + static_cast<int>(axis)) % 3;
+  const Vec3 way = b - a;
+  const Vec3 margin = Vec3::Constant(kSlack * cell_size_);
+  double enter = 0.0;
+  double leave = 1.0;
+  if (cell_of(a).at(axis) != cell_of(b).at(axis)) {
+    const double border = low_[across] + slab * cell_size_ - a[across];
+    const double s = (border - margin[across]) / way[across];
+    const double t = (border + cell_size_ + margin[across]) / way[across];
+    enter = slab == cell_of(a).at(axis) ? 0.0 : std::clamp(std::min(s, t), 0.0, 1.0);
+    leave = slab == cell_of(b).at(axis) ? 1.0 : std::clamp(std::max(s, t), 0.0, 1.0);
+  }
+  const Vec3 in = a + enter * way;
+  const Vec3 out = a + leave * way;
+  return {.leave = leave, .low = in.cwiseMin(out) - margin, .high = in.cwiseMax(out) + margin};
+}
+
+/// Visits the faces in the cells along a segment, slab by slab of cells across its longer way, until
+/// `done(share)` says after a slab that it is enough: all faces that may be met up to that share of
+/// the way were visited, some more than once.
+template <class Visit, class Done>
+void Shell::walk(const Vec3& a, const Vec3& b, const Visit& visit, const Done& done) const {
+  const Vec3 way = (b - a).cwiseAbs();
+  const std::size_t major = way[(up_ + 1) % 3] > way[(up_ + 2) % 3] ? 0 : 1;
+  const int last = cell_of(b).at(major);
+  const int step = cell_of(a).at(major) <= last ? 1 : -1;
+  for (int slab = cell_of(a).at(major); slab != last + step; slab += step) {
+    const Stretch stretch = stretch_in(slab, major, a, b);
+    auto low = cell_of(stretch.low);
+    auto high = cell_of(stretch.high);
+    low.at(major) = slab;
+    high.at(major) = slab;
+    for (int y = low[1]; y <= high[1]; ++y) {
+      for (int x = low[0]; x <= high[0]; ++x) {
+        visit_cell(x, y, stretch, visit);
+      }
+    }
+    if (done(stretch.leave)) {
+      return;
+    }
+  }
+}
+
+/// Visits the faces of a cell but for those that are wholly below or above a stretch.
+template <class Visit>
+void Shell::visit_cell(int x, int y, const Stretch& stretch, const Visit& visit) const {
+  const double bottom = stretch.low[up_];
+  const double top = stretch.high[up_];
+  const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_[0]) +
+                           static_cast<std::size_t>(x);
+  for (std::uint32_t i = offsets_[cell]; i < offsets_[cell + 1]; ++i) {
+    const Triangle& t = mesh_.triangles[faces_[i]];
+    const double p = mesh_.positions[t[0]][up_];
+    const double q = mesh_.positions[t[1]][up_];
+    const double r = mesh_.positions[t[2]][up_];
+    if (!((p < bottom && q < bottom && r < bottom) || (p > top && q > top && r > top))) {
+      visit(t);
+    }
+  }
+}
+
+/// Where the segment from a (0) to b (1) passes through the component's surface, sorted; both ends
+/// are among them.
 std::vector<double> Shell::cuts(std::uint32_t component, const Vec3& a, const Vec3& b) const {
-  const Vec3 low = a.cwiseMin(b);
-  const Vec3 high = a.cwiseMax(b);
-  const auto first = cell_of(low);
-  const auto last = cell_of(high);
   const Vec3 way = b - a;
   std::vector<double> places{0.0, 1.0};
   const auto look_at = [&](const Triangle& t) {
-    const Vec3& p = mesh_.positions[t[0]];
-    const Vec3& q = mesh_.positions[t[1]];
-    const Vec3& r = mesh_.positions[t[2]];
-    if ((p.cwiseMin(q).cwiseMin(r).array() > high.array()).any() ||
-        (p.cwiseMax(q).cwiseMax(r).array() < low.array()).any()) {
+    if (component_of_vertex_[t[0]] != component) {
       return;
     }
+    const Vec3& p = mesh_.positions[t[0]];
     const Vec3 normal = area_vector(mesh_, t);
     const double from = normal.dot(a - p);
     const double to = normal.dot(b - p);
@@ -274,36 +318,31 @@ std::vector<double> Shell::cuts(std::uint32_t component, const Vec3& a, const Ve
       places.push_back(place);
     }
   };
-  // Row by row of cells, from where the segment enters the row to where it leaves it.
-  const int across = (up_ + 1) % 3;
-  const int along = (up_ + 2) % 3;
-  for (int y = first[1]; y <= last[1]; ++y) {
-    double enter = 0.0;
-    double leave = 1.0;
-    if (first[1] != last[1]) {
-      const double s = (low_[along] + (y - kSlack) * cell_size_ - a[along]) / way[along];
-      const double t = (low_[along] + (y + 1 + kSlack) * cell_size_ - a[along]) / way[along];
-      enter = std::clamp(std::min(s, t), 0.0, 1.0);
-      leave = std::clamp(std::max(s, t), 0.0, 1.0);
-    }
-    const auto [left, right] =
-        std::minmax({a[across] + enter * way[across], a[across] + leave * way[across]});
-    Vec3 at = low;
-    at[across] = left;
-    const int begin_cell = std::max(cell_of(at)[0] - 1, 0);
-    at[across] = right;
-    const int end_cell = std::min(cell_of(at)[0] + 1, cells_[0] - 1);
-    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_[0]);
-    const std::size_t end = offsets_[row + static_cast<std::size_t>(end_cell) + 1];
-    for (std::size_t i = offsets_[row + static_cast<std::size_t>(begin_cell)]; i < end; ++i) {
-      const Triangle& t = mesh_.triangles[faces_[i]];
-      if (component_of_vertex_[t[0]] == component) {
-        look_at(t);
-      }
-    }
-  }
+  walk(a, b, look_at, [](double) { return false; });
   std::sort(places.begin(), places.end());
   return places;
+}
+
+/// The share of the way from a to b, at least `nearest`, where it first meets a face; above 1 if
+/// nowhere.
+double Shell::first_hit(const Vec3& a, const Vec3& b, double nearest) const {
+  const Vec3 way = b - a;
+  double hit = kFar;
+  const auto look_at = [&](const Triangle& t) {
+    const Vec3& p = mesh_.positions[t[0]];
+    const Vec3 normal = area_vector(mesh_, t);
+    const double from = normal.dot(a - p);
+    const double to = normal.dot(b - p);
+    if ((from < 0.0) == (to < 0.0)) {
+      return;
+    }
+    const double place = from / (from - to);
+    if (place >= nearest && place < hit && is_near(t, normal.stableNormalized(), a + place * way)) {
+      hit = place;
+    }
+  };
+  walk(a, b, look_at, [&](double share) { return hit <= share; });
+  return hit;
 }
 
 double Shell::outside_length(std::uint32_t component, const Vec3& a, const Vec3& b) const {
@@ -344,19 +383,16 @@ bool Shell::inside(std::uint32_t component, const Vec3& a, const Vec3& b) const 
 }
 
 std::optional<Vec3> Shell::wall_at(std::uint32_t vertex) const {
-  const Vec3 origin = frame_.to_frame(mesh_.positions[vertex]);
   if (normal_[vertex].isZero(0.0)) {
     return std::nullopt;
   }
+  const Vec3& origin = mesh_.positions[vertex];
+  const double reach = 2.0 * size_;         // farther than any two points of the box are apart
   for (const double sense : {-1.0, 1.0}) {  // inwards, unless the surface is inside out
-    const Vec3 direction = sense * normal_[vertex];
-    const RayHit hit = scene_.closest_hit(origin.cast<float>(), direction.cast<float>(), kSkip);
-    if (!hit) {
-      continue;
-    }
-    const Vec3 across = (static_cast<double>(hit.t) / frame_.scale) * direction;
-    if (inside(component_of_vertex_[vertex], mesh_.positions[vertex] + 0.5 * across)) {
-      return across;
+    const Vec3 way = sense * reach * normal_[vertex];
+    const double hit = first_hit(origin, origin + way, kSkip * size_ / reach);
+    if (hit <= 1.0 && inside(component_of_vertex_[vertex], origin + 0.5 * hit * way)) {
+      return hit * way;
     }
   }
   return std::nullopt;

@@ -10,8 +10,6 @@
 #include "vantage/mesh/topology.h"
 #include "vantage/mesh/tri_mesh.h"
 
-#include "spatial/ray_scene.h"
-
 namespace vantage {
 
 /// What is inside a surface, component by component. Open components have no inside: every point
@@ -49,6 +47,13 @@ class Shell {
   }
 
  private:
+  /// Part of a segment, up to a share of its way, and its box.
+  struct Stretch {
+    double leave = 1.0;
+    Vec3 low = Vec3::Zero();
+    Vec3 high = Vec3::Zero();
+  };
+
   void look_at_edges();
   void sort_into_cells();
   [[nodiscard]] std::array<int, 2> cell_of(const Vec3& p) const;
@@ -56,6 +61,12 @@ class Shell {
   [[nodiscard]] int crossing(std::uint32_t from, std::uint32_t to, const Vec3& p) const;
   [[nodiscard]] int winding_of_face(const Triangle& t, const Vec3& p) const;
   [[nodiscard]] bool is_near(const Triangle& t, const Vec3& normal, const Vec3& p) const;
+  [[nodiscard]] Stretch stretch_in(int slab, std::size_t axis, const Vec3& a, const Vec3& b) const;
+  template <class Visit>
+  void visit_cell(int x, int y, const Stretch& stretch, const Visit& visit) const;
+  template <class Visit, class Done>
+  void walk(const Vec3& a, const Vec3& b, const Visit& visit, const Done& done) const;
+  [[nodiscard]] double first_hit(const Vec3& a, const Vec3& b, double nearest) const;
   [[nodiscard]] std::vector<double> cuts(std::uint32_t component, const Vec3& a,
                                          const Vec3& b) const;
 
@@ -71,10 +82,7 @@ class Shell {
   double cell_size_ = 1.0;
   std::vector<std::uint32_t> offsets_{};
   std::vector<std::uint32_t> faces_{};
-  // For middle_at().
-  UnitFrame frame_{};
-  RayScene scene_;
-  std::vector<Vec3> normal_{};  ///< |V| unit normals; zero where undefined.
+  std::vector<Vec3> normal_{};  ///< |V| unit normals; zero where undefined. For walls.
 };
 
 }  // namespace vantage

@@ -132,12 +132,8 @@ struct RayScene::Scene {
   }
 };
 
-RayScene::RayScene(const TriMesh& mesh, OpacityOfHit opacity, Boxes boxes)
-    : scene_(std::make_unique<Scene>()) {
+RayScene::RayScene(const TriMesh& mesh, OpacityOfHit opacity) : scene_(std::make_unique<Scene>()) {
   scene_->opacity = std::move(opacity);
-  if (boxes == Boxes::Quick) {
-    rtcSetSceneBuildQuality(scene_->embree.scene, RTC_BUILD_QUALITY_LOW);
-  }
   const RTCGeometry geometry = rtcNewGeometry(scene_->embree.device, RTC_GEOMETRY_TYPE_TRIANGLE);
   if (!mesh.triangles.empty()) {
     auto* vertices = static_cast<float*>(

@@ -50,14 +50,11 @@ using OpacityOfHit = std::function<double(std::uint32_t face, float u, float v)>
 /// Triangles in single precision, for pictures. Rays pass no shared edge unnoticed.
 class RayScene {
  public:
-  /// How triangles are sorted into boxes: for many rays, or for few, where sorting is what costs.
-  enum class Boxes : std::uint8_t { Tight, Quick };
-
   /// \param mesh positions in the frame of the rays; bring them near the origin and to order 1
   ///             first (UnitFrame), because they are rounded to float.
   /// \param opacity closest_hit() passes through places where it is 0, occluded() through those
   ///             where it is below a half; empty: all is solid.
-  explicit RayScene(const TriMesh& mesh, OpacityOfHit opacity = {}, Boxes boxes = Boxes::Tight);
+  explicit RayScene(const TriMesh& mesh, OpacityOfHit opacity = {});
   ~RayScene();
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;

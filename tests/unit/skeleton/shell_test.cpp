@@ -2,8 +2,10 @@
 #include "skeleton/shell.h"
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include "vantage/core/random.h"
@@ -99,6 +101,66 @@ TEST(ShellMiddle, IsFoundInAShellTurnedInsideOut) {
   Vec3 middle = Vec3::Constant(9.0);
   ASSERT_TRUE(Shell(mesh, components).middle_at(0, middle));
   EXPECT_LE(middle.norm(), 0.02);
+}
+
+TEST(ShellWall, GoesStraightThroughABoxAlongItsGrid) {
+  // From corners of cells to corners of cells: every ray runs along edges of the grid.
+  const TriMesh mesh = test::box(4, 4, 1, 4);
+  const auto components = one_component(mesh);
+  const Shell shell(mesh, components);
+  int walls = 0;
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3& p = mesh.positions[v];
+    if (p.x() > 0.5 && p.x() < 3.5 && p.y() > 0.5 && p.y() < 3.5) {
+      const auto wall = shell.wall_at(v);
+      ASSERT_TRUE(wall.has_value());
+      EXPECT_LE((*wall - Vec3(0, 0, p.z() > 0.5 ? -1 : 1)).norm(), 1e-12);
+      ++walls;
+    }
+  }
+  EXPECT_EQ(walls, 18);
+}
+
+/// Length along a unit direction to the nearest face, of all faces; infinite if none is met.
+double nearest_face(const TriMesh& mesh, const Vec3& from, const Vec3& direction, double skip) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Triangle& t : mesh.triangles) {
+    Eigen::Matrix3d sides;
+    sides << mesh.positions[t[1]] - mesh.positions[t[0]],
+        mesh.positions[t[2]] - mesh.positions[t[0]], -direction;
+    const Vec3 at = sides.inverse() * (from - mesh.positions[t[0]]);
+    if (at[0] >= 0.0 && at[1] >= 0.0 && at[0] + at[1] <= 1.0 && at[2] > skip) {
+      nearest = std::min(nearest, at[2]);
+    }
+  }
+  return nearest;
+}
+
+TEST(ShellWall, IsTheNearestOfAllFacesAcrossTheInside) {
+  const TriMesh mesh = spiky_sphere();
+  const auto components = one_component(mesh);
+  const Shell shell(mesh, components);
+  const double size = bounding_box(mesh.positions).longest_side();
+  std::vector<Vec3> normals(mesh.positions.size(), Vec3::Zero());
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) {
+      normals[v] += area_vector(mesh, t);
+    }
+  }
+  for (std::uint32_t v = 0; v < mesh.positions.size(); v += 3) {
+    double expected = 0.0;  // none
+    for (const double sense : {-1.0, 1.0}) {
+      const Vec3 direction = sense * normals[v].normalized();
+      const double length = nearest_face(mesh, mesh.positions[v], direction, 1e-4 * size);
+      if (std::isfinite(length) && std::abs(test::winding_number(
+                                       mesh, mesh.positions[v] + 0.5 * length * direction)) > 0.5) {
+        expected = length;
+        break;
+      }
+    }
+    const auto wall = shell.wall_at(v);
+    EXPECT_NEAR(wall.value_or(Vec3::Zero()).norm(), expected, 1e-9) << v;
+  }
 }
 
 TEST(ShellOutsideLength, OfAChordIsWhatLiesInTheHole) {
