@@ -33,5 +33,6 @@ int main(int argc, char** argv) {
   CGAL::extract_mean_curvature_flow_skeleton(mesh, skeleton);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   const double cpu = static_cast<double>(std::clock() - begin_cpu) / CLOCKS_PER_SEC;
-  std::cout << took.count() << ' ' << cpu << ' ' << num_vertices(skeleton) << ' ' << num_edges(skeleton) << '\n';
+  std::cout << took.count() << ' ' << cpu << ' ' << num_vertices(skeleton) << ' '
+            << num_edges(skeleton) << '\n';
 }
