@@ -28,6 +28,14 @@ constexpr double kAlongPlane = 1e-6;
 constexpr std::array kFirstLooks{0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875};
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
+TriMesh in_frame(const TriMesh& mesh, const UnitFrame& frame) {
+  TriMesh moved = mesh;
+  for (Vec3& p : moved.positions) {
+    p = frame.to_frame(p);
+  }
+  return moved;
+}
+
 std::vector<Vec3> vertex_normals(const TriMesh& mesh) {
   std::vector<Vec3> normals(mesh.positions.size(), Vec3::Zero());
   for (const Triangle& t : mesh.triangles) {
@@ -44,10 +52,15 @@ std::vector<Vec3> vertex_normals(const TriMesh& mesh) {
 
 }  // namespace
 
-Shell::Shell(const TriMesh& mesh, std::span<const std::uint32_t> component_of_vertex)
+Shell::Shell(const TriMesh& mesh, std::span<const std::uint32_t> component_of_vertex,
+             std::size_t most_walked)
     : mesh_(mesh), component_of_vertex_(component_of_vertex), normal_(vertex_normals(mesh)) {
   look_at_edges();
   sort_into_cells();
+  if (mesh.triangles.size() > most_walked) {
+    frame_ = unit_frame(mesh.positions);
+    rays_.emplace(in_frame(mesh, frame_));
+  }
 }
 
 void Shell::look_at_edges() {
@@ -382,17 +395,29 @@ bool Shell::inside(std::uint32_t component, const Vec3& a, const Vec3& b) const 
   return true;
 }
 
+/// Length of the way from a vertex along a unit direction to the first face; infinite if none is met.
+double Shell::way_to_wall(std::uint32_t vertex, const Vec3& direction) const {
+  const Vec3& origin = mesh_.positions[vertex];
+  if (rays_) {
+    const Vec3f start = frame_.to_frame(origin).cast<float>();
+    const RayHit hit = rays_->closest_hit(start, direction.cast<float>(),
+                                          static_cast<float>(kSkip * size_ * frame_.scale));
+    return hit ? static_cast<double>(hit.t) / frame_.scale : kFar;
+  }
+  const double reach = 2.0 * size_;  // farther than any two points of the box are apart
+  return reach * first_hit(origin, origin + reach * direction, kSkip * size_ / reach);
+}
+
 std::optional<Vec3> Shell::wall_at(std::uint32_t vertex) const {
   if (normal_[vertex].isZero(0.0)) {
     return std::nullopt;
   }
-  const Vec3& origin = mesh_.positions[vertex];
-  const double reach = 2.0 * size_;         // farther than any two points of the box are apart
   for (const double sense : {-1.0, 1.0}) {  // inwards, unless the surface is inside out
-    const Vec3 way = sense * reach * normal_[vertex];
-    const double hit = first_hit(origin, origin + way, kSkip * size_ / reach);
-    if (hit <= 1.0 && inside(component_of_vertex_[vertex], origin + 0.5 * hit * way)) {
-      return hit * way;
+    const Vec3 direction = sense * normal_[vertex];
+    const double length = way_to_wall(vertex, direction);
+    if (length < kFar &&
+        inside(component_of_vertex_[vertex], mesh_.positions[vertex] + 0.5 * length * direction)) {
+      return length * direction;
     }
   }
   return std::nullopt;

@@ -10,6 +10,8 @@
 #include "vantage/mesh/topology.h"
 #include "vantage/mesh/tri_mesh.h"
 
+#include "spatial/ray_scene.h"
+
 namespace vantage {
 
 /// What is inside a surface, component by component. Open components have no inside: every point
@@ -18,7 +20,10 @@ class Shell {
  public:
   /// \param component_of_vertex |V| labels; a face belongs to the component of its first vertex.
   /// Both must outlive the shell.
-  Shell(const TriMesh& mesh, std::span<const std::uint32_t> component_of_vertex);
+  /// \param most_walked faces up to which walls are looked for in the grid: ways through it grow
+  ///        longer with their number, and more walls are asked for, so that rays then pay.
+  Shell(const TriMesh& mesh, std::span<const std::uint32_t> component_of_vertex,
+        std::size_t most_walked = 1'000'000);
 
   /// Whether the surface of the component winds around the point, or is open.
   [[nodiscard]] bool inside(std::uint32_t component, const Vec3& point) const;
@@ -66,6 +71,7 @@ class Shell {
   void visit_cell(int x, int y, const Stretch& stretch, const Visit& visit) const;
   template <class Visit, class Done>
   void walk(const Vec3& a, const Vec3& b, const Visit& visit, const Done& done) const;
+  [[nodiscard]] double way_to_wall(std::uint32_t vertex, const Vec3& direction) const;
   [[nodiscard]] double first_hit(const Vec3& a, const Vec3& b, double nearest) const;
   [[nodiscard]] std::vector<double> cuts(std::uint32_t component, const Vec3& a,
                                          const Vec3& b) const;
@@ -82,7 +88,10 @@ class Shell {
   double cell_size_ = 1.0;
   std::vector<std::uint32_t> offsets_{};
   std::vector<std::uint32_t> faces_{};
-  std::vector<Vec3> normal_{};  ///< |V| unit normals; zero where undefined. For walls.
+  // For walls.
+  UnitFrame frame_{};               ///< Of the rays.
+  std::optional<RayScene> rays_{};  ///< If there are many faces.
+  std::vector<Vec3> normal_{};      ///< |V| unit normals; zero where undefined.
 };
 
 }  // namespace vantage

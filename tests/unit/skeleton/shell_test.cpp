@@ -163,6 +163,18 @@ TEST(ShellWall, IsTheNearestOfAllFacesAcrossTheInside) {
   }
 }
 
+TEST(ShellWall, IsTheSameByRaysAsByTheGrid) {
+  const TriMesh mesh = spiky_sphere();
+  const auto components = one_component(mesh);
+  const Shell by_grid(mesh, components);
+  const Shell by_rays(mesh, components, 0);
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3 grid = by_grid.wall_at(v).value_or(Vec3::Zero());
+    const Vec3 rays = by_rays.wall_at(v).value_or(Vec3::Zero());
+    EXPECT_LE((grid - rays).norm(), 1e-5) << v;  // rays are in single precision
+  }
+}
+
 TEST(ShellOutsideLength, OfAChordIsWhatLiesInTheHole) {
   // A ring of 40 × 12: vertices at the x axis have the exact radii 0.75 and 1.25.
   const TriMesh mesh = test::torus(1.0, 0.25, 40, 12);
