@@ -3,6 +3,7 @@
 """Measures contraction and skeletons on real models and prints the tables of docs/contraction.md as Markdown.
 
     measure_contraction.py fidelity  PROGRAM MODEL...   --contraction auto against exact: the two maps, the best views
+    measure_contraction.py parts     PROGRAM MODEL...   whether auto's levels or its graph make its map differ from exact's
     measure_contraction.py limit     PROGRAM MODEL...   exact against exact of the model moved by 10^-4 D: what auto can
                                                         be asked for
     measure_contraction.py noise     PROGRAM CLEAN NOISY...  thickness of clouds of the noisy files' vertices against
@@ -26,6 +27,7 @@ import time
 import numpy
 
 TYPES = {"char": "i1", "uchar": "u1", "int": "<i4", "uint": "<u4", "float": "<f4", "double": "<f8"}
+FLAT_LEVEL = 0.06  # the program's default
 FILE_SECONDS, FILE_BYTES = 60, 4 << 30
 SUFFIXES = {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".xyz", ".gz", ".drc", ".pts", ".pwn", ".pcd", ".3mf", ".txt"}
 MOMENTS = (0.05, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9)  # of the whole command
@@ -123,6 +125,45 @@ def fidelity(program, *models):
         all_models += 1
         row(pathlib.Path(model).name, len(auto), ", ".join(sorted(set(strategy))), f"{agreement:.4f}", f"{span:.1f}", f"{ratio:.4f}")
     print(f"\n{kept} of {all_models} with a Spearman of at least 0.98 or no vertex off by more than 2 %")
+
+
+def distance_to_graph(points, nodes, edges):
+    squared = numpy.full(len(points), math.inf)
+    for a, b in [(i, i) for i in range(len(nodes))] + list(edges):
+        along = nodes[b] - nodes[a]
+        share = numpy.clip((points - nodes[a]) @ along / max(along @ along, sys.float_info.min), 0.0, 1.0)
+        squared = numpy.minimum(squared, ((points - nodes[a] - share[:, None] * along) ** 2).sum(1))
+    return numpy.sqrt(squared)
+
+
+def significance(levels, graph, diameter):
+    """The map of docs/kssm.md by its formulas, with the default options."""
+    total = numpy.zeros(len(levels[0]))
+    for level, points in enumerate(levels):
+        distance = distance_to_graph(points, *graph)
+        span = numpy.ptp(distance)
+        if level == 0 or span > FLAT_LEVEL * diameter:
+            share = (distance - distance.min()) / span
+            total += (1 - (share.sum() - 1) / (len(share) - 1)) ** 2 * share
+    return total
+
+
+def parts(program, *models):
+    table("model", "nodes, auto / exact", "auto's map", "auto's levels, exact's graph", "exact's levels, auto's graph")
+    for model in models:
+        levels, graphs = {}, {}
+        diameter = json.loads(run(program, "info", model, "--json"))["diameter"]
+        for method in ("auto", "exact"):
+            with tempfile.TemporaryDirectory() as folder:
+                run(program, "skeleton", model, "-o", folder + "/s.json", "-q", "--contraction", method, "--no-centre",
+                    "--no-prune", "--levels", folder)
+                graph = json.loads(pathlib.Path(folder, "s.json").read_text(encoding="utf-8"))
+                graphs[method] = numpy.array(graph["nodes"]), graph["edges"]
+                levels[method] = [points_of(read_ply(file)[0]) for file in sorted(pathlib.Path(folder).glob("level-*.ply"))]
+        exact = significance(levels["exact"], graphs["exact"], diameter)
+        cells = [spearman(significance(levels[a], graphs[b], diameter), exact)
+                 for a, b in (("auto", "auto"), ("auto", "exact"), ("exact", "auto"))]
+        row(pathlib.Path(model).name, f"{len(graphs['auto'][0])} / {len(graphs['exact'][0])}", *(f"{c:.4f}" for c in cells))
 
 
 def limit(program, *models):
@@ -262,7 +303,8 @@ def files(program, folder, every="1"):
     print(f"\nslowest: {slowest[1]}, {slowest[0]:.1f} s")
 
 
-COMMANDS = {"fidelity": fidelity, "limit": limit, "noise": noise, "scale": scale, "interrupt": interrupt, "files": files}
+COMMANDS = {"fidelity": fidelity, "parts": parts, "limit": limit, "noise": noise, "scale": scale, "interrupt": interrupt,
+            "files": files}
 
 if __name__ == "__main__":
     if len(sys.argv) < 4 or sys.argv[1] not in COMMANDS:

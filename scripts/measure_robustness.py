@@ -3,10 +3,12 @@
 """Rotates, moves, scales and renumbers models and compares their skeletons; prints Markdown.
 
     measure_robustness.py PROGRAM MODEL...
+    measure_robustness.py stages PROGRAM MODEL...
 
 One row a closed model: components and cycles, and the ends, of the model as it is and of each variant; and the farthest
 node of one graph from the edges of the other, moved back, over 2 r, where r = 0.02 D is the distance of samples. Exit
-code 1 if components or cycles of a variant differ.
+code 1 if components or cycles of a variant differ. `stages` says where a difference begins: of the variant that is
+farthest off, the distance after each stage.
 """
 
 import json
@@ -21,6 +23,10 @@ import numpy as np
 SEED = 1
 SPACING = 0.02  # r / D, the program's default
 AXIS, ANGLE_RAD = np.array([1.0, 2.0, 3.0]) / np.sqrt(14.0), 1.1
+
+
+# What the graph has gone through, and the flags for it.
+STAGES = {"collapsed": ("--no-centre", "--no-prune"), "centred and led inside": ("--no-prune",), "pruned": ()}
 
 
 def rotation():
@@ -64,11 +70,11 @@ def write_ply(path, positions, triangles):
     path.write_bytes(head.encode() + positions.astype("<f8").tobytes() + faces.tobytes())
 
 
-def skeleton(program, model, folder):
+def skeleton(program, model, folder, *flags):
     """Summary, number of ends, nodes and edges."""
     out = folder / "skeleton.json"
-    done = subprocess.run([program, "skeleton", str(model), "-o", str(out), "--json"], capture_output=True, text=True,
-                          check=True)
+    done = subprocess.run([program, "skeleton", str(model), "-o", str(out), "--json", *flags], capture_output=True,
+                          text=True, check=True)
     graph = json.loads(out.read_text(encoding="utf-8"))
     ends = sum(degree == 1 for degree in graph["degree"])
     nodes, edges = np.array(graph["nodes"]).reshape(-1, 3), np.array(graph["edges"], int).reshape(-1, 2)
@@ -100,13 +106,17 @@ def variants(positions, triangles):
         yield name, matrix, shift, moved, faces
 
 
-def row(program, model, folder):
-    """The cells of a row, and whether topology is the same everywhere; None where the model is not closed."""
+def plain_copy(program, model, folder):
+    """Positions and triangles of a model, and 2 r."""
     plain = folder / "plain.ply"
     subprocess.run([program, "map", str(model), "-o", str(plain), "-q"], check=True, capture_output=True)
-    positions, triangles = read_ply(plain)
     info = json.loads(subprocess.run([program, "info", str(plain), "--json"], capture_output=True, check=True).stdout)
-    limit = 2.0 * SPACING * info["diameter"]
+    return *read_ply(plain), 2.0 * SPACING * info["diameter"]
+
+
+def row(program, model, folder):
+    """The cells of a row, and whether topology is the same everywhere; None where the model is not closed."""
+    positions, triangles, limit = plain_copy(program, model, folder)
     cells, first, is_same = [pathlib.Path(model).name], None, True
     for name, matrix, shift, moved, faces in variants(positions, triangles):
         path = folder / "variant.ply"
@@ -125,6 +135,28 @@ def row(program, model, folder):
         told = "" if topology == first[0] else f"; {topology[0]}, {topology[1]}"
         cells.append(f"{ends}; {gap:.2f}{told}")
     return cells, is_same
+
+
+def stages(program, *models):
+    print("| model | variant | " + " | ".join(STAGES) + " |")
+    print("| --- " * (2 + len(STAGES)) + "|")
+    with tempfile.TemporaryDirectory() as folder:
+        for model in models:
+            positions, triangles, limit = plain_copy(program, model, pathlib.Path(folder))
+            first, gaps = {}, {}
+            for name, matrix, shift, moved, faces in variants(positions, triangles):
+                path = pathlib.Path(folder, "variant.ply")
+                write_ply(path, moved, faces)
+                for stage, flags in STAGES.items():
+                    _, _, nodes, edges = skeleton(program, path, pathlib.Path(folder), *flags)
+                    back = (nodes - shift) @ np.linalg.inv(matrix).T
+                    plain = first.setdefault(stage, (nodes, edges))
+                    gap = max(farthest(back, *plain), farthest(plain[0], back, edges)) / limit
+                    gaps.setdefault(name, []).append(gap)
+            worst = max(gaps, key=lambda name: gaps[name][-1])
+            cells = [pathlib.Path(model).name, worst] + [f"{gap:.2f}" for gap in gaps[worst]]
+            print("| " + " | ".join(cells) + " |", flush=True)
+    return 0
 
 
 def main(program, *models):
@@ -146,4 +178,4 @@ def main(program, *models):
 if __name__ == "__main__":
     if len(sys.argv) < 3:
         sys.exit(__doc__)
-    sys.exit(main(*sys.argv[1:]))
+    sys.exit(stages(*sys.argv[2:]) if sys.argv[1] == "stages" else main(*sys.argv[1:]))

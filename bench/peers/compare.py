@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: MIT
 """Times our contraction and skeleton against CGAL's, in alternation: a Markdown table and a log-log plot.
 
-    bench/peers/compare.py --ours build/release/apps/vantage/vantage --peer build/peers/cgal_skeleton \
-        [--runs 3] [--plot FILE.svg] [--into docs/performance.md] MESH…
+    bench/peers/compare.py --ours build/release/apps/vantage/vantage --call build/release/bench/skeleton_call \
+        --peer build/peers/cgal_skeleton [--runs 3] [--plot FILE.svg] [--into docs/performance.md] MESH…
 
 Meshes must be closed, triangulated and in one piece. Both read the same PLY. Of all runs the least wall time
-of the call itself counts (reading files does not), and the least processor time of the whole process, reading
-included; memory is the largest peak of the whole process. --into replaces the text between the two lines
+of the call itself counts (reading files does not), and the least processor time of it, all threads together, which
+other work on the machine disturbs less. Memory is the largest peak of the whole process. --into replaces the text between the two lines
 "<!-- peers -->" of a document."""
 import argparse
 import json
@@ -24,7 +24,7 @@ WIDTH, HEIGHT, MARGIN = 640, 420, 56
 
 
 def run(command):
-    """Standard output, processor seconds and peak resident megabytes of a command."""
+    """Standard output and peak resident megabytes of a command."""
     with tempfile.TemporaryFile() as out:
         child = subprocess.Popen(command, stdout=out, stderr=subprocess.DEVNULL)
         _, status, usage = os.wait4(child.pid, 0)
@@ -32,10 +32,10 @@ def run(command):
         if child.returncode != 0:
             raise RuntimeError(f"{command[0]} failed with {child.returncode}")
         out.seek(0)
-        return out.read().decode(), usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
+        return out.read().decode(), usage.ru_maxrss / 1024
 
 
-def compare(ours, peer, mesh, runs):
+def compare(ours, call, peer, mesh, runs):
     """Least seconds, least processor seconds and peak megabytes of both, and the number of vertices."""
     least, peak = {}, {"peer": 0.0, "ours": 0.0}
 
@@ -45,16 +45,17 @@ def compare(ours, peer, mesh, runs):
         same, skeleton = os.path.join(folder, "mesh.ply"), os.path.join(folder, "skeleton.json")
         run([ours, "map", mesh, "-o", same, "-q"])
         for _ in range(runs):
-            out, cpu, memory = run([peer, same])
+            out, memory = run([peer, same])
             note("peer", float(out.split()[0]))
-            note("peer cpu", cpu)
+            note("peer cpu", float(out.split()[1]))
             peak["peer"] = max(peak["peer"], memory)
-            _, cpu, memory = run([ours, "skeleton", same, "-o", skeleton, "-q"])
-            note("ours cpu", cpu)
+            out, _ = run([call, same])
+            note("ours", float(out.split()[0]))
+            note("ours cpu", float(out.split()[1]))
+            _, memory = run([ours, "skeleton", same, "-o", skeleton, "-q"])
             peak["ours"] = max(peak["ours"], memory)
-            out, _, _ = run([ours, "view", same, "-o", os.path.join(folder, "view"), "--no-images", "--json"])
+            out, _ = run([ours, "view", same, "-o", os.path.join(folder, "view"), "--no-images", "--json"])
             report = json.loads(out)
-            note("ours", report["seconds"]["contract"] + report["seconds"]["skeleton"])
             note("view", report["seconds"]["total"])
     return least, peak, report["model"]["vertices"]
 
@@ -105,6 +106,7 @@ def plot(points):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--ours", required=True)
+    parser.add_argument("--call", required=True)
     parser.add_argument("--peer", required=True)
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--plot", type=pathlib.Path)
@@ -115,7 +117,7 @@ def main():
     print("\n".join(lines))
     for mesh in args.meshes:
         try:
-            least, peak, vertices = compare(args.ours, args.peer, mesh, args.runs)
+            least, peak, vertices = compare(args.ours, args.call, args.peer, mesh, args.runs)
         except RuntimeError as error:
             print(f"{mesh}: {error}", file=sys.stderr)
             continue

@@ -10,12 +10,11 @@
 #include <tuple>
 #include <utility>
 
-#include <Eigen/Dense>
-
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 
 #include "core/parallel.h"
+#include "mesh/quadric.h"
 
 namespace vantage {
 namespace {
@@ -25,9 +24,6 @@ namespace {
 constexpr double kEvenness = 0.05;
 /// Weight of the plane through a border edge, upright on its face, against that of the face.
 constexpr double kBorder = 1.0;
-/// Pull of the optimal position to the middle of the edge, relative to the quadric's weight: solves
-/// what planes leave open.
-constexpr double kMiddle = 1e-3;
 /// A face may turn by at most the angle of this cosine in one collapse [ours: 78°].
 constexpr double kLargestTurn = 0.2;
 /// Share of the edges, the cheapest ones, that one pass may collapse [ours].
@@ -35,70 +31,8 @@ constexpr double kPassShare = 0.4;
 /// A pass that removes less than this share of the vertices ends the decimation: what is left must
 /// not collapse, and more passes would only crawl.
 constexpr double kLeastProgress = 1e-3;
+constexpr std::size_t kAhead = 8;     // edges that memory is asked about what a collapse needs
 constexpr std::size_t kGrain = 4096;  // edges or vertices a task
-constexpr std::uint32_t kNoVertex = 0xffffffffu;
-
-/// Sum of squared distances to planes, weighted by area: xᵀ A x − 2 bᵀ x + c, about a near origin; A's
-/// entries are `squares`.
-struct Quadric {
-  std::array<double, 6> squares{};  // xx xy xz yy yz zz
-  Vec3 b = Vec3::Zero();
-  double c = 0.0;
-  double weight = 0.0;
-
-  void add_plane(const Vec3& normal, const Vec3& point, double w) {
-    const double d = normal.dot(point);
-    squares[0] += w * normal.x() * normal.x();
-    squares[1] += w * normal.x() * normal.y();
-    squares[2] += w * normal.x() * normal.z();
-    squares[3] += w * normal.y() * normal.y();
-    squares[4] += w * normal.y() * normal.z();
-    squares[5] += w * normal.z() * normal.z();
-    b += w * d * normal;
-    c += w * d * d;
-    weight += w;
-  }
-
-  Quadric& operator*=(double factor) {
-    for (double& a : squares) {
-      a *= factor;
-    }
-    b *= factor;
-    c *= factor;
-    weight *= factor;
-    return *this;
-  }
-
-  Quadric& operator+=(const Quadric& other) {
-    for (std::size_t i = 0; i < squares.size(); ++i) {
-      squares[i] += other.squares[i];
-    }
-    b += other.b;
-    c += other.c;
-    weight += other.weight;
-    return *this;
-  }
-
-  [[nodiscard]] Vec3 times(const Vec3& x) const {
-    return {squares[0] * x.x() + squares[1] * x.y() + squares[2] * x.z(),
-            squares[1] * x.x() + squares[3] * x.y() + squares[4] * x.z(),
-            squares[2] * x.x() + squares[4] * x.y() + squares[5] * x.z()};
-  }
-
-  [[nodiscard]] double error(const Vec3& x) const {
-    return std::max(0.0, x.dot(times(x)) - 2.0 * b.dot(x) + c);
-  }
-
-  /// The point of least error, drawn weakly to `middle`.
-  [[nodiscard]] Vec3 best_point(const Vec3& middle) const {
-    const double pull = kMiddle * weight;
-    Eigen::Matrix3d M;
-    M << squares[0] + pull, squares[1], squares[2], squares[1], squares[3] + pull, squares[4],
-        squares[2], squares[4], squares[5] + pull;
-    const Vec3 x = middle + M.inverse() * (b - times(middle));
-    return x.allFinite() ? x : middle;
-  }
-};
 
 /// An edge that may go, and where its vertex would stand.
 struct Candidate {
@@ -147,6 +81,13 @@ class ByQuadric {
 
   void merge(std::uint32_t a, std::uint32_t b) { quadrics_[a] += quadrics_[b]; }
 
+  void move(std::uint32_t from, std::uint32_t to) { quadrics_[to] = quadrics_[from]; }
+
+  void fetch(std::uint32_t v) const {
+    __builtin_prefetch(&quadrics_[v]);
+    __builtin_prefetch(&quadrics_[v].weight);
+  }
+
  private:
   [[nodiscard]] Quadric joint(std::uint32_t a, std::uint32_t b) const {
     Quadric sum = quadrics_[a];
@@ -187,9 +128,44 @@ class ByLength {
 
   void merge(std::uint32_t a, std::uint32_t b) { weights_[a] += weights_[b]; }
 
+  void move(std::uint32_t from, std::uint32_t to) { weights_[to] = weights_[from]; }
+
+  void fetch(std::uint32_t v) const { __builtin_prefetch(&weights_[v]); }
+
  private:
   std::vector<double> weights_;
 };
+
+/// The faces at each vertex, by their two other corners in the order of the face: what a collapse
+/// asks for lies side by side.
+struct Fans {
+  using Corners = std::array<std::uint32_t, 2>;
+  std::vector<std::uint32_t> offsets{};
+  std::vector<Corners> corners{};
+
+  [[nodiscard]] std::span<const Corners> operator[](std::size_t v) const {
+    return std::span(corners).subspan(offsets[v], offsets[v + 1] - offsets[v]);
+  }
+};
+
+Fans fans_of(const TriMesh& mesh) {
+  Fans fans;
+  fans.offsets.assign(mesh.positions.size() + 1, 0);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) {
+      ++fans.offsets[v + 1];
+    }
+  }
+  std::partial_sum(fans.offsets.begin(), fans.offsets.end(), fans.offsets.begin());
+  fans.corners.resize(fans.offsets.back());
+  std::vector<std::uint32_t> cursor(fans.offsets.begin(), fans.offsets.end() - 1);
+  for (const Triangle& t : mesh.triangles) {
+    fans.corners[cursor[t[0]]++] = {t[1], t[2]};
+    fans.corners[cursor[t[1]]++] = {t[2], t[0]};
+    fans.corners[cursor[t[2]]++] = {t[0], t[1]};
+  }
+  return fans;
+}
 
 template <class Policy>
 class Decimator {
@@ -198,11 +174,11 @@ class Decimator {
       : run_(run),
         mesh_(fine),
         policy_(std::move(policy)),
-        parent_(fine.positions.size()),
+        of_fine_(fine.positions.size()),
         live_(fine.positions.size()),
         faces_a_(fine.positions.size(), 0),
         faces_b_(fine.positions.size(), 0) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
+    std::iota(of_fine_.begin(), of_fine_.end(), 0U);
   }
 
   /// Collapses until `target` vertices are left, no edge that may go costs less than `limit`, or, between two passes,
@@ -218,33 +194,9 @@ class Decimator {
     }
   }
 
-  [[nodiscard]] Decimation result() {
-    Decimation coarse;
-    coarse.of_vertex.resize(parent_.size());
-    std::vector<std::uint32_t> number(parent_.size(), kNoVertex);
-    for (std::uint32_t v = 0; v < parent_.size(); ++v) {
-      const std::uint32_t root = root_of(v);
-      if (number[root] == kNoVertex) {
-        number[root] = static_cast<std::uint32_t>(coarse.mesh.positions.size());
-        coarse.mesh.positions.push_back(mesh_.positions[root]);
-      }
-      coarse.of_vertex[v] = number[root];
-    }
-    for (const Triangle& t : mesh_.triangles) {
-      coarse.mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
-    }
-    return coarse;
-  }
+  [[nodiscard]] Decimation result() const { return {.mesh = mesh_, .of_vertex = of_fine_}; }
 
  private:
-  std::uint32_t root_of(std::uint32_t v) {
-    while (parent_[v] != v) {
-      parent_[v] = parent_[parent_[v]];
-      v = parent_[v];
-    }
-    return v;
-  }
-
   /// A vertex as it stands within a pass: ends of collapsed edges move at most once.
   [[nodiscard]] std::uint32_t now(std::uint32_t v) const { return parent_[v]; }
 
@@ -267,10 +219,10 @@ class Decimator {
   std::vector<Candidate> cheapest_edges(double limit) {
     std::vector<Candidate> edges;
     edges.reserve(3 * mesh_.triangles.size() / 2 + 16);
-    for (std::size_t v = 0; v + 1 < faces_.offsets.size(); ++v) {
+    for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
       const std::size_t first = edges.size();
-      for (const std::uint32_t f : faces_[v]) {
-        for (const std::uint32_t u : mesh_.triangles[f]) {
+      for (const Fans::Corners& corners : fans_[v]) {
+        for (const std::uint32_t u : corners) {
           if (u > v) {
             edges.push_back({0.0F, static_cast<std::uint32_t>(v), u});
           }
@@ -296,10 +248,17 @@ class Decimator {
   }
 
   void pass(std::size_t target, double limit) {
-    faces_ = vertex_faces(mesh_);
+    fans_ = fans_of(mesh_);
+    parent_.resize(mesh_.positions.size());
+    std::iota(parent_.begin(), parent_.end(), 0U);
     const std::vector<Candidate> edges = cheapest_edges(limit);
     moved_.assign(mesh_.positions.size(), false);
-    for (const Candidate& edge : edges) {
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const Candidate& edge = edges[e];
+      if (e + kAhead < edges.size()) {
+        fetch(edges[e + kAhead].a);
+        fetch(edges[e + kAhead].b);
+      }
       if (live_ <= target) {
         break;
       }
@@ -308,6 +267,13 @@ class Decimator {
       }
     }
     compact();
+  }
+
+  /// Asks for what a collapse needs: edges come by cost, so that each is somewhere else in memory.
+  void fetch(std::uint32_t v) const {
+    __builtin_prefetch(&fans_.corners[fans_.offsets[v]]);
+    __builtin_prefetch(&mesh_.positions[v]);
+    policy_.fetch(v);
   }
 
   void try_collapse(std::uint32_t a, std::uint32_t b) {
@@ -330,16 +296,12 @@ class Decimator {
   void count_ring(std::uint32_t v, std::vector<std::uint8_t>& count,
                   std::vector<std::uint32_t>& ring) const {
     ring.clear();
-    for (const std::uint32_t f : faces_[v]) {
-      const Triangle& t = mesh_.triangles[f];
-      const std::array<std::uint32_t, 3> c{now(t[0]), now(t[1]), now(t[2])};
-      if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) {
+    for (const Fans::Corners& corners : fans_[v]) {
+      const std::array c{now(corners[0]), now(corners[1])};
+      if (c[0] == c[1]) {
         continue;  // collapsed in this pass
       }
       for (const std::uint32_t u : c) {
-        if (u == v) {
-          continue;
-        }
         if (count[u] == 0) {
           ring.push_back(u);
         }
@@ -383,21 +345,14 @@ class Decimator {
 
   /// Whether moving `v` to `at` turns one of its faces that do not hold `other`.
   [[nodiscard]] bool turns_a_face(std::uint32_t v, std::uint32_t other, const Vec3& at) const {
-    for (const std::uint32_t f : faces_[v]) {
-      const Triangle& t = mesh_.triangles[f];
-      std::array<std::uint32_t, 3> c{now(t[0]), now(t[1]), now(t[2])};
-      if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) {
+    for (const Fans::Corners& corners : fans_[v]) {
+      const std::array c{now(corners[0]), now(corners[1])};
+      if (c[0] == c[1] || c[0] == other || c[1] == other) {
         continue;
       }
-      while (c[0] != v) {
-        std::rotate(c.begin(), c.begin() + 1, c.end());
-      }
-      if (c[1] == other || c[2] == other) {
-        continue;
-      }
-      const Vec3 side = mesh_.positions[c[2]] - mesh_.positions[c[1]];
-      const Vec3 before = side.cross(mesh_.positions[v] - mesh_.positions[c[1]]);
-      const Vec3 after = side.cross(at - mesh_.positions[c[1]]);
+      const Vec3 side = mesh_.positions[c[1]] - mesh_.positions[c[0]];
+      const Vec3 before = side.cross(mesh_.positions[v] - mesh_.positions[c[0]]);
+      const Vec3 after = side.cross(at - mesh_.positions[c[0]]);
       if (before.squaredNorm() > 0.0 &&
           !(before.dot(after) > kLargestTurn * before.norm() * after.norm())) {
         return true;
@@ -406,25 +361,42 @@ class Decimator {
     return false;
   }
 
+  /// Leaves out what was collapsed. What is left keeps its order, and with it what ties go by; that
+  /// it lies together is what makes later passes fast.
   void compact() {
-    std::size_t kept = 0;
-    for (Triangle t : mesh_.triangles) {
-      for (std::uint32_t& v : t) {
-        v = now(v);
-      }
-      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) {
-        mesh_.triangles[kept++] = t;
+    std::vector<std::uint32_t> number(parent_.size());
+    std::uint32_t kept = 0;
+    for (std::uint32_t v = 0; v < parent_.size(); ++v) {
+      if (parent_[v] == v) {
+        mesh_.positions[kept] = mesh_.positions[v];
+        policy_.move(v, kept);
+        number[v] = kept++;
       }
     }
-    mesh_.triangles.resize(kept);
+    mesh_.positions.resize(kept);
+    for (std::uint32_t v = 0; v < parent_.size(); ++v) {
+      number[v] = number[parent_[v]];
+    }
+    std::size_t faces = 0;
+    for (const Triangle& t : mesh_.triangles) {
+      const Triangle c{number[t[0]], number[t[1]], number[t[2]]};
+      if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0]) {
+        mesh_.triangles[faces++] = c;
+      }
+    }
+    mesh_.triangles.resize(faces);
+    for (std::uint32_t& v : of_fine_) {
+      v = number[v];
+    }
   }
 
   const RunContext& run_;
   TriMesh mesh_;
   Policy policy_;
-  std::vector<std::uint32_t> parent_;
+  std::vector<std::uint32_t> of_fine_;  ///< Vertex that each of the input is part of.
+  Fans fans_{};
+  std::vector<std::uint32_t> parent_{};  ///< Within a pass.
   std::size_t live_;
-  IndexLists faces_{};
   std::vector<bool> moved_{};
   std::vector<std::uint8_t> faces_a_;  // of the edges from an edge's ends; 0 between two calls
   std::vector<std::uint8_t> faces_b_;

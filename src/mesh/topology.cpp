@@ -56,6 +56,8 @@ EdgeTable build_edge_table(const TriMesh& mesh) {
 
   EdgeTable table;
   table.faces_of_edge.values.reserve(uses.size());
+  table.faces_of_edge.offsets.reserve(uses.size() / 2 + 1);  // as many as if it were closed
+  table.edges.reserve(uses.size() / 2);
   for (std::uint32_t a = 0; a < vertices; ++a) {
     std::sort(uses.begin() + offsets[a], uses.begin() + offsets[a + 1]);
     for (std::size_t i = offsets[a]; i < offsets[a + 1]; ++i) {

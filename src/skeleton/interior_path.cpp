@@ -20,8 +20,8 @@ constexpr std::array kCosts{1.0, 1.5, 2.5};
 constexpr std::uint32_t kLevels = kDepths.size();
 constexpr std::uint32_t kNowhere = std::numeric_limits<std::uint32_t>::max();
 
-/// One search: shortest first. A step is only looked at when it would be taken, since looking is
-/// what costs.
+/// One search: first what is on the shortest way if all is free from there on (A*). A step is only
+/// looked at when it would be taken, since looking is what costs.
 class Search {
  public:
   Search(const Shell& shell, const IndexLists& neighbours, std::uint32_t component)
@@ -47,7 +47,7 @@ class Search {
       offer(0.0, start_, point);
     }
     while (!queue_.empty()) {
-      const auto [cost, to, from] = queue_.top();
+      const auto [promise, to, from, cost] = queue_.top();
       queue_.pop();
       if (came_from_[to] != kNowhere) {
         continue;
@@ -69,12 +69,14 @@ class Search {
   }
 
  private:
-  using Step = std::tuple<double, std::uint32_t, std::uint32_t>;  // cost so far, to, from
+  /// Cost up to its end and the distance from there to the goal; to; from; cost up to its end.
+  using Step = std::tuple<double, std::uint32_t, std::uint32_t, double>;
 
   void offer(double cost, std::uint32_t from, std::uint32_t to) {
     if (came_from_[to] == kNowhere) {
       const double factor = to < start_ ? kCosts.at(to % kLevels) : 1.0;
-      queue_.emplace(cost + factor * (places_[to] - places_[from]).norm(), to, from);
+      const double there = cost + factor * (places_[to] - places_[from]).norm();
+      queue_.emplace(there + (places_[goal_] - places_[to]).norm(), to, from, there);
     }
   }
 

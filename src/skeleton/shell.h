@@ -20,7 +20,10 @@ class Shell {
  public:
   /// \param component_of_vertex |V| labels; a face belongs to the component of its first vertex.
   /// Both must outlive the shell.
-  Shell(const TriMesh& mesh, std::span<const std::uint32_t> component_of_vertex);
+  /// \param most_walked faces up to which walls are looked for in the grid: ways through it grow
+  ///        longer with their number, and more walls are asked for, so that rays then pay.
+  Shell(const TriMesh& mesh, std::span<const std::uint32_t> component_of_vertex,
+        std::size_t most_walked = 1'000'000);
 
   /// Whether the surface of the component winds around the point, or is open.
   [[nodiscard]] bool inside(std::uint32_t component, const Vec3& point) const;
@@ -49,11 +52,27 @@ class Shell {
   }
 
  private:
+  /// Part of a segment, up to a share of its way, and its box.
+  struct Stretch {
+    double leave = 1.0;
+    Vec3 low = Vec3::Zero();
+    Vec3 high = Vec3::Zero();
+  };
+
   void look_at_edges();
   void sort_into_cells();
   [[nodiscard]] std::array<int, 2> cell_of(const Vec3& p) const;
+  [[nodiscard]] std::array<int, 2> cells_in_row(const Triangle& t, int row) const;
   [[nodiscard]] int crossing(std::uint32_t from, std::uint32_t to, const Vec3& p) const;
   [[nodiscard]] int winding_of_face(const Triangle& t, const Vec3& p) const;
+  [[nodiscard]] bool is_near(const Triangle& t, const Vec3& normal, const Vec3& p) const;
+  [[nodiscard]] Stretch stretch_in(int slab, std::size_t axis, const Vec3& a, const Vec3& b) const;
+  template <class Visit>
+  void visit_cell(int x, int y, const Stretch& stretch, const Visit& visit) const;
+  template <class Visit, class Done>
+  void walk(const Vec3& a, const Vec3& b, const Visit& visit, const Done& done) const;
+  [[nodiscard]] double way_to_wall(std::uint32_t vertex, const Vec3& direction) const;
+  [[nodiscard]] double first_hit(const Vec3& a, const Vec3& b, double nearest) const;
   [[nodiscard]] std::vector<double> cuts(std::uint32_t component, const Vec3& a,
                                          const Vec3& b) const;
 
@@ -64,14 +83,15 @@ class Shell {
   // Faces by the cell of a plane grid that their projection along `up_` touches.
   int up_ = 2;
   Vec3 low_ = Vec3::Zero();
+  double size_ = 0.0;  ///< Longest side of the box.
   std::array<int, 2> cells_{1, 1};
   double cell_size_ = 1.0;
   std::vector<std::uint32_t> offsets_{};
   std::vector<std::uint32_t> faces_{};
-  // For middle_at().
-  UnitFrame frame_{};
-  RayScene scene_;
-  std::vector<Vec3> normal_{};  ///< |V| unit normals; zero where undefined.
+  // For walls.
+  UnitFrame frame_{};               ///< Of the rays.
+  std::optional<RayScene> rays_{};  ///< If there are many faces.
+  std::vector<Vec3> normal_{};      ///< |V| unit normals; zero where undefined.
 };
 
 }  // namespace vantage

@@ -208,6 +208,36 @@ TEST_P(SkeletonProperty, IsTheSameToTheBitForAnyThreadCount) {
   }
 }
 
+/// Surfaces that are not contracted as they are: too large, or of too few faces.
+std::vector<Shape> shapes_contracted_otherwise() {
+  return {{"proxy_y", test::y_of_tubes(0.2, 85), 1, 0, 3},
+          {"refined_beam", test::box(10.0, 1.0, 1.0, 1), 1, 0, 2},
+          {"refined_ring", test::torus(1.0, 0.3, 6, 4), 1, 1, 0}};
+}
+
+class SkeletonStrategy : public testing::TestWithParam<Shape> {};
+
+TEST_P(SkeletonStrategy, KeepsTheGraphUnderRenumberingAndSimilarities) {
+  const TriMesh& mesh = GetParam().mesh;
+  const ContractionHistory history = contract(mesh);
+  EXPECT_EQ(history.components.front().strategy.substr(0, 5), GetParam().name.substr(0, 5));
+  const CurveGraph graph = extract_skeleton(mesh, history).graph;
+  expect_topology(GetParam(), graph);
+  EXPECT_EQ(end_count(graph), GetParam().ends);
+  for (const double scale : {1e-6, 1e6}) {
+    const Vec3 offset = scale * Vec3(3.0, 1.0, -2.0);
+    const auto place = [&](const TriMesh& shape) {
+      return test::moved(shape, scale, 0.9, Vec3(1.0, -2.0, 0.7), offset);
+    };
+    const CurveGraph other = skeleton_of(test::renumbered(place(mesh), 3)).graph;
+    expect_topology(GetParam(), other);
+    EXPECT_EQ(end_count(other), GetParam().ends) << "scale " << scale;
+    CurveGraph moved = graph;
+    moved.nodes = place({.positions = graph.nodes, .triangles = {}}).positions;
+    EXPECT_LE(node_distance(moved, other), 2.0 * scale * sample_spacing(mesh, {}));
+  }
+}
+
 class SkeletonTopology : public testing::TestWithParam<Shape> {};
 
 TEST_P(SkeletonTopology, IsThatOfTheSurface) {
@@ -252,6 +282,8 @@ TEST_P(SkeletonTopology, LosesNoLimb) {
 INSTANTIATE_TEST_SUITE_P(Shapes, SkeletonTopology, testing::ValuesIn(shapes()),
                          [](const auto& each) { return each.param.name; });
 INSTANTIATE_TEST_SUITE_P(Blocks, SkeletonTopology, testing::ValuesIn(blocky_shapes()),
+                         [](const auto& each) { return each.param.name; });
+INSTANTIATE_TEST_SUITE_P(Shapes, SkeletonStrategy, testing::ValuesIn(shapes_contracted_otherwise()),
                          [](const auto& each) { return each.param.name; });
 INSTANTIATE_TEST_SUITE_P(Shapes, SkeletonProperty, testing::ValuesIn(shapes()),
                          [](const auto& each) { return each.param.name; });

@@ -2,8 +2,10 @@
 #include "skeleton/shell.h"
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include "vantage/core/random.h"
@@ -19,9 +21,19 @@ namespace {
 
 using test::one_component;
 
+/// A sphere whose vertices stand at random radii: long faces askew, of which many lie over one another.
+TriMesh spiky_sphere() {
+  Pcg32 random(7);
+  TriMesh mesh = test::sphere(3);
+  for (Vec3& p : mesh.positions) {
+    p *= 0.1 + 0.9 * random.uniform();
+  }
+  return mesh;
+}
+
 TEST(ShellInside, AgreesWithSolidAnglesAtRandomPoints) {
   Pcg32 random(3);
-  for (const TriMesh& mesh : {test::torus(1.0, 0.3, 20, 10), test::cube_frame(),
+  for (const TriMesh& mesh : {test::torus(1.0, 0.3, 20, 10), test::cube_frame(), spiky_sphere(),
                               test::inside_out(test::y_of_tubes(0.3, 12))}) {
     const auto components = one_component(mesh);
     const Shell shell(mesh, components);
@@ -91,6 +103,78 @@ TEST(ShellMiddle, IsFoundInAShellTurnedInsideOut) {
   EXPECT_LE(middle.norm(), 0.02);
 }
 
+TEST(ShellWall, GoesStraightThroughABoxAlongItsGrid) {
+  // From corners of cells to corners of cells: every ray runs along edges of the grid.
+  const TriMesh mesh = test::box(4, 4, 1, 4);
+  const auto components = one_component(mesh);
+  const Shell shell(mesh, components);
+  int walls = 0;
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3& p = mesh.positions[v];
+    if (p.x() > 0.5 && p.x() < 3.5 && p.y() > 0.5 && p.y() < 3.5) {
+      const auto wall = shell.wall_at(v);
+      ASSERT_TRUE(wall.has_value());
+      EXPECT_LE((*wall - Vec3(0, 0, p.z() > 0.5 ? -1 : 1)).norm(), 1e-12);
+      ++walls;
+    }
+  }
+  EXPECT_EQ(walls, 18);
+}
+
+/// Length along a unit direction to the nearest face, of all faces; infinite if none is met.
+double nearest_face(const TriMesh& mesh, const Vec3& from, const Vec3& direction, double skip) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Triangle& t : mesh.triangles) {
+    Eigen::Matrix3d sides;
+    sides << mesh.positions[t[1]] - mesh.positions[t[0]],
+        mesh.positions[t[2]] - mesh.positions[t[0]], -direction;
+    const Vec3 at = sides.inverse() * (from - mesh.positions[t[0]]);
+    if (at[0] >= 0.0 && at[1] >= 0.0 && at[0] + at[1] <= 1.0 && at[2] > skip) {
+      nearest = std::min(nearest, at[2]);
+    }
+  }
+  return nearest;
+}
+
+TEST(ShellWall, IsTheNearestOfAllFacesAcrossTheInside) {
+  const TriMesh mesh = spiky_sphere();
+  const auto components = one_component(mesh);
+  const Shell shell(mesh, components);
+  const double size = bounding_box(mesh.positions).longest_side();
+  std::vector<Vec3> normals(mesh.positions.size(), Vec3::Zero());
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) {
+      normals[v] += area_vector(mesh, t);
+    }
+  }
+  for (std::uint32_t v = 0; v < mesh.positions.size(); v += 3) {
+    double expected = 0.0;  // none
+    for (const double sense : {-1.0, 1.0}) {
+      const Vec3 direction = sense * normals[v].normalized();
+      const double length = nearest_face(mesh, mesh.positions[v], direction, 1e-4 * size);
+      if (std::isfinite(length) && std::abs(test::winding_number(
+                                       mesh, mesh.positions[v] + 0.5 * length * direction)) > 0.5) {
+        expected = length;
+        break;
+      }
+    }
+    const auto wall = shell.wall_at(v);
+    EXPECT_NEAR(wall.value_or(Vec3::Zero()).norm(), expected, 1e-9) << v;
+  }
+}
+
+TEST(ShellWall, IsTheSameByRaysAsByTheGrid) {
+  const TriMesh mesh = spiky_sphere();
+  const auto components = one_component(mesh);
+  const Shell by_grid(mesh, components);
+  const Shell by_rays(mesh, components, 0);
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3 grid = by_grid.wall_at(v).value_or(Vec3::Zero());
+    const Vec3 rays = by_rays.wall_at(v).value_or(Vec3::Zero());
+    EXPECT_LE((grid - rays).norm(), 1e-5) << v;  // rays are in single precision
+  }
+}
+
 TEST(ShellOutsideLength, OfAChordIsWhatLiesInTheHole) {
   // A ring of 40 × 12: vertices at the x axis have the exact radii 0.75 and 1.25.
   const TriMesh mesh = test::torus(1.0, 0.25, 40, 12);
@@ -124,6 +208,35 @@ TEST(ShellOutsideLength, AgreesWithSolidAnglesAlongRandomSegments) {
                   static_cast<double>(outside) / kSamples, 8.0 / kSamples);
     }
   }
+}
+
+TEST(ShellOutsideLength, AgreesWithSolidAnglesAmongSpikes) {
+  constexpr int kSamples = 200;
+  Pcg32 random(5);
+  const TriMesh mesh = spiky_sphere();
+  const auto components = one_component(mesh);
+  const Shell shell(mesh, components);
+  int partly_outside = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Vec3 a(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5);
+    const Vec3 b(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5);
+    int outside = 0;
+    int changes = 0;
+    bool was_inside = false;
+    for (int s = 0; s < kSamples; ++s) {
+      const double t = (s + 0.5) / kSamples;
+      const bool is_inside = std::abs(test::winding_number(mesh, (1.0 - t) * a + t * b)) > 0.5;
+      outside += is_inside ? 0 : 1;
+      changes += is_inside == was_inside ? 0 : 1;
+      was_inside = is_inside;
+    }
+    // Every change is found up to one sample; four spikes may be passed between two samples.
+    EXPECT_NEAR(shell.outside_length(0, a, b) / (b - a).norm(),
+                static_cast<double>(outside) / kSamples, (changes + 4.0) / kSamples);
+    EXPECT_EQ(shell.inside(0, a, b), shell.outside_length(0, a, b) == 0.0);
+    partly_outside += outside > 0 && outside < kSamples ? 1 : 0;
+  }
+  EXPECT_GE(partly_outside, 20);
 }
 
 }  // namespace
