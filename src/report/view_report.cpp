@@ -13,6 +13,7 @@
 #include "report/scored_view.h"
 #include "report/twins.h"
 #include "report/vertex_share.h"
+#include "view/nearby_scorer.h"
 #include "view/sketch_scorer.h"
 
 namespace vantage {
@@ -149,9 +150,19 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
   const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
     return scorer.score_all(directions, batch_run);
   };
+  ScoreBatch remembered = score;
   SearchHints hints;
   std::optional<SketchScorer> sketch;
+  NearbyScorer amid(visibility, shape.map.of_vertex, report.camera);
   if (options.search.strategy == SearchStrategy::Global) {
+    if (!faces) {
+      remembered = [&](const std::vector<Vec3>& directions) {
+        return amid.score_all(directions, batch_run);
+      };
+      hints.nearby = [&](const std::vector<Vec3>& others, const std::vector<Vec3>& directions) {
+        return amid.score_amid(others, directions, batch_run);
+      };
+    }
     hints.landmarks = landmark_directions(shape.surface);
     hints.brinks = brink_directions(shape.surface, report.camera);
     const std::size_t size = shape.surface.positions.size();
@@ -166,8 +177,8 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
   }
   const double search_share = options.view_set || options.certify ? 0.25 : 1.0;  // of the bar
   const UprightFrame frame = upright_frame(up_vector(up));
-  FoundViews found = search_under_prior(score, report.total, options.prior, frame, options.search,
-                                        run.part(0.0, search_share), hints);
+  FoundViews found = search_under_prior(remembered, report.total, options.prior, frame,
+                                        options.search, run.part(0.0, search_share), hints);
   auto& [best, worst] = found;
   report.twins = twins_of(best.direction, shape, scorer, options.prior, frame);
   if (!options.prior.is_uniform) {
