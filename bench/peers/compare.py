@@ -19,7 +19,7 @@ import sys
 import tempfile
 
 COLUMNS = ("mesh", "vertices", "CGAL s", "ours s", "ratio", "CGAL CPU s", "ours CPU s", "CPU ratio", "`view` s",
-           "CGAL / `view`", "CGAL MB", "ours MB")
+           "CGAL / `view`", "`view` CPU s", "CPU ratio of `view`", "CGAL MB", "ours MB")
 WIDTH, HEIGHT, MARGIN = 640, 420, 56
 
 
@@ -52,7 +52,8 @@ def compare(ours, peer, mesh, runs):
             _, cpu, memory = run([ours, "skeleton", same, "-o", skeleton, "-q"])
             note("ours cpu", cpu)
             peak["ours"] = max(peak["ours"], memory)
-            out, _, _ = run([ours, "view", same, "-o", os.path.join(folder, "view"), "--no-images", "--json"])
+            out, cpu, _ = run([ours, "view", same, "-o", os.path.join(folder, "view"), "--no-images", "--json"])
+            note("view cpu", cpu)
             report = json.loads(out)
             note("ours", report["seconds"]["contract"] + report["seconds"]["skeleton"])
             note("view", report["seconds"]["total"])
@@ -63,7 +64,8 @@ def row(mesh, least, peak, vertices):
     return (pathlib.Path(mesh).stem, vertices, f"{least['peer']:.2f}", f"{least['ours']:.2f}",
             f"{least['peer'] / least['ours']:.1f}", f"{least['peer cpu']:.2f}", f"{least['ours cpu']:.2f}",
             f"{least['peer cpu'] / least['ours cpu']:.1f}", f"{least['view']:.2f}",
-            f"{least['peer'] / least['view']:.1f}", f"{peak['peer']:.0f}", f"{peak['ours']:.0f}")
+            f"{least['peer'] / least['view']:.1f}", f"{least['view cpu']:.2f}",
+            f"{least['peer cpu'] / least['view cpu']:.1f}", f"{peak['peer']:.0f}", f"{peak['ours']:.0f}")
 
 
 def line(cells):
