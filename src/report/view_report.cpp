@@ -123,6 +123,8 @@ DenseGap gap_to_dense(const FoundViews& found, const ScoreBatch& score, double t
 // than a millisecond. One of very few is looked over by its scores. [ours, docs/search.md]
 constexpr std::size_t kCheapBelow = 6000;
 constexpr std::size_t kEstimatedFrom = 500;
+// The sketch of such a model is finer, too.
+constexpr SketchOptions kFineSketch{.points = 5000, .faces = 5000, .cells = 112};
 
 }  // namespace
 
@@ -169,7 +171,7 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
     hints.scores_are_cheap = size < kCheapBelow;
     if (size >= (faces ? kCheapBelow : kEstimatedFrom)) {
       sketch.emplace(shape.surface, shape.sides, vertex_shares(shape, options.weight),
-                     report.camera);
+                     report.camera, hints.scores_are_cheap ? kFineSketch : SketchOptions{});
       hints.estimate = [&](const std::vector<Vec3>& directions) {
         return sketch->score_all(directions, batch_run);
       };
