@@ -173,52 +173,65 @@ NearbySight::Cells NearbySight::sort_sites() const {
   return cells;
 }
 
-void NearbySight::list_faces(const Cells& cells) {
-  const bool perspective = middle_.projection == Projection::Perspective;
+/// Whether the face may be turned to one of the eyes, or its back can hide, too.
+bool NearbySight::may_hide(std::uint32_t face) const {
+  if (surface_.sides[face] == FaceSides::Both) {
+    return true;
+  }
+  const Vec3& corner = surface_.sites[surface_.faces[face][0]];
+  const Vec3 sight = middle_.projection == Projection::Perspective ? Vec3(middle_.position - corner)
+                                                                   : middle_.position;
+  return surface_.area_vectors[face].dot(sight) >= -reach_ * surface_.twice_areas[face];
+}
+
+/// Calls visit(slot) for each site asked about that the face may hide from one of the eyes.
+template <class Visit>
+void NearbySight::visit_behind(std::uint32_t face, const Cells& cells, const Visit& visit) const {
   const auto reach = kAllowance * static_cast<float>(reach_);
+  const auto& [a, b, c] = surface_.faces[face];
+  const auto [left, right] = std::minmax({picture_.x[a], picture_.x[b], picture_.x[c]});
+  const auto [bottom, top] = std::minmax({picture_.y[a], picture_.y[b], picture_.y[c]});
+  const float nearest =
+      std::max({picture_.nearness[a], picture_.nearness[b], picture_.nearness[c]}) +
+      kPictureRounding;
+  const float most = reach * (nearest - cells.farthest_of_all) + kPictureRounding;
+  if (most < 0.0F) {
+    return;
+  }
+  const auto is_behind = [&](std::uint32_t site, float x, float y) {
+    const float aside = reach * (nearest - picture_.nearness[site]) + kPictureRounding;
+    return aside > 0.0F && x > left - aside && x < right + aside && y > bottom - aside &&
+           y < top + aside && a != site && b != site && c != site;
+  };
+  const std::uint32_t last_column = cells.column(right + most);
+  const std::uint32_t last_row = cells.row(top + most);
+  for (std::uint32_t row = cells.row(bottom - most); row <= last_row; ++row) {
+    for (std::uint32_t column = cells.column(left - most); column <= last_column; ++column) {
+      const std::size_t cell = std::size_t{row} * cells.columns + column;
+      if (!(cells.farthest[cell] < nearest)) {
+        continue;
+      }
+      for (std::uint32_t k = cells.first[cell]; k < cells.first[cell + 1]; ++k) {
+        const std::uint32_t site = sites_[cells.slots[k]];
+        if (is_behind(site, picture_.x[site], picture_.y[site])) {
+          visit(cells.slots[k]);
+        }
+      }
+    }
+  }
+}
+
+void NearbySight::list_faces(const Cells& cells) {
   Listed holding;
   Listed before;
   for (std::uint32_t f = 0; f < surface_.faces.size() && !sites_.empty(); ++f) {
-    const auto& [a, b, c] = surface_.faces[f];
     for (const std::uint32_t site : surface_.faces[f]) {
       if (slot_of_site_[site] != kNoSlot) {
         holding.add(slot_of_site_[site], f);
       }
     }
-    const Vec3 sight = perspective ? Vec3(middle_.position - surface_.sites[a]) : middle_.position;
-    if (surface_.sides[f] == FaceSides::Front &&
-        surface_.area_vectors[f].dot(sight) < -reach_ * surface_.twice_areas[f]) {
-      continue;  // its back is turned to all of the eyes
-    }
-    const auto [left, right] = std::minmax({picture_.x[a], picture_.x[b], picture_.x[c]});
-    const auto [bottom, top] = std::minmax({picture_.y[a], picture_.y[b], picture_.y[c]});
-    const float nearest =
-        std::max({picture_.nearness[a], picture_.nearness[b], picture_.nearness[c]}) +
-        kPictureRounding;
-    const float most = reach * (nearest - cells.farthest_of_all) + kPictureRounding;
-    if (most < 0.0F) {
-      continue;
-    }
-    const std::uint32_t last_column = cells.column(right + most);
-    const std::uint32_t last_row = cells.row(top + most);
-    for (std::uint32_t row = cells.row(bottom - most); row <= last_row; ++row) {
-      for (std::uint32_t column = cells.column(left - most); column <= last_column; ++column) {
-        const std::size_t cell = std::size_t{row} * cells.columns + column;
-        if (!(cells.farthest[cell] < nearest)) {
-          continue;
-        }
-        for (std::uint32_t k = cells.first[cell]; k < cells.first[cell + 1]; ++k) {
-          const std::uint32_t slot = cells.slots[k];
-          const std::uint32_t site = sites_[slot];
-          const float aside = reach * (nearest - picture_.nearness[site]) + kPictureRounding;
-          const float x = picture_.x[site];
-          const float y = picture_.y[site];
-          if (aside > 0.0F && x > left - aside && x < right + aside && y > bottom - aside &&
-              y < top + aside && a != site && b != site && c != site) {
-            before.add(slot, f);
-          }
-        }
-      }
+    if (may_hide(f)) {
+      visit_behind(f, cells, [&](std::uint32_t slot) { before.add(slot, f); });
     }
   }
   holding.gather(sites_.size(), first_holding_, holding_);

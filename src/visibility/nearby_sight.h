@@ -47,6 +47,9 @@ class NearbySight {
   bool take_picture();
   [[nodiscard]] Cells sort_sites() const;
   void list_faces(const Cells& cells);
+  [[nodiscard]] bool may_hide(std::uint32_t face) const;
+  template <class Visit>
+  void visit_behind(std::uint32_t face, const Cells& cells, const Visit& visit) const;
   [[nodiscard]] bool is_seen(std::size_t slot, const Viewpoint& eye) const;
 
   const Surface& surface_;
