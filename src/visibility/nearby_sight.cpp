@@ -188,9 +188,10 @@ bool NearbySight::may_hide(std::uint32_t face) const {
 template <class Visit>
 void NearbySight::visit_behind(std::uint32_t face, const Cells& cells, const Visit& visit) const {
   const auto reach = kAllowance * static_cast<float>(reach_);
-  const auto& [a, b, c] = surface_.faces[face];
-  const auto [left, right] = std::minmax({picture_.x[a], picture_.x[b], picture_.x[c]});
-  const auto [bottom, top] = std::minmax({picture_.y[a], picture_.y[b], picture_.y[c]});
+  const Triangle& t = surface_.faces[face];
+  const auto [a, b, c] = t;
+  const auto across = std::minmax({picture_.x[a], picture_.x[b], picture_.x[c]});
+  const auto along = std::minmax({picture_.y[a], picture_.y[b], picture_.y[c]});
   const float nearest =
       std::max({picture_.nearness[a], picture_.nearness[b], picture_.nearness[c]}) +
       kPictureRounding;
@@ -200,13 +201,15 @@ void NearbySight::visit_behind(std::uint32_t face, const Cells& cells, const Vis
   }
   const auto is_behind = [&](std::uint32_t site, float x, float y) {
     const float aside = reach * (nearest - picture_.nearness[site]) + kPictureRounding;
-    return aside > 0.0F && x > left - aside && x < right + aside && y > bottom - aside &&
-           y < top + aside && a != site && b != site && c != site;
+    return aside > 0.0F && x > across.first - aside && x < across.second + aside &&
+           y > along.first - aside && y < along.second + aside &&
+           std::find(t.begin(), t.end(), site) == t.end();
   };
-  const std::uint32_t last_column = cells.column(right + most);
-  const std::uint32_t last_row = cells.row(top + most);
-  for (std::uint32_t row = cells.row(bottom - most); row <= last_row; ++row) {
-    for (std::uint32_t column = cells.column(left - most); column <= last_column; ++column) {
+  const std::uint32_t last_column = cells.column(across.second + most);
+  const std::uint32_t last_row = cells.row(along.second + most);
+  for (std::uint32_t row = cells.row(along.first - most); row <= last_row; ++row) {
+    for (std::uint32_t column = cells.column(across.first - most); column <= last_column;
+         ++column) {
       const std::size_t cell = std::size_t{row} * cells.columns + column;
       if (!(cells.farthest[cell] < nearest)) {
         continue;
