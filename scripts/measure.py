@@ -7,7 +7,8 @@
                                           map, and pictures of both best views into that folder
     measure.py global PROGRAM MODEL...    the global search against the dense one, whose results are kept in the
                                           folder that VANTAGE_DENSE names, if it does, and taken from there
-    measure.py smooth PROGRAM MODEL...    the largest change of score per degree between neighbouring directions
+    measure.py smooth PROGRAM MODEL...    the largest change of score per degree between neighbouring directions, from
+                                          the same dense results
     measure.py tessellation PROGRAM MODEL...  what splitting half of a model's faces in their planes does to the map,
                                           computed anew, and to the best view
     measure.py thumb  PROGRAM MODEL...    thumbnails: seconds, and their view against the best one
@@ -37,6 +38,7 @@ PAPER_SECONDS = {"rocker-arm_10044": 5.3, "cow_29000": 14.8, "venus_33066": 17.6
 EPSILONS = ["0.001", "0.01", "0.1", "1", "10", "100", "1000"]
 MOST_MISSED_VERTICES, MOST_PICTURED = 60_000, 6
 MISSED_BEST, MISSED_WORST = 0.99, 1  # share of the global search's best; % of the range above its worst
+DENSE_FOLDER = "VANTAGE_DENSE"  # the environment variable that names it
 RATIO_BINS = (0.99, 0.995, 0.998, 0.999, 0.9999, 1.0, 1.0001, 1.001)
 BROKEN_SECONDS = 60
 BROKEN_BYTES = 4 << 30
@@ -135,10 +137,22 @@ def missed_table(program, models):
                             "white", "-o", picture], check=True)
 
 
+def dense_search(program, model, kept):
+    """The result of the dense search, with what it scored beside it; from the folder if it is there."""
+    kept = pathlib.Path(kept)
+    steps = kept / (pathlib.Path(model).name + ".csv")
+
+    def search():
+        with tempfile.TemporaryDirectory() as folder:
+            return run(program, "view", model, "-o", folder, "--no-images", "--json", "--prior", "none", "--threads", "1",
+                       "--search", "dense", "--trace", steps)
+    return once(kept, pathlib.Path(model).name, search)
+
+
 def global_table(program, models):
     """Costs are processor time of one thread: those of two sets of directions tell what a score takes, and what
     everything else takes that is not the search."""
-    kept = os.environ.get("VANTAGE_DENSE")
+    kept = os.environ.get(DENSE_FOLDER)
     print("| model | vertices | best / dense | worst − dense, % of range | scored, best + worst | estimated"
           " | seconds | cost / 200 scores |")
     print("| --- " * 8 + "|")
@@ -150,7 +164,7 @@ def global_table(program, models):
             def search(*way):
                 _, seconds, said = timed(program, "view", model, *flags, *way)
                 return seconds, json.loads(said)
-            dense = once(kept, pathlib.Path(model).name, lambda: search("dense")[1])
+            dense = dense_search(program, model, kept or folder)
             ways = [("global",), *(("exhaustive", "--subdivisions", n) for n in ("1", "3"))]
             (t_found, found), (t_few, few), (t_many, many) = (search(*way) for way in ways)
             few, many = (r["search"]["evaluations"] for r in (few, many))
@@ -182,23 +196,35 @@ def smooth_table(program, models):
     """Is there "no sudden change"? Neighbours are the directions within 2.5° of the 10 242, 2° apart."""
     print("| model | vertices | largest change per degree, % of the range | median, % of the range |")
     print("| --- " * 4 + "|")
-    for model in models:
-        done = subprocess.run([program, "score", model, "--sphere", "5", "-q"], capture_output=True, text=True,
-                              check=True)
-        rows = list(csv.DictReader(done.stdout.splitlines()))
-        cells = {}
-        for row in rows:  # buckets of the unit cube, wider than the distance of neighbours
-            d = tuple(float(row[c]) for c in ("dx", "dy", "dz"))
-            cells.setdefault(tuple(int(x * 20 + 40) for x in d), []).append((d, float(row["score"])))
-        scores = [float(row["score"]) for row in rows]
-        spread = max(scores) - min(scores)
-        slopes = [abs(s - t) / angle / spread * 100
-                  for cell, members in cells.items() for d, s in members
-                  for near in neighbours_of(cell) for e, t in cells.get(near, [])
-                  if 0 < (angle := math.degrees(2 * math.asin(min(1, math.dist(d, e) / 2)))) < 2.5]
-        vertices = run(program, "info", model, "--json")["vertices"]
-        print(f"| {pathlib.Path(model).stem} | {vertices} | {max(slopes):.2f} | {statistics.median(slopes):.2f} |",
-              flush=True)
+    largest, medians = [], []
+    with tempfile.TemporaryDirectory() as folder:
+        for model in models:
+            kept = os.environ.get(DENSE_FOLDER, folder)
+            result = dense_search(program, model, kept)
+            with open(pathlib.Path(kept) / (pathlib.Path(model).name + ".csv"), encoding="utf-8") as steps:
+                rows = [row for row in csv.DictReader(steps) if row["level"] == "0"]
+            slopes = slopes_between(rows)
+            largest.append(max(slopes))
+            medians.append(statistics.median(slopes))
+            print(f"| {result['model']['name']} | {result['model']['vertices']} | {largest[-1]:.2f} | {medians[-1]:.2f} |",
+                  flush=True)
+    print(f"\nOf {len(largest)} models the largest change is {min(largest):.1f} to {max(largest):.1f} (median "
+          f"{statistics.median(largest):.1f}), above 10 on {sum(x > 10 for x in largest)}; the median change is "
+          f"{min(medians):.2f} to {max(medians):.2f}")
+
+
+def slopes_between(rows):
+    """Changes of score between neighbours, % of the range a degree."""
+    cells = {}
+    for row in rows:  # buckets of the unit cube, wider than the distance of neighbours
+        d = tuple(float(row[c]) for c in ("dx", "dy", "dz"))
+        cells.setdefault(tuple(int(x * 20 + 40) for x in d), []).append((d, float(row["score"])))
+    scores = [float(row["score"]) for row in rows]
+    spread = max(scores) - min(scores)
+    return [abs(s - t) / angle / spread * 100
+            for cell, members in cells.items() for d, s in members
+            for near in neighbours_of(cell) for e, t in cells.get(near, [])
+            if 0 < (angle := math.degrees(2 * math.asin(min(1, math.dist(d, e) / 2)))) < 2.5]
 
 
 def neighbours_of(cell):

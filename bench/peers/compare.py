@@ -19,12 +19,12 @@ import sys
 import tempfile
 
 COLUMNS = ("mesh", "vertices", "CGAL s", "ours s", "ratio", "CGAL CPU s", "ours CPU s", "CPU ratio", "`view` s",
-           "CGAL / `view`", "CGAL MB", "ours MB")
+           "CGAL / `view`", "`view` CPU s", "CPU ratio of `view`", "CGAL MB", "ours MB")
 WIDTH, HEIGHT, MARGIN = 640, 420, 56
 
 
 def run(command):
-    """Standard output and peak resident megabytes of a command."""
+    """Standard output, processor seconds and peak resident megabytes of a command."""
     with tempfile.TemporaryFile() as out:
         child = subprocess.Popen(command, stdout=out, stderr=subprocess.DEVNULL)
         _, status, usage = os.wait4(child.pid, 0)
@@ -32,7 +32,7 @@ def run(command):
         if child.returncode != 0:
             raise RuntimeError(f"{command[0]} failed with {child.returncode}")
         out.seek(0)
-        return out.read().decode(), usage.ru_maxrss / 1024
+        return out.read().decode(), usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
 
 
 def compare(ours, call, peer, mesh, runs):
@@ -45,16 +45,17 @@ def compare(ours, call, peer, mesh, runs):
         same, skeleton = os.path.join(folder, "mesh.ply"), os.path.join(folder, "skeleton.json")
         run([ours, "map", mesh, "-o", same, "-q"])
         for _ in range(runs):
-            out, memory = run([peer, same])
+            out, _, memory = run([peer, same])
             note("peer", float(out.split()[0]))
             note("peer cpu", float(out.split()[1]))
             peak["peer"] = max(peak["peer"], memory)
-            out, _ = run([call, same])
+            out, _, _ = run([call, same])
             note("ours", float(out.split()[0]))
             note("ours cpu", float(out.split()[1]))
-            _, memory = run([ours, "skeleton", same, "-o", skeleton, "-q"])
+            _, _, memory = run([ours, "skeleton", same, "-o", skeleton, "-q"])
             peak["ours"] = max(peak["ours"], memory)
-            out, _ = run([ours, "view", same, "-o", os.path.join(folder, "view"), "--no-images", "--json"])
+            out, cpu, _ = run([ours, "view", same, "-o", os.path.join(folder, "view"), "--no-images", "--json"])
+            note("view cpu", cpu)
             report = json.loads(out)
             note("view", report["seconds"]["total"])
     return least, peak, report["model"]["vertices"]
@@ -64,7 +65,8 @@ def row(mesh, least, peak, vertices):
     return (pathlib.Path(mesh).stem, vertices, f"{least['peer']:.2f}", f"{least['ours']:.2f}",
             f"{least['peer'] / least['ours']:.1f}", f"{least['peer cpu']:.2f}", f"{least['ours cpu']:.2f}",
             f"{least['peer cpu'] / least['ours cpu']:.1f}", f"{least['view']:.2f}",
-            f"{least['peer'] / least['view']:.1f}", f"{peak['peer']:.0f}", f"{peak['ours']:.0f}")
+            f"{least['peer'] / least['view']:.1f}", f"{least['view cpu']:.2f}",
+            f"{least['peer cpu'] / least['view cpu']:.1f}", f"{peak['peer']:.0f}", f"{peak['ours']:.0f}")
 
 
 def line(cells):

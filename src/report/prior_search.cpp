@@ -37,6 +37,16 @@ FoundViews search_under_prior(const ScoreBatch& score, double total, const ViewP
       return weigh(estimated.scores(directions, 0), directions);
     };
   }
+  std::size_t nearby_asked = 0;
+  if (hints.nearby) {
+    plain.nearby = [&](const std::vector<Vec3>& others, const std::vector<Vec3>& directions) {
+      nearby_asked += directions.size();
+      return hints.nearby(others, directions);
+    };
+    weighty.nearby = [&](const std::vector<Vec3>& others, const std::vector<Vec3>& directions) {
+      return weigh(plain.nearby(others, directions), directions);
+    };
+  }
   FoundViews views;
   views.best = search_view(weighted, total, Goal::Best, options, run.part(0.0, 0.8), weighty);
   for (SearchStep& step : views.best.trace) {
@@ -45,7 +55,7 @@ FoundViews search_under_prior(const ScoreBatch& score, double total, const ViewP
   views.best.score = pure.scores({views.best.direction}, 0).front();
   const std::size_t scored = pure.trace().size();
   views.worst = search_view(remembered, total, Goal::Worst, options, run.part(0.8, 1.0), plain);
-  views.worst.estimates = estimated.trace().size() - views.best.estimates;
+  views.worst.estimates = estimated.trace().size() + nearby_asked - views.best.estimates;
   // What the best view had scored before is not the worst view's cost.
   std::vector<SearchStep> fresh;
   std::size_t next = scored;

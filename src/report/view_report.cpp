@@ -13,6 +13,7 @@
 #include "report/scored_view.h"
 #include "report/twins.h"
 #include "report/vertex_share.h"
+#include "view/nearby_scorer.h"
 #include "view/sketch_scorer.h"
 
 namespace vantage {
@@ -122,6 +123,8 @@ DenseGap gap_to_dense(const FoundViews& found, const ScoreBatch& score, double t
 // than a millisecond. One of very few is looked over by its scores. [ours, docs/search.md]
 constexpr std::size_t kCheapBelow = 6000;
 constexpr std::size_t kEstimatedFrom = 500;
+// The sketch of such a model is finer, too.
+constexpr SketchOptions kFineSketch{.points = 5000, .faces = 5000, .cells = 112};
 
 }  // namespace
 
@@ -149,16 +152,26 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
   const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
     return scorer.score_all(directions, batch_run);
   };
+  ScoreBatch remembered = score;
   SearchHints hints;
   std::optional<SketchScorer> sketch;
+  NearbyScorer amid(visibility, shape.map.of_vertex, report.camera);
   if (options.search.strategy == SearchStrategy::Global) {
+    if (!faces) {
+      remembered = [&](const std::vector<Vec3>& directions) {
+        return amid.score_all(directions, batch_run);
+      };
+      hints.nearby = [&](const std::vector<Vec3>& others, const std::vector<Vec3>& directions) {
+        return amid.score_amid(others, directions, batch_run);
+      };
+    }
     hints.landmarks = landmark_directions(shape.surface);
     hints.brinks = brink_directions(shape.surface, report.camera);
     const std::size_t size = shape.surface.positions.size();
     hints.scores_are_cheap = size < kCheapBelow;
     if (size >= (faces ? kCheapBelow : kEstimatedFrom)) {
       sketch.emplace(shape.surface, shape.sides, vertex_shares(shape, options.weight),
-                     report.camera);
+                     report.camera, hints.scores_are_cheap ? kFineSketch : SketchOptions{});
       hints.estimate = [&](const std::vector<Vec3>& directions) {
         return sketch->score_all(directions, batch_run);
       };
@@ -166,8 +179,8 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
   }
   const double search_share = options.view_set || options.certify ? 0.25 : 1.0;  // of the bar
   const UprightFrame frame = upright_frame(up_vector(up));
-  FoundViews found = search_under_prior(score, report.total, options.prior, frame, options.search,
-                                        run.part(0.0, search_share), hints);
+  FoundViews found = search_under_prior(remembered, report.total, options.prior, frame,
+                                        options.search, run.part(0.0, search_share), hints);
   auto& [best, worst] = found;
   report.twins = twins_of(best.direction, shape, scorer, options.prior, frame);
   if (!options.prior.is_uniform) {

@@ -2,7 +2,10 @@
 #include "view/climb.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "vantage/mesh/topology.h"
 
@@ -44,18 +47,47 @@ std::vector<Candidate> local_peaks(Goal goal, const DirectionSet& set,
   return result;
 }
 
+std::vector<Candidate> ring_of(Candidate& candidate, double width_rad) {
+  // Around the ring by 60° each.
+  constexpr std::array<std::array<double, 2>, 6> kSteps{
+      {{1.0, 0.0}, {0.0, 1.0}, {-1.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}, {1.0, -1.0}}};
+  Foothold& at = candidate.foothold;
+  if (at.width_rad == 0.0) {
+    at = {candidate.direction, width_rad, 0.0, 0.0};
+  }
+  const Vec3 right = at.start.unitOrthogonal();
+  const Vec3 up = at.start.cross(right);
+  const double step = width_rad / at.width_rad;
+  std::vector<Candidate> ring;
+  ring.reserve(kSteps.size());
+  for (const auto& [along, aslant] : kSteps) {
+    Foothold next = at;
+    next.along += step * along;
+    next.aslant += step * aslant;
+    const double x = next.along + 0.5 * next.aslant;
+    const double y = 0.5 * std::numbers::sqrt3 * next.aslant;
+    const Vec3 direction = at.start + at.width_rad * (x * right + y * up);
+    const bool is_start = next.along == 0.0 && next.aslant == 0.0;
+    ring.push_back({is_start ? at.start : direction.normalized(), 0.0, next});
+  }
+  return ring;
+}
+
 void climb(std::vector<Candidate>& candidates, Goal goal, const RingSteps& steps,
-           Evaluator& evaluator, int level, const RunContext& run) {
+           const ScoreRings& score, int level, const RunContext& run) {
   std::vector<double> width(candidates.size(), steps.first_rad);
   double done = 0.0;
   for (;; ++level) {
-    std::vector<Vec3> batch;
+    std::vector<Candidate> rings;
+    std::vector<Vec3> directions;
     std::vector<std::size_t> active;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (width[i] >= steps.last_rad) {
         active.push_back(i);
-        const std::vector<Vec3> ring = ring_around(candidates[i].direction, width[i]);
-        batch.insert(batch.end(), ring.begin(), ring.end());
+        for (Candidate& place : ring_of(candidates[i], width[i])) {
+          directions.push_back(place.direction);
+          rings.push_back(std::move(place));
+        }
       }
     }
     if (active.empty()) {
@@ -66,14 +98,16 @@ void climb(std::vector<Candidate>& candidates, Goal goal, const RingSteps& steps
     done = std::max(done, std::log(steps.first_rad / widest) /
                               std::log(2.0 * steps.first_rad / steps.last_rad));
     run.advance("search", done);
-    const std::vector<double> scores = evaluator.scores(batch, level);
-    const std::size_t ring_size = batch.size() / active.size();
+    const std::vector<double> scores = score(active, directions, level);
+    for (std::size_t k = 0; k < rings.size(); ++k) {
+      rings[k].score = scores[k];
+    }
+    const std::size_t ring_size = rings.size() / active.size();
     for (std::size_t k = 0; k < active.size(); ++k) {
-      const auto begin = scores.begin() + static_cast<std::ptrdiff_t>(k * ring_size);
-      const std::size_t best =
-          best_of(goal, {begin, begin + static_cast<std::ptrdiff_t>(ring_size)});
+      const auto begin = rings.begin() + static_cast<std::ptrdiff_t>(k * ring_size);
+      const Candidate found =
+          winner_of(goal, {begin, begin + static_cast<std::ptrdiff_t>(ring_size)});
       Candidate& here = candidates[active[k]];
-      const Candidate found{batch[k * ring_size + best], scores[k * ring_size + best]};
       if (is_better(goal, found.score, here.score)) {
         here = found;
       } else {
@@ -81,6 +115,13 @@ void climb(std::vector<Candidate>& candidates, Goal goal, const RingSteps& steps
       }
     }
   }
+}
+
+void climb(std::vector<Candidate>& candidates, Goal goal, const RingSteps& steps,
+           Evaluator& evaluator, int level, const RunContext& run) {
+  const ScoreRings score = [&](const std::vector<std::size_t>&, const std::vector<Vec3>& rings,
+                               int at) { return evaluator.scores(rings, at); };
+  climb(candidates, goal, steps, score, level, run);
 }
 
 Candidate winner_of(Goal goal, const std::vector<Candidate>& candidates) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "vantage/spatial/directions.h"
@@ -14,10 +15,21 @@
 
 namespace vantage {
 
+/// Where a climb is on a triangular lattice around its start, in steps of a width; halved steps
+/// are steps of a finer lattice. So the ring around a place that was reached by a step holds places
+/// scored before, to the bit.
+struct Foothold {
+  Vec3 start = Vec3::Zero();
+  double width_rad = 0.0;  ///< 0 before the climb.
+  double along = 0.0;      ///< Steps along the first way of the ring …
+  double aslant = 0.0;     ///< … and along the second, at 60° to it.
+};
+
 /// A direction and its score.
 struct Candidate {
   Vec3 direction = Vec3::UnitZ();
   double score = 0.0;
+  Foothold foothold{};
 };
 
 /// Whether score `a` is strictly better than `b`.
@@ -39,9 +51,18 @@ struct RingSteps {
   double last_rad = 0.0;  ///< The last ring is not narrower.
 };
 
+/// Scores the rings of some candidates, which are told by their index; all of one size.
+using ScoreRings = std::function<std::vector<double>(const std::vector<std::size_t>& candidates,
+                                                     const std::vector<Vec3>& rings, int level)>;
+
+/// The ring of six around a candidate, on its lattice. The candidate gets a foothold if it has none.
+std::vector<Candidate> ring_of(Candidate& candidate, double width_rad);
+
 /// Moves each candidate to the best of a ring of six around it if that is strictly better, and
 /// halves the ring if not, until the ring would be narrower than the last. All candidates advance
 /// together, in one batch a round; rounds are recorded as levels from `level` on.
+void climb(std::vector<Candidate>& candidates, Goal goal, const RingSteps& steps,
+           const ScoreRings& score, int level, const RunContext& run);
 void climb(std::vector<Candidate>& candidates, Goal goal, const RingSteps& steps,
            Evaluator& evaluator, int level, const RunContext& run);
 

@@ -315,27 +315,110 @@ void Hunt::settle(const RunContext& run) {
   }
 }
 
+/// A place on a hill that is climbed.
+struct Hill {
+  Candidate top;
+  std::vector<Vec3> others{};  ///< In whose midst nearby scores are asked for, once there are any.
+};
+
 /// Hills are rough: places climb by rings, and the fewer are left the finer.
-Candidate climb_finely(std::vector<Candidate> tops, const Guides& guides, Goal goal,
-                       const RunContext& run) {
-  const Climbs& climbs = goal == Goal::Best ? guides.effort.to_best : guides.effort.to_worst;
+class Ascent {
+ public:
+  Ascent(const Guides& guides, Goal goal) : guides_(guides), goal_(goal) {}
+
+  Candidate climb_finely(const std::vector<Candidate>& tops, const RunContext& run);
+
+ private:
+  void keep_apart(std::size_t count, double apart_rad);
+  void climb_exactly(const RingSteps& rings, int level, const RunContext& run);
+  void climb_nearby(const RingSteps& rings, const RunContext& run);
+  void approach(Hill& hill) const;
+
+  const Guides& guides_;
+  Goal goal_;
+  std::vector<Hill> hills_{};  // best first
+};
+
+/// Two places within one ring have climbed to the same top, or would.
+void Ascent::keep_apart(std::size_t count, double apart_rad) {
+  const double limit = std::cos(apart_rad);
+  std::vector<Hill> kept;
+  for (Hill& hill : hills_) {
+    const bool taken = std::any_of(kept.begin(), kept.end(), [&](const Hill& other) {
+      return other.top.direction.dot(hill.top.direction) > limit;
+    });
+    if (!taken && kept.size() < count) {
+      kept.push_back(std::move(hill));
+    }
+  }
+  hills_ = std::move(kept);
+}
+
+void Ascent::climb_exactly(const RingSteps& rings, int level, const RunContext& run) {
+  std::vector<Candidate> tops;
+  for (const Hill& hill : hills_) {
+    tops.push_back(hill.top);
+  }
+  climb(tops, goal_, rings, guides_.exact, level, run);
+  for (std::size_t i = 0; i < tops.size(); ++i) {
+    hills_[i].top = tops[i];
+  }
+}
+
+/// Makes the place and the ring around it, all of them scored, those in whose midst it climbs on.
+void Ascent::approach(Hill& hill) const {
+  hill.others = {hill.top.direction};
+  for (const Candidate& place : ring_of(hill.top, kWidestRingRad)) {
+    hill.others.push_back(place.direction);
+  }
+  hill.top.score = guides_.nearby(hill.others, {hill.top.direction}).front();
+}
+
+void Ascent::climb_nearby(const RingSteps& rings, const RunContext& run) {
+  for (Hill& hill : hills_) {
+    if (hill.others.empty()) {
+      approach(hill);
+    }
+    const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
+      return guides_.nearby(hill.others, directions);
+    };
+    Evaluator evaluator(score);
+    std::vector<Candidate> top{hill.top};
+    climb(top, goal_, rings, evaluator, 0, run);
+    hill.top = top.front();
+  }
+}
+
+Candidate Ascent::climb_finely(const std::vector<Candidate>& tops, const RunContext& run) {
+  const Climbs& climbs = goal_ == Goal::Best ? guides_.effort.to_best : guides_.effort.to_worst;
   const std::size_t count = climbs.size();
+  for (const Candidate& top : tops) {
+    hills_.push_back({top});
+  }
+  Candidate best_scored = tops.front();
   double ring_rad = kWidestRingRad;
   for (std::size_t k = 0; k < count && climbs[k] > 0; ++k, ring_rad *= 0.5) {
-    // Two places within one ring have climbed to the same top, or would.
-    tops = first_apart(tops, climbs[k], ring_rad);
+    keep_apart(climbs[k], ring_rad);
     const bool is_last = k + 1 == count || climbs[k + 1] == 0;
     const RingSteps rings{ring_rad,
-                          is_last ? std::min(ring_rad, guides.effort.finest_rad) : ring_rad};
-    const auto at = [&](std::size_t stage) {
-      return static_cast<double>(stage) / static_cast<double>(count);
-    };
-    climb(tops, goal, rings, guides.exact, static_cast<int>(k) + 1, run.part(at(k), at(k + 1)));
-    std::stable_sort(tops.begin(), tops.end(), [&](const Candidate& one, const Candidate& other) {
-      return is_better(goal, one.score, other.score);
+                          is_last ? std::min(ring_rad, guides_.effort.finest_rad) : ring_rad};
+    const RunContext part = run.part(static_cast<double>(k) / static_cast<double>(count),
+                                     static_cast<double>(k + 1) / static_cast<double>(count));
+    if (k > 0 && guides_.nearby) {
+      climb_nearby(rings, part);
+    } else {
+      climb_exactly(rings, static_cast<int>(k) + 1, part);
+    }
+    std::stable_sort(hills_.begin(), hills_.end(), [&](const Hill& one, const Hill& other) {
+      return is_better(goal_, one.top.score, other.top.score);
     });
+    if (k == 0) {
+      best_scored = hills_.front().top;
+    }
   }
-  return tops.front();
+  Candidate found = hills_.front().top;
+  found.score = guides_.exact.scores({found.direction}, static_cast<int>(count)).front();
+  return is_better(goal_, best_scored.score, found.score) ? best_scored : found;
 }
 
 }  // namespace
@@ -347,7 +430,7 @@ Candidate search_globally(const Guides& guides, Goal goal, const SearchHints& hi
   hunt.score_marks(hints.landmarks, hints.brinks);
   hunt.settle(run.part(0.3, 0.7));
   const Climbs& climbs = goal == Goal::Best ? guides.effort.to_best : guides.effort.to_worst;
-  return climb_finely(hunt.best_known(climbs.front()), guides, goal, run.part(0.7, 1.0));
+  return Ascent(guides, goal).climb_finely(hunt.best_known(climbs.front()), run.part(0.7, 1.0));
 }
 
 }  // namespace vantage

@@ -31,6 +31,7 @@ struct Guides {
   Evaluator& estimates;  ///< Look over the sphere; may be the exact scores.
   Evaluator& exact;      ///< Decide.
   Effort effort;
+  ScoreNearby nearby{};  ///< If there is one, hills are climbed by it, but for their first rings.
 };
 
 /// The global search: docs/search.md has the steps and the numbers. \throw Cancelled

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include <Eigen/Eigenvalues>
 
@@ -34,21 +33,32 @@ constexpr double kMostAside = 0.9;
 
 /// Area vectors of the faces whose normals fall in one cell; largest areas first.
 std::vector<Vec3> area_vectors_by_normal(const TriMesh& surface, double area) {
-  std::map<std::array<int, 3>, Vec3> cells;
+  struct InCell {
+    std::array<int, 3> cell;
+    Vec3 vector;
+  };
+
+  std::vector<InCell> faces;
+  faces.reserve(surface.triangles.size());
   for (const Triangle& t : surface.triangles) {
     const Vec3 vector = area_vector(surface, t);
     const double size = vector.norm();
     if (size > 0.0) {
       const Vec3 at = (vector / size * kCells).array().round();
-      const std::array<int, 3> cell{static_cast<int>(at.x()), static_cast<int>(at.y()),
-                                    static_cast<int>(at.z())};
-      cells.try_emplace(cell, Vec3::Zero()).first->second += vector;
+      faces.push_back(
+          {{static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())}, vector});
     }
   }
+  std::stable_sort(faces.begin(), faces.end(),
+                   [](const InCell& a, const InCell& b) { return a.cell < b.cell; });
   std::vector<Vec3> vectors;
-  for (const auto& [cell, vector] : cells) {
-    if (vector.norm() >= kLeastCellShare * area) {
-      vectors.push_back(vector);
+  for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
+    Vec3 sum = Vec3::Zero();
+    for (; end < faces.size() && faces[end].cell == faces[begin].cell; ++end) {
+      sum += faces[end].vector;
+    }
+    if (sum.norm() >= kLeastCellShare * area) {
+      vectors.push_back(sum);
     }
   }
   std::stable_sort(vectors.begin(), vectors.end(),

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "vantage/core/error.h"
 
@@ -162,16 +163,24 @@ class Inquiry {
   Inquiry(const ScoreBatch& score, const SearchHints& hints)
       : exact_(score),
         estimates_(hints.estimate),
+        nearby_(hints.nearby),
         has_estimates_(static_cast<bool>(hints.estimate)),
         is_thorough_(hints.scores_are_cheap) {}
 
   Evaluator& exact() { return exact_; }
 
   Guides guides() {
-    if (!has_estimates_) {
-      return {exact_, exact_, kByScores};
+    ScoreNearby counted{};
+    if (nearby_) {
+      counted = [this](const std::vector<Vec3>& others, const std::vector<Vec3>& directions) {
+        nearby_asked_ += directions.size();
+        return nearby_(others, directions);
+      };
     }
-    return {estimates_, exact_, is_thorough_ ? kThorough : kUsual};
+    if (!has_estimates_) {
+      return {exact_, exact_, kByScores, std::move(counted)};
+    }
+    return {estimates_, exact_, is_thorough_ ? kThorough : kUsual, std::move(counted)};
   }
 
   /// Reports a view as found by all that was asked since the last report.
@@ -182,7 +191,7 @@ class Inquiry {
     view.trace.assign(exact_.trace().begin() + static_cast<std::ptrdiff_t>(reported_),
                       exact_.trace().end());
     view.evaluations = view.trace.size();
-    const std::size_t estimated = estimates_.trace().size();
+    const std::size_t estimated = estimates_.trace().size() + nearby_asked_;
     view.estimates = estimated - estimates_reported_;
     reported_ = exact_.trace().size();
     estimates_reported_ = estimated;
@@ -192,6 +201,8 @@ class Inquiry {
  private:
   Evaluator exact_;
   Evaluator estimates_;
+  ScoreNearby nearby_;
+  std::size_t nearby_asked_ = 0;
   bool has_estimates_;
   bool is_thorough_;
   std::size_t reported_ = 0;

@@ -24,6 +24,8 @@ constexpr double kSameCone = 0.9999;
 // A vertex is seen if any of its faces is turned to the eye, that is from somewhat behind the plane
 // across the cone's axis: the share of the mean sine between axis and normals. [ours, by trial]
 constexpr double kOpening = 0.6;
+// Far more than single precision rounds off, as a share of the eye's distance.
+constexpr double kRounded = 1e-5;
 constexpr std::size_t kLanes = 4;
 
 /// Maps the camera's sphere to the unit sphere.
@@ -152,6 +154,27 @@ float offset_of(const Cone& cone, const Vec3& p, double distance) {
   return static_cast<float>(axis.dot(p) - kOpening * sine * distance);
 }
 
+/// The cone around all of a point's. Towards an eye at e the axis a of one of them rises by
+/// (a − mean) · (e − p) more than the mean does, and its offset lies below its plane through p.
+void append_hull(SketchPoints::Cones& hull, const std::vector<Cone>& cones, const Vec3& p,
+                 double distance, bool perspective) {
+  Vec3 mean = Vec3::Zero();
+  for (const Cone& cone : cones) {
+    mean += cone.sum.normalized() / static_cast<double>(cones.size());
+  }
+  const double reach = perspective ? distance + p.norm() : 1.0;
+  double rise = 0.0;
+  for (const Cone& cone : cones) {
+    const Vec3 axis = cone.sum.normalized();
+    const double offset = perspective ? offset_of(cone, p, distance) - axis.dot(p)
+                                      : offset_of(cone, Vec3::Zero(), 1.0);
+    rise = std::max(rise, (axis - mean).norm() * reach - offset);
+  }
+  append(hull.axis, mean);
+  hull.offset.push_back(
+      static_cast<float>((perspective ? mean.dot(p) : 0.0) - rise - kRounded * (1.0 + distance)));
+}
+
 }  // namespace
 
 SketchPoints sketch_points(const TriMesh& surface, const std::vector<FaceSides>& sides,
@@ -171,6 +194,12 @@ SketchPoints sketch_points(const TriMesh& surface, const std::vector<FaceSides>&
     append(points.position, p);
     points.weight.push_back(static_cast<float>(chosen[i].weight));
     const std::vector<Cone> cones = gather_cones(normals[i]);
+    if (side_of[chosen[i].vertex] == FaceSides::Both) {
+      append(points.hull.axis, Vec3::Zero());
+      points.hull.offset.push_back(-kInfinity);
+    } else {
+      append_hull(points.hull, cones, p, distance, perspective);
+    }
     for (std::size_t k = 0; k < SketchPoints::kCones; ++k) {
       SketchPoints::Cones& of_points = points.cones[k];
       if (side_of[chosen[i].vertex] == FaceSides::Both) {
@@ -187,6 +216,8 @@ SketchPoints sketch_points(const TriMesh& surface, const std::vector<FaceSides>&
     }
   }
   pad(points.position);
+  pad(points.hull.axis);
+  points.hull.offset.resize(points.hull.offset.size() + kLanes, kInfinity);
   for (SketchPoints::Cones& cones : points.cones) {
     pad(cones.axis);
     cones.offset.resize(cones.offset.size() + kLanes, kInfinity);
@@ -236,6 +267,10 @@ SketchSurface sketch_surface(const TriMesh& surface, const std::vector<FaceSides
       v = row[v];
     }
     sketch.faces.push_back(face);
+  }
+  // Whole fours.
+  for (std::vector<float>* axis : {&corners.x, &corners.y, &corners.z}) {
+    axis->resize((axis->size() + kLanes - 1) / kLanes * kLanes, 0.0F);
   }
   sketch.corners = std::move(corners);
   return sketch;

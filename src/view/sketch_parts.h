@@ -36,11 +36,13 @@ struct SketchPoints {
   std::vector<float> weight{};   ///< What a point adds to the score, one entry a point.
   SketchCoordinates position{};  ///< Padded to whole fours, like the cones.
   std::array<Cones, kCones> cones{};
+  /// One cone around all of a point's: an eye that does not see into it sees into none of them.
+  Cones hull{};
 };
 
 /// A coarse surface that hides them.
 struct SketchSurface {
-  SketchCoordinates corners{};
+  SketchCoordinates corners{};  ///< Padded to whole fours.
   std::vector<Triangle> faces{};
   std::vector<std::uint8_t> two_sided{};  ///< One per face.
 };

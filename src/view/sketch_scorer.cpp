@@ -2,6 +2,7 @@
 #include "view/sketch_scorer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -35,6 +36,19 @@ Floats load(const std::vector<float>& from, std::size_t i) {
   Floats values;
   std::memcpy(&values, from.data() + i, sizeof values);
   return values;
+}
+
+/// Whether it is true in one of the lanes.
+bool any_of(const Ints& truths) {
+  std::array<std::uint64_t, kLanes / 2> pairs{};
+  std::memcpy(pairs.data(), &truths, sizeof pairs);
+  return (pairs[0] | pairs[1]) != 0;
+}
+
+/// How far the eye is over the planes of four cones.
+Floats height_over(const SketchPoints::Cones& cones, std::size_t i, const Eigen::Vector3f& eye) {
+  return load(cones.axis.x, i) * eye.x() + load(cones.axis.y, i) * eye.y() +
+         load(cones.axis.z, i) * eye.z() - load(cones.offset, i);
 }
 
 template <class Lanes, class Number>
@@ -150,9 +164,12 @@ class Sketch {
 void Sketch::draw_faces(const Frame& frame) {
   const SketchCoordinates& from = surface_.corners;
   corners_.resize(from.x.size());
-  for (std::size_t i = 0; i < corners_.size(); ++i) {
-    const Projected<float> spot = project(frame, from.x[i], from.y[i], from.z[i]);
-    corners_[i] = {spot.x, spot.y, spot.nearness};
+  for (std::size_t i = 0; i < corners_.size(); i += kLanes) {
+    const Projected<Floats> spots =
+        project(frame, load(from.x, i), load(from.y, i), load(from.z, i));
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      corners_[i + lane] = {spots.x[lane], spots.y[lane], spots.nearness[lane]};
+    }
   }
   nearness_.assign(cells_ * cells_ + kLanes, -kInfinity);
   for (std::uint32_t f = 0; f < surface_.faces.size(); ++f) {
@@ -232,15 +249,19 @@ void Sketch::project_points(const Vec3& direction, const Frame& frame) {
   };
   for (std::size_t i = 0; i < points_.weight.size(); i += kLanes) {
     Floats facing = zero - kInfinity;
-    for (const SketchPoints::Cones& cones : points_.cones) {
-      const Floats height = load(cones.axis.x, i) * eye.x() + load(cones.axis.y, i) * eye.y() +
-                            load(cones.axis.z, i) * eye.z() - load(cones.offset, i);
-      facing = height > facing ? height : facing;
+    if (any_of(height_over(points_.hull, i, eye) > zero)) {
+      for (std::size_t k = 0; k < SketchPoints::kCones && any_of(facing <= zero); ++k) {
+        const Floats height = height_over(points_.cones[k], i, eye);
+        facing = height > facing ? height : facing;
+      }
+    }
+    store(facing, facing_.data() + i);
+    if (!any_of(facing > zero)) {
+      continue;  // nobody asks where they are
     }
     const Projected<Floats> spot =
         project(frame, load(points_.position.x, i), load(points_.position.y, i),
                 load(points_.position.z, i));
-    store(facing, facing_.data() + i);
     store(inside(spot.x), x_.data() + i);
     store(inside(spot.y), y_.data() + i);
     store(spot.nearness, near_.data() + i);
@@ -261,8 +282,11 @@ float Sketch::hidden_share(std::size_t point, const float* at, float allowed) co
         std::min(plane.along_x * x + plane.along_y * y + plane.offset, at[cell] + kReach * allowed);
     return front - near_[point] > allowed ? 1.0F : 0.0F;
   };
-  const float across = x_[point] - std::floor(x_[point]);
-  const float along = y_[point] - std::floor(y_[point]);
+  const auto past_whole = [](float place) {  // of a number that is not negative
+    return place - static_cast<float>(static_cast<std::int32_t>(place));
+  };
+  const float across = past_whole(x_[point]);
+  const float along = past_whole(y_[point]);
   return (1.0F - along) * ((1.0F - across) * hides(0) + across * hides(1)) +
          along * ((1.0F - across) * hides(cells_) + across * hides(cells_ + 1));
 }

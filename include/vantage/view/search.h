@@ -63,10 +63,10 @@ struct SearchStep {
 
 /// One view found by a search.
 struct FoundView {
-  Vec3 direction = Vec3::UnitZ();   ///< Unit vector from the centre to the eye.
-  double score = 0.0;               ///< As the scorer gave it.
-  std::size_t evaluations = 0;      ///< Directions scored for it; none is scored twice.
-  std::size_t estimates = 0;        ///< Directions that an estimate was asked for.
+  Vec3 direction = Vec3::UnitZ();  ///< Unit vector from the centre to the eye.
+  double score = 0.0;              ///< As the scorer gave it.
+  std::size_t evaluations = 0;     ///< Directions scored for it; none is scored twice.
+  std::size_t estimates = 0;  ///< Directions that an estimate, or a nearby score, was asked for.
   std::vector<SearchStep> trace{};  ///< Each evaluated direction.
 };
 
@@ -79,11 +79,18 @@ struct FoundViews {
 /// Scores a batch of directions; must be a pure function of each direction.
 using ScoreBatch = std::function<std::vector<double>(const std::vector<Vec3>&)>;
 
+/// Scores directions in the midst of a few that were scored before, the first of which is in the
+/// middle: nearly right, and much cheaper than a score. Pure in both.
+using ScoreNearby = std::function<std::vector<double>(const std::vector<Vec3>& others,
+                                                      const std::vector<Vec3>& directions)>;
+
 /// What helps the global search and does not change what it looks for.
 struct SearchHints {
   /// If given, scores that are nearly right and much cheaper: the sphere is looked over by them, and
   /// exact scores are asked for only where they lead.
   ScoreBatch estimate{};
+  /// If given, hills are climbed by these once a ring of 1° is scored; what is found is scored.
+  ScoreNearby nearby{};
   /// Directions to look at whatever their neighbours say, such as landmark_directions().
   std::vector<Vec3> landmarks{};
   /// Directions to score whatever the estimate says, such as brink_directions().

@@ -11,6 +11,8 @@
 #include "vantage/visibility/vertex_visibility.h"
 
 #include "support/shapes.h"
+#include "view/climb.h"
+#include "view/evaluator.h"
 #include "view/sketch_scorer.h"
 #include "view/sphere_angles.h"
 
@@ -110,6 +112,75 @@ TEST(GlobalSearchByEstimates, ReportsExactScoresAndNoDirectionTwice) {
   for (const SearchStep& step : best.trace) {
     EXPECT_EQ(step.score, hills(step.direction));
     EXPECT_TRUE(seen.insert({step.direction.x(), step.direction.y(), step.direction.z()}).second);
+  }
+}
+
+/// Nearby scores that are wrong by up to `error`, and how many were asked for.
+ScoreNearby nearby_wrong_by(double error, std::size_t* asked) {
+  return [error, asked](const std::vector<Vec3>& others, const std::vector<Vec3>& directions) {
+    EXPECT_EQ(others.size(), 7U);
+    for (const Vec3& other : others) {
+      EXPECT_LT(angle_between(others.front(), other), 1.001 * kRadPerDeg);
+    }
+    *asked += directions.size();
+    return batch_of(wrong_by(error))(directions);
+  };
+}
+
+TEST(GlobalSearchByNearbyScores, ClimbsByThemAndReportsAnExactScore) {
+  std::size_t nearby = 0;
+  const SearchHints without{.estimate = batch_of(wrong_by(0.05))};
+  SearchHints with = without;
+  with.nearby = nearby_wrong_by(0.0, &nearby);
+  const FoundViews slow = search_best_and_worst(batch_of(hills), 10.0, {}, {}, without);
+  const FoundViews found = search_best_and_worst(batch_of(hills), 10.0, {}, {}, with);
+  EXPECT_LT(angle_between(found.best.direction, kHigh), kFoundRad);
+  EXPECT_LT(angle_between(found.worst.direction, kLow), kFoundRad);
+  EXPECT_DOUBLE_EQ(found.best.score, hills(found.best.direction));
+  EXPECT_LT(found.best.evaluations + found.worst.evaluations + 40,
+            slow.best.evaluations + slow.worst.evaluations);
+  EXPECT_EQ(found.best.estimates + found.worst.estimates,
+            slow.best.estimates + slow.worst.estimates + nearby);
+}
+
+TEST(GlobalSearchByNearbyScores, IsNotLedBelowWhatWasScored) {
+  // Nearby scores that are nothing but wrong: the best ring of 1° that was scored stays.
+  std::size_t nearby = 0;
+  SearchHints hints{.estimate = batch_of(wrong_by(0.05))};
+  hints.nearby = nearby_wrong_by(20.0, &nearby);
+  const FoundView found = search_view(batch_of(hills), 10.0, Goal::Best, {}, {}, hints);
+  EXPECT_GT(nearby, 0U);
+  for (const SearchStep& step : found.trace) {
+    EXPECT_LE(step.score, found.score);
+  }
+  EXPECT_DOUBLE_EQ(found.score, hills(found.direction));
+}
+
+TEST(Climb, ScoresNoPlaceOfItsLatticeTwice) {
+  // Two steps of 1° up a slope: the second and the third ring share three places each with those
+  // before.
+  const Vec3 top = Vec3(0.2, 0.5, 0.7).normalized();
+  Candidate summit{top};
+  std::vector<Candidate> places{{ring_of(summit, 0.03)[1].direction}};
+  const ScoreBatch score = batch_of([&](const Vec3& d) { return -angle_between(d, top); });
+  Evaluator evaluator(score);
+  places.front().score = evaluator.scores({places.front().direction}, 0).front();
+  climb(places, Goal::Best, {0.015, 0.015}, evaluator, 1, {});
+  EXPECT_LT(angle_between(places.front().direction, top), 0.0076);
+  EXPECT_EQ(evaluator.trace().size(), 1U + 6U + 3U + 3U);
+}
+
+TEST(Climb, HasRingsOfTheirWidthOnEveryLattice) {
+  Candidate place{Vec3(0.1, -0.9, 0.3).normalized()};
+  for (const double width : {0.02, 0.01, 0.005}) {
+    const std::vector<Candidate> ring = ring_of(place, width);
+    ASSERT_EQ(ring.size(), 6U);
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      EXPECT_NEAR(angle_between(ring[k].direction, place.direction), width, 1e-2 * width);
+      EXPECT_NEAR(angle_between(ring[k].direction, ring[(k + 1) % 6].direction), width,
+                  1e-2 * width);
+    }
+    place = ring[2];
   }
 }
 

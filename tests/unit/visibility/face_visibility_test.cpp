@@ -207,18 +207,23 @@ TEST(FaceVisibility, HidesAFaceBehindOneThatSharesItsCorners) {
   EXPECT_NEAR(faces[0].visible_area, 0.4 * 0.5, 0.1 * 0.5);
 }
 
-TEST(FaceVisibility, SeesEveryFrontFaceOfAConvexMeshAndNoOther) {
+TEST(FaceVisibility, SeesEveryFrontFaceOfAConvexMeshWithItsCornersAndNoOther) {
   const TriMesh mesh = test::sphere(7);  // 327 680 faces
   const FaceVisibility visibility(mesh, {FaceSides::Front});
+  const VertexVisibility vertices(mesh, {FaceSides::Front});
   for (const Viewpoint& eye : {Viewpoint{Projection::Perspective, Vec3(2.0, 3.0, -1.0)},
                                Viewpoint{Projection::Orthographic, Vec3(0.3, -0.2, 0.9)}}) {
     std::vector<std::uint32_t> expected;
+    std::vector<std::uint8_t> corners(mesh.positions.size(), 0);
     for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
       const Vec3& corner = mesh.positions[mesh.triangles[f][0]];
       const Vec3 sight =
           eye.projection == Projection::Perspective ? Vec3(eye.position - corner) : eye.position;
       if (area_vector(mesh, mesh.triangles[f]).dot(sight) > 0.0) {
         expected.push_back(f);
+        for (const std::uint32_t v : mesh.triangles[f]) {
+          corners[v] = 1;
+        }
       }
     }
     std::vector<std::uint32_t> found;
@@ -226,6 +231,8 @@ TEST(FaceVisibility, SeesEveryFrontFaceOfAConvexMeshAndNoOther) {
       found.push_back(face.face);
     }
     EXPECT_EQ(found, expected);
+    EXPECT_EQ(visibility.visible_vertices(eye), corners);
+    EXPECT_EQ(vertices.visible_vertices(eye), corners);
   }
 }
 

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "vantage/core/run_context.h"
+#include "vantage/view/scoring.h"
+#include "vantage/visibility/vertex_visibility.h"
+
+/// \file
+/// Scores of directions in the midst of a few whose visible vertices are known.
+
+namespace vantage {
+
+/// Scores exactly and remembers what was seen. In the midst of such directions, one or two degrees
+/// apart, only the vertices are asked about that some of them see and others do not, some
+/// hundredths of all: that costs a tenth of a score and is wrong by what comes and goes between two
+/// of them. For one thread to call, as a search does. [ours, docs/search.md]
+class NearbyScorer {
+ public:
+  /// \param visibility, significance must outlive this; as for ViewScorer.
+  NearbyScorer(const VertexVisibility& visibility, std::span<const double> significance,
+               const ScoringCamera& camera);
+  ~NearbyScorer();
+
+  /// ViewScorer::score_all(), to the bit.
+  std::vector<double> score_all(std::span<const Vec3> directions, const RunContext& run);
+
+  /// Scores of directions in the midst of others, the first of which is in the middle; exact ones
+  /// where they are too far out. The same for whatever was scored before.
+  std::vector<double> score_amid(std::span<const Vec3> others, std::span<const Vec3> directions,
+                                 const RunContext& run);
+
+ private:
+  using Key = std::array<std::uint64_t, 3>;  // the bits of a direction
+  using Seen = std::vector<std::uint64_t>;   // one bit a vertex
+  struct Midst;
+
+  Seen look(const Vec3& direction) const;
+  [[nodiscard]] double sum_of(const Seen& seen) const;
+  const Seen& seen_from(const Vec3& direction);
+  void forget_if_full();
+  const Midst& midst_of(std::span<const Vec3> others);
+
+  const VertexVisibility& visibility_;
+  std::span<const double> significance_;
+  ScoringCamera camera_;
+  std::map<Key, Seen> remembered_{};
+  std::vector<std::unique_ptr<Midst>> midsts_{};
+};
+
+}  // namespace vantage
