@@ -14,7 +14,7 @@ list=cmake/public_symbols.txt
 layouts=cmake/public_layout.txt
 
 # Functions and classes that the public headers declare: what only src/ knows may come and go.
-classes=$(grep -rhoE '\b(class|struct|namespace) [A-Za-z_][A-Za-z0-9_]*' include | cut -d' ' -f2 | sort -u)
+classes=$(grep -rhv '^ *friend ' include | grep -oE '\b(class|struct|namespace) [A-Za-z_][A-Za-z0-9_]*' | cut -d' ' -f2 | sort -u)
 declared=$(grep -rhoE '\b[A-Za-z_][A-Za-z0-9_]*\s*\(' include | tr -d ' (' | sort -u)
 symbols() {
   nm -C --defined-only "$build"/libvantage.* 2>/dev/null | awk '$2 == "T"' | cut -d' ' -f3- |
