@@ -3,6 +3,7 @@
 """Checks the measures on real meshes: identities, convergence, similarity. Prints tables in Markdown.
 
     scripts/check_measures.py FOLDER [--vantage PROGRAM] [--models N] [--page docs/measures.md]
+    scripts/check_measures.py FOLDER --models N --survey
 
 FOLDER holds closed meshes (.off .obj .ply .stl .glb), of which the N smallest are taken. Identities are of
 the 642 views of the set; convergence compares the samples used with such twice as near; similarity moves,
@@ -83,19 +84,34 @@ def identities(program, models):
     return lines, worst
 
 
+def changes_of(program, model, level):
+    """Largest change over the range of each measure where samples are twice as near."""
+    used, finer = {}, {}
+    for values, flags in ((used, ()), (finer, ("--sampling", 2))):
+        values.update(program.scores(model, "all", "--sphere", level, "--view-set", level, *flags)[1])
+        _, sums = program.scores(model, SUMS, "--weight", "area", "--sphere", level, *flags)
+        values.update((f"{name} --weight area", v) for name, v in sums.items())
+    changes = {}
+    for name, values in finer.items():
+        span = np.ptp(values)
+        change = np.abs(values - used[name]) / span if span > 0 else np.abs(values - used[name])
+        changes[name] = float(np.max(change))
+    return changes
+
+
+def survey(program, models):
+    """The measure that changes most, for each model; 42 views."""
+    for model in models:
+        changes = changes_of(program, model, 1)
+        worst = max(changes, key=changes.get)
+        print(f"| {model.name} | `{worst}` | {100 * changes[worst]:.2f} % |", flush=True)
+
+
 def convergence(program, models):
-    """Largest and 95th percentile change over the range of each measure, by model."""
     changes = {}
     for model in models:
-        used, finer = {}, {}
-        for values, flags in ((used, ()), (finer, ("--sampling", 2))):
-            values.update(program.scores(model, "all", "--sphere", 2, "--view-set", 2, *flags)[1])
-            _, sums = program.scores(model, SUMS, "--weight", "area", "--sphere", 2, *flags)
-            values.update((f"{name} --weight area", v) for name, v in sums.items())
-        for name, values in finer.items():
-            span = np.ptp(values)
-            change = np.abs(values - used[name]) / span if span > 0 else np.abs(values - used[name])
-            changes.setdefault(name, []).append(float(np.max(change)))
+        for name, change in changes_of(program, model, 2).items():
+            changes.setdefault(name, []).append(change)
     head = "| measure | " + " | ".join(m.stem for m in models) + " |"
     lines = [head, "| --- |" + " --- |" * len(models)]
     for name, values in changes.items():
@@ -161,6 +177,8 @@ def main():
     parser.add_argument("--vantage", default="build/release/apps/vantage/vantage")
     parser.add_argument("--models", type=int, default=20)
     parser.add_argument("--converged", type=int, default=4, help="models of the convergence table")
+    parser.add_argument("--survey", action="store_true",
+                        help="only the measure that changes most of each of the N models, over 42 views")
     parser.add_argument("--also", type=Path, nargs="*", default=[], help="more models of the convergence table")
     parser.add_argument("--moved", type=int, default=2, help="models of the similarity table")
     parser.add_argument("--page", type=Path, help="also put the tables into this page, between its marks")
@@ -168,6 +186,9 @@ def main():
     program = Program(options.vantage)
     models = sorted((p for p in options.folder.iterdir() if p.suffix in SUFFIXES),
                     key=lambda p: (p.stat().st_size, p.name))[:options.models]
+    if options.survey:
+        survey(program, models)
+        return
     sampled = models[:options.converged]  # where faces are few, each weighs most
     moved = [m for m in sampled if m.suffix == ".off"][-options.moved:]
     text, worst = identities(program, models)
