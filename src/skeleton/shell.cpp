@@ -308,6 +308,26 @@ void Shell::visit_cell(int x, int y, const Stretch& stretch, const Visit& visit)
   }
 }
 
+/// Where a segment passes the plane of a face.
+struct Shell::Passage {
+  Vec3 normal;   // of the face, as long as twice its area
+  double place;  // share of the way
+  double rise;   // of the segment over the plane, times the normal's length
+};
+
+/// Nothing if both ends of the segment lie on one side.
+std::optional<Shell::Passage> Shell::passage(const Triangle& t, const Vec3& a,
+                                             const Vec3& b) const {
+  const Vec3& p = mesh_.positions[t[0]];
+  const Vec3 normal = area_vector(mesh_, t);
+  const double from = normal.dot(a - p);
+  const double to = normal.dot(b - p);
+  if ((from < 0.0) == (to < 0.0)) {
+    return std::nullopt;
+  }
+  return Passage{normal, from / (from - to), std::abs(from - to)};
+}
+
 /// Where the segment from a (0) to b (1) passes through the component's surface, sorted; both ends
 /// are among them.
 std::vector<double> Shell::cuts(std::uint32_t component, const Vec3& a, const Vec3& b) const {
@@ -317,18 +337,12 @@ std::vector<double> Shell::cuts(std::uint32_t component, const Vec3& a, const Ve
     if (component_of_vertex_[t[0]] != component) {
       return;
     }
-    const Vec3& p = mesh_.positions[t[0]];
-    const Vec3 normal = area_vector(mesh_, t);
-    const double from = normal.dot(a - p);
-    const double to = normal.dot(b - p);
-    if ((from < 0.0) == (to < 0.0)) {
-      return;
-    }
-    const double place = from / (from - to);
-    const double length = normal.norm();
-    if (std::abs(from - to) < kAlongPlane * length * way.norm() ||
-        is_near(t, normal / length, a + place * way)) {
-      places.push_back(place);
+    if (const auto passed = passage(t, a, b)) {
+      const double length = passed->normal.norm();
+      if (passed->rise < kAlongPlane * length * way.norm() ||
+          is_near(t, passed->normal / length, a + passed->place * way)) {
+        places.push_back(passed->place);
+      }
     }
   };
   walk(a, b, look_at, [](double) { return false; });
@@ -342,16 +356,10 @@ double Shell::first_hit(const Vec3& a, const Vec3& b, double nearest) const {
   const Vec3 way = b - a;
   double hit = kFar;
   const auto look_at = [&](const Triangle& t) {
-    const Vec3& p = mesh_.positions[t[0]];
-    const Vec3 normal = area_vector(mesh_, t);
-    const double from = normal.dot(a - p);
-    const double to = normal.dot(b - p);
-    if ((from < 0.0) == (to < 0.0)) {
-      return;
-    }
-    const double place = from / (from - to);
-    if (place >= nearest && place < hit && is_near(t, normal.stableNormalized(), a + place * way)) {
-      hit = place;
+    const auto passed = passage(t, a, b);
+    if (passed && passed->place >= nearest && passed->place < hit &&
+        is_near(t, passed->normal.stableNormalized(), a + passed->place * way)) {
+      hit = passed->place;
     }
   };
   walk(a, b, look_at, [&](double share) { return hit <= share; });

@@ -72,6 +72,9 @@ class Shell {
   template <class Visit, class Done>
   void walk(const Vec3& a, const Vec3& b, const Visit& visit, const Done& done) const;
   [[nodiscard]] double way_to_wall(std::uint32_t vertex, const Vec3& direction) const;
+  struct Passage;
+  [[nodiscard]] std::optional<Passage> passage(const Triangle& t, const Vec3& a,
+                                               const Vec3& b) const;
   [[nodiscard]] double first_hit(const Vec3& a, const Vec3& b, double nearest) const;
   [[nodiscard]] std::vector<double> cuts(std::uint32_t component, const Vec3& a,
                                          const Vec3& b) const;

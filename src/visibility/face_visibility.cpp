@@ -110,9 +110,11 @@ struct FaceVisibility::Samples {
         const bool is_plain = net_.is_plain[f] != 0 && surface.sides[f] == FaceSides::Front;
         net_.is_plain[f] = is_plain ? 1 : 0;
       }
-      backs_ = hiding_backs(surface);
       if (!surface.faces.empty()) {
-        slivers_.emplace(surface);
+        edges_ = surface_edges(surface);
+        const CandidateScene scene(surface.sites, surface.faces);
+        backs_ = hiding_backs(surface, edges_, scene);
+        slivers_.emplace(surface, edges_, scene, backs_);
       }
     });
     return net_;
@@ -270,6 +272,7 @@ struct FaceVisibility::Samples {
  private:
   std::once_flag net_once_{};
   PieceNet net_{};
+  SurfaceEdges edges_{};
   std::vector<std::uint8_t> backs_{};
   std::optional<SliverSearch> slivers_{};  // unless there are no faces
 };

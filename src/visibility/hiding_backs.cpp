@@ -8,10 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include "vantage/mesh/topology.h"
-
-#include "mesh/disjoint_sets.h"
-#include "spatial/ray_scene.h"
+#include "vantage/mesh/tri_mesh.h"
 
 namespace vantage {
 namespace {
@@ -53,17 +50,8 @@ bool meets(const Vec3& from, const Vec3& to, const Corners& corners, const Vec3&
 
 class BackCheck {
  public:
-  explicit BackCheck(const Surface& surface)
-      : surface_(surface),
-        table_(build_edge_table({surface.sites, surface.faces})),
-        shells_(surface.faces.size()),
-        hides_(surface.faces.size(), 0) {
-    for (std::size_t e = 0; e < table_.edges.size(); ++e) {
-      for (const std::uint32_t f : table_.faces_of_edge[e]) {
-        shells_.join(table_.faces_of_edge[e][0], f);
-      }
-    }
-  }
+  BackCheck(const Surface& surface, const SurfaceEdges& edges, const CandidateScene& scene)
+      : surface_(surface), edges_(edges), scene_(scene), hides_(surface.faces.size(), 0) {}
 
   /// 1 for each face whose back may hide for itself.
   std::vector<std::uint8_t> of_faces() {
@@ -72,25 +60,17 @@ class BackCheck {
     check_meetings();
     std::vector<std::uint8_t> result(hides_.size());
     for (std::uint32_t f = 0; f < result.size(); ++f) {
-      result[f] = hides_[shells_.root(f)];
+      result[f] = hides_[edges_.shell_of_face[f]];
     }
     return result;
   }
 
  private:
-  /// Whether the face runs along the edge from its lower to its higher site.
-  [[nodiscard]] bool runs_up(std::uint32_t face, std::size_t edge) const {
-    const Triangle& t = surface_.faces[face];
-    const auto at = std::find(t.begin(), t.end(), table_.edges[edge][0]) - t.begin();
-    return t[static_cast<std::size_t>(at + 1) % 3] == table_.edges[edge][1];
-  }
-
   /// At each edge two faces must meet that run along it either way.
   void check_edges() {
-    for (std::size_t e = 0; e < table_.edges.size(); ++e) {
-      const auto faces = table_.faces_of_edge[e];
-      if (faces.size() != 2 || runs_up(faces[0], e) == runs_up(faces[1], e)) {
-        hides_[shells_.root(faces[0])] = 1;
+    for (std::size_t e = 0; e < edges_.pairs.size(); ++e) {
+      if (edges_.pairs[e] != EdgePair::Opposite) {
+        hides_[shell_at(e)] = 1;
       }
     }
   }
@@ -100,7 +80,7 @@ class BackCheck {
     std::vector<double> volume(hides_.size(), 0.0);
     std::vector<double> size(hides_.size(), 0.0);
     for (std::uint32_t f = 0; f < hides_.size(); ++f) {
-      const std::uint32_t shell = shells_.root(f);
+      const std::uint32_t shell = edges_.shell_of_face[f];
       const double part = surface_.area_vectors[f].dot(surface_.sites[surface_.faces[f][0]]);
       volume[shell] += part;
       size[shell] += std::abs(part);
@@ -114,19 +94,18 @@ class BackCheck {
 
   /// No edge may meet a face of its shell.
   void check_meetings() {
-    const CandidateScene scene(surface_.sites, surface_.faces);
-    for (std::size_t e = 0; e < table_.edges.size(); ++e) {
-      const std::uint32_t shell = shells_.root(table_.faces_of_edge[e][0]);
+    for (std::size_t e = 0; e < edges_.table.edges.size(); ++e) {
+      const std::uint32_t shell = shell_at(e);
       if (hides_[shell] != 0) {
         continue;
       }
-      const Vec3& from = surface_.sites[table_.edges[e][0]];
-      const Vec3 way = surface_.sites[table_.edges[e][1]] - from;
+      const Vec3& from = surface_.sites[edges_.table.edges[e][0]];
+      const Vec3 way = surface_.sites[edges_.table.edges[e][1]] - from;
       const double length = way.norm();
       const auto meets_own = [&](std::uint32_t f) {
-        return shells_.root(f) == shell && meets_face(e, f);
+        return edges_.shell_of_face[f] == shell && meets_face(e, f);
       };
-      if (!(length > 0.0) || scene.any(from, way / length, length, meets_own)) {
+      if (!(length > 0.0) || scene_.any(from, way / length, length, meets_own)) {
         hides_[shell] = 1;
       }
     }
@@ -135,7 +114,7 @@ class BackCheck {
   /// Left out are faces that the edge shares a site with: where it lies in one of them, so does its
   /// other end, or it passes over an edge of that face, and a face beside it meets that.
   [[nodiscard]] bool meets_face(std::size_t edge, std::uint32_t face) const {
-    const auto [a, b] = table_.edges[edge];
+    const auto [a, b] = edges_.table.edges[edge];
     const Triangle& t = surface_.faces[face];
     const bool is_beside = std::any_of(
         t.begin(), t.end(), [a = a, b = b](std::uint32_t site) { return site == a || site == b; });
@@ -144,16 +123,21 @@ class BackCheck {
                                surface_.area_vectors[face]);
   }
 
+  [[nodiscard]] std::uint32_t shell_at(std::size_t edge) const {
+    return edges_.shell_of_face[edges_.beside[edge][0]];
+  }
+
   const Surface& surface_;
-  EdgeTable table_;
-  DisjointSets shells_;              // of faces
+  const SurfaceEdges& edges_;
+  const CandidateScene& scene_;
   std::vector<std::uint8_t> hides_;  // of the face that each shell is named after
 };
 
 }  // namespace
 
-std::vector<std::uint8_t> hiding_backs(const Surface& surface) {
-  return surface.faces.empty() ? std::vector<std::uint8_t>{} : BackCheck(surface).of_faces();
+std::vector<std::uint8_t> hiding_backs(const Surface& surface, const SurfaceEdges& edges,
+                                       const CandidateScene& scene) {
+  return BackCheck(surface, edges, scene).of_faces();
 }
 
 }  // namespace vantage

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "spatial/ray_scene.h"
 #include "visibility/surface.h"
+#include "visibility/surface_edges.h"
 
 /// \file
 /// Faces whose backs need not be asked what they hide. A shell is made of faces that edges hold
@@ -15,6 +17,8 @@
 namespace vantage {
 
 /// 1 for each face whose back may hide something that no front hides, from an eye outside.
-std::vector<std::uint8_t> hiding_backs(const Surface& surface);
+/// \param scene the surface's faces.
+std::vector<std::uint8_t> hiding_backs(const Surface& surface, const SurfaceEdges& edges,
+                                       const CandidateScene& scene);
 
 }  // namespace vantage

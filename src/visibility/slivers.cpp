@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <tuple>
 
 #include <Eigen/Geometry>
-
-#include "spatial/ray_scene.h"
 
 namespace vantage {
 namespace {
@@ -116,14 +115,14 @@ SliverSearch::Contours::Contours(const SliverSearch& search, const Viewpoint& ey
                                  std::span<const std::uint32_t> edges)
     : picture_(picture) {
   for (const std::uint32_t e : edges) {
-    box_.extend(picture.box(search.table_.edges[e]));
+    box_.extend(picture.box(search.edges_.table.edges[e]));
   }
-  const std::vector<Vec3>& sites = search.surface_->sites;
-  for (std::size_t e = 0; e < search.table_.edges.size(); ++e) {
+  const std::vector<Vec3>& sites = search.surface_.sites;
+  for (std::size_t e = 0; e < search.edges_.table.edges.size(); ++e) {
     if (!search.is_contour(e, turned)) {
       continue;
     }
-    const auto& edge = search.table_.edges[e];
+    const auto& edge = search.edges_.table.edges[e];
     const Box box = picture.box(edge);
     if (box.intersects(box_)) {
       const Vec3& from = sites[edge[0]];
@@ -186,82 +185,69 @@ void SliverSearch::Contours::over_cells(const std::array<std::uint32_t, 2>& edge
   }
 }
 
-SliverSearch::SliverSearch(const Surface& surface)
-    : surface_(&surface), table_(build_edge_table({surface.sites, surface.faces})) {
-  pairs_.reserve(table_.edges.size());
-  edges_of_face_.resize(surface.faces.size());
-  std::vector<std::uint8_t> filled(surface.faces.size(), 0);
-  for (std::uint32_t e = 0; e < table_.edges.size(); ++e) {
-    const auto faces = table_.faces_of_edge[e];
-    pairs_.push_back(pair_at(e));
-    beside_.push_back({faces[0], faces.back()});
-    for (const std::uint32_t f : faces) {
-      edges_of_face_[f][filled[f]++] = e;
-    }
+SliverSearch::SliverSearch(const Surface& surface, const SurfaceEdges& edges,
+                           const CandidateScene& scene, std::span<const std::uint8_t> backs)
+    : surface_(surface), edges_(edges) {
+  // Backs hide nothing for themselves where a shell is closed and nowhere meets itself.
+  const bool is_clear = std::find(backs.begin(), backs.end(), 1) == backs.end() &&
+                        std::adjacent_find(edges.shell_of_face.begin(), edges.shell_of_face.end(),
+                                           std::not_equal_to<>()) == edges.shell_of_face.end();
+  if (is_clear) {
+    first_pierced_.assign(edges.table.edges.size() + 1, 0);
+  } else {
+    find_pierced(scene);
   }
-  const CandidateScene candidates(surface.sites, surface.faces);
-  for (const auto& [a, b] : table_.edges) {
-    const Vec3& from = surface.sites[a];
-    const Vec3 way = surface.sites[b] - from;
+}
+
+void SliverSearch::find_pierced(const CandidateScene& scene) {
+  for (const auto& [a, b] : edges_.table.edges) {
+    const Vec3& from = surface_.sites[a];
+    const Vec3 way = surface_.sites[b] - from;
     const double length = way.norm();
     const auto add_if_pierced = [&, a = a, b = b](std::uint32_t f) {
-      const Triangle& t = surface.faces[f];
+      const Triangle& t = surface_.faces[f];
       if (std::find_if(t.begin(), t.end(), [&](std::uint32_t s) { return s == a || s == b; }) ==
           t.end()) {
         if (const auto share =
-                piercing(from, surface.sites[b],
-                         {surface.sites[t[0]], surface.sites[t[1]], surface.sites[t[2]]},
-                         surface.area_vectors[f])) {
+                piercing(from, surface_.sites[b],
+                         {surface_.sites[t[0]], surface_.sites[t[1]], surface_.sites[t[2]]},
+                         surface_.area_vectors[f])) {
           pierced_.push_back(*share);
         }
       }
       return false;  // go on: all are wanted
     };
     if (length > 0.0) {
-      static_cast<void>(candidates.any(from, way / length, length, add_if_pierced));
+      static_cast<void>(scene.any(from, way / length, length, add_if_pierced));
     }
     first_pierced_.push_back(pierced_.size());
   }
 }
 
-SliverSearch::Pair SliverSearch::pair_at(std::size_t edge) const {
-  const auto faces = table_.faces_of_edge[edge];
-  if (faces.size() != 2) {
-    return Pair::None;
-  }
-  const auto runs_along = [&](std::uint32_t face) {
-    const Triangle& t = surface_->faces[face];
-    const auto at =
-        static_cast<std::size_t>(std::find(t.begin(), t.end(), table_.edges[edge][0]) - t.begin());
-    return t[(at + 1) % 3] == table_.edges[edge][1];
-  };
-  return runs_along(faces[0]) == runs_along(faces[1]) ? Pair::Same : Pair::Opposite;
-}
-
 /// Unless two faces lie beside each other at the edge in the picture.
 bool SliverSearch::is_contour(std::size_t edge, std::span<const std::uint8_t> turned) const {
-  if (pairs_[edge] == Pair::None) {
+  if (edges_.pairs[edge] == EdgePair::None) {
     return true;
   }
-  const std::uint8_t one = turned[beside_[edge][0]];
-  const std::uint8_t other = turned[beside_[edge][1]];
-  return one == 0 || other == 0 || (one == other) != (pairs_[edge] == Pair::Opposite);
+  const std::uint8_t one = turned[edges_.beside[edge][0]];
+  const std::uint8_t other = turned[edges_.beside[edge][1]];
+  return one == 0 || other == 0 || (one == other) != (edges_.pairs[edge] == EdgePair::Opposite);
 }
 
 /// Adds where the edge passes behind a contour.
 void SliverSearch::add_crossings(std::size_t edge, const Viewpoint& eye, const Picture& picture,
                                  const Contours& contours, std::vector<double>& cuts) const {
-  const auto& ends = table_.edges[edge];
-  const Vec3& a = surface_->sites[ends[0]];
-  const Vec3& b = surface_->sites[ends[1]];
+  const auto& ends = edges_.table.edges[edge];
+  const Vec3& a = surface_.sites[ends[0]];
+  const Vec3& b = surface_.sites[ends[1]];
   const Box box = picture.box(ends);
   const Vec3 normal = (b - a).cross(sight_line(a, eye));
   contours.near(ends, [&](const Contour& contour) {
     if (!box.intersects(contour.box)) {
       return;
     }
-    const Vec3& c = surface_->sites[contour.edge[0]];
-    const Vec3& d = surface_->sites[contour.edge[1]];
+    const Vec3& c = surface_.sites[contour.edge[0]];
+    const Vec3& d = surface_.sites[contour.edge[1]];
     const double of_a = contour.normal.dot(a - c);
     const double of_b = contour.normal.dot(b - c);
     const double of_c = normal.dot(c - a);
@@ -283,18 +269,18 @@ void SliverSearch::add_crossings(std::size_t edge, const Viewpoint& eye, const P
 /// \param cuts in any order.
 void SliverSearch::add_places(std::size_t edge, const Viewpoint& eye, const Asked& asked,
                               std::vector<double>& cuts, EdgePlaces& result) const {
-  auto [owner, also] = beside_[edge];
+  auto [owner, also] = edges_.beside[edge];
   bool of_both = owner != also;
   if (owner != also && is_contour(edge, asked.turned)) {
     // Both on one side: the one that lies behind the other's plane is hidden by it.
-    const auto [s, t] = table_.edges[edge];
-    const Triangle& corners = surface_->faces[also];
+    const auto [s, t] = edges_.table.edges[edge];
+    const Triangle& corners = surface_.faces[also];
     const auto third = std::find_if(corners.begin(), corners.end(),
                                     [s = s, t = t](std::uint32_t v) { return v != s && v != t; });
-    const Vec3& normal = surface_->area_vectors[owner];
-    const Vec3& on_edge = surface_->sites[s];
+    const Vec3& normal = surface_.area_vectors[owner];
+    const Vec3& on_edge = surface_.sites[s];
     const double of_eye = normal.dot(sight_line(on_edge, eye));
-    if (third != corners.end() && of_eye * normal.dot(surface_->sites[*third] - on_edge) > 0.0) {
+    if (third != corners.end() && of_eye * normal.dot(surface_.sites[*third] - on_edge) > 0.0) {
       std::swap(owner, also);
     }
     of_both = false;
@@ -305,8 +291,8 @@ void SliverSearch::add_places(std::size_t edge, const Viewpoint& eye, const Aske
   cuts.push_back(0.0);
   cuts.push_back(1.0);
   std::sort(cuts.begin(), cuts.end());
-  const Vec3& from = surface_->sites[table_.edges[edge][0]];
-  const Vec3 way = surface_->sites[table_.edges[edge][1]] - from;
+  const Vec3& from = surface_.sites[edges_.table.edges[edge][0]];
+  const Vec3 way = surface_.sites[edges_.table.edges[edge][1]] - from;
   for (std::size_t k = 1; k < cuts.size(); ++k) {
     if (cuts[k] - cuts[k - 1] > kShortest) {
       result.places.emplace_back(from + 0.5 * (cuts[k - 1] + cuts[k]) * way);
@@ -323,7 +309,7 @@ EdgePlaces SliverSearch::places(const Viewpoint& eye, const Asked& asked) const 
   std::vector<std::uint32_t> edges;
   for (std::size_t f = 0; f < asked.wanted.size(); ++f) {
     if (asked.wanted[f] != 0) {
-      edges.insert(edges.end(), edges_of_face_[f].begin(), edges_of_face_[f].end());
+      edges.insert(edges.end(), edges_.of_face[f].begin(), edges_.of_face[f].end());
     }
   }
   if (edges.empty()) {
@@ -331,14 +317,14 @@ EdgePlaces SliverSearch::places(const Viewpoint& eye, const Asked& asked) const 
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  const Picture picture(*surface_, eye);
+  const Picture picture(surface_, eye);
   if (!picture.is_whole) {
     return result;
   }
   const Contours contours(*this, eye, picture, asked.turned, edges);
   std::vector<double> cuts;
   for (const std::uint32_t e : edges) {
-    if (table_.faces_of_edge[e].size() > 2) {
+    if (edges_.table.faces_of_edge[e].size() > 2) {
       continue;
     }
     cuts.assign(pierced_.begin() + static_cast<std::ptrdiff_t>(first_pierced_[e]),

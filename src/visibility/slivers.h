@@ -9,9 +9,10 @@
 
 #include "vantage/core/camera.h"
 #include "vantage/core/vec3.h"
-#include "vantage/mesh/topology.h"
 
+#include "spatial/ray_scene.h"
 #include "visibility/surface.h"
+#include "visibility/surface_edges.h"
 
 /// \file
 /// Faces that no sample sees and of which a sliver may be in view all the same. Along an edge
@@ -35,8 +36,10 @@ struct EdgePlaces {
 /// Immutable after construction.
 class SliverSearch {
  public:
-  /// Finds where edges pass through faces. \param surface must outlive this.
-  explicit SliverSearch(const Surface& surface);
+  /// Finds where edges pass through faces. \param surface, edges must outlive this. \param scene the
+  /// surface's faces. \param backs hiding_backs().
+  SliverSearch(const Surface& surface, const SurfaceEdges& edges, const CandidateScene& scene,
+               std::span<const std::uint8_t> backs);
 
   /// What is asked, one entry a face.
   struct Asked {
@@ -50,25 +53,20 @@ class SliverSearch {
   [[nodiscard]] EdgePlaces places(const Viewpoint& eye, const Asked& asked) const;
 
  private:
-  /// The faces at an edge: two that run along it in opposite ways, two that run the same way, or
-  /// not two.
-  enum class Pair : std::uint8_t { Opposite, Same, None };
   struct Picture;
   struct Contour;
   class Contours;
 
-  [[nodiscard]] Pair pair_at(std::size_t edge) const;
   [[nodiscard]] bool is_contour(std::size_t edge, std::span<const std::uint8_t> turned) const;
   void add_crossings(std::size_t edge, const Viewpoint& eye, const Picture& picture,
                      const Contours& contours, std::vector<double>& cuts) const;
   void add_places(std::size_t edge, const Viewpoint& eye, const Asked& asked,
                   std::vector<double>& cuts, EdgePlaces& result) const;
 
-  const Surface* surface_;
-  EdgeTable table_;
-  std::vector<Pair> pairs_{};                           // of each edge
-  std::vector<std::array<std::uint32_t, 2>> beside_{};  // first and last face at each edge
-  std::vector<std::array<std::uint32_t, 3>> edges_of_face_{};
+  void find_pierced(const CandidateScene& scene);
+
+  const Surface& surface_;
+  const SurfaceEdges& edges_;
   std::vector<std::size_t> first_pierced_{0};  // of each edge in pierced_, and one past the last
   std::vector<double> pierced_{};              // share of the way along the edge
 };

@@ -27,7 +27,9 @@ struct Count {
 
 Count backs_of(const TriMesh& mesh) {
   const std::vector<FaceSides> sides{FaceSides::Front};
-  const auto asked = hiding_backs(prepare_surface(mesh, sides));
+  const Surface surface = prepare_surface(mesh, sides);
+  const CandidateScene scene(surface.sites, surface.faces);
+  const auto asked = hiding_backs(surface, surface_edges(surface), scene);
   return {static_cast<std::size_t>(std::count(asked.begin(), asked.end(), 1)), asked.size()};
 }
 

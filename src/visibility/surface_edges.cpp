@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "visibility/surface_edges.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "mesh/disjoint_sets.h"
+
+namespace vantage {
+namespace {
+
+/// Whether the face runs along the edge from its lower to its higher site.
+bool runs_up(const Triangle& face, const std::array<std::uint32_t, 2>& edge) {
+  const auto at = std::find(face.begin(), face.end(), edge[0]) - face.begin();
+  return face[static_cast<std::size_t>(at + 1) % 3] == edge[1];
+}
+
+}  // namespace
+
+SurfaceEdges surface_edges(const Surface& surface) {
+  SurfaceEdges edges;
+  edges.table = build_edge_table({surface.sites, surface.faces});
+  edges.of_face.resize(surface.faces.size());
+  std::vector<std::uint8_t> filled(surface.faces.size(), 0);
+  DisjointSets shells(surface.faces.size());
+  for (std::uint32_t e = 0; e < edges.table.edges.size(); ++e) {
+    const auto faces = edges.table.faces_of_edge[e];
+    const auto& ends = edges.table.edges[e];
+    const bool is_pair = faces.size() == 2;
+    const bool is_alike =
+        is_pair && runs_up(surface.faces[faces[0]], ends) == runs_up(surface.faces[faces[1]], ends);
+    edges.pairs.push_back(!is_pair   ? EdgePair::None
+                          : is_alike ? EdgePair::Same
+                                     : EdgePair::Opposite);
+    edges.beside.push_back({faces[0], faces.back()});
+    for (const std::uint32_t f : faces) {
+      edges.of_face[f][filled[f]++] = e;
+      shells.join(faces[0], f);
+    }
+  }
+  for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
+    edges.shell_of_face.push_back(shells.root(f));
+  }
+  return edges;
+}
+
+}  // namespace vantage
