@@ -193,13 +193,6 @@ void ViewMeasurer::State::look_at_faces(const MeasureNeeds& wanted, SightTable& 
   }
   sight.depths = seen.depths;
   sight.deepest = seen.deepest;
-  const Sphere& sphere = model.given.camera.sphere;
-  for (std::size_t v = 0; v < sight.vertices.size(); ++v) {
-    if (sight.vertices[v] != 0) {
-      const Vec3 p = model.given.surface->positions[v] - sphere.centre;
-      sight.deepest = std::max(sight.deepest, 0.5 - p.dot(sight.towards) / sphere.diameter);
-    }
-  }
 }
 
 SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& wanted,

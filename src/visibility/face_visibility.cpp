@@ -45,6 +45,8 @@ std::uint8_t finding(std::uint8_t seen) {
 struct FirstLook {
   std::vector<std::uint8_t> seen{};      // of each, in this order
   std::vector<std::uint8_t> at_sites{};  // Look::faces_at_sites()
+  std::vector<double> depths{};          // of the sites
+  double deepest = 0.0;                  // of those that are seen
 };
 
 /// What a second look tells, where the first left it open.
@@ -127,7 +129,7 @@ struct FaceVisibility::Samples {
   /// turns to the eye with all faces at its corners only the corners are asked about, and the rest
   /// goes with them. Not where the surface turns away from the eye, because the faces at a corner
   /// do not hide it and might hide the face.
-  [[nodiscard]] FirstLook first_look(Look& look) {
+  [[nodiscard]] FirstLook first_look(Look& look, const Depths& depths) {
     const Surface& surface = sight.surface();
     const std::size_t sites = surface.sites.size();
     const SurfacePoints points{.sites = surface.sites,
@@ -174,7 +176,13 @@ struct FaceVisibility::Samples {
         seen[sites + i] = seen[a] & seen[b];
       }
     }
-    return {std::move(seen), at_sites};
+    FirstLook first{std::move(seen), at_sites};
+    first.depths.reserve(sites);
+    for (std::size_t site = 0; site < sites; ++site) {
+      first.depths.push_back(depths.at(surface.sites[site]));
+      first.deepest = std::max(first.deepest, first.seen[site] != 0 ? first.depths[site] : 0.0);
+    }
+    return first;
   }
 
   /// Whether the face is a single piece.
@@ -260,11 +268,11 @@ struct FaceVisibility::Samples {
   /// Edges of faces of which no piece was seen; if faces are many, only of such as lie deeper than
   /// all that was.
   [[nodiscard]] EdgePlaces edges_of_unseen(const Look& look, const FirstLook& first,
-                                           const Viewpoint& local, const Depths& depths) const;
+                                           const Viewpoint& local) const;
 
   /// Asks about what the first look leaves open. \pre net() was asked for.
-  [[nodiscard]] SecondLook second_look(Look& look, const FirstLook& first, const Viewpoint& local,
-                                       const Depths& depths) const;
+  [[nodiscard]] SecondLook second_look(Look& look, const FirstLook& first,
+                                       const Viewpoint& local) const;
 
   /// Adds slivers of faces of which no sample was seen.
   void add_slivers(const EdgePlaces& edges, Tally& tally) const;
@@ -278,26 +286,18 @@ struct FaceVisibility::Samples {
 };
 
 EdgePlaces FaceVisibility::Samples::edges_of_unseen(const Look& look, const FirstLook& first,
-                                                    const Viewpoint& local,
-                                                    const Depths& depths) const {
+                                                    const Viewpoint& local) const {
   const Surface& surface = sight.surface();
   const std::size_t sites = surface.sites.size();
-  std::vector<std::uint8_t> is_deep(sites, 1);
-  if (surface.faces.size() > kFewFaces) {
-    std::vector<double> depth_of(sites);
-    double deepest = 0.0;
-    for (std::size_t site = 0; site < sites; ++site) {
-      depth_of[site] = depths.at(surface.sites[site]);
-      deepest = std::max(deepest, first.seen[site] != 0 ? depth_of[site] : 0.0);
-    }
-    std::transform(depth_of.begin(), depth_of.end(), is_deep.begin(),
-                   [&](double depth) { return depth > deepest ? 1 : 0; });
-  }
+  const bool are_all = surface.faces.size() <= kFewFaces;
+  const auto is_deep = [&](std::uint32_t site) {
+    return are_all || first.depths[site] > first.deepest;
+  };
   const auto of_piece = std::span(first.seen).subspan(sites);
   std::vector<std::uint8_t> wanted(surface.faces.size(), 0);
   for (std::size_t f = 0; f < wanted.size(); ++f) {
     const auto& [a, b, c] = surface.faces[f];
-    if ((is_deep[a] | is_deep[b] | is_deep[c]) != 0 && look.is_turned(f)) {
+    if ((is_deep(a) || is_deep(b) || is_deep(c)) && look.is_turned(f)) {
       const std::span<const std::uint8_t> seen =
           of_piece.subspan(pieces.first[f], pieces.first[f + 1] - pieces.first[f]);
       wanted[f] = std::find(seen.begin(), seen.end(), 1) == seen.end() ? 1 : 0;
@@ -307,9 +307,8 @@ EdgePlaces FaceVisibility::Samples::edges_of_unseen(const Look& look, const Firs
 }
 
 SecondLook FaceVisibility::Samples::second_look(Look& look, const FirstLook& first,
-                                                const Viewpoint& local,
-                                                const Depths& depths) const {
-  SecondLook second{pieces_in_part(look, first), edges_of_unseen(look, first, local, depths)};
+                                                const Viewpoint& local) const {
+  SecondLook second{pieces_in_part(look, first), edges_of_unseen(look, first, local)};
   auto& [parts, edges] = second;
   std::vector<Vec3> places = parts.places;
   places.insert(places.end(), edges.places.begin(), edges.places.end());
@@ -384,11 +383,12 @@ SeenSurface FaceVisibility::seen_surface(const Viewpoint& eye, const RunContext&
   const Viewpoint local = eye_in_frame(eye, surface.frame);
   samples_->net();
   Look look(samples_->sight, local, run, samples_->backs());
-  const FirstLook first = samples_->first_look(look);
   const Depths depths(surface, samples_->sphere, local);
-  const auto [closer, edges] = samples_->second_look(look, first, local, depths);
+  const FirstLook first = samples_->first_look(look, depths);
+  const auto [closer, edges] = samples_->second_look(look, first, local);
   SeenSurface result;
   result.vertices = vertices_of_sites(surface, first.seen);
+  result.deepest = first.deepest;
   const auto of_piece = std::span(first.seen).subspan(surface.sites.size(), sample_count());
   Tally tally(surface, depths, local, result);
   std::size_t next = 0;  // piece that was looked at closely
