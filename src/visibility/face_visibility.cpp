@@ -35,7 +35,7 @@ constexpr std::uint8_t kInPart = kSeen | kHidden;
 constexpr double kSliverShare = 1.0 / 16.0;
 // Of more faces than these a sliver weighs so little that only what lies deepest is looked for.
 // [ours, by measurement]
-constexpr std::size_t kFewFaces = 4000;
+constexpr std::size_t kFewFaces = 40000;
 
 std::uint8_t finding(std::uint8_t seen) {
   return seen != 0 ? kSeen : kHidden;
@@ -265,10 +265,10 @@ struct FaceVisibility::Samples {
     return closer;
   }
 
-  /// Edges of faces of which no piece was seen; if faces are many, only of such as lie deeper than
-  /// all that was.
-  [[nodiscard]] EdgePlaces edges_of_unseen(const Look& look, const FirstLook& first,
-                                           const Viewpoint& local) const;
+  /// Edges of faces that reach deeper than all sites that were seen and, unless faces are many, of
+  /// those of which no piece was.
+  [[nodiscard]] EdgePlaces edges_to_ask(const Look& look, const FirstLook& first,
+                                        const Viewpoint& local) const;
 
   /// Asks about what the first look leaves open. \pre net() was asked for.
   [[nodiscard]] SecondLook second_look(Look& look, const FirstLook& first,
@@ -285,19 +285,21 @@ struct FaceVisibility::Samples {
   std::optional<SliverSearch> slivers_{};  // unless there are no faces
 };
 
-EdgePlaces FaceVisibility::Samples::edges_of_unseen(const Look& look, const FirstLook& first,
-                                                    const Viewpoint& local) const {
+EdgePlaces FaceVisibility::Samples::edges_to_ask(const Look& look, const FirstLook& first,
+                                                 const Viewpoint& local) const {
   const Surface& surface = sight.surface();
   const std::size_t sites = surface.sites.size();
-  const bool are_all = surface.faces.size() <= kFewFaces;
-  const auto is_deep = [&](std::uint32_t site) {
-    return are_all || first.depths[site] > first.deepest;
-  };
+  const bool are_few = surface.faces.size() <= kFewFaces;
+  const auto is_deep = [&](std::uint32_t site) { return first.depths[site] > first.deepest; };
   const auto of_piece = std::span(first.seen).subspan(sites);
   std::vector<std::uint8_t> wanted(surface.faces.size(), 0);
   for (std::size_t f = 0; f < wanted.size(); ++f) {
     const auto& [a, b, c] = surface.faces[f];
-    if ((is_deep(a) || is_deep(b) || is_deep(c)) && look.is_turned(f)) {
+    if (!look.is_turned(f)) {
+      continue;
+    }
+    wanted[f] = is_deep(a) || is_deep(b) || is_deep(c) ? 1 : 0;
+    if (are_few && wanted[f] == 0) {
       const std::span<const std::uint8_t> seen =
           of_piece.subspan(pieces.first[f], pieces.first[f + 1] - pieces.first[f]);
       wanted[f] = std::find(seen.begin(), seen.end(), 1) == seen.end() ? 1 : 0;
@@ -308,7 +310,7 @@ EdgePlaces FaceVisibility::Samples::edges_of_unseen(const Look& look, const Firs
 
 SecondLook FaceVisibility::Samples::second_look(Look& look, const FirstLook& first,
                                                 const Viewpoint& local) const {
-  SecondLook second{pieces_in_part(look, first), edges_of_unseen(look, first, local)};
+  SecondLook second{pieces_in_part(look, first), edges_to_ask(look, first, local)};
   auto& [parts, edges] = second;
   std::vector<Vec3> places = parts.places;
   places.insert(places.end(), edges.places.begin(), edges.places.end());
@@ -335,6 +337,7 @@ void FaceVisibility::Samples::add_slivers(const EdgePlaces& edges, Tally& tally)
     if (edges.seen[i] == 0) {
       continue;
     }
+    tally.reach(edges.places[i], edges.halves[i]);
     if (!tally.has(edges.owner[i])) {
       found.push_back({edges.owner[i], i});
     }
@@ -346,11 +349,20 @@ void FaceVisibility::Samples::add_slivers(const EdgePlaces& edges, Tally& tally)
   const double unit = surface.frame.scale;
   const double widest = pieces.longest / PieceNet::kMostParts;  // else a sample would have seen it
   for (const auto& [f, i] : found) {
-    const double length = edges.lengths[i];
+    const double length = 2.0 * edges.halves[i].norm();
     const double area = std::min(0.5 * surface.twice_areas[f], length * std::min(length, widest));
     tally.add(f, edges.places[i], kSliverShare * area / (unit * unit));
   }
 }
+
+double FaceVisibility::enough_spacing(std::size_t faces) {
+  constexpr double kManyFaces = 8e4;  // [ours, by measurement]
+  const double finer = std::sqrt(kManyFaces / static_cast<double>(std::max<std::size_t>(faces, 1)));
+  return kSpacing / std::clamp(finer, 1.0, 2.0);
+}
+
+FaceVisibility::FaceVisibility(const TriMesh& mesh, std::vector<FaceSides> sides)
+    : FaceVisibility(mesh, std::move(sides), enough_spacing(mesh.triangles.size())) {}
 
 FaceVisibility::FaceVisibility(const TriMesh& mesh, std::vector<FaceSides> sides, double spacing)
     : samples_(std::make_unique<Samples>(mesh, sides)) {

@@ -63,18 +63,57 @@ class Tally {
       // Finite even for faces of next to no area.
       scale_ =
           std::min((is_perspective_ ? plane_ * plane_ : 1.0) / surface_.twice_areas[face], 1e300);
+      steepness_ = steepness();
       result_.faces.push_back({.face = surface_.face_of_mesh[face]});
     }
     const double projected = area * scale_ * shrink(place);
     result_.faces.back().visible_area += area;
     result_.faces.back().projected_area += projected;
     const double depth = depths_.at(place);
-    constexpr auto kBins = static_cast<double>(SeenSurface::kDepthBins);
-    result_.depths[static_cast<std::size_t>(std::min(depth * kBins, kBins - 1.0))] += projected;
+    spread(projected, depth, area);
     result_.deepest = std::max(result_.deepest, depth);
   }
 
+  /// Counts the deeper end of what is seen of an edge. \param half from its middle to an end.
+  void reach(const Vec3& middle, const Vec3& half) {
+    result_.deepest =
+        std::max({result_.deepest, depths_.at(middle + half), depths_.at(middle - half)});
+  }
+
  private:
+  static constexpr auto kBins = static_cast<double>(SeenSurface::kDepthBins);
+
+  /// Squared half of the bins that a part of the face at hand reaches, over its area: √3 deviations
+  /// to either side, where an equilateral triangle's variance is area / (6 √3) along any line.
+  [[nodiscard]] double steepness() const {
+    const double twice = surface_.twice_areas[last_];
+    const double along = normal_->dot(depths_.towards) / twice;
+    const double bins = kBins * surface_.frame.scale * depths_.per_diameter;
+    return twice > 0.0 ? std::max(0.0, 1.0 - along * along) * bins * bins / (2.0 * std::sqrt(3.0))
+                       : 0.0;
+  }
+
+  /// Adds to the bins that a part reaches, as if its depth were spread evenly about the middle, by
+  /// its variance: else the rings of a torus go to one bin or to the other at once.
+  void spread(double projected, double depth, double area) {
+    const double at = depth * kBins;
+    const auto bin = static_cast<std::size_t>(std::min(at, kBins - 1.0));
+    const double past = at - static_cast<double>(bin);
+    const double to_edge = std::min(past, 1.0 - past);
+    const double squared_half = steepness_ * area;
+    if (squared_half <= to_edge * to_edge) {
+      result_.depths[bin] += projected;
+      return;
+    }
+    const double half = std::sqrt(squared_half);
+    const double low = std::max(at - half, 0.0);
+    const double high = std::min(at + half, kBins);
+    for (double k = std::floor(low); k < high; ++k) {
+      const double share = (std::min(high, k + 1.0) - std::max(low, k)) / (high - low);
+      result_.depths[static_cast<std::size_t>(k)] += share * projected;
+    }
+  }
+
   /// Projected area over area and `scale_`, at a place of the face at hand.
   [[nodiscard]] double shrink(const Vec3& place) const {
     if (!is_perspective_) {
@@ -94,6 +133,7 @@ class Tally {
   std::vector<std::uint8_t> has_;  // of each face
   std::uint32_t last_ = Surface::kNoSite;
   const Vec3* normal_ = nullptr;  // of the face at hand, as long as twice its area
+  double steepness_ = 0.0;        // of the face at hand
   double scale_ = 1.0;            // makes up for that, and for the plane's distance
 };
 

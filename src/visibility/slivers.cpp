@@ -299,7 +299,7 @@ void SliverSearch::add_places(std::size_t edge, const Viewpoint& eye, const Aske
       result.owner.push_back(owner);
       result.also.push_back(also);
       result.of_both.push_back(of_both ? 1 : 0);
-      result.lengths.push_back((cuts[k] - cuts[k - 1]) * way.norm());
+      result.halves.emplace_back(0.5 * (cuts[k] - cuts[k - 1]) * way);
     }
   }
 }

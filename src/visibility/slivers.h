@@ -29,7 +29,7 @@ struct EdgePlaces {
   std::vector<std::uint32_t> owner{};   ///< A face at the edge, in view beside a place that is.
   std::vector<std::uint32_t> also{};    ///< The other face at the edge, or the same.
   std::vector<std::uint8_t> of_both{};  ///< 1 where that one is in view as well.
-  std::vector<double> lengths{};        ///< Of the edge's part with one answer, in the frame.
+  std::vector<Vec3> halves{};           ///< From there to one end of the part with one answer.
   std::vector<std::uint8_t> seen{};     ///< Of each place; for others to fill in.
 };
 

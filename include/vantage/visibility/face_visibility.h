@@ -50,16 +50,22 @@ struct SeenSurface {
 /// eye inside the model has no projected area of what is not ahead of it.
 class FaceVisibility {
  public:
-  /// Largest side of a piece over the sphere's diameter, below which measures of all shapes tried
-  /// are converged (docs/visibility.md). [ours]
+  /// Largest side of a piece over the sphere's diameter, below which measures of all shapes of many
+  /// faces that were tried are converged (docs/visibility.md). [ours]
   static constexpr double kSpacing = 1.0 / 96.0;
 
-  /// \param mesh    vertices that share a position are treated as one.
-  /// \param sides   one entry per component of connected_components(mesh), or one for all.
+  /// The same for so many faces: of few each weighs much, and each side of a piece is up to half as
+  /// long, which then costs no more than many faces do. \return in [kSpacing / 2, kSpacing].
+  static double enough_spacing(std::size_t faces);
+
+  /// With the spacing that is enough. \param mesh vertices that share a position are treated as one.
+  /// \param sides one entry per component of connected_components(mesh), or one for all.
+  /// \throw InvalidInput
+  FaceVisibility(const TriMesh& mesh, std::vector<FaceSides> sides);
   /// \param spacing pieces are cut until no side is longer than this share of the diameter of the
   ///                enclosing sphere, in (0, 1]; needle-like pieces of little area stay longer.
   /// \throw InvalidInput
-  FaceVisibility(const TriMesh& mesh, std::vector<FaceSides> sides, double spacing = kSpacing);
+  FaceVisibility(const TriMesh& mesh, std::vector<FaceSides> sides, double spacing);
   ~FaceVisibility();
   FaceVisibility(FaceVisibility&&) noexcept;             ///< Leaves the other unusable.
   FaceVisibility& operator=(FaceVisibility&&) noexcept;  ///< The same.

@@ -132,7 +132,8 @@ TEST(Sampling, HasConvergedAtTheDefaultSpacing) {
   for (const TriMesh& mesh :
        {two_boxes, test::torus(1.0, 0.4, 30, 15), test::y_of_tubes(0.2, 14)}) {
     const FaceVisibility coarse(mesh, {FaceSides::Front});
-    const FaceVisibility fine(mesh, {FaceSides::Front}, 0.5 * FaceVisibility::kSpacing);
+    const FaceVisibility fine(mesh, {FaceSides::Front},
+                              0.5 * FaceVisibility::enough_spacing(mesh.triangles.size()));
     std::vector<std::array<double, 4>> measures;
     for (const Vec3& d : direction_set(ViewSphereBase::Icosahedron, 1).directions) {
       std::array<double, 4> m{};

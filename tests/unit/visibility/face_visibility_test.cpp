@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -90,7 +91,7 @@ TEST(FaceVisibility, SeesEachOfTwoSheetsBackToBackFromItsSide) {
 
 TEST(FaceVisibility, FindsASliverNarrowerThanItsPieces) {
   // Of a sheet of 4 × 4 all but a strip at one side lies under another sheet.
-  const double strip = 0.2 * FaceVisibility::kSpacing * std::hypot(4.0, 4.0, 1.0);
+  const double strip = 0.2 * FaceVisibility::enough_spacing(4) * std::hypot(4.0, 4.0, 1.0);
   const TriMesh mesh = test::together(test::sheet(4.0, 4.0, 1), test::sheet(4.0 - strip, 4.0, 1),
                                       Vec3(0.0, 0.0, 1.0));
   double seen = 0.0;
@@ -151,6 +152,53 @@ TEST(FaceVisibility, OfManyFacesSeesTheDeepestThroughAGapThatNoSampleMeets) {
   }
 }
 
+/// A sheet of 4 × 4, of so many squares a side, that falls by `slope` along x.
+TriMesh falling_sheet(double slope, int squares) {
+  TriMesh sheet = test::sheet(4.0, 4.0, squares);
+  for (Vec3& p : sheet.positions) {
+    p.z() = -slope * p.x();
+  }
+  return sheet;
+}
+
+TEST(FaceVisibility, GoesAsDeepAsWhatIsSeenOfAFace) {
+  // Another sheet hides all that lies beyond x = 1.37, amid the faces.
+  for (const int squares : {1, 80}) {
+    const TriMesh mesh = test::together(falling_sheet(0.5, squares), test::sheet(2.63, 4.0, 1),
+                                        Vec3(1.37, 0.0, 1.0));
+    const Sphere sphere = enclosing_sphere(mesh.positions);
+    EXPECT_NEAR(FaceVisibility(mesh, {FaceSides::Both}).seen_surface(kAbove).deepest,
+                0.5 - (-0.5 * 1.37 - sphere.centre.z()) / sphere.diameter, 1e-12)
+        << squares;
+  }
+}
+
+TEST(FaceVisibility, SpreadsPiecesOverTheDepthsThatTheyReach) {
+  for (const double slope : {1.0, 3.0}) {
+    const SeenSurface seen =
+        FaceVisibility(falling_sheet(slope, 7), {FaceSides::Both}).seen_surface(kAbove);
+    const auto is_empty = [](double area) { return area == 0.0; };
+    const auto begin = std::find_if_not(seen.depths.begin(), seen.depths.end(), is_empty);
+    const auto end = std::find_if_not(seen.depths.rbegin(), seen.depths.rend(), is_empty).base();
+    ASSERT_GT(end - begin, 10);
+    // All but the outermost are full, and every depth has as much of the sheet.
+    const double all = std::accumulate(begin + 2, end - 2, 0.0);
+    const double mean = all / static_cast<double>(end - begin - 4);
+    for (auto bin = begin + 2; bin != end - 2; ++bin) {
+      EXPECT_NEAR(*bin, mean, 0.05 * mean) << slope;
+    }
+  }
+}
+
+TEST(FaceVisibility, TakesNearerSamplesOfFewerFaces) {
+  constexpr double kSpacing = FaceVisibility::kSpacing;
+  EXPECT_EQ(FaceVisibility::enough_spacing(1'000'000), kSpacing);
+  EXPECT_EQ(FaceVisibility::enough_spacing(80'000), kSpacing);
+  EXPECT_NEAR(FaceVisibility::enough_spacing(40'000), kSpacing / std::sqrt(2.0), 1e-15);
+  EXPECT_EQ(FaceVisibility::enough_spacing(20'000), kSpacing / 2.0);
+  EXPECT_EQ(FaceVisibility::enough_spacing(0), kSpacing / 2.0);
+}
+
 TEST(FaceVisibility, SeesTheFaceThatAnEdgeIsSeenOfOnlyBetweenWhereItPassesThroughOthers) {
   // A needle lies in a slab but for its back, which comes out along its middle: ends are inside.
   TriMesh slab = test::box(4.0, 1.0, 4.0, 1);
@@ -181,7 +229,7 @@ TEST(FaceVisibility, LooksCloserAtPiecesThatAreSeenInPart) {
   for (const SeenFace& face : FaceVisibility(mesh, {FaceSides::Both}).seen_faces(kAbove)) {
     seen += face.face < 2 ? face.visible_area : 0.0;
   }
-  const double part = FaceVisibility::kSpacing * std::hypot(4.0, 4.0, 1.0) / 4.0;
+  const double part = FaceVisibility::enough_spacing(4) * std::hypot(4.0, 4.0, 1.0) / 4.0;
   EXPECT_NEAR(seen, 4.0 * (4.0 - 1.37), 4.0 * 0.5 * part);
 }
 
@@ -247,7 +295,8 @@ TEST(FaceVisibility, BoundsTheSamplesOfNeedlesByTheirArea) {
   const FaceVisibility visibility(mesh, {FaceSides::Front});
   // No piece that was cut was smaller than a quarter of an equilateral one, so no half is below an
   // eighth of it.
-  const double side = FaceVisibility::kSpacing * enclosing_sphere(mesh.positions).diameter;
+  const double side = FaceVisibility::enough_spacing(mesh.triangles.size()) *
+                      enclosing_sphere(mesh.positions).diameter;
   const double least = std::sqrt(3.0) / 4.0 * side * side / 8.0;
   EXPECT_LT(static_cast<double>(visibility.sample_count()),
             static_cast<double>(mesh.triangles.size()) + visibility.total_area() / least);
