@@ -78,9 +78,12 @@ class EdgeRouter {
         vertices_(vertices_of_nodes(graph_.nodes.size(), node_of_vertex)),
         neighbours_(neighbours_of_nodes(graph_)) {}
 
+  /// Every way is looked for below the same vertices, and only then do the new nodes take theirs:
+  /// no way depends on which edge comes first.
   CurveGraph route() {
     const std::vector<std::array<std::uint32_t, 2>> edges = std::move(graph_.edges);
     graph_.edges.clear();
+    corners_of_.resize(graph_.nodes.size());
     for (const auto& [a, b] : edges) {
       const std::uint32_t component = component_[a];
       if (component == Skeleton::kNone ||
@@ -89,6 +92,9 @@ class EdgeRouter {
       } else {
         lead(a, b, way(component, a, b));
       }
+    }
+    for (std::uint32_t node = 0; node < corners_of_.size(); ++node) {
+      hand_over(node);
     }
     std::sort(graph_.edges.begin(), graph_.edges.end());
     return std::move(graph_);
@@ -126,49 +132,42 @@ class EdgeRouter {
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
 
-  /// Puts nodes at the corners between a and b, which take over the vertices nearer to them.
+  /// Puts nodes at the corners between a and b.
   void lead(std::uint32_t a, std::uint32_t b, const std::vector<Vec3>& corners) {
-    const auto first = static_cast<std::uint32_t>(graph_.nodes.size());
     std::uint32_t previous = a;
     for (const Vec3& corner : corners) {
       const auto node = static_cast<std::uint32_t>(graph_.nodes.size());
       graph_.nodes.push_back(corner);
       graph_.edges.push_back({std::min(previous, node), std::max(previous, node)});
+      corners_of_[a].push_back(node);
+      corners_of_[b].push_back(node);
       previous = node;
     }
     graph_.edges.push_back({std::min(previous, b), std::max(previous, b)});
-    vertices_.resize(graph_.nodes.size());
-    hand_over(a, first);
-    hand_over(b, first);
   }
 
-  /// Gives the vertices of `from` that are nearer to a node from `first` on to the nearest of them,
-  /// but never all of them.
-  void hand_over(std::uint32_t from, std::uint32_t first) {
-    std::vector<std::uint32_t> kept;
+  /// Gives the vertices of `from` that are nearer to a corner of one of its edges to the nearest of
+  /// them, but never all of them.
+  void hand_over(std::uint32_t from) {
     std::vector<std::array<std::uint32_t, 2>> given;
     for (const std::uint32_t v : vertices_[from]) {
       const Vec3& p = routing_.mesh.positions[v];
       std::uint32_t nearest = from;
-      for (std::uint32_t node = first; node < graph_.nodes.size(); ++node) {
+      for (const std::uint32_t node : corners_of_[from]) {
         if ((p - graph_.nodes[node]).squaredNorm() < (p - graph_.nodes[nearest]).squaredNorm()) {
           nearest = node;
         }
       }
-      if (nearest == from) {
-        kept.push_back(v);
-      } else {
+      if (nearest != from) {
         given.push_back({v, nearest});
       }
     }
-    if (kept.empty()) {
+    if (given.size() == vertices_[from].size()) {
       return;
     }
     for (const auto& [v, node] : given) {
       node_of_vertex_[v] = node;
-      vertices_[node].push_back(v);
     }
-    vertices_[from] = std::move(kept);
   }
 
   CurveGraph graph_;
@@ -176,7 +175,8 @@ class EdgeRouter {
   std::vector<std::uint32_t>& node_of_vertex_;
   std::vector<std::uint32_t> component_;  ///< Of the nodes that were there at the start.
   std::vector<std::vector<std::uint32_t>> vertices_;
-  std::vector<std::vector<std::uint32_t>> neighbours_;  ///< Before any was put in between.
+  std::vector<std::vector<std::uint32_t>> neighbours_;    ///< Before any was put in between.
+  std::vector<std::vector<std::uint32_t>> corners_of_{};  ///< New nodes on the edges of each node.
   std::optional<InteriorPaths> paths_{};
 };
 
@@ -216,7 +216,7 @@ CurveGraph move_nodes_inside(const CurveGraph& centred, const CurveGraph& raw,
     const Vec3 half_way = 0.5 * (centred.nodes[i] + raw.nodes[i]);
     const std::array places{centred.nodes[i], half_way, raw.nodes[i]};
     const auto* const place = std::find_if(places.begin(), places.end(), [&](const Vec3& p) {
-      return routing.shell.inside(component, p);
+      return routing.shell.well_inside(component, p);
     });
     if (place != places.end()) {
       graph.nodes[i] = *place;
@@ -224,8 +224,10 @@ CurveGraph move_nodes_inside(const CurveGraph& centred, const CurveGraph& raw,
     }
     NearestMiddle middle(routing.shell, centred.nodes[i]);
     middle.look_at(vertices[i]);
-    for (std::size_t c = 0; c < neighbours[i].size() && !middle.found(); ++c) {
-      middle.look_at(vertices[neighbours[i][c]]);
+    if (!middle.found()) {
+      for (const std::uint32_t c : neighbours[i]) {
+        middle.look_at(vertices[c]);
+      }
     }
     graph.nodes[i] = middle.found() ? middle.nearest() : centred.nodes[i];
   }

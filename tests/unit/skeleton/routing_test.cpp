@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "skeleton/routing.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -76,6 +78,35 @@ TEST(RouteEdgesInside, GivesTheNewNodesTheVerticesNearThem) {
   for (const int count : vertices) {
     EXPECT_GT(count, 0);
   }
+}
+
+TEST(RouteEdgesInside, TakesTheSameWaysInWhateverOrderEdgesCome) {
+  Quarters q;
+  const CurveGraph routed = route_edges_inside(q.graph, q.routing, q.node_of_vertex);
+  Quarters other;
+  std::reverse(other.graph.nodes.begin(), other.graph.nodes.end());
+  for (std::uint32_t& node : other.node_of_vertex) {
+    node = 3 - node;
+  }
+  const CurveGraph again = route_edges_inside(other.graph, other.routing, other.node_of_vertex);
+  const auto sorted = [](std::vector<Vec3> nodes) {
+    std::sort(nodes.begin(), nodes.end(), [](const Vec3& a, const Vec3& b) {
+      return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+    });
+    return nodes;
+  };
+  EXPECT_EQ(sorted(again.nodes), sorted(routed.nodes));
+  for (std::size_t v = 0; v < q.node_of_vertex.size(); ++v) {
+    EXPECT_EQ(again.nodes[other.node_of_vertex[v]], routed.nodes[q.node_of_vertex[v]]) << v;
+  }
+}
+
+TEST(MoveNodesInside, LeavesNothingOnTheSurface) {
+  const Quarters q;
+  CurveGraph centred = q.graph;
+  centred.nodes[0] = q.mesh.positions[60];
+  const CurveGraph moved = move_nodes_inside(centred, centred, q.routing, q.node_of_vertex);
+  EXPECT_TRUE(q.shell.well_inside(0, moved.nodes[0]));
 }
 
 }  // namespace
