@@ -5,11 +5,13 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "vantage/skeleton/skeleton.h"
 
 #include "mesh/disjoint_sets.h"
+#include "mesh/place_order.h"
 #include "skeleton/interior_path.h"
 
 namespace vantage {
@@ -83,7 +85,6 @@ class EdgeRouter {
   CurveGraph route() {
     const std::vector<std::array<std::uint32_t, 2>> edges = std::move(graph_.edges);
     graph_.edges.clear();
-    corners_of_.resize(graph_.nodes.size());
     for (const auto& [a, b] : edges) {
       const std::uint32_t component = component_[a];
       if (component == Skeleton::kNone ||
@@ -93,14 +94,22 @@ class EdgeRouter {
         lead(a, b, way(component, a, b));
       }
     }
-    for (std::uint32_t node = 0; node < corners_of_.size(); ++node) {
-      hand_over(node);
+    sort_ways();
+    for (const Way& way : ways_) {
+      hand_over(way.ends[0], way.corners);
+      hand_over(way.ends[1], way.corners);
     }
     std::sort(graph_.edges.begin(), graph_.edges.end());
     return std::move(graph_);
   }
 
  private:
+  /// What replaced an edge: new nodes between its ends.
+  struct Way {
+    std::array<std::uint32_t, 2> ends;
+    std::vector<std::uint32_t> corners;
+  };
+
   /// Corners of a way inside below the vertices of both nodes or, if there is none, also below those
   /// of the nodes up to kMostRings edges away; none if there is no such way either.
   std::vector<Vec3> way(std::uint32_t component, std::uint32_t a, std::uint32_t b) {
@@ -132,42 +141,59 @@ class EdgeRouter {
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
 
+  /// Ways of long edges first, which are those of the largest parts of the surface.
+  void sort_ways() {
+    const PlaceOrder order(graph_.nodes);
+    const auto rank = [&](const Way& way) {
+      const auto [a, b] = way.ends;
+      return std::tuple(order.steps((graph_.nodes[a] - graph_.nodes[b]).norm()),
+                        order.place(graph_.nodes[a], graph_.nodes[b]), way.ends);
+    };
+    std::sort(ways_.begin(), ways_.end(),
+              [&](const Way& x, const Way& y) { return rank(y) < rank(x); });
+  }
+
   /// Puts nodes at the corners between a and b.
   void lead(std::uint32_t a, std::uint32_t b, const std::vector<Vec3>& corners) {
+    Way way{{a, b}, {}};
     std::uint32_t previous = a;
     for (const Vec3& corner : corners) {
       const auto node = static_cast<std::uint32_t>(graph_.nodes.size());
       graph_.nodes.push_back(corner);
       graph_.edges.push_back({std::min(previous, node), std::max(previous, node)});
-      corners_of_[a].push_back(node);
-      corners_of_[b].push_back(node);
+      way.corners.push_back(node);
       previous = node;
     }
     graph_.edges.push_back({std::min(previous, b), std::max(previous, b)});
+    ways_.push_back(std::move(way));
   }
 
-  /// Gives the vertices of `from` that are nearer to a corner of one of its edges to the nearest of
-  /// them, but never all of them.
-  void hand_over(std::uint32_t from) {
+  /// Gives the vertices of `from` that are nearer to a corner to the nearest of them, but never all
+  /// of them.
+  void hand_over(std::uint32_t from, const std::vector<std::uint32_t>& corners) {
+    std::vector<std::uint32_t> kept;
     std::vector<std::array<std::uint32_t, 2>> given;
     for (const std::uint32_t v : vertices_[from]) {
       const Vec3& p = routing_.mesh.positions[v];
       std::uint32_t nearest = from;
-      for (const std::uint32_t node : corners_of_[from]) {
+      for (const std::uint32_t node : corners) {
         if ((p - graph_.nodes[node]).squaredNorm() < (p - graph_.nodes[nearest]).squaredNorm()) {
           nearest = node;
         }
       }
-      if (nearest != from) {
+      if (nearest == from) {
+        kept.push_back(v);
+      } else {
         given.push_back({v, nearest});
       }
     }
-    if (given.size() == vertices_[from].size()) {
+    if (kept.empty()) {
       return;
     }
     for (const auto& [v, node] : given) {
       node_of_vertex_[v] = node;
     }
+    vertices_[from] = std::move(kept);
   }
 
   CurveGraph graph_;
@@ -175,8 +201,8 @@ class EdgeRouter {
   std::vector<std::uint32_t>& node_of_vertex_;
   std::vector<std::uint32_t> component_;  ///< Of the nodes that were there at the start.
   std::vector<std::vector<std::uint32_t>> vertices_;
-  std::vector<std::vector<std::uint32_t>> neighbours_;    ///< Before any was put in between.
-  std::vector<std::vector<std::uint32_t>> corners_of_{};  ///< New nodes on the edges of each node.
+  std::vector<std::vector<std::uint32_t>> neighbours_;  ///< Before any was put in between.
+  std::vector<Way> ways_{};
   std::optional<InteriorPaths> paths_{};
 };
 
