@@ -19,7 +19,7 @@ constexpr std::size_t kDepth = 96;
 constexpr std::size_t kPanel = 16;
 /// Columns of a panel that are solved for before the rows below are looked at.
 constexpr std::size_t kSolved = 4;
-static_assert(kRightSides == kLanes);
+static_assert(kRightSides == kLanes && kSolved == 4);
 
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
 
@@ -134,14 +134,14 @@ VANTAGE_INLINE void store(const Lanes& value, double* to) {
   std::memcpy(to, &value, sizeof(Lanes));
 }
 
-/// The columns from b to end, of `panel`, into the rows below.
-VANTAGE_INLINE void forward_below(const double* panel, std::size_t height, std::size_t b,
-                                  std::size_t end, const Lanes* x, double* rows) {
-  const double* from = panel + b * height;
+/// `Columns` columns of a panel, of which `from` is the first, into the rows from `end` on.
+template <std::size_t Columns>
+VANTAGE_INLINE void forward_below(const double* from, std::size_t height, std::size_t end,
+                                  const Lanes* x, double* rows) {
   for (std::size_t i = end; i < height; ++i) {
     Lanes value;
     load(rows + i * kRightSides, value);
-    for (std::size_t l = 0; l < end - b; ++l) {
+    for (std::size_t l = 0; l < Columns; ++l) {
       value -= from[i + l * height] * x[l];
     }
     store(value, rows + i * kRightSides);
@@ -161,22 +161,31 @@ VANTAGE_INLINE void forward_all(const double* panel, std::size_t height, std::si
       x[j - b] /= panel[j + j * height];
       store(x[j - b], rows + j * kRightSides);
     }
-    if (end - b == kSolved) {
-      forward_below(panel, height, b, b + kSolved, x, rows);  // a count that the compiler knows
-    } else {
-      forward_below(panel, height, b, end, x, rows);
+    const double* from = panel + b * height;
+    switch (end - b) {  // counts that the compiler knows
+      case 1:
+        forward_below<1>(from, height, end, x, rows);
+        break;
+      case 2:
+        forward_below<2>(from, height, end, x, rows);
+        break;
+      case 3:
+        forward_below<3>(from, height, end, x, rows);
+        break;
+      default:
+        forward_below<kSolved>(from, height, end, x, rows);
     }
   }
 }
 
-/// The rows below times the columns from b to end of `panel`.
-VANTAGE_INLINE void sums_below(const double* panel, std::size_t height, std::size_t b,
-                               std::size_t end, const double* rows, Lanes* sum) {
-  const double* from = panel + b * height;
+/// The rows from `end` on times `Columns` columns of a panel, of which `from` is the first.
+template <std::size_t Columns>
+VANTAGE_INLINE void sums_below(const double* from, std::size_t height, std::size_t end,
+                               const double* rows, Lanes* sum) {
   for (std::size_t i = end; i < height; ++i) {
     Lanes value;
     load(rows + i * kRightSides, value);
-    for (std::size_t l = 0; l < end - b; ++l) {
+    for (std::size_t l = 0; l < Columns; ++l) {
       sum[l] += from[i + l * height] * value;
     }
   }
@@ -188,10 +197,19 @@ VANTAGE_INLINE void backward_all(const double* panel, std::size_t height, std::s
     const std::size_t end = columns - done;
     const std::size_t b = (end - 1) / kSolved * kSolved;
     Lanes sum[kSolved] = {};
-    if (end - b == kSolved) {
-      sums_below(panel, height, b, b + kSolved, rows, sum);  // a count that the compiler knows
-    } else {
-      sums_below(panel, height, b, end, rows, sum);
+    const double* from = panel + b * height;
+    switch (end - b) {  // counts that the compiler knows
+      case 1:
+        sums_below<1>(from, height, end, rows, sum);
+        break;
+      case 2:
+        sums_below<2>(from, height, end, rows, sum);
+        break;
+      case 3:
+        sums_below<3>(from, height, end, rows, sum);
+        break;
+      default:
+        sums_below<kSolved>(from, height, end, rows, sum);
     }
     Lanes x[kSolved];
     for (std::size_t j = end; j-- > b;) {
