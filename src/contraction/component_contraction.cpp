@@ -25,6 +25,13 @@ constexpr double kTinyFace = 1e-6;
 /// see one vertex that flies off while the others shrink, and what it sees depends on the axes.
 constexpr double kFarthest = 1.2;
 
+/// A correction of more than this share of the solution says that neither is worth anything: the step
+/// counts as not solved [ours].
+constexpr double kTrusted = 1e-2;
+
+/// Rows are read as wholes.
+using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
 /// Area ratios of faces, then of vertices, against the start.
 class AreaRatios {
  public:
@@ -79,6 +86,42 @@ class AreaRatios {
   double mean_area_ = 0.0;
 };
 
+/// −½ the gradient of |W_L L (x + d)|² + Σ W_H,i² |d_i|² at the displacement d.
+class Pull {
+ public:
+  /// \param L a Laplacian: its rows add up to zero. \param rows W_L² of each row.
+  /// \param held W_H² of each vertex. All must outlive this.
+  Pull(const Eigen::SparseMatrix<double>& L, const Eigen::VectorXd& rows,
+       const Eigen::VectorXd& held)
+      : L_(L), rows_(rows), held_(held) {}
+
+  /// \param moved x + d.
+  [[nodiscard]] Eigen::MatrixX3d at(const Positions& moved, const Eigen::MatrixX3d& d) const {
+    // By differences of positions: rounding then is relative to edges, not to the model.
+    Positions bent = Positions::Zero(moved.rows(), 3);
+    for (int j = 0; j < L_.outerSize(); ++j) {
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(L_, j); entry; ++entry) {
+        bent.row(entry.row()) += entry.value() * (moved.row(j) - moved.row(entry.row()));
+      }
+    }
+    bent.array().colwise() *= rows_.array();
+    Eigen::MatrixX3d pull(moved.rows(), 3);
+    for (int j = 0; j < L_.outerSize(); ++j) {
+      Eigen::RowVector3d sum = held_[j] * d.row(j);
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(L_, j); entry; ++entry) {
+        sum += entry.value() * bent.row(entry.row());
+      }
+      pull.row(j) = -sum;
+    }
+    return pull;
+  }
+
+ private:
+  const Eigen::SparseMatrix<double>& L_;
+  const Eigen::VectorXd& rows_;
+  const Eigen::VectorXd& held_;
+};
+
 /// One step of the iteration: minimise |W_L L X'|² + Σ W_H,i² |x'_i − x_i|² by its normal equations.
 class StepSolver {
  public:
@@ -97,7 +140,6 @@ class StepSolver {
       normal_.emplace(L);
     }
     const auto n = static_cast<Eigen::Index>(now.positions.size());
-    Eigen::MatrixX3d B(n, 3);
     Eigen::VectorXd rows(n);
     Eigen::VectorXd held(n);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -105,25 +147,53 @@ class StepSolver {
       const double count = shares_.empty() ? 1.0 : shares_.count[v];
       rows[i] = W_L * W_L / count;
       held[i] = count * W_H[v] * W_H[v];
-      B.row(i) = held[i] * now.positions[v].transpose();
     }
     Eigen::SparseMatrix<double>& A = normal_->assemble(L, rows, held);
-    const double largest = A.diagonal().maxCoeff();
-    const double shift = shift_of(largest, harshness);
+    const double shift = shift_of(A.diagonal().maxCoeff(), harshness);
     if (shift > 0.0) {
       for (Eigen::Index i = 0; i < n; ++i) {
         A.coeffRef(i, i) += shift;
-        B.row(i) += shift * now.positions[static_cast<std::size_t>(i)].transpose();
       }
+      held.array() += shift;
     }
-    return positions_.solve(A, B, run);
+    if (!system_.factorize(A, run)) {
+      return std::nullopt;
+    }
+    return refined(now.positions, Pull(L, rows, held), harshness);
   }
 
  private:
+  /// Corrected semi-normal equations (Björck, "Stability analysis of the method of seminormal
+  /// equations", 1987): the factor is that of the normal equations, the residual that of the
+  /// least-squares problem, which they would square away.
+  [[nodiscard]] std::optional<std::vector<Vec3>> refined(const std::vector<Vec3>& start,
+                                                         const Pull& pull, int harshness) const {
+    const auto n = static_cast<Eigen::Index>(start.size());
+    Positions x(n, 3);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      x.row(i) = start[static_cast<std::size_t>(i)].transpose();
+    }
+    Eigen::MatrixX3d d = system_.solve(pull.at(x, Eigen::MatrixX3d::Zero(n, 3)));
+    const Eigen::MatrixX3d correction = system_.solve(pull.at(x + d, d));
+    if (correction.norm() <= kTrusted * d.norm()) {
+      d += correction;
+    } else if (harshness == kGentlest) {
+      return std::nullopt;
+    }
+    if (!d.allFinite()) {
+      return std::nullopt;
+    }
+    std::vector<Vec3> moved(start);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      moved[static_cast<std::size_t>(i)] += d.row(i).transpose();
+    }
+    return moved;
+  }
+
   const FineShares& shares_;
   LaplacianAssembler laplacian_;
   std::optional<NormalMatrix> normal_{};
-  PositionSolver positions_{};
+  PositionSolver system_{};
 };
 
 /// What a step must not outgrow.

@@ -14,6 +14,7 @@
 #include "vantage/mesh/topology.h"
 
 #include "core/parallel.h"
+#include "mesh/place_order.h"
 #include "mesh/quadric.h"
 
 namespace vantage {
@@ -174,6 +175,7 @@ class Decimator {
       : run_(run),
         mesh_(fine),
         policy_(std::move(policy)),
+        order_(fine.positions),
         of_fine_(fine.positions.size()),
         live_(fine.positions.size()),
         faces_a_(fine.positions.size(), 0),
@@ -241,10 +243,19 @@ class Decimator {
     });
     std::erase_if(edges, [&](const Candidate& edge) { return !(edge.cost < limit); });
     keep_cheapest(edges, kPassShare);
-    std::sort(edges.begin(), edges.end(), [](const Candidate& x, const Candidate& y) {
-      return std::tie(x.cost, x.a, x.b) < std::tie(y.cost, y.a, y.b);
+    std::sort(edges.begin(), edges.end(), [this](const Candidate& x, const Candidate& y) {
+      if (x.cost != y.cost) {
+        return x.cost < y.cost;
+      }
+      const std::uint32_t x_place = place_of(x);
+      const std::uint32_t y_place = place_of(y);
+      return std::tie(x_place, x.a, x.b) < std::tie(y_place, y.a, y.b);
     });
     return edges;
+  }
+
+  [[nodiscard]] std::uint32_t place_of(const Candidate& edge) const {
+    return order_.place(mesh_.positions[edge.a], mesh_.positions[edge.b]);
   }
 
   void pass(std::size_t target, double limit) {
@@ -393,6 +404,7 @@ class Decimator {
   const RunContext& run_;
   TriMesh mesh_;
   Policy policy_;
+  PlaceOrder order_;
   std::vector<std::uint32_t> of_fine_;  ///< Vertex that each of the input is part of.
   Fans fans_{};
   std::vector<std::uint32_t> parent_{};  ///< Within a pass.

@@ -24,7 +24,7 @@ struct Decimation {
 /// Collapses edges, cheapest first, until at most `target` vertices are left or no edge may go.
 /// An edge may go if its ends have no common neighbour but the apexes of its faces (so that genus,
 /// borders and components stay) and no face turns over. Cost is the quadric error plus a share of
-/// what keeps triangles even. Deterministic; ties go to the lower index.
+/// what keeps triangles even. Deterministic; of equal costs the place decides (mesh/place_order.h).
 /// \param weights |V| factors > 0 of the cost, so that more is left where they are large; empty: 1.
 /// \pre every vertex belongs to a face, no face names a vertex twice. \throw Cancelled
 Decimation decimate(const TriMesh& fine, std::size_t target, const RunContext& run,

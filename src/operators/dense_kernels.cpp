@@ -17,6 +17,9 @@ constexpr std::size_t kTileColumns = 4;
 constexpr std::size_t kDepth = 96;
 /// Columns of a panel factorised by plain loops before the rest is updated by products.
 constexpr std::size_t kPanel = 16;
+/// Columns of a panel that are solved for before the rows below are looked at.
+constexpr std::size_t kSolved = 4;
+static_assert(kRightSides == kLanes && kSolved == 4);
 
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
 
@@ -127,6 +130,101 @@ VANTAGE_INLINE bool factorize_all(double* panel, std::size_t height, std::size_t
   return true;
 }
 
+VANTAGE_INLINE void store(const Lanes& value, double* to) {
+  std::memcpy(to, &value, sizeof(Lanes));
+}
+
+/// `Columns` columns of a panel, of which `from` is the first, into the rows from `end` on.
+template <std::size_t Columns>
+VANTAGE_INLINE void forward_below(const double* from, std::size_t height, std::size_t end,
+                                  const Lanes* x, double* rows) {
+  for (std::size_t i = end; i < height; ++i) {
+    Lanes value;
+    load(rows + i * kRightSides, value);
+    for (std::size_t l = 0; l < Columns; ++l) {
+      value -= from[i + l * height] * x[l];
+    }
+    store(value, rows + i * kRightSides);
+  }
+}
+
+VANTAGE_INLINE void forward_all(const double* panel, std::size_t height, std::size_t columns,
+                                double* rows) {
+  for (std::size_t b = 0; b < columns; b += kSolved) {
+    const std::size_t end = std::min(columns, b + kSolved);
+    Lanes x[kSolved];
+    for (std::size_t j = b; j < end; ++j) {
+      load(rows + j * kRightSides, x[j - b]);
+      for (std::size_t l = b; l < j; ++l) {
+        x[j - b] -= panel[j + l * height] * x[l - b];
+      }
+      x[j - b] /= panel[j + j * height];
+      store(x[j - b], rows + j * kRightSides);
+    }
+    const double* from = panel + b * height;
+    switch (end - b) {  // counts that the compiler knows
+      case 1:
+        forward_below<1>(from, height, end, x, rows);
+        break;
+      case 2:
+        forward_below<2>(from, height, end, x, rows);
+        break;
+      case 3:
+        forward_below<3>(from, height, end, x, rows);
+        break;
+      default:
+        forward_below<kSolved>(from, height, end, x, rows);
+    }
+  }
+}
+
+/// The rows from `end` on times `Columns` columns of a panel, of which `from` is the first.
+template <std::size_t Columns>
+VANTAGE_INLINE void sums_below(const double* from, std::size_t height, std::size_t end,
+                               const double* rows, Lanes* sum) {
+  for (std::size_t i = end; i < height; ++i) {
+    Lanes value;
+    load(rows + i * kRightSides, value);
+    for (std::size_t l = 0; l < Columns; ++l) {
+      sum[l] += from[i + l * height] * value;
+    }
+  }
+}
+
+VANTAGE_INLINE void backward_all(const double* panel, std::size_t height, std::size_t columns,
+                                 double* rows) {
+  for (std::size_t done = 0; done < columns;) {
+    const std::size_t end = columns - done;
+    const std::size_t b = (end - 1) / kSolved * kSolved;
+    Lanes sum[kSolved] = {};
+    const double* from = panel + b * height;
+    switch (end - b) {  // counts that the compiler knows
+      case 1:
+        sums_below<1>(from, height, end, rows, sum);
+        break;
+      case 2:
+        sums_below<2>(from, height, end, rows, sum);
+        break;
+      case 3:
+        sums_below<3>(from, height, end, rows, sum);
+        break;
+      default:
+        sums_below<kSolved>(from, height, end, rows, sum);
+    }
+    Lanes x[kSolved];
+    for (std::size_t j = end; j-- > b;) {
+      load(rows + j * kRightSides, x[j - b]);
+      x[j - b] -= sum[j - b];
+      for (std::size_t l = j + 1; l < end; ++l) {
+        x[j - b] -= panel[l + j * height] * x[l - b];
+      }
+      x[j - b] /= panel[j + j * height];
+      store(x[j - b], rows + j * kRightSides);
+    }
+    done = columns - b;
+  }
+}
+
 void subtract_anywhere(double* C, std::size_t stride, ConstBlock A, ConstBlock B,
                        ProductShape shape, bool lower) {
   subtract_all(C, stride, A, B, shape, lower);
@@ -134,6 +232,14 @@ void subtract_anywhere(double* C, std::size_t stride, ConstBlock A, ConstBlock B
 
 bool factorize_anywhere(double* panel, std::size_t height, std::size_t columns) {
   return factorize_all(panel, height, columns);
+}
+
+void forward_anywhere(const double* panel, std::size_t height, std::size_t columns, double* rows) {
+  forward_all(panel, height, columns, rows);
+}
+
+void backward_anywhere(const double* panel, std::size_t height, std::size_t columns, double* rows) {
+  backward_all(panel, height, columns, rows);
 }
 
 #if defined(__x86_64__)
@@ -145,6 +251,16 @@ bool factorize_anywhere(double* panel, std::size_t height, std::size_t columns) 
 [[gnu::target("avx2")]] bool factorize_wide(double* panel, std::size_t height,
                                             std::size_t columns) {
   return factorize_all(panel, height, columns);
+}
+
+[[gnu::target("avx2")]] void forward_wide(const double* panel, std::size_t height,
+                                          std::size_t columns, double* rows) {
+  forward_all(panel, height, columns, rows);
+}
+
+[[gnu::target("avx2")]] void backward_wide(const double* panel, std::size_t height,
+                                           std::size_t columns, double* rows) {
+  backward_all(panel, height, columns, rows);
 }
 #endif
 
@@ -168,6 +284,26 @@ bool factorize_panel(double* panel, std::size_t height, std::size_t columns) {
   }
 #endif
   return factorize_anywhere(panel, height, columns);
+}
+
+void solve_forward(const double* panel, std::size_t height, std::size_t columns, double* rows) {
+#if defined(__x86_64__)
+  if (has_wide_registers()) {
+    forward_wide(panel, height, columns, rows);
+    return;
+  }
+#endif
+  forward_anywhere(panel, height, columns, rows);
+}
+
+void solve_backward(const double* panel, std::size_t height, std::size_t columns, double* rows) {
+#if defined(__x86_64__)
+  if (has_wide_registers()) {
+    backward_wide(panel, height, columns, rows);
+    return;
+  }
+#endif
+  backward_anywhere(panel, height, columns, rows);
 }
 
 }  // namespace vantage

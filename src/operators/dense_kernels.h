@@ -32,4 +32,16 @@ void subtract_product(double* C, std::size_t stride, ConstBlock A, ConstBlock B,
 /// \return false if a pivot is not positive.
 bool factorize_panel(double* panel, std::size_t height, std::size_t columns);
 
+/// Right-hand sides that are solved for together; fewer are padded.
+inline constexpr std::size_t kRightSides = 4;
+
+/// Solves with the first `columns` rows of a factorised panel and subtracts what follows from the
+/// rows below.
+/// \param rows height × kRightSides, row by row.
+void solve_forward(const double* panel, std::size_t height, std::size_t columns, double* rows);
+
+/// Solves for the first `columns` rows from those below, with the panel transposed.
+/// \param rows as above.
+void solve_backward(const double* panel, std::size_t height, std::size_t columns, double* rows);
+
 }  // namespace vantage

@@ -3,17 +3,25 @@
 
 namespace vantage {
 
-std::optional<std::vector<Vec3>> PositionSolver::solve(const Eigen::SparseMatrix<double>& A,
-                                                       const Eigen::MatrixX3d& B,
-                                                       const RunContext& run) {
+bool PositionSolver::factorize(const Eigen::SparseMatrix<double>& A, const RunContext& run) {
   if (!analysed_) {
     cholesky_.analyze(A, run);
     analysed_ = true;
   }
-  if (!cholesky_.factorize(A, run)) {
+  return cholesky_.factorize(A, run);
+}
+
+Eigen::MatrixX3d PositionSolver::solve(const Eigen::MatrixX3d& B) const {
+  return cholesky_.solve(B);
+}
+
+std::optional<std::vector<Vec3>> PositionSolver::solve(const Eigen::SparseMatrix<double>& A,
+                                                       const Eigen::MatrixX3d& B,
+                                                       const RunContext& run) {
+  if (!factorize(A, run)) {
     return std::nullopt;
   }
-  const Eigen::MatrixX3d X = cholesky_.solve(B);
+  const Eigen::MatrixX3d X = solve(B);
   if (!X.allFinite()) {
     return std::nullopt;
   }

@@ -2,6 +2,7 @@
 #include "operators/supernodal_factor.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <utility>
 
@@ -158,37 +159,35 @@ bool SupernodalFactor::factorize(const Eigen::SparseMatrix<double>& A, const Run
 }
 
 Eigen::MatrixX3d SupernodalFactor::solve(const Eigen::MatrixX3d& B) const {
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  using Row = std::array<double, kRightSides>;
   const std::vector<int>& unknown = nodes_.unknown_of_column;
-  Rows X(B.rows(), 3);
+  std::vector<Row> X(unknown.size());
   for (std::size_t k = 0; k < unknown.size(); ++k) {
-    X.row(static_cast<Index>(k)) = B.row(unknown[k]);
+    X[k] = {B(unknown[k], 0), B(unknown[k], 1), B(unknown[k], 2), 0.0};
   }
-  for (int s = 0; s < nodes_.count(); ++s) {
+  std::vector<Row> front;
+  const auto solve_front = [&](int s, const auto& with_panel) {
     const auto own = panel(s);
     const int* rows = nodes_.rows.data() + nodes_.row_start[at(s)];
-    for (Index j = 0; j < own.cols(); ++j) {
-      const Eigen::RowVector3d x = X.row(rows[j]) / own(j, j);
-      X.row(rows[j]) = x;
-      for (Index i = j + 1; i < own.rows(); ++i) {
-        X.row(rows[i]) -= own(i, j) * x;
-      }
+    front.resize(static_cast<std::size_t>(own.rows()));
+    for (std::size_t i = 0; i < front.size(); ++i) {
+      front[i] = X[at(rows[i])];
     }
+    with_panel(own.data(), front.size(), static_cast<std::size_t>(own.cols()),
+               front.front().data());
+    for (std::size_t i = 0; i < front.size(); ++i) {
+      X[at(rows[i])] = front[i];
+    }
+  };
+  for (int s = 0; s < nodes_.count(); ++s) {
+    solve_front(s, solve_forward);
   }
   for (int s = nodes_.count(); s-- > 0;) {
-    const auto own = panel(s);
-    const int* rows = nodes_.rows.data() + nodes_.row_start[at(s)];
-    for (Index j = own.cols(); j-- > 0;) {
-      Eigen::RowVector3d x = X.row(rows[j]);
-      for (Index i = j + 1; i < own.rows(); ++i) {
-        x -= own(i, j) * X.row(rows[i]);
-      }
-      X.row(rows[j]) = x / own(j, j);
-    }
+    solve_front(s, solve_backward);
   }
   Eigen::MatrixX3d result(B.rows(), 3);
   for (std::size_t k = 0; k < unknown.size(); ++k) {
-    result.row(unknown[k]) = X.row(static_cast<Index>(k));
+    result.row(unknown[k]) << X[k][0], X[k][1], X[k][2];
   }
   return result;
 }

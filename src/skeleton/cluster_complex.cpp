@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "vantage/mesh/topology.h"
@@ -33,6 +34,7 @@ std::array<std::uint32_t, 2> others(const Triangle& t, std::uint32_t corner) {
 ClusterComplex::ClusterComplex(const TriMesh& mesh, std::vector<Vec3> positions,
                                std::vector<double> weights)
     : position_(std::move(positions)),
+      order_(position_),
       weight_(std::move(weights)),
       parent_(position_.size()),
       links_(position_.size()),
@@ -199,16 +201,33 @@ void ClusterComplex::split(std::uint32_t edge) {
   }
 }
 
+/// The edge of fewer faces; of as many, the longer one, or that which comes first by place.
+std::uint32_t ClusterComplex::sparser(std::uint32_t edge, std::uint32_t other) const {
+  const auto rank = [this](std::uint32_t e) {
+    const Vec3& a = position_[ends_[e][0]];
+    const Vec3& b = position_[ends_[e][1]];
+    return std::tuple(edge_faces_[e], -static_cast<double>(order_.steps(length(e))),
+                      order_.place(a, b), e);
+  };
+  return rank(edge) < rank(other) ? edge : other;
+}
+
 void ClusterComplex::make_room(std::uint32_t edge) {
   std::vector<Bits> loops;
-  for (const std::uint32_t third : pinched_by(edge)) {
+  std::vector<std::uint32_t> thirds = pinched_by(edge);
+  const auto rank = [this](std::uint32_t c) {
+    return std::pair(order_.place(position_[c], position_[c]), c);
+  };
+  std::sort(thirds.begin(), thirds.end(),
+            [&](std::uint32_t c, std::uint32_t d) { return rank(c) < rank(d); });
+  for (const std::uint32_t third : thirds) {
     loops.push_back(loop_class(edge, third));
     if (!guard_.may_kill(loops)) {
       loops.pop_back();
       const auto [a, b] = ends_[edge];
       const std::uint32_t to_a = find(third, a)->edge;
       const std::uint32_t to_b = find(third, b)->edge;
-      split(edge_faces_[to_a] <= edge_faces_[to_b] ? to_a : to_b);
+      split(sparser(to_a, to_b));
     }
   }
 }

@@ -10,6 +10,7 @@
 #include "vantage/mesh/curve_graph.h"
 #include "vantage/mesh/tri_mesh.h"
 
+#include "mesh/place_order.h"
 #include "skeleton/handle_guard.h"
 
 namespace vantage {
@@ -36,6 +37,9 @@ class ClusterComplex {
   [[nodiscard]] bool is_live(std::uint32_t cluster) const { return parent_[cluster] == cluster; }
 
   [[nodiscard]] const Vec3& position(std::uint32_t cluster) const { return position_[cluster]; }
+
+  /// By what edges of equal length are told apart: the vertices' places at the start.
+  [[nodiscard]] const PlaceOrder& order() const { return order_; }
 
   [[nodiscard]] const std::vector<Link>& links(std::uint32_t cluster) const {
     return links_[cluster];
@@ -79,6 +83,7 @@ class ClusterComplex {
   /// Class of the loop over the ends of `edge` and their common neighbour `third`, in normal form.
   [[nodiscard]] Bits loop_class(std::uint32_t edge, std::uint32_t third) const;
   void kill_pinched_loops(std::uint32_t edge);
+  [[nodiscard]] std::uint32_t sparser(std::uint32_t edge, std::uint32_t other) const;
   void split(std::uint32_t edge);
   std::uint32_t add_edge(std::uint32_t a, std::uint32_t b, const Bits& annotation);
   void absorb_faces(std::uint32_t keep, std::uint32_t gone);
@@ -87,6 +92,7 @@ class ClusterComplex {
   [[nodiscard]] bool has_face(std::uint32_t cluster, std::uint32_t x, std::uint32_t y) const;
 
   std::vector<Vec3> position_;
+  PlaceOrder order_;
   std::vector<double> weight_;
   std::vector<std::uint32_t> parent_;
   std::vector<std::vector<Link>> links_;              ///< Sorted by cluster.

@@ -6,16 +6,21 @@
 #include <limits>
 #include <queue>
 #include <tuple>
+#include <utility>
+
+#include "mesh/place_order.h"
 
 namespace vantage {
 namespace {
 
 struct Pair {
-  double length;
+  std::uint32_t steps;  ///< The length in steps of PlaceOrder, as are places.
+  std::uint32_t place;
   std::uint32_t a, b;
+  double length;
 
   bool operator<(const Pair& other) const {  // min-heap
-    return std::tie(other.length, other.a, other.b) < std::tie(length, a, b);
+    return std::tie(other.steps, other.place, other.a, other.b) < std::tie(steps, place, a, b);
   }
 };
 
@@ -61,8 +66,10 @@ class MergingGraph {
     const bool keep_fixed = neighbours_[keep].size() != 2;
     const bool gone_fixed = neighbours_[gone].size() != 2;
     // Between an end and a junction, the junction stays: a spur shorter than the spacing is no limb.
+    // Of two junctions that of more branches, then that of more vertices.
     const bool gone_wins =
-        gone_fixed && (!keep_fixed || neighbours_[gone].size() > neighbours_[keep].size());
+        gone_fixed && (!keep_fixed || std::pair(neighbours_[gone].size(), weight_[gone]) >
+                                          std::pair(neighbours_[keep].size(), weight_[keep]));
     const double total = weight_[keep] + weight_[gone];
     if (gone_wins) {
       position_[keep] = position_[gone];
@@ -111,23 +118,28 @@ class MergingGraph {
 CurveGraph merge_close_nodes(const CurveGraph& graph, double spacing, std::vector<double> weight,
                              std::vector<std::uint32_t>& node_of_vertex) {
   MergingGraph merging(graph, std::move(weight));
+  const PlaceOrder order(graph.nodes);
   std::priority_queue<Pair> queue;
+  const auto offer = [&](std::uint32_t a, std::uint32_t b) {
+    const double length = merging.distance(a, b);
+    if (length < spacing) {
+      const std::uint32_t place = order.place(merging.position(a), merging.position(b));
+      queue.push({order.steps(length), place, std::min(a, b), std::max(a, b), length});
+    }
+  };
   for (const auto& [a, b] : graph.edges) {
-    queue.push({merging.distance(a, b), a, b});
+    offer(a, b);
   }
   while (!queue.empty()) {
-    const auto [length, a, b] = queue.top();
+    const auto [steps, place, a, b, length] = queue.top();
     queue.pop();
-    if (!(length < spacing)) {
-      break;
-    }
     if (!merging.linked(a, b) || merging.distance(a, b) != length ||
         merging.share_a_neighbour(a, b)) {
       continue;
     }
     merging.merge(a, b);
     for (const std::uint32_t c : merging.neighbours(a)) {
-      queue.push({merging.distance(a, c), std::min(a, c), std::max(a, c)});
+      offer(a, c);
     }
   }
 

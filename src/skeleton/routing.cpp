@@ -5,11 +5,13 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "vantage/skeleton/skeleton.h"
 
 #include "mesh/disjoint_sets.h"
+#include "mesh/place_order.h"
 #include "skeleton/interior_path.h"
 
 namespace vantage {
@@ -78,6 +80,8 @@ class EdgeRouter {
         vertices_(vertices_of_nodes(graph_.nodes.size(), node_of_vertex)),
         neighbours_(neighbours_of_nodes(graph_)) {}
 
+  /// Every way is looked for below the same vertices, and only then do the new nodes take theirs:
+  /// no way depends on which edge comes first.
   CurveGraph route() {
     const std::vector<std::array<std::uint32_t, 2>> edges = std::move(graph_.edges);
     graph_.edges.clear();
@@ -90,11 +94,22 @@ class EdgeRouter {
         lead(a, b, way(component, a, b));
       }
     }
+    sort_ways();
+    for (const Way& way : ways_) {
+      hand_over(way.ends[0], way.corners);
+      hand_over(way.ends[1], way.corners);
+    }
     std::sort(graph_.edges.begin(), graph_.edges.end());
     return std::move(graph_);
   }
 
  private:
+  /// What replaced an edge: new nodes between its ends.
+  struct Way {
+    std::array<std::uint32_t, 2> ends;
+    std::vector<std::uint32_t> corners;
+  };
+
   /// Corners of a way inside below the vertices of both nodes or, if there is none, also below those
   /// of the nodes up to kMostRings edges away; none if there is no such way either.
   std::vector<Vec3> way(std::uint32_t component, std::uint32_t a, std::uint32_t b) {
@@ -126,31 +141,42 @@ class EdgeRouter {
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
 
-  /// Puts nodes at the corners between a and b, which take over the vertices nearer to them.
+  /// Ways of long edges first, which are those of the largest parts of the surface.
+  void sort_ways() {
+    const PlaceOrder order(graph_.nodes);
+    const auto rank = [&](const Way& way) {
+      const auto [a, b] = way.ends;
+      return std::tuple(order.steps((graph_.nodes[a] - graph_.nodes[b]).norm()),
+                        order.place(graph_.nodes[a], graph_.nodes[b]), way.ends);
+    };
+    std::sort(ways_.begin(), ways_.end(),
+              [&](const Way& x, const Way& y) { return rank(y) < rank(x); });
+  }
+
+  /// Puts nodes at the corners between a and b.
   void lead(std::uint32_t a, std::uint32_t b, const std::vector<Vec3>& corners) {
-    const auto first = static_cast<std::uint32_t>(graph_.nodes.size());
+    Way way{{a, b}, {}};
     std::uint32_t previous = a;
     for (const Vec3& corner : corners) {
       const auto node = static_cast<std::uint32_t>(graph_.nodes.size());
       graph_.nodes.push_back(corner);
       graph_.edges.push_back({std::min(previous, node), std::max(previous, node)});
+      way.corners.push_back(node);
       previous = node;
     }
     graph_.edges.push_back({std::min(previous, b), std::max(previous, b)});
-    vertices_.resize(graph_.nodes.size());
-    hand_over(a, first);
-    hand_over(b, first);
+    ways_.push_back(std::move(way));
   }
 
-  /// Gives the vertices of `from` that are nearer to a node from `first` on to the nearest of them,
-  /// but never all of them.
-  void hand_over(std::uint32_t from, std::uint32_t first) {
+  /// Gives the vertices of `from` that are nearer to a corner to the nearest of them, but never all
+  /// of them.
+  void hand_over(std::uint32_t from, const std::vector<std::uint32_t>& corners) {
     std::vector<std::uint32_t> kept;
     std::vector<std::array<std::uint32_t, 2>> given;
     for (const std::uint32_t v : vertices_[from]) {
       const Vec3& p = routing_.mesh.positions[v];
       std::uint32_t nearest = from;
-      for (std::uint32_t node = first; node < graph_.nodes.size(); ++node) {
+      for (const std::uint32_t node : corners) {
         if ((p - graph_.nodes[node]).squaredNorm() < (p - graph_.nodes[nearest]).squaredNorm()) {
           nearest = node;
         }
@@ -166,7 +192,6 @@ class EdgeRouter {
     }
     for (const auto& [v, node] : given) {
       node_of_vertex_[v] = node;
-      vertices_[node].push_back(v);
     }
     vertices_[from] = std::move(kept);
   }
@@ -177,6 +202,7 @@ class EdgeRouter {
   std::vector<std::uint32_t> component_;  ///< Of the nodes that were there at the start.
   std::vector<std::vector<std::uint32_t>> vertices_;
   std::vector<std::vector<std::uint32_t>> neighbours_;  ///< Before any was put in between.
+  std::vector<Way> ways_{};
   std::optional<InteriorPaths> paths_{};
 };
 
@@ -216,7 +242,7 @@ CurveGraph move_nodes_inside(const CurveGraph& centred, const CurveGraph& raw,
     const Vec3 half_way = 0.5 * (centred.nodes[i] + raw.nodes[i]);
     const std::array places{centred.nodes[i], half_way, raw.nodes[i]};
     const auto* const place = std::find_if(places.begin(), places.end(), [&](const Vec3& p) {
-      return routing.shell.inside(component, p);
+      return routing.shell.well_inside(component, p);
     });
     if (place != places.end()) {
       graph.nodes[i] = *place;
@@ -224,8 +250,10 @@ CurveGraph move_nodes_inside(const CurveGraph& centred, const CurveGraph& raw,
     }
     NearestMiddle middle(routing.shell, centred.nodes[i]);
     middle.look_at(vertices[i]);
-    for (std::size_t c = 0; c < neighbours[i].size() && !middle.found(); ++c) {
-      middle.look_at(vertices[neighbours[i][c]]);
+    if (!middle.found()) {
+      for (const std::uint32_t c : neighbours[i]) {
+        middle.look_at(vertices[c]);
+      }
     }
     graph.nodes[i] = middle.found() ? middle.nearest() : centred.nodes[i];
   }

@@ -18,6 +18,8 @@ constexpr int kMostCells = 2048;  // along one side
 constexpr double kSkip = 1e-4;
 /// Parts of a segment shorter than this share of it are rounding errors of where it is cut.
 constexpr double kRounding = 1e-9;
+/// A point nearer to the surface than this share of the model is on it.
+constexpr double kMargin = 1e-6;
 /// Rows of cells are taken this much wider, in cells, so that rounding loses no face.
 constexpr double kSlack = 0.01;
 /// A segment that passes a face's plane farther than this share of the model from the face does not
@@ -230,6 +232,17 @@ bool Shell::inside(std::uint32_t component, const Vec3& point) const {
     }
   }
   return winding != 0;
+}
+
+bool Shell::well_inside(std::uint32_t component, const Vec3& point) const {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sense : {-1.0, 1.0}) {
+      if (!inside(component, point + sense * kMargin * size_ * Vec3::Unit(axis))) {
+        return false;
+      }
+    }
+  }
+  return inside(component, point);
 }
 
 /// Whether a point of the face's plane lies in the face or next to it.

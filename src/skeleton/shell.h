@@ -28,6 +28,9 @@ class Shell {
   /// Whether the surface of the component winds around the point, or is open.
   [[nodiscard]] bool inside(std::uint32_t component, const Vec3& point) const;
 
+  /// Whether the point is inside and not on the surface, where rounding would decide.
+  [[nodiscard]] bool well_inside(std::uint32_t component, const Vec3& point) const;
+
   /// Whether all of the segment is inside, but for a rounding error at its ends.
   [[nodiscard]] bool inside(std::uint32_t component, const Vec3& a, const Vec3& b) const;
 

@@ -16,13 +16,14 @@ constexpr std::size_t kPoll = 4096;
 constexpr std::size_t kMostRefinements = 256;
 
 struct Candidate {
-  double cost;
+  std::uint32_t cost;  ///< In steps of PlaceOrder, as are places.
+  std::uint32_t place;
   std::uint32_t edge;
   std::uint32_t version;
 
-  /// Order of a min-heap: by cost, then by edge.
+  /// Order of a min-heap: by cost, then by place, then by edge.
   bool operator<(const Candidate& other) const {
-    return std::tie(other.cost, other.edge) < std::tie(cost, edge);
+    return std::tie(other.cost, other.place, other.edge) < std::tie(cost, place, edge);
   }
 };
 
@@ -64,9 +65,9 @@ class CollapseQueue {
         continue;
       }
       // Collapses next door may have created a loop to pinch since this was queued.
-      const double cost = collapse_cost(complex_, top.edge);
+      const std::uint32_t cost = complex_.order().steps(collapse_cost(complex_, top.edge));
       if (cost > top.cost) {
-        heap_.push({cost, top.edge, top.version});
+        heap_.push({cost, top.place, top.edge, top.version});
         continue;
       }
       edge = top.edge;
@@ -91,7 +92,10 @@ class CollapseQueue {
 
   void push(std::uint32_t edge) {
     if (collapsible(edge)) {
-      heap_.push({collapse_cost(complex_, edge), edge, version_[edge]});
+      const auto [a, b] = complex_.ends(edge);
+      heap_.push({complex_.order().steps(collapse_cost(complex_, edge)),
+                  complex_.order().place(complex_.position(a), complex_.position(b)), edge,
+                  version_[edge]});
     }
   }
 

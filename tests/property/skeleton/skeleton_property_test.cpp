@@ -10,6 +10,7 @@
 #include <oneapi/tbb/global_control.h>
 
 #include "vantage/contraction/contraction.h"
+#include "vantage/mesh/measures.h"
 #include "vantage/skeleton/quality.h"
 #include "vantage/skeleton/skeleton.h"
 
@@ -235,6 +236,36 @@ TEST_P(SkeletonStrategy, KeepsTheGraphUnderRenumberingAndSimilarities) {
     CurveGraph moved = graph;
     moved.nodes = place({.positions = graph.nodes, .triangles = {}}).positions;
     EXPECT_LE(node_distance(moved, other), 2.0 * scale * sample_spacing(mesh, {}));
+  }
+}
+
+/// A surface, symmetric before, that now is only its own mirror image: full of edges of equal length.
+TriMesh bent(TriMesh mesh) {
+  const Box box = bounding_box(mesh.positions);
+  const Vec3 middle = box.low + 0.5 * box.size();
+  for (Vec3& p : mesh.positions) {
+    const double x = (p.x() - middle.x()) / box.size().x();
+    const double z = (p.z() - middle.z()) / box.size().z();
+    p.y() = middle.y() + (p.y() - middle.y()) * (1.0 + 0.5 * x + 0.2 * z);
+    p.x() += 0.3 * z * z;
+  }
+  return mesh;
+}
+
+TEST(SkeletonOfEquals, IsTheSameHoweverTheModelIsNumberedAndTurned) {
+  for (const TriMesh& shape : {test::box(1.0, 2.0, 3.0, 8), test::sphere(3), test::cube_frame()}) {
+    const TriMesh mesh = bent(shape);
+    const CurveGraph graph = skeleton_of(mesh).graph;
+    const auto place = [&](const TriMesh& model) {
+      return test::moved(model, 1.0, 0.9, Vec3(1.0, -2.0, 0.7), Vec3(3.0, 1.0, -2.0));
+    };
+    CurveGraph moved = graph;
+    moved.nodes = place({.positions = graph.nodes, .triangles = {}}).positions;
+    for (const unsigned seed : {1U, 2U, 3U}) {
+      const CurveGraph other = skeleton_of(test::renumbered(place(mesh), seed)).graph;
+      EXPECT_LE(node_distance(moved, other), 1e-6 * enclosing_sphere(mesh.positions).diameter)
+          << mesh.positions.size() << " vertices, seed " << seed;
+    }
   }
 }
 

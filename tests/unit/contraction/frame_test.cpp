@@ -78,7 +78,7 @@ TEST_P(FrameOf, EveryLevelIsThatOfTheScaledComponentBroughtBack) {
     const TriMesh level = frame.of({.positions = history.levels[j], .triangles = {}});
     for (std::size_t v = 0; v < level.positions.size(); ++v) {
       // Late levels amplify the rounding of the scaling itself.
-      EXPECT_LE((level.positions[v] - expected.levels[j][v]).norm(), 1e-6) << j;
+      EXPECT_LE((level.positions[v] - expected.levels[j][v]).norm(), 1e-9) << j;
     }
   }
 }

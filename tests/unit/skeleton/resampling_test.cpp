@@ -73,5 +73,16 @@ TEST(MergeCloseNodes, StaysFiniteForNodesThatStandForNoVertex) {
   }
 }
 
+TEST(MergeCloseNodes, OfTwoJunctionsKeepsThatOfMoreVerticesHoweverNodesAreNumbered) {
+  const CurveGraph graph{
+      .nodes = {{0, 0, 0}, {0.1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, 1, 0}, {1, -1, 0}},
+      .edges = {{0, 1}, {0, 2}, {0, 3}, {1, 4}, {1, 5}}};
+  std::vector<std::uint32_t> node_of_vertex;
+  const CurveGraph first = merge_close_nodes(graph, 0.5, {9, 5, 1, 1, 1, 1}, node_of_vertex);
+  const CurveGraph second = merge_close_nodes(graph, 0.5, {5, 9, 1, 1, 1, 1}, node_of_vertex);
+  EXPECT_EQ(first.nodes[0], Vec3(0, 0, 0));
+  EXPECT_EQ(second.nodes[0], Vec3(0.1, 0, 0));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "skeleton/routing.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -76,6 +78,42 @@ TEST(RouteEdgesInside, GivesTheNewNodesTheVerticesNearThem) {
   for (const int count : vertices) {
     EXPECT_GT(count, 0);
   }
+}
+
+/// A torus that belongs to one node but for two thin slices across from it: the ways to both lead
+/// below the same vertices. \param first node of the slice at 9°; `second` is that at 27°.
+CurveGraph routed_slices(std::uint32_t first, std::uint32_t second, std::uint32_t rest) {
+  Quarters q;
+  std::fill(q.node_of_vertex.begin(), q.node_of_vertex.end(), rest);
+  std::fill_n(q.node_of_vertex.begin() + 12, 12, first);
+  std::fill_n(q.node_of_vertex.begin() + 36, 12, second);
+  q.graph.nodes.resize(3);
+  q.graph.nodes[first] = Vec3(std::cos(0.157), std::sin(0.157), 0.0);
+  q.graph.nodes[second] = Vec3(std::cos(0.471), std::sin(0.471), 0.0);
+  q.graph.nodes[rest] = Vec3(-1.0, 0.0, 0.0);
+  q.graph.edges = {{std::min(first, rest), std::max(first, rest)},
+                   {std::min(second, rest), std::max(second, rest)}};
+  std::sort(q.graph.edges.begin(), q.graph.edges.end());
+  CurveGraph routed = route_edges_inside(q.graph, q.routing, q.node_of_vertex);
+  std::sort(routed.nodes.begin(), routed.nodes.end(), [](const Vec3& a, const Vec3& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  });
+  return routed;
+}
+
+TEST(RouteEdgesInside, TakesTheSameWaysInWhateverOrderEdgesCome) {
+  const CurveGraph routed = routed_slices(1, 2, 0);
+  EXPECT_GT(routed.nodes.size(), 3U);
+  EXPECT_EQ(routed_slices(2, 1, 0).nodes, routed.nodes);
+  EXPECT_EQ(routed_slices(0, 1, 2).nodes, routed.nodes);
+}
+
+TEST(MoveNodesInside, LeavesNothingOnTheSurface) {
+  const Quarters q;
+  CurveGraph centred = q.graph;
+  centred.nodes[0] = q.mesh.positions[60];
+  const CurveGraph moved = move_nodes_inside(centred, centred, q.routing, q.node_of_vertex);
+  EXPECT_TRUE(q.shell.well_inside(0, moved.nodes[0]));
 }
 
 }  // namespace

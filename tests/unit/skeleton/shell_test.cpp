@@ -59,6 +59,17 @@ TEST(ShellInside, HasNoGapsAboveEdgesAndCorners) {
   }
 }
 
+TEST(ShellInside, WhatIsOnTheSurfaceIsNotWellInside) {
+  const TriMesh mesh = test::box(4, 4, 1, 4);
+  const auto components = one_component(mesh);
+  const Shell shell(mesh, components);
+  for (const double z : {0.0, 1.0}) {
+    EXPECT_FALSE(shell.well_inside(0, Vec3(1.3, 2.6, z)));
+  }
+  EXPECT_TRUE(shell.well_inside(0, Vec3(1.3, 2.6, 0.001)));
+  EXPECT_FALSE(shell.well_inside(0, Vec3(1.3, 2.6, -0.001)));
+}
+
 TEST(ShellInside, LooksAtOneComponentOnly) {
   const TriMesh mesh = test::together(test::sphere(2), test::sphere(2), Vec3(5, 0, 0));
   std::vector<std::uint32_t> components(mesh.positions.size(), 0);
