@@ -41,6 +41,12 @@ constexpr double kWidestRingRad = 1.0 * kRadPerDeg;  // of a climb; each climb h
 // vertices that preparing it does not pay. [ours]
 constexpr std::size_t kCircles = 2;
 
+/// All directions that may take part.
+const DirectionSet& dense_directions() {
+  static const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, kDenseLevel);
+  return set;
+}
+
 bool best_first(const Candidate& a, const Candidate& b) {
   return a.score > b.score;
 }
@@ -111,7 +117,7 @@ class Hunt {
 
   const Guides& guides_;
   double sign_;
-  DirectionSet dense_ = direction_set(ViewSphereBase::Icosahedron, kDenseLevel);
+  const DirectionSet& dense_ = dense_directions();
   std::vector<std::uint8_t> listed_;  // of the dense directions: in the model
   ErrorModel model_{};
   std::vector<Candidate> known_{};  // scored exactly, as sign · score
