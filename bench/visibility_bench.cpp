@@ -278,9 +278,9 @@ void score_nearby(benchmark::State& state, const Subject& subject) {
       inside.push_back(d);
     }
     nearby.score_all(others, alone);
-    ready += spent_on([&] { nearby.score_amid(others, {}, alone); });
+    ready += spent_on([&] { nearby.score_amid({others}, {}, alone); });
     std::vector<double> guessed;
-    const Spent now = spent_on([&] { guessed = nearby.score_amid(others, inside, alone); });
+    const Spent now = spent_on([&] { guessed = nearby.score_amid({others}, inside, alone); });
     near += now;
     state.SetIterationTime(now.wall / static_cast<double>(inside.size()));
     std::vector<double> scores;

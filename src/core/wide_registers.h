@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+
 /// \file
 /// Loops over the vector types of gcc and clang are compiled twice: for processors with 256-bit
 /// registers ([[gnu::target("avx2")]]) and for all others. Neither version may contract products and
@@ -10,6 +12,25 @@
 #define VANTAGE_INLINE [[gnu::always_inline]] inline
 
 namespace vantage {
+
+/// What holds four or eight numbers side by side. gcc 12 forgets the size of a vector that depends on a
+/// template's parameter, so each is written out.
+template <unsigned Lanes>
+struct Registers;
+
+template <>
+struct Registers<4> {
+  using Floats = float __attribute__((vector_size(4 * 4)));
+  using Keys = std::uint32_t __attribute__((vector_size(4 * 4)));
+  using Truths = std::int32_t __attribute__((vector_size(4 * 4)));
+};
+
+template <>
+struct Registers<8> {
+  using Floats = float __attribute__((vector_size(4 * 8)));
+  using Keys = std::uint32_t __attribute__((vector_size(4 * 8)));
+  using Truths = std::int32_t __attribute__((vector_size(4 * 8)));
+};
 
 #if defined(__x86_64__)
 inline bool has_wide_registers() {

@@ -39,12 +39,12 @@ FoundViews search_under_prior(const ScoreBatch& score, double total, const ViewP
   }
   std::size_t nearby_asked = 0;
   if (hints.nearby) {
-    plain.nearby = [&](const std::vector<Vec3>& others, const std::vector<Vec3>& directions) {
+    plain.nearby = [&](const Circles& circles, const std::vector<Vec3>& directions) {
       nearby_asked += directions.size();
-      return hints.nearby(others, directions);
+      return hints.nearby(circles, directions);
     };
-    weighty.nearby = [&](const std::vector<Vec3>& others, const std::vector<Vec3>& directions) {
-      return weigh(plain.nearby(others, directions), directions);
+    weighty.nearby = [&](const Circles& circles, const std::vector<Vec3>& directions) {
+      return weigh(plain.nearby(circles, directions), directions);
     };
   }
   FoundViews views;

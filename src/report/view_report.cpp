@@ -161,8 +161,8 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
       remembered = [&](const std::vector<Vec3>& directions) {
         return amid.score_all(directions, batch_run);
       };
-      hints.nearby = [&](const std::vector<Vec3>& others, const std::vector<Vec3>& directions) {
-        return amid.score_amid(others, directions, batch_run);
+      hints.nearby = [&](const Circles& circles, const std::vector<Vec3>& directions) {
+        return amid.score_amid(circles, directions, batch_run);
       };
     }
     hints.landmarks = landmark_directions(shape.surface);

@@ -37,6 +37,15 @@ constexpr std::size_t kLikedMarks = 8;
 constexpr double kSameHillRad = 1.0 * kRadPerDeg;
 constexpr double kTooLow = 2.0;  // a place below the best by so much of the noise does not climb
 constexpr double kWidestRingRad = 1.0 * kRadPerDeg;  // of a climb; each climb halves it
+// Finer climbs go amid the ring before, and from so many on amid the same: the next disputes so few
+// vertices that preparing it does not pay. [ours]
+constexpr std::size_t kCircles = 2;
+
+/// All directions that may take part.
+const DirectionSet& dense_directions() {
+  static const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, kDenseLevel);
+  return set;
+}
 
 bool best_first(const Candidate& a, const Candidate& b) {
   return a.score > b.score;
@@ -108,7 +117,7 @@ class Hunt {
 
   const Guides& guides_;
   double sign_;
-  DirectionSet dense_ = direction_set(ViewSphereBase::Icosahedron, kDenseLevel);
+  const DirectionSet& dense_ = dense_directions();
   std::vector<std::uint8_t> listed_;  // of the dense directions: in the model
   ErrorModel model_{};
   std::vector<Candidate> known_{};  // scored exactly, as sign · score
@@ -318,7 +327,7 @@ void Hunt::settle(const RunContext& run) {
 /// A place on a hill that is climbed.
 struct Hill {
   Candidate top;
-  std::vector<Vec3> others{};  ///< In whose midst nearby scores are asked for, once there are any.
+  Circles circles{};  ///< In whose midst nearby scores are asked for, once there are any.
 };
 
 /// Hills are rough: places climb by rings, and the fewer are left the finer.
@@ -332,7 +341,7 @@ class Ascent {
   void keep_apart(std::size_t count, double apart_rad);
   void climb_exactly(const RingSteps& rings, int level, const RunContext& run);
   void climb_nearby(const RingSteps& rings, const RunContext& run);
-  void approach(Hill& hill) const;
+  void approach(Hill& hill, double ring_rad) const;
 
   const Guides& guides_;
   Goal goal_;
@@ -365,22 +374,24 @@ void Ascent::climb_exactly(const RingSteps& rings, int level, const RunContext& 
   }
 }
 
-/// Makes the place and the ring around it, all of them scored, those in whose midst it climbs on.
-void Ascent::approach(Hill& hill) const {
-  hill.others = {hill.top.direction};
-  for (const Candidate& place : ring_of(hill.top, kWidestRingRad)) {
-    hill.others.push_back(place.direction);
+/// Makes the place and the ring around it, all of them scored by now, those in whose midst it climbs
+/// on.
+void Ascent::approach(Hill& hill, double ring_rad) const {
+  std::vector<Vec3> circle{hill.top.direction};
+  for (const Candidate& place : ring_of(hill.top, ring_rad)) {
+    circle.push_back(place.direction);
   }
-  hill.top.score = guides_.nearby(hill.others, {hill.top.direction}).front();
+  hill.circles.push_back(std::move(circle));
+  hill.top.score = guides_.nearby(hill.circles, {hill.top.direction}).front();
 }
 
 void Ascent::climb_nearby(const RingSteps& rings, const RunContext& run) {
   for (Hill& hill : hills_) {
-    if (hill.others.empty()) {
-      approach(hill);
+    if (hill.circles.size() < kCircles) {
+      approach(hill, 2.0 * rings.first_rad);
     }
     const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
-      return guides_.nearby(hill.others, directions);
+      return guides_.nearby(hill.circles, directions);
     };
     Evaluator evaluator(score);
     std::vector<Candidate> top{hill.top};

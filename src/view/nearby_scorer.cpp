@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 #include <utility>
+
+#include <Eigen/Geometry>
 
 #include "core/parallel.h"
 #include "visibility/nearby_sight.h"
@@ -22,6 +25,20 @@ std::array<std::uint64_t, 3> bits_of(const Vec3& direction) {
           std::bit_cast<std::uint64_t>(direction.z())};
 }
 
+/// Whether a direction is inside of a circle or on it; what is outside may see what nobody on the
+/// circle does.
+bool is_within(const std::vector<Vec3>& circle, const Vec3& direction) {
+  constexpr double kOnEdge = 1e-9;
+  const Vec3& middle = circle.front();
+  for (std::size_t k = 1; k < circle.size(); ++k) {
+    const Vec3 edge = circle[k].cross(circle[k + 1 < circle.size() ? k + 1 : 1]);
+    if (edge.dot(direction) * edge.dot(middle) < -kOnEdge * edge.squaredNorm()) {
+      return false;
+    }
+  }
+  return direction.dot(middle) > 0.0;
+}
+
 std::vector<Viewpoint> eyes_of(const ScoringCamera& camera, std::span<const Vec3> directions) {
   std::vector<Viewpoint> eyes;
   for (const Vec3& direction : directions) {
@@ -34,11 +51,46 @@ std::vector<Viewpoint> eyes_of(const ScoringCamera& camera, std::span<const Vec3
 
 /// What is ready for directions in the midst of some.
 struct NearbyScorer::Midst {
-  std::vector<Vec3> others;
-  double sum;                           // of what all of them see
-  std::vector<std::uint32_t> disputed;  // seen by some of them
-  NearbySight sight;
+  using Bytes = std::vector<std::uint8_t>;
+
+  double sum = 0.0;                       // of what all of them see
+  std::vector<std::uint32_t> disputed{};  // vertices that some of them see and others do not
+  std::optional<NearbySight> sight{};     // of these
+  std::shared_ptr<Midst> wider{};         // the midst that this one is in, if any
+  std::map<Key, Bytes> seen{};            // of the disputed, from the directions asked about
+
+  Circles circles{};
+
+  /// Looks in some directions; those too far out are left.
+  void look(std::span<const Vec3> directions, const ScoringCamera& camera, const RunContext& run);
+
+  [[nodiscard]] double score(const Bytes& of_disputed, std::span<const double> significance) const {
+    double score = sum;
+    for (std::size_t k = 0; k < disputed.size(); ++k) {
+      score += of_disputed[k] != 0 ? significance[disputed[k]] : 0.0;
+    }
+    return score;
+  }
 };
+
+void NearbyScorer::Midst::look(std::span<const Vec3> directions, const ScoringCamera& camera,
+                               const RunContext& run) {
+  std::vector<std::pair<Viewpoint, Bytes*>> fresh;
+  for (const Vec3& direction : directions) {
+    const Viewpoint eye = camera.viewpoint(direction);
+    if (is_within(circles.back(), direction) && sight->covers(eye)) {
+      const auto [at, is_new] = seen.try_emplace(bits_of(direction));
+      if (is_new) {
+        fresh.emplace_back(eye, &at->second);
+      }
+    }
+  }
+  parallel_for(run, fresh.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      *fresh[i].second = sight->seen(fresh[i].first);
+    }
+  });
+}
 
 NearbyScorer::NearbyScorer(const VertexVisibility& visibility, std::span<const double> significance,
                            const ScoringCamera& camera)
@@ -98,56 +150,106 @@ const NearbyScorer::Seen& NearbyScorer::seen_from(const Vec3& direction) {
   return at->second;
 }
 
-const NearbyScorer::Midst& NearbyScorer::midst_of(std::span<const Vec3> others) {
-  const auto known = std::find_if(midsts_.begin(), midsts_.end(), [&](const auto& midst) {
-    return std::equal(midst->others.begin(), midst->others.end(), others.begin(), others.end());
-  });
-  if (known != midsts_.end()) {
-    return **known;
-  }
-  Seen by_all = seen_from(others.front());
+std::shared_ptr<NearbyScorer::Midst> NearbyScorer::midst_of_scored(
+    const std::vector<Vec3>& circle) {
+  Seen by_all = seen_from(circle.front());
   Seen by_some = by_all;
-  for (const Vec3& other : others.subspan(1)) {
+  for (const Vec3& other : circle) {
     const Seen& seen = seen_from(other);
     for (std::size_t w = 0; w < seen.size(); ++w) {
       by_all[w] &= seen[w];
       by_some[w] |= seen[w];
     }
   }
-  std::vector<std::uint32_t> disputed;
-  for (std::uint32_t v = 0; v < significance_.size(); ++v) {
-    if (((by_some[v / kBits] & ~by_all[v / kBits]) >> (v % kBits) & 1U) != 0) {
-      disputed.push_back(v);
+  auto midst = std::make_shared<Midst>();
+  midst->circles = {circle};
+  midst->sum = sum_of(by_all);
+  for (std::size_t w = 0; w < by_all.size(); ++w) {
+    for (std::uint64_t left = by_some[w] & ~by_all[w]; left != 0; left &= left - 1) {
+      midst->disputed.push_back(
+          static_cast<std::uint32_t>(w * kBits + static_cast<std::size_t>(std::countr_zero(left))));
     }
+  }
+  midst->sight.emplace(visibility_, midst->disputed, eyes_of(camera_, circle));
+  return midst;
+}
+
+/// \return the wider one itself if some of the circle are too far out of it.
+std::shared_ptr<NearbyScorer::Midst> NearbyScorer::midst_within(
+    std::shared_ptr<Midst> wider, const std::vector<Vec3>& circle) const {
+  wider->look(circle, camera_, {.max_threads = 1});
+  std::vector<const Midst::Bytes*> seen;
+  for (const Vec3& direction : circle) {
+    const auto known = wider->seen.find(bits_of(direction));
+    if (known == wider->seen.end()) {
+      return wider;
+    }
+    seen.push_back(&known->second);
+  }
+  auto midst = std::make_shared<Midst>();
+  midst->circles = wider->circles;
+  midst->circles.push_back(circle);
+  midst->sum = wider->sum;
+  std::vector<std::uint32_t> chosen;
+  for (std::uint32_t k = 0; k < wider->disputed.size(); ++k) {
+    const auto count = std::count_if(seen.begin(), seen.end(),
+                                     [&](const Midst::Bytes* one) { return (*one)[k] != 0; });
+    const std::uint32_t v = wider->disputed[k];
+    if (count == static_cast<std::ptrdiff_t>(seen.size())) {
+      midst->sum += significance_[v];
+    } else if (count > 0) {
+      chosen.push_back(k);
+      midst->disputed.push_back(v);
+    }
+  }
+  midst->sight.emplace(*wider->sight, chosen, eyes_of(camera_, circle));
+  midst->wider = std::move(wider);
+  return midst;
+}
+
+std::shared_ptr<NearbyScorer::Midst> NearbyScorer::midst_of(const Circles& circles) {
+  const auto known = std::find_if(midsts_.begin(), midsts_.end(),
+                                  [&](const auto& midst) { return midst->circles == circles; });
+  if (known != midsts_.end()) {
+    return *known;
+  }
+  std::shared_ptr<Midst> midst;
+  if (circles.size() == 1) {
+    midst = midst_of_scored(circles.front());
+  } else {
+    midst = midst_within(midst_of({circles.begin(), circles.end() - 1}), circles.back());
   }
   if (midsts_.size() == kMostMidsts) {
     midsts_.erase(midsts_.begin());
   }
-  NearbySight sight(visibility_, disputed, eyes_of(camera_, others));
-  midsts_.push_back(std::make_unique<Midst>(Midst{
-      {others.begin(), others.end()}, sum_of(by_all), std::move(disputed), std::move(sight)}));
-  return *midsts_.back();
+  midsts_.push_back(midst);
+  return midst;
 }
 
-std::vector<double> NearbyScorer::score_amid(std::span<const Vec3> others,
+std::vector<double> NearbyScorer::score_amid(const Circles& circles,
                                              std::span<const Vec3> directions,
                                              const RunContext& run) {
-  const Midst& midst = midst_of(others);
-  std::vector<double> scores(directions.size(), 0.0);
-  parallel_for(run, directions.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Viewpoint eye = camera_.viewpoint(directions[i]);
-      if (!midst.sight.covers(eye)) {
-        scores[i] = sum_of(look(directions[i]));
-        continue;
-      }
-      const std::vector<std::uint8_t> seen = midst.sight.seen(eye);
-      scores[i] = midst.sum;
-      for (std::size_t k = 0; k < seen.size(); ++k) {
-        scores[i] += seen[k] != 0 ? significance_[midst.disputed[k]] : 0.0;
+  std::vector<std::optional<double>> found(directions.size());
+  std::vector<Vec3> left(directions.begin(), directions.end());
+  for (auto midst = midst_of(circles); midst != nullptr && !left.empty(); midst = midst->wider) {
+    midst->look(left, camera_, run);
+    left.clear();
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      const auto seen = midst->seen.find(bits_of(directions[i]));
+      if (!found[i] && seen != midst->seen.end()) {
+        found[i] = midst->score(seen->second, significance_);
+      } else if (!found[i]) {
+        left.push_back(directions[i]);
       }
     }
-  });
+  }
+  const std::vector<double> exact = score_all(left, run);
+  std::size_t next = 0;
+  std::vector<double> scores;
+  scores.reserve(directions.size());
+  for (const std::optional<double>& score : found) {
+    scores.push_back(score ? *score : exact[next++]);
+  }
   return scores;
 }
 

@@ -11,6 +11,7 @@
 
 #include "vantage/core/run_context.h"
 #include "vantage/view/scoring.h"
+#include "vantage/view/search.h"
 #include "vantage/visibility/vertex_visibility.h"
 
 /// \file
@@ -18,10 +19,11 @@
 
 namespace vantage {
 
-/// Scores exactly and remembers what was seen. In the midst of such directions, one or two degrees
+/// Scores exactly and remembers what was seen. In the midst of such directions, some degrees
 /// apart, only the vertices are asked about that some of them see and others do not, some
 /// hundredths of all: that costs a tenth of a score and is wrong by what comes and goes between two
-/// of them. For one thread to call, as a search does. [ours, docs/search.md]
+/// of them. In the midst of others in their midst fewer are disputed, and so on. For one thread to
+/// call, as a search does. [ours, docs/search.md]
 class NearbyScorer {
  public:
   /// \param visibility, significance must outlive this; as for ViewScorer.
@@ -32,9 +34,10 @@ class NearbyScorer {
   /// ViewScorer::score_all(), to the bit.
   std::vector<double> score_all(std::span<const Vec3> directions, const RunContext& run);
 
-  /// Scores of directions in the midst of others, the first of which is in the middle; exact ones
-  /// where they are too far out. The same for whatever was scored before.
-  std::vector<double> score_amid(std::span<const Vec3> others, std::span<const Vec3> directions,
+  /// Scores of directions in the midst of circles, each in the midst of the one before and the
+  /// first of each in its middle; of the narrowest that they are not too far out of, or exact ones.
+  /// The same for whatever was scored before.
+  std::vector<double> score_amid(const Circles& circles, std::span<const Vec3> directions,
                                  const RunContext& run);
 
  private:
@@ -46,13 +49,16 @@ class NearbyScorer {
   [[nodiscard]] double sum_of(const Seen& seen) const;
   const Seen& seen_from(const Vec3& direction);
   void forget_if_full();
-  const Midst& midst_of(std::span<const Vec3> others);
+  std::shared_ptr<Midst> midst_of(const Circles& circles);
+  std::shared_ptr<Midst> midst_of_scored(const std::vector<Vec3>& circle);
+  std::shared_ptr<Midst> midst_within(std::shared_ptr<Midst> wider,
+                                      const std::vector<Vec3>& circle) const;
 
   const VertexVisibility& visibility_;
   std::span<const double> significance_;
   ScoringCamera camera_;
   std::map<Key, Seen> remembered_{};
-  std::vector<std::unique_ptr<Midst>> midsts_{};
+  std::vector<std::shared_ptr<Midst>> midsts_{};
 };
 
 }  // namespace vantage

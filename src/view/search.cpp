@@ -172,9 +172,9 @@ class Inquiry {
   Guides guides() {
     ScoreNearby counted{};
     if (nearby_) {
-      counted = [this](const std::vector<Vec3>& others, const std::vector<Vec3>& directions) {
+      counted = [this](const Circles& circles, const std::vector<Vec3>& directions) {
         nearby_asked_ += directions.size();
-        return nearby_(others, directions);
+        return nearby_(circles, directions);
       };
     }
     if (!has_estimates_) {

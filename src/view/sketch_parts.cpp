@@ -26,7 +26,7 @@ constexpr double kSameCone = 0.9999;
 constexpr double kOpening = 0.6;
 // Far more than single precision rounds off, as a share of the eye's distance.
 constexpr double kRounded = 1e-5;
-constexpr std::size_t kLanes = 4;
+constexpr std::size_t kLanes = 8;
 
 /// Maps the camera's sphere to the unit sphere.
 Vec3 in_frame(const ScoringCamera& camera, const Vec3& p) {
@@ -268,7 +268,7 @@ SketchSurface sketch_surface(const TriMesh& surface, const std::vector<FaceSides
     }
     sketch.faces.push_back(face);
   }
-  // Whole fours.
+  // Whole eights.
   for (std::vector<float>* axis : {&corners.x, &corners.y, &corners.z}) {
     axis->resize((axis->size() + kLanes - 1) / kLanes * kLanes, 0.0F);
   }

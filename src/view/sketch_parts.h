@@ -17,7 +17,7 @@
 
 namespace vantage {
 
-/// Coordinates of points, one array an axis, so that four at a time can be worked on.
+/// Coordinates of points, one array an axis, so that eight at a time can be worked on.
 struct SketchCoordinates {
   std::vector<float> x{}, y{}, z{};
 };
@@ -34,7 +34,7 @@ struct SketchPoints {
   };
 
   std::vector<float> weight{};   ///< What a point adds to the score, one entry a point.
-  SketchCoordinates position{};  ///< Padded to whole fours, like the cones.
+  SketchCoordinates position{};  ///< Padded to whole eights and more, like the cones.
   std::array<Cones, kCones> cones{};
   /// One cone around all of a point's: an eye that does not see into it sees into none of them.
   Cones hull{};
@@ -42,7 +42,7 @@ struct SketchPoints {
 
 /// A coarse surface that hides them.
 struct SketchSurface {
-  SketchCoordinates corners{};  ///< Padded to whole fours.
+  SketchCoordinates corners{};  ///< Padded to whole eights.
   std::vector<Triangle> faces{};
   std::vector<std::uint8_t> two_sided{};  ///< One per face.
 };

@@ -10,6 +10,10 @@
 #include <Eigen/Geometry>
 
 #include "core/parallel.h"
+#include "core/wide_registers.h"
+
+// Functions that take or give wide registers are inlined, all of them: nobody else calls them.
+#pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace vantage {
 namespace {
@@ -26,34 +30,60 @@ constexpr double kFarthestEye = 1000.0;
 constexpr float kLeastDepth = 0.0009F;
 // Corners farther outside count as so many cells away. [ours]
 constexpr float kFarOutside = 1e6F;
-constexpr std::size_t kLanes = 4;
+// Numbers worked on at a time: what vector registers hold, those of every machine and wide ones. A
+// row of a face's cells is hardly ever longer than the former.
+constexpr unsigned kLanes = 4;
+constexpr unsigned kWideLanes = 8;
 constexpr std::size_t kGrain = 16;  // directions a chunk: some tenths of a millisecond
 
-using Floats = float __attribute__((vector_size(4 * kLanes)));
-using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));
+template <unsigned Lanes>
+using FloatsOf = typename Registers<Lanes>::Floats;
+template <unsigned Lanes>
+using IntsOf = typename Registers<Lanes>::Truths;
+using Floats = FloatsOf<kLanes>;
+using Ints = IntsOf<kLanes>;
 
-Floats load(const std::vector<float>& from, std::size_t i) {
+template <class Floats>
+VANTAGE_INLINE Floats load(const float* from) {
   Floats values;
-  std::memcpy(&values, from.data() + i, sizeof values);
+  std::memcpy(&values, from, sizeof values);
   return values;
 }
 
-/// Whether it is true in one of the lanes.
-bool any_of(const Ints& truths) {
-  std::array<std::uint64_t, kLanes / 2> pairs{};
-  std::memcpy(pairs.data(), &truths, sizeof pairs);
-  return (pairs[0] | pairs[1]) != 0;
-}
-
-/// How far the eye is over the planes of four cones.
-Floats height_over(const SketchPoints::Cones& cones, std::size_t i, const Eigen::Vector3f& eye) {
-  return load(cones.axis.x, i) * eye.x() + load(cones.axis.y, i) * eye.y() +
-         load(cones.axis.z, i) * eye.z() - load(cones.offset, i);
-}
-
-template <class Lanes, class Number>
-void store(const Lanes& values, Number* to) {
+template <class Numbers, class Number>
+VANTAGE_INLINE void store(const Numbers& values, Number* to) {
   std::memcpy(to, &values, sizeof values);
+}
+
+/// Whether it is true in one of the lanes.
+template <class Truths>
+VANTAGE_INLINE bool any_of(const Truths& truths) {
+  std::array<std::uint64_t, sizeof(Truths) / sizeof(std::uint64_t)> pairs{};
+  std::memcpy(pairs.data(), &truths, sizeof pairs);
+  std::uint64_t any = 0;
+  for (const std::uint64_t pair : pairs) {
+    any |= pair;
+  }
+  return any != 0;
+}
+
+template <class Floats>
+VANTAGE_INLINE Floats smaller(const Floats& a, const Floats& b) {
+  return b < a ? b : a;
+}
+
+template <class Floats>
+VANTAGE_INLINE Floats larger(const Floats& a, const Floats& b) {
+  return a < b ? b : a;
+}
+
+/// How far the eye is over the planes of some cones.
+template <class Floats>
+VANTAGE_INLINE Floats height_over(const SketchPoints::Cones& cones, std::size_t i,
+                                  const Eigen::Vector3f& eye) {
+  return load<Floats>(cones.axis.x.data() + i) * eye.x() +
+         load<Floats>(cones.axis.y.data() + i) * eye.y() +
+         load<Floats>(cones.axis.z.data() + i) * eye.z() - load<Floats>(cones.offset.data() + i);
 }
 
 /// A place in the picture: x, y in cells; larger nearness is nearer to the eye, and it is linear in
@@ -105,21 +135,55 @@ Frame frame_of(const Vec3& direction, const ScoringCamera& camera, std::size_t c
   return frame;
 }
 
-/// What four points, or one, look like.
-template <class Number>
+/// What points look like.
+template <class Numbers>
 struct Projected {
-  Number x, y, nearness;
+  Numbers x, y, nearness;
 };
 
-template <class Number>
-Projected<Number> project(const Frame& f, const Number& x, const Number& y, const Number& z) {
-  const Number rise = x * f.towards.x() + y * f.towards.y() + z * f.towards.z();
-  const Number depth = f.slope * (f.distance - rise) + (1.0F - f.slope);
-  const Number shrink = 1.0F / (depth > kLeastDepth ? depth : Number{} + kLeastDepth);
-  const Number across = x * f.right.x() + y * f.right.y() + z * f.right.z();
-  const Number along = x * f.up.x() + y * f.up.y() + z * f.up.z();
+template <class Numbers>
+VANTAGE_INLINE Projected<Numbers> project(const Frame& f, const SketchCoordinates& from,
+                                          std::size_t i) {
+  const Numbers x = load<Numbers>(from.x.data() + i);
+  const Numbers y = load<Numbers>(from.y.data() + i);
+  const Numbers z = load<Numbers>(from.z.data() + i);
+  const Numbers rise = x * f.towards.x() + y * f.towards.y() + z * f.towards.z();
+  const Numbers depth = f.slope * (f.distance - rise) + (1.0F - f.slope);
+  const Numbers shrink = 1.0F / larger(depth, Numbers{} + kLeastDepth);
+  const Numbers across = x * f.right.x() + y * f.right.y() + z * f.right.z();
+  const Numbers along = x * f.up.x() + y * f.up.y() + z * f.up.z();
   return {across * shrink * f.per_cell + f.middle, along * shrink * f.per_cell + f.middle,
           f.slope * shrink + (1.0F - f.slope) * rise};
+}
+
+/// Some faces made ready to be drawn: of each the cells whose middles may lie inside and, as planes
+/// over the picture, its nearness and its sides, which are positive inside.
+template <unsigned Lanes>
+struct Outlines {
+  struct Planes {
+    std::array<float, Lanes> along_x, along_y, offset;
+  };
+
+  std::array<std::int32_t, Lanes> is_drawn, left, right, bottom, top;
+  Planes nearness;
+  std::array<Planes, 3> sides;
+};
+
+template <class Planes, class Many>
+VANTAGE_INLINE void keep(Planes& planes, const Many& along_x, const Many& along_y,
+                         const Many& offset) {
+  store(along_x, planes.along_x.data());
+  store(along_y, planes.along_y.data());
+  store(offset, planes.offset.data());
+}
+
+/// The first cells whose middles lie at a place or beyond.
+template <unsigned Lanes>
+VANTAGE_INLINE IntsOf<Lanes> cell_after(const FloatsOf<Lanes>& at) {
+  constexpr float kCentre = 0.5F;  // of a cell
+  const FloatsOf<Lanes> zero{};
+  return __builtin_convertvector(
+      smaller(larger(at, zero - kFarOutside), zero + kFarOutside) + kCentre, IntsOf<Lanes>);
 }
 
 /// Draws one model from one eye after the other.
@@ -131,20 +195,43 @@ class Sketch {
     for (std::vector<float>* field : {&facing_, &x_, &y_, &near_}) {
       field->resize(padded);
     }
+    cell_.resize(padded);
     turned_.resize(padded + 1);
+    corners_.resize(surface.corners.x.size());
     planes_.resize(surface.faces.size());
     face_at_.resize(cells * cells + kLanes);
   }
 
   double score(const Vec3& direction, const Frame& frame) {
-    draw_faces(frame);
-    project_points(direction, frame);
+#if defined(__x86_64__)
+    if (has_wide_registers()) {
+      draw_wide(direction, frame);
+      return sum_of_seen(frame);
+    }
+#endif
+    draw<kLanes>(direction, frame);
     return sum_of_seen(frame);
   }
 
  private:
-  void draw_faces(const Frame& frame);
-  void draw_face(std::uint32_t face, const Spot& a, const Spot& b, const Spot& c);
+  template <unsigned Lanes>
+  VANTAGE_INLINE void draw(const Vec3& direction, const Frame& frame) {
+    project_corners<Lanes>(frame);
+    draw_faces<Lanes>();
+    project_points<Lanes>(direction, frame);
+  }
+#if defined(__x86_64__)
+  void draw_wide(const Vec3& direction, const Frame& frame);
+#endif
+  template <unsigned Lanes>
+  void project_corners(const Frame& frame);
+  template <unsigned Lanes>
+  void draw_faces();
+  template <unsigned Lanes>
+  void outline(std::size_t first, Outlines<Lanes>& outlines) const;
+  template <unsigned Lanes>
+  void draw_face(std::size_t face, const Outlines<Lanes>& outlines, unsigned lane);
+  template <unsigned Lanes>
   void project_points(const Vec3& direction, const Frame& frame);
   [[nodiscard]] double sum_of_seen(const Frame& frame);
   [[nodiscard]] float hidden_share(std::size_t point, const float* at, float allowed) const;
@@ -158,75 +245,123 @@ class Sketch {
   std::vector<float> nearness_{};         // of each cell's middle, with lanes to spare
   std::vector<std::uint32_t> face_at_{};  // the face seen there
   std::vector<float> facing_{}, x_{}, y_{}, near_{};
+  std::vector<std::int32_t> cell_{};
   std::vector<std::uint32_t> turned_{};
 };
 
-void Sketch::draw_faces(const Frame& frame) {
-  const SketchCoordinates& from = surface_.corners;
-  corners_.resize(from.x.size());
-  for (std::size_t i = 0; i < corners_.size(); i += kLanes) {
-    const Projected<Floats> spots =
-        project(frame, load(from.x, i), load(from.y, i), load(from.z, i));
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+template <unsigned Lanes>
+VANTAGE_INLINE void Sketch::project_corners(const Frame& frame) {
+  for (std::size_t i = 0; i < corners_.size(); i += Lanes) {
+    const auto spots = project<FloatsOf<Lanes>>(frame, surface_.corners, i);
+    for (unsigned lane = 0; lane < Lanes; ++lane) {
       corners_[i + lane] = {spots.x[lane], spots.y[lane], spots.nearness[lane]};
-    }
-  }
-  nearness_.assign(cells_ * cells_ + kLanes, -kInfinity);
-  for (std::uint32_t f = 0; f < surface_.faces.size(); ++f) {
-    const auto& [i, j, k] = surface_.faces[f];
-    const Spot& a = corners_[i];
-    const Spot& b = corners_[j];
-    const Spot& c = corners_[k];
-    const float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    if (area > 0.0F) {
-      draw_face(f, a, b, c);
-    } else if (area < 0.0F && surface_.two_sided[f] != 0) {
-      draw_face(f, b, a, c);
     }
   }
 }
 
-/// Draws a face whose corners turn counter-clockwise.
-void Sketch::draw_face(std::uint32_t face, const Spot& a, const Spot& b, const Spot& c) {
-  constexpr float kCentre = 0.5F;  // of a cell
-  const auto cell_after = [](float at) {
-    return static_cast<std::int32_t>(std::clamp(at, -kFarOutside, kFarOutside) + kCentre);
+/// Makes faces ready.
+template <unsigned Lanes>
+VANTAGE_INLINE void Sketch::outline(std::size_t first, Outlines<Lanes>& outlines) const {
+  using Many = FloatsOf<Lanes>;
+
+  struct Lined {
+    std::array<float, Lanes> x, y, nearness;
   };
-  const auto last = static_cast<std::int32_t>(cells_) - 1;
-  // Cells whose middles may lie inside.
-  const std::int32_t left = std::max(0, cell_after(std::min({a.x, b.x, c.x})));
-  const std::int32_t right = std::min(last, cell_after(std::max({a.x, b.x, c.x}) - 1.0F));
-  const std::int32_t bottom = std::max(0, cell_after(std::min({a.y, b.y, c.y})));
-  const std::int32_t top = std::min(last, cell_after(std::max({a.y, b.y, c.y}) - 1.0F));
-  if (left > right || bottom > top) {
-    return;
+
+  std::array<Lined, 3> lined;
+  IntsOf<Lanes> two_sided{};
+  for (unsigned lane = 0; lane < Lanes; ++lane) {
+    const std::size_t f = std::min(first + lane, surface_.faces.size() - 1);
+    two_sided[lane] = surface_.two_sided[f] != 0 ? -1 : 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Spot& spot = corners_[surface_.faces[f][k]];
+      lined[k].x[lane] = spot.x;
+      lined[k].y[lane] = spot.y;
+      lined[k].nearness[lane] = spot.nearness;
+    }
   }
-  const Spot u{b.x - a.x, b.y - a.y, b.nearness - a.nearness};
-  const Spot v{c.x - a.x, c.y - a.y, c.nearness - a.nearness};
-  const float inverse = 1.0F / (u.x * v.y - u.y * v.x);
-  Plane& plane = planes_[face];
-  plane.along_x = (u.nearness * v.y - v.nearness * u.y) * inverse;
-  plane.along_y = (v.nearness * u.x - u.nearness * v.x) * inverse;
-  plane.offset = a.nearness - plane.along_x * a.x - plane.along_y * a.y;
-  const auto side = [](const Spot& from, const Spot& to) -> Plane {  // positive inside
-    const Plane p{from.y - to.y, to.x - from.x, 0.0F};
-    return {p.along_x, p.along_y, -(p.along_x * from.x + p.along_y * from.y)};
-  };
-  const Plane sides[3] = {side(a, b), side(b, c), side(c, a)};
-  const auto at = [](const Plane& p, const Floats& x, float y) -> Floats {
-    return p.along_x * x + (p.along_y * y + p.offset);
-  };
+  std::array<Projected<Many>, 3> corner;
+  for (std::size_t k = 0; k < 3; ++k) {
+    corner[k] = {load<Many>(lined[k].x.data()), load<Many>(lined[k].y.data()),
+                 load<Many>(lined[k].nearness.data())};
+  }
+  const auto& [a, b, c] = corner;
+  const Many ux = b.x - a.x;
+  const Many uy = b.y - a.y;
+  const Many un = b.nearness - a.nearness;
+  const Many vx = c.x - a.x;
+  const Many vy = c.y - a.y;
+  const Many vn = c.nearness - a.nearness;
+  const Many area = ux * vy - uy * vx;
+  const Many zero{};
+  const auto left = cell_after<Lanes>(smaller(smaller(a.x, b.x), c.x));
+  const auto right = cell_after<Lanes>(larger(larger(a.x, b.x), c.x) - 1.0F);
+  const auto bottom = cell_after<Lanes>(smaller(smaller(a.y, b.y), c.y));
+  const auto top = cell_after<Lanes>(larger(larger(a.y, b.y), c.y) - 1.0F);
+  store(left, outlines.left.data());
+  store(right, outlines.right.data());
+  store(bottom, outlines.bottom.data());
+  store(top, outlines.top.data());
+  const Many inverse = 1.0F / area;
+  const Many along_x = (un * vy - vn * uy) * inverse;
+  const Many along_y = (vn * ux - un * vx) * inverse;
+  keep(outlines.nearness, along_x, along_y, a.nearness - along_x * a.x - along_y * a.y);
+  const Many sense = area < zero ? zero - 1.0F : zero + 1.0F;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Projected<Many>& from = corner[k];
+    const Projected<Many>& to = corner[(k + 1) % 3];
+    const Many across = sense * (from.y - to.y);
+    const Many along = sense * (to.x - from.x);
+    keep(outlines.sides[k], across, along, -(across * from.x + along * from.y));
+  }
+  const auto last = static_cast<std::int32_t>(cells_) - 1;
+  store(((area > zero) | ((area < zero) & two_sided)) & (left <= right) & (bottom <= top) &
+            (left <= last) & (bottom <= last) & (right >= 0) & (top >= 0),
+        outlines.is_drawn.data());
+}
+
+template <unsigned Lanes>
+VANTAGE_INLINE void Sketch::draw_faces() {
+  nearness_.assign(cells_ * cells_ + kLanes, -kInfinity);
+  Outlines<Lanes> outlines;
+  for (std::size_t first = 0; first < surface_.faces.size(); first += Lanes) {
+    outline<Lanes>(first, outlines);
+    const std::size_t count = std::min<std::size_t>(Lanes, surface_.faces.size() - first);
+    for (unsigned lane = 0; lane < count; ++lane) {
+      if (outlines.is_drawn[lane] != 0) {
+        draw_face<Lanes>(first + lane, outlines, lane);
+      }
+    }
+  }
+}
+
+template <unsigned Lanes>
+VANTAGE_INLINE void Sketch::draw_face(std::size_t face, const Outlines<Lanes>& outlines,
+                                      unsigned lane) {
+  const auto last = static_cast<std::int32_t>(cells_) - 1;
+  const std::int32_t right = std::min(last, outlines.right[lane]);
+  const std::int32_t top = std::min(last, outlines.top[lane]);
+  const std::int32_t bottom = std::max(0, outlines.bottom[lane]);
+  const auto& [near_x, near_y, near_0] = outlines.nearness;
+  planes_[face] = {near_x[lane], near_y[lane], near_0[lane]};
   const auto id = static_cast<std::int32_t>(face);
-  for (std::int32_t row = bottom; row <= top; ++row) {
-    const float y = static_cast<float>(row) + 0.5F;
-    for (std::int32_t column = left; column <= right; column += kLanes) {
-      // Lanes beyond the last column lie outside the face.
-      const Floats x = static_cast<float>(column) + Floats{0.5F, 1.5F, 2.5F, 3.5F};
+  for (std::int32_t column = std::max(0, outlines.left[lane]); column <= right; column += kLanes) {
+    // Lanes beyond the last column lie outside the face.
+    const Floats x = static_cast<float>(column) + Floats{0.5F, 1.5F, 2.5F, 3.5F};
+    std::array<Floats, 3> across;
+    for (std::size_t k = 0; k < across.size(); ++k) {
+      across[k] = outlines.sides[k].along_x[lane] * x + outlines.sides[k].offset[lane];
+    }
+    const Floats near_across = near_x[lane] * x + near_0[lane];
+    for (std::int32_t row = bottom; row <= top; ++row) {
+      const float y = static_cast<float>(row) + 0.5F;
       const auto cell = static_cast<std::size_t>(row) * cells_ + static_cast<std::size_t>(column);
-      const Floats near = at(plane, x, y);
-      const Floats before = load(nearness_, cell);
-      const Ints wins = (at(sides[0], x, y) >= 0.0F) & (at(sides[1], x, y) >= 0.0F) &
-                        (at(sides[2], x, y) >= 0.0F) & (near > before);
+      const Floats near = near_across + near_y[lane] * y;
+      const Floats before = load<Floats>(nearness_.data() + cell);
+      Ints wins = near > before;
+      for (std::size_t k = 0; k < across.size(); ++k) {
+        wins &= across[k] + outlines.sides[k].along_y[lane] * y >= 0.0F;
+      }
       store(wins ? near : before, nearness_.data() + cell);
       Ints ids;
       std::memcpy(&ids, face_at_.data() + cell, sizeof ids);
@@ -235,60 +370,72 @@ void Sketch::draw_face(std::uint32_t face, const Spot& a, const Spot& b, const S
   }
 }
 
-void Sketch::project_points(const Vec3& direction, const Frame& frame) {
+template <unsigned Lanes>
+VANTAGE_INLINE void Sketch::project_points(const Vec3& direction, const Frame& frame) {
+  using Many = FloatsOf<Lanes>;
   const Eigen::Vector3f eye =
       (frame.slope > 0.0F ? Vec3(direction * static_cast<double>(frame.distance)) : direction)
           .cast<float>();
-  const Floats zero{};
-  const Floats last = zero + (static_cast<float>(cells_) - 1.001F);
-  // A point between the middles of four cells: half a cell back, and inside the picture.
-  const auto inside = [&](Floats at) {
-    at -= 0.5F;
-    at = at > zero ? at : zero;
-    return at < last ? at : last;
-  };
-  for (std::size_t i = 0; i < points_.weight.size(); i += kLanes) {
-    Floats facing = zero - kInfinity;
-    if (any_of(height_over(points_.hull, i, eye) > zero)) {
+  const Many zero{};
+  const Many last = zero + (static_cast<float>(cells_) - 1.001F);
+  const auto columns = static_cast<std::int32_t>(cells_);
+  for (std::size_t i = 0; i < points_.weight.size(); i += Lanes) {
+    Many facing = zero - kInfinity;
+    if (any_of(height_over<Many>(points_.hull, i, eye) > zero)) {
       for (std::size_t k = 0; k < SketchPoints::kCones && any_of(facing <= zero); ++k) {
-        const Floats height = height_over(points_.cones[k], i, eye);
-        facing = height > facing ? height : facing;
+        facing = larger(facing, height_over<Many>(points_.cones[k], i, eye));
       }
     }
     store(facing, facing_.data() + i);
     if (!any_of(facing > zero)) {
       continue;  // nobody asks where they are
     }
-    const Projected<Floats> spot =
-        project(frame, load(points_.position.x, i), load(points_.position.y, i),
-                load(points_.position.z, i));
-    store(inside(spot.x), x_.data() + i);
-    store(inside(spot.y), y_.data() + i);
+    const auto spot = project<Many>(frame, points_.position, i);
+    // A point between the middles of four cells: half a cell back, and inside the picture.
+    const Many x = smaller(larger(spot.x - 0.5F, zero), last);
+    const Many y = smaller(larger(spot.y - 0.5F, zero), last);
+    store(x, x_.data() + i);
+    store(y, y_.data() + i);
     store(spot.nearness, near_.data() + i);
+    store(__builtin_convertvector(y, IntsOf<Lanes>) * columns +
+              __builtin_convertvector(x, IntsOf<Lanes>),
+          cell_.data() + i);
   }
 }
 
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] void Sketch::draw_wide(const Vec3& direction, const Frame& frame) {
+  draw<kWideLanes>(direction, frame);
+}
+#endif
+
 /// Of the four cells around a point, by nearness of their middles, the share that hides it.
 float Sketch::hidden_share(std::size_t point, const float* at, float allowed) const {
+  const float near = near_[point];
   const float x = x_[point] + 0.5F;
   const float y = y_[point] + 0.5F;
-  const auto hides = [&](std::size_t cell) {
-    if (!(at[cell] > near_[point] + 0.5F * allowed)) {
-      return 0.0F;
-    }
-    const auto index = static_cast<std::size_t>(at - nearness_.data()) + cell;
-    const Plane& plane = planes_[face_at_[index]];
-    const float front =
-        std::min(plane.along_x * x + plane.along_y * y + plane.offset, at[cell] + kReach * allowed);
-    return front - near_[point] > allowed ? 1.0F : 0.0F;
-  };
+  const Floats middles{at[0], at[1], at[cells_], at[cells_ + 1]};
+  const std::uint32_t* face = face_at_.data() + (at - nearness_.data());
+  const Plane& a = planes_[face[0]];
+  const Plane& b = planes_[face[1]];
+  const Plane& c = planes_[face[cells_]];
+  const Plane& d = planes_[face[cells_ + 1]];
+  const Floats along_x{a.along_x, b.along_x, c.along_x, d.along_x};
+  const Floats along_y{a.along_y, b.along_y, c.along_y, d.along_y};
+  const Floats offset{a.offset, b.offset, c.offset, d.offset};
+  const Floats followed = along_x * x + along_y * y + offset;
+  const Floats limit = middles + kReach * allowed;
+  const Floats front = followed < limit ? followed : limit;
+  const Ints hides = (middles > near + 0.5F * allowed) & (front - near > allowed);
   const auto past_whole = [](float place) {  // of a number that is not negative
     return place - static_cast<float>(static_cast<std::int32_t>(place));
   };
   const float across = past_whole(x_[point]);
   const float along = past_whole(y_[point]);
-  return (1.0F - along) * ((1.0F - across) * hides(0) + across * hides(1)) +
-         along * ((1.0F - across) * hides(cells_) + across * hides(cells_ + 1));
+  const Floats share = Floats{1.0F - across, across, 1.0F - across, across} *
+                       Floats{1.0F - along, 1.0F - along, along, along};
+  const Floats hidden = hides ? share : Floats{};
+  return (hidden[0] + hidden[1]) + (hidden[2] + hidden[3]);
 }
 
 double Sketch::sum_of_seen(const Frame& frame) {
@@ -300,8 +447,7 @@ double Sketch::sum_of_seen(const Frame& frame) {
   double sum = 0.0;
   for (std::size_t k = 0; k < turned; ++k) {
     const std::uint32_t i = turned_[k];
-    const float* at = nearness_.data() + static_cast<std::size_t>(y_[i]) * cells_ +
-                      static_cast<std::size_t>(x_[i]);
+    const float* at = nearness_.data() + cell_[i];
     // Of nearness as one over depth, a step in depth is the square.
     const float allowed = frame.slope > 0.0F ? slack_ * near_[i] * near_[i] : slack_;
     const float nearest = std::max({at[0], at[1], at[cells_], at[cells_ + 1]});

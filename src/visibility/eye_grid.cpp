@@ -38,25 +38,6 @@ constexpr unsigned kLanes = 4;
 constexpr unsigned kWideLanes = 8;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// What holds so many numbers side by side. gcc 12 forgets the size of a vector that depends on a
-/// template's parameter, so each is written out.
-template <unsigned Lanes>
-struct Registers;
-
-template <>
-struct Registers<kLanes> {
-  using Floats = float __attribute__((vector_size(4 * kLanes)));
-  using Keys = std::uint32_t __attribute__((vector_size(4 * kLanes)));
-  using Truths = std::int32_t __attribute__((vector_size(4 * kLanes)));
-};
-
-template <>
-struct Registers<kWideLanes> {
-  using Floats = float __attribute__((vector_size(4 * kWideLanes)));
-  using Keys = std::uint32_t __attribute__((vector_size(4 * kWideLanes)));
-  using Truths = std::int32_t __attribute__((vector_size(4 * kWideLanes)));
-};
-
 /// Which side of the face is turned to the eye, in double: 1 front, 2 back, 0 edge on.
 std::uint8_t exact_side(const Surface& surface, std::size_t f, const Viewpoint& eye) {
   const Vec3 sight = eye.projection == Projection::Perspective

@@ -79,17 +79,21 @@ struct FoundViews {
 /// Scores a batch of directions; must be a pure function of each direction.
 using ScoreBatch = std::function<std::vector<double>(const std::vector<Vec3>&)>;
 
-/// Scores directions in the midst of a few that were scored before, the first of which is in the
-/// middle: nearly right, and much cheaper than a score. Pure in both.
-using ScoreNearby = std::function<std::vector<double>(const std::vector<Vec3>& others,
-                                                      const std::vector<Vec3>& directions)>;
+/// Directions around one, which comes first; each circle is in the midst of the one before.
+using Circles = std::vector<std::vector<Vec3>>;
+
+/// Scores directions in the midst of circles, the first of which is scored exactly: nearly right, and
+/// much cheaper than a score. Pure in both.
+using ScoreNearby =
+    std::function<std::vector<double>(const Circles& circles, const std::vector<Vec3>& directions)>;
 
 /// What helps the global search and does not change what it looks for.
 struct SearchHints {
   /// If given, scores that are nearly right and much cheaper: the sphere is looked over by them, and
   /// exact scores are asked for only where they lead.
   ScoreBatch estimate{};
-  /// If given, hills are climbed by these once a ring of 1° is scored; what is found is scored.
+  /// If given, hills are climbed by these once some directions around are scored; what is found is
+  /// scored.
   ScoreNearby nearby{};
   /// Directions to look at whatever their neighbours say, such as landmark_directions().
   std::vector<Vec3> landmarks{};

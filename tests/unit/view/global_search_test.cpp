@@ -117,11 +117,16 @@ TEST(GlobalSearchByEstimates, ReportsExactScoresAndNoDirectionTwice) {
 
 /// Nearby scores that are wrong by up to `error`, and how many were asked for.
 ScoreNearby nearby_wrong_by(double error, std::size_t* asked) {
-  return [error, asked](const std::vector<Vec3>& others, const std::vector<Vec3>& directions) {
-    EXPECT_EQ(others.size(), 7U);
-    for (const Vec3& other : others) {
-      EXPECT_LT(angle_between(others.front(), other), 1.001 * kRadPerDeg);
+  return [error, asked](const Circles& circles, const std::vector<Vec3>& directions) {
+    double width = 1.001 * kRadPerDeg;
+    for (const std::vector<Vec3>& circle : circles) {
+      EXPECT_EQ(circle.size(), 7U);
+      for (const Vec3& other : circle) {
+        EXPECT_LT(angle_between(circle.front(), other), width);
+      }
+      width *= 0.5;
     }
+    EXPECT_LE(circles.size(), 2U);
     *asked += directions.size();
     return batch_of(wrong_by(error))(directions);
   };

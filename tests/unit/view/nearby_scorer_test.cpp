@@ -44,7 +44,7 @@ TEST_F(NearbyScores, AreExactWhereTheyAreAskedFor) {
 TEST_F(NearbyScores, AreNearlyExactInTheMidstOfOthers) {
   NearbyScorer scorer(visibility, significance, camera);
   const std::vector<double> scores = exact.score_all(inside);
-  const std::vector<double> nearby = scorer.score_amid(around(middle), inside, {});
+  const std::vector<double> nearby = scorer.score_amid({around(middle)}, inside, {});
   const double apart = std::abs(scores[0] - exact.score(around(middle)[1]));
   ASSERT_GT(apart, 0.0);  // so that there is something to tell
   for (std::size_t i = 0; i < inside.size(); ++i) {
@@ -55,25 +55,49 @@ TEST_F(NearbyScores, AreNearlyExactInTheMidstOfOthers) {
 TEST_F(NearbyScores, OfTheOthersThemselvesAreExact) {
   NearbyScorer scorer(visibility, significance, camera);
   const std::vector<Vec3> others = around(middle);
-  const std::vector<double> nearby = scorer.score_amid(others, others, {});
+  const std::vector<double> nearby = scorer.score_amid({others}, others, {});
   for (std::size_t i = 0; i < others.size(); ++i) {
     EXPECT_NEAR(nearby[i], exact.score(others[i]), 1e-12 * exact.total());
   }
 }
 
+TEST_F(NearbyScores, OfANarrowerCircleAreThoseOfTheWiderOne) {
+  // What is disputed amid the wider circle is asked exactly, and of the narrower one's by all.
+  NearbyScorer scorer(visibility, significance, camera);
+  std::vector<Vec3> narrow = ring_around(middle, 0.4 * kRadPerDeg);
+  narrow.insert(narrow.begin(), middle);
+  const std::vector<Vec3> close = ring_around(middle, 0.2 * kRadPerDeg);
+  const std::vector<double> wide = scorer.score_amid({around(middle)}, close, {});
+  const std::vector<double> scores = scorer.score_amid({around(middle), narrow}, close, {});
+  const double apart = std::abs(scores[0] - exact.score(narrow[1]));
+  ASSERT_GT(apart, 0.0);
+  for (std::size_t i = 0; i < close.size(); ++i) {
+    EXPECT_NEAR(scores[i], wide[i], 1e-4 * wide[i]);
+  }
+  // Outside of the narrower one they are the wider one's.
+  EXPECT_EQ(scorer.score_amid({around(middle), narrow}, {&around(middle)[1], 1}, {}),
+            scorer.score_amid({around(middle)}, {&around(middle)[1], 1}, {}));
+}
+
 TEST_F(NearbyScores, AreExactTooFarOut) {
   NearbyScorer scorer(visibility, significance, camera);
   const std::vector<Vec3> far = ring_around(middle, 5.0 * kRadPerDeg);
-  EXPECT_EQ(scorer.score_amid(around(middle), far, {}), exact.score_all(far));
+  EXPECT_EQ(scorer.score_amid({around(middle)}, far, {}), exact.score_all(far));
+  // As far out as the ring's corners, but between two of them: somebody else may come into view there.
+  const std::vector<Vec3> ring = around(middle);
+  const std::vector<Vec3> between{
+      (middle + 1.12 * (0.5 * (ring[1] + ring[2]) - middle)).normalized()};
+  ASSERT_LT(angle_between(middle, between.front()), 0.98 * kRadPerDeg);
+  EXPECT_EQ(scorer.score_amid({ring}, between, {}), exact.score_all(between));
 }
 
 TEST_F(NearbyScores, DependNeitherOnWhatWasScoredBeforeNorOnThreads) {
   NearbyScorer fresh(visibility, significance, camera);
   NearbyScorer used(visibility, significance, camera);
   used.score_all(around(middle), {});
-  used.score_amid(around(-middle), ring_around(-middle, 0.01), {});
-  EXPECT_EQ(fresh.score_amid(around(middle), inside, {.max_threads = 1}),
-            used.score_amid(around(middle), inside, {.max_threads = 3}));
+  used.score_amid({around(-middle)}, ring_around(-middle, 0.01), {});
+  EXPECT_EQ(fresh.score_amid({around(middle)}, inside, {.max_threads = 1}),
+            used.score_amid({around(middle)}, inside, {.max_threads = 3}));
 }
 
 }  // namespace
