@@ -25,8 +25,9 @@ constexpr double kTinyFace = 1e-6;
 /// see one vertex that flies off while the others shrink, and what it sees depends on the axes.
 constexpr double kFarthest = 1.2;
 
-/// A correction of more than this share of the solution says that neither is worth anything: the step
-/// counts as not solved [ours].
+/// A correction of more than this share of the solution says that neither is worth much: at the
+/// gentlest limits the step counts as not solved, and harsher ones are tried; under those the
+/// solution stands as it is, as there may be none better [ours].
 constexpr double kTrusted = 1e-2;
 
 /// Rows are read as wholes.

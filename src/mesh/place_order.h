@@ -15,7 +15,8 @@ namespace vantage {
 
 /// A direction that points have by themselves: it turns with them and does not depend on their order.
 /// Mirroring is no symmetry here, so a model that is its own mirror image has one too. Zero if the
-/// points are alike around every axis, or around an axis that has no two different ends.
+/// points are alike around every axis, around an axis that has no two different ends, or if every
+/// point has its opposite.
 Vec3 own_direction(std::span<const Vec3> points);
 
 /// Orders edges by length and, where rounding alone makes lengths differ, by place.

@@ -218,6 +218,9 @@ std::shared_ptr<NearbyScorer::Midst> NearbyScorer::midst_of(const Circles& circl
     midst = midst_of_scored(circles.front());
   } else {
     midst = midst_within(midst_of({circles.begin(), circles.end() - 1}), circles.back());
+    if (std::find(midsts_.begin(), midsts_.end(), midst) != midsts_.end()) {
+      return midst;  // the wider one
+    }
   }
   if (midsts_.size() == kMostMidsts) {
     midsts_.erase(midsts_.begin());

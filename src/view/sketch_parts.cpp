@@ -26,7 +26,6 @@ constexpr double kSameCone = 0.9999;
 constexpr double kOpening = 0.6;
 // Far more than single precision rounds off, as a share of the eye's distance.
 constexpr double kRounded = 1e-5;
-constexpr std::size_t kLanes = 8;
 
 /// Maps the camera's sphere to the unit sphere.
 Vec3 in_frame(const ScoringCamera& camera, const Vec3& p) {
@@ -41,7 +40,7 @@ void append(SketchCoordinates& to, const Vec3& p) {
 
 void pad(SketchCoordinates& coordinates) {
   for (std::vector<float>* axis : {&coordinates.x, &coordinates.y, &coordinates.z}) {
-    axis->resize(axis->size() + kLanes, 0.0F);
+    axis->resize(axis->size() + kWideLanes, 0.0F);
   }
 }
 
@@ -217,10 +216,10 @@ SketchPoints sketch_points(const TriMesh& surface, const std::vector<FaceSides>&
   }
   pad(points.position);
   pad(points.hull.axis);
-  points.hull.offset.resize(points.hull.offset.size() + kLanes, kInfinity);
+  points.hull.offset.resize(points.hull.offset.size() + kWideLanes, kInfinity);
   for (SketchPoints::Cones& cones : points.cones) {
     pad(cones.axis);
-    cones.offset.resize(cones.offset.size() + kLanes, kInfinity);
+    cones.offset.resize(cones.offset.size() + kWideLanes, kInfinity);
   }
   return points;
 }
@@ -270,7 +269,7 @@ SketchSurface sketch_surface(const TriMesh& surface, const std::vector<FaceSides
   }
   // Whole eights.
   for (std::vector<float>* axis : {&corners.x, &corners.y, &corners.z}) {
-    axis->resize((axis->size() + kLanes - 1) / kLanes * kLanes, 0.0F);
+    axis->resize((axis->size() + kWideLanes - 1) / kWideLanes * kWideLanes, 0.0F);
   }
   sketch.corners = std::move(corners);
   return sketch;

@@ -17,6 +17,10 @@
 
 namespace vantage {
 
+/// Numbers worked on at a time where registers are wide: lists that they are read from are longer by
+/// as many, or a multiple.
+inline constexpr unsigned kWideLanes = 8;
+
 /// Coordinates of points, one array an axis, so that eight at a time can be worked on.
 struct SketchCoordinates {
   std::vector<float> x{}, y{}, z{};

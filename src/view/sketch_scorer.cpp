@@ -30,10 +30,8 @@ constexpr double kFarthestEye = 1000.0;
 constexpr float kLeastDepth = 0.0009F;
 // Corners farther outside count as so many cells away. [ours]
 constexpr float kFarOutside = 1e6F;
-// Numbers worked on at a time: what vector registers hold, those of every machine and wide ones. A
-// row of a face's cells is hardly ever longer than the former.
+// Numbers worked on at a time on every machine, as a row of a face's cells is hardly ever longer.
 constexpr unsigned kLanes = 4;
-constexpr unsigned kWideLanes = 8;
 constexpr std::size_t kGrain = 16;  // directions a chunk: some tenths of a millisecond
 
 template <unsigned Lanes>

@@ -33,9 +33,9 @@ constexpr std::uint8_t kInPart = kSeen | kHidden;
 // Area of a sliver over that of the rectangle along the edge that it is beside: that it is there
 // matters, not how large it is. [ours]
 constexpr double kSliverShare = 1.0 / 16.0;
-// Of more faces than these a sliver weighs so little that only what lies deepest is looked for.
+// Of more faces a sliver weighs so little that only what lies deepest is looked for.
 // [ours, by measurement]
-constexpr std::size_t kFewFaces = 40000;
+constexpr std::size_t kAllAsked = 40000;
 
 std::uint8_t finding(std::uint8_t seen) {
   return seen != 0 ? kSeen : kHidden;
@@ -289,7 +289,7 @@ EdgePlaces FaceVisibility::Samples::edges_to_ask(const Look& look, const FirstLo
                                                  const Viewpoint& local) const {
   const Surface& surface = sight.surface();
   const std::size_t sites = surface.sites.size();
-  const bool are_few = surface.faces.size() <= kFewFaces;
+  const bool are_few = surface.faces.size() <= kAllAsked;
   const auto is_deep = [&](std::uint32_t site) { return first.depths[site] > first.deepest; };
   const auto of_piece = std::span(first.seen).subspan(sites);
   std::vector<std::uint8_t> wanted(surface.faces.size(), 0);
@@ -356,8 +356,8 @@ void FaceVisibility::Samples::add_slivers(const EdgePlaces& edges, Tally& tally)
 }
 
 double FaceVisibility::enough_spacing(std::size_t faces) {
-  constexpr double kManyFaces = 8e4;  // [ours, by measurement]
-  const double finer = std::sqrt(kManyFaces / static_cast<double>(std::max<std::size_t>(faces, 1)));
+  constexpr double kEnough = 8e4;  // [ours, by measurement]
+  const double finer = std::sqrt(kEnough / static_cast<double>(std::max<std::size_t>(faces, 1)));
   return kSpacing / std::clamp(finer, 1.0, 2.0);
 }
 

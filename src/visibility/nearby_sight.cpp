@@ -227,6 +227,10 @@ NearbySight::NearbySight(const VertexVisibility& visibility,
 
 NearbySight::NearbySight(const NearbySight& wider, std::span<const std::uint32_t> chosen,
                          std::span<const Viewpoint> eyes) {
+  if (!wider.part_) {
+    reach_ = -1.0;  // covers nothing, as the wider one
+    return;
+  }
   for (const std::uint32_t k : chosen) {
     site_of_vertex_.push_back(wider.site_of_vertex_[k]);
   }

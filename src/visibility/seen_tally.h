@@ -108,6 +108,10 @@ class Tally {
     const double half = std::sqrt(squared_half);
     const double low = std::max(at - half, 0.0);
     const double high = std::min(at + half, kBins);
+    if (!(low < high)) {  // less than rounding
+      result_.depths[bin] += projected;
+      return;
+    }
     for (double k = std::floor(low); k < high; ++k) {
       const double share = (std::min(high, k + 1.0) - std::max(low, k)) / (high - low);
       result_.depths[static_cast<std::size_t>(k)] += share * projected;

@@ -35,7 +35,7 @@ struct SeenSurface {
   std::vector<std::uint8_t> vertices{};  ///< 1 for each vertex seen, as VertexVisibility says.
   /// Projected area by depth: bin 0 begins where the enclosing sphere does, the last ends with it.
   std::array<double, kDepthBins> depths{};
-  /// Greatest depth of vertices and samples seen, over the diameter; in [0, 1].
+  /// Greatest depth of the vertices, samples and parts of edges seen, over the diameter; in [0, 1].
   double deepest = 0.0;
 };
 

@@ -126,14 +126,20 @@ TEST(MeanShadow, OfConvexBodiesIsAQuarterOfTheirArea) {
   }
 }
 
-TEST(Sampling, HasConvergedAtTheDefaultSpacing) {
+/// At the spacing of many faces, which the shapes have not, as well as at their own.
+class SamplingAt : public testing::TestWithParam<double> {};
+
+INSTANTIATE_TEST_SUITE_P(Spacings, SamplingAt,
+                         testing::Values(FaceVisibility::kSpacing,
+                                         FaceVisibility::enough_spacing(1000)));
+
+TEST_P(SamplingAt, HasConverged) {
   const TriMesh two_boxes =
       test::together(test::box(1.0, 2.0, 3.0, 1), test::box(1.0, 1.0, 1.0, 1), Vec3(1.5, 0.2, 0.4));
   for (const TriMesh& mesh :
        {two_boxes, test::torus(1.0, 0.4, 30, 15), test::y_of_tubes(0.2, 14)}) {
-    const FaceVisibility coarse(mesh, {FaceSides::Front});
-    const FaceVisibility fine(mesh, {FaceSides::Front},
-                              0.5 * FaceVisibility::enough_spacing(mesh.triangles.size()));
+    const FaceVisibility coarse(mesh, {FaceSides::Front}, GetParam());
+    const FaceVisibility fine(mesh, {FaceSides::Front}, 0.5 * GetParam());
     std::vector<std::array<double, 4>> measures;
     for (const Vec3& d : direction_set(ViewSphereBase::Icosahedron, 1).directions) {
       std::array<double, 4> m{};

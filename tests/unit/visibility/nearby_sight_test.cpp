@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "visibility/nearby_sight.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -47,6 +48,9 @@ void expect_the_same(const TriMesh& mesh, const std::vector<FaceSides>& sides,
         ASSERT_EQ(sight.seen(eye), visibility.visible_vertices(eye)) << angle;
       }
     }
+    const auto beyond = ring(projection, towards.normalized(), distance, 1.01 * kStep);
+    EXPECT_TRUE(std::none_of(beyond.begin() + 1, beyond.end(),
+                             [&](const Viewpoint& eye) { return sight.covers(eye); }));
   }
 }
 
