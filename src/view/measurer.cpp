@@ -117,8 +117,7 @@ void ViewMeasurer::State::prepare(const RunContext& run) {
   const std::vector<FaceSides> sides(model.given.sides.begin(), model.given.sides.end());
   needs.faces |= needs.channel || needs.neighbours || by_area;
   if (needs.faces) {
-    const double enough = FaceVisibility::enough_spacing(mesh.triangles.size());
-    faces.emplace(mesh, sides, enough / model.given.sampling);
+    faces.emplace(mesh, sides, FaceVisibility::enough_spacing(mesh) / model.given.sampling);
   }
   if (needs.skeleton) {
     const Vec3& centre = model.given.camera.sphere.centre;

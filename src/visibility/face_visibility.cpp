@@ -355,14 +355,20 @@ void FaceVisibility::Samples::add_slivers(const EdgePlaces& edges, Tally& tally)
   }
 }
 
-double FaceVisibility::enough_spacing(std::size_t faces) {
-  constexpr double kEnough = 8e4;  // [ours, by measurement]
-  const double finer = std::sqrt(kEnough / static_cast<double>(std::max<std::size_t>(faces, 1)));
-  return kSpacing / std::clamp(finer, 1.0, 2.0);
+double FaceVisibility::enough_spacing(const TriMesh& mesh) {
+  constexpr double kEnough = 8e4;     // [ours, by measurement]
+  constexpr double kPerSquare = 6.0;  // pieces of a squared side, about
+  const double side = kSpacing * enclosing_sphere(referenced_points(mesh)).diameter;
+  double pieces = 0.0;
+  for (const Triangle& face : mesh.triangles) {
+    const double area = 0.5 * area_vector(mesh, face).norm();
+    pieces += side > 0.0 ? std::max(1.0, kPerSquare * area / (side * side)) : 1.0;
+  }
+  return kSpacing / std::clamp(std::sqrt(kEnough / std::max(pieces, 1.0)), 1.0, 2.0);
 }
 
 FaceVisibility::FaceVisibility(const TriMesh& mesh, std::vector<FaceSides> sides)
-    : FaceVisibility(mesh, std::move(sides), enough_spacing(mesh.triangles.size())) {}
+    : FaceVisibility(mesh, std::move(sides), enough_spacing(mesh)) {}
 
 FaceVisibility::FaceVisibility(const TriMesh& mesh, std::vector<FaceSides> sides, double spacing)
     : samples_(std::make_unique<Samples>(mesh, sides)) {

@@ -54,9 +54,9 @@ class FaceVisibility {
   /// faces that were tried are converged (docs/visibility.md). [ours]
   static constexpr double kSpacing = 1.0 / 96.0;
 
-  /// The same for so many faces: of few each weighs much, and each side of a piece is up to half as
-  /// long, which then costs no more than many faces do. \return in [kSpacing / 2, kSpacing].
-  static double enough_spacing(std::size_t faces);
+  /// The same for this surface: where that gives fewer than about 80 000 pieces each weighs much, and
+  /// sides are up to half as long. \return in [kSpacing / 2, kSpacing].
+  static double enough_spacing(const TriMesh& mesh);
 
   /// With the spacing that is enough. \param mesh vertices that share a position are treated as one.
   /// \param sides one entry per component of connected_components(mesh), or one for all.

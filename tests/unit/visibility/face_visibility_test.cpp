@@ -69,8 +69,9 @@ TEST(FaceVisibility, LooksOnceAtFacesThatStandInOnePlace) {
   for (int i = 0; i < 9; ++i) {
     repeated = test::together(repeated, sheet, Vec3::Zero());
   }
-  const FaceVisibility once(sheet, {FaceSides::Both});
-  const FaceVisibility often(repeated, {FaceSides::Both});
+  constexpr double kSpacing = FaceVisibility::kSpacing;
+  const FaceVisibility once(sheet, {FaceSides::Both}, kSpacing);
+  const FaceVisibility often(repeated, {FaceSides::Both}, kSpacing);
   EXPECT_EQ(often.sample_count(), once.sample_count());
   EXPECT_NEAR(visible_area(often.seen_faces(kAbove)), 16.0, 1e-12);
 }
@@ -91,7 +92,7 @@ TEST(FaceVisibility, SeesEachOfTwoSheetsBackToBackFromItsSide) {
 
 TEST(FaceVisibility, FindsASliverNarrowerThanItsPieces) {
   // Of a sheet of 4 × 4 all but a strip at one side lies under another sheet.
-  const double strip = 0.2 * FaceVisibility::enough_spacing(4) * std::hypot(4.0, 4.0, 1.0);
+  const double strip = 0.1 * FaceVisibility::kSpacing * std::hypot(4.0, 4.0, 1.0);
   const TriMesh mesh = test::together(test::sheet(4.0, 4.0, 1), test::sheet(4.0 - strip, 4.0, 1),
                                       Vec3(0.0, 0.0, 1.0));
   double seen = 0.0;
@@ -190,13 +191,19 @@ TEST(FaceVisibility, SpreadsPiecesOverTheDepthsThatTheyReach) {
   }
 }
 
-TEST(FaceVisibility, TakesNearerSamplesOfFewerFaces) {
+TEST(FaceVisibility, TakesNearerSamplesWhereThereWouldBeFew) {
   constexpr double kSpacing = FaceVisibility::kSpacing;
-  EXPECT_EQ(FaceVisibility::enough_spacing(1'000'000), kSpacing);
-  EXPECT_EQ(FaceVisibility::enough_spacing(80'000), kSpacing);
-  EXPECT_NEAR(FaceVisibility::enough_spacing(40'000), kSpacing / std::sqrt(2.0), 1e-15);
-  EXPECT_EQ(FaceVisibility::enough_spacing(20'000), kSpacing / 2.0);
-  EXPECT_EQ(FaceVisibility::enough_spacing(0), kSpacing / 2.0);
+  // Of the enclosing sphere's squared diameter a sphere has π, a thin bar next to nothing.
+  EXPECT_EQ(FaceVisibility::enough_spacing(test::sphere(3)), kSpacing);
+  EXPECT_EQ(FaceVisibility::enough_spacing(test::box(100.0, 1.0, 1.0, 1)), kSpacing / 2.0);
+  const TriMesh plank = test::box(3.0, 1.0, 0.1, 1);
+  const double between = FaceVisibility::enough_spacing(plank);
+  EXPECT_GT(between, kSpacing / 2.0);
+  EXPECT_LT(between, kSpacing);
+  // Pieces are halved, so that the number may be off by a factor of two.
+  const auto samples = FaceVisibility(plank, {FaceSides::Front}).sample_count();
+  EXPECT_GT(samples, 40'000U);
+  EXPECT_LT(samples, 160'000U);
 }
 
 TEST(FaceVisibility, SeesTheFaceThatAnEdgeIsSeenOfOnlyBetweenWhereItPassesThroughOthers) {
@@ -229,7 +236,7 @@ TEST(FaceVisibility, LooksCloserAtPiecesThatAreSeenInPart) {
   for (const SeenFace& face : FaceVisibility(mesh, {FaceSides::Both}).seen_faces(kAbove)) {
     seen += face.face < 2 ? face.visible_area : 0.0;
   }
-  const double part = FaceVisibility::enough_spacing(4) * std::hypot(4.0, 4.0, 1.0) / 4.0;
+  const double part = FaceVisibility::enough_spacing(mesh) * std::hypot(4.0, 4.0, 1.0) / 4.0;
   EXPECT_NEAR(seen, 4.0 * (4.0 - 1.37), 4.0 * 0.5 * part);
 }
 
@@ -295,8 +302,8 @@ TEST(FaceVisibility, BoundsTheSamplesOfNeedlesByTheirArea) {
   const FaceVisibility visibility(mesh, {FaceSides::Front});
   // No piece that was cut was smaller than a quarter of an equilateral one, so no half is below an
   // eighth of it.
-  const double side = FaceVisibility::enough_spacing(mesh.triangles.size()) *
-                      enclosing_sphere(mesh.positions).diameter;
+  const double side =
+      FaceVisibility::enough_spacing(mesh) * enclosing_sphere(mesh.positions).diameter;
   const double least = std::sqrt(3.0) / 4.0 * side * side / 8.0;
   EXPECT_LT(static_cast<double>(visibility.sample_count()),
             static_cast<double>(mesh.triangles.size()) + visibility.total_area() / least);
