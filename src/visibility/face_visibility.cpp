@@ -35,7 +35,7 @@ constexpr std::uint8_t kInPart = kSeen | kHidden;
 constexpr double kSliverShare = 1.0 / 16.0;
 // Of more faces a sliver weighs so little that only what lies deepest is looked for.
 // [ours, by measurement]
-constexpr std::size_t kAllAsked = 40000;
+constexpr std::size_t kAllAsked = 10000;
 
 std::uint8_t finding(std::uint8_t seen) {
   return seen != 0 ? kSeen : kHidden;
