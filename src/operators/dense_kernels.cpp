@@ -148,6 +148,22 @@ VANTAGE_INLINE void forward_below(const double* from, std::size_t height, std::s
   }
 }
 
+/// Calls call<count>(): the compiler unrolls counts that it knows. \param count 1 to kSolved.
+template <class Call>
+VANTAGE_INLINE void with_columns(std::size_t count, const Call& call) {
+  static_assert(kSolved == 4);
+  switch (count) {
+    case 1:
+      return call.template operator()<1>();
+    case 2:
+      return call.template operator()<2>();
+    case 3:
+      return call.template operator()<3>();
+    default:
+      return call.template operator()<4>();
+  }
+}
+
 VANTAGE_INLINE void forward_all(const double* panel, std::size_t height, std::size_t columns,
                                 double* rows) {
   for (std::size_t b = 0; b < columns; b += kSolved) {
@@ -162,19 +178,10 @@ VANTAGE_INLINE void forward_all(const double* panel, std::size_t height, std::si
       store(x[j - b], rows + j * kRightSides);
     }
     const double* from = panel + b * height;
-    switch (end - b) {  // counts that the compiler knows
-      case 1:
-        forward_below<1>(from, height, end, x, rows);
-        break;
-      case 2:
-        forward_below<2>(from, height, end, x, rows);
-        break;
-      case 3:
-        forward_below<3>(from, height, end, x, rows);
-        break;
-      default:
-        forward_below<kSolved>(from, height, end, x, rows);
-    }
+    with_columns(
+        end - b, [&]<std::size_t Columns>() __attribute__((always_inline)) {
+          forward_below<Columns>(from, height, end, x, rows);
+        });
   }
 }
 
@@ -198,19 +205,10 @@ VANTAGE_INLINE void backward_all(const double* panel, std::size_t height, std::s
     const std::size_t b = (end - 1) / kSolved * kSolved;
     Lanes sum[kSolved] = {};
     const double* from = panel + b * height;
-    switch (end - b) {  // counts that the compiler knows
-      case 1:
-        sums_below<1>(from, height, end, rows, sum);
-        break;
-      case 2:
-        sums_below<2>(from, height, end, rows, sum);
-        break;
-      case 3:
-        sums_below<3>(from, height, end, rows, sum);
-        break;
-      default:
-        sums_below<kSolved>(from, height, end, rows, sum);
-    }
+    with_columns(
+        end - b, [&]<std::size_t Columns>() __attribute__((always_inline)) {
+          sums_below<Columns>(from, height, end, rows, sum);
+        });
     Lanes x[kSolved];
     for (std::size_t j = end; j-- > b;) {
       load(rows + j * kRightSides, x[j - b]);

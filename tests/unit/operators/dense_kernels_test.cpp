@@ -79,5 +79,34 @@ TEST(FactorizePanel, SaysThatAPivotIsNoNumber) {
   EXPECT_FALSE(factorize_panel(M.data(), 4, 4));
 }
 
+using RightSides = Eigen::Matrix<double, Eigen::Dynamic, kRightSides, Eigen::RowMajor>;
+
+TEST(SolvePanel, IsTheTriangularSolveOfItsTopAndTheProductOfTheRest) {
+  for (Eigen::Index columns = 1; columns <= 9; ++columns) {  // blocks of columns, whole and in part
+    const Eigen::Index height = columns + 6;
+    Eigen::MatrixXd panel = numbers(height, columns);
+    panel.diagonal().array() += 3.0;
+    const auto top = panel.topRows(columns);
+    const auto rest = panel.bottomRows(6);
+    const auto h = static_cast<std::size_t>(height);
+    const auto c = static_cast<std::size_t>(columns);
+    const RightSides given = numbers(height, kRightSides);
+
+    RightSides forward = given;
+    solve_forward(panel.data(), h, c, forward.data());
+    RightSides expected = given;
+    expected.topRows(columns) = top.triangularView<Eigen::Lower>().solve(given.topRows(columns));
+    expected.bottomRows(6) -= rest * expected.topRows(columns);
+    EXPECT_LT((forward - expected).cwiseAbs().maxCoeff(), 1e-13) << columns;
+
+    RightSides backward = given;
+    solve_backward(panel.data(), h, c, backward.data());
+    expected = given;
+    const RightSides left = given.topRows(columns) - rest.transpose() * given.bottomRows(6);
+    expected.topRows(columns) = top.transpose().triangularView<Eigen::Upper>().solve(left);
+    EXPECT_LT((backward - expected).cwiseAbs().maxCoeff(), 1e-13) << columns;
+  }
+}
+
 }  // namespace
 }  // namespace vantage
