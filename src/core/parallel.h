@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <vector>
 
 #include "vantage/core/run_context.h"
 
@@ -29,5 +31,21 @@ void interruptible(const RunContext& run, std::function<void()> work);
 /// Sum over chunks of body(begin, end), added in chunk order: the same bits for any thread count.
 double parallel_sum(const RunContext& run, std::size_t count, std::size_t grain,
                     const std::function<double(std::size_t begin, std::size_t end)>& body);
+
+/// Sorts in chunks that are then merged pair by pair. \pre less leaves no two items equal, so that
+/// there is one answer.
+template <typename T, typename Less>
+void parallel_sort(const RunContext& run, std::vector<T>& items, std::size_t grain,
+                   const Less& less) {
+  parallel_for(run, items.size(), grain, [&](std::size_t begin, std::size_t end) {
+    std::sort(items.data() + begin, items.data() + end, less);
+  });
+  for (std::size_t sorted = grain; sorted < items.size(); sorted *= 2) {
+    parallel_for(run, items.size(), 2 * sorted, [&](std::size_t begin, std::size_t end) {
+      std::inplace_merge(items.data() + begin, items.data() + std::min(begin + sorted, end),
+                         items.data() + end, less);
+    });
+  }
+}
 
 }  // namespace vantage

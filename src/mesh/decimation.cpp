@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -11,20 +12,14 @@
 #include <utility>
 
 #include "vantage/mesh/measures.h"
-#include "vantage/mesh/topology.h"
 
 #include "core/parallel.h"
+#include "mesh/collapse_cost.h"
 #include "mesh/place_order.h"
-#include "mesh/quadric.h"
 
 namespace vantage {
 namespace {
 
-/// Share of the squared edge length in the cost, against the squared distance to the planes [ours:
-/// even triangles contract like the fine surface; docs/contraction.md has the trials].
-constexpr double kEvenness = 0.05;
-/// Weight of the plane through a border edge, upright on its face, against that of the face.
-constexpr double kBorder = 1.0;
 /// A face may turn by at most the angle of this cosine in one collapse [ours: 78°].
 constexpr double kLargestTurn = 0.2;
 /// Share of the edges, the cheapest ones, that one pass may collapse [ours].
@@ -32,8 +27,9 @@ constexpr double kPassShare = 0.4;
 /// A pass that removes less than this share of the vertices ends the decimation: what is left must
 /// not collapse, and more passes would only crawl.
 constexpr double kLeastProgress = 1e-3;
-constexpr std::size_t kAhead = 8;     // edges that memory is asked about what a collapse needs
-constexpr std::size_t kGrain = 4096;  // edges or vertices a task
+constexpr std::size_t kAhead = 8;          // edges that memory is asked about what a collapse needs
+constexpr std::size_t kGrain = 4096;       // vertices a task
+constexpr std::size_t kSortGrain = 16384;  // edges
 
 /// An edge that may go, and where its vertex would stand.
 struct Candidate {
@@ -41,132 +37,6 @@ struct Candidate {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
 };
-
-/// Cost and place of a collapse by quadric error.
-class ByQuadric {
- public:
-  static constexpr bool kMayTurn = false;
-  static constexpr std::size_t kLargestRing = 14;  // neighbours a collapse may leave
-
-  ByQuadric(const TriMesh& mesh, std::span<const double> weights)
-      : quadrics_(mesh.positions.size()) {
-    for (const Triangle& t : mesh.triangles) {
-      const Vec3 normal = area_vector(mesh, t);
-      const double twice = normal.norm();
-      if (twice > 0.0) {
-        for (const std::uint32_t v : t) {
-          quadrics_[v].add_plane(normal / twice, mesh.positions[v], 0.5 * twice);
-        }
-      }
-    }
-    const EdgeTable table = build_edge_table(mesh);
-    for (std::size_t e = 0; e < table.edges.size(); ++e) {
-      if (table.faces_of_edge[e].size() == 1) {
-        add_border(table.edges[e], mesh.triangles[table.faces_of_edge[e][0]], mesh);
-      }
-    }
-    for (std::size_t v = 0; v < weights.size(); ++v) {
-      quadrics_[v] *= weights[v];
-    }
-  }
-
-  [[nodiscard]] Vec3 place(std::uint32_t a, std::uint32_t b, const std::vector<Vec3>& x) const {
-    return joint(a, b).best_point(0.5 * (x[a] + x[b]));
-  }
-
-  [[nodiscard]] double cost(std::uint32_t a, std::uint32_t b, const std::vector<Vec3>& x) const {
-    const Quadric sum = joint(a, b);
-    return sum.error(sum.best_point(0.5 * (x[a] + x[b]))) +
-           kEvenness * sum.weight * (x[a] - x[b]).squaredNorm();
-  }
-
-  void merge(std::uint32_t a, std::uint32_t b) { quadrics_[a] += quadrics_[b]; }
-
-  void move(std::uint32_t from, std::uint32_t to) { quadrics_[to] = quadrics_[from]; }
-
-  void fetch(std::uint32_t v) const {
-    __builtin_prefetch(&quadrics_[v]);
-    __builtin_prefetch(&quadrics_[v].weight);
-  }
-
- private:
-  [[nodiscard]] Quadric joint(std::uint32_t a, std::uint32_t b) const {
-    Quadric sum = quadrics_[a];
-    sum += quadrics_[b];
-    return sum;
-  }
-
-  void add_border(const std::array<std::uint32_t, 2>& edge, const Triangle& face,
-                  const TriMesh& mesh) {
-    const Vec3 along = mesh.positions[edge[1]] - mesh.positions[edge[0]];
-    const Vec3 normal = along.cross(area_vector(mesh, face));
-    const double length = normal.norm();
-    if (length > 0.0) {
-      for (const std::uint32_t v : edge) {
-        quadrics_[v].add_plane(normal / length, mesh.positions[v], kBorder * along.squaredNorm());
-      }
-    }
-  }
-
-  std::vector<Quadric> quadrics_;
-};
-
-/// Cost and place of a collapse by length.
-class ByLength {
- public:
-  static constexpr bool kMayTurn = true;
-  static constexpr std::size_t kLargestRing = 32;  // neighbours a collapse may leave
-
-  explicit ByLength(std::vector<double> weights) : weights_(std::move(weights)) {}
-
-  [[nodiscard]] Vec3 place(std::uint32_t a, std::uint32_t b, const std::vector<Vec3>& x) const {
-    return (weights_[a] * x[a] + weights_[b] * x[b]) / (weights_[a] + weights_[b]);
-  }
-
-  [[nodiscard]] static double cost(std::uint32_t a, std::uint32_t b, const std::vector<Vec3>& x) {
-    return (x[a] - x[b]).squaredNorm();
-  }
-
-  void merge(std::uint32_t a, std::uint32_t b) { weights_[a] += weights_[b]; }
-
-  void move(std::uint32_t from, std::uint32_t to) { weights_[to] = weights_[from]; }
-
-  void fetch(std::uint32_t v) const { __builtin_prefetch(&weights_[v]); }
-
- private:
-  std::vector<double> weights_;
-};
-
-/// The faces at each vertex, by their two other corners in the order of the face: what a collapse
-/// asks for lies side by side.
-struct Fans {
-  using Corners = std::array<std::uint32_t, 2>;
-  std::vector<std::uint32_t> offsets{};
-  std::vector<Corners> corners{};
-
-  [[nodiscard]] std::span<const Corners> operator[](std::size_t v) const {
-    return std::span(corners).subspan(offsets[v], offsets[v + 1] - offsets[v]);
-  }
-};
-
-Fans fans_of(const TriMesh& mesh) {
-  Fans fans;
-  fans.offsets.assign(mesh.positions.size() + 1, 0);
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t v : t) {
-      ++fans.offsets[v + 1];
-    }
-  }
-  std::partial_sum(fans.offsets.begin(), fans.offsets.end(), fans.offsets.begin());
-  fans.corners.resize(fans.offsets.back());
-  std::vector<std::uint32_t> cursor(fans.offsets.begin(), fans.offsets.end() - 1);
-  for (const Triangle& t : mesh.triangles) {
-    fans.corners[cursor[t[0]]++] = {t[1], t[2]};
-    fans.corners[cursor[t[1]]++] = {t[2], t[0]};
-    fans.corners[cursor[t[2]]++] = {t[0], t[1]};
-  }
-  return fans;
-}
 
 template <class Policy>
 class Decimator {
@@ -217,33 +87,43 @@ class Decimator {
     std::erase_if(edges, [most = *last](const Candidate& edge) { return edge.cost > most; });
   }
 
-  /// The cheapest edges, those of at most this cost, in order.
-  std::vector<Candidate> cheapest_edges(double limit) {
+  /// Edges from the vertices begin … end − 1 to later ones, those that cost less than the limit.
+  std::vector<Candidate> edges_from(std::size_t begin, std::size_t end, double limit) const {
     std::vector<Candidate> edges;
-    edges.reserve(3 * mesh_.triangles.size() / 2 + 16);
-    for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
-      const std::size_t first = edges.size();
+    std::vector<std::uint32_t> ends;
+    for (std::size_t v = begin; v < end; ++v) {
+      ends.clear();
       for (const Fans::Corners& corners : fans_[v]) {
-        for (const std::uint32_t u : corners) {
-          if (u > v) {
-            edges.push_back({0.0F, static_cast<std::uint32_t>(v), u});
-          }
+        std::copy_if(corners.begin(), corners.end(), std::back_inserter(ends),
+                     [v](std::uint32_t u) { return u > v; });
+      }
+      std::sort(ends.begin(), ends.end());
+      ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+      const auto a = static_cast<std::uint32_t>(v);
+      for (const std::uint32_t b : ends) {
+        const auto cost = static_cast<float>(policy_.cost(a, b, mesh_.positions));
+        if (cost < limit) {
+          edges.push_back({cost, a, b});
         }
       }
-      const auto begin = edges.begin() + static_cast<std::ptrdiff_t>(first);
-      std::sort(begin, edges.end(), [](const auto& x, const auto& y) { return x.b < y.b; });
-      edges.erase(
-          std::unique(begin, edges.end(), [](const auto& x, const auto& y) { return x.b == y.b; }),
-          edges.end());
     }
-    parallel_for(run_, edges.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t e = begin; e < end; ++e) {
-        edges[e].cost = static_cast<float>(policy_.cost(edges[e].a, edges[e].b, mesh_.positions));
-      }
+    return edges;
+  }
+
+  /// The cheapest edges, those of less than this cost, in order.
+  std::vector<Candidate> cheapest_edges(double limit) {
+    const std::size_t count = mesh_.positions.size();
+    std::vector<std::vector<Candidate>> found((count + kGrain - 1) / kGrain);
+    parallel_for(run_, count, kGrain, [&](std::size_t begin, std::size_t end) {
+      found[begin / kGrain] = edges_from(begin, end, limit);
     });
-    std::erase_if(edges, [&](const Candidate& edge) { return !(edge.cost < limit); });
+    std::vector<Candidate> edges;
+    edges.reserve(3 * mesh_.triangles.size() / 2 + 16);
+    for (const std::vector<Candidate>& some : found) {
+      edges.insert(edges.end(), some.begin(), some.end());
+    }
     keep_cheapest(edges, kPassShare);
-    std::sort(edges.begin(), edges.end(), [this](const Candidate& x, const Candidate& y) {
+    parallel_sort(run_, edges, kSortGrain, [this](const Candidate& x, const Candidate& y) {
       if (x.cost != y.cost) {
         return x.cost < y.cost;
       }

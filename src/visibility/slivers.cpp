@@ -14,16 +14,8 @@
 namespace vantage {
 namespace {
 
-using Vec2 = Eigen::Vector2d;
-using Box = Eigen::AlignedBox2d;
-
 // Parts of an edge shorter than this share of it are rounding: where it ends on a contour.
 constexpr double kShortest = 1e-9;
-
-/// From a place to the eye, or towards it.
-Vec3 sight_line(const Vec3& place, const Viewpoint& eye) {
-  return eye.projection == Projection::Perspective ? Vec3(eye.position - place) : eye.position;
-}
 
 /// Where the segment ab passes through the inside of a triangle, as a share of the way.
 std::optional<double> piercing(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& corners,
@@ -46,32 +38,9 @@ std::optional<double> piercing(const Vec3& a, const Vec3& b, const std::array<Ve
 
 }  // namespace
 
-/// Where the sites are on a plane across the line of sight.
-struct SliverSearch::Picture {
-  std::vector<Vec2> places{};
-  bool is_whole = true;  // all of them are ahead of the eye
-
-  Picture(const Surface& surface, const Viewpoint& eye) {
-    const bool is_perspective = eye.projection == Projection::Perspective;
-    const Vec3 towards = eye.position.normalized();
-    const Vec3 right = towards.unitOrthogonal();
-    const Vec3 up = towards.cross(right);
-    places.reserve(surface.sites.size());
-    for (const Vec3& site : surface.sites) {
-      const double depth = is_perspective ? (eye.position - site).dot(towards) : 1.0;
-      is_whole = is_whole && depth > 0.0;
-      places.emplace_back(site.dot(right) / depth, site.dot(up) / depth);
-    }
-  }
-
-  [[nodiscard]] Box box(const std::array<std::uint32_t, 2>& edge) const {
-    return Box(places[edge[0]]).extend(places[edge[1]]);
-  }
-};
-
 /// An edge past which the surface turns away.
 struct SliverSearch::Contour {
-  Box box{};                            // in the picture
+  SitePicture::Box box{};               // in the picture
   std::array<std::uint32_t, 2> edge{};  // sites
   Vec3 normal = Vec3::Zero();           // of the plane through it and the eye
 };
@@ -80,7 +49,7 @@ struct SliverSearch::Contour {
 class SliverSearch::Contours {
  public:
   /// Those that may cross one of the edges.
-  Contours(const SliverSearch& search, const Viewpoint& eye, const Picture& picture,
+  Contours(const SliverSearch& search, const Viewpoint& eye, const SitePicture& picture,
            std::span<const std::uint8_t> turned, std::span<const std::uint32_t> edges);
 
   /// Calls each(contour) for all that may cross an edge, for some more than once.
@@ -102,16 +71,16 @@ class SliverSearch::Contours {
   template <typename Each>
   void over_cells(const std::array<std::uint32_t, 2>& edge, const Each& each) const;
 
-  const Picture& picture_;
-  Box box_{};  // of the edges
+  const SitePicture& picture_;
+  SitePicture::Box box_{};  // of the edges
   std::vector<Contour> all_{};
   int side_ = 1;  // cells
-  Vec2 per_cell_ = Vec2::Ones();
+  Eigen::Vector2d per_cell_ = Eigen::Vector2d::Ones();
   std::vector<std::uint32_t> first_{}, in_cells_{};  // of each cell, and one past the last
 };
 
 SliverSearch::Contours::Contours(const SliverSearch& search, const Viewpoint& eye,
-                                 const Picture& picture, std::span<const std::uint8_t> turned,
+                                 const SitePicture& picture, std::span<const std::uint8_t> turned,
                                  std::span<const std::uint32_t> edges)
     : picture_(picture) {
   for (const std::uint32_t e : edges) {
@@ -123,7 +92,7 @@ SliverSearch::Contours::Contours(const SliverSearch& search, const Viewpoint& ey
       continue;
     }
     const auto& edge = search.edges_.table.edges[e];
-    const Box box = picture.box(edge);
+    const SitePicture::Box box = picture.box(edge);
     if (box.intersects(box_)) {
       const Vec3& from = sites[edge[0]];
       all_.push_back({box, edge, (sites[edge[1]] - from).cross(sight_line(from, eye))});
@@ -157,8 +126,8 @@ void SliverSearch::Contours::over_cells(const std::array<std::uint32_t, 2>& edge
                                         const Each& each) const {
   constexpr double kSlack = 1e-9;  // cells: rounding moves an edge less
   constexpr double kLevel = 1e-6;  // cells: where rows say nothing
-  Vec2 from = (picture_.places[edge[0]] - box_.min()).cwiseProduct(per_cell_);
-  Vec2 to = (picture_.places[edge[1]] - box_.min()).cwiseProduct(per_cell_);
+  Eigen::Vector2d from = (picture_.places[edge[0]] - box_.min()).cwiseProduct(per_cell_);
+  Eigen::Vector2d to = (picture_.places[edge[1]] - box_.min()).cwiseProduct(per_cell_);
   if (from.y() > to.y()) {
     std::swap(from, to);
   }
@@ -235,12 +204,12 @@ bool SliverSearch::is_contour(std::size_t edge, std::span<const std::uint8_t> tu
 }
 
 /// Adds where the edge passes behind a contour.
-void SliverSearch::add_crossings(std::size_t edge, const Viewpoint& eye, const Picture& picture,
+void SliverSearch::add_crossings(std::size_t edge, const Viewpoint& eye, const SitePicture& picture,
                                  const Contours& contours, std::vector<double>& cuts) const {
   const auto& ends = edges_.table.edges[edge];
   const Vec3& a = surface_.sites[ends[0]];
   const Vec3& b = surface_.sites[ends[1]];
-  const Box box = picture.box(ends);
+  const SitePicture::Box box = picture.box(ends);
   const Vec3 normal = (b - a).cross(sight_line(a, eye));
   contours.near(ends, [&](const Contour& contour) {
     if (!box.intersects(contour.box)) {
@@ -304,7 +273,8 @@ void SliverSearch::add_places(std::size_t edge, const Viewpoint& eye, const Aske
   }
 }
 
-EdgePlaces SliverSearch::places(const Viewpoint& eye, const Asked& asked) const {
+EdgePlaces SliverSearch::places(const Viewpoint& eye, const SitePicture& picture,
+                                const Asked& asked) const {
   EdgePlaces result;
   std::vector<std::uint32_t> edges;
   for (std::size_t f = 0; f < asked.wanted.size(); ++f) {
@@ -317,10 +287,6 @@ EdgePlaces SliverSearch::places(const Viewpoint& eye, const Asked& asked) const 
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  const Picture picture(surface_, eye);
-  if (!picture.is_whole) {
-    return result;
-  }
   const Contours contours(*this, eye, picture, asked.turned, edges);
   std::vector<double> cuts;
   for (const std::uint32_t e : edges) {

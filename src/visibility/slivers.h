@@ -11,6 +11,7 @@
 #include "vantage/core/vec3.h"
 
 #include "spatial/ray_scene.h"
+#include "visibility/site_picture.h"
 #include "visibility/surface.h"
 #include "visibility/surface_edges.h"
 
@@ -48,17 +49,19 @@ class SliverSearch {
     std::span<const std::uint8_t> wanted{};  ///< 1 for those to be looked for, else 0.
   };
 
-  /// One place for each part of the edges of the wanted faces that may be seen for itself. None for
-  /// an eye that has some of the surface behind it.
-  [[nodiscard]] EdgePlaces places(const Viewpoint& eye, const Asked& asked) const;
+  /// One place for each part of the edges of the wanted faces that may be seen for itself.
+  /// \pre picture.is_whole.
+  [[nodiscard]] EdgePlaces places(const Viewpoint& eye, const SitePicture& picture,
+                                  const Asked& asked) const;
+
+  /// Whether the surface turns away past an edge. \param turned as above.
+  [[nodiscard]] bool is_contour(std::size_t edge, std::span<const std::uint8_t> turned) const;
 
  private:
-  struct Picture;
   struct Contour;
   class Contours;
 
-  [[nodiscard]] bool is_contour(std::size_t edge, std::span<const std::uint8_t> turned) const;
-  void add_crossings(std::size_t edge, const Viewpoint& eye, const Picture& picture,
+  void add_crossings(std::size_t edge, const Viewpoint& eye, const SitePicture& picture,
                      const Contours& contours, std::vector<double>& cuts) const;
   void add_places(std::size_t edge, const Viewpoint& eye, const Asked& asked,
                   std::vector<double>& cuts, EdgePlaces& result) const;

@@ -19,6 +19,8 @@
 
 namespace vantage {
 
+class FaceSamples;
+
 /// One face with something to see.
 struct SeenFace {
   std::uint32_t face = 0;       ///< Of the mesh.
@@ -97,8 +99,7 @@ class FaceVisibility {
                                    const RunContext& run = {}) const;
 
  private:
-  struct Samples;
-  std::unique_ptr<Samples> samples_;
+  std::unique_ptr<FaceSamples> samples_;
 };
 
 }  // namespace vantage

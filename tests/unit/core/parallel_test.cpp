@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "core/parallel.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
+#include <numeric>
+#include <random>
 #include <stdexcept>
 #include <vector>
 
@@ -56,6 +60,19 @@ TEST_P(ForThreads, ParallelForVisitsEveryIndexOnce) {
                });
   for (const auto& count : visits) {
     EXPECT_EQ(count.load(), 1);
+  }
+}
+
+TEST_P(ForThreads, ParallelSortPutsAllInOrder) {
+  RunContext run;
+  run.max_threads = GetParam();
+  for (const std::size_t count : {0U, 1U, 99U, 100U, 101U, 350U, 1000U}) {
+    std::vector<int> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    std::vector<int> shuffled = numbers;
+    std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(7));
+    parallel_sort(run, shuffled, 100, std::less<>());
+    EXPECT_EQ(shuffled, numbers);
   }
 }
 

@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: MIT
+#include "visibility/face_clip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "visibility/segment.h"
+
+namespace vantage {
+namespace {
+
+// Twice the areas below this share of a face are rounding.
+constexpr double kNothing = 1e-13;
+// Of more faces in the same place of the picture samples tell enough: the face is large. [ours]
+constexpr std::size_t kMostNear = 3000;
+
+// Cells of the picture over faces. [ours, by measurement]
+constexpr double kCellsPerFace = 0.5;
+
+/// In homogeneous barycentric coordinates of a face, as it is seen from the eye; the fourth is the
+/// height over the face's plane on the eye's side.
+using Corner = Eigen::Vector4d;
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+double twice_area(Polygons::Points polygon) {
+  double sum = 0.0;
+  for (std::size_t k = 2; k < polygon.size(); ++k) {
+    sum += cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
+  }
+  return sum;
+}
+
+/// The place on ab where a value that differs in sign at its ends is zero: the same for ba.
+template <typename Point>
+Point between(const Point& a, double of_a, const Point& b, double of_b) {
+  return of_a < 0.0 ? between(b, of_b, a, of_a) : Point(a + of_a / (of_a - of_b) * (b - a));
+}
+
+/// Cuts a convex polygon in two: what has values above 0, and the rest.
+template <typename Point, typename Value>
+void cut(const std::vector<Point>& polygon, const Value& value, std::vector<Point>& above,
+         std::vector<Point>* below) {
+  above.clear();
+  if (below != nullptr) {
+    below->clear();
+  }
+  double of_a = value(polygon.front());
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Point& a = polygon[k];
+    const Point& b = k + 1 < polygon.size() ? polygon[k + 1] : polygon.front();
+    const double of_b = value(b);
+    if (of_a >= 0.0) {
+      above.push_back(a);
+    }
+    if (of_a <= 0.0 && below != nullptr) {
+      below->push_back(a);
+    }
+    if ((of_a < 0.0 && of_b > 0.0) || (of_a > 0.0 && of_b < 0.0)) {
+      above.push_back(between(a, of_a, b, of_b));
+      if (below != nullptr) {
+        below->push_back(above.back());
+      }
+    }
+    of_a = of_b;
+  }
+}
+
+/// What a face hides another one by.
+class Shadow {
+ public:
+  Shadow(const Surface& surface, const Viewpoint& eye, std::uint32_t face)
+      : surface_(surface), on_(surface.faces[face]) {
+    const bool is_perspective = eye.projection == Projection::Perspective;
+    const std::array<Vec3, 3> corners{surface.sites[on_[0]], surface.sites[on_[1]],
+                                      surface.sites[on_[2]]};
+    origin_ = corners[0];
+    normal_ = surface.area_vectors[face] / surface.twice_areas[face];
+    if (normal_.dot(sight_line(origin_, eye)) < 0.0) {
+      normal_ = -normal_;
+    }
+    // The plane through the eye and a side; its value at the corner opposite is 1.
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& a = corners[(k + 1) % 3];
+      const Vec3& b = corners[(k + 2) % 3];
+      sides_[k] = is_perspective ? Vec3((a - eye.position).cross(b - eye.position))
+                                 : Vec3((b - a).cross(eye.position));
+      from_[k] = a;
+      sides_[k] /= sides_[k].dot(corners[k] - a);
+    }
+  }
+
+  /// Adds what falls on the face, if anything does. \return twice its area over the face's.
+  double add(std::uint32_t other, Polygons& shadows) {
+    const Triangle& sites = surface_.faces[other];
+    const std::array<double, 3> heights{height(sites[0]), height(sites[1]), height(sites[2])};
+    if (std::max({heights[0], heights[1], heights[2]}) <= 0.0) {
+      return 0.0;  // behind
+    }
+    corners_.clear();
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners_.push_back(corner(sites[k], heights[k]));
+    }
+    for (const Eigen::Index k : {3, 0, 1, 2}) {
+      cut<Corner>(
+          corners_, [k](const Corner& c) { return c[k]; }, cut_, nullptr);
+      std::swap(corners_, cut_);
+      if (corners_.size() < 3) {
+        return 0.0;
+      }
+    }
+    shadow_.clear();
+    for (const Corner& c : corners_) {
+      shadow_.emplace_back(c.head<2>() / c.head<3>().sum());
+    }
+    const double area = twice_area(shadow_);
+    if (area < 0.0) {
+      std::reverse(shadow_.begin(), shadow_.end());
+    }
+    if (!(std::abs(area) > kNothing)) {
+      return 0.0;
+    }
+    shadows.add(shadow_);
+    return std::abs(area);
+  }
+
+ private:
+  /// Over the plane, more than a touch.
+  [[nodiscard]] double height(std::uint32_t site) const {
+    const bool is_own = on_[0] == site || on_[1] == site || on_[2] == site;
+    return is_own ? 0.0 : normal_.dot(surface_.sites[site] - origin_) - Segment::kContact;
+  }
+
+  [[nodiscard]] Corner corner(std::uint32_t site, double height) const {
+    const Vec3& place = surface_.sites[site];
+    Corner corner = Corner::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool on_side = on_[(k + 1) % 3] == site || on_[(k + 2) % 3] == site;
+      corner[static_cast<Eigen::Index>(k)] = on_[k] == site ? 1.0
+                                             : on_side      ? 0.0
+                                                            : sides_[k].dot(place - from_[k]);
+    }
+    corner[3] = height;
+    return corner;
+  }
+
+  const Surface& surface_;
+  Triangle on_;
+  Vec3 origin_ = Vec3::Zero();
+  Vec3 normal_ = Vec3::Zero();
+  std::array<Vec3, 3> sides_{}, from_{};
+  std::vector<Corner> corners_{}, cut_{};
+  std::vector<Eigen::Vector2d> shadow_{};
+};
+
+}  // namespace
+
+void PolygonRest::reset() {
+  parts_.shrink_to(0);
+  parts_.add(
+      std::array{Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(0.0, 1.0)});
+}
+
+void PolygonRest::subtract(Polygons::Points polygon) {
+  next_.shrink_to(0);
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const std::size_t before = next_.size();
+    inside_.assign(parts_[i].begin(), parts_[i].end());
+    for (std::size_t k = 0; k < polygon.size() && inside_.size() > 2; ++k) {
+      const Eigen::Vector2d& from = polygon[k];
+      const Eigen::Vector2d way = polygon[(k + 1) % polygon.size()] - from;
+      cut(
+          inside_, [&](const Eigen::Vector2d& place) { return cross(way, place - from); }, kept_,
+          &outside_);
+      std::swap(inside_, kept_);
+      if (twice_area(outside_) > kNothing) {
+        next_.add(outside_);
+      }
+    }
+    if (!(twice_area(inside_) > kNothing)) {
+      next_.shrink_to(before);
+      next_.add(parts_[i]);  // whole: the polygon passes it by
+    }
+  }
+  std::swap(parts_, next_);
+}
+
+FaceClip::FaceClip(const Surface& surface, const SitePicture& picture, const Viewpoint& eye,
+                   const std::vector<std::uint8_t>& turned, const std::vector<std::uint8_t>& backs)
+    : surface_(surface), picture_(picture), eye_(eye) {
+  lay_grid(turned, backs);
+}
+
+FaceClip::CellRange FaceClip::cells(const SitePicture::Box& box) const {
+  CellRange range{};
+  const auto last = static_cast<double>(side_ - 1);
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    const auto cell = [&](double place) {
+      return static_cast<std::size_t>(
+          std::clamp((place - box_.min()[k]) * per_cell_[k], 0.0, last));
+    };
+    range[static_cast<std::size_t>(k)] = {cell(box.min()[k]), cell(box.max()[k])};
+  }
+  return range;
+}
+
+void FaceClip::lay_grid(const std::vector<std::uint8_t>& turned,
+                        const std::vector<std::uint8_t>& backs) {
+  seats_.reserve(surface_.faces.size());
+  for (const Triangle& face : surface_.faces) {
+    const auto& [a, b, c] = face;
+    const std::vector<double>& nearness = picture_.nearness;
+    seats_.push_back({picture_.box(face), std::max({nearness[a], nearness[b], nearness[c]})});
+    box_.extend(seats_.back().box);
+  }
+  side_ = static_cast<std::size_t>(
+      std::ceil(std::sqrt(kCellsPerFace * static_cast<double>(seats_.size() + 1))));
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    const double extent = box_.sizes()[k];
+    per_cell_[k] = extent > 0.0 ? static_cast<double>(side_) / extent : 0.0;
+  }
+  const auto over_cells = [&](std::uint32_t f, const auto& each) {
+    if (turned[f] == 1 || (turned[f] == 2 && backs[f] != 0)) {
+      const auto [columns, rows] = cells(seats_[f].box);
+      for (std::size_t row = rows[0]; row <= rows[1]; ++row) {
+        for (std::size_t column = columns[0]; column <= columns[1]; ++column) {
+          each(row * side_ + column);
+        }
+      }
+    }
+  };
+  first_.assign(side_ * side_ + 1, 0);
+  for (std::uint32_t f = 0; f < seats_.size(); ++f) {
+    over_cells(f, [&](std::size_t cell) { ++first_[cell]; });
+  }
+  std::inclusive_scan(first_.begin(), first_.end(), first_.begin());
+  in_cells_.resize(first_.back());
+  for (std::uint32_t f = 0; f < seats_.size(); ++f) {
+    over_cells(f, [&](std::size_t cell) { in_cells_[--first_[cell]] = f; });
+  }
+}
+
+/// Faces that may hide some of this one.
+void FaceClip::list_near(std::uint32_t face) {
+  near_.clear();
+  ++round_;
+  const auto& [a, b, c] = surface_.faces[face];
+  const std::vector<double>& nearness = picture_.nearness;
+  const double farthest = std::min({nearness[a], nearness[b], nearness[c]});
+  const SitePicture::Box& box = seats_[face].box;
+  const auto [columns, rows] = cells(box);
+  for (std::size_t row = rows[0]; row <= rows[1]; ++row) {
+    const std::uint32_t end = first_[row * side_ + columns[1] + 1];
+    for (std::uint32_t i = first_[row * side_ + columns[0]]; i < end; ++i) {
+      const std::uint32_t f = in_cells_[i];
+      Seat& seat = seats_[f];
+      if (seat.nearest > farthest && seat.round != round_ && f != face &&
+          seat.box.intersects(box)) {
+        seat.round = round_;
+        near_.push_back(f);
+      }
+    }
+  }
+}
+
+/// The face next to the eye.
+FaceClip::Found FaceClip::first_at(const Eigen::Vector2d& place) const {
+  Found first{Surface::kNoSite, -std::numeric_limits<double>::infinity()};
+  const auto [columns, rows] = cells(SitePicture::Box(place));
+  const std::size_t cell = rows[0] * side_ + columns[0];
+  for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+    const std::uint32_t f = in_cells_[i];
+    if (!(seats_[f].nearest > first.nearness) || !seats_[f].box.contains(place)) {
+      continue;
+    }
+    const auto& [a, b, c] = surface_.faces[f];
+    const Eigen::Vector2d to_a = picture_.places[a] - place;
+    const Eigen::Vector2d to_b = picture_.places[b] - place;
+    const Eigen::Vector2d to_c = picture_.places[c] - place;
+    const Vec3 shares(cross(to_b, to_c), cross(to_c, to_a), cross(to_a, to_b));
+    if (shares.minCoeff() < 0.0 && shares.maxCoeff() > 0.0) {
+      continue;
+    }
+    const Vec3 nearness(picture_.nearness[a], picture_.nearness[b], picture_.nearness[c]);
+    const double here = shares.dot(nearness) / shares.sum();
+    if (here > first.nearness) {
+      first = {f, here};
+    }
+  }
+  return first;
+}
+
+void FaceClip::list_past(const std::array<std::uint32_t, 2>& edge, std::uint32_t beside,
+                         std::vector<std::uint32_t>& faces) const {
+  constexpr double kStep = 1e-7;  // of the edge's length
+  constexpr int kPlaces = 5;      // [ours]
+  const Eigen::Vector2d& from = picture_.places[edge[0]];
+  const Eigen::Vector2d way = picture_.places[edge[1]] - from;
+  const double side = cross(way, picture_.places[beside] - from);
+  const Eigen::Vector2d across = std::copysign(kStep, side) * Eigen::Vector2d(way.y(), -way.x());
+  const double nearness = picture_.nearness[edge[0]];
+  const double change = picture_.nearness[edge[1]] - nearness;
+  for (int k = 0; k < kPlaces; ++k) {
+    const double share = (k + 0.5) / kPlaces;
+    const Found found = first_at(from + share * way + across);
+    if (found.face != Surface::kNoSite && found.nearness < nearness + share * change) {
+      faces.push_back(found.face);
+    }
+  }
+}
+
+void FaceClip::list_behind(const std::array<std::uint32_t, 2>& edge,
+                           std::span<const std::uint8_t> wanted,
+                           std::vector<std::uint32_t>& faces) const {
+  constexpr double kLeast = 1e-9;  // share of the edge: less is a touch
+  const Eigen::Vector2d& from = picture_.places[edge[0]];
+  const Eigen::Vector2d way = picture_.places[edge[1]] - from;
+  const double nearness = picture_.nearness[edge[0]];
+  const double change = picture_.nearness[edge[1]] - nearness;
+  const SitePicture::Box box = picture_.box(edge);
+  const auto [columns, rows] = cells(box);
+  for (std::size_t row = rows[0]; row <= rows[1]; ++row) {
+    const std::uint32_t end = first_[row * side_ + columns[1] + 1];
+    for (std::uint32_t i = first_[row * side_ + columns[0]]; i < end; ++i) {
+      const std::uint32_t f = in_cells_[i];
+      const Triangle& face = surface_.faces[f];
+      if (wanted[f] == 0 || !seats_[f].box.intersects(box)) {
+        continue;
+      }
+      double low = 0.0;
+      double high = 1.0;
+      const Eigen::Vector2d& a = picture_.places[face[0]];
+      const Eigen::Vector2d ab = picture_.places[face[1]] - a;
+      const Eigen::Vector2d ac = picture_.places[face[2]] - a;
+      const double whole = cross(ab, ac);
+      // Barycentric coordinates of the edge's beginning, and their change along it.
+      const double of_b = cross(from - a, ac) / whole;
+      const double of_c = cross(ab, from - a) / whole;
+      const double along_b = cross(way, ac) / whole;
+      const double along_c = cross(ab, way) / whole;
+      for (const auto& [value, slope] : {std::pair(of_b, along_b), std::pair(of_c, along_c),
+                                         std::pair(1.0 - of_b - of_c, -along_b - along_c)}) {
+        if (slope > 0.0) {
+          low = std::max(low, -value / slope);
+        } else if (slope < 0.0) {
+          high = std::min(high, -value / slope);
+        } else if (!(value > 0.0)) {
+          high = low;
+        }
+      }
+      if (!(high - low > kLeast)) {
+        continue;
+      }
+      const double middle = 0.5 * (low + high);
+      const double of_face = picture_.nearness[face[0]];
+      const double behind = of_face +
+                            (of_b + middle * along_b) * (picture_.nearness[face[1]] - of_face) +
+                            (of_c + middle * along_c) * (picture_.nearness[face[2]] - of_face);
+      if (nearness + middle * change > behind) {
+        faces.push_back(f);
+      }
+    }
+  }
+}
+
+bool FaceClip::add_parts(std::uint32_t face, std::vector<SeenPart>& parts) {
+  list_near(face);
+  if (near_.size() > kMostNear) {
+    return false;
+  }
+  Shadow shadow(surface_, eye_, face);
+  shadows_.shrink_to(0);
+  by_size_.clear();
+  for (const std::uint32_t other : near_) {
+    const double size = shadow.add(other, shadows_);
+    if (size > 0.0) {
+      by_size_.emplace_back(-size, by_size_.size());
+    }
+  }
+  std::sort(by_size_.begin(), by_size_.end());
+  rest_.reset();
+  for (const auto& [size, i] : by_size_) {
+    rest_.subtract(shadows_[i]);
+  }
+  const auto& [a, b, c] = surface_.faces[face];
+  for (std::size_t i = 0; i < rest_.parts().size(); ++i) {
+    const Polygons::Points part = rest_.parts()[i];
+    const double area = twice_area(part);
+    Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+    for (std::size_t k = 2; k < part.size(); ++k) {
+      centre += cross(part[k - 1] - part[0], part[k] - part[0]) / (3.0 * area) *
+                (part[0] + part[k - 1] + part[k]);
+    }
+    parts.push_back({face,
+                     centre.x() * surface_.sites[a] + centre.y() * surface_.sites[b] +
+                         (1.0 - centre.x() - centre.y()) * surface_.sites[c],
+                     area});
+  }
+  return true;
+}
+
+}  // namespace vantage

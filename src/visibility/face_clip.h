@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "vantage/core/camera.h"
+#include "vantage/core/vec3.h"
+
+#include "visibility/site_picture.h"
+#include "visibility/surface.h"
+
+/// \file
+/// What is seen of single faces, as polygons: the face less the shadows that the faces before it
+/// cast on it from the eye (Weiler and Atherton, "Hidden surface removal using polygon area
+/// sorting", 1977, for one face at a time).
+
+namespace vantage {
+
+/// A convex part of a face that is in view.
+struct SeenPart {
+  std::uint32_t face = 0;
+  Vec3 place = Vec3::Zero();  ///< Centroid, in the surface's frame.
+  double share = 0.0;         ///< Of the face's area.
+};
+
+/// Convex polygons, counterclockwise, in the first two barycentric coordinates of a face.
+class Polygons {
+ public:
+  using Points = std::span<const Eigen::Vector2d>;
+
+  [[nodiscard]] std::size_t size() const { return ends_.size(); }
+
+  [[nodiscard]] bool empty() const { return ends_.empty(); }
+
+  [[nodiscard]] Points operator[](std::size_t i) const {
+    const std::size_t begin = i == 0 ? 0 : ends_[i - 1];
+    return std::span(points_).subspan(begin, ends_[i] - begin);
+  }
+
+  void add(Points polygon) {
+    points_.insert(points_.end(), polygon.begin(), polygon.end());
+    ends_.push_back(points_.size());
+  }
+
+  /// Leaves the first `count`.
+  void shrink_to(std::size_t count) {
+    ends_.resize(count);
+    points_.resize(count == 0 ? 0 : ends_.back());
+  }
+
+ private:
+  std::vector<Eigen::Vector2d> points_{};
+  std::vector<std::size_t> ends_{};
+};
+
+/// A triangle less convex polygons, kept as convex parts.
+class PolygonRest {
+ public:
+  /// All of the triangle again.
+  PolygonRest() { reset(); }
+
+  void reset();
+
+  /// Takes a convex, counterclockwise polygon away.
+  void subtract(Polygons::Points polygon);
+
+  [[nodiscard]] const Polygons& parts() const { return parts_; }
+
+ private:
+  Polygons parts_{}, next_{};
+  std::vector<Eigen::Vector2d> inside_{}, outside_{}, kept_{};
+};
+
+/// For one eye.
+class FaceClip {
+ public:
+  /// \param turned   the side each face turns to the eye: 1 front, 2 back, 0 neither.
+  /// \param backs    hiding_backs(). All references must outlive this.
+  FaceClip(const Surface& surface, const SitePicture& picture, const Viewpoint& eye,
+           const std::vector<std::uint8_t>& turned, const std::vector<std::uint8_t>& backs);
+
+  /// Adds what is seen of a face. \pre picture.is_whole.
+  /// \return false if so many faces lie in its place of the picture that samples are worth more.
+  [[nodiscard]] bool add_parts(std::uint32_t face, std::vector<SeenPart>& parts);
+
+  /// Lists faces that are seen just past an edge, away from a site beside it: what is next behind some
+  /// places of it that nothing lies before. May hold a face more than once.
+  void list_past(const std::array<std::uint32_t, 2>& edge, std::uint32_t beside,
+                 std::vector<std::uint32_t>& faces) const;
+
+  /// Lists those of the wanted faces that an edge lies before. \param wanted 1 for each, else 0.
+  void list_behind(const std::array<std::uint32_t, 2>& edge, std::span<const std::uint8_t> wanted,
+                   std::vector<std::uint32_t>& faces) const;
+
+ private:
+  /// Where a face is in the picture.
+  struct Seat {
+    SitePicture::Box box{};
+    double nearest = 0.0;     // nearness of a corner
+    std::uint32_t round = 0;  // in which it was last listed
+  };
+
+  using CellRange = std::array<std::array<std::size_t, 2>, 2>;  // columns and rows, first and last
+
+  /// What is seen at a place of the picture.
+  struct Found {
+    std::uint32_t face = Surface::kNoSite;
+    double nearness = 0.0;
+  };
+
+  void list_near(std::uint32_t face);
+  [[nodiscard]] Found first_at(const Eigen::Vector2d& place) const;
+  void lay_grid(const std::vector<std::uint8_t>& turned, const std::vector<std::uint8_t>& backs);
+  [[nodiscard]] CellRange cells(const SitePicture::Box& box) const;
+
+  const Surface& surface_;
+  const SitePicture& picture_;
+  Viewpoint eye_;
+  SitePicture::Box box_{};  // of the picture
+  std::size_t side_ = 1;    // cells
+  Eigen::Vector2d per_cell_ = Eigen::Vector2d::Zero();
+  std::vector<std::uint32_t> first_{}, in_cells_{};  // hiding faces of each cell; one past the last
+  std::vector<Seat> seats_{};                        // of each face
+  std::uint32_t round_ = 0;
+  std::vector<std::uint32_t> near_{};
+  Polygons shadows_{};
+  std::vector<std::pair<double, std::size_t>> by_size_{};  // less the area of each shadow
+  PolygonRest rest_{};
+};
+
+}  // namespace vantage

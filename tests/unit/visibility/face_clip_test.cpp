@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include "visibility/face_clip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/shapes.h"
+#include "visibility/segment.h"
+
+namespace vantage {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+using Polygon = std::vector<Vec2>;
+
+const Viewpoint kAbove{Projection::Orthographic, Vec3(0.0, 0.0, 1.0)};
+
+double area(Polygons::Points polygon) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec2& a = polygon[k];
+    const Vec2& b = polygon[(k + 1) % polygon.size()];
+    sum += 0.5 * (a.x() * b.y() - a.y() * b.x());
+  }
+  return sum;
+}
+
+double area(const PolygonRest& rest) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < rest.parts().size(); ++i) {
+    sum += area(rest.parts()[i]);
+  }
+  return sum;
+}
+
+/// Inside, for a convex one.
+bool holds(Polygons::Points polygon, const Vec2& place) {
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec2 way = polygon[(k + 1) % polygon.size()] - polygon[k];
+    const Vec2 to = place - polygon[k];
+    if (way.x() * to.y() - way.y() * to.x() < 0.0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+TEST(PolygonRest, IsWhatIsOutside) {
+  PolygonRest rest;
+  rest.subtract(Polygon{{0.0, 0.0}, {0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}});
+  EXPECT_NEAR(area(rest), 0.25, 1e-15);
+  rest.subtract(Polygon{{0.5, -1.0}, {2.0, -1.0}, {2.0, 2.0}, {0.5, 2.0}});
+  EXPECT_NEAR(area(rest), 0.125, 1e-15);
+  rest.subtract(Polygon{{-1.0, 0.5}, {1.0, 0.5}, {1.0, 2.0}, {-1.0, 2.0}});
+  EXPECT_TRUE(rest.parts().empty());
+}
+
+TEST(PolygonRest, StaysInOnePartWhereAShadowPassesItBy) {
+  PolygonRest rest;
+  rest.subtract(
+      Polygon{{1.0, 0.1}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 1.1}});  // beside the longest side
+  rest.subtract(Polygon{{-1.0, 0.0}, {0.0, 0.0}, {0.0, 1.0}});   // beside another
+  ASSERT_EQ(rest.parts().size(), 1U);
+  EXPECT_EQ(area(rest), 0.5);
+}
+
+TEST(PolygonRest, IsWhatNoShadowHolds) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> coordinate(-0.2, 1.2);
+  for (int run = 0; run < 20; ++run) {
+    std::vector<Polygon> shadows;
+    PolygonRest rest;
+    for (int k = 0; k < 5; ++k) {
+      Polygon shadow{{coordinate(random), coordinate(random)},
+                     {coordinate(random), coordinate(random)},
+                     {coordinate(random), coordinate(random)}};
+      if (area(shadow) < 0.0) {
+        std::reverse(shadow.begin(), shadow.end());
+      }
+      rest.subtract(shadow);
+      shadows.push_back(shadow);
+    }
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (int i = 0; i < 2000; ++i) {
+      const Vec2 place(unit(random), unit(random));
+      const bool is_left = place.sum() < 1.0 &&
+                           std::none_of(shadows.begin(), shadows.end(), [&](const Polygon& shadow) {
+                             return holds(shadow, place);
+                           });
+      int parts = 0;
+      for (std::size_t part = 0; part < rest.parts().size(); ++part) {
+        parts += holds(rest.parts()[part], place) ? 1 : 0;
+      }
+      ASSERT_EQ(parts, is_left ? 1 : 0);
+    }
+  }
+}
+
+/// What FaceClip says of a mesh that hides with both sides.
+class Clipped {
+ public:
+  Clipped(const TriMesh& mesh, const Viewpoint& eye)
+      : surface_(prepare_surface(mesh, sides_)),
+        local_(eye_in_frame(eye, surface_.frame)),
+        picture_(surface_, local_),
+        backs_(surface_.faces.size(), 1) {
+    for (std::size_t f = 0; f < surface_.faces.size(); ++f) {
+      const double height =
+          surface_.area_vectors[f].dot(sight_line(surface_.sites[surface_.faces[f][0]], local_));
+      turned_.push_back(height > 0.0 ? 1 : height < 0.0 ? 2 : 0);
+    }
+  }
+
+  /// Of each face of the mesh.
+  [[nodiscard]] std::vector<double> shares() const {
+    std::vector<double> result(surface_.faces.size(), 0.0);
+    FaceClip clip(surface_, picture_, local_, turned_, backs_);
+    std::vector<SeenPart> parts;
+    for (std::uint32_t f = 0; f < result.size(); ++f) {
+      EXPECT_TRUE(clip.add_parts(f, parts));
+    }
+    for (const SeenPart& part : parts) {
+      result[surface_.face_of_mesh[part.face]] += part.share;
+    }
+    return result;
+  }
+
+  /// The same from the centroids of squared `side` parts of each face.
+  [[nodiscard]] std::vector<double> sampled_shares(int side) const {
+    std::vector<double> result(surface_.faces.size(), 0.0);
+    for (std::uint32_t f = 0; f < result.size(); ++f) {
+      const auto& [a, b, c] = surface_.faces[f];
+      int seen = 0;
+      for (int i = 0; i < side; ++i) {
+        for (int j = 0; j < 2 * (side - i) - 1; ++j) {
+          const double third = (j % 2 + 1.0) / 3.0;
+          const double u = (i + third) / side;
+          const double v = (j / 2 + third) / side;
+          seen += is_hidden(f, u * surface_.sites[a] + v * surface_.sites[b] +
+                                   (1.0 - u - v) * surface_.sites[c])
+                      ? 0
+                      : 1;
+        }
+      }
+      result[surface_.face_of_mesh[f]] = static_cast<double>(seen) / (side * side);
+    }
+    return result;
+  }
+
+ private:
+  [[nodiscard]] bool is_hidden(std::uint32_t face, const Vec3& place) const {
+    const Segment segment = segment_to(place, local_);
+    for (std::uint32_t f = 0; f < surface_.faces.size(); ++f) {
+      const auto& [a, b, c] = surface_.faces[f];
+      if (f != face && segment.crosses(surface_.sites[a], surface_.sites[b], surface_.sites[c],
+                                       surface_.twice_areas[f])) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  std::vector<FaceSides> sides_{FaceSides::Both};
+  Surface surface_;
+  Viewpoint local_;
+  SitePicture picture_;
+  std::vector<std::uint8_t> backs_;
+  std::vector<std::uint8_t> turned_{};
+};
+
+TriMesh random_soup(int faces, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+  std::uniform_real_distribution<double> aside(-0.7, 0.7);
+  const auto place = [&](auto& of) { return Vec3(of(random), of(random), of(random)); };
+  TriMesh mesh;
+  for (std::uint32_t f = 0; f < static_cast<std::uint32_t>(faces); ++f) {
+    const Vec3 middle = place(coordinate);
+    for (int k = 0; k < 3; ++k) {
+      mesh.positions.emplace_back(middle + place(aside));
+    }
+    mesh.triangles.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+  }
+  return mesh;
+}
+
+TEST(FaceClip, LeavesWhatIsBesideAPlate) {
+  // A sheet of 4 × 4 under a narrower one that leaves a slit of 1e-7 of it.
+  const double slit = 4e-7;
+  const TriMesh mesh = test::together(test::sheet(4.0, 4.0, 1), test::sheet(4.0 - slit, 4.0, 1),
+                                      Vec3(0.0, 0.0, 1.0));
+  const std::vector<double> shares = Clipped(mesh, kAbove).shares();
+  ASSERT_EQ(shares.size(), 4U);
+  EXPECT_NEAR(shares[0] + shares[1], 2e-7, 1e-13);
+  EXPECT_NEAR(shares[2] + shares[3], 2.0, 1e-14);
+}
+
+TEST(FaceClip, LeavesWhatLiesBeforeAFaceThatPassesThrough) {
+  // The slope rises through the sheet along a line in its middle and covers all of it.
+  TriMesh slope = test::sheet(4.0, 4.0, 1);
+  for (Vec3& p : slope.positions) {
+    p.z() = p.x() - 2.0;
+  }
+  const TriMesh mesh = test::together(test::sheet(4.0, 4.0, 1), slope, Vec3::Zero());
+  for (const double height : {5.0, 50.0}) {
+    const std::vector<double> shares =
+        Clipped(mesh, {Projection::Perspective, Vec3(2.0, 2.0, height)}).shares();
+    EXPECT_NEAR(shares[0] + shares[1], 1.0, 1e-13);
+    // What is seen of the slope is in the picture the other half.
+    EXPECT_NEAR(shares[2] + shares[3], 1.0, 1e-13);
+  }
+}
+
+TEST(FaceClip, LeavesFacesBesideEachOtherWhole) {
+  for (const Projection projection : {Projection::Orthographic, Projection::Perspective}) {
+    const std::vector<double> shares =
+        Clipped(test::sphere(2), {projection, Vec3(3.0, 2.0, 4.0)}).shares();
+    for (const double share : shares) {
+      EXPECT_NEAR(share, share < 0.5 ? 0.0 : 1.0, 1e-12);
+    }
+  }
+}
+
+TEST(FaceClip, LeavesWhatSamplesSee) {
+  for (const Viewpoint& eye : {Viewpoint{Projection::Orthographic, Vec3(0.3, -0.2, 1.0)},
+                               Viewpoint{Projection::Perspective, Vec3(3.0, 2.0, 4.0)}}) {
+    const Clipped clipped(random_soup(60, 7), eye);
+    const std::vector<double> exact = clipped.shares();
+    const std::vector<double> sampled = clipped.sampled_shares(40);
+    double sum = 0.0;
+    for (std::size_t f = 0; f < exact.size(); ++f) {
+      EXPECT_NEAR(exact[f], sampled[f], 0.03);  // an edge across it, of 1600 parts
+      sum += exact[f] - sampled[f];
+    }
+    EXPECT_NEAR(sum / static_cast<double>(exact.size()), 0.0, 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace vantage
