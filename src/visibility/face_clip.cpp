@@ -14,8 +14,6 @@
 namespace vantage {
 namespace {
 
-// Twice the areas below this share of a face are rounding.
-constexpr double kNothing = 1e-13;
 // Of more faces in the same place of the picture samples tell enough: the face is large. [ours]
 constexpr std::size_t kMostNear = 3000;
 
@@ -26,52 +24,22 @@ constexpr double kCellsPerFace = 0.5;
 /// height over the face's plane on the eye's side.
 using Corner = Eigen::Vector4d;
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-double twice_area(Polygons::Points polygon) {
-  double sum = 0.0;
-  for (std::size_t k = 2; k < polygon.size(); ++k) {
-    sum += cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
-  }
-  return sum;
-}
-
-/// The place on ab where a value that differs in sign at its ends is zero: the same for ba.
+/// The corners of a triangle that was cut by four planes at most.
 template <typename Point>
-Point between(const Point& a, double of_a, const Point& b, double of_b) {
-  return of_a < 0.0 ? between(b, of_b, a, of_a) : Point(a + of_a / (of_a - of_b) * (b - a));
-}
+class FewPoints {
+ public:
+  [[nodiscard]] std::size_t size() const { return count_; }
 
-/// Cuts a convex polygon in two: what has values above 0, and the rest.
-template <typename Point, typename Value>
-void cut(const std::vector<Point>& polygon, const Value& value, std::vector<Point>& above,
-         std::vector<Point>* below) {
-  above.clear();
-  if (below != nullptr) {
-    below->clear();
-  }
-  double of_a = value(polygon.front());
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Point& a = polygon[k];
-    const Point& b = k + 1 < polygon.size() ? polygon[k + 1] : polygon.front();
-    const double of_b = value(b);
-    if (of_a >= 0.0) {
-      above.push_back(a);
-    }
-    if (of_a <= 0.0 && below != nullptr) {
-      below->push_back(a);
-    }
-    if ((of_a < 0.0 && of_b > 0.0) || (of_a > 0.0 && of_b < 0.0)) {
-      above.push_back(between(a, of_a, b, of_b));
-      if (below != nullptr) {
-        below->push_back(above.back());
-      }
-    }
-    of_a = of_b;
-  }
-}
+  [[nodiscard]] const Point& operator[](std::size_t k) const { return points_[k]; }
+
+  void clear() { count_ = 0; }
+
+  void push_back(const Point& point) { points_[count_++] = point; }
+
+ private:
+  std::array<Point, 7> points_;
+  std::size_t count_ = 0;
+};
 
 /// What a face hides another one by.
 class Shadow {
@@ -104,30 +72,41 @@ class Shadow {
     if (std::max({heights[0], heights[1], heights[2]}) <= 0.0) {
       return 0.0;  // behind
     }
-    corners_.clear();
+    FewPoints<Corner>* polygon = &corners_;
+    FewPoints<Corner>* cut = &cut_;
+    polygon->clear();
     for (std::size_t k = 0; k < 3; ++k) {
-      corners_.push_back(corner(sites[k], heights[k]));
+      polygon->push_back(corner(sites[k], heights[k]));
+    }
+    const Corner low = (*polygon)[0].cwiseMin((*polygon)[1]).cwiseMin((*polygon)[2]);
+    const Corner high = (*polygon)[0].cwiseMax((*polygon)[1]).cwiseMax((*polygon)[2]);
+    if (!(high.minCoeff() > 0.0)) {
+      return 0.0;  // beside
     }
     for (const Eigen::Index k : {3, 0, 1, 2}) {
-      cut<Corner>(
-          corners_, [k](const Corner& c) { return c[k]; }, cut_, nullptr);
-      std::swap(corners_, cut_);
-      if (corners_.size() < 3) {
+      if (low[k] >= 0.0) {
+        continue;
+      }
+      cut_polygon(
+          *polygon, [k](const Corner& c) { return c[k]; }, *cut, [](const Corner&) {});
+      std::swap(polygon, cut);
+      if (polygon->size() < 3) {
         return 0.0;
       }
     }
-    shadow_.clear();
-    for (const Corner& c : corners_) {
-      shadow_.emplace_back(c.head<2>() / c.head<3>().sum());
+    std::array<Eigen::Vector2d, 7> shadow;
+    for (std::size_t k = 0; k < polygon->size(); ++k) {
+      shadow[k] = (*polygon)[k].head<2>() / (*polygon)[k].head<3>().sum();
     }
-    const double area = twice_area(shadow_);
+    const std::span points = std::span(shadow).first(polygon->size());
+    const double area = twice_area(points);
     if (area < 0.0) {
-      std::reverse(shadow_.begin(), shadow_.end());
+      std::reverse(points.begin(), points.end());
     }
-    if (!(std::abs(area) > kNothing)) {
+    if (!(std::abs(area) > kNoArea)) {
       return 0.0;
     }
-    shadows.add(shadow_);
+    shadows.add(points);
     return std::abs(area);
   }
 
@@ -156,41 +135,10 @@ class Shadow {
   Vec3 origin_ = Vec3::Zero();
   Vec3 normal_ = Vec3::Zero();
   std::array<Vec3, 3> sides_{}, from_{};
-  std::vector<Corner> corners_{}, cut_{};
-  std::vector<Eigen::Vector2d> shadow_{};
+  FewPoints<Corner> corners_{}, cut_{};
 };
 
 }  // namespace
-
-void PolygonRest::reset() {
-  parts_.shrink_to(0);
-  parts_.add(
-      std::array{Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(0.0, 1.0)});
-}
-
-void PolygonRest::subtract(Polygons::Points polygon) {
-  next_.shrink_to(0);
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const std::size_t before = next_.size();
-    inside_.assign(parts_[i].begin(), parts_[i].end());
-    for (std::size_t k = 0; k < polygon.size() && inside_.size() > 2; ++k) {
-      const Eigen::Vector2d& from = polygon[k];
-      const Eigen::Vector2d way = polygon[(k + 1) % polygon.size()] - from;
-      cut(
-          inside_, [&](const Eigen::Vector2d& place) { return cross(way, place - from); }, kept_,
-          &outside_);
-      std::swap(inside_, kept_);
-      if (twice_area(outside_) > kNothing) {
-        next_.add(outside_);
-      }
-    }
-    if (!(twice_area(inside_) > kNothing)) {
-      next_.shrink_to(before);
-      next_.add(parts_[i]);  // whole: the polygon passes it by
-    }
-  }
-  std::swap(parts_, next_);
-}
 
 FaceClip::FaceClip(const Surface& surface, const SitePicture& picture, const Viewpoint& eye,
                    const std::vector<std::uint8_t>& turned, const std::vector<std::uint8_t>& backs)
@@ -270,8 +218,8 @@ void FaceClip::list_near(std::uint32_t face) {
   }
 }
 
-/// The face next to the eye.
-FaceClip::Found FaceClip::first_at(const Eigen::Vector2d& place) const {
+/// The face next to the eye, or one before the nearness.
+FaceClip::Found FaceClip::first_at(const Eigen::Vector2d& place, double nearness) const {
   Found first{Surface::kNoSite, -std::numeric_limits<double>::infinity()};
   const auto [columns, rows] = cells(SitePicture::Box(place));
   const std::size_t cell = rows[0] * side_ + columns[0];
@@ -288,10 +236,13 @@ FaceClip::Found FaceClip::first_at(const Eigen::Vector2d& place) const {
     if (shares.minCoeff() < 0.0 && shares.maxCoeff() > 0.0) {
       continue;
     }
-    const Vec3 nearness(picture_.nearness[a], picture_.nearness[b], picture_.nearness[c]);
-    const double here = shares.dot(nearness) / shares.sum();
+    const Vec3 of_corners(picture_.nearness[a], picture_.nearness[b], picture_.nearness[c]);
+    const double here = shares.dot(of_corners) / shares.sum();
     if (here > first.nearness) {
       first = {f, here};
+    }
+    if (here > nearness) {
+      break;
     }
   }
   return first;
@@ -309,8 +260,9 @@ void FaceClip::list_past(const std::array<std::uint32_t, 2>& edge, std::uint32_t
   const double change = picture_.nearness[edge[1]] - nearness;
   for (int k = 0; k < kPlaces; ++k) {
     const double share = (k + 0.5) / kPlaces;
-    const Found found = first_at(from + share * way + across);
-    if (found.face != Surface::kNoSite && found.nearness < nearness + share * change) {
+    const double here = nearness + share * change;
+    const Found found = first_at(from + share * way + across, here);
+    if (found.face != Surface::kNoSite && found.nearness < here) {
       faces.push_back(found.face);
     }
   }

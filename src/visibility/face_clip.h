@@ -11,6 +11,7 @@
 #include "vantage/core/camera.h"
 #include "vantage/core/vec3.h"
 
+#include "visibility/polygon_rest.h"
 #include "visibility/site_picture.h"
 #include "visibility/surface.h"
 
@@ -26,54 +27,6 @@ struct SeenPart {
   std::uint32_t face = 0;
   Vec3 place = Vec3::Zero();  ///< Centroid, in the surface's frame.
   double share = 0.0;         ///< Of the face's area.
-};
-
-/// Convex polygons, counterclockwise, in the first two barycentric coordinates of a face.
-class Polygons {
- public:
-  using Points = std::span<const Eigen::Vector2d>;
-
-  [[nodiscard]] std::size_t size() const { return ends_.size(); }
-
-  [[nodiscard]] bool empty() const { return ends_.empty(); }
-
-  [[nodiscard]] Points operator[](std::size_t i) const {
-    const std::size_t begin = i == 0 ? 0 : ends_[i - 1];
-    return std::span(points_).subspan(begin, ends_[i] - begin);
-  }
-
-  void add(Points polygon) {
-    points_.insert(points_.end(), polygon.begin(), polygon.end());
-    ends_.push_back(points_.size());
-  }
-
-  /// Leaves the first `count`.
-  void shrink_to(std::size_t count) {
-    ends_.resize(count);
-    points_.resize(count == 0 ? 0 : ends_.back());
-  }
-
- private:
-  std::vector<Eigen::Vector2d> points_{};
-  std::vector<std::size_t> ends_{};
-};
-
-/// A triangle less convex polygons, kept as convex parts.
-class PolygonRest {
- public:
-  /// All of the triangle again.
-  PolygonRest() { reset(); }
-
-  void reset();
-
-  /// Takes a convex, counterclockwise polygon away.
-  void subtract(Polygons::Points polygon);
-
-  [[nodiscard]] const Polygons& parts() const { return parts_; }
-
- private:
-  Polygons parts_{}, next_{};
-  std::vector<Eigen::Vector2d> inside_{}, outside_{}, kept_{};
 };
 
 /// For one eye.
@@ -114,7 +67,7 @@ class FaceClip {
   };
 
   void list_near(std::uint32_t face);
-  [[nodiscard]] Found first_at(const Eigen::Vector2d& place) const;
+  [[nodiscard]] Found first_at(const Eigen::Vector2d& place, double nearness) const;
   void lay_grid(const std::vector<std::uint8_t>& turned, const std::vector<std::uint8_t>& backs);
   [[nodiscard]] CellRange cells(const SitePicture::Box& box) const;
 

@@ -187,18 +187,17 @@ std::uint8_t FaceLook::findings_of(std::uint32_t face, std::size_t cut,
   return all;
 }
 
-/// Edges past which the surface turns away, each with a site of a face beside it.
+/// Edges past which the surface turns away. What hides both ends of one hides, nearly always, all of
+/// it, and what lies behind it with it: those are left out.
 void FaceLook::list_contours() {
-  if (!clip_) {
+  if (!near_.slivers || !picture_.is_whole) {
     return;
   }
-  const SurfaceEdges& edges = near_.edges;
-  for (std::size_t e = 0; e < edges.table.edges.size(); ++e) {
-    if (near_.slivers->is_contour(e, look_.turned())) {
-      const auto& [a, b] = edges.table.edges[e];
-      const Triangle& corners = surface_.faces[edges.beside[e][0]];
-      const std::uint32_t beside = corners[0] + corners[1] + corners[2] - a - b;
-      contours_.push_back({{a, b}, beside});
+  const EdgeTable& table = near_.edges.table;
+  for (std::uint32_t e = 0; e < table.edges.size(); ++e) {
+    const auto& [a, b] = table.edges[e];
+    if ((seen_[a] | seen_[b]) != 0 && near_.slivers->is_contour(e, look_.turned())) {
+      contours_.push_back(e);
     }
   }
 }
@@ -218,8 +217,8 @@ void FaceLook::choose_clipped(std::span<const std::uint8_t> found) {
     is_clipped_[f] = all == kInPart ? 1 : 0;
     cut += samples_.is_whole(f) ? 0 : pieces_.first[f + 1] - pieces_.first[f];
   }
-  for (const Contour& contour : contours_) {
-    clip_->list_behind(contour.edge, is_seen, in_part);
+  for (const std::uint32_t e : contours_) {
+    clip_->list_behind(near_.edges.table.edges[e], is_seen, in_part);
   }
   for (const std::uint32_t f : in_part) {
     is_clipped_[f] = 1;
@@ -298,7 +297,7 @@ void FaceLook::choose_edges() {
       wanted[f] = std::find(seen.begin(), seen.end(), 1) == seen.end() ? 1 : 0;
     }
   }
-  edges_ = near_.slivers->places(local_, picture_, {look_.turned(), wanted});
+  edges_ = near_.slivers->places(local_, picture_, {look_.turned(), wanted, contours_});
 }
 
 /// Asks about the parts and the edges.
@@ -383,9 +382,14 @@ void FaceLook::add_slivers(Tally& tally) {
 
 /// Adds faces of which only an inside is seen, past contours of others.
 void FaceLook::add_past_contours(Tally& tally) {
+  if (!clip_) {
+    return;
+  }
   std::vector<std::uint32_t> found;
-  for (const Contour& contour : contours_) {
-    clip_->list_past(contour.edge, contour.beside, found);
+  for (const std::uint32_t e : contours_) {
+    const std::array<std::uint32_t, 2>& edge = near_.edges.table.edges[e];
+    const auto& [a, b, c] = surface_.faces[near_.edges.beside[e][0]];
+    clip_->list_past(edge, a + b + c - edge[0] - edge[1], found);
   }
   std::size_t next = clipped_.size();
   for (const std::uint32_t f : found) {

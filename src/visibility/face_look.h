@@ -36,12 +36,6 @@ class FaceLook {
   [[nodiscard]] SeenSurface seen();
 
  private:
-  /// An edge past which the surface turns away, and a site of a face beside it.
-  struct Contour {
-    std::array<std::uint32_t, 2> edge{};
-    std::uint32_t beside = 0;
-  };
-
   void look_at_samples();
   void list_contours();
   [[nodiscard]] std::uint8_t findings_of(std::uint32_t face, std::size_t cut,
@@ -70,8 +64,8 @@ class FaceLook {
   Look look_;
   Depths depths_;
   SitePicture picture_;
-  std::optional<FaceClip> clip_{};   // where faces seen in part are clipped
-  std::vector<Contour> contours_{};  // where that is done
+  std::optional<FaceClip> clip_{};         // where faces seen in part are clipped
+  std::vector<std::uint32_t> contours_{};  // edges
   // First look: sites, the pieces' centroids and the nodes on edges.
   std::vector<std::uint8_t> at_sites_;  // Look::faces_at_sites()
   std::vector<std::uint8_t> seen_{};

@@ -50,7 +50,7 @@ class SliverSearch::Contours {
  public:
   /// Those that may cross one of the edges.
   Contours(const SliverSearch& search, const Viewpoint& eye, const SitePicture& picture,
-           std::span<const std::uint8_t> turned, std::span<const std::uint32_t> edges);
+           std::span<const std::uint32_t> contours, std::span<const std::uint32_t> edges);
 
   /// Calls each(contour) for all that may cross an edge, for some more than once.
   template <typename Each>
@@ -80,17 +80,15 @@ class SliverSearch::Contours {
 };
 
 SliverSearch::Contours::Contours(const SliverSearch& search, const Viewpoint& eye,
-                                 const SitePicture& picture, std::span<const std::uint8_t> turned,
+                                 const SitePicture& picture,
+                                 std::span<const std::uint32_t> contours,
                                  std::span<const std::uint32_t> edges)
     : picture_(picture) {
   for (const std::uint32_t e : edges) {
     box_.extend(picture.box(search.edges_.table.edges[e]));
   }
   const std::vector<Vec3>& sites = search.surface_.sites;
-  for (std::size_t e = 0; e < search.edges_.table.edges.size(); ++e) {
-    if (!search.is_contour(e, turned)) {
-      continue;
-    }
+  for (const std::uint32_t e : contours) {
     const auto& edge = search.edges_.table.edges[e];
     const SitePicture::Box box = picture.box(edge);
     if (box.intersects(box_)) {
@@ -287,7 +285,7 @@ EdgePlaces SliverSearch::places(const Viewpoint& eye, const SitePicture& picture
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  const Contours contours(*this, eye, picture, asked.turned, edges);
+  const Contours contours(*this, eye, picture, asked.contours, edges);
   std::vector<double> cuts;
   for (const std::uint32_t e : edges) {
     if (edges_.table.faces_of_edge[e].size() > 2) {

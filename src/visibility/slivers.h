@@ -46,7 +46,8 @@ class SliverSearch {
   struct Asked {
     std::span<const std::uint8_t>
         turned{};  ///< The side turned to the eye: 1 front, 2 back, 0 neither.
-    std::span<const std::uint8_t> wanted{};  ///< 1 for those to be looked for, else 0.
+    std::span<const std::uint8_t> wanted{};     ///< 1 for those to be looked for, else 0.
+    std::span<const std::uint32_t> contours{};  ///< Edges that may end what is seen behind them.
   };
 
   /// One place for each part of the edges of the wanted faces that may be seen for itself.
