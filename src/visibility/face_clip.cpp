@@ -322,7 +322,7 @@ void FaceClip::list_behind(const std::array<std::uint32_t, 2>& edge,
   }
 }
 
-bool FaceClip::add_parts(std::uint32_t face, std::vector<SeenPart>& parts) {
+bool FaceClip::add_parts(std::uint32_t face, SeenParts& parts) {
   list_near(face);
   if (near_.size() > kMostNear) {
     return false;
@@ -344,16 +344,11 @@ bool FaceClip::add_parts(std::uint32_t face, std::vector<SeenPart>& parts) {
   const auto& [a, b, c] = surface_.faces[face];
   for (std::size_t i = 0; i < rest_.parts().size(); ++i) {
     const Polygons::Points part = rest_.parts()[i];
-    const double area = twice_area(part);
-    Eigen::Vector2d centre = Eigen::Vector2d::Zero();
-    for (std::size_t k = 2; k < part.size(); ++k) {
-      centre += cross(part[k - 1] - part[0], part[k] - part[0]) / (3.0 * area) *
-                (part[0] + part[k - 1] + part[k]);
+    for (const Eigen::Vector2d& w : part) {
+      parts.corners.emplace_back(w.x() * surface_.sites[a] + w.y() * surface_.sites[b] +
+                                 (1.0 - w.x() - w.y()) * surface_.sites[c]);
     }
-    parts.push_back({face,
-                     centre.x() * surface_.sites[a] + centre.y() * surface_.sites[b] +
-                         (1.0 - centre.x() - centre.y()) * surface_.sites[c],
-                     area});
+    parts.parts.push_back({face, twice_area(part), parts.corners.size()});
   }
   return true;
 }

@@ -22,11 +22,21 @@
 
 namespace vantage {
 
-/// A convex part of a face that is in view.
-struct SeenPart {
-  std::uint32_t face = 0;
-  Vec3 place = Vec3::Zero();  ///< Centroid, in the surface's frame.
-  double share = 0.0;         ///< Of the face's area.
+/// Convex parts of faces that are in view.
+struct SeenParts {
+  struct Part {
+    std::uint32_t face = 0;
+    double share = 0.0;   ///< Of the face's area.
+    std::size_t end = 0;  ///< Of its corners, which begin where those of the part before end.
+  };
+
+  std::vector<Part> parts{};
+  std::vector<Vec3> corners{};  ///< In the surface's frame.
+
+  [[nodiscard]] std::span<const Vec3> corners_of(std::size_t part) const {
+    const std::size_t begin = part == 0 ? 0 : parts[part - 1].end;
+    return std::span(corners).subspan(begin, parts[part].end - begin);
+  }
 };
 
 /// For one eye.
@@ -39,7 +49,7 @@ class FaceClip {
 
   /// Adds what is seen of a face. \pre picture.is_whole.
   /// \return false if so many faces lie in its place of the picture that samples are worth more.
-  [[nodiscard]] bool add_parts(std::uint32_t face, std::vector<SeenPart>& parts);
+  [[nodiscard]] bool add_parts(std::uint32_t face, SeenParts& parts);
 
   /// Lists faces that are seen just past an edge, away from a site beside it: what is next behind some
   /// places of it that nothing lies before. May hold a face more than once.

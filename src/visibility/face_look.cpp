@@ -54,7 +54,7 @@ FaceLook::FaceLook(FaceSamples& samples, const Viewpoint& local, const RunContex
       depths_(surface_, samples.sphere(), local),
       picture_(surface_, local),
       at_sites_(look_.faces_at_sites()),
-      is_clipped_(surface_.faces.size(), 0) {
+      counted_(surface_.faces.size(), Counted::ByPieces) {
   if (surface_.faces.size() <= kFew && picture_.is_whole) {
     clip_.emplace(surface_, picture_, local_, look_.turned(), near_.backs);
   }
@@ -76,7 +76,10 @@ SeenSurface FaceLook::seen() {
   std::size_t next = 0;  // piece that was looked at closely
   std::size_t next_clipped = 0;
   for (std::uint32_t f = 0; f < surface_.faces.size(); ++f) {
-    if (is_clipped_[f] != 0) {
+    if (counted_[f] == Counted::Whole) {
+      const auto& [a, b, c] = surface_.faces[f];
+      tally.add(f, std::array{surface_.sites[a], surface_.sites[b], surface_.sites[c]}, area_of(f));
+    } else if (counted_[f] == Counted::Clipped) {
       add_clipped(f, next_clipped, tally);
     } else if (look_.is_turned(f)) {
       add_pieces(f, next, tally);
@@ -202,8 +205,8 @@ void FaceLook::list_contours() {
   }
 }
 
-/// Faces of which some was seen and some was hidden, and those seen that a contour lies before;
-/// unless too many lie before them.
+/// Faces of which some was seen and some was hidden, and those seen that others pass through or a
+/// contour lies before; unless too many lie before them.
 void FaceLook::choose_clipped(std::span<const std::uint8_t> found) {
   if (!clip_) {
     return;
@@ -211,20 +214,24 @@ void FaceLook::choose_clipped(std::span<const std::uint8_t> found) {
   std::vector<std::uint8_t> is_seen(surface_.faces.size(), 0);
   std::vector<std::uint32_t> in_part;
   std::size_t cut = 0;
-  for (std::uint32_t f = 0; f < is_clipped_.size(); ++f) {
+  for (std::uint32_t f = 0; f < is_seen.size(); ++f) {
     const std::uint8_t all = look_.is_turned(f) ? findings_of(f, cut, found) : kHidden;
     is_seen[f] = all == kSeen ? 1 : 0;
-    is_clipped_[f] = all == kInPart ? 1 : 0;
+    if (all == kInPart || (all == kSeen && near_.slivers->crossed()[f] != 0)) {
+      in_part.push_back(f);
+    }
     cut += samples_.is_whole(f) ? 0 : pieces_.first[f + 1] - pieces_.first[f];
   }
   for (const std::uint32_t e : contours_) {
     clip_->list_behind(near_.edges.table.edges[e], is_seen, in_part);
   }
-  for (const std::uint32_t f : in_part) {
-    is_clipped_[f] = 1;
+  for (std::size_t f = 0; f < is_seen.size(); ++f) {
+    counted_[f] = is_seen[f] != 0 ? Counted::Whole : Counted::ByPieces;
   }
-  for (std::uint32_t f = 0; f < is_clipped_.size(); ++f) {
-    is_clipped_[f] = is_clipped_[f] != 0 && clip_->add_parts(f, clipped_) ? 1 : 0;
+  std::sort(in_part.begin(), in_part.end());
+  in_part.erase(std::unique(in_part.begin(), in_part.end()), in_part.end());
+  for (const std::uint32_t f : in_part) {
+    counted_[f] = clip_->add_parts(f, clipped_) ? Counted::Clipped : Counted::ByPieces;
   }
 }
 
@@ -250,7 +257,7 @@ void FaceLook::choose_parts(std::span<const std::uint8_t> found) {
     const std::uint32_t begin = pieces_.first[f];
     const std::uint32_t end = pieces_.first[f + 1];
     const bool is_whole = samples_.is_whole(f);
-    if (!look_.is_turned(f) || is_clipped_[f] != 0) {
+    if (!look_.is_turned(f) || counted_[f] != Counted::ByPieces) {
       cut += is_whole ? 0 : end - begin;
       continue;
     }
@@ -337,10 +344,8 @@ void FaceLook::add_pieces(std::uint32_t face, std::size_t& next, Tally& tally) c
 }
 
 void FaceLook::add_clipped(std::uint32_t face, std::size_t& next, Tally& tally) const {
-  const double unit = surface_.frame.scale;
-  const double area = 0.5 * surface_.twice_areas[face] / (unit * unit);
-  for (; next < clipped_.size() && clipped_[next].face == face; ++next) {
-    tally.add(face, clipped_[next].place, clipped_[next].share * area);
+  for (; next < clipped_.parts.size() && clipped_.parts[next].face == face; ++next) {
+    tally.add(face, clipped_.corners_of(next), clipped_.parts[next].share * area_of(face));
   }
 }
 
@@ -362,7 +367,7 @@ void FaceLook::add_slivers(Tally& tally) {
   std::sort(found.begin(), found.end());
   const double unit = surface_.frame.scale;
   const double widest = pieces_.longest / PieceNet::kMostParts;  // else a sample would have seen it
-  std::size_t next = clipped_.size();
+  std::size_t next = clipped_.parts.size();
   bool is_clipped = false;
   for (std::size_t k = 0; k < found.size(); ++k) {
     const auto [f, i] = found[k];
@@ -391,7 +396,7 @@ void FaceLook::add_past_contours(Tally& tally) {
     const auto& [a, b, c] = surface_.faces[near_.edges.beside[e][0]];
     clip_->list_past(edge, a + b + c - edge[0] - edge[1], found);
   }
-  std::size_t next = clipped_.size();
+  std::size_t next = clipped_.parts.size();
   for (const std::uint32_t f : found) {
     if (look_.is_turned(f) && !tally.has(f) && clip_->add_parts(f, clipped_)) {
       add_clipped(f, next, tally);

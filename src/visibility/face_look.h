@@ -36,6 +36,9 @@ class FaceLook {
   [[nodiscard]] SeenSurface seen();
 
  private:
+  /// What tells how much of a face is seen.
+  enum class Counted : std::uint8_t { ByPieces, Clipped, Whole };
+
   void look_at_samples();
   void list_contours();
   [[nodiscard]] std::uint8_t findings_of(std::uint32_t face, std::size_t cut,
@@ -55,6 +58,11 @@ class FaceLook {
     return std::span(seen_).subspan(surface_.sites.size());
   }
 
+  /// Model units squared.
+  [[nodiscard]] double area_of(std::uint32_t face) const {
+    return 0.5 * surface_.twice_areas[face] / (surface_.frame.scale * surface_.frame.scale);
+  }
+
   FaceSamples& samples_;
   const FaceSamples::Neighbourhood& near_;
   const Surface& surface_;
@@ -72,10 +80,10 @@ class FaceLook {
   std::vector<double> site_depths_{};
   double deepest_ = 0.0;  // site that is seen
   // Second look.
-  std::vector<std::uint8_t> is_clipped_;  // of each face: neither divided nor counted by pieces
+  std::vector<Counted> counted_;  // of each face
   CloserLook parts_{};
   EdgePlaces edges_{};
-  std::vector<SeenPart> clipped_{};  // of these faces, one after the other
+  SeenParts clipped_{};  // of these faces, one after the other
 };
 
 }  // namespace vantage

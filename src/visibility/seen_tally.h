@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "vantage/core/camera.h"
@@ -12,6 +14,7 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/visibility/face_visibility.h"
 
+#include "visibility/polygon_rest.h"
 #include "visibility/surface.h"
 
 /// \file
@@ -54,24 +57,49 @@ class Tally {
   /// Whether something of a face was added.
   [[nodiscard]] bool has(std::size_t face) const { return has_[face] != 0; }
 
-  /// Adds a part of a face. \pre faces come one after the other. \param area model units squared.
+  /// Adds a part of a face, by its centroid. \pre faces come one after the other.
+  /// \param area model units squared.
   void add(std::uint32_t face, const Vec3& place, double area) {
-    if (face != last_) {
-      last_ = face;
-      has_[face] = 1;
-      normal_ = &surface_.area_vectors[face];
-      // Finite even for faces of next to no area.
-      scale_ =
-          std::min((is_perspective_ ? plane_ * plane_ : 1.0) / surface_.twice_areas[face], 1e300);
-      steepness_ = steepness();
-      result_.faces.push_back({.face = surface_.face_of_mesh[face]});
-    }
+    begin(face);
     const double projected = area * scale_ * shrink(place);
+    const double depth = depths_.at(place);
     result_.faces.back().visible_area += area;
     result_.faces.back().projected_area += projected;
-    const double depth = depths_.at(place);
     spread(projected, depth, area);
     result_.deepest = std::max(result_.deepest, depth);
+  }
+
+  /// Adds a convex part of a face, exactly. \pre the same.
+  void add(std::uint32_t face, std::span<const Vec3> corners, double area) {
+    begin(face);
+    polygon_.assign(corners.begin(), corners.end());
+    double low = kBins;
+    double high = 0.0;
+    for (const Vec3& corner : corners) {
+      const double depth = depths_.at(corner);
+      low = std::min(low, depth * kBins);
+      high = std::max(high, depth * kBins);
+      result_.deepest = std::max(result_.deepest, depth);
+    }
+    const double projected = picture_area(polygon_);
+    result_.faces.back().visible_area += area;
+    result_.faces.back().projected_area += projected;
+    double left = projected;
+    for (double k = std::floor(low); k + 1.0 < high; ++k) {
+      cut_polygon(
+          polygon_, [&](const Vec3& place) { return k + 1.0 - depths_.at(place) * kBins; }, nearer_,
+          [this](const Vec3& place) { farther_.push_back(place); });
+      const double here = nearer_.size() > 2 ? picture_area(nearer_) : 0.0;
+      result_.depths[static_cast<std::size_t>(k)] += here;
+      left -= here;
+      std::swap(polygon_, farther_);
+      farther_.clear();
+      if (polygon_.size() < 3) {
+        break;
+      }
+    }
+    const double last = std::clamp(std::ceil(high) - 1.0, 0.0, kBins - 1.0);
+    result_.depths[static_cast<std::size_t>(last)] += std::max(left, 0.0);
   }
 
   /// Counts the deeper end of what is seen of an edge. \param half from its middle to an end.
@@ -81,6 +109,39 @@ class Tally {
   }
 
  private:
+  /// Makes ready for parts of a face.
+  void begin(std::uint32_t face) {
+    if (face == last_) {
+      return;
+    }
+    last_ = face;
+    has_[face] = 1;
+    normal_ = &surface_.area_vectors[face];
+    // Finite even for faces of next to no area.
+    scale_ =
+        std::min((is_perspective_ ? plane_ * plane_ : 1.0) / surface_.twice_areas[face], 1e300);
+    steepness_ = steepness();
+    result_.faces.push_back({.face = surface_.face_of_mesh[face]});
+  }
+
+  /// Of the polygon's picture, model units squared.
+  [[nodiscard]] double picture_area(const std::vector<Vec3>& polygon) const {
+    double twice = 0.0;
+    const auto place = [&](const Vec3& corner) {
+      const Vec3 from_eye = corner - local_.position;
+      return is_perspective_ ? Vec3(from_eye * (plane_ / -from_eye.dot(depths_.towards))) : corner;
+    };
+    const Vec3 first = place(polygon[0]);
+    Vec3 before = place(polygon[1]) - first;
+    for (std::size_t k = 2; k < polygon.size(); ++k) {
+      const Vec3 here = place(polygon[k]) - first;
+      twice += before.cross(here).dot(depths_.towards);
+      before = here;
+    }
+    const double unit = surface_.frame.scale;
+    return 0.5 * std::abs(twice) / (unit * unit);
+  }
+
   static constexpr auto kBins = static_cast<double>(SeenSurface::kDepthBins);
 
   /// Squared half of the bins that a part of the face at hand reaches, over its area: √3 deviations
@@ -139,6 +200,7 @@ class Tally {
   const Vec3* normal_ = nullptr;  // of the face at hand, as long as twice its area
   double steepness_ = 0.0;        // of the face at hand
   double scale_ = 1.0;            // makes up for that, and for the plane's distance
+  std::vector<Vec3> polygon_{}, nearer_{}, farther_{};  // of the part at hand
 };
 
 }  // namespace vantage

@@ -154,7 +154,7 @@ void SliverSearch::Contours::over_cells(const std::array<std::uint32_t, 2>& edge
 
 SliverSearch::SliverSearch(const Surface& surface, const SurfaceEdges& edges,
                            const CandidateScene& scene, std::span<const std::uint8_t> backs)
-    : surface_(surface), edges_(edges) {
+    : surface_(surface), edges_(edges), crossed_(surface.faces.size(), 0) {
   // Backs hide nothing for themselves where a shell is closed and nowhere meets itself.
   const bool is_clear = std::find(backs.begin(), backs.end(), 1) == backs.end() &&
                         std::adjacent_find(edges.shell_of_face.begin(), edges.shell_of_face.end(),
@@ -167,7 +167,8 @@ SliverSearch::SliverSearch(const Surface& surface, const SurfaceEdges& edges,
 }
 
 void SliverSearch::find_pierced(const CandidateScene& scene) {
-  for (const auto& [a, b] : edges_.table.edges) {
+  for (std::size_t e = 0; e < edges_.table.edges.size(); ++e) {
+    const auto& [a, b] = edges_.table.edges[e];
     const Vec3& from = surface_.sites[a];
     const Vec3 way = surface_.sites[b] - from;
     const double length = way.norm();
@@ -180,6 +181,10 @@ void SliverSearch::find_pierced(const CandidateScene& scene) {
                          {surface_.sites[t[0]], surface_.sites[t[1]], surface_.sites[t[2]]},
                          surface_.area_vectors[f])) {
           pierced_.push_back(*share);
+          crossed_[f] = 1;
+          for (const std::uint32_t beside : edges_.table.faces_of_edge[e]) {
+            crossed_[beside] = 1;
+          }
         }
       }
       return false;  // go on: all are wanted

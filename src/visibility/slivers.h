@@ -55,6 +55,9 @@ class SliverSearch {
   [[nodiscard]] EdgePlaces places(const Viewpoint& eye, const SitePicture& picture,
                                   const Asked& asked) const;
 
+  /// 1 for each face that others pass through, or that passes through others; else 0.
+  [[nodiscard]] std::span<const std::uint8_t> crossed() const { return crossed_; }
+
   /// Whether the surface turns away past an edge. \param turned as above.
   [[nodiscard]] bool is_contour(std::size_t edge, std::span<const std::uint8_t> turned) const;
 
@@ -73,6 +76,7 @@ class SliverSearch {
   const SurfaceEdges& edges_;
   std::vector<std::size_t> first_pierced_{0};  // of each edge in pierced_, and one past the last
   std::vector<double> pierced_{};              // share of the way along the edge
+  std::vector<std::uint8_t> crossed_;          // of each face
 };
 
 }  // namespace vantage

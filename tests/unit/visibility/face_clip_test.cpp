@@ -119,11 +119,11 @@ class Clipped {
   [[nodiscard]] std::vector<double> shares() const {
     std::vector<double> result(surface_.faces.size(), 0.0);
     FaceClip clip(surface_, picture_, local_, turned_, backs_);
-    std::vector<SeenPart> parts;
+    SeenParts parts;
     for (std::uint32_t f = 0; f < result.size(); ++f) {
       EXPECT_TRUE(clip.add_parts(f, parts));
     }
-    for (const SeenPart& part : parts) {
+    for (const SeenParts::Part& part : parts.parts) {
       result[surface_.face_of_mesh[part.face]] += part.share;
     }
     return result;
