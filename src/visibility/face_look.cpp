@@ -18,7 +18,7 @@ constexpr std::uint8_t kInPart = kSeen | kHidden;
 constexpr double kSliverShare = 1.0 / 16.0;
 // Of more faces a part of one weighs so little that samples tell enough, and of slivers only what
 // lies deepest is looked for. [ours, by measurement]
-constexpr std::size_t kFew = 40000;
+constexpr std::size_t kFew = 60000;
 
 std::uint8_t finding(std::uint8_t seen) {
   return seen != 0 ? kSeen : kHidden;
