@@ -244,8 +244,10 @@ class Decimator {
       const Vec3 side = mesh_.positions[c[1]] - mesh_.positions[c[0]];
       const Vec3 before = side.cross(mesh_.positions[v] - mesh_.positions[c[0]]);
       const Vec3 after = side.cross(at - mesh_.positions[c[0]]);
+      const double cosine = before.dot(after);  // times the root of the product below
+      const double squared_areas = before.squaredNorm() * after.squaredNorm();
       if (before.squaredNorm() > 0.0 &&
-          !(before.dot(after) > kLargestTurn * before.norm() * after.norm())) {
+          !(cosine > 0.0 && cosine * cosine > kLargestTurn * kLargestTurn * squared_areas)) {
         return true;
       }
     }

@@ -70,8 +70,9 @@ struct Quadric {
   [[nodiscard]] Vec3 best_point(const Vec3& middle) const {
     const double pull = kMiddle * weight;
     Eigen::Matrix3d M;
-    M << squares[0] + pull, squares[1], squares[2], squares[1], squares[3] + pull, squares[4],
-        squares[2], squares[4], squares[5] + pull;
+    M.col(0) = Vec3(squares[0] + pull, squares[1], squares[2]);
+    M.col(1) = Vec3(squares[1], squares[3] + pull, squares[4]);
+    M.col(2) = Vec3(squares[2], squares[4], squares[5] + pull);
     const Vec3 x = middle + M.inverse() * (b - times(middle));
     return x.allFinite() ? x : middle;
   }
