@@ -19,15 +19,27 @@ constexpr std::size_t kMostNear = 3000;
 
 // Cells of the picture over faces. [ours, by measurement]
 constexpr double kCellsPerFace = 0.5;
+// Places along a contour where it is asked what is seen: more where faces are few, as each weighs
+// much. At least, at most, and how many times the number of faces. [ours, by measurement]
+constexpr double kLeastPlaces = 5.0, kMostPlaces = 16.0, kPlacesByFaces = 1.6e5;
+// Places in cells over faces: where faces are so long or so many in one place that more would be
+// needed, cells are larger.
+constexpr std::size_t kMostInCells = 16;
+// Steps over faces: models tried take some tens; thousands of faces in one place take more than
+// their areas are worth.
+constexpr std::size_t kPatience = 1000;
 
 /// In homogeneous barycentric coordinates of a face, as it is seen from the eye; the fourth is the
 /// height over the face's plane on the eye's side.
 using Corner = Eigen::Vector4d;
 
-/// The corners of a triangle that was cut by four planes at most.
+/// The corners of a triangle that was cut by four planes at most. Each cut adds one to a convex
+/// polygon; where rounding has bent it, of 3, 4, 6 and 9 corners 4, 6, 9 and 13 may be made.
 template <typename Point>
 class FewPoints {
  public:
+  static constexpr std::size_t kMost = 13;
+
   [[nodiscard]] std::size_t size() const { return count_; }
 
   [[nodiscard]] const Point& operator[](std::size_t k) const { return points_[k]; }
@@ -37,7 +49,7 @@ class FewPoints {
   void push_back(const Point& point) { points_[count_++] = point; }
 
  private:
-  std::array<Point, 7> points_;
+  std::array<Point, kMost> points_;
   std::size_t count_ = 0;
 };
 
@@ -94,7 +106,7 @@ class Shadow {
         return 0.0;
       }
     }
-    std::array<Eigen::Vector2d, 7> shadow;
+    std::array<Eigen::Vector2d, FewPoints<Corner>::kMost> shadow;
     for (std::size_t k = 0; k < polygon->size(); ++k) {
       shadow[k] = (*polygon)[k].head<2>() / (*polygon)[k].head<3>().sum();
     }
@@ -159,6 +171,20 @@ FaceClip::CellRange FaceClip::cells(const SitePicture::Box& box) const {
   return range;
 }
 
+void FaceClip::set_cells(std::size_t side) {
+  side_ = side;
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    const double extent = box_.sizes()[k];
+    per_cell_[k] = extent > 0.0 ? static_cast<double>(side_) / extent : 0.0;
+  }
+}
+
+/// Whether so much work was done that no more is worth it.
+bool FaceClip::is_tired(std::size_t steps) {
+  steps_ += steps;
+  return steps_ > kPatience * seats_.size();
+}
+
 void FaceClip::lay_grid(const std::vector<std::uint8_t>& turned,
                         const std::vector<std::uint8_t>& backs) {
   seats_.reserve(surface_.faces.size());
@@ -168,14 +194,11 @@ void FaceClip::lay_grid(const std::vector<std::uint8_t>& turned,
     seats_.push_back({picture_.box(face), std::max({nearness[a], nearness[b], nearness[c]})});
     box_.extend(seats_.back().box);
   }
-  side_ = static_cast<std::size_t>(
-      std::ceil(std::sqrt(kCellsPerFace * static_cast<double>(seats_.size() + 1))));
-  for (Eigen::Index k = 0; k < 2; ++k) {
-    const double extent = box_.sizes()[k];
-    per_cell_[k] = extent > 0.0 ? static_cast<double>(side_) / extent : 0.0;
-  }
+  const auto hides = [&](std::uint32_t f) {
+    return turned[f] == 1 || (turned[f] == 2 && backs[f] != 0);
+  };
   const auto over_cells = [&](std::uint32_t f, const auto& each) {
-    if (turned[f] == 1 || (turned[f] == 2 && backs[f] != 0)) {
+    if (hides(f)) {
       const auto [columns, rows] = cells(seats_[f].box);
       for (std::size_t row = rows[0]; row <= rows[1]; ++row) {
         for (std::size_t column = columns[0]; column <= columns[1]; ++column) {
@@ -184,6 +207,21 @@ void FaceClip::lay_grid(const std::vector<std::uint8_t>& turned,
       }
     }
   };
+  const auto places = [&] {
+    std::size_t sum = 0;
+    for (std::uint32_t f = 0; f < seats_.size(); ++f) {
+      if (hides(f)) {
+        const auto [columns, rows] = cells(seats_[f].box);
+        sum += (columns[1] + 1 - columns[0]) * (rows[1] + 1 - rows[0]);
+      }
+    }
+    return sum;
+  };
+  const double wanted = kCellsPerFace * static_cast<double>(seats_.size() + 1);
+  set_cells(static_cast<std::size_t>(std::ceil(std::sqrt(wanted))));
+  while (side_ > 1 && places() > kMostInCells * seats_.size()) {
+    set_cells(side_ / 2);
+  }
   first_.assign(side_ * side_ + 1, 0);
   for (std::uint32_t f = 0; f < seats_.size(); ++f) {
     over_cells(f, [&](std::size_t cell) { ++first_[cell]; });
@@ -195,8 +233,8 @@ void FaceClip::lay_grid(const std::vector<std::uint8_t>& turned,
   }
 }
 
-/// Faces that may hide some of this one.
-void FaceClip::list_near(std::uint32_t face) {
+/// Lists faces that may hide some of this one. \return false if they are too many.
+bool FaceClip::list_near(std::uint32_t face) {
   near_.clear();
   ++round_;
   const auto& [a, b, c] = surface_.faces[face];
@@ -205,8 +243,12 @@ void FaceClip::list_near(std::uint32_t face) {
   const SitePicture::Box& box = seats_[face].box;
   const auto [columns, rows] = cells(box);
   for (std::size_t row = rows[0]; row <= rows[1]; ++row) {
+    const std::uint32_t begin = first_[row * side_ + columns[0]];
     const std::uint32_t end = first_[row * side_ + columns[1] + 1];
-    for (std::uint32_t i = first_[row * side_ + columns[0]]; i < end; ++i) {
+    if (near_.size() > kMostNear || is_tired(end - begin)) {
+      return false;
+    }
+    for (std::uint32_t i = begin; i < end; ++i) {
       const std::uint32_t f = in_cells_[i];
       Seat& seat = seats_[f];
       if (seat.nearest > farthest && seat.round != round_ && f != face &&
@@ -216,13 +258,17 @@ void FaceClip::list_near(std::uint32_t face) {
       }
     }
   }
+  return near_.size() <= kMostNear;
 }
 
 /// The face next to the eye, or one before the nearness.
-FaceClip::Found FaceClip::first_at(const Eigen::Vector2d& place, double nearness) const {
+FaceClip::Found FaceClip::first_at(const Eigen::Vector2d& place, double nearness) {
   Found first{Surface::kNoSite, -std::numeric_limits<double>::infinity()};
   const auto [columns, rows] = cells(SitePicture::Box(place));
   const std::size_t cell = rows[0] * side_ + columns[0];
+  if (is_tired(first_[cell + 1] - first_[cell])) {
+    return first;
+  }
   for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
     const std::uint32_t f = in_cells_[i];
     if (!(seats_[f].nearest > first.nearness) || !seats_[f].box.contains(place)) {
@@ -248,29 +294,33 @@ FaceClip::Found FaceClip::first_at(const Eigen::Vector2d& place, double nearness
   return first;
 }
 
-void FaceClip::list_past(const std::array<std::uint32_t, 2>& edge, std::uint32_t beside,
-                         std::vector<std::uint32_t>& faces) const {
+bool FaceClip::list_past(const std::array<std::uint32_t, 2>& edge, std::uint32_t beside,
+                         std::vector<std::uint32_t>& faces) {
   constexpr double kStep = 1e-7;  // of the edge's length
-  constexpr int kPlaces = 5;      // [ours]
   const Eigen::Vector2d& from = picture_.places[edge[0]];
   const Eigen::Vector2d way = picture_.places[edge[1]] - from;
   const double side = cross(way, picture_.places[beside] - from);
   const Eigen::Vector2d across = std::copysign(kStep, side) * Eigen::Vector2d(way.y(), -way.x());
   const double nearness = picture_.nearness[edge[0]];
   const double change = picture_.nearness[edge[1]] - nearness;
-  for (int k = 0; k < kPlaces; ++k) {
-    const double share = (k + 0.5) / kPlaces;
+  const auto count = static_cast<double>(seats_.size());
+  const double places = std::clamp(std::floor(kPlacesByFaces / count), kLeastPlaces, kMostPlaces);
+  bool is_seen = false;
+  for (double k = 0.5; k < places; ++k) {
+    const double share = k / places;
     const double here = nearness + share * change;
     const Found found = first_at(from + share * way + across, here);
+    is_seen = is_seen || !(found.nearness > here);
     if (found.face != Surface::kNoSite && found.nearness < here) {
       faces.push_back(found.face);
     }
   }
+  return is_seen;
 }
 
 void FaceClip::list_behind(const std::array<std::uint32_t, 2>& edge,
                            std::span<const std::uint8_t> wanted,
-                           std::vector<std::uint32_t>& faces) const {
+                           std::vector<std::uint32_t>& faces) {
   constexpr double kLeast = 1e-9;  // share of the edge: less is a touch
   const Eigen::Vector2d& from = picture_.places[edge[0]];
   const Eigen::Vector2d way = picture_.places[edge[1]] - from;
@@ -279,8 +329,12 @@ void FaceClip::list_behind(const std::array<std::uint32_t, 2>& edge,
   const SitePicture::Box box = picture_.box(edge);
   const auto [columns, rows] = cells(box);
   for (std::size_t row = rows[0]; row <= rows[1]; ++row) {
+    const std::uint32_t begin = first_[row * side_ + columns[0]];
     const std::uint32_t end = first_[row * side_ + columns[1] + 1];
-    for (std::uint32_t i = first_[row * side_ + columns[0]]; i < end; ++i) {
+    if (is_tired(end - begin)) {
+      return;
+    }
+    for (std::uint32_t i = begin; i < end; ++i) {
       const std::uint32_t f = in_cells_[i];
       const Triangle& face = surface_.faces[f];
       if (wanted[f] == 0 || !seats_[f].box.intersects(box)) {
@@ -323,8 +377,7 @@ void FaceClip::list_behind(const std::array<std::uint32_t, 2>& edge,
 }
 
 bool FaceClip::add_parts(std::uint32_t face, SeenParts& parts) {
-  list_near(face);
-  if (near_.size() > kMostNear) {
+  if (!list_near(face)) {
     return false;
   }
   Shadow shadow(surface_, eye_, face);
@@ -339,6 +392,9 @@ bool FaceClip::add_parts(std::uint32_t face, SeenParts& parts) {
   std::sort(by_size_.begin(), by_size_.end());
   rest_.reset();
   for (const auto& [size, i] : by_size_) {
+    if (is_tired(rest_.parts().size())) {
+      return false;
+    }
     rest_.subtract(shadows_[i]);
   }
   const auto& [a, b, c] = surface_.faces[face];

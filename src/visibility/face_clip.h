@@ -53,12 +53,13 @@ class FaceClip {
 
   /// Lists faces that are seen just past an edge, away from a site beside it: what is next behind some
   /// places of it that nothing lies before. May hold a face more than once.
-  void list_past(const std::array<std::uint32_t, 2>& edge, std::uint32_t beside,
-                 std::vector<std::uint32_t>& faces) const;
+  /// \return whether there is such a place.
+  bool list_past(const std::array<std::uint32_t, 2>& edge, std::uint32_t beside,
+                 std::vector<std::uint32_t>& faces);
 
   /// Lists those of the wanted faces that an edge lies before. \param wanted 1 for each, else 0.
   void list_behind(const std::array<std::uint32_t, 2>& edge, std::span<const std::uint8_t> wanted,
-                   std::vector<std::uint32_t>& faces) const;
+                   std::vector<std::uint32_t>& faces);
 
  private:
   /// Where a face is in the picture.
@@ -76,8 +77,10 @@ class FaceClip {
     double nearness = 0.0;
   };
 
-  void list_near(std::uint32_t face);
-  [[nodiscard]] Found first_at(const Eigen::Vector2d& place, double nearness) const;
+  [[nodiscard]] bool list_near(std::uint32_t face);
+  [[nodiscard]] bool is_tired(std::size_t steps);
+  void set_cells(std::size_t side);
+  [[nodiscard]] Found first_at(const Eigen::Vector2d& place, double nearness);
   void lay_grid(const std::vector<std::uint8_t>& turned, const std::vector<std::uint8_t>& backs);
   [[nodiscard]] CellRange cells(const SitePicture::Box& box) const;
 
@@ -90,6 +93,7 @@ class FaceClip {
   std::vector<std::uint32_t> first_{}, in_cells_{};  // hiding faces of each cell; one past the last
   std::vector<Seat> seats_{};                        // of each face
   std::uint32_t round_ = 0;
+  std::size_t steps_ = 0;  // of all work so far
   std::vector<std::uint32_t> near_{};
   Polygons shadows_{};
   std::vector<std::pair<double, std::size_t>> by_size_{};  // less the area of each shadow

@@ -190,16 +190,21 @@ std::uint8_t FaceLook::findings_of(std::uint32_t face, std::size_t cut,
   return all;
 }
 
-/// Edges past which the surface turns away. What hides both ends of one hides, nearly always, all of
-/// it, and what lies behind it with it: those are left out.
+/// Edges past which the surface turns away, but for those that are hidden at both ends and, where
+/// faces are clipped, at some places between: what hides all of one hides what lies behind it.
 void FaceLook::list_contours() {
   if (!near_.slivers || !picture_.is_whole) {
     return;
   }
   const EdgeTable& table = near_.edges.table;
   for (std::uint32_t e = 0; e < table.edges.size(); ++e) {
-    const auto& [a, b] = table.edges[e];
-    if ((seen_[a] | seen_[b]) != 0 && near_.slivers->is_contour(e, look_.turned())) {
+    const std::array<std::uint32_t, 2>& edge = table.edges[e];
+    const bool is_seen = (seen_[edge[0]] | seen_[edge[1]]) != 0;
+    if ((!is_seen && !clip_) || !near_.slivers->is_contour(e, look_.turned())) {
+      continue;
+    }
+    const auto& [a, b, c] = surface_.faces[near_.edges.beside[e][0]];
+    if ((clip_ && clip_->list_past(edge, a + b + c - edge[0] - edge[1], past_)) || is_seen) {
       contours_.push_back(e);
     }
   }
@@ -387,17 +392,8 @@ void FaceLook::add_slivers(Tally& tally) {
 
 /// Adds faces of which only an inside is seen, past contours of others.
 void FaceLook::add_past_contours(Tally& tally) {
-  if (!clip_) {
-    return;
-  }
-  std::vector<std::uint32_t> found;
-  for (const std::uint32_t e : contours_) {
-    const std::array<std::uint32_t, 2>& edge = near_.edges.table.edges[e];
-    const auto& [a, b, c] = surface_.faces[near_.edges.beside[e][0]];
-    clip_->list_past(edge, a + b + c - edge[0] - edge[1], found);
-  }
   std::size_t next = clipped_.parts.size();
-  for (const std::uint32_t f : found) {
+  for (const std::uint32_t f : past_) {
     if (look_.is_turned(f) && !tally.has(f) && clip_->add_parts(f, clipped_)) {
       add_clipped(f, next, tally);
     }

@@ -74,6 +74,7 @@ class FaceLook {
   SitePicture picture_;
   std::optional<FaceClip> clip_{};         // where faces seen in part are clipped
   std::vector<std::uint32_t> contours_{};  // edges
+  std::vector<std::uint32_t> past_{};      // faces seen past them, some more than once
   // First look: sites, the pieces' centroids and the nodes on edges.
   std::vector<std::uint8_t> at_sites_;  // Look::faces_at_sites()
   std::vector<std::uint8_t> seen_{};

@@ -124,8 +124,13 @@ class Tally {
     result_.faces.push_back({.face = surface_.face_of_mesh[face]});
   }
 
-  /// Of the polygon's picture, model units squared.
+  /// Of the polygon's picture, model units squared; 0 if not all of it is ahead of the eye.
   [[nodiscard]] double picture_area(const std::vector<Vec3>& polygon) const {
+    if (is_perspective_ && std::any_of(polygon.begin(), polygon.end(), [this](const Vec3& corner) {
+          return !((local_.position - corner).dot(depths_.towards) > 0.0);
+        })) {
+      return 0.0;
+    }
     double twice = 0.0;
     const auto place = [&](const Vec3& corner) {
       const Vec3 from_eye = corner - local_.position;
