@@ -129,6 +129,14 @@ class Clipped {
     return result;
   }
 
+  /// Whether a face of the mesh is clipped at all.
+  [[nodiscard]] bool is_clipped(std::uint32_t face) const {
+    FaceClip clip(surface_, picture_, local_, turned_, backs_);
+    const auto at = std::find(surface_.face_of_mesh.begin(), surface_.face_of_mesh.end(), face);
+    SeenParts parts;
+    return clip.add_parts(static_cast<std::uint32_t>(at - surface_.face_of_mesh.begin()), parts);
+  }
+
   /// The same from the centroids of squared `side` parts of each face.
   [[nodiscard]] std::vector<double> sampled_shares(int side) const {
     std::vector<double> result(surface_.faces.size(), 0.0);
@@ -223,6 +231,20 @@ TEST(FaceClip, LeavesFacesBesideEachOtherWhole) {
       EXPECT_NEAR(share, share < 0.5 ? 0.0 : 1.0, 1e-12);
     }
   }
+}
+
+TEST(FaceClip, GivesUpWhereThousandsOfFacesLieBeforeOne) {
+  TriMesh stack;
+  for (std::uint32_t f = 0; f < 4000; ++f) {
+    const double height = 1e-4 * f;
+    for (const Vec3& p : {Vec3(0.0, 0.0, height), Vec3(1.0, 0.0, height), Vec3(0.0, 1.0, height)}) {
+      stack.positions.push_back(p);
+    }
+    stack.triangles.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+  }
+  const Clipped clipped(stack, kAbove);
+  EXPECT_FALSE(clipped.is_clipped(0));
+  EXPECT_TRUE(clipped.is_clipped(2000));  // half of them are behind
 }
 
 TEST(FaceClip, LeavesWhatSamplesSee) {

@@ -159,6 +159,23 @@ TEST(FaceVisibility, SeesWhatATipHidesThatComesThroughAFace) {
   EXPECT_NEAR(seen[1], width * width, 1e-12);
 }
 
+TEST(FaceVisibility, SeesWhatASpikeHidesOverASide) {
+  // It comes in over the side x = 0 by a fiftieth, between all samples and far from corners.
+  constexpr double kIn = 0.02;
+  constexpr double kWidth = 4e-4;
+  TriMesh mesh = test::sheet(4.0, 4.0, 1);
+  const auto base = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const Vec3& p : {Vec3(-1.0, 1.3, 1.0), Vec3(kIn, 1.3, 1.0), Vec3(-1.0, 1.3 + kWidth, 1.0)}) {
+    mesh.positions.push_back(p);
+  }
+  mesh.triangles.push_back({base, base + 1, base + 2});
+  double seen = 0.0;
+  for (const SeenFace& face : FaceVisibility(mesh, {FaceSides::Both}).seen_faces(kAbove)) {
+    seen += face.face < 2 ? face.visible_area : 0.0;
+  }
+  EXPECT_NEAR(16.0 - seen, 0.5 * kIn * kWidth * kIn / (1.0 + kIn), 1e-12);
+}
+
 TEST(FaceVisibility, OfFewFacesSeesTheSameWhateverTheSpacing) {
   const TriMesh tubes = test::y_of_tubes(0.2, 14);
   const FaceVisibility coarse(tubes, {FaceSides::Front}, 0.1);
