@@ -240,53 +240,54 @@ void FaceLook::choose_clipped(std::span<const std::uint8_t> found) {
   }
 }
 
+/// What is known of the tip of a piece at a node.
+Tip FaceLook::tip(std::uint32_t face, std::uint32_t node) const {
+  if (node >= surface_.sites.size()) {
+    return Tip::Plain;
+  }
+  if (seen_[node] == 0) {
+    return Tip::Hidden;
+  }
+  const bool turns = (at_sites_[node] & Look::kNotTurned) == 0;
+  return turns && surface_.sides[face] == FaceSides::Front ? Tip::Seen : Tip::Asked;
+}
+
 /// Divides every piece of other faces of which, with its nodes, some was seen and some was hidden.
 void FaceLook::choose_parts(std::span<const std::uint8_t> found) {
-  const auto of_piece = of_points();
-  const auto is_in_part = [&](std::uint32_t piece, const Triangle& nodes) {
-    return (finding(of_piece[piece]) | found[nodes[0]] | found[nodes[1]] | found[nodes[2]]) ==
-           kInPart;
-  };
-  const auto tip = [&](std::size_t face, std::uint32_t node) {
-    if (node >= surface_.sites.size()) {
-      return Tip::Plain;
-    }
-    if (seen_[node] == 0) {
-      return Tip::Hidden;
-    }
-    const bool turns = (at_sites_[node] & Look::kNotTurned) == 0;
-    return turns && surface_.sides[face] == FaceSides::Front ? Tip::Seen : Tip::Asked;
-  };
   std::size_t cut = 0;
   for (std::uint32_t f = 0; f < surface_.faces.size(); ++f) {
-    const std::uint32_t begin = pieces_.first[f];
-    const std::uint32_t end = pieces_.first[f + 1];
-    const bool is_whole = samples_.is_whole(f);
-    if (!look_.is_turned(f) || counted_[f] != Counted::ByPieces) {
-      cut += is_whole ? 0 : end - begin;
-      continue;
+    if (look_.is_turned(f) && counted_[f] == Counted::ByPieces) {
+      choose_parts_of(f, cut, found);
     }
-    const auto& [a, b, c] = surface_.faces[f];
-    if (is_whole) {
-      const int all = seen_[a] + seen_[b] + seen_[c] + of_piece[begin];
-      if (all != 0 && all != 4) {
-        parts_.add(begin, f, {surface_.sites[a], surface_.sites[b], surface_.sites[c]},
-                   {tip(f, a), tip(f, b), tip(f, c)}, net_.parts[begin]);
-      }
-      continue;
-    }
-    // The pieces of a plain face may never have been asked about.
-    const int corners = seen_[a] + seen_[b] + seen_[c];
-    const bool all = net_.is_plain[f] != 0 && corners != 0 && corners != 3;
-    for (std::uint32_t piece = begin; piece < end; ++piece, ++cut) {
-      const Triangle& nodes = net_.nodes[cut];
-      if (all || is_in_part(piece, nodes)) {
-        parts_.add(piece, f, net_.corners[cut],
-                   {tip(f, nodes[0]), tip(f, nodes[1]), tip(f, nodes[2])}, net_.parts[piece]);
-      }
-    }
+    cut += samples_.is_whole(f) ? 0 : pieces_.first[f + 1] - pieces_.first[f];
   }
   parts_.end();
+}
+
+/// \param cut as findings_of() takes it.
+void FaceLook::choose_parts_of(std::uint32_t face, std::size_t cut,
+                               std::span<const std::uint8_t> found) {
+  const auto of_piece = of_points();
+  const std::uint32_t begin = pieces_.first[face];
+  const auto& [a, b, c] = surface_.faces[face];
+  const int corners = seen_[a] + seen_[b] + seen_[c];
+  if (samples_.is_whole(face)) {
+    const int all = corners + of_piece[begin];
+    if (all != 0 && all != 4) {
+      parts_.add(begin, face, {surface_.sites[a], surface_.sites[b], surface_.sites[c]},
+                 {tip(face, a), tip(face, b), tip(face, c)}, net_.parts[begin]);
+    }
+    return;
+  }
+  // The pieces of a plain face may never have been asked about.
+  const bool all = net_.is_plain[face] != 0 && corners != 0 && corners != 3;
+  for (std::uint32_t piece = begin; piece < pieces_.first[face + 1]; ++piece, ++cut) {
+    const auto& [u, v, w] = net_.nodes[cut];
+    if (all || (finding(of_piece[piece]) | found[u] | found[v] | found[w]) == kInPart) {
+      parts_.add(piece, face, net_.corners[cut], {tip(face, u), tip(face, v), tip(face, w)},
+                 net_.parts[piece]);
+    }
+  }
 }
 
 /// Edges of faces that reach deeper than all sites that were seen and, where faces are clipped, of

@@ -46,6 +46,8 @@ class FaceLook {
   [[nodiscard]] std::vector<std::uint8_t> node_findings() const;
   void choose_clipped(std::span<const std::uint8_t> found);
   void choose_parts(std::span<const std::uint8_t> found);
+  void choose_parts_of(std::uint32_t face, std::size_t cut, std::span<const std::uint8_t> found);
+  [[nodiscard]] Tip tip(std::uint32_t face, std::uint32_t node) const;
   void choose_edges();
   void look_closer();
   void add_pieces(std::uint32_t face, std::size_t& next, Tally& tally) const;

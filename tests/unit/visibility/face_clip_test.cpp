@@ -147,7 +147,8 @@ class Clipped {
         for (int j = 0; j < 2 * (side - i) - 1; ++j) {
           const double third = (j % 2 + 1.0) / 3.0;
           const double u = (i + third) / side;
-          const double v = (j / 2 + third) / side;
+          const int row = j / 2;
+          const double v = (row + third) / side;
           seen += is_hidden(f, u * surface_.sites[a] + v * surface_.sites[b] +
                                    (1.0 - u - v) * surface_.sites[c])
                       ? 0
