@@ -25,9 +25,10 @@ constexpr double kLeastPlaces = 5.0, kMostPlaces = 16.0, kPlacesByFaces = 1.6e5;
 // Places in cells over faces: where faces are so long or so many in one place that more would be
 // needed, cells are larger.
 constexpr std::size_t kMostInCells = 16;
-// Steps over faces: models tried take some tens; thousands of faces in one place take more than
-// their areas are worth.
-constexpr std::size_t kPatience = 1000;
+// Steps of work for one eye, some tenths of a second: models tried take a hundredth of it. What
+// is not clipped by then is left to samples.
+constexpr std::size_t kPatience = 60'000'000;
+constexpr std::size_t kStepsPerPart = 8;  // of cutting a polygon, over those of passing a face
 
 /// In homogeneous barycentric coordinates of a face, as it is seen from the eye; the fourth is the
 /// height over the face's plane on the eye's side.
@@ -58,7 +59,6 @@ class Shadow {
  public:
   Shadow(const Surface& surface, const Viewpoint& eye, std::uint32_t face)
       : surface_(surface), on_(surface.faces[face]) {
-    const bool is_perspective = eye.projection == Projection::Perspective;
     const std::array<Vec3, 3> corners{surface.sites[on_[0]], surface.sites[on_[1]],
                                       surface.sites[on_[2]]};
     origin_ = corners[0];
@@ -70,14 +70,13 @@ class Shadow {
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3& a = corners[(k + 1) % 3];
       const Vec3& b = corners[(k + 2) % 3];
-      sides_[k] = is_perspective ? Vec3((a - eye.position).cross(b - eye.position))
-                                 : Vec3((b - a).cross(eye.position));
+      sides_[k] = (b - a).cross(sight_line(a, eye));
       from_[k] = a;
       sides_[k] /= sides_[k].dot(corners[k] - a);
     }
   }
 
-  /// Adds what falls on the face, if anything does. \return twice its area over the face's.
+  /// Adds what falls on the face, if anything does. \return its share of the face's area.
   double add(std::uint32_t other, Polygons& shadows) {
     const Triangle& sites = surface_.faces[other];
     const std::array<double, 3> heights{height(sites[0]), height(sites[1]), height(sites[2])};
@@ -179,10 +178,10 @@ void FaceClip::set_cells(std::size_t side) {
   }
 }
 
-/// Whether so much work was done that no more is worth it.
-bool FaceClip::is_tired(std::size_t steps) {
+/// \return false if that is more work than it is worth.
+bool FaceClip::spend(std::size_t steps) {
   steps_ += steps;
-  return steps_ > kPatience * seats_.size();
+  return steps_ <= kPatience;
 }
 
 void FaceClip::lay_grid(const std::vector<std::uint8_t>& turned,
@@ -245,7 +244,7 @@ bool FaceClip::list_near(std::uint32_t face) {
   for (std::size_t row = rows[0]; row <= rows[1]; ++row) {
     const std::uint32_t begin = first_[row * side_ + columns[0]];
     const std::uint32_t end = first_[row * side_ + columns[1] + 1];
-    if (near_.size() > kMostNear || is_tired(end - begin)) {
+    if (near_.size() > kMostNear || !spend(end - begin)) {
       return false;
     }
     for (std::uint32_t i = begin; i < end; ++i) {
@@ -266,7 +265,7 @@ FaceClip::Found FaceClip::first_at(const Eigen::Vector2d& place, double nearness
   Found first{Surface::kNoSite, -std::numeric_limits<double>::infinity()};
   const auto [columns, rows] = cells(SitePicture::Box(place));
   const std::size_t cell = rows[0] * side_ + columns[0];
-  if (is_tired(first_[cell + 1] - first_[cell])) {
+  if (!spend(first_[cell + 1] - first_[cell])) {
     return first;
   }
   for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
@@ -331,7 +330,7 @@ void FaceClip::list_behind(const std::array<std::uint32_t, 2>& edge,
   for (std::size_t row = rows[0]; row <= rows[1]; ++row) {
     const std::uint32_t begin = first_[row * side_ + columns[0]];
     const std::uint32_t end = first_[row * side_ + columns[1] + 1];
-    if (is_tired(end - begin)) {
+    if (!spend(end - begin)) {
       return;
     }
     for (std::uint32_t i = begin; i < end; ++i) {
@@ -392,7 +391,7 @@ bool FaceClip::add_parts(std::uint32_t face, SeenParts& parts) {
   std::sort(by_size_.begin(), by_size_.end());
   rest_.reset();
   for (const auto& [size, i] : by_size_) {
-    if (is_tired(rest_.parts().size())) {
+    if (!spend(kStepsPerPart * rest_.parts().size())) {
       return false;
     }
     rest_.subtract(shadows_[i]);

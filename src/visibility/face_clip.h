@@ -43,7 +43,8 @@ struct SeenParts {
 class FaceClip {
  public:
   /// \param turned   the side each face turns to the eye: 1 front, 2 back, 0 neither.
-  /// \param backs    hiding_backs(). All references must outlive this.
+  /// \param backs    hiding_backs().
+  /// \param surface, picture must outlive this.
   FaceClip(const Surface& surface, const SitePicture& picture, const Viewpoint& eye,
            const std::vector<std::uint8_t>& turned, const std::vector<std::uint8_t>& backs);
 
@@ -78,7 +79,7 @@ class FaceClip {
   };
 
   [[nodiscard]] bool list_near(std::uint32_t face);
-  [[nodiscard]] bool is_tired(std::size_t steps);
+  [[nodiscard]] bool spend(std::size_t steps);
   void set_cells(std::size_t side);
   [[nodiscard]] Found first_at(const Eigen::Vector2d& place, double nearness);
   void lay_grid(const std::vector<std::uint8_t>& turned, const std::vector<std::uint8_t>& backs);

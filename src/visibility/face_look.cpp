@@ -45,18 +45,19 @@ std::vector<SeenFace> in_order(const std::vector<SeenFace>& faces, std::size_t c
 
 FaceLook::FaceLook(FaceSamples& samples, const Viewpoint& local, const RunContext& run)
     : samples_(samples),
-      near_(samples.neighbourhood()),
+      run_(run),
+      known_(samples.neighbourhood()),
       surface_(samples.surface()),
       pieces_(samples.pieces()),
-      net_(near_.net),
+      net_(known_.net),
       local_(local),
-      look_(samples.sight(), local, run, near_.backs),
+      look_(samples.sight(), local, run, known_.backs),
       depths_(surface_, samples.sphere(), local),
       picture_(surface_, local),
       at_sites_(look_.faces_at_sites()),
       counted_(surface_.faces.size(), Counted::ByPieces) {
   if (surface_.faces.size() <= kFew && picture_.is_whole) {
-    clip_.emplace(surface_, picture_, local_, look_.turned(), near_.backs);
+    clip_.emplace(surface_, picture_, local_, look_.turned(), known_.backs);
   }
 }
 
@@ -157,14 +158,14 @@ std::vector<std::uint8_t> FaceLook::node_findings() const {
   std::transform(seen_.end() - static_cast<std::ptrdiff_t>(net_.also.size()), seen_.end(),
                  found.begin() + static_cast<std::ptrdiff_t>(sites), finding);
   const std::size_t asked = sites + net_.also.size();
-  std::size_t cut = 0;
   for (std::size_t f = 0; f < surface_.faces.size(); ++f) {
-    if (samples_.is_whole(f)) {
+    if (samples_.is_whole(f) || !look_.is_turned(f)) {
       continue;
     }
+    std::uint32_t cut = net_.first_cut[f];
     for (std::uint32_t piece = pieces_.first[f]; piece < pieces_.first[f + 1]; ++piece, ++cut) {
       for (const std::uint32_t node : net_.nodes[cut]) {
-        if (node >= asked && look_.is_turned(f)) {
+        if (node >= asked) {
           found[node] |= finding(of_point[piece]);
         }
       }
@@ -173,12 +174,11 @@ std::vector<std::uint8_t> FaceLook::node_findings() const {
   return found;
 }
 
-/// What was found of a face's corners, its pieces and their nodes. \param cut the face's first piece
-/// in the net, if it was cut.
-std::uint8_t FaceLook::findings_of(std::uint32_t face, std::size_t cut,
-                                   std::span<const std::uint8_t> found) const {
+/// What was found of a face's corners, its pieces and their nodes.
+std::uint8_t FaceLook::findings_of(std::uint32_t face, std::span<const std::uint8_t> found) const {
   const auto& [a, b, c] = surface_.faces[face];
   auto all = static_cast<std::uint8_t>(found[a] | found[b] | found[c]);
+  std::uint32_t cut = net_.first_cut[face];
   for (std::uint32_t piece = pieces_.first[face]; piece < pieces_.first[face + 1]; ++piece) {
     all |= finding(of_points()[piece]);
     if (!samples_.is_whole(face)) {
@@ -193,21 +193,34 @@ std::uint8_t FaceLook::findings_of(std::uint32_t face, std::size_t cut,
 /// Edges past which the surface turns away, but for those that are hidden at both ends and, where
 /// faces are clipped, at some places between: what hides all of one hides what lies behind it.
 void FaceLook::list_contours() {
-  if (!near_.slivers || !picture_.is_whole) {
+  if (!known_.slivers || !picture_.is_whole) {
     return;
   }
-  const EdgeTable& table = near_.edges.table;
+  const EdgeTable& table = known_.edges.table;
   for (std::uint32_t e = 0; e < table.edges.size(); ++e) {
-    const std::array<std::uint32_t, 2>& edge = table.edges[e];
-    const bool is_seen = (seen_[edge[0]] | seen_[edge[1]]) != 0;
-    if ((!is_seen && !clip_) || !near_.slivers->is_contour(e, look_.turned())) {
-      continue;
-    }
-    const auto& [a, b, c] = surface_.faces[near_.edges.beside[e][0]];
-    if ((clip_ && clip_->list_past(edge, a + b + c - edge[0] - edge[1], past_)) || is_seen) {
-      contours_.push_back(e);
+    const auto& [a, b] = table.edges[e];
+    const bool is_asked = ((at_sites_[a] | at_sites_[b]) & Look::kTurned) != 0;
+    const bool is_open = !is_asked || (seen_[a] | seen_[b]) != 0;
+    if ((is_open || clip_) && known_.slivers->is_contour(e, look_.turned())) {
+      if ((clip_ && is_seen_past(e)) || is_open) {
+        contours_.push_back(e);
+      }
     }
   }
+  std::sort(past_.begin(), past_.end());
+  past_.erase(std::unique(past_.begin(), past_.end()), past_.end());
+}
+
+/// Whether an edge is seen at one of some places; lists what is seen past them.
+bool FaceLook::is_seen_past(std::uint32_t edge) {
+  run_.check();
+  const std::array<std::uint32_t, 2>& ends = known_.edges.table.edges[edge];
+  auto [beside, other] = known_.edges.beside[edge];
+  if (look_.turned()[beside] == 0) {  // on edge, it is on neither side
+    beside = other;
+  }
+  const auto& [a, b, c] = surface_.faces[beside];
+  return clip_->list_past(ends, a + b + c - ends[0] - ends[1], past_);
 }
 
 /// Faces of which some was seen and some was hidden, and those seen that others pass through or a
@@ -218,17 +231,15 @@ void FaceLook::choose_clipped(std::span<const std::uint8_t> found) {
   }
   std::vector<std::uint8_t> is_seen(surface_.faces.size(), 0);
   std::vector<std::uint32_t> in_part;
-  std::size_t cut = 0;
   for (std::uint32_t f = 0; f < is_seen.size(); ++f) {
-    const std::uint8_t all = look_.is_turned(f) ? findings_of(f, cut, found) : kHidden;
+    const std::uint8_t all = look_.is_turned(f) ? findings_of(f, found) : kHidden;
     is_seen[f] = all == kSeen ? 1 : 0;
-    if (all == kInPart || (all == kSeen && near_.slivers->crossed()[f] != 0)) {
+    if (all == kInPart || (all == kSeen && known_.slivers->crossed()[f] != 0)) {
       in_part.push_back(f);
     }
-    cut += samples_.is_whole(f) ? 0 : pieces_.first[f + 1] - pieces_.first[f];
   }
   for (const std::uint32_t e : contours_) {
-    clip_->list_behind(near_.edges.table.edges[e], is_seen, in_part);
+    clip_->list_behind(known_.edges.table.edges[e], is_seen, in_part);
   }
   for (std::size_t f = 0; f < is_seen.size(); ++f) {
     counted_[f] = is_seen[f] != 0 ? Counted::Whole : Counted::ByPieces;
@@ -236,6 +247,7 @@ void FaceLook::choose_clipped(std::span<const std::uint8_t> found) {
   std::sort(in_part.begin(), in_part.end());
   in_part.erase(std::unique(in_part.begin(), in_part.end()), in_part.end());
   for (const std::uint32_t f : in_part) {
+    run_.check();
     counted_[f] = clip_->add_parts(f, clipped_) ? Counted::Clipped : Counted::ByPieces;
   }
 }
@@ -254,19 +266,15 @@ Tip FaceLook::tip(std::uint32_t face, std::uint32_t node) const {
 
 /// Divides every piece of other faces of which, with its nodes, some was seen and some was hidden.
 void FaceLook::choose_parts(std::span<const std::uint8_t> found) {
-  std::size_t cut = 0;
   for (std::uint32_t f = 0; f < surface_.faces.size(); ++f) {
     if (look_.is_turned(f) && counted_[f] == Counted::ByPieces) {
-      choose_parts_of(f, cut, found);
+      choose_parts_of(f, found);
     }
-    cut += samples_.is_whole(f) ? 0 : pieces_.first[f + 1] - pieces_.first[f];
   }
   parts_.end();
 }
 
-/// \param cut as findings_of() takes it.
-void FaceLook::choose_parts_of(std::uint32_t face, std::size_t cut,
-                               std::span<const std::uint8_t> found) {
+void FaceLook::choose_parts_of(std::uint32_t face, std::span<const std::uint8_t> found) {
   const auto of_piece = of_points();
   const std::uint32_t begin = pieces_.first[face];
   const auto& [a, b, c] = surface_.faces[face];
@@ -281,6 +289,7 @@ void FaceLook::choose_parts_of(std::uint32_t face, std::size_t cut,
   }
   // The pieces of a plain face may never have been asked about.
   const bool all = net_.is_plain[face] != 0 && corners != 0 && corners != 3;
+  std::uint32_t cut = net_.first_cut[face];
   for (std::uint32_t piece = begin; piece < pieces_.first[face + 1]; ++piece, ++cut) {
     const auto& [u, v, w] = net_.nodes[cut];
     if (all || (finding(of_piece[piece]) | found[u] | found[v] | found[w]) == kInPart) {
@@ -293,7 +302,7 @@ void FaceLook::choose_parts_of(std::uint32_t face, std::size_t cut,
 /// Edges of faces that reach deeper than all sites that were seen and, where faces are clipped, of
 /// those of which no piece was.
 void FaceLook::choose_edges() {
-  if (!near_.slivers || !picture_.is_whole) {
+  if (!known_.slivers || !picture_.is_whole) {
     return;
   }
   const auto is_deep = [&](std::uint32_t site) { return site_depths_[site] > deepest_; };
@@ -310,7 +319,7 @@ void FaceLook::choose_edges() {
       wanted[f] = std::find(seen.begin(), seen.end(), 1) == seen.end() ? 1 : 0;
     }
   }
-  edges_ = near_.slivers->places(local_, picture_, {look_.turned(), wanted, contours_});
+  edges_ = known_.slivers->places(local_, picture_, {look_.turned(), wanted, contours_});
 }
 
 /// Asks about the parts and the edges.
@@ -395,6 +404,7 @@ void FaceLook::add_slivers(Tally& tally) {
 void FaceLook::add_past_contours(Tally& tally) {
   std::size_t next = clipped_.parts.size();
   for (const std::uint32_t f : past_) {
+    run_.check();
     if (look_.is_turned(f) && !tally.has(f) && clip_->add_parts(f, clipped_)) {
       add_clipped(f, next, tally);
     }

@@ -29,7 +29,7 @@ namespace vantage {
 /// For one thread to call.
 class FaceLook {
  public:
-  /// \param local the eye in the surface's frame.
+  /// \param local the eye in the surface's frame. \param samples, run must outlive this.
   FaceLook(FaceSamples& samples, const Viewpoint& local, const RunContext& run);
 
   /// All that is seen, once.
@@ -41,12 +41,13 @@ class FaceLook {
 
   void look_at_samples();
   void list_contours();
-  [[nodiscard]] std::uint8_t findings_of(std::uint32_t face, std::size_t cut,
+  bool is_seen_past(std::uint32_t edge);
+  [[nodiscard]] std::uint8_t findings_of(std::uint32_t face,
                                          std::span<const std::uint8_t> found) const;
   [[nodiscard]] std::vector<std::uint8_t> node_findings() const;
   void choose_clipped(std::span<const std::uint8_t> found);
   void choose_parts(std::span<const std::uint8_t> found);
-  void choose_parts_of(std::uint32_t face, std::size_t cut, std::span<const std::uint8_t> found);
+  void choose_parts_of(std::uint32_t face, std::span<const std::uint8_t> found);
   [[nodiscard]] Tip tip(std::uint32_t face, std::uint32_t node) const;
   void choose_edges();
   void look_closer();
@@ -66,7 +67,8 @@ class FaceLook {
   }
 
   FaceSamples& samples_;
-  const FaceSamples::Neighbourhood& near_;
+  const RunContext& run_;
+  const FaceSamples::Neighbourhood& known_;
   const Surface& surface_;
   const FacePieces& pieces_;
   const PieceNet& net_;
@@ -76,7 +78,7 @@ class FaceLook {
   SitePicture picture_;
   std::optional<FaceClip> clip_{};         // where faces seen in part are clipped
   std::vector<std::uint32_t> contours_{};  // edges
-  std::vector<std::uint32_t> past_{};      // faces seen past them, some more than once
+  std::vector<std::uint32_t> past_{};      // faces seen past them
   // First look: sites, the pieces' centroids and the nodes on edges.
   std::vector<std::uint8_t> at_sites_;  // Look::faces_at_sites()
   std::vector<std::uint8_t> seen_{};

@@ -196,6 +196,7 @@ PieceNet piece_net(const Surface& surface, const FacePieces& pieces) {
   Cutter cutter(pieces.longest);
   for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
     const std::array<Vec3, 3> corners = corners_of(surface, f);
+    net.first_cut.push_back(static_cast<std::uint32_t>(net.corners.size()));
     net.is_plain.push_back(longest_of(corners) <= plain * pieces.longest ? 1 : 0);
     if (pieces.first[f + 1] - pieces.first[f] == 1) {
       divide(corners);

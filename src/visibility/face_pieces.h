@@ -47,6 +47,7 @@ struct PieceNet {
   std::vector<std::uint8_t> is_plain{};        ///< 1 for each face without a long side.
   std::vector<std::array<Vec3, 3>> corners{};  ///< Of the pieces of faces that were cut, in order.
   std::vector<Triangle> nodes{};               ///< Of the same.
+  std::vector<std::uint32_t> first_cut{};      ///< Where those of each face begin.
   std::size_t node_count = 0;
 
   /// Centroids of all pieces and then the nodes on edges, to be asked about.

@@ -57,8 +57,6 @@ class Polygons {
 
   [[nodiscard]] std::size_t size() const { return ends_.size(); }
 
-  [[nodiscard]] bool empty() const { return ends_.empty(); }
-
   [[nodiscard]] Points operator[](std::size_t i) const {
     const std::size_t begin = i == 0 ? 0 : ends_[i - 1];
     return std::span(points_).subspan(begin, ends_[i] - begin);

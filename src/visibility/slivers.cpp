@@ -16,6 +16,9 @@ namespace {
 
 // Parts of an edge shorter than this share of it are rounding: where it ends on a contour.
 constexpr double kShortest = 1e-9;
+// Contours compared with edges for one eye, some tenths of a second: models tried take a tenth of
+// it. Where thousands of faces share a place of the picture no more is looked for.
+constexpr std::size_t kPatience = 10'000'000;
 
 /// Where the segment ab passes through the inside of a triangle, as a share of the way.
 std::optional<double> piercing(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& corners,
@@ -206,15 +209,18 @@ bool SliverSearch::is_contour(std::size_t edge, std::span<const std::uint8_t> tu
   return one == 0 || other == 0 || (one == other) != (edges_.pairs[edge] == EdgePair::Opposite);
 }
 
-/// Adds where the edge passes behind a contour.
-void SliverSearch::add_crossings(std::size_t edge, const Viewpoint& eye, const SitePicture& picture,
-                                 const Contours& contours, std::vector<double>& cuts) const {
+/// Adds where the edge passes behind a contour. \return how many contours it was compared with.
+std::size_t SliverSearch::add_crossings(std::size_t edge, const Viewpoint& eye,
+                                        const SitePicture& picture, const Contours& contours,
+                                        std::vector<double>& cuts) const {
+  std::size_t compared = 0;
   const auto& ends = edges_.table.edges[edge];
   const Vec3& a = surface_.sites[ends[0]];
   const Vec3& b = surface_.sites[ends[1]];
   const SitePicture::Box box = picture.box(ends);
   const Vec3 normal = (b - a).cross(sight_line(a, eye));
   contours.near(ends, [&](const Contour& contour) {
+    ++compared;
     if (!box.intersects(contour.box)) {
       return;
     }
@@ -234,6 +240,7 @@ void SliverSearch::add_crossings(std::size_t edge, const Viewpoint& eye, const S
       cuts.push_back(share);
     }
   });
+  return compared;
 }
 
 /// Adds the middle of each part of an edge, if a wanted face is in view beside it where it is in
@@ -292,13 +299,17 @@ EdgePlaces SliverSearch::places(const Viewpoint& eye, const SitePicture& picture
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   const Contours contours(*this, eye, picture, asked.contours, edges);
   std::vector<double> cuts;
+  std::size_t compared = 0;
   for (const std::uint32_t e : edges) {
+    if (compared > kPatience) {
+      break;
+    }
     if (edges_.table.faces_of_edge[e].size() > 2) {
       continue;
     }
     cuts.assign(pierced_.begin() + static_cast<std::ptrdiff_t>(first_pierced_[e]),
                 pierced_.begin() + static_cast<std::ptrdiff_t>(first_pierced_[e + 1]));
-    add_crossings(e, eye, picture, contours, cuts);
+    compared += add_crossings(e, eye, picture, contours, cuts);
     if (!cuts.empty()) {  // else the ends tell
       add_places(e, eye, asked, cuts, result);
     }

@@ -65,8 +65,8 @@ class SliverSearch {
   struct Contour;
   class Contours;
 
-  void add_crossings(std::size_t edge, const Viewpoint& eye, const SitePicture& picture,
-                     const Contours& contours, std::vector<double>& cuts) const;
+  std::size_t add_crossings(std::size_t edge, const Viewpoint& eye, const SitePicture& picture,
+                            const Contours& contours, std::vector<double>& cuts) const;
   void add_places(std::size_t edge, const Viewpoint& eye, const Asked& asked,
                   std::vector<double>& cuts, EdgePlaces& result) const;
 

@@ -28,7 +28,7 @@ struct SeenFace {
   double projected_area = 0.0;  ///< Of its picture, model units squared; see FaceVisibility.
 };
 
-/// Everything that one look at the samples of a surface tells.
+/// Everything that one look at a surface tells.
 struct SeenSurface {
   /// Bins of `depths`, over the diameter of the enclosing sphere. [Secord 2011 leaves them open]
   static constexpr std::size_t kDepthBins = 64;
@@ -37,14 +37,15 @@ struct SeenSurface {
   std::vector<std::uint8_t> vertices{};  ///< 1 for each vertex seen, as VertexVisibility says.
   /// Projected area by depth: bin 0 begins where the enclosing sphere does, the last ends with it.
   std::array<double, kDepthBins> depths{};
-  /// Greatest depth of the vertices, samples and parts of edges seen, over the diameter; in [0, 1].
+  /// Greatest depth of the vertices, parts of faces and of edges seen, over the diameter; in [0, 1].
   double deepest = 0.0;
 };
 
 /// Samples a surface and asks which samples an eye sees: every face is cut into pieces, and each
-/// piece is judged by its centroid. A piece that may be seen in part, because its centroid, its
-/// corners and the pieces beside it disagree, is divided again where areas and depths are asked
-/// for, and its parts are judged so. Immutable after construction; queries are const and may run on
+/// piece is judged by its centroid. Where areas and depths are asked for, faces that may be seen in
+/// part are clipped: what is seen of them is exact (docs/visibility.md). Of more than 60 000 faces,
+/// and from an eye that has some of the surface behind it, pieces that may be seen in part are
+/// divided again instead, and their parts are judged so. Immutable after construction; queries are const and may run on
 /// many threads at once. Answers do not depend on the number of threads.
 ///
 /// Projected areas are measured on a plane across the line of sight; seen in perspective, on the
