@@ -415,11 +415,10 @@ TEST(FaceVisibility, SeesEveryFrontFaceOfAConvexMeshWithItsCornersAndNoOther) {
         corners[v] = 1;
       }
     }
-    std::vector<std::uint32_t> found;
-    for (const SeenFace& face : visibility.seen_faces(eye)) {
-      found.push_back(face.face);
-    }
-    EXPECT_EQ(found, expected);
+    const std::vector<SeenFace> seen = visibility.seen_faces(eye);
+    EXPECT_TRUE(
+        std::equal(seen.begin(), seen.end(), expected.begin(), expected.end(),
+                   [](const SeenFace& face, std::uint32_t front) { return face.face == front; }));
     EXPECT_EQ(visibility.visible_vertices(eye), corners);
     EXPECT_EQ(vertices.visible_vertices(eye), corners);
   }
