@@ -200,9 +200,10 @@ void FaceLook::list_contours() {
   for (std::uint32_t e = 0; e < table.edges.size(); ++e) {
     const auto& [a, b] = table.edges[e];
     const bool is_asked = ((at_sites_[a] | at_sites_[b]) & Look::kTurned) != 0;
-    const bool is_open = !is_asked || (seen_[a] | seen_[b]) != 0;
-    if ((is_open || clip_) && known_.slivers->is_contour(e, look_.turned())) {
-      if ((clip_ && is_seen_past(e)) || is_open) {
+    const bool may_be_seen = !is_asked || (seen_[a] | seen_[b]) != 0;
+    if ((may_be_seen || clip_) && known_.slivers->is_contour(e, look_.turned())) {
+      const bool is_seen = clip_ && is_seen_past(e);
+      if (is_seen || may_be_seen) {
         contours_.push_back(e);
       }
     }

@@ -45,8 +45,8 @@ struct SeenSurface {
 /// piece is judged by its centroid. Where areas and depths are asked for, faces that may be seen in
 /// part are clipped: what is seen of them is exact (docs/visibility.md). Of more than 60 000 faces,
 /// and from an eye that has some of the surface behind it, pieces that may be seen in part are
-/// divided again instead, and their parts are judged so. Immutable after construction; queries are const and may run on
-/// many threads at once. Answers do not depend on the number of threads.
+/// divided again instead, and their parts are judged so. Immutable after construction; queries are
+/// const and may run on many threads at once. Answers do not depend on the number of threads.
 ///
 /// Projected areas are measured on a plane across the line of sight; seen in perspective, on the
 /// one through the centre of the mesh's enclosing sphere, across the line from there to the eye. An

@@ -64,6 +64,7 @@ TEST_P(ForThreads, ParallelForVisitsEveryIndexOnce) {
 }
 
 TEST_P(ForThreads, ParallelSortPutsAllInOrder) {
+  const auto raised = many_threads();
   RunContext run;
   run.max_threads = GetParam();
   for (const std::size_t count : {0U, 1U, 99U, 100U, 101U, 350U, 1000U}) {

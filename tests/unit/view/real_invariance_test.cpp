@@ -103,8 +103,9 @@ struct Case {
 
 // Areas are stored as floats, 6e-8 of them.
 constexpr double kStrict = 1e-6;
-// Of twelve models tried one has a face, and some samples, that are seen or not as rounding has it, as many where
-// each vertex moves by 1e-15 diameters or the model is scaled by 1e6: docs/measures.md.
+// Of twelve models tried one has a face, and some samples, that are seen or not as rounding has it,
+// as many where each vertex moves by 1e-15 diameters or the model is scaled by 1e6:
+// docs/measures.md.
 constexpr double kSomeSamples = 1e-3;
 
 class MeasuresOfAMovedModel : public test::DataPackTest<testing::TestWithParam<Case>> {
