@@ -14,6 +14,8 @@ namespace vantage {
 struct ComponentHistory {
   std::vector<std::vector<Vec3>> levels{};  ///< Scaled positions; level 0 is the input.
   std::vector<double> shrinkage{};          ///< [a_t] per level.
+  std::vector<Vec3>
+      thinned{};  ///< What ContractionHistory::thinned has of it; empty: the last level.
   ComponentContraction summary{};
 };
 

@@ -89,6 +89,7 @@ constexpr double kProxyShare = 0.7;
 struct PieceResult {
   ComponentHistory history{};
   std::optional<Proxy> proxy{};  ///< What `history` is of, if not of the piece itself.
+  bool is_thinned = false;       ///< Whether it was, once `history` is placed and forgotten.
 };
 
 ComponentHistory contract_scaled(const TriMesh& scaled, const std::optional<Proxy>& proxy,
@@ -98,7 +99,8 @@ ComponentHistory contract_scaled(const TriMesh& scaled, const std::optional<Prox
   }
   ComponentHistory history = contract_component(proxy->mesh, options, run, proxy->shares);
   history.summary.vertices = scaled.positions.size();
-  history.summary.strategy = "proxy " + std::to_string(proxy->mesh.positions.size());
+  history.summary.strategy = "proxy " + std::to_string(proxy->mesh.positions.size()) +
+                             (history.thinned.empty() ? "" : ", thinned");
   return history;
 }
 
@@ -121,8 +123,7 @@ PieceResult contract_piece(const TriMesh& mesh, const Piece& piece,
   if (scaled.triangles.empty()) {
     return {{.levels = {scaled.positions},
              .shrinkage = {1.0},
-             .summary = {.vertices = scaled.positions.size()}},
-            {}};
+             .summary = {.vertices = scaled.positions.size()}}};
   }
   PieceResult result;
   const std::size_t n = piece.vertices.size();
@@ -137,11 +138,13 @@ PieceResult contract_piece(const TriMesh& mesh, const Piece& piece,
     result.proxy.reset();
     result.history = contract_scaled(scaled, result.proxy, options, run);
   }
-  for (auto& level : result.history.levels) {
-    for (Vec3& p : level) {
+  const auto to_model = [&scaling](std::vector<Vec3>& points) {
+    for (Vec3& p : points) {
       p = p / scaling.factor + scaling.centre;
     }
-  }
+  };
+  std::for_each(result.history.levels.begin(), result.history.levels.end(), to_model);
+  to_model(result.history.thinned);
   return result;
 }
 
@@ -155,15 +158,30 @@ void place(const Piece& piece, const PieceResult& result, const TriMesh& mesh,
   if (levels.size() == 1) {
     return;  // stays at its exact input position
   }
-  for (std::size_t level = 1; level < history.levels.size(); ++level) {
-    const auto& from = levels[std::min(level, levels.size() - 1)];
-    auto& to = history.levels[level];
+  const auto carry = [&](const std::vector<Vec3>& from, std::vector<Vec3>& to) {
     parallel_for(run, piece.vertices.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         to[piece.vertices[i]] =
             result.proxy ? position_of(result.proxy->place[i], result.proxy->mesh, from) : from[i];
       }
     });
+  };
+  for (std::size_t level = 1; level < history.levels.size(); ++level) {
+    carry(levels[std::min(level, levels.size() - 1)], history.levels[level]);
+  }
+  if (!result.history.thinned.empty()) {
+    history.thinned.resize(mesh.positions.size());
+    carry(result.history.thinned, history.thinned);
+  }
+}
+
+/// What was not thinned stands in `thinned` as at the last level, if it has anything.
+void fill_thinned(const std::vector<PieceResult>& results, ContractionHistory& history) {
+  for (std::size_t v = 0; v < history.thinned.size(); ++v) {
+    const std::uint32_t piece = history.component_of_vertex[v];
+    if (piece == ContractionHistory::kIsolated || !results[piece].is_thinned) {
+      history.thinned[v] = history.levels.back()[v];
+    }
   }
 }
 
@@ -245,7 +263,9 @@ ContractionHistory contract_pieces(const TriMesh& mesh, const ContractionOptions
     }
     results.back().proxy.reset();  // now in `history`; keeps the peak at one copy
     results.back().history.levels.clear();
+    results.back().is_thinned = !std::exchange(results.back().history.thinned, {}).empty();
   }
+  fill_thinned(results, history);
   summarise(results, history);
   run.advance("contracting", 1.0);
   return history;
@@ -263,11 +283,13 @@ ContractionHistory of_refined(const TriMesh& mesh, TriMesh refined,
   for (std::size_t c = 0; c < added.size(); ++c) {
     ComponentContraction& component = history.components[c];
     if (added[c] > 0) {
-      component.strategy = "refined " + std::to_string(component.vertices);
+      component.strategy.replace(0, component.strategy.find(','),
+                                 "refined " + std::to_string(component.vertices));
       component.vertices -= added[c];
     }
   }
-  ContractedRefinement all{std::move(refined), history.levels, history.component_of_vertex};
+  ContractedRefinement all{std::move(refined), history.levels, history.component_of_vertex,
+                           std::exchange(history.thinned, {})};
   for (auto& level : history.levels) {
     level.resize(n);
   }

@@ -90,6 +90,7 @@ ViewOptions preset_options(Preset preset) {
   if (preset == Preset::Paper) {
     options.contraction.method = ContractionMethod::Exact;
     options.contraction.scaling = ContractionScaling::Box;
+    options.contraction.sheet_limit = options.contraction.contraction_limit;  // no further
     options.skeleton.scaling = ContractionScaling::Box;
     options.prior = no_prior();
     options.kssm.flat_level = 0.0;

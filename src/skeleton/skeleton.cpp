@@ -129,16 +129,23 @@ Collapsed collapse_merged(const MergedSurface& merged, const std::vector<Vec3>& 
   return collapsed;
 }
 
-/// Collapses the surface at its last level. Where several handles have shrunk into one another
+/// Where the surface has contracted most.
+const std::vector<Vec3>& thinnest(const ContractionHistory& history) {
+  return history.thinned.empty() ? history.levels.back() : history.thinned;
+}
+
+/// Collapses the surface where it is thinnest. Where several handles have shrunk into one another
 /// there, the order of collapses is taken from the last level at which no handle is lost; nodes
-/// stand at the mean of their vertices' last positions all the same.
+/// stand at the mean of their vertices' thinnest positions all the same.
 Collapsed collapse_history(const TriMesh& mesh, const ContractionHistory& history, double spacing,
                            const RunContext& run) {
   const std::vector<double> weights = cluster_weights(mesh);
   Collapsed best;
   double share = 0.0;
-  for (std::size_t level = history.levels.size(); level-- > 0;) {
-    const std::vector<Vec3>& positions = history.levels[level];
+  const std::size_t past_levels = history.levels.size() + (history.thinned.empty() ? 0 : 1);
+  for (std::size_t level = past_levels; level-- > 0;) {
+    const std::vector<Vec3>& positions =
+        level < history.levels.size() ? history.levels[level] : history.thinned;
     const RunContext part = run.part(share, 0.5 * (1.0 + share));
     Collapsed trial = history.merged
                           ? collapse_merged(*history.merged, positions, weights, spacing, part)
@@ -151,7 +158,7 @@ Collapsed collapse_history(const TriMesh& mesh, const ContractionHistory& histor
       break;
     }
   }
-  place_nodes(best.graph, history.levels.back(), weights, best.node_of_vertex);
+  place_nodes(best.graph, thinnest(history), weights, best.node_of_vertex);
   return best;
 }
 
@@ -159,6 +166,7 @@ Collapsed collapse_history(const TriMesh& mesh, const ContractionHistory& histor
 bool belongs_to(const ContractionHistory& history, const TriMesh& mesh) {
   const std::size_t n = mesh.positions.size();
   return !history.levels.empty() && history.component_of_vertex.size() == n &&
+         (history.thinned.empty() || history.thinned.size() == n) &&
          std::all_of(history.levels.begin(), history.levels.end(),
                      [n](const auto& level) { return level.size() == n; });
 }
@@ -220,6 +228,7 @@ Skeleton of_refinement(const TriMesh& mesh, const ContractedRefinement& refineme
   ContractionHistory history;
   history.levels = refinement.levels;
   history.component_of_vertex = refinement.component_of_vertex;
+  history.thinned = refinement.thinned;
   Skeleton skeleton = extract_skeleton(refinement.mesh, history, options, run);
   skeleton.node_of_vertex.resize(mesh.positions.size());
   skeleton.raw_node_of_vertex.resize(mesh.positions.size());

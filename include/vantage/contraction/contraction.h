@@ -39,6 +39,7 @@ struct ContractionOptions {
   ContractionScaling scaling = ContractionScaling::Sphere;  ///< Unit of the weights.
   double contraction_growth = 3.0;    ///< [s_L] factor on W_L per step (Cao; Au used 2); > 1.
   double contraction_limit = 2048.0;  ///< Largest W_L (Cao).
+  double sheet_limit = 8192.0;        ///< Largest W_L of ContractionHistory::thinned (ours).
   double attraction_limit = 1e4;      ///< Largest W_H (Cao).
   double diagonal_limit = 1e4;        ///< Rows of L with a larger diagonal are scaled down (Cao).
   double shrinkage_tolerance = 0.01;  ///< Stop when a_{t−1} − a_t falls below (Cao).
@@ -51,6 +52,9 @@ inline constexpr auto kContractionFields = std::tuple{
           "factor on the contraction weight per step [s_L] (Cao 2010: 3; Au 2008: 2)"},
     Field{"contraction-limit", &ContractionOptions::contraction_limit, 1.0, 1e9,
           "largest contraction weight W_L (Cao 2010)"},
+    Field{"sheet-limit", &ContractionOptions::sheet_limit, 1.0, 1e9,
+          "largest contraction weight where a sheet is contracted further to a curve, for the "
+          "skeleton alone; none above contraction-limit: never"},
     Field{"attraction-limit", &ContractionOptions::attraction_limit, 1.0, 1e9,
           "largest attraction weight W_H (Cao 2010)"},
     Field{"diagonal-limit", &ContractionOptions::diagonal_limit, 1.0, 1e12,
@@ -86,6 +90,7 @@ struct ContractedRefinement {
   TriMesh mesh{};                                    ///< The same surface with more vertices.
   std::vector<std::vector<Vec3>> levels{};           ///< K + 1 levels of its vertices, model units.
   std::vector<std::uint32_t> component_of_vertex{};  ///< As in ContractionHistory.
+  std::vector<Vec3> thinned{};                       ///< As in ContractionHistory.
 };
 
 /// The surface with some vertices merged: the same components, borders and genus, fewer faces. A skeleton that starts
@@ -103,7 +108,11 @@ struct ContractionHistory {
   std::vector<double> shrinkage{};  ///< [a_t] per level, area-ratio mean; 1 at level 0.
   std::vector<ComponentContraction> components{};  ///< Ordered by lowest vertex index.
   std::vector<std::uint32_t>
-      component_of_vertex{};            ///< |V| indices into `components`, or kIsolated.
+      component_of_vertex{};  ///< |V| indices into `components`, or kIsolated.
+  /// |V| points from which the skeleton is collapsed, or empty: those of the last level. Components
+  /// that stopped shrinking as sheets stand as they do contracted further, all others as at the last
+  /// level [ours: docs/contraction.md].
+  std::vector<Vec3> thinned{};
   std::vector<std::string> warnings{};  ///< One sentence each.
   /// If some component was made of few huge faces.
   std::optional<ContractedRefinement> refinement{};

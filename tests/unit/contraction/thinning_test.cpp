@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "vantage/contraction/contraction.h"
+#include "vantage/mesh/measures.h"
+#include "vantage/skeleton/skeleton.h"
+
+#include "support/shapes.h"
+
+/// \file
+/// Sheets that are contracted further for the skeleton. A low limit stops any shape as a sheet.
+
+namespace vantage {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+constexpr double kLow = 20.0;  // a limit at which the shapes below stop as sheets
+constexpr double kHigh = 2048.0;
+constexpr double kThin = 0.04;  // what a curve has left of its area, docs/contraction.md
+
+TriMesh egg() {
+  TriMesh mesh = test::sphere(4);
+  for (Vec3& p : mesh.positions) {
+    p = Vec3(2.0 * p.x(), 1.2 * p.y(), 0.8 * p.z());
+  }
+  return mesh;
+}
+
+ContractionHistory contract_to(const TriMesh& mesh, double limit, double sheet_limit) {
+  return contract(mesh, {.contraction_limit = limit, .sheet_limit = sheet_limit});
+}
+
+TEST(Thinning, IsWhatTheHigherLimitContractsTo) {
+  const ContractionHistory low = contract_to(egg(), kLow, kHigh);
+  const ContractionHistory high = contract_to(egg(), kHigh, kHigh);
+  ASSERT_GT(low.shrinkage.back(), kThin);
+  ASSERT_LE(high.shrinkage.back(), kThin);
+  EXPECT_EQ(low.thinned, high.levels.back());
+  EXPECT_THAT(low.components.front().strategy, HasSubstr("thinned"));
+}
+
+TEST(Thinning, ChangesNoLevel) {
+  const ContractionHistory with = contract_to(egg(), kLow, kHigh);
+  const ContractionHistory without = contract_to(egg(), kLow, kLow);
+  EXPECT_EQ(with.levels, without.levels);
+  EXPECT_EQ(with.shrinkage, without.shrinkage);
+  EXPECT_THAT(without.thinned, IsEmpty());
+  EXPECT_THAT(without.components.front().strategy, Not(HasSubstr("thinned")));
+}
+
+TEST(Thinning, LeavesCurvesAlone) {
+  const ContractionHistory history = contract_to(egg(), kHigh, 4.0 * kHigh);
+  EXPECT_LE(history.shrinkage.back(), kThin);
+  EXPECT_THAT(history.thinned, IsEmpty());
+}
+
+TEST(Thinning, IsForgottenWhereTheSheetStaysASheet) {
+  const ContractionHistory history = contract_to(egg(), kLow, 1.01 * kLow);
+  EXPECT_GT(history.shrinkage.back(), kThin);
+  EXPECT_THAT(history.thinned, IsEmpty());
+}
+
+TEST(Thinning, LeavesOtherComponentsAndLooseVerticesWhereTheyAre) {
+  TriMesh mesh = test::together(egg(), test::torus(1.0, 0.02, 60, 8), Vec3(5.0, 0.0, 0.0));
+  mesh.positions.emplace_back(0.0, 9.0, 0.0);
+  const ContractionHistory history = contract_to(mesh, kLow, kHigh);
+  const std::size_t others = egg().positions.size();
+  ASSERT_EQ(history.thinned.size(), mesh.positions.size());
+  EXPECT_THAT(history.components[0].strategy, HasSubstr("thinned"));
+  EXPECT_THAT(history.components[1].strategy, Not(HasSubstr("thinned")));
+  for (std::size_t v = others; v < mesh.positions.size(); ++v) {
+    EXPECT_EQ(history.thinned[v], history.levels.back()[v]);
+  }
+}
+
+TEST(Thinning, GoesByProxiesToo) {
+  TriMesh mesh = test::sphere(6);
+  for (Vec3& p : mesh.positions) {
+    p.x() *= 4.0;
+  }
+  const ContractionHistory history = contract_to(mesh, kLow, kHigh);
+  ASSERT_THAT(history.components.front().strategy, HasSubstr("proxy"));
+  EXPECT_THAT(history.components.front().strategy, HasSubstr("thinned"));
+  ASSERT_EQ(history.thinned.size(), mesh.positions.size());
+  EXPECT_EQ(history.thinned, contract_to(mesh, kHigh, kHigh).levels.back());
+}
+
+TEST(Thinning, GoesByRefinedSurfacesToo) {
+  const TriMesh prism = test::cylinder(0.5, 6.0, 6, 1);
+  const ContractionHistory history = contract_to(prism, 0.1 * kLow, kHigh);
+  ASSERT_THAT(history.components.front().strategy, HasSubstr("refined"));
+  EXPECT_THAT(history.components.front().strategy, HasSubstr("thinned"));
+  EXPECT_THAT(history.thinned, IsEmpty());
+  EXPECT_EQ(history.refinement->thinned.size(), history.refinement->mesh.positions.size());
+}
+
+TEST(Thinning, GivesTheSkeletonOfTheHigherLimit) {
+  const Skeleton low = extract_skeleton(egg(), contract_to(egg(), kLow, kHigh));
+  const Skeleton high = extract_skeleton(egg(), contract_to(egg(), kHigh, kHigh));
+  EXPECT_EQ(low.raw.nodes, high.raw.nodes);
+  EXPECT_EQ(low.raw.edges, high.raw.edges);
+  EXPECT_EQ(low.graph.nodes, high.graph.nodes);
+}
+
+TEST(Thinning, OfAnotherMeshIsRefused) {
+  ContractionHistory history = contract_to(egg(), kLow, kHigh);
+  history.thinned.pop_back();
+  EXPECT_THROW(extract_skeleton(egg(), history), InvalidInput);
+}
+
+}  // namespace
+}  // namespace vantage
