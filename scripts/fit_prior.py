@@ -3,11 +3,13 @@
 """Fits the upright prior to views that people chose, cross-validates it by model, prints the table.
 
     fit_prior.py FOLDER --vantage PROGRAM [--cache FOLDER] [--sphere 4] [--page docs/prior.md] [--check]
+                 [--beside METHOD...]
 
 FOLDER holds views.csv (model,subject,status,vx,vy,vz,…), mirror_planes.csv (model,nx,ny,nz) and the
 models in models/, y up. Score fields come from `PROGRAM score MODEL --sphere N` and are kept in the
 cache. docs/prior.md explains the method; --page writes the tables into that page, between its marks;
---check fails when the claims of the page do not hold. Needs numpy (Debian: python3-numpy).
+--check fails when the claims of the page do not hold; --beside tries further measures, each with a fitted
+exponent, as factors beside KSSM and in its place, and says so on the page. Needs numpy (Debian: python3-numpy).
 """
 import argparse
 import csv
@@ -76,13 +78,13 @@ def read_people(folder):
     return [people[name] for name in sorted(people)]
 
 
-def score_field(program, model, level, cache):
-    """Directions and KSSM scores as shares of the largest; the key is the program and the model."""
+def score_field(program, model, level, cache, method="kssm"):
+    """Directions and scores as shares of the largest; the key is the program and the model."""
     key = hashlib.sha256(pathlib.Path(program).read_bytes() + model.read_bytes()).hexdigest()[:16]
-    path = cache / f"{model.name}-{level}-{key}.csv"
+    path = cache / f"{model.name}-{method}-{level}-{key}.csv"
     if not path.exists():
-        subprocess.run([program, "score", str(model), "--sphere", str(level), "-o", str(path), "-q"],
-                       check=True)
+        subprocess.run([program, "score", str(model), "--method", method, "--sphere", str(level), "-o", str(path),
+                        "-q"], check=True)
     with open(path, newline="", encoding="utf-8") as file:
         table = np.array([[row["dx"], row["dy"], row["dz"], row["score"]]
                           for row in csv.DictReader(file)], float)
@@ -93,14 +95,17 @@ class Study:
     """Score fields and people together, on one set of directions."""
 
     def __init__(self, people, fields):
+        """:param fields: of each measure, of each of the people's models."""
         self.people = people
-        self.directions = fields[0][0]
+        self.directions = fields[0][0][0]
         side, up, front = self.directions.T
         # Near-ties fall toward the front, then toward the right.
         self.tie = FRONT_SHARE * front + SIDE_SHARE * side
         self.shape = np.stack([up, -up * up, 4 * side**2 * front**2], 1)
-        self.log_score = [np.log(np.maximum(score, FLOOR)) for _, score in fields]
-        self.features = [np.column_stack([log, self.shape]) for log in self.log_score]
+        self.log_scores = [np.stack([np.log(np.maximum(field[1], FLOOR)) for field in of_model], 1)
+                           for of_model in zip(*fields)]
+        self.features = [np.column_stack([logs, self.shape]) for logs in self.log_scores]
+        self.measures = len(fields)
         # The set's direction nearest to each chosen view and to its mirror images: views × copies.
         self.near = [(one.copies(one.views(True), True) @ self.directions.T).argmax(2).T
                      for one in people]
@@ -108,7 +113,7 @@ class Study:
 
     def fit(self, models):
         """Weights of log score and shape under which the chosen views, folded, are likeliest."""
-        w = START.copy()
+        w = np.concatenate([np.full(self.measures, START[0]), START[1:]])
         for _ in range(200):
             slope, bend = -RIDGE * w, -RIDGE * np.eye(len(w))
             for m in models:
@@ -134,11 +139,10 @@ class Study:
         p = self.chance(m, w)
         return np.log(p[self.near[m]].mean(1) * len(p)).mean()
 
-    def log_prior(self, w, strength):
-        return strength * (self.shape @ w[1:]) / w[0] + self.tie
-
     def pick(self, m, w, strength):
-        return int((self.log_score[m] + self.log_prior(w, strength)).argmax())
+        k = self.measures
+        bent = self.log_scores[m] @ w[:k] + strength * (self.shape @ w[k:])
+        return int((bent / w[:k].sum() + self.tie).argmax())
 
     def choose_strength(self, models, w):
         risk = [np.mean([self.error[m][self.pick(m, w, s)] for m in models]) for s in STRENGTHS]
@@ -150,6 +154,33 @@ def constants(w, strength):
     return {"elevation_sine": w[1] / (2 * w[2]), "elevation_strength": strength * w[2] / w[0],
             "corner_strength": strength * w[3] / w[0], "front_strength": FRONT_SHARE,
             "side_strength": SIDE_SHARE}
+
+
+def beside(study):
+    """Leaving out each model, with every measure of the study: error and likelihood; and the exponents."""
+    everyone = range(len(study.people))
+    error, likelihood = [], []
+    for m in everyone:
+        rest = [k for k in everyone if k != m]
+        w = study.fit(rest)
+        error.append(study.error[m][study.pick(m, w, study.choose_strength(rest, w))])
+        likelihood.append(study.likelihood(m, w))
+    w = study.fit(everyone)
+    return np.mean(error), np.mean(likelihood), w[:study.measures] / w[:study.measures].sum()
+
+
+def beside_table(people, kssm, others):
+    """:param others: of each further measure, its fields by the measure's name."""
+    lines = ["", "Other measures beside KSSM, as score^a · other^(1 − a), and in its place, with a fitted as all else is:", "",
+             "| factors of the objective | error of left-out models | likelihood, nats a row | a |", "| --- | --- | --- | --- |"]
+    trials = {"KSSM": [kssm]}
+    for name, fields in others.items():
+        trials[f"KSSM and {name}"] = [kssm, fields]
+        trials[name] = [fields]
+    for name, fields in trials.items():
+        error, likelihood, share = beside(Study(people, fields))
+        lines.append(f"| {name} | {error:.3f} | {likelihood:.3f} | {share[0]:.2f} |")
+    return "\n".join(lines) + "\n"
 
 
 def cross_validate(study):
@@ -213,7 +244,7 @@ def table(study, ours, alone):
         angles = one.angles(d, fold, moved_only)
         return measure(angles[int(angles.mean(1).argmin())][None])
 
-    kssm = np.array([d[int(log.argmax())] for log in study.log_score])
+    kssm = np.array([d[int(logs[:, 0].argmax())] for logs in study.log_scores])
     rows = {
         "**ours: prior × KSSM**, left-out models": chosen(ours),
         "prior alone, left-out models": chosen(alone),
@@ -287,19 +318,26 @@ def main():
     parser.add_argument("--sphere", type=int, default=4)
     parser.add_argument("--page", type=pathlib.Path)
     parser.add_argument("--check", action="store_true")
+    parser.add_argument("--beside", nargs="+", default=[], metavar="METHOD")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         cache = options.cache or pathlib.Path(scratch)
         cache.mkdir(parents=True, exist_ok=True)
         people = read_people(options.folder)
-        study = Study(people, [score_field(options.vantage, options.folder / "models" / one.name,
-                                           options.sphere, cache) for one in people])
+
+        def fields_of(method):
+            return [score_field(options.vantage, options.folder / "models" / one.name, options.sphere, cache, method)
+                    for one in people]
+        kssm = fields_of("kssm")
+        others = {method: fields_of(method) for method in options.beside}
+    study = Study(people, [kssm])
     everyone = list(range(len(people)))
     ours, alone, likelihood = cross_validate(study)
     results = table(study, ours, alone)
     w = study.fit(everyone)
     fitted = constants(w, study.choose_strength(everyone, w))
     text = page(study, results, likelihood, fitted, options.sphere)
+    text += beside_table(people, kssm, others) if others else ""
     print(text)
     if options.page:
         old = options.page.read_text(encoding="utf-8")
