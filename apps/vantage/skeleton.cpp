@@ -45,7 +45,7 @@ struct SkeletonCommand {
                        "'" +
                            extension + "'";
         });
-    app.add_option("--meso", meso, "file for the contracted surface of the last level, .ply");
+    app.add_option("--meso", meso, "file for the contracted surface that the skeleton is made from, .ply");
     app.add_option("--levels", levels,
                    "folder for the contracted surface of each level: level-00.ply, …");
     app.add_flag("--measure", measure,
@@ -69,7 +69,7 @@ struct SkeletonCommand {
       write_levels(loaded, shape);
     }
     if (!meso.empty()) {
-      write_file(meso, level_bytes(loaded, shape, shape.history.levels.back()));
+      write_file(meso, level_bytes(loaded, shape, shape.history.thinnest()));
     }
     warn_of_cut_loops(shape);
     if (measure) {

@@ -289,10 +289,11 @@ ContractionHistory of_refined(const TriMesh& mesh, TriMesh refined,
     }
   }
   ContractedRefinement all{std::move(refined), history.levels, history.component_of_vertex,
-                           std::exchange(history.thinned, {})};
+                           history.thinned};
   for (auto& level : history.levels) {
     level.resize(n);
   }
+  history.thinned.resize(history.thinned.empty() ? 0 : n);
   history.component_of_vertex.resize(n);
   history.refinement = std::move(all);
   return history;

@@ -129,11 +129,6 @@ Collapsed collapse_merged(const MergedSurface& merged, const std::vector<Vec3>& 
   return collapsed;
 }
 
-/// Where the surface has contracted most.
-const std::vector<Vec3>& thinnest(const ContractionHistory& history) {
-  return history.thinned.empty() ? history.levels.back() : history.thinned;
-}
-
 /// Collapses the surface where it is thinnest. Where several handles have shrunk into one another
 /// there, the order of collapses is taken from the last level at which no handle is lost; nodes
 /// stand at the mean of their vertices' thinnest positions all the same.
@@ -158,7 +153,7 @@ Collapsed collapse_history(const TriMesh& mesh, const ContractionHistory& histor
       break;
     }
   }
-  place_nodes(best.graph, thinnest(history), weights, best.node_of_vertex);
+  place_nodes(best.graph, history.thinnest(), weights, best.node_of_vertex);
   return best;
 }
 

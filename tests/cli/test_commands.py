@@ -67,6 +67,13 @@ class Skeleton(ProgramTest):
         last = max((self.dir / "levels").iterdir())
         self.assertEqual((self.dir / "m.ply").read_bytes(), last.read_bytes())
 
+    def test_meso_of_a_sheet_is_what_it_was_thinned_to(self):
+        model = MODELS / "candle_stand.ply"
+        self.vantage("skeleton", model, "-o", "s.json", "--meso", "m.ply", "--contraction-limit", "20")
+        self.vantage("skeleton", model, "-o", "s.json", "--levels", "levels", "--contraction-limit", "8192")
+        last = max((self.dir / "levels").iterdir())
+        self.assertEqual((self.dir / "m.ply").read_bytes(), last.read_bytes())
+
     def test_measure_says_how_much_is_outside(self):
         done = self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json", "--measure", "--json")
         quality = json.loads(done.out)["quality"]

@@ -122,6 +122,11 @@ struct ContractionHistory {
   /// Marks vertices that no face names; they stay where they are.
   static constexpr std::uint32_t kIsolated = 0xffffffffu;
 
+  /// Where the surface is most like a curve: what the skeleton is collapsed from. \pre has levels
+  [[nodiscard]] const std::vector<Vec3>& thinnest() const {
+    return thinned.empty() ? levels.back() : thinned;
+  }
+
   /// K, the number of accepted steps of the longest component.
   [[nodiscard]] std::size_t level_count() const { return levels.empty() ? 0 : levels.size() - 1; }
 };
