@@ -45,7 +45,8 @@ struct SkeletonCommand {
                        "'" +
                            extension + "'";
         });
-    app.add_option("--meso", meso, "file for the contracted surface that the skeleton is made from, .ply");
+    app.add_option("--meso", meso,
+                   "file for the contracted surface that the skeleton is made from, .ply");
     app.add_option("--levels", levels,
                    "folder for the contracted surface of each level: level-00.ply, …");
     app.add_flag("--measure", measure,

@@ -107,24 +107,25 @@ SurfacePoints normalised_points(const TriMesh& surface, Vec3& centroid, double& 
   return set;
 }
 
-/// Share of the area whose mirror image is farther from the surface than the tolerance.
-double asymmetric_share(const SurfacePoints& set, const PointTree& tree, const Vec3& normal,
-                        double spacing, double tolerance) {
+/// Whether the mirror images of all but `outlier_share` of the area are as near to the surface as
+/// the tolerance asks.
+bool is_symmetric(const SurfacePoints& set, const PointTree& tree, const Vec3& normal,
+                  double spacing, const MirrorOptions& options) {
   // Reach is half an extent, the tolerance is of the whole one; samples of the two halves may lie
   // where they like within their spacing.
-  const double limit = 2.0 * tolerance + 0.6 * spacing;
+  const double limit = 2.0 * options.tolerance + 0.6 * spacing;
   const std::size_t stride = 1 + set.points.size() / kQueries;
-  double beyond = 0.0;
   double all = 0.0;
   for (std::size_t i = 0; i < set.points.size(); i += stride) {
-    const Vec3 image = set.points[i] - 2.0 * normal.dot(set.points[i]) * normal;
-    std::size_t nearest = 0;
-    double squared = 0.0;
-    tree.nearest(image, {&nearest, 1}, {&squared, 1});
     all += set.shares[i];
-    beyond += squared > limit * limit ? set.shares[i] : 0.0;
   }
-  return all > 0.0 ? beyond / all : 1.0;
+  double beyond = 0.0;
+  for (std::size_t i = 0; i < set.points.size() && beyond <= options.outlier_share * all;
+       i += stride) {
+    const Vec3 image = set.points[i] - 2.0 * normal.dot(set.points[i]) * normal;
+    beyond += tree.has_within(image, limit * limit) ? 0.0 : set.shares[i];
+  }
+  return all > 0.0 && beyond <= options.outlier_share * all;
 }
 
 std::vector<Vec3> candidate_normals(const SurfacePoints& set) {
@@ -162,8 +163,7 @@ std::vector<MirrorPlane> mirror_planes(const TriMesh& surface, const MirrorOptio
     const bool known = std::any_of(planes.begin(), planes.end(), [&](const MirrorPlane& plane) {
       return std::abs(plane.normal.dot(normal)) > same;
     });
-    if (!known &&
-        asymmetric_share(set, tree, normal, spacing, options.tolerance) <= options.outlier_share) {
+    if (!known && is_symmetric(set, tree, normal, spacing, options)) {
       planes.push_back({normal, centroid});
     }
   }

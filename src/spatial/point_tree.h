@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -27,6 +29,13 @@ class PointTree {
     return tree_.knnSearch(place.data(), found.size(), found.data(), squared.data());
   }
 
+  /// Whether a point lies at most sqrt(squared) away: ends at the first.
+  [[nodiscard]] bool has_within(const Vec3& place, double squared) const {
+    First first{std::nextafter(squared, std::numeric_limits<double>::infinity())};
+    tree_.findNeighbors(first, place.data(), nanoflann::SearchParams());
+    return first.found;
+  }
+
   using Match = std::pair<std::size_t, double>;
 
   /// All points nearer than `radius`, in no particular order.
@@ -49,6 +58,21 @@ class PointTree {
 
     template <class Box>
     bool kdtree_get_bbox(Box& /*box*/) const {
+      return false;
+    }
+  };
+
+  // A result set of nanoflann's that wants one point nearer than `limit`, whichever.
+  struct First {
+    double limit;
+    bool found = false;
+
+    [[nodiscard]] double worstDist() const { return limit; }
+
+    [[nodiscard]] bool full() const { return true; }
+
+    bool addPoint(double /*squared*/, std::size_t /*index*/) {
+      found = true;
       return false;
     }
   };
