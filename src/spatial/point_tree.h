@@ -62,7 +62,8 @@ class PointTree {
     }
   };
 
-  // A result set of nanoflann's that wants one point nearer than `limit`, whichever.
+  // A result set of nanoflann's, which names its members, that wants one point nearer than `limit`.
+  // NOLINTBEGIN(readability-identifier-naming)
   struct First {
     double limit;
     bool found = false;
@@ -76,6 +77,8 @@ class PointTree {
       return false;
     }
   };
+
+  // NOLINTEND(readability-identifier-naming)
 
   View view_;
   nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, View>, View, 3,
