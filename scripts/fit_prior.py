@@ -29,6 +29,7 @@ except ImportError:
 FRONT_SHARE = 0.08
 SIDE_SHARE = 0.04
 STRENGTHS = (1.0, 1.5, 2.0, 3.0, 4.0)  # candidates, chosen by the training models
+BESIDE = ("visibility-ratio", "projected-area", "mesh-saliency")  # what the page tries beside KSSM
 START = np.array([3.0, 5.0, 8.0, 1.0])  # of the likelihood's ascent; the result does not hang on it
 RIDGE = 1e-2  # keeps a weight finite that no row speaks about
 FLOOR = 1e-3  # a score below this share of the largest counts as this share: its logarithm is taken
@@ -318,7 +319,7 @@ def main():
     parser.add_argument("--sphere", type=int, default=4)
     parser.add_argument("--page", type=pathlib.Path)
     parser.add_argument("--check", action="store_true")
-    parser.add_argument("--beside", nargs="+", default=[], metavar="METHOD")
+    parser.add_argument("--beside", nargs="+", metavar="METHOD", help=f"with --page: {' '.join(BESIDE)}")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         cache = options.cache or pathlib.Path(scratch)
@@ -329,7 +330,8 @@ def main():
             return [score_field(options.vantage, options.folder / "models" / one.name, options.sphere, cache, method)
                     for one in people]
         kssm = fields_of("kssm")
-        others = {method: fields_of(method) for method in options.beside}
+        beside_kssm = options.beside or (BESIDE if options.page else [])
+        others = {method: fields_of(method) for method in beside_kssm}
     study = Study(people, [kssm])
     everyone = list(range(len(people)))
     ours, alone, likelihood = cross_validate(study)

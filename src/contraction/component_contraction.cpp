@@ -221,10 +221,6 @@ class Bounds {
   Vec3 largest_;
 };
 
-/// A surface of more than this share of its area is a sheet, not yet a curve [ours: where Cao's rule
-/// stops, 51 of 57 closed models have less].
-constexpr double kThin = 0.04;
-
 /// What one attempt at a step gave.
 struct Attempt {
   std::vector<Vec3> positions{};
@@ -238,6 +234,7 @@ struct State {
   double contraction = 0.0;          ///< [W_L]
   std::vector<double> attraction{};  ///< [W_H]
   double shrinkage = 1.0;            ///< [a_t]
+  int steps = 0;                     ///< Taken so far.
 };
 
 /// The surface on its way.
@@ -274,38 +271,42 @@ class Contraction {
     // The rule needs a surface that has begun to shrink: on fine smooth meshes the first steps
     // move less than the tolerance, and stopping there would leave level 0 alone.
     const bool begun = mean <= 1.0 - options_.shrinkage_tolerance;
-    if (begun && state_.shrinkage - mean < options_.shrinkage_tolerance && !is_first_) {
+    if (begun && state_.shrinkage - mean < options_.shrinkage_tolerance && !is_first()) {
       std::swap(state_.now.positions, attempt.positions);
       return ContractionStop::Shrunk;
     }
-    is_first_ = false;
     state_.shrinkage = mean;
+    ++state_.steps;
     for (std::size_t v = 0; v < state_.attraction.size(); ++v) {
       state_.attraction[v] = std::min(1.0 / std::sqrt(vertex_ratio[v]), options_.attraction_limit);
     }
-    const double before = state_.contraction;
-    state_.contraction *= options_.contraction_growth;
-    if (state_.contraction > limit) {
-      if (!past_limit_) {
-        past_limit_ = state_;
-      }
-      state_.contraction = std::max(before, limit);
+    if (!limited_ && grown(options_.sheet_limit) > grown(limit)) {
+      limited_ = state_;
     }
+    state_.contraction = grown(limit);
     return std::nullopt;
   }
 
-  /// Goes back to where a limit first kept W_L from growing, as if it had been this one. False if
-  /// none did.
-  bool raise(double limit) {
-    if (!past_limit_) {
+  /// Goes back to where a lower limit began to tell, as if it had been `sheet_limit`. False if none
+  /// did.
+  bool rewind() {
+    if (!limited_) {
       return false;
     }
-    state_ = *past_limit_;
-    state_.contraction = std::min(state_.contraction, limit);
+    state_ = std::move(*limited_);
+    state_.contraction = grown(options_.sheet_limit);
     return true;
   }
 
  private:
+  /// The next step's W_L.
+  [[nodiscard]] double grown(double limit) const {
+    return std::min(state_.contraction * options_.contraction_growth,
+                    std::max(state_.contraction, limit));
+  }
+
+  [[nodiscard]] bool is_first() const { return state_.steps == 0; }
+
   /// Ill-conditioned steps are repeated more gently, and so is one that diverges, because obtuse
   /// slivers push apart what they join. If it diverges all the same the contraction ends, except at
   /// the first step: a surface that can be contracted must not be left at level 0.
@@ -319,7 +320,7 @@ class Contraction {
       if (solved) {
         attempt.positions = std::move(*solved);
         attempt.accepted = !bounds_.exceeded_by(attempt.positions, harshness_);
-        if (attempt.accepted || (!is_first_ && is_regularised())) {
+        if (attempt.accepted || (!is_first() && is_regularised())) {
           break;
         }
       }
@@ -333,28 +334,31 @@ class Contraction {
   AreaRatios ratios_;
   StepSolver solver_;
   State state_{};
-  std::optional<State> past_limit_{};
+  std::optional<State> limited_{};  // before the first step whose W_L a limit kept low
   int harshness_ = kGentlest;
-  bool is_first_ = true;
 };
 
 /// Contracts a surface that stopped shrinking as a sheet again, with a larger W_L from where the
-/// limit began to tell: in a sheet many curves are equally good. Returns it once it is a curve, or
-/// nothing if it does not become one or slivers come in the way, which make curves of their own.
-std::vector<Vec3> thinned(Contraction& surface, const ContractionOptions& options) {
-  const double limit = options.sheet_limit;
-  const auto is_sheet = [&surface] { return surface.state().shrinkage > kThin; };
-  if (!is_sheet() || !(limit > options.contraction_limit) || surface.is_regularised() ||
-      !surface.raise(limit)) {
+/// limit began to tell: in a sheet many curves are equally good. Returns the thinnest curve that it
+/// comes to before slivers come in the way, which would make curves of their own, or nothing.
+std::vector<Vec3> thinned(Contraction& surface, const ContractionOptions& options,
+                          const RunContext& run) {
+  if (!is_sheet(surface.state().shrinkage) || surface.is_regularised() || !surface.rewind()) {
     return {};
   }
-  for (int step = 0; step < options.max_steps && !surface.is_regularised(); ++step) {
-    if (surface.step(limit)) {
+  std::vector<Vec3> curve;
+  while (surface.state().steps < options.max_steps) {
+    run.advance("contracting", 0.5 + 0.5 * surface.state().steps / options.max_steps);
+    const double before = surface.state().shrinkage;
+    if (surface.step(options.sheet_limit) || surface.is_regularised() ||
+        surface.state().shrinkage > before) {
       break;
     }
+    if (!is_sheet(surface.state().shrinkage)) {
+      curve = surface.state().now.positions;
+    }
   }
-  return is_sheet() || surface.is_regularised() ? std::vector<Vec3>{}
-                                                : surface.state().now.positions;
+  return curve;
 }
 
 }  // namespace
@@ -371,7 +375,7 @@ ComponentHistory contract_component(const TriMesh& scaled, const ContractionOpti
   }
   history.summary.stop = ContractionStop::StepLimit;
   for (int step = 0; step < options.max_steps; ++step) {
-    run.advance("contracting", static_cast<double>(step) / options.max_steps);
+    run.advance("contracting", 0.5 * step / options.max_steps);
     if (const std::optional<ContractionStop> stop = surface.step(options.contraction_limit)) {
       history.summary.stop = *stop;
       break;
@@ -382,7 +386,7 @@ ComponentHistory contract_component(const TriMesh& scaled, const ContractionOpti
     history.summary.regularised_steps += surface.is_regularised() ? 1 : 0;
   }
   if (history.summary.stop == ContractionStop::Shrunk) {
-    history.thinned = thinned(surface, options);
+    history.thinned = thinned(surface, options, run);
     history.summary.strategy += history.thinned.empty() ? "" : ", thinned";
   }
   return history;

@@ -92,21 +92,42 @@ struct PieceResult {
   bool is_thinned = false;       ///< Whether it was, once `history` is placed and forgotten.
 };
 
+/// Whether the piece is to be contracted by a proxy, if it can be made coarse enough.
+bool wants_proxy(const Piece& piece, const ContractionOptions& options) {
+  return options.method == ContractionMethod::Auto && piece.vertices.size() > kProxyFrom;
+}
+
+/// Contracts a component at full resolution. A large one is thinned by its proxy all the same:
+/// whether a sheet becomes a curve hangs on its slivers, and the methods should agree on it. Small
+/// ones are not thinned: their W_L begins far below its limit.
+ComponentHistory contract_exactly(const TriMesh& scaled, const ContractionOptions& options,
+                                  const RunContext& run) {
+  ContractionOptions no_thinning = options;
+  no_thinning.sheet_limit = options.contraction_limit;
+  ComponentHistory history = contract_component(scaled, no_thinning, run.part(0.0, 0.9));
+  // A proxy's share of the area is not quite the same; far below the bound neither is a sheet.
+  if (scaled.positions.size() > kProxyFrom && is_sheet(2.0 * history.shrinkage.back())) {
+    const Proxy proxy = make_proxy(scaled, kMergedSize, kProxySize, run);
+    const std::vector<Vec3> curve =
+        contract_component(proxy.mesh, options, run.part(0.9, 1.0), proxy.shares).thinned;
+    for (std::size_t v = 0; v < scaled.positions.size() && !curve.empty(); ++v) {
+      history.thinned.push_back(position_of(proxy.place[v], proxy.mesh, curve));
+    }
+    history.summary.strategy += curve.empty() ? "" : ", thinned";
+  }
+  return history;
+}
+
 ComponentHistory contract_scaled(const TriMesh& scaled, const std::optional<Proxy>& proxy,
                                  const ContractionOptions& options, const RunContext& run) {
   if (!proxy) {
-    return contract_component(scaled, options, run);
+    return contract_exactly(scaled, options, run);
   }
   ComponentHistory history = contract_component(proxy->mesh, options, run, proxy->shares);
   history.summary.vertices = scaled.positions.size();
   history.summary.strategy = "proxy " + std::to_string(proxy->mesh.positions.size()) +
                              (history.thinned.empty() ? "" : ", thinned");
   return history;
-}
-
-/// Whether the piece is to be contracted by a proxy, if it can be made coarse enough.
-bool wants_proxy(const Piece& piece, const ContractionOptions& options) {
-  return options.method == ContractionMethod::Auto && piece.vertices.size() > kProxyFrom;
 }
 
 PieceResult contract_piece(const TriMesh& mesh, const Piece& piece,

@@ -90,7 +90,7 @@ ViewOptions preset_options(Preset preset) {
   if (preset == Preset::Paper) {
     options.contraction.method = ContractionMethod::Exact;
     options.contraction.scaling = ContractionScaling::Box;
-    options.contraction.sheet_limit = options.contraction.contraction_limit;  // no further
+    options.contraction.sheet_limit = 1.0;  // never above the other: nothing is thinned
     options.skeleton.scaling = ContractionScaling::Box;
     options.prior = no_prior();
     options.kssm.flat_level = 0.0;

@@ -54,7 +54,7 @@ inline constexpr auto kContractionFields = std::tuple{
           "largest contraction weight W_L (Cao 2010)"},
     Field{"sheet-limit", &ContractionOptions::sheet_limit, 1.0, 1e9,
           "largest contraction weight where a sheet is contracted further to a curve, for the "
-          "skeleton alone; none above contraction-limit: never"},
+          "skeleton alone (meshes only); up to contraction-limit: never"},
     Field{"attraction-limit", &ContractionOptions::attraction_limit, 1.0, 1e9,
           "largest attraction weight W_H (Cao 2010)"},
     Field{"diagonal-limit", &ContractionOptions::diagonal_limit, 1.0, 1e12,

@@ -52,7 +52,7 @@ struct Skeleton {
 /// [r] in model units: a fraction of D (ours) or of the box diagonal (Cao 2010, section 4).
 double sample_spacing(const TriMesh& mesh, const SkeletonOptions& options);
 
-/// Extracts the curve skeleton of `mesh` from the last level of its contraction.
+/// Extracts the curve skeleton of `mesh` from ContractionHistory::thinnest() of its contraction.
 /// \pre `history` was computed from `mesh`. \throw InvalidInput, Cancelled
 Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history,
                           const SkeletonOptions& options = {}, const RunContext& run = {});

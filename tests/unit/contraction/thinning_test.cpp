@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cstddef>
-#include <string>
+#include <stop_token>
+#include <string_view>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -26,10 +28,11 @@ constexpr double kLow = 20.0;  // a limit at which the shapes below stop as shee
 constexpr double kHigh = 2048.0;
 constexpr double kThin = 0.04;  // what a curve has left of its area, docs/contraction.md
 
+/// Too many vertices to be contracted exactly by default.
 TriMesh egg() {
-  TriMesh mesh = test::sphere(4);
+  TriMesh mesh = test::sphere(6);
   for (Vec3& p : mesh.positions) {
-    p = Vec3(2.0 * p.x(), 1.2 * p.y(), 0.8 * p.z());
+    p.x() *= 4.0;
   }
   return mesh;
 }
@@ -74,6 +77,7 @@ TEST(Thinning, LeavesOtherComponentsAndLooseVerticesWhereTheyAre) {
   const ContractionHistory history = contract_to(mesh, kLow, kHigh);
   const std::size_t others = egg().positions.size();
   ASSERT_EQ(history.thinned.size(), mesh.positions.size());
+  EXPECT_NE(history.thinned.front(), history.levels.back().front());
   EXPECT_THAT(history.components[0].strategy, HasSubstr("thinned"));
   EXPECT_THAT(history.components[1].strategy, Not(HasSubstr("thinned")));
   for (std::size_t v = others; v < mesh.positions.size(); ++v) {
@@ -81,32 +85,84 @@ TEST(Thinning, LeavesOtherComponentsAndLooseVerticesWhereTheyAre) {
   }
 }
 
-TEST(Thinning, GoesByProxiesToo) {
-  TriMesh mesh = test::sphere(6);
-  for (Vec3& p : mesh.positions) {
-    p.x() *= 4.0;
+TEST(Thinning, LeavesSmallComponentsAlone) {
+  TriMesh small = test::sphere(4);
+  for (Vec3& p : small.positions) {
+    p = Vec3(2.0 * p.x(), 1.2 * p.y(), 0.8 * p.z());
   }
-  const ContractionHistory history = contract_to(mesh, kLow, kHigh);
-  ASSERT_THAT(history.components.front().strategy, HasSubstr("proxy"));
-  EXPECT_THAT(history.components.front().strategy, HasSubstr("thinned"));
-  ASSERT_EQ(history.thinned.size(), mesh.positions.size());
-  EXPECT_EQ(history.thinned, contract_to(mesh, kHigh, kHigh).levels.back());
+  const ContractionHistory history = contract_to(small, kLow, kHigh);
+  EXPECT_GT(history.shrinkage.back(), kThin);
+  EXPECT_THAT(history.thinned, IsEmpty());
 }
 
-TEST(Thinning, GoesByRefinedSurfacesToo) {
-  const TriMesh prism = test::cylinder(0.5, 6.0, 6, 1);
-  const ContractionHistory history = contract_to(prism, 0.1 * kLow, kHigh);
-  ASSERT_THAT(history.components.front().strategy, HasSubstr("refined"));
-  EXPECT_THAT(history.components.front().strategy, HasSubstr("thinned"));
+TEST(Thinning, IsTheSameByBothMethods) {
+  const TriMesh mesh = egg();
+  const ContractionHistory fast = contract_to(mesh, kLow, kHigh);
+  const ContractionHistory exact = contract(
+      mesh, {.method = ContractionMethod::Exact, .contraction_limit = kLow, .sheet_limit = kHigh});
+  EXPECT_THAT(exact.components.front().strategy, testing::StrEq("exact, thinned"));
+  EXPECT_EQ(exact.thinned, fast.thinned);
+  EXPECT_NE(exact.levels.back(), fast.levels.back());
+}
+
+TEST(Thinning, ObeysTheStepLimit) {
+  int thinned = 0;
+  for (int steps = 1; steps <= 8; ++steps) {
+    const ContractionHistory low =
+        contract(egg(), {.contraction_limit = kLow, .sheet_limit = kHigh, .max_steps = steps});
+    const ContractionHistory high =
+        contract(egg(), {.contraction_limit = kHigh, .sheet_limit = kHigh, .max_steps = steps});
+    if (!low.thinned.empty()) {
+      EXPECT_EQ(low.thinned, high.levels.back()) << steps;
+      ++thinned;
+    }
+  }
+  EXPECT_GT(thinned, 0);
+  EXPECT_LT(thinned, 8);
+}
+
+/// What is reported until a stop is asked for past the half, where thinning begins.
+std::vector<double> reports_until_stopped_late() {
+  std::stop_source source;
+  std::vector<double> seen;
+  const auto stop_late = [&](std::string_view /*stage*/, double fraction) {
+    seen.push_back(fraction);
+    if (fraction > 0.5) {
+      source.request_stop();
+    }
+  };
+  try {
+    contract(egg(), {.contraction_limit = kLow, .sheet_limit = kHigh},
+             {.report = stop_late, .stop = source.get_token()});
+  } catch (const Cancelled&) {
+    return seen;
+  }
+  return {};
+}
+
+TEST(Thinning, ReportsWhatIsDoneAndCanBeStopped) {
+  const std::vector<double> seen = reports_until_stopped_late();
+  ASSERT_FALSE(seen.empty()) << "was not stopped";
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  EXPECT_LT(seen.back(), 1.0);
+}
+
+TEST(Thinning, StandsBesideRefinedComponents) {
+  const TriMesh mesh = test::together(egg(), test::cylinder(0.5, 6.0, 6, 1), Vec3(9.0, 0.0, 0.0));
+  const ContractionHistory history = contract_to(mesh, kLow, kHigh);
+  EXPECT_THAT(history.components[0].strategy, HasSubstr("thinned"));
+  EXPECT_THAT(history.components[1].strategy, HasSubstr("refined"));
   const std::vector<Vec3>& fine = history.refinement->thinned;
   ASSERT_EQ(fine.size(), history.refinement->mesh.positions.size());
   EXPECT_EQ(history.thinned,
-            std::vector<Vec3>(fine.begin(), fine.begin() + std::ssize(prism.positions)));
+            std::vector<Vec3>(fine.begin(), fine.begin() + std::ssize(mesh.positions)));
 }
 
 TEST(Thinning, GivesTheSkeletonOfTheHigherLimit) {
   const Skeleton low = extract_skeleton(egg(), contract_to(egg(), kLow, kHigh));
   const Skeleton high = extract_skeleton(egg(), contract_to(egg(), kHigh, kHigh));
+  const Skeleton sheet = extract_skeleton(egg(), contract_to(egg(), kLow, kLow));
+  EXPECT_NE(low.raw.nodes, sheet.raw.nodes);
   EXPECT_EQ(low.raw.nodes, high.raw.nodes);
   EXPECT_EQ(low.raw.edges, high.raw.edges);
   EXPECT_EQ(low.graph.nodes, high.graph.nodes);

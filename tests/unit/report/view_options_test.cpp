@@ -2,6 +2,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,6 +11,14 @@
 
 namespace vantage::test {
 namespace {
+
+TEST(Presets, PaperThinsNothingWhateverTheContractionLimit) {
+  for_each_field(kContractionFields, [](const auto& field) {
+    if (std::string_view(field.name) == "contraction-limit") {
+      EXPECT_LE(preset_options(Preset::Paper).contraction.sheet_limit, field.low);
+    }
+  });
+}
 
 TEST(Presets, PaperIsBoxScalingRapidSearchFromACubeAndARawEpsilon) {
   const ViewOptions paper = preset_options(Preset::Paper);
