@@ -125,6 +125,15 @@ class Pages(unittest.TestCase):
             for name in re.findall(r"`((?:docs|scripts|models|examples|bench|tests|src|include)/[a-z0-9_./-]+)`", text):
                 self.assertTrue((ROOT / name).exists(), f"{page.name}: {name}")
 
+    def test_programs_of_pages_can_be_run(self):
+        found = set()
+        for page in PAGES + OTHER_PAGES:
+            found |= {(page.name, name) for name in re.findall(
+                r"^ {4}(?:[A-Z_]+=\S+ )*((?:scripts|bench|python)/[a-z0-9_./-]+)", page.read_text(encoding="utf-8"), re.MULTILINE)}
+        self.assertGreater(len(found), 10)
+        for page, name in sorted(found):
+            self.assertTrue(os.access(ROOT / name, os.X_OK), f"{page}: {name} cannot be run")
+
     def test_promises_name_tests_that_are_there(self):
         sources = "".join(path.read_text(encoding="utf-8", errors="replace")
                           for path in (ROOT / "tests").rglob("*.*") if path.suffix in (".cpp", ".py"))
