@@ -341,8 +341,8 @@ class Contraction {
 /// Contracts a surface that stopped shrinking as a sheet again, with a larger W_L from where the
 /// limit began to tell: in a sheet many curves are equally good. Returns the thinnest curve that it
 /// comes to before slivers come in the way, which would make curves of their own, or nothing.
-std::vector<Vec3> thinned(Contraction& surface, const ContractionOptions& options,
-                          const RunContext& run) {
+std::vector<Vec3> thin_further(Contraction& surface, const ContractionOptions& options,
+                               const RunContext& run) {
   if (!is_sheet(surface.state().shrinkage) || surface.is_regularised() || !surface.rewind()) {
     return {};
   }
@@ -386,7 +386,7 @@ ComponentHistory contract_component(const TriMesh& scaled, const ContractionOpti
     history.summary.regularised_steps += surface.is_regularised() ? 1 : 0;
   }
   if (history.summary.stop == ContractionStop::Shrunk) {
-    history.thinned = thinned(surface, options, run);
+    history.thinned = thin_further(surface, options, run);
     history.summary.strategy += history.thinned.empty() ? "" : ", thinned";
   }
   return history;

@@ -105,8 +105,10 @@ ComponentHistory contract_exactly(const TriMesh& scaled, const ContractionOption
   ContractionOptions no_thinning = options;
   no_thinning.sheet_limit = options.contraction_limit;
   ComponentHistory history = contract_component(scaled, no_thinning, run.part(0.0, 0.9));
+  const bool may_be_thinned =
+      options.sheet_limit > options.contraction_limit && scaled.positions.size() > kProxyFrom;
   // A proxy's share of the area is not quite the same; far below the bound neither is a sheet.
-  if (scaled.positions.size() > kProxyFrom && is_sheet(2.0 * history.shrinkage.back())) {
+  if (may_be_thinned && is_sheet(2.0 * history.shrinkage.back())) {
     const Proxy proxy = make_proxy(scaled, kMergedSize, kProxySize, run);
     const std::vector<Vec3> curve =
         contract_component(proxy.mesh, options, run.part(0.9, 1.0), proxy.shares).thinned;
