@@ -157,17 +157,21 @@ def constants(w, strength):
             "side_strength": SIDE_SHARE}
 
 
-def beside(study):
-    """Leaving out each model, with every measure of the study: error and likelihood; and the exponents."""
+def left_out(study):
+    """For each model: it, the others, and what they fit."""
     everyone = range(len(study.people))
-    error, likelihood = [], []
     for m in everyone:
         rest = [k for k in everyone if k != m]
         w = study.fit(rest)
-        error.append(study.error[m][study.pick(m, w, study.choose_strength(rest, w))])
-        likelihood.append(study.likelihood(m, w))
-    w = study.fit(everyone)
-    return np.mean(error), np.mean(likelihood), w[:study.measures] / w[:study.measures].sum()
+        yield m, rest, w, study.choose_strength(rest, w)
+
+
+def beside(study):
+    """Error and likelihood of left-out models, with every measure of the study; and the first one's share."""
+    trials = [(study.error[m][study.pick(m, w, strength)], study.likelihood(m, w))
+              for m, _, w, strength in left_out(study)]
+    w = study.fit(range(len(study.people)))
+    return *np.mean(trials, axis=0), w[0] / w[:study.measures].sum()
 
 
 def beside_table(people, kssm, others):
@@ -180,21 +184,17 @@ def beside_table(people, kssm, others):
         trials[name] = [fields]
     for name, fields in trials.items():
         error, likelihood, share = beside(Study(people, fields))
-        lines.append(f"| {name} | {error:.3f} | {likelihood:.3f} | {share[0]:.2f} |")
+        lines.append(f"| {name} | {error:.3f} | {likelihood:.3f} | {share:.2f} |")
     return "\n".join(lines) + "\n"
 
 
 def cross_validate(study):
     """Leaving out each model: the directions of ours and of the prior alone, and likelihoods."""
-    everyone = range(len(study.people))
     ours, alone, likelihood = [], [], []
     bare = Study.__new__(Study)
     bare.__dict__.update(study.__dict__)
     bare.features = [np.column_stack([np.zeros(len(x)), x[:, 1:]]) for x in study.features]
-    for m in everyone:
-        rest = [k for k in everyone if k != m]
-        w = study.fit(rest)
-        strength = study.choose_strength(rest, w)
+    for m, rest, w, strength in left_out(study):
         ours.append(study.directions[study.pick(m, w, strength)])
         without = bare.fit(rest)
         alone.append(study.directions[int((study.shape @ without[1:] + study.tie).argmax())])
