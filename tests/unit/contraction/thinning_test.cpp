@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <random>
 #include <stop_token>
 #include <string_view>
 #include <vector>
@@ -9,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "vantage/contraction/contraction.h"
-#include "vantage/mesh/measures.h"
 #include "vantage/skeleton/skeleton.h"
 
+#include "contraction/component_contraction.h"
 #include "support/shapes.h"
 
 /// \file
@@ -39,6 +41,19 @@ TriMesh egg() {
 
 ContractionHistory contract_to(const TriMesh& mesh, double limit, double sheet_limit) {
   return contract(mesh, {.contraction_limit = limit, .sheet_limit = sheet_limit});
+}
+
+/// Flattened, and each vertex moved by up to 10^-4 along each axis.
+TriMesh rough_lens(double height, unsigned seed) {
+  TriMesh mesh = test::sphere(5);
+  std::mt19937 random(seed);
+  for (Vec3& p : mesh.positions) {
+    for (double* x : {&p.x(), &p.y(), &p.z()}) {
+      *x += 1e-4 * std::ldexp(static_cast<double>(random()), -31) - 1e-4;
+    }
+    p.z() *= height;
+  }
+  return mesh;
 }
 
 TEST(Thinning, IsWhatTheHigherLimitContractsTo) {
@@ -169,6 +184,22 @@ TEST(Thinning, GivesTheSkeletonOfTheHigherLimit) {
   EXPECT_EQ(low.raw.nodes, high.raw.nodes);
   EXPECT_EQ(low.raw.edges, high.raw.edges);
   EXPECT_EQ(low.graph.nodes, high.graph.nodes);
+}
+
+TEST(Thinning, KeepsTheCurveFromBeforeTheSlivers) {
+  int met_slivers = 0;
+  for (const unsigned seed : {1U, 2U}) {
+    for (const double height : {0.4, 0.5}) {
+      const TriMesh lens = rough_lens(height, seed);
+      const ComponentHistory low = contract_component(lens, {}, {});
+      const ComponentHistory high = contract_component(lens, {.contraction_limit = 8192.0}, {});
+      const auto slivers = static_cast<std::size_t>(high.summary.regularised_steps);
+      EXPECT_EQ(low.thinned, high.levels[high.levels.size() - 1 - slivers])
+          << seed << " " << height;
+      met_slivers += slivers > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(met_slivers, 0);
 }
 
 TEST(Thinning, OfAnotherMeshIsRefused) {
