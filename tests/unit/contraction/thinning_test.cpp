@@ -125,7 +125,7 @@ TEST(Thinning, IsTheSameByBothMethods) {
 
 TEST(Thinning, ObeysTheStepLimit) {
   int thinned = 0;
-  for (int steps = 1; steps <= 8; ++steps) {
+  for (const int steps : {2, 4, 6, 8}) {
     const ContractionHistory low =
         contract(egg(), {.contraction_limit = kLow, .sheet_limit = kHigh, .max_steps = steps});
     const ContractionHistory high =
@@ -136,7 +136,7 @@ TEST(Thinning, ObeysTheStepLimit) {
     }
   }
   EXPECT_GT(thinned, 0);
-  EXPECT_LT(thinned, 8);
+  EXPECT_LT(thinned, 4);
 }
 
 /// What is reported until a stop is asked for past the half, where thinning begins.
