@@ -8,13 +8,15 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <optional>
 
 #include <Eigen/Geometry>
 
 #include "core/parallel.h"
 #include "core/wide_registers.h"
 #include "visibility/segment.h"
+
+// Functions that take or give wide registers are inlined, all of them: nobody else calls them.
+#pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace vantage {
 namespace {
@@ -50,15 +52,71 @@ std::uint8_t exact_side(const Surface& surface, std::size_t f, const Viewpoint& 
   return height > 0.0 ? 1 : 2;
 }
 
+template <class Numbers, class Number>
+VANTAGE_INLINE Numbers load(const Number* from) {
+  Numbers numbers;
+  std::memcpy(&numbers, from, sizeof numbers);
+  return numbers;
+}
+
+template <class Numbers, class Number, std::size_t Lanes>
+VANTAGE_INLINE void keep(const Numbers& numbers, std::array<Number, Lanes>& to) {
+  static_assert(sizeof numbers == sizeof to);
+  std::memcpy(to.data(), &numbers, sizeof to);
+}
+
+template <class Many, std::size_t Lanes>
+VANTAGE_INLINE std::array<Many, 3> loaded(const std::array<std::array<float, Lanes>, 3>& from) {
+  return {load<Many>(from[0].data()), load<Many>(from[1].data()), load<Many>(from[2].data())};
+}
+
+template <class Many>
+VANTAGE_INLINE Many least_of(const std::array<Many, 3>& of) {
+  const Many least = of[1] < of[0] ? of[1] : of[0];
+  return of[2] < least ? of[2] : least;
+}
+
+template <class Many>
+VANTAGE_INLINE Many most_of(const std::array<Many, 3>& of) {
+  const Many most = of[0] < of[1] ? of[1] : of[0];
+  return most < of[2] ? of[2] : most;
+}
+
+/// The cells that places lie in, counted along one axis.
+template <unsigned Lanes>
+VANTAGE_INLINE void keep_cells(typename Registers<Lanes>::Floats at, float last,
+                               std::array<std::uint32_t, Lanes>& cells) {
+  const typename Registers<Lanes>::Floats zero{};
+  at = at < zero ? zero : at;
+  at = zero + last < at ? zero + last : at;
+  keep(__builtin_convertvector(at, typename Registers<Lanes>::Truths), cells);
+}
+
 }  // namespace
 
-/// Ready to tell which points may lie behind a face. Along a side x, y, 1 are worth what is
-/// positive inside, its length times the distance; one lane a side.
-struct EyeGrid::Probe {
-  Spot along_x, along_y, offset;
-  float doubt;                        // error of these values
-  float least;                        // points with less than this are outside
-  std::array<std::uint32_t, 4> keys;  // of points that the face holds
+/// Some faces ready to tell which points may lie behind them, one lane each. Along a side x, y, 1
+/// are worth what is positive inside, its length times the distance.
+template <unsigned Lanes>
+struct EyeGrid::Handful {
+  using Floats = std::array<float, Lanes>;
+  using Numbers = std::array<std::uint32_t, Lanes>;
+
+  struct Side {
+    Floats along_x, along_y, offset;
+  };
+
+  /// One face of them.
+  [[nodiscard]] CellRange cells(unsigned lane) const {
+    return {left[lane], right[lane], top[lane], bottom[lane]};
+  }
+
+  unsigned count = 0;
+  Numbers face;
+  Numbers left, right, top, bottom;  // the cells it touches
+  Floats nearest, farthest;          // its least depth and its largest, rounded outwards
+  std::array<Side, 3> sides;
+  Floats doubt;  // error of these values
+  Floats least;  // points with less than this are outside
 };
 
 void EyeGrid::begin(const Surface& surface, const Viewpoint& eye,
@@ -171,8 +229,7 @@ void EyeGrid::find_deepest() {
   }
 }
 
-VANTAGE_INLINE bool EyeGrid::behind_all(const Extent& extent, const CellRange& cells) const {
-  const float nearest = extent.low[2];
+VANTAGE_INLINE bool EyeGrid::behind_all(float nearest, const CellRange& cells) const {
   const std::uint32_t right = cells.right >> kTileShift;
   const std::uint32_t bottom = cells.bottom >> kTileShift;
   for (std::uint32_t y = cells.top >> kTileShift; y <= bottom; ++y) {
@@ -196,60 +253,88 @@ bool EyeGrid::blocks(const Surface& surface, const SurfacePoints& points, std::u
                surface.twice_areas[face]);
 }
 
-VANTAGE_INLINE EyeGrid::Probe EyeGrid::probe(std::uint32_t face, const Triangle& corners,
-                                             const Outline& o) const {
-  Probe p;
-  const float area = (o.b[0] - o.a[0]) * (o.c[1] - o.b[1]) - (o.b[1] - o.a[1]) * (o.c[0] - o.b[0]);
-  const float sign = area < 0.0F ? -1.0F : 1.0F;
-  const Spot x{o.a[0], o.b[0], o.c[0], 0.0F};
-  const Spot y{o.a[1], o.b[1], o.c[1], 0.0F};
-  const Spot x_next{o.b[0], o.c[0], o.a[0], 0.0F};
-  const Spot y_next{o.b[1], o.c[1], o.a[1], 0.0F};
-  p.along_x = sign * (y - y_next);
-  p.along_y = sign * (x_next - x);
-  p.offset = -(p.along_x * x + p.along_y * y);
+/// Makes the faces that were put in ready.
+template <unsigned Lanes>
+VANTAGE_INLINE void EyeGrid::make_ready(const Surface& surface, Handful<Lanes>& h) const {
+  using Many = typename Registers<Lanes>::Floats;
+  std::array<std::array<float, Lanes>, 3> corner_x;
+  std::array<std::array<float, Lanes>, 3> corner_y;
+  std::array<std::array<float, Lanes>, 3> corner_depth;
+  for (unsigned lane = 0; lane < Lanes; ++lane) {
+    const Triangle& corners = surface.faces[h.face[std::min(lane, h.count - 1)]];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Spot& spot = corners_[corners[k]];
+      corner_x[k][lane] = spot[0];
+      corner_y[k][lane] = spot[1];
+      corner_depth[k][lane] = spot[2];
+    }
+  }
+  const std::array<Many, 3> x = loaded<Many>(corner_x);
+  const std::array<Many, 3> y = loaded<Many>(corner_y);
+  const std::array<Many, 3> depth = loaded<Many>(corner_depth);
+  // The face's error and the point's.
+  const float reach = 2.0F * margin_;
+  const Many low_x = least_of(x) - reach;
+  const Many high_x = most_of(x) + reach;
+  const Many low_y = least_of(y) - reach;
+  const Many high_y = most_of(y) + reach;
+  keep(least_of(depth) - 2.0F * kAxisError, h.nearest);
+  keep(most_of(depth) + 2.0F * kAxisError, h.farthest);
+  keep_cells<Lanes>(low_x, last_[0], h.left);
+  keep_cells<Lanes>(high_x, last_[0], h.right);
+  keep_cells<Lanes>(low_y, last_[1], h.top);
+  keep_cells<Lanes>(high_y, last_[1], h.bottom);
+  const Many area = (x[1] - x[0]) * (y[2] - y[1]) - (y[1] - y[0]) * (x[2] - x[1]);
+  const Many zero{};
+  const Many sense = area < zero ? zero - 1.0F : zero + 1.0F;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    const Many along_x = sense * (y[k] - y[next]);
+    const Many along_y = sense * (x[next] - x[k]);
+    keep(along_x, h.sides[k].along_x);
+    keep(along_y, h.sides[k].along_y);
+    keep(-(along_x * x[k] + along_y * y[k]), h.sides[k].offset);
+  }
   // Bounds the error of a side's value at a spot: of the spots, and of a dozen roundings of
   // products of the grid's and the outline's size, which margin_ holds a share of.
-  const Spot size = o.extent.high - o.extent.low;
-  p.doubt = 16.0F * margin_ * std::max(size[0], size[1]);
+  const Many width = high_x - low_x;
+  const Many height = high_y - low_y;
+  const Many doubt = 16.0F * margin_ * (width < height ? height : width);
+  keep(doubt, h.doubt);
   // A face whose sense is in doubt excludes nothing in its cells.
-  p.least = std::abs(area) > p.doubt ? -p.doubt : -kInfinity;
-  p.keys = {corners[0], corners[1], corners[2], static_cast<std::uint32_t>(corners_.size()) + face};
-  return p;
+  keep(sense * area > doubt ? -doubt : zero - kInfinity, h.least);
 }
 
-/// Bit i is set if the point in slot + i may lie behind the face.
+/// Bit i is set if the point in slot + i may lie behind the face in the lane.
 template <unsigned Lanes>
-VANTAGE_INLINE unsigned EyeGrid::near(const Outline& o, const Probe& p, std::size_t slot) const {
+VANTAGE_INLINE unsigned EyeGrid::near(const Surface& surface, const Handful<Lanes>& h,
+                                      unsigned lane, std::size_t slot) const {
   using Floats = typename Registers<Lanes>::Floats;
   using Keys = typename Registers<Lanes>::Keys;
-  Floats x;
-  Floats y;
-  Floats depth;
-  Keys key;
-  std::memcpy(&x, x_.data() + slot, sizeof x);
-  std::memcpy(&y, y_.data() + slot, sizeof y);
-  std::memcpy(&depth, depth_.data() + slot, sizeof depth);
-  std::memcpy(&key, key_.data() + slot, sizeof key);
-  typename Registers<Lanes>::Truths out = depth < o.extent.low[2];
-  for (int side = 0; side < 3; ++side) {
-    out |= x * p.along_x[side] + y * p.along_y[side] + p.offset[side] < p.least;
+  const auto x = load<Floats>(x_.data() + slot);
+  const auto y = load<Floats>(y_.data() + slot);
+  const auto depth = load<Floats>(depth_.data() + slot);
+  const auto key = load<Keys>(key_.data() + slot);
+  typename Registers<Lanes>::Truths out = depth < h.nearest[lane];
+  for (const auto& side : h.sides) {
+    out |= x * side.along_x[lane] + y * side.along_y[lane] + side.offset[lane] < h.least[lane];
   }
-  out |= (key == p.keys[0]) | (key == p.keys[1]) | (key == p.keys[2]) | (key == p.keys[3]);
+  const std::uint32_t face = h.face[lane];
+  const Triangle& corners = surface.faces[face];
+  const auto held_by = static_cast<std::uint32_t>(corners_.size()) + face;
+  out |= (key == corners[0]) | (key == corners[1]) | (key == corners[2]) | (key == held_by);
+  typename Registers<Lanes>::Truths bit;
+  for (unsigned i = 0; i < Lanes; ++i) {
+    bit[i] = 1 << i;
+  }
+  bit &= ~out;
   std::array<std::uint64_t, Lanes / 2> pairs{};
-  std::memcpy(pairs.data(), &out, sizeof pairs);
-  std::uint64_t all = pairs[0];
+  std::memcpy(pairs.data(), &bit, sizeof pairs);
+  std::uint64_t found = 0;
   for (const std::uint64_t pair : pairs) {
-    all &= pair;
+    found |= pair;
   }
-  if (all == ~std::uint64_t{0}) {
-    return 0;
-  }
-  unsigned found = 0;
-  for (unsigned lane = 0; lane < Lanes; ++lane) {
-    found |= out[lane] == 0 ? 1U << lane : 0U;
-  }
-  return found;
+  return static_cast<unsigned>(found) | static_cast<unsigned>(found >> 32U);
 }
 
 /// How far the point is behind the face's plane as the eye sees it; 0 for faces seen edge on.
@@ -264,23 +349,29 @@ float EyeGrid::depth_behind(const Surface& surface, const SurfacePoints& points,
   return turned_[face] == 1 ? -height : turned_[face] == 2 ? height : 0.0F;
 }
 
-void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points, std::uint32_t face,
-                           const Outline& o, const Probe& p, std::size_t slot) {
+template <unsigned Lanes>
+void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points,
+                           const Handful<Lanes>& h, unsigned lane, std::size_t slot) {
   // Other threads may strike out the same point meanwhile; they can only agree.
   const std::atomic_ref<std::uint8_t> hidden(hidden_[slot]);
   if (hidden.load(std::memory_order_relaxed) != 0) {
     return;
   }
-  const Spot values = x_[slot] * p.along_x + y_[slot] * p.along_y + p.offset;
-  const float inside = std::min({values[0], values[1], values[2]});
-  bool is_hidden = inside > p.doubt && depth_[slot] > o.extent.high[2] && steep_[face] != 0;
+  const std::uint32_t face = h.face[lane];
+  float inside = kInfinity;
+  for (const auto& side : h.sides) {
+    inside = std::min(
+        inside, x_[slot] * side.along_x[lane] + y_[slot] * side.along_y[lane] + side.offset[lane]);
+  }
+  bool is_hidden = inside > h.doubt[lane] && depth_[slot] > h.farthest[lane] && steep_[face] != 0;
   if (!is_hidden) {
     const std::uint32_t point = point_of_[slot];
     const float behind = depth_behind(surface, points, point, face);
     if (behind < -kHeightError) {
       return;  // on the eye's side
     }
-    is_hidden = (behind > kHeightError && inside > p.doubt) || blocks(surface, points, point, face);
+    is_hidden =
+        (behind > kHeightError && inside > h.doubt[lane]) || blocks(surface, points, point, face);
   }
   if (is_hidden) {
     hidden.store(1, std::memory_order_relaxed);
@@ -289,26 +380,22 @@ void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points, 
 
 template <unsigned Lanes>
 VANTAGE_INLINE std::size_t EyeGrid::strike(const Surface& surface, const SurfacePoints& points,
-                                           std::uint32_t face, const Outline& o,
-                                           const CellRange& cells) {
-  std::optional<Probe> p;  // in most rows there is nothing
+                                           const Handful<Lanes>& h, unsigned lane) {
+  const CellRange cells = h.cells(lane);
   std::size_t work = 1;
   for (std::uint32_t row = cells.top; row <= cells.bottom; ++row) {
     const std::size_t first = std::size_t{row} * columns_;
     const std::uint32_t end = begin_[first + cells.right + 1];
     const std::uint32_t begin = begin_[first + cells.left];
     work += 1 + end - begin;
-    if (begin < end && !p) {
-      p = probe(face, surface.faces[face], o);
-    }
     for (std::uint32_t slot = begin; slot < end; slot += Lanes) {
-      unsigned found = near<Lanes>(o, *p, slot);
+      unsigned found = near<Lanes>(surface, h, lane, slot);
       if (end - slot < Lanes) {
         found &= (1U << (end - slot)) - 1U;
       }
       for (; found != 0; found &= found - 1) {
-        strike_point(surface, points, face, o, *p,
-                     slot + static_cast<std::uint32_t>(std::countr_zero(found)));
+        strike_point<Lanes>(surface, points, h, lane,
+                            slot + static_cast<std::uint32_t>(std::countr_zero(found)));
       }
     }
   }
@@ -325,16 +412,32 @@ struct EyeGrid::Walk {
 };
 
 template <unsigned Lanes>
-VANTAGE_INLINE void EyeGrid::walk_some(Walk& walk, std::size_t begin, std::size_t end) {
-  const Surface& surface = walk.surface;
-  const std::uint8_t side = walk.side;
+VANTAGE_INLINE std::size_t EyeGrid::strike_all(Walk& walk, Handful<Lanes>& h) {
+  if (h.count == 0) {
+    return 0;
+  }
+  make_ready<Lanes>(walk.surface, h);
   // Fronts have their own corners behind them then, as far as boxes can tell.
-  const bool holds_asked = side == 1 && !walk.points.sites.empty();
+  const bool holds_asked = walk.side == 1 && !walk.points.sites.empty();
+  std::size_t work = 0;
+  for (unsigned lane = 0; lane < h.count; ++lane) {
+    if (holds_asked || !behind_all(h.nearest[lane], h.cells(lane))) {
+      work += strike<Lanes>(walk.surface, walk.points, h, lane);
+    }
+  }
+  h.count = 0;
+  return work;
+}
+
+template <unsigned Lanes>
+VANTAGE_INLINE void EyeGrid::walk_some(Walk& walk, std::size_t begin, std::size_t end) {
+  const std::uint8_t side = walk.side;
+  Handful<Lanes> some;
   std::size_t work = 0;
   for (std::size_t f = begin; f < end; ++f) {
     if (f % FaceBlocks::kFaces == 0) {
       const Extent& block = blocks_[f / FaceBlocks::kFaces];
-      if (behind_all(block, cells_of(block))) {
+      if (behind_all(block.low[2], cells_of(block))) {
         f += FaceBlocks::kFaces - 1;
         continue;
       }
@@ -342,15 +445,15 @@ VANTAGE_INLINE void EyeGrid::walk_some(Walk& walk, std::size_t begin, std::size_
     if ((turned_[f] == 2) != (side == 2) || (side == 2 && !backs_.empty() && backs_[f] == 0)) {
       continue;
     }
-    const Outline o = outline(surface.faces[f]);
-    const CellRange cells = cells_of(o.extent);
-    if (holds_asked || !behind_all(o.extent, cells)) {
-      work += strike<Lanes>(surface, walk.points, static_cast<std::uint32_t>(f), o, cells);
+    some.face[some.count++] = static_cast<std::uint32_t>(f);
+    if (some.count == Lanes) {
+      work += strike_all<Lanes>(walk, some);
     }
     if (work > walk.limit || walk.spent.load(std::memory_order_relaxed) > walk.limit) {
       break;
     }
   }
+  work += strike_all<Lanes>(walk, some);
   walk.spent.fetch_add(work, std::memory_order_relaxed);
 }
 

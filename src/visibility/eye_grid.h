@@ -93,13 +93,8 @@ class EyeGrid {
     std::uint32_t left, right, top, bottom;
   };
 
-  /// A face in the picture.
-  struct Outline {
-    Spot a, b, c;
-    Extent extent;
-  };
-
-  struct Probe;
+  template <unsigned Lanes>
+  struct Handful;
   struct Walk;
 
   void face_sides(const Surface& surface, const RunContext& run);
@@ -133,33 +128,28 @@ class EyeGrid {
 
   void find_deepest();
 
-  [[nodiscard]] VANTAGE_INLINE Outline outline(const Triangle& face) const {
-    const Spot a = corners_[face[0]];
-    const Spot b = corners_[face[1]];
-    const Spot c = corners_[face[2]];
-    // The face's error and the point's.
-    const Spot reach{2.0F * margin_, 2.0F * margin_, 2.0F * kAxisError, 0.0F};
-    return {a, b, c, {lower(lower(a, b), c) - reach, higher(higher(a, b), c) + reach}};
-  }
-
   void outline_blocks(const FaceBlocks& blocks, const RunContext& run);
-  [[nodiscard]] bool behind_all(const Extent& extent, const CellRange& cells) const;
+  [[nodiscard]] bool behind_all(float nearest, const CellRange& cells) const;
   template <unsigned Lanes>
   void walk_some(Walk& walk, std::size_t begin, std::size_t end);
   void walk_wide(Walk& walk, std::size_t begin, std::size_t end);
   bool walk(const Surface& surface, const SurfacePoints& points, std::uint8_t side,
             const RunContext& run);
-  [[nodiscard]] Probe probe(std::uint32_t face, const Triangle& corners,
-                            const Outline& outline) const;
   template <unsigned Lanes>
-  [[nodiscard]] unsigned near(const Outline& outline, const Probe& probe, std::size_t slot) const;
+  std::size_t strike_all(Walk& walk, Handful<Lanes>& some);
+  template <unsigned Lanes>
+  void make_ready(const Surface& surface, Handful<Lanes>& some) const;
+  template <unsigned Lanes>
+  std::size_t strike(const Surface& surface, const SurfacePoints& points,
+                     const Handful<Lanes>& some, unsigned lane);
+  template <unsigned Lanes>
+  [[nodiscard]] unsigned near(const Surface& surface, const Handful<Lanes>& some, unsigned lane,
+                              std::size_t slot) const;
   [[nodiscard]] float depth_behind(const Surface& surface, const SurfacePoints& points,
                                    std::uint32_t point, std::uint32_t face) const;
-  void strike_point(const Surface& surface, const SurfacePoints& points, std::uint32_t face,
-                    const Outline& outline, const Probe& probe, std::size_t slot);
   template <unsigned Lanes>
-  std::size_t strike(const Surface& surface, const SurfacePoints& points, std::uint32_t face,
-                     const Outline& outline, const CellRange& cells);
+  void strike_point(const Surface& surface, const SurfacePoints& points, const Handful<Lanes>& some,
+                    unsigned lane, std::size_t slot);
   [[nodiscard]] bool blocks(const Surface& surface, const SurfacePoints& points,
                             std::uint32_t point, std::uint32_t face) const;
 

@@ -51,7 +51,7 @@ bool Sight::hidden(const SurfacePoints& points, std::uint32_t point, const Viewp
 Look::Look(Sight& sight, const Viewpoint& eye, const RunContext& run,
            std::span<const std::uint8_t> backs)
     : sight_(sight), eye_(eye), run_(run), grid_(sight.grids_.borrow()) {
-  grid_->begin(sight.surface_, eye, backs, run);
+  grid_->begin(sight.surface_, eye, backs.empty() ? sight.surface_.backs : backs, run);
 }
 
 Look::~Look() {

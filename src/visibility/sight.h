@@ -57,7 +57,8 @@ class Sight {
 /// What one eye sees; any number of queries. For one thread to call.
 class Look {
  public:
-  /// \param eye in the surface's frame. \param backs as EyeGrid::begin() takes them.
+  /// \param eye in the surface's frame. \param backs as EyeGrid::begin() takes them; none: those of
+  ///            the surface.
   Look(Sight& sight, const Viewpoint& eye, const RunContext& run,
        std::span<const std::uint8_t> backs = {});
   ~Look();

@@ -209,6 +209,9 @@ SurfacePart part_of(const Surface& surface, const std::vector<std::uint32_t>& fa
     small.twice_areas.push_back(surface.twice_areas[f]);
     small.sides.push_back(surface.sides[f]);
     small.face_of_mesh.push_back(surface.face_of_mesh[f]);
+    if (!surface.backs.empty()) {
+      small.backs.push_back(surface.backs[f]);
+    }
   }
   small.rounded = rounded_points(small.sites);
   small.planes = planes_of(small);

@@ -51,6 +51,7 @@ struct Surface {
   FloatPoints rounded{};                        ///< The sites.
   FacePlanes planes{};                          ///< Of each face.
   FaceBlocks blocks{};                          ///< Of faces 0 … kFaces−1 and so on.
+  std::vector<std::uint8_t> backs{};            ///< hiding_backs(); none: not known.
 };
 
 /// The points in single precision.

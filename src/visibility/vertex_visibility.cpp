@@ -1,12 +1,33 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/visibility/vertex_visibility.h"
 
+#include "spatial/ray_scene.h"
+#include "visibility/hiding_backs.h"
+#include "visibility/surface_edges.h"
 #include "visibility/vertex_scene.h"
 
 namespace vantage {
 
-VertexVisibility::VertexVisibility(const TriMesh& mesh, std::vector<FaceSides> sides)
-    : scene_(std::make_unique<Scene>(prepare_surface(mesh, sides))) {}
+namespace {
+
+// From so many eyes on it pays to know which backs can hide nothing: that takes as long as twenty
+// eyes, and spares each a fifth. [ours, by measurement]
+constexpr std::size_t kManyEyes = 100;
+
+Surface surface_for(const TriMesh& mesh, std::span<const FaceSides> sides, std::size_t eyes) {
+  Surface surface = prepare_surface(mesh, sides);
+  if (eyes >= kManyEyes && !surface.faces.empty()) {
+    const CandidateScene scene(surface.sites, surface.faces);
+    surface.backs = hiding_backs(surface, surface_edges(surface), scene);
+  }
+  return surface;
+}
+
+}  // namespace
+
+VertexVisibility::VertexVisibility(const TriMesh& mesh, std::vector<FaceSides> sides,
+                                   std::size_t eyes)
+    : scene_(std::make_unique<Scene>(surface_for(mesh, sides, eyes))) {}
 
 VertexVisibility::~VertexVisibility() = default;
 VertexVisibility::VertexVisibility(VertexVisibility&&) noexcept = default;

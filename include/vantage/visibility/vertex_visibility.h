@@ -28,7 +28,10 @@ class VertexVisibility {
   /// Builds the search structure; O(|F| log |F|).
   /// \param mesh  vertices that share a position are treated as one.
   /// \param sides one entry per component of connected_components(mesh), or a single entry for all.
-  explicit VertexVisibility(const TriMesh& mesh, std::vector<FaceSides> sides);
+  /// \param eyes  how many will be asked about, more or less. For many this takes longer and they
+  /// take less each; the answers are the same.
+  explicit VertexVisibility(const TriMesh& mesh, std::vector<FaceSides> sides,
+                            std::size_t eyes = 1);
   ~VertexVisibility();
   VertexVisibility(VertexVisibility&&) noexcept;             ///< Leaves the other unusable.
   VertexVisibility& operator=(VertexVisibility&&) noexcept;  ///< The same.
