@@ -10,6 +10,7 @@
 #include "vantage/mesh/topology.h"
 
 #include "core/parallel.h"
+#include "mesh/triangle_corners.h"
 #include "significance/feature_map.h"
 #include "spatial/graph_distance.h"
 
@@ -71,10 +72,13 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
                      const RunContext& run) {
   check_input(mesh, history, skeleton, options);
   const std::size_t vertex_count = mesh.positions.size();
-  const IndexLists rings = vertex_neighbours(mesh);
-  std::vector<bool> referenced(vertex_count);
-  for (std::size_t v = 0; v < vertex_count; ++v) {
-    referenced[v] = !rings[v].empty();
+  const bool by_rings = options.suppression == Suppression::LocalMaxima;
+  const IndexLists rings = by_rings ? vertex_neighbours(mesh) : IndexLists{};
+  std::vector<bool> referenced(vertex_count, false);
+  for (const Triangle& t : mesh.triangles) {
+    if (!names_a_vertex_twice(t)) {
+      referenced[t[0]] = referenced[t[1]] = referenced[t[2]] = true;
+    }
   }
   const double diameter = enclosing_sphere(referenced_points(mesh)).diameter;
   const std::vector<double> weight =
@@ -104,9 +108,8 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
       map.level_factor.push_back(0.0);
       continue;
     }
-    const double mean = options.suppression == Suppression::Mean
-                            ? mean_without_maximum(level, referenced, weight)
-                            : mean_of_local_maxima(level, rings, weight);
+    const double mean = by_rings ? mean_of_local_maxima(level, rings, weight)
+                                 : mean_without_maximum(level, referenced, weight);
     const double factor = (1.0 - mean) * (1.0 - mean);  // Φ of the paper, on normalised values
     map.level_factor.push_back(factor);
     for (std::size_t v = 0; v < vertex_count; ++v) {

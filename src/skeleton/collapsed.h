@@ -3,9 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "vantage/skeleton/skeleton.h"
+
+#include "skeleton/shell.h"
 
 namespace vantage {
 
@@ -16,9 +19,14 @@ struct Collapsed {
   std::size_t lost_handles = 0;
 };
 
+/// What finish_skeleton() asks about the inside of the surface; null if the options do not need
+/// it. Mesh and history must outlive it.
+std::unique_ptr<const Shell> shell_to_finish(const TriMesh& mesh, const ContractionHistory& history,
+                                             const SkeletonOptions& options);
+
 /// Resamples it, which gives the raw graph, and centres, prunes and routes that.
-/// \pre the history belongs to the mesh.
+/// \param shell of shell_to_finish(). \pre the history belongs to the mesh.
 Skeleton finish_skeleton(const TriMesh& mesh, const ContractionHistory& history,
-                         Collapsed collapsed, const SkeletonOptions& options);
+                         Collapsed collapsed, const Shell* shell, const SkeletonOptions& options);
 
 }  // namespace vantage

@@ -183,8 +183,9 @@ Skeleton extract_point_skeleton(const TriMesh& samples, const ContractionHistory
                                 const SkeletonOptions& options, const RunContext& run) {
   check_fields(options, kSkeletonFields);
   const double spacing = sample_spacing(samples, options);
-  Skeleton skeleton = finish_skeleton(
-      samples, history, thin_cloud(samples, history, spacing, run.part(0.0, 0.9)), options);
+  Skeleton skeleton =
+      finish_skeleton(samples, history, thin_cloud(samples, history, spacing, run.part(0.0, 0.9)),
+                      shell_to_finish(samples, history, options).get(), options);
   close_short_loops(skeleton.raw, samples, skeleton.raw_node_of_vertex, run);
   close_short_loops(skeleton.graph, samples, skeleton.node_of_vertex, run);
   if (options.prune) {  // folding leaves stubs

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
+#include <memory>
 #include <utility>
 
 #include "vantage/mesh/measures.h"
 
+#include "core/parallel.h"
 #include "mesh/decimation.h"
 #include "skeleton/cluster_complex.h"
 #include "skeleton/collapsed.h"
@@ -193,13 +194,11 @@ CurveGraph without_isolated(const CurveGraph& graph, const ContractionHistory& h
 }
 
 /// From the raw graph to the finished one.
-void finish(const TriMesh& mesh, const ContractionHistory& history, const SkeletonOptions& options,
-            Skeleton& skeleton) {
+void finish(const TriMesh& mesh, const ContractionHistory& history, const Shell* shell,
+            const SkeletonOptions& options, Skeleton& skeleton) {
   skeleton.graph = skeleton.raw;
   skeleton.node_of_vertex = skeleton.raw_node_of_vertex;
-  std::optional<Shell> shell;
-  if (options.centre && !mesh.triangles.empty()) {
-    shell.emplace(mesh, history.component_of_vertex);
+  if (shell) {
     const Routing routing{mesh, history.component_of_vertex, *shell};
     skeleton.graph = centre_nodes(skeleton.graph, mesh, skeleton.node_of_vertex);
     skeleton.graph =
@@ -239,8 +238,15 @@ double sample_spacing(const TriMesh& mesh, const SkeletonOptions& options) {
                                 : enclosing_sphere(points).diameter);
 }
 
+std::unique_ptr<const Shell> shell_to_finish(const TriMesh& mesh, const ContractionHistory& history,
+                                             const SkeletonOptions& options) {
+  return options.centre && !mesh.triangles.empty()
+             ? std::make_unique<Shell>(mesh, history.component_of_vertex)
+             : nullptr;
+}
+
 Skeleton finish_skeleton(const TriMesh& mesh, const ContractionHistory& history,
-                         Collapsed collapsed, const SkeletonOptions& options) {
+                         Collapsed collapsed, const Shell* shell, const SkeletonOptions& options) {
   Skeleton skeleton;
   if (collapsed.lost_handles > 0) {
     skeleton.warnings.push_back("the skeleton may have lost " +
@@ -257,7 +263,7 @@ Skeleton finish_skeleton(const TriMesh& mesh, const ContractionHistory& history,
   }
   skeleton.raw = merge_close_nodes(fine, sample_spacing(mesh, options), std::move(weight),
                                    skeleton.raw_node_of_vertex);
-  finish(mesh, history, options, skeleton);
+  finish(mesh, history, shell, options, skeleton);
   return skeleton;
 }
 
@@ -271,8 +277,13 @@ Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history
     return of_refinement(mesh, *history.refinement, options, run);
   }
   const double spacing = sample_spacing(mesh, options);
-  Skeleton skeleton = finish_skeleton(
-      mesh, history, collapse_history(mesh, history, spacing, run.part(0.0, 0.9)), options);
+  // The collapse, from one edge to the next, leaves the other cores idle.
+  Collapsed collapsed;
+  std::unique_ptr<const Shell> shell;
+  run_both(
+      run, [&] { collapsed = collapse_history(mesh, history, spacing, run.part(0.0, 0.9)); },
+      [&] { shell = shell_to_finish(mesh, history, options); });
+  Skeleton skeleton = finish_skeleton(mesh, history, std::move(collapsed), shell.get(), options);
   run.advance("skeleton", 1.0);
   return skeleton;
 }
