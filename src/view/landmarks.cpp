@@ -2,9 +2,12 @@
 #include "vantage/view/landmarks.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 
@@ -33,33 +36,33 @@ constexpr double kMostAside = 0.9;
 
 /// Area vectors of the faces whose normals fall in one cell; largest areas first.
 std::vector<Vec3> area_vectors_by_normal(const TriMesh& surface, double area) {
-  struct InCell {
-    std::array<int, 3> cell;
-    Vec3 vector;
-  };
-
-  std::vector<InCell> faces;
-  faces.reserve(surface.triangles.size());
+  constexpr auto kSide = static_cast<std::uint32_t>(2.0 * kCells) + 1;
+  std::unordered_map<std::uint32_t, Vec3> sum_of_cell;
   for (const Triangle& t : surface.triangles) {
     const Vec3 vector = area_vector(surface, t);
     const double size = vector.norm();
     if (size > 0.0) {
-      const Vec3 at = (vector / size * kCells).array().round();
-      faces.push_back(
-          {{static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())}, vector});
+      const Vec3 at = (vector / size * kCells).array().round() + kCells;
+      const std::uint32_t cell =
+          (static_cast<std::uint32_t>(at.x()) * kSide + static_cast<std::uint32_t>(at.y())) *
+              kSide +
+          static_cast<std::uint32_t>(at.z());
+      sum_of_cell.try_emplace(cell, Vec3::Zero()).first->second += vector;
     }
   }
-  std::stable_sort(faces.begin(), faces.end(),
-                   [](const InCell& a, const InCell& b) { return a.cell < b.cell; });
-  std::vector<Vec3> vectors;
-  for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
-    Vec3 sum = Vec3::Zero();
-    for (; end < faces.size() && faces[end].cell == faces[begin].cell; ++end) {
-      sum += faces[end].vector;
-    }
+  std::vector<std::pair<std::uint32_t, Vec3>> large;
+  for (const auto& [cell, sum] : sum_of_cell) {
     if (sum.norm() >= kLeastCellShare * area) {
-      vectors.push_back(sum);
+      large.emplace_back(cell, sum);
     }
+  }
+  // The map's own order is not the surface's.
+  std::sort(large.begin(), large.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Vec3> vectors;
+  vectors.reserve(large.size());
+  for (const auto& [cell, sum] : large) {
+    vectors.push_back(sum);
   }
   std::stable_sort(vectors.begin(), vectors.end(),
                    [](const Vec3& a, const Vec3& b) { return a.squaredNorm() > b.squaredNorm(); });
@@ -137,35 +140,37 @@ double farthest_along(const TriMesh& surface, const Vec3& normal) {
 
 }  // namespace
 
-std::vector<Vec3> brink_directions(const TriMesh& surface, const ScoringCamera& camera) {
-  double area = 0.0;
-  for (const double a : face_areas(surface)) {
-    area += a;
-  }
+std::vector<FlatPart> flat_parts(const TriMesh& surface) {
+  const double area = surface_area(surface);
   if (!(area > 0.0) || !std::isfinite(area)) {
     return {};
   }
-  std::vector<Vec3> walls;
+  std::vector<FlatPart> parts;
   for (const Vec3& flat : flat_normals(surface, area)) {
-    walls.push_back(flat.normalized());
+    const Vec3 normal = flat.normalized();
+    parts.push_back({normal, farthest_along(surface, normal)});
   }
+  return parts;
+}
+
+std::vector<Vec3> brink_directions(std::span<const FlatPart> walls, const ScoringCamera& camera) {
   std::vector<Vec3> fronts;
-  for (const Vec3& wall : walls) {
-    const bool known = std::any_of(fronts.begin(), fronts.end(), [&](const Vec3& front) {
-      return std::abs(front.dot(wall)) > std::cos(kSameFlatRad);
-    });
+  for (const auto& [wall, height] : walls) {
+    const bool known =
+        std::any_of(fronts.begin(), fronts.end(), [&, wall = wall](const Vec3& front) {
+          return std::abs(front.dot(wall)) > std::cos(kSameFlatRad);
+        });
     if (!known && fronts.size() < 2 * kMostFronts) {
       fronts.push_back(wall);
       fronts.emplace_back(-wall);
     }
   }
   std::vector<Vec3> directions;
-  for (const Vec3& wall : walls) {
+  for (const auto& [wall, height] : walls) {
     // In perspective the eye passes the wall's plane aside of the front's normal.
-    const double aside =
-        camera.projection == Projection::Perspective
-            ? (farthest_along(surface, wall) - wall.dot(camera.sphere.centre)) / camera.distance()
-            : 0.0;
+    const double aside = camera.projection == Projection::Perspective
+                             ? (height - wall.dot(camera.sphere.centre)) / camera.distance()
+                             : 0.0;
     for (const Vec3& front : fronts) {
       if (std::abs(front.dot(wall)) > kAcross || !(std::abs(aside) < kMostAside)) {
         continue;

@@ -98,10 +98,9 @@ NearbyScorer::NearbyScorer(const VertexVisibility& visibility, std::span<const d
 
 NearbyScorer::~NearbyScorer() = default;
 
-NearbyScorer::Seen NearbyScorer::look(const Vec3& direction) const {
-  const RunContext alone{.max_threads = 1};
+NearbyScorer::Seen NearbyScorer::look(const Vec3& direction, const RunContext& run) const {
   const std::vector<std::uint8_t> visible =
-      visibility_.visible_vertices(camera_.viewpoint(direction), alone);
+      visibility_.visible_vertices(camera_.viewpoint(direction), run);
   Seen seen((visible.size() + kBits - 1) / kBits, 0);
   for (std::size_t v = 0; v < visible.size(); ++v) {
     seen[v / kBits] |= static_cast<std::uint64_t>(visible[v]) << (v % kBits);
@@ -129,11 +128,9 @@ std::vector<double> NearbyScorer::score_all(std::span<const Vec3> directions,
                                             const RunContext& run) {
   std::vector<Seen> seen(directions.size());
   std::vector<double> scores(directions.size(), 0.0);
-  parallel_for(run, directions.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      seen[i] = look(directions[i]);
-      scores[i] = sum_of(seen[i]);
-    }
+  parallel_items(run, directions.size(), [&](std::size_t i, const RunContext& own) {
+    seen[i] = look(directions[i], own);
+    scores[i] = sum_of(seen[i]);
   });
   forget_if_full();
   for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -145,7 +142,7 @@ std::vector<double> NearbyScorer::score_all(std::span<const Vec3> directions,
 const NearbyScorer::Seen& NearbyScorer::seen_from(const Vec3& direction) {
   const auto [at, is_new] = remembered_.try_emplace(bits_of(direction));
   if (is_new) {
-    at->second = look(direction);
+    at->second = look(direction, {});
   }
   return at->second;
 }

@@ -45,7 +45,7 @@ class NearbyScorer {
   using Seen = std::vector<std::uint64_t>;   // one bit a vertex
   struct Midst;
 
-  Seen look(const Vec3& direction) const;
+  Seen look(const Vec3& direction, const RunContext& run) const;
   [[nodiscard]] double sum_of(const Seen& seen) const;
   const Seen& seen_from(const Vec3& direction);
   void forget_if_full();

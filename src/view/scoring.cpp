@@ -83,10 +83,8 @@ double ViewScorer::score(const Vec3& direction) const {
 std::vector<double> ViewScorer::score_all(std::span<const Vec3> directions,
                                           const RunContext& run) const {
   std::vector<double> scores(directions.size(), 0.0);
-  parallel_for(run, directions.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      scores[i] = score(directions[i]);
-    }
+  parallel_items(run, directions.size(), [&](std::size_t i, const RunContext& own) {
+    scores[i] = score_from(camera_.viewpoint(directions[i]), own);
   });
   return scores;
 }

@@ -28,8 +28,8 @@ constexpr double kOpening = 0.6;
 constexpr double kRounded = 1e-5;
 
 /// Maps the camera's sphere to the unit sphere.
-Vec3 in_frame(const ScoringCamera& camera, const Vec3& p) {
-  return (p - camera.sphere.centre) * (2.0 / camera.sphere.diameter);
+Vec3 in_frame(const Sphere& sphere, const Vec3& p) {
+  return (p - sphere.centre) * (2.0 / sphere.diameter);
 }
 
 void append(SketchCoordinates& to, const Vec3& p) {
@@ -189,7 +189,7 @@ SketchPoints sketch_points(const TriMesh& surface, const std::vector<FaceSides>&
     if (normals[i].empty()) {
       continue;  // no face with area names it, so that nothing ever sees it
     }
-    const Vec3 p = in_frame(camera, surface.positions[chosen[i].vertex]);
+    const Vec3 p = in_frame(camera.sphere, surface.positions[chosen[i].vertex]);
     append(points.position, p);
     points.weight.push_back(static_cast<float>(chosen[i].weight));
     const std::vector<Cone> cones = gather_cones(normals[i]);
@@ -225,12 +225,12 @@ SketchPoints sketch_points(const TriMesh& surface, const std::vector<FaceSides>&
 }
 
 SketchSurface sketch_surface(const TriMesh& surface, const std::vector<FaceSides>& sides,
-                             const ScoringCamera& camera, std::size_t count) {
+                             const Sphere& sphere, std::size_t count) {
   SketchSurface sketch;
   std::vector<float> positions;
   positions.reserve(3 * surface.positions.size());
   for (const Vec3& p : surface.positions) {
-    const Vec3 q = in_frame(camera, p);
+    const Vec3 q = in_frame(sphere, p);
     append(sketch.corners, q);
     positions.insert(positions.end(),
                      {sketch.corners.x.back(), sketch.corners.y.back(), sketch.corners.z.back()});

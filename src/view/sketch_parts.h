@@ -56,8 +56,8 @@ SketchPoints sketch_points(const TriMesh& surface, const std::vector<FaceSides>&
                            std::span<const double> significance, const ScoringCamera& camera,
                            std::size_t count);
 
-/// The surface, or one of about `count` faces if it has more.
+/// The surface, or one of about `count` faces if it has more. \param sphere the scoring camera's.
 SketchSurface sketch_surface(const TriMesh& surface, const std::vector<FaceSides>& sides,
-                             const ScoringCamera& camera, std::size_t count);
+                             const Sphere& sphere, std::size_t count);
 
 }  // namespace vantage

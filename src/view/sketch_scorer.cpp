@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -457,20 +458,28 @@ double Sketch::sum_of_seen(const Frame& frame) {
 
 }  // namespace
 
+SketchOptions sketch_options(std::size_t vertices) {
+  constexpr SketchOptions kFine{.points = 5000, .faces = 5000, .cells = 112};
+  return vertices < kCheapBelow ? kFine : SketchOptions{};
+}
+
 SketchScorer::SketchScorer(const TriMesh& surface, const std::vector<FaceSides>& sides,
                            std::span<const double> significance, const ScoringCamera& camera,
-                           const SketchOptions& options)
+                           const SketchOptions& options,
+                           std::shared_ptr<const SketchSurface> coarse)
     : camera_(drawable(camera)),
       cells_(options.cells),
       slack_(options.slack),
       points_(sketch_points(surface, sides, significance, camera_, options.points)),
-      surface_(sketch_surface(surface, sides, camera_, options.faces)) {}
+      surface_(coarse ? std::move(coarse)
+                      : std::make_shared<SketchSurface>(
+                            sketch_surface(surface, sides, camera_.sphere, options.faces))) {}
 
 std::vector<double> SketchScorer::score_all(std::span<const Vec3> directions,
                                             const RunContext& run) const {
   std::vector<double> scores(directions.size(), 0.0);
   parallel_for(run, directions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    Sketch sketch(points_, surface_, cells_, slack_);
+    Sketch sketch(points_, *surface_, cells_, slack_);
     for (std::size_t i = begin; i < end; ++i) {
       scores[i] = sketch.score(directions[i], frame_of(directions[i], camera_, cells_));
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -29,14 +30,23 @@ struct SketchOptions {
   float slack = 0.013F;
 };
 
+/// Those for the global search on a surface of so many vertices: below kCheapBelow they are finer.
+SketchOptions sketch_options(std::size_t vertices);
+/// A model of fewer vertices is searched more thoroughly: its scores are rough, and one costs less
+/// than a millisecond. [ours, docs/search.md]
+inline constexpr std::size_t kCheapBelow = 6000;
+
 /// Immutable; answers do not depend on the number of threads.
 class SketchScorer {
  public:
   /// \param sides one per component of `surface`.
   /// \param significance one finite value ≥ 0 per vertex.
+  /// \param coarse sketch_surface() of them, for options.faces and the camera's sphere; null: it is
+  /// made.
   SketchScorer(const TriMesh& surface, const std::vector<FaceSides>& sides,
                std::span<const double> significance, const ScoringCamera& camera,
-               const SketchOptions& options = {});
+               const SketchOptions& options = {},
+               std::shared_ptr<const SketchSurface> coarse = nullptr);
 
   /// About the score of each direction, in parallel over directions. \throw Cancelled
   [[nodiscard]] std::vector<double> score_all(std::span<const Vec3> directions,
@@ -47,7 +57,7 @@ class SketchScorer {
   std::size_t cells_;
   float slack_;
   SketchPoints points_;
-  SketchSurface surface_;
+  std::shared_ptr<const SketchSurface> surface_;
 };
 
 }  // namespace vantage

@@ -80,7 +80,7 @@ std::vector<Vec3> brinks_of_cube(double side, const ScoringCamera& camera) {
   for (Vec3& p : cube.positions) {
     p -= Vec3::Constant(0.5 * side);
   }
-  return brink_directions(cube, camera);
+  return brink_directions(flat_parts(cube), camera);
 }
 
 TEST(Brinks, OfACubeLieJustBeforeAndBehindThePlanesOfItsWalls) {
@@ -111,7 +111,8 @@ TEST(Brinks, InParallelProjectionLieAlmostAcrossTheWalls) {
 }
 
 TEST(Brinks, OfARoundSurfaceAreNone) {
-  EXPECT_TRUE(brink_directions(test::sphere(4), {.sphere = {Vec3::Zero(), 2.0}}).empty());
+  EXPECT_TRUE(
+      brink_directions(flat_parts(test::sphere(4)), {.sphere = {Vec3::Zero(), 2.0}}).empty());
 }
 
 }  // namespace
