@@ -12,6 +12,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
 
 namespace vantage {
 namespace {
@@ -51,6 +52,56 @@ void parallel_for(const RunContext& run, std::size_t count, std::size_t grain,
                           body(chunk * grain, std::min(count, (chunk + 1) * grain));
                         }
                       });
+  });
+}
+
+void parallel_items(const RunContext& run, std::size_t count,
+                    const std::function<void(std::size_t, const RunContext&)>& body) {
+  const int available = tbb::this_task_arena::max_concurrency();
+  const auto threads = static_cast<std::size_t>(
+      std::max(1, run.max_threads > 0 ? std::min(run.max_threads, available) : available));
+  const std::size_t rounds = count - count % threads;
+  const RunContext alone{.report = {}, .stop = run.stop, .max_threads = 1};
+  const RunContext together{.report = {}, .stop = run.stop, .max_threads = run.max_threads};
+  const auto do_all = [&](std::size_t first, std::size_t last, const RunContext& own) {
+    parallel_for(run, last - first, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = first + begin; i < first + end; ++i) {
+        body(i, own);
+      }
+    });
+  };
+  do_all(0, rounds, alone);
+  do_all(rounds, count, together);
+}
+
+void run_both(const RunContext& run, const std::function<void()>& first,
+              const std::function<void()>& second) {
+  run.check();
+  if (run.max_threads == 1) {
+    first();
+    second();
+    return;
+  }
+  with_threads(run, [&] {
+    tbb::task_group beside;
+    std::exception_ptr of_second;
+    beside.run([&] {
+      try {
+        second();
+      } catch (...) {
+        of_second = std::current_exception();
+      }
+    });
+    try {
+      first();
+    } catch (...) {
+      beside.wait();
+      throw;
+    }
+    beside.wait();
+    if (of_second) {
+      std::rethrow_exception(of_second);
+    }
   });
 }
 

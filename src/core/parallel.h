@@ -23,6 +23,19 @@ void with_threads(const RunContext& run, const std::function<void()>& work);
 void parallel_for(const RunContext& run, std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
+/// Calls `body(i, own)` for every i in [0, count), for bodies that can use several threads
+/// themselves: one each as long as that keeps all of them busy, all together for the few that are
+/// left. `own` says how many the body may take. Bodies must write to disjoint places.
+/// \throw Cancelled, and whatever `body` throws.
+void parallel_items(const RunContext& run, std::size_t count,
+                    const std::function<void(std::size_t i, const RunContext& own)>& body);
+
+/// Runs both, the second beside the first where there is a thread to spare; both have ended when
+/// this returns. They must not write to what the other reads.
+/// \throw what `first` throws, or else what `second` does; Cancelled
+void run_both(const RunContext& run, const std::function<void()>& first,
+              const std::function<void()>& second);
+
 /// Runs `work`, which cannot look at run.stop itself, and leaves it behind if a stop is requested:
 /// it then runs to its end in the background, so it must own all that it touches.
 /// \throw Cancelled within a tenth of a second, and whatever `work` throws.

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "report/panels.h"
 #include "report/search_figure.h"
 #include "report/sphere_figure.h"
+#include "report/view_preparation.h"
 
 namespace vantage {
 namespace {
@@ -217,8 +219,8 @@ Figure sphere_figure(const ShapeAnalysis& shape, const SaliencyView& saliency,
 
 Figure rapid_figure(const ShapeAnalysis& shape, const ViewReport& report,
                     const ViewOptions& options, const RunContext& run) {
-  const VertexVisibility visibility(shape.surface, shape.sides);
-  const ViewScorer scorer(visibility, shape.map.of_vertex, report.camera);
+  const std::shared_ptr<const ViewPreparation> prepared = preparation_of(shape);
+  const ViewScorer scorer(prepared->visibility, shape.map.of_vertex, report.camera);
   RunContext quiet = run;
   quiet.report = nullptr;
   const ScoreBatch score = [&](const std::vector<Vec3>& directions) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <numbers>
 #include <optional>
 
@@ -19,6 +20,7 @@
 #include "io/base64.h"
 #include "report/display_mesh.h"
 #include "report/report_page.h"
+#include "report/view_preparation.h"
 
 namespace vantage {
 namespace {
@@ -231,10 +233,11 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, const Vi
     throw InvalidInput("this build has no 3D page; build it where npm is installed");
   }
   const Frame frame{report.camera.sphere.centre, 0.5 * report.camera.sphere.diameter};
-  const VertexVisibility visibility(shape.surface, shape.sides);
+  const std::shared_ptr<const ViewPreparation> prepared = preparation_of(shape);
   const std::optional<FaceVisibility> faces = faces_to_score(shape, options);
-  const ViewScorer scorer = faces ? ViewScorer(*faces, shape.map.of_vertex, report.camera)
-                                  : ViewScorer(visibility, shape.map.of_vertex, report.camera);
+  const ViewScorer scorer =
+      faces ? ViewScorer(*faces, shape.map.of_vertex, report.camera)
+            : ViewScorer(prepared->visibility, shape.map.of_vertex, report.camera);
   const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, kSphereLevel);
   RunContext quiet = run;
   quiet.report = nullptr;

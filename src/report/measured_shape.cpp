@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "vantage/core/error.h"
@@ -13,6 +14,7 @@
 #include "vantage/significance/mesh_saliency.h"
 
 #include "report/prior_search.h"
+#include "report/view_preparation.h"
 #include "view/sphere_angles.h"
 
 namespace vantage {
@@ -232,10 +234,10 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, UpAxis up, const Vi
   report.camera = scoring_camera(shape, options);
   report.up = up;
   report.total = kNone;
-  const VertexVisibility visibility(shape.surface, shape.sides);
+  const std::shared_ptr<const ViewPreparation> prepared = preparation_of(shape);
   const auto described = [&](const FoundView& found, bool is_best) {
     ReportedView view =
-        describe_view(shape, visibility, report.camera, found.direction, up, options);
+        describe_view(shape, prepared->visibility, report.camera, found.direction, up, options);
     view.score = measurer.values(std::vector<Vec3>{found.direction}).front().front();
     view.score_fraction = kNone;
     view.objective = is_best ? score.score(view.score) * options.prior.factor(frame, view.direction)

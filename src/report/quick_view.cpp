@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/report/quick_view.h"
 
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "vantage/mesh/measures.h"
 #include "vantage/render/framing.h"
 
+#include "core/parallel.h"
 #include "mesh/decimation.h"
 #include "report/twins.h"
 #include "report/vertex_share.h"
+#include "report/view_preparation.h"
 #include "view/compact_surface.h"
 #include "view/pruned_search.h"
 
@@ -57,8 +60,15 @@ QuickView find_quick_view(const Model& model, const ShapeAnalysis& shape,
                           const ViewOptions& options, const RunContext& run) {
   CoarseShape coarse = coarse_copy(shape, run.part(0.0, 0.3));
   ShapeAnalysis& small = coarse.shape;
-  add_history(small, options, run.part(0.3, 0.7));
-  add_skeleton(small, options, run.part(0.7, 0.8));
+  std::shared_ptr<const ViewPreparation> views;
+  run_both(
+      run,
+      [&] {
+        add_history(small, options, run.part(0.3, 0.7));
+        add_skeleton(small, options, run.part(0.7, 0.8));
+      },
+      [&] { views = std::make_shared<ViewPreparation>(small); });
+  small.views = std::move(views);
   add_map(small, options, run.part(0.8, 0.85));
   for (std::size_t v = 0; v < coarse.merged.size(); ++v) {
     small.map.of_vertex[v] *= coarse.merged[v];
@@ -69,8 +79,7 @@ QuickView find_quick_view(const Model& model, const ShapeAnalysis& shape,
   const Vec3 up = up_vector(view.up.axis);
   const UprightFrame frame = upright_frame(up);
   const ScoringCamera camera = scoring_camera(shape, options);
-  const VertexVisibility visibility(small.surface, small.sides);
-  const ViewScorer scorer(visibility, small.map.of_vertex, camera);
+  const ViewScorer scorer(small.views->visibility, small.map.of_vertex, camera);
   RunContext batch_run = run;
   batch_run.report = nullptr;
   const ScoreBatch score = [&](const std::vector<Vec3>& directions) {

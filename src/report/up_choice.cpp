@@ -4,6 +4,8 @@
 #include "vantage/report/view_report.h"
 #include "vantage/view/stance.h"
 
+#include "report/view_preparation.h"
+
 namespace vantage {
 
 UpChoice choose_up(const Model& model, const ShapeAnalysis& shape, const ViewOptions& options) {
@@ -15,9 +17,9 @@ UpChoice choose_up(const Model& model, const ShapeAnalysis& shape, const ViewOpt
     return {expected, "format", {}};
   }
   const UpAxis other = expected == UpAxis::Y ? UpAxis::Z : UpAxis::Y;
-  const std::vector<MirrorPlane> planes = mirror_planes(shape.surface);
-  if (!stands_only_on(stance(shape.surface, up_vector(other), planes),
-                      stance(shape.surface, up_vector(expected), planes))) {
+  const auto [planes, with_y_up, with_z_up] = posture_of(shape);
+  const bool is_y = expected == UpAxis::Y;
+  if (!stands_only_on(is_y ? with_z_up : with_y_up, is_y ? with_y_up : with_z_up)) {
     return {expected, "format", {}};
   }
   const std::string name(up_name(other));

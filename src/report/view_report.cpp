@@ -13,14 +13,15 @@
 #include "report/scored_view.h"
 #include "report/twins.h"
 #include "report/vertex_share.h"
+#include "report/view_preparation.h"
 #include "view/nearby_scorer.h"
 #include "view/sketch_scorer.h"
 
 namespace vantage {
 namespace {
 
-double visible_area_fraction(const TriMesh& surface, std::span<const std::uint8_t> visible) {
-  const std::vector<double> areas = vertex_areas(surface);
+/// \param areas of the vertices.
+double visible_area_fraction(std::span<const double> areas, std::span<const std::uint8_t> visible) {
   double seen = 0.0;
   double all = 0.0;
   for (std::size_t v = 0; v < areas.size(); ++v) {
@@ -75,7 +76,8 @@ ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& v
   view.score = visible_sum(shape.map.of_vertex, visible);
   view.score_fraction = total > 0.0 ? view.score / total : 0.0;
   view.objective = view.score;
-  view.visible_area_fraction = visible_area_fraction(shape.surface, visible);
+  view.visible_area_fraction = visible_area_fraction(
+      shape.views ? shape.views->vertex_areas : vertex_areas(shape.surface), visible);
   view.picture = frame_points(referenced_points(shape.surface), camera.viewpoint(direction),
                               camera.sphere.centre, up_vector(up),
                               static_cast<double>(options.width) / options.height, options.margin);
@@ -119,12 +121,8 @@ DenseGap gap_to_dense(const FoundViews& found, const ScoreBatch& score, double t
   return gap;
 }
 
-// A model of fewer vertices is searched more thoroughly: its scores are rough, and one costs less
-// than a millisecond. One of very few is looked over by its scores. [ours, docs/search.md]
-constexpr std::size_t kCheapBelow = 6000;
+// A model of very few vertices is looked over by its scores. [ours, docs/search.md]
 constexpr std::size_t kEstimatedFrom = 500;
-// The sketch of such a model is finer, too.
-constexpr SketchOptions kFineSketch{.points = 5000, .faces = 5000, .cells = 112};
 
 }  // namespace
 
@@ -137,7 +135,8 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
   ViewReport report;
   report.camera = scoring_camera(shape, options);
   report.up = up;
-  const VertexVisibility visibility(shape.surface, shape.sides);
+  const std::shared_ptr<const ViewPreparation> prepared = preparation_of(shape);
+  const VertexVisibility& visibility = prepared->visibility;
   const std::optional<FaceVisibility> faces = faces_to_score(shape, options);
   const ViewScorer scorer = faces ? ViewScorer(*faces, shape.map.of_vertex, report.camera)
                                   : ViewScorer(visibility, shape.map.of_vertex, report.camera);
@@ -165,13 +164,13 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
         return amid.score_amid(circles, directions, batch_run);
       };
     }
-    hints.landmarks = landmark_directions(shape.surface);
-    hints.brinks = brink_directions(shape.surface, report.camera);
+    hints.landmarks = prepared->landmarks;
+    hints.brinks = brink_directions(prepared->walls, report.camera);
     const std::size_t size = shape.surface.positions.size();
     hints.scores_are_cheap = size < kCheapBelow;
     if (size >= (faces ? kCheapBelow : kEstimatedFrom)) {
       sketch.emplace(shape.surface, shape.sides, vertex_shares(shape, options.weight),
-                     report.camera, hints.scores_are_cheap ? kFineSketch : SketchOptions{});
+                     report.camera, sketch_options(size), prepared->coarse);
       hints.estimate = [&](const std::vector<Vec3>& directions) {
         return sketch->score_all(directions, batch_run);
       };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -102,6 +103,9 @@ struct CloudAnalysis {
   PointContraction contraction{};       ///< Its history of all points moves to the analysis.
 };
 
+/// What views of a surface are looked for with, whatever its map; not for callers to look into.
+struct ViewPreparation;
+
 /// The surface as the method works on it, and what it found out about its shape.
 struct ShapeAnalysis {
   TriMesh surface{};                            ///< Welded, closed shells turned outwards.
@@ -114,6 +118,9 @@ struct ShapeAnalysis {
   KssmMap map{};                                ///< Filled by add_map().
   std::vector<std::string> warnings{};          ///< Every repair and doubt, one sentence each.
   std::optional<CloudAnalysis> cloud{};         ///< Set if the model has no faces.
+  /// Filled by analyse_shape(), for it takes no longer there; where it is missing, what looks for
+  /// views makes it. Of `surface` and `sides` as they are: reset it with them.
+  std::shared_ptr<const ViewPreparation> views{};
 };
 
 /// Welds and orients the model's surface; the only place that repairs, and it lists every repair.
@@ -129,7 +136,8 @@ void add_skeleton(ShapeAnalysis& shape, const ViewOptions& options, const RunCon
 /// Adds the significance map. \pre skeleton is there. \throw Cancelled
 void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
 
-/// All of the above; `seconds` receives the stage times if not null.
+/// All of the above, and beside it what looking for views needs; `seconds` receives the stage times
+/// if not null.
 ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options,
                             const RunContext& run = {}, StageSeconds* seconds = nullptr);
 
