@@ -163,6 +163,9 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
       hints.nearby = [&](const Circles& circles, const std::vector<Vec3>& directions) {
         return amid.score_amid(circles, directions, batch_run);
       };
+      hints.expect_nearby = [&](const std::vector<Circles>& circles) {
+        amid.expect(circles, batch_run);
+      };
     }
     hints.landmarks = prepared->landmarks;
     hints.brinks = brink_directions(prepared->walls, report.camera);

@@ -341,7 +341,7 @@ class Ascent {
   void keep_apart(std::size_t count, double apart_rad);
   void climb_exactly(const RingSteps& rings, int level, const RunContext& run);
   void climb_nearby(const RingSteps& rings, const RunContext& run);
-  void approach(Hill& hill, double ring_rad) const;
+  void approach(double ring_rad);
 
   const Guides& guides_;
   Goal goal_;
@@ -374,22 +374,33 @@ void Ascent::climb_exactly(const RingSteps& rings, int level, const RunContext& 
   }
 }
 
-/// Makes the place and the ring around it, all of them scored by now, those in whose midst it climbs
+/// Makes each place and the ring around it, all of them scored by now, those in whose midst it climbs
 /// on.
-void Ascent::approach(Hill& hill, double ring_rad) const {
-  std::vector<Vec3> circle{hill.top.direction};
-  for (const Candidate& place : ring_of(hill.top, ring_rad)) {
-    circle.push_back(place.direction);
+void Ascent::approach(double ring_rad) {
+  std::vector<Circles> amid;
+  for (Hill& hill : hills_) {
+    if (hill.circles.size() < kCircles) {
+      std::vector<Vec3> circle{hill.top.direction};
+      for (const Candidate& place : ring_of(hill.top, ring_rad)) {
+        circle.push_back(place.direction);
+      }
+      hill.circles.push_back(std::move(circle));
+      amid.push_back(hill.circles);
+    }
   }
-  hill.circles.push_back(std::move(circle));
-  hill.top.score = guides_.nearby(hill.circles, {hill.top.direction}).front();
+  if (guides_.expect_nearby) {
+    guides_.expect_nearby(amid);
+  }
+  for (Hill& hill : hills_) {
+    hill.top.score = guides_.nearby(hill.circles, {hill.top.direction}).front();
+  }
 }
 
 void Ascent::climb_nearby(const RingSteps& rings, const RunContext& run) {
+  if (hills_.front().circles.size() < kCircles) {  // like all others
+    approach(2.0 * rings.first_rad);
+  }
   for (Hill& hill : hills_) {
-    if (hill.circles.size() < kCircles) {
-      approach(hill, 2.0 * rings.first_rad);
-    }
     const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
       return guides_.nearby(hill.circles, directions);
     };

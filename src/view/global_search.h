@@ -32,6 +32,7 @@ struct Guides {
   Evaluator& exact;      ///< Decide.
   Effort effort;
   ScoreNearby nearby{};  ///< If there is one, hills are climbed by it, but for their first rings.
+  std::function<void(const std::vector<Circles>&)> expect_nearby{};  ///< SearchHints::expect_nearby
 };
 
 /// The global search: docs/search.md has the steps and the numbers. \throw Cancelled

@@ -147,15 +147,22 @@ const NearbyScorer::Seen& NearbyScorer::seen_from(const Vec3& direction) {
   return at->second;
 }
 
+std::vector<const NearbyScorer::Seen*> NearbyScorer::seen_from(const std::vector<Vec3>& circle) {
+  std::vector<const Seen*> seen;
+  for (const Vec3& direction : circle) {
+    seen.push_back(&seen_from(direction));  // stays where it is in the map
+  }
+  return seen;
+}
+
 std::shared_ptr<NearbyScorer::Midst> NearbyScorer::midst_of_scored(
-    const std::vector<Vec3>& circle) {
-  Seen by_all = seen_from(circle.front());
+    const std::vector<Vec3>& circle, std::span<const Seen* const> seen) const {
+  Seen by_all = *seen.front();
   Seen by_some = by_all;
-  for (const Vec3& other : circle) {
-    const Seen& seen = seen_from(other);
-    for (std::size_t w = 0; w < seen.size(); ++w) {
-      by_all[w] &= seen[w];
-      by_some[w] |= seen[w];
+  for (const Seen* one : seen) {
+    for (std::size_t w = 0; w < one->size(); ++w) {
+      by_all[w] &= (*one)[w];
+      by_some[w] |= (*one)[w];
     }
   }
   auto midst = std::make_shared<Midst>();
@@ -204,26 +211,67 @@ std::shared_ptr<NearbyScorer::Midst> NearbyScorer::midst_within(
   return midst;
 }
 
-std::shared_ptr<NearbyScorer::Midst> NearbyScorer::midst_of(const Circles& circles) {
+std::shared_ptr<NearbyScorer::Midst> NearbyScorer::known_midst(const Circles& circles) const {
   const auto known = std::find_if(midsts_.begin(), midsts_.end(),
                                   [&](const auto& midst) { return midst->circles == circles; });
-  if (known != midsts_.end()) {
-    return *known;
-  }
-  std::shared_ptr<Midst> midst;
-  if (circles.size() == 1) {
-    midst = midst_of_scored(circles.front());
-  } else {
-    midst = midst_within(midst_of({circles.begin(), circles.end() - 1}), circles.back());
-    if (std::find(midsts_.begin(), midsts_.end(), midst) != midsts_.end()) {
-      return midst;  // the wider one
-    }
+  return known != midsts_.end() ? *known : nullptr;
+}
+
+void NearbyScorer::remember(std::shared_ptr<Midst> midst) {
+  if (std::find(midsts_.begin(), midsts_.end(), midst) != midsts_.end()) {
+    return;  // a wider one, again
   }
   if (midsts_.size() == kMostMidsts) {
     midsts_.erase(midsts_.begin());
   }
-  midsts_.push_back(midst);
+  midsts_.push_back(std::move(midst));
+}
+
+std::shared_ptr<NearbyScorer::Midst> NearbyScorer::midst_of(const Circles& circles) {
+  std::shared_ptr<Midst> midst = known_midst(circles);
+  if (midst == nullptr) {
+    midst = circles.size() == 1
+                ? midst_of_scored(circles.front(), seen_from(circles.front()))
+                : midst_within(midst_of({circles.begin(), circles.end() - 1}), circles.back());
+    remember(midst);
+  }
   return midst;
+}
+
+void NearbyScorer::expect(std::span<const Circles> all, const RunContext& run) {
+  struct Job {
+    const std::vector<Vec3>* circle;
+    std::vector<const Seen*> seen{};  // from a circle without a wider one
+    std::shared_ptr<Midst> wider{};   // else
+    std::shared_ptr<Midst> made{};
+  };
+
+  std::vector<Job> jobs;
+  for (const Circles& circles : all) {
+    Job job{&circles.back()};
+    if (circles.size() == 1) {
+      job.seen = seen_from(circles.back());
+    } else {
+      job.wider = midst_of({circles.begin(), circles.end() - 1});
+    }
+    // Two in the midst of one would both look through it; the second is made when it is asked for.
+    const bool is_alone = std::none_of(jobs.begin(), jobs.end(), [&](const Job& other) {
+      return job.wider != nullptr && other.wider == job.wider;
+    });
+    if (is_alone && known_midst(circles) == nullptr) {
+      jobs.push_back(std::move(job));
+    }
+  }
+  parallel_for(run, jobs.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Job& job = jobs[i];
+      job.made = job.wider == nullptr ? midst_of_scored(*job.circle, job.seen)
+                                      : midst_within(job.wider, *job.circle);
+    }
+  });
+  for (Job& job : jobs) {
+    remember(std::move(job.made));
+  }
 }
 
 std::vector<double> NearbyScorer::score_amid(const Circles& circles,

@@ -40,6 +40,9 @@ class NearbyScorer {
   std::vector<double> score_amid(const Circles& circles, std::span<const Vec3> directions,
                                  const RunContext& run);
 
+  /// Makes ready what score_amid() needs for each of these, side by side.
+  void expect(std::span<const Circles> all, const RunContext& run);
+
  private:
   using Key = std::array<std::uint64_t, 3>;  // the bits of a direction
   using Seen = std::vector<std::uint64_t>;   // one bit a vertex
@@ -49,10 +52,14 @@ class NearbyScorer {
   [[nodiscard]] double sum_of(const Seen& seen) const;
   const Seen& seen_from(const Vec3& direction);
   void forget_if_full();
+  [[nodiscard]] std::shared_ptr<Midst> known_midst(const Circles& circles) const;
+  void remember(std::shared_ptr<Midst> midst);
   std::shared_ptr<Midst> midst_of(const Circles& circles);
-  std::shared_ptr<Midst> midst_of_scored(const std::vector<Vec3>& circle);
-  std::shared_ptr<Midst> midst_within(std::shared_ptr<Midst> wider,
-                                      const std::vector<Vec3>& circle) const;
+  std::vector<const Seen*> seen_from(const std::vector<Vec3>& circle);
+  [[nodiscard]] std::shared_ptr<Midst> midst_of_scored(const std::vector<Vec3>& circle,
+                                                       std::span<const Seen* const> seen) const;
+  [[nodiscard]] std::shared_ptr<Midst> midst_within(std::shared_ptr<Midst> wider,
+                                                    const std::vector<Vec3>& circle) const;
 
   const VertexVisibility& visibility_;
   std::span<const double> significance_;

@@ -164,6 +164,7 @@ class Inquiry {
       : exact_(score),
         estimates_(hints.estimate),
         nearby_(hints.nearby),
+        expect_nearby_(hints.expect_nearby),
         has_estimates_(static_cast<bool>(hints.estimate)),
         is_thorough_(hints.scores_are_cheap) {}
 
@@ -178,9 +179,10 @@ class Inquiry {
       };
     }
     if (!has_estimates_) {
-      return {exact_, exact_, kByScores, std::move(counted)};
+      return {exact_, exact_, kByScores, std::move(counted), expect_nearby_};
     }
-    return {estimates_, exact_, is_thorough_ ? kThorough : kUsual, std::move(counted)};
+    return {estimates_, exact_, is_thorough_ ? kThorough : kUsual, std::move(counted),
+            expect_nearby_};
   }
 
   /// Reports a view as found by all that was asked since the last report.
@@ -202,6 +204,7 @@ class Inquiry {
   Evaluator exact_;
   Evaluator estimates_;
   ScoreNearby nearby_;
+  std::function<void(const std::vector<Circles>&)> expect_nearby_;
   std::size_t nearby_asked_ = 0;
   bool has_estimates_;
   bool is_thorough_;

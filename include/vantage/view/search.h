@@ -95,6 +95,9 @@ struct SearchHints {
   /// If given, hills are climbed by these once some directions around are scored; what is found is
   /// scored.
   ScoreNearby nearby{};
+  /// If given, told what nearby scores will be asked for amid, so that several can be made ready at a
+  /// time.
+  std::function<void(const std::vector<Circles>&)> expect_nearby{};
   /// Directions to look at whatever their neighbours say, such as landmark_directions().
   std::vector<Vec3> landmarks{};
   /// Directions to score whatever the estimate says, such as brink_directions().
