@@ -39,7 +39,7 @@ const FaceSamples::Neighbourhood& FaceSamples::neighbourhood() {
     if (!surface().faces.empty()) {
       edges = surface_edges(surface());
       const CandidateScene scene(surface().sites, surface().faces);
-      backs = hiding_backs(surface(), edges, scene);
+      backs = hiding_backs(surface(), edges);
       slivers.emplace(surface(), edges, scene, backs);
     }
   });

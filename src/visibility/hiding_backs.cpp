@@ -10,6 +10,8 @@
 
 #include "vantage/mesh/tri_mesh.h"
 
+#include "visibility/close_faces.h"
+
 namespace vantage {
 namespace {
 
@@ -19,6 +21,9 @@ constexpr double kClear = 0x1p-40;
 // A shell whose volume is below this share of what its faces' volumes add up to has no inside to
 // speak of.
 constexpr double kFlatShell = 1e-9;
+
+// Pairs of faces whose boxes overlap, per face, up to which they are looked at; a fine mesh has ten.
+constexpr std::size_t kMostPairs = 200;
 
 using Corners = std::array<Vec3, 3>;
 
@@ -50,8 +55,8 @@ bool meets(const Vec3& from, const Vec3& to, const Corners& corners, const Vec3&
 
 class BackCheck {
  public:
-  BackCheck(const Surface& surface, const SurfaceEdges& edges, const CandidateScene& scene)
-      : surface_(surface), edges_(edges), scene_(scene), hides_(surface.faces.size(), 0) {}
+  BackCheck(const Surface& surface, const SurfaceEdges& edges)
+      : surface_(surface), edges_(edges), hides_(surface.faces.size(), 0) {}
 
   /// 1 for each face whose back may hide for itself.
   std::vector<std::uint8_t> of_faces() {
@@ -94,33 +99,65 @@ class BackCheck {
 
   /// No edge may meet a face of its shell.
   void check_meetings() {
-    for (std::size_t e = 0; e < edges_.table.edges.size(); ++e) {
-      const std::uint32_t shell = shell_at(e);
-      if (hides_[shell] != 0) {
-        continue;
-      }
-      const Vec3& from = surface_.sites[edges_.table.edges[e][0]];
-      const Vec3 way = surface_.sites[edges_.table.edges[e][1]] - from;
-      const double length = way.norm();
-      const auto meets_own = [&](std::uint32_t f) {
-        return edges_.shell_of_face[f] == shell && meets_face(e, f);
-      };
-      if (!(length > 0.0) || scene_.any(from, way / length, length, meets_own)) {
+    const auto meet = [&](std::uint32_t f, std::uint32_t g) {
+      const std::uint32_t shell = edges_.shell_of_face[f];
+      if (shell == edges_.shell_of_face[g] && hides_[shell] == 0 && !share_edge(f, g) &&
+          (has_edge_in(f, g) || has_edge_in(g, f))) {
         hides_[shell] = 1;
       }
+    };
+    if (!for_each_close_pair(surface_, kMostPairs * surface_.faces.size(), meet)) {
+      std::fill(hides_.begin(), hides_.end(), 1);
     }
   }
 
-  /// Left out are faces that the edge shares a site with: where it lies in one of them, so does its
-  /// other end, or it passes over an edge of that face, and a face beside it meets that.
-  [[nodiscard]] bool meets_face(std::size_t edge, std::uint32_t face) const {
-    const auto [a, b] = edges_.table.edges[edge];
-    const Triangle& t = surface_.faces[face];
-    const bool is_beside = std::any_of(
-        t.begin(), t.end(), [a = a, b = b](std::uint32_t site) { return site == a || site == b; });
-    return !is_beside && meets(surface_.sites[a], surface_.sites[b],
-                               {surface_.sites[t[0]], surface_.sites[t[1]], surface_.sites[t[2]]},
-                               surface_.area_vectors[face]);
+  /// Whether every edge of either face shares a site with the other.
+  [[nodiscard]] bool share_edge(std::uint32_t f, std::uint32_t g) const {
+    const auto& [a, b, c] = surface_.faces[f];
+    int shared = 0;
+    for (const std::uint32_t site : surface_.faces[g]) {
+      shared +=
+          static_cast<int>(site == a) + static_cast<int>(site == b) + static_cast<int>(site == c);
+    }
+    return shared >= 2;
+  }
+
+  /// Whether one of the face's edges meets another face. Of the two faces at an edge one runs along
+  /// it upwards, and is asked. Left out are edges that share a site with the other face: where one lies
+  /// in it, so does its other end, or it passes over an edge of that face, and a face beside it meets
+  /// that.
+  [[nodiscard]] bool has_edge_in(std::uint32_t of, std::uint32_t face) const {
+    const Triangle& own = surface_.faces[of];
+    const Triangle& other = surface_.faces[face];
+    const auto is_shared = [&](std::uint32_t site) {
+      return site == other[0] || site == other[1] || site == other[2];
+    };
+    const std::array<bool, 3> shared{is_shared(own[0]), is_shared(own[1]), is_shared(own[2])};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      if (own[k] < own[next] && !shared[k] && !shared[next] &&
+          !is_beside_plane(own[k], own[next], face) &&
+          meets(surface_.sites[own[k]], surface_.sites[own[next]],
+                {surface_.sites[other[0]], surface_.sites[other[1]], surface_.sites[other[2]]},
+                surface_.area_vectors[face])) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Whether both sites are clearly on one side of the face's plane, by single precision.
+  [[nodiscard]] bool is_beside_plane(std::uint32_t a, std::uint32_t b, std::uint32_t face) const {
+    constexpr float kRoundings = 0x1p-18F;  // a dozen of numbers below 1, and far more than kClear
+    const FloatPoints& at = surface_.rounded;
+    const FacePlanes& planes = surface_.planes;
+    const auto height = [&](std::uint32_t site) {
+      return planes.x[face] * at.x[site] + planes.y[face] * at.y[site] +
+             planes.z[face] * at.z[site] - planes.offset[face];
+    };
+    const float of_a = height(a);
+    const float of_b = height(b);
+    return std::min(of_a, of_b) > kRoundings || std::max(of_a, of_b) < -kRoundings;
   }
 
   [[nodiscard]] std::uint32_t shell_at(std::size_t edge) const {
@@ -129,15 +166,13 @@ class BackCheck {
 
   const Surface& surface_;
   const SurfaceEdges& edges_;
-  const CandidateScene& scene_;
   std::vector<std::uint8_t> hides_;  // of the face that each shell is named after
 };
 
 }  // namespace
 
-std::vector<std::uint8_t> hiding_backs(const Surface& surface, const SurfaceEdges& edges,
-                                       const CandidateScene& scene) {
-  return BackCheck(surface, edges, scene).of_faces();
+std::vector<std::uint8_t> hiding_backs(const Surface& surface, const SurfaceEdges& edges) {
+  return BackCheck(surface, edges).of_faces();
 }
 
 }  // namespace vantage

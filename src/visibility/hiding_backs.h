@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "spatial/ray_scene.h"
 #include "visibility/surface.h"
 #include "visibility/surface_edges.h"
 
@@ -17,8 +16,6 @@
 namespace vantage {
 
 /// 1 for each face whose back may hide something that no front hides, from an eye outside.
-/// \param scene the surface's faces.
-std::vector<std::uint8_t> hiding_backs(const Surface& surface, const SurfaceEdges& edges,
-                                       const CandidateScene& scene);
+std::vector<std::uint8_t> hiding_backs(const Surface& surface, const SurfaceEdges& edges);
 
 }  // namespace vantage

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/visibility/vertex_visibility.h"
 
-#include "spatial/ray_scene.h"
 #include "visibility/hiding_backs.h"
 #include "visibility/surface_edges.h"
 #include "visibility/vertex_scene.h"
@@ -17,8 +16,7 @@ constexpr std::size_t kManyEyes = 100;
 Surface surface_for(const TriMesh& mesh, std::span<const FaceSides> sides, std::size_t eyes) {
   Surface surface = prepare_surface(mesh, sides);
   if (eyes >= kManyEyes && !surface.faces.empty()) {
-    const CandidateScene scene(surface.sites, surface.faces);
-    surface.backs = hiding_backs(surface, surface_edges(surface), scene);
+    surface.backs = hiding_backs(surface, surface_edges(surface));
   }
   return surface;
 }

@@ -28,8 +28,7 @@ struct Count {
 Count backs_of(const TriMesh& mesh) {
   const std::vector<FaceSides> sides{FaceSides::Front};
   const Surface surface = prepare_surface(mesh, sides);
-  const CandidateScene scene(surface.sites, surface.faces);
-  const auto asked = hiding_backs(surface, surface_edges(surface), scene);
+  const auto asked = hiding_backs(surface, surface_edges(surface));
   return {static_cast<std::size_t>(std::count(asked.begin(), asked.end(), 1)), asked.size()};
 }
 
