@@ -9,6 +9,7 @@
 #include "vantage/report/measured_shape.h"
 #include "vantage/view/landmarks.h"
 
+#include "core/parallel.h"
 #include "report/prior_search.h"
 #include "report/scored_view.h"
 #include "report/twins.h"
@@ -196,8 +197,12 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
     report.dense_gap = gap_to_dense(found, score, report.total, options.prior, frame,
                                     run.part(search_share, options.view_set ? 0.6 : 1.0));
   }
-  report.best = describe_scored_view(shape, visibility, scorer, best.direction, up, options);
-  report.worst = describe_scored_view(shape, visibility, scorer, worst.direction, up, options);
+  const auto described = [&](const FoundView& view) {
+    return describe_scored_view(shape, visibility, scorer, view.direction, up, options);
+  };
+  run_both(
+      batch_run, [&, &best = best] { report.best = described(best); },
+      [&, &worst = worst] { report.worst = described(worst); });
   report.worst.objective = report.worst.score;  // no prior has a say in it
   if (options.view_set) {
     report.set =

@@ -111,8 +111,10 @@ NearbyScorer::Seen NearbyScorer::look(const Vec3& direction, const RunContext& r
 /// visible_sum(), in its order.
 double NearbyScorer::sum_of(const Seen& seen) const {
   double sum = 0.0;
-  for (std::size_t v = 0; v < significance_.size(); ++v) {
-    sum += (seen[v / kBits] >> (v % kBits) & 1U) != 0 ? significance_[v] : 0.0;
+  for (std::size_t w = 0; w < seen.size(); ++w) {
+    for (std::uint64_t left = seen[w]; left != 0; left &= left - 1) {
+      sum += significance_[w * kBits + static_cast<std::size_t>(std::countr_zero(left))];
+    }
   }
   return sum;
 }

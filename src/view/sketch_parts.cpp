@@ -67,10 +67,9 @@ struct Chosen {
 
 /// Systematic samples: walking along a curve through space, one each time a share of the total
 /// significance has been passed.
-std::vector<Chosen> choose_vertices(const TriMesh& surface, std::span<const double> significance,
-                                    std::size_t count) {
+std::vector<Chosen> choose_vertices(std::span<const std::uint32_t> order,
+                                    std::span<const double> significance, std::size_t count) {
   std::vector<Chosen> chosen;
-  const std::vector<std::uint32_t> order = morton_order(surface.positions);
   if (order.size() <= count) {
     for (const std::uint32_t v : order) {
       chosen.push_back({v, significance[v]});
@@ -176,10 +175,11 @@ void append_hull(SketchPoints::Cones& hull, const std::vector<Cone>& cones, cons
 
 }  // namespace
 
-SketchPoints sketch_points(const TriMesh& surface, const std::vector<FaceSides>& sides,
+SketchPoints sketch_points(const TriMesh& surface, std::span<const std::uint32_t> order,
+                           const std::vector<FaceSides>& sides,
                            std::span<const double> significance, const ScoringCamera& camera,
                            std::size_t count) {
-  const std::vector<Chosen> chosen = choose_vertices(surface, significance, count);
+  const std::vector<Chosen> chosen = choose_vertices(order, significance, count);
   const std::vector<std::vector<Vec3>> normals = normals_at(surface, chosen);
   const std::vector<FaceSides> side_of = sides_of_vertices(surface, sides);
   const bool perspective = camera.projection == Projection::Perspective;
@@ -227,6 +227,7 @@ SketchPoints sketch_points(const TriMesh& surface, const std::vector<FaceSides>&
 SketchSurface sketch_surface(const TriMesh& surface, const std::vector<FaceSides>& sides,
                              const Sphere& sphere, std::size_t count) {
   SketchSurface sketch;
+  sketch.order = morton_order(surface.positions);
   std::vector<float> positions;
   positions.reserve(3 * surface.positions.size());
   for (const Vec3& p : surface.positions) {

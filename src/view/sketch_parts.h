@@ -49,10 +49,13 @@ struct SketchSurface {
   SketchCoordinates corners{};  ///< Padded to whole eights.
   std::vector<Triangle> faces{};
   std::vector<std::uint8_t> two_sided{};  ///< One per face.
+  std::vector<std::uint32_t> order{};     ///< All vertices of the whole surface, along a curve.
 };
 
 /// Takes at most `count` vertices, spread over the surface in proportion to their significance.
-SketchPoints sketch_points(const TriMesh& surface, const std::vector<FaceSides>& sides,
+/// \param order of sketch_surface().
+SketchPoints sketch_points(const TriMesh& surface, std::span<const std::uint32_t> order,
+                           const std::vector<FaceSides>& sides,
                            std::span<const double> significance, const ScoringCamera& camera,
                            std::size_t count);
 

@@ -470,10 +470,11 @@ SketchScorer::SketchScorer(const TriMesh& surface, const std::vector<FaceSides>&
     : camera_(drawable(camera)),
       cells_(options.cells),
       slack_(options.slack),
-      points_(sketch_points(surface, sides, significance, camera_, options.points)),
       surface_(coarse ? std::move(coarse)
                       : std::make_shared<SketchSurface>(
-                            sketch_surface(surface, sides, camera_.sphere, options.faces))) {}
+                            sketch_surface(surface, sides, camera_.sphere, options.faces))),
+      points_(
+          sketch_points(surface, surface_->order, sides, significance, camera_, options.points)) {}
 
 std::vector<double> SketchScorer::score_all(std::span<const Vec3> directions,
                                             const RunContext& run) const {

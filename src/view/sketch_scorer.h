@@ -56,8 +56,8 @@ class SketchScorer {
   ScoringCamera camera_;
   std::size_t cells_;
   float slack_;
-  SketchPoints points_;
   std::shared_ptr<const SketchSurface> surface_;
+  SketchPoints points_;
 };
 
 }  // namespace vantage

@@ -71,9 +71,14 @@ std::vector<std::uint8_t> Look::faces_at_sites() const {
 }
 
 std::vector<std::uint8_t> Look::seen_sites() {
-  std::vector<std::uint8_t> asked = faces_at_sites();
-  for (std::uint8_t& site : asked) {
-    site &= kTurned;
+  const Surface& surface = sight_.surface_;
+  std::vector<std::uint8_t> asked(surface.sites.size(), 0);
+  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    if (is_turned(f)) {
+      for (const std::uint32_t site : surface.faces[f]) {
+        asked[site] = 1;
+      }
+    }
   }
   return not_hidden({.sites = sight_.surface_.sites}, std::move(asked));
 }
