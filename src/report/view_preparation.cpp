@@ -20,8 +20,8 @@ Posture::Posture(const TriMesh& surface)
 ViewPreparation::ViewPreparation(const ShapeAnalysis& shape)
     : visibility(shape.surface, shape.sides, kEyes),
       posture(shape.surface),
-      landmarks(landmark_directions(shape.surface)),
       walls(flat_parts(shape.surface)),
+      landmarks(landmark_directions(shape.surface, walls)),
       vertex_areas(vantage::vertex_areas(shape.surface)),
       coarse(std::make_shared<SketchSurface>(
           sketch_surface(shape.surface, shape.sides, shape.sphere,

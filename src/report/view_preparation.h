@@ -33,8 +33,8 @@ struct ViewPreparation {
 
   VertexVisibility visibility;
   Posture posture;
-  std::vector<Vec3> landmarks;                  ///< landmark_directions().
   std::vector<FlatPart> walls;                  ///< flat_parts().
+  std::vector<Vec3> landmarks;                  ///< landmark_directions().
   std::vector<double> vertex_areas;             ///< vertex_areas().
   std::shared_ptr<const SketchSurface> coarse;  ///< For a SketchScorer by sketch_options().
 };

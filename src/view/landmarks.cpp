@@ -184,7 +184,7 @@ std::vector<Vec3> brink_directions(std::span<const FlatPart> walls, const Scorin
   return directions;
 }
 
-std::vector<Vec3> landmark_directions(const TriMesh& surface) {
+std::vector<Vec3> landmark_directions(const TriMesh& surface, std::span<const FlatPart> walls) {
   const std::vector<double> areas = face_areas(surface);
   double area = 0.0;
   for (const double a : areas) {
@@ -201,8 +201,8 @@ std::vector<Vec3> landmark_directions(const TriMesh& surface) {
   for (const Vec3& axis : principal_axes(surface, areas)) {
     lines.push_back(axis);
   }
-  for (const Vec3& normal : flat_normals(surface, area)) {
-    lines.emplace_back(normal.normalized());
+  for (const FlatPart& wall : walls) {
+    lines.push_back(wall.normal);
   }
   std::vector<Vec3> directions;
   for (const Vec3& line : lines) {

@@ -23,15 +23,9 @@ namespace {
 
 // Cells per side of a tile that knows its deepest point, as a shift. [ours, by measurement]
 constexpr unsigned kTileShift = 2;
-// Faces whose normal makes a larger cosine than this with the line of sight are steep: points
-// clearly behind them (by 2^-21 of the frame) lie off their plane far more than a touch.
-constexpr float kSteep = 0x1p-10F;
 // A point's height over a face's plane, both of them rounded to float in a UnitFrame, is wrong by
 // less than this: a dozen roundings of numbers below 1. It is also far more than a touch.
 constexpr float kHeightError = 0x1p-19F;
-// A face whose normal is this close to a right angle with the line of sight is seen edge on: the
-// rounding of positions in a UnitFrame and of the dot product, in radians.
-constexpr double kEdgeOn = 0x1p-46;
 // Point tests per point and face that are worth more than a hierarchy in space. [ours]
 constexpr std::size_t kPatience = 64;
 constexpr std::size_t kGrain = 4096;  // faces or points per chunk: some tenths of a millisecond
@@ -39,18 +33,6 @@ constexpr std::size_t kGrain = 4096;  // faces or points per chunk: some tenths 
 constexpr unsigned kLanes = 4;
 constexpr unsigned kWideLanes = 8;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-/// Which side of the face is turned to the eye, in double: 1 front, 2 back, 0 edge on.
-std::uint8_t exact_side(const Surface& surface, std::size_t f, const Viewpoint& eye) {
-  const Vec3 sight = eye.projection == Projection::Perspective
-                         ? Vec3(eye.position - surface.sites[surface.faces[f][0]])
-                         : eye.position;
-  const double height = surface.area_vectors[f].dot(sight);
-  if (!(std::abs(height) > kEdgeOn * surface.twice_areas[f] * sight.norm())) {
-    return 0;
-  }
-  return height > 0.0 ? 1 : 2;
-}
 
 template <class Numbers, class Number>
 VANTAGE_INLINE Numbers load(const Number* from) {
@@ -118,44 +100,6 @@ struct EyeGrid::Handful {
   Floats doubt;  // error of these values
   Floats least;  // points with less than this are outside
 };
-
-void EyeGrid::begin(const Surface& surface, const Viewpoint& eye,
-                    std::span<const std::uint8_t> backs, const RunContext& run) {
-  eye_ = eye;
-  aim_ = Aim::None;
-  backs_ = backs;
-  face_sides(surface, run);
-}
-
-void EyeGrid::face_sides(const Surface& surface, const RunContext& run) {
-  const Viewpoint& eye = eye_;
-  const FacePlanes& planes = surface.planes;
-  const std::size_t count = surface.faces.size();
-  turned_.resize(count);
-  steep_.resize(count);
-  const bool perspective = eye.projection == Projection::Perspective;
-  const auto length = static_cast<float>(eye.position.norm());
-  const Eigen::Vector3f at = eye.position.cast<float>();
-  const float offset = perspective ? 1.0F : 0.0F;
-  // Bounds the rounding of the float height below: a dozen roundings of numbers of this size.
-  const float doubt = 0x1p-19F * (length + 2.0F);
-  const float steep = kSteep * (length + 2.0F);
-  parallel_for(run, count, kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      const float height = planes.x[f] * at.x() + planes.y[f] * at.y() + planes.z[f] * at.z() -
-                           offset * planes.offset[f];
-      const float size = std::abs(height);
-      const int side = height > 0.0F ? 1 : 2;
-      turned_[f] = static_cast<std::uint8_t>(size > doubt ? side : 3);
-      steep_[f] = static_cast<std::uint8_t>(size > steep ? 1 : 0);
-    }
-    for (std::size_t f = begin; f < end; ++f) {
-      if (turned_[f] == 3) {
-        turned_[f] = exact_side(surface, f, eye);
-      }
-    }
-  });
-}
 
 /// Lists the points asked about and where they are.
 void EyeGrid::place_points(const SurfacePoints& points, const std::vector<std::uint8_t>& seen,
@@ -437,7 +381,8 @@ VANTAGE_INLINE void EyeGrid::walk_some(Walk& walk, std::size_t begin, std::size_
   for (std::size_t f = begin; f < end; ++f) {
     if (f % FaceBlocks::kFaces == 0) {
       const Extent& block = blocks_[f / FaceBlocks::kFaces];
-      if (behind_all(block.low[2], cells_of(block))) {
+      const std::uint8_t all = block_side_[f / FaceBlocks::kFaces];
+      if ((all != 0 && all != side) || behind_all(block.low[2], cells_of(block))) {
         f += FaceBlocks::kFaces - 1;
         continue;
       }

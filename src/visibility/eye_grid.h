@@ -98,6 +98,7 @@ class EyeGrid {
   struct Walk;
 
   void face_sides(const Surface& surface, const RunContext& run);
+  void block_sides(const FaceBlocks& blocks, float steep);
   bool aim(const Surface& surface, const RunContext& run);
   bool set_axes();
   void project(const FloatPoints& points, std::vector<Spot>& spots, const RunContext& run) const;
@@ -170,21 +171,22 @@ class EyeGrid {
   float margin_ = 0.0F;  // bound of the error of a spot's x and y, in cells
   std::uint32_t columns_ = 1, rows_ = 1;
   std::uint32_t tile_columns_ = 1, tile_rows_ = 1;
-  std::vector<Spot> corners_{};            // of each site
-  std::vector<Spot> centres_{};            // of each block of faces
-  std::vector<Extent> blocks_{};           // of each block
-  std::vector<std::uint32_t> asked_{};     // points asked about, ascending
-  std::vector<Spot> spots_{};              // of each of them
-  std::vector<std::uint32_t> cell_{};      // of each of them
-  std::vector<std::uint8_t> turned_{};     // of each face
-  std::vector<std::uint8_t> steep_{};      // of each face: far from edge on
-  std::vector<std::uint32_t> begin_{};     // where each cell begins in the arrays below
-  std::vector<std::uint32_t> point_of_{};  // points, one cell after the other
-  std::vector<float> x_{}, y_{};           // of each of them
-  std::vector<float> depth_{};             // of each of them; minus infinity if known hidden
-  std::vector<std::uint32_t> key_{};       // of each: the site, or past them the face it lies on
-  std::vector<std::uint8_t> hidden_{};     // of each
-  std::vector<float> deepest_{};           // of the points left in each tile of cells
+  std::vector<Spot> corners_{};             // of each site
+  std::vector<Spot> centres_{};             // of each block of faces
+  std::vector<Extent> blocks_{};            // of each block
+  std::vector<std::uint32_t> asked_{};      // points asked about, ascending
+  std::vector<Spot> spots_{};               // of each of them
+  std::vector<std::uint32_t> cell_{};       // of each of them
+  std::vector<std::uint8_t> turned_{};      // of each face
+  std::vector<std::uint8_t> steep_{};       // of each face: far from edge on
+  std::vector<std::uint8_t> block_side_{};  // of each block: that of all its faces, or 0
+  std::vector<std::uint32_t> begin_{};      // where each cell begins in the arrays below
+  std::vector<std::uint32_t> point_of_{};   // points, one cell after the other
+  std::vector<float> x_{}, y_{};            // of each of them
+  std::vector<float> depth_{};              // of each of them; minus infinity if known hidden
+  std::vector<std::uint32_t> key_{};        // of each: the site, or past them the face it lies on
+  std::vector<std::uint8_t> hidden_{};      // of each
+  std::vector<float> deepest_{};            // of the points left in each tile of cells
 };
 
 }  // namespace vantage

@@ -49,8 +49,9 @@ struct LooseFace {
 std::vector<LooseFace> faces_with_area(const TriMesh& mesh, const WeldedMesh& welded,
                                        const std::vector<Vec3>& positions,
                                        std::span<const FaceSides> sides) {
-  const Components components = connected_components(mesh);
-  if (sides.size() != 1 && sides.size() != components.count) {
+  const bool is_one = sides.size() == 1;
+  const Components components = is_one ? Components{} : connected_components(mesh);
+  if (!is_one && sides.size() != components.count) {
     throw InvalidInput("visibility needs the sides of each of the " +
                        std::to_string(components.count) + " components, got " +
                        std::to_string(sides.size()));
@@ -68,7 +69,7 @@ std::vector<LooseFace> faces_with_area(const TriMesh& mesh, const WeldedMesh& we
     const Vec3& b = positions[face.corners[1]];
     const Vec3& c = positions[face.corners[2]];
     face.area_vector = (b - a).cross(c - a);
-    face.sides = sides.size() == 1 ? sides[0] : sides[components.of_vertex[t[0]]];
+    face.sides = is_one ? sides[0] : sides[components.of_vertex[t[0]]];
     if (has_area(a, b, c, face.area_vector.norm())) {
       faces.push_back(face);
     }
@@ -145,6 +146,31 @@ FacePlanes planes_of(const Surface& surface) {
     planes.offset.push_back(static_cast<float>(normal.dot(surface.sites[surface.faces[f][0]])));
   }
   return planes;
+}
+
+/// Adds the cones around the normals of each block.
+void add_cones(const Surface& surface, FaceBlocks& blocks) {
+  const auto normal = [&](std::size_t f) -> Vec3 {
+    return surface.area_vectors[f] / surface.twice_areas[f];
+  };
+  const std::size_t count = surface.faces.size();
+  for (std::size_t begin = 0; begin < count; begin += FaceBlocks::kFaces) {
+    const std::size_t end = std::min(count, begin + FaceBlocks::kFaces);
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t f = begin; f < end; ++f) {
+      sum += normal(f);
+    }
+    const double length = sum.norm();
+    const Vec3 axis = length > 0.0 ? Vec3(sum / length) : Vec3(Vec3::UnitZ());
+    double least = 1.0;
+    for (std::size_t f = begin; f < end; ++f) {
+      least = std::min(least, normal(f).dot(axis));
+    }
+    blocks.axes.x.push_back(static_cast<float>(axis.x()));
+    blocks.axes.y.push_back(static_cast<float>(axis.y()));
+    blocks.axes.z.push_back(static_cast<float>(axis.z()));
+    blocks.cosine.push_back(static_cast<float>(std::max(0.0, least)));
+  }
 }
 
 FaceBlocks blocks_of(const Surface& surface) {
@@ -294,6 +320,7 @@ Surface prepare_surface(const TriMesh& mesh, std::span<const FaceSides> sides) {
   surface.rounded = rounded_points(surface.sites);
   surface.planes = planes_of(surface);
   surface.blocks = blocks_of(surface);
+  add_cones(surface, surface.blocks);
 
   // A vertex that no face names is never seen, even at a position that others use.
   surface.site_of_vertex.assign(mesh.positions.size(), Surface::kNoSite);

@@ -27,13 +27,16 @@ struct FacePlanes {
   std::vector<float> x{}, y{}, z{}, offset{};
 };
 
-/// Balls around runs of faces, which are near each other because faces are in Morton order.
+/// Balls around runs of faces, which are near each other because faces are in Morton order, and cones
+/// around their normals, which small surfaces do without.
 struct FaceBlocks {
   /// Faces a block. [ours, by measurement]
   static constexpr std::size_t kFaces = 32;
 
   FloatPoints centres{};
   std::vector<float> radius{};  ///< Rounded up.
+  FloatPoints axes{};           ///< Of the cones, unit.
+  std::vector<float> cosine{};  ///< Of a cone's half angle, in (0, 1]; 0 for one that is too wide.
 };
 
 /// A vertex here is a *site*: a position that at least one face of positive area uses.

@@ -13,13 +13,6 @@
 
 namespace vantage {
 
-/// Directions along which the score of a part with flat sides has narrow peaks and pits: both ways
-/// along the coordinate axes, the surface's principal axes, and the normals of its largest flat
-/// parts (at least 2 % of the area each, at most twelve). [ours]
-/// \return unit vectors, at most 36, no two of them nearer than 0.1°, in an order that depends on
-/// the surface alone; none for a surface without area.
-std::vector<Vec3> landmark_directions(const TriMesh& surface);
-
 /// A large flat part of a surface, whether its faces hang together or not.
 struct FlatPart {
   Vec3 normal = Vec3::UnitZ();  ///< Unit.
@@ -28,6 +21,14 @@ struct FlatPart {
 
 /// Flat parts of at least 2 % of the area each, largest first, at most twelve.
 std::vector<FlatPart> flat_parts(const TriMesh& surface);
+
+/// Directions along which the score of a part with flat sides has narrow peaks and pits: both ways
+/// along the coordinate axes, the surface's principal axes, and the normals of its largest flat
+/// parts (at least 2 % of the area each, at most twelve). [ours]
+/// \param walls flat_parts() of the surface.
+/// \return unit vectors, at most 36, no two of them nearer than 0.1°, in an order that depends on
+/// the surface alone; none for a surface without area.
+std::vector<Vec3> landmark_directions(const TriMesh& surface, std::span<const FlatPart> walls);
 
 /// Directions just before and just behind the brinks where a wall comes into sight: the camera's eye
 /// faces a large flat part and passes the plane of another that stands across it. There many

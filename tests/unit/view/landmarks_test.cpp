@@ -27,8 +27,12 @@ TriMesh turned_cube(double scale) {
   return test::moved(test::box(1.0, 1.0, 1.0, 4), scale, 0.7, kAxis, Vec3::Zero());
 }
 
+std::vector<Vec3> landmarks_of(const TriMesh& surface) {
+  return landmark_directions(surface, flat_parts(surface));
+}
+
 TEST(Landmarks, OfATurnedCubeAreItsSixNormalsAndTheSixAxes) {
-  const std::vector<Vec3> found = landmark_directions(turned_cube(1.0));
+  const std::vector<Vec3> found = landmarks_of(turned_cube(1.0));
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {1.0, -1.0}) {
       EXPECT_TRUE(holds(found, sign * (kTurn * Vec3::Unit(axis))));
@@ -39,18 +43,18 @@ TEST(Landmarks, OfATurnedCubeAreItsSixNormalsAndTheSixAxes) {
 
 TEST(Landmarks, OfATurnedRingHoldItsAxisAndNoChanceDirection) {
   const TriMesh ring = test::moved(test::torus(1.0, 0.3, 48, 24), 1.0, 0.7, kAxis, Vec3::Zero());
-  const std::vector<Vec3> found = landmark_directions(ring);
+  const std::vector<Vec3> found = landmarks_of(ring);
   EXPECT_EQ(found.size(), 8U);  // three axes of the coordinates and its own, both ways
   EXPECT_TRUE(holds(found, kTurn * Vec3::UnitZ()));
 }
 
 TEST(Landmarks, OfARoundSurfaceAreAxesAlone) {
-  const std::vector<Vec3> found = landmark_directions(test::sphere(4));
+  const std::vector<Vec3> found = landmarks_of(test::sphere(4));
   EXPECT_LE(found.size(), 12U);  // six of the coordinates, six of whatever the principal axes are
 }
 
 TEST(Landmarks, AreUnitVectorsInOppositePairs) {
-  const std::vector<Vec3> found = landmark_directions(turned_cube(1.0));
+  const std::vector<Vec3> found = landmarks_of(turned_cube(1.0));
   ASSERT_EQ(found.size() % 2, 0U);
   for (std::size_t i = 0; i < found.size(); i += 2) {
     EXPECT_NEAR(found[i].norm(), 1.0, 1e-12);
@@ -59,8 +63,8 @@ TEST(Landmarks, AreUnitVectorsInOppositePairs) {
 }
 
 TEST(Landmarks, DoNotDependOnScale) {
-  const std::vector<Vec3> expected = landmark_directions(turned_cube(1.0));
-  const std::vector<Vec3> found = landmark_directions(turned_cube(1e8));
+  const std::vector<Vec3> expected = landmarks_of(turned_cube(1.0));
+  const std::vector<Vec3> found = landmarks_of(turned_cube(1e8));
   ASSERT_EQ(found.size(), expected.size());
   for (const Vec3& d : expected) {
     EXPECT_TRUE(holds(found, d));
@@ -68,10 +72,10 @@ TEST(Landmarks, DoNotDependOnScale) {
 }
 
 TEST(Landmarks, OfNothingAreNone) {
-  EXPECT_TRUE(landmark_directions({}).empty());
+  EXPECT_TRUE(landmarks_of({}).empty());
   const TriMesh flat{.positions = {Vec3::Zero(), Vec3::UnitX(), 2.0 * Vec3::UnitX()},
                      .triangles = {{0, 1, 2}}};
-  EXPECT_TRUE(landmark_directions(flat).empty());
+  EXPECT_TRUE(landmarks_of(flat).empty());
 }
 
 /// A cube around the origin, of which all corners lie on the camera's sphere.
