@@ -95,6 +95,81 @@ TEST_P(ForThreads, AStopRequestEndsTheLoop) {
                Cancelled);
 }
 
+TEST_P(ForThreads, EveryItemIsDoneOnceAndToldWhatItMayTake) {
+  const auto raised = many_threads();
+  std::stop_source source;
+  for (const std::size_t count : {0U, 1U, 3U, 8U, 11U, 50U}) {
+    std::vector<std::atomic<int>> visits(count);
+    std::atomic<std::size_t> alone{0};
+    const RunContext run{.stop = source.get_token(), .max_threads = GetParam()};
+    parallel_items(run, count, [&](std::size_t i, const RunContext& own) {
+      ++visits[i];
+      alone += own.max_threads == 1 ? 1 : 0;
+      EXPECT_TRUE(own.max_threads == 1 || own.max_threads == GetParam());
+      // Several threads in several items at once, as what is left of a batch uses them.
+      EXPECT_EQ(
+          parallel_sum(own, 100, 10,
+                       [](std::size_t a, std::size_t b) { return static_cast<double>(b - a); }),
+          100.0);
+    });
+    for (const auto& visit : visits) {
+      EXPECT_EQ(visit.load(), 1);
+    }
+    if (GetParam() > 1 &&
+        GetParam() <= 8) {  // arenas have as many slots as were asked for, if there are cores
+      EXPECT_LT(count - alone.load(), static_cast<std::size_t>(GetParam()));
+    }
+  }
+}
+
+TEST_P(ForThreads, AnItemsExceptionReachesTheCaller) {
+  const auto raised = many_threads();
+  EXPECT_THROW(parallel_items({.max_threads = GetParam()}, 7,
+                              [](std::size_t i, const RunContext&) {
+                                if (i == 6) {
+                                  throw std::runtime_error("from the odd one");
+                                }
+                              }),
+               std::runtime_error);
+}
+
+TEST_P(ForThreads, BothAreRunToTheirEnds) {
+  const auto raised = many_threads();
+  const RunContext run{.max_threads = GetParam()};
+  for (int repeat = 0; repeat < 50; ++repeat) {
+    double first = 0.0;
+    double second = 0.0;
+    run_both(
+        run, [&] { first = sum_with(GetParam()); }, [&] { second = sum_with(GetParam()); });
+    EXPECT_EQ(first, sum_with(1));
+    EXPECT_EQ(second, first);
+  }
+}
+
+TEST_P(ForThreads, TheFirstOfTwoFailuresIsTheFirstOnes) {
+  const auto raised = many_threads();
+  const RunContext run{.max_threads = GetParam()};
+  const auto first = [] { throw std::runtime_error("first"); };
+  const auto second = [] { throw std::logic_error("second"); };
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    EXPECT_THROW(run_both(run, first, second), std::runtime_error);
+    EXPECT_THROW(run_both(
+                     run, [] {}, second),
+                 std::logic_error);
+    EXPECT_THROW(run_both(run, first, [] {}), std::runtime_error);
+  }
+}
+
+TEST_P(ForThreads, AStopIsHeardBeforeEitherBegins) {
+  std::stop_source source;
+  source.request_stop();
+  const RunContext run{.stop = source.get_token(), .max_threads = GetParam()};
+  bool called = false;
+  const auto call = [&] { called = true; };
+  EXPECT_THROW(run_both(run, call, [] {}), Cancelled);
+  EXPECT_FALSE(called);
+}
+
 INSTANTIATE_TEST_SUITE_P(Threads, ForThreads, ::testing::Values(0, 1, 2, 3, 8));
 
 TEST(ParallelFor, DoesNothingForAnEmptyRange) {

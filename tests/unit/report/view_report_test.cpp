@@ -135,6 +135,19 @@ TEST(FindViews, OfAMapThatIsZeroGivesTheFirstDirectionAndAWarning) {
   EXPECT_EQ(report.warnings.size(), 1U);
 }
 
+TEST(FindViews, FindsTheSameWhereNothingWasPrepared) {
+  const ViewOptions options;
+  const Model model = model_of(y_of_tubes(0.2, 24));
+  const ShapeAnalysis shape = analyse_shape(model, options);
+  ASSERT_NE(shape.views, nullptr);
+  ShapeAnalysis bare = shape;
+  bare.views.reset();
+  const UpChoice up = choose_up(model, shape, options);
+  EXPECT_EQ(choose_up(model, bare, options).axis, up.axis);
+  EXPECT_EQ(view_json(model, bare, find_views(bare, up, options), options),
+            view_json(model, shape, find_views(shape, up, options), options));
+}
+
 TEST(FindViews, SeesAsMuchOfAnInsideOutModel) {
   const ViewOptions options = quick_search();
   const TriMesh mesh = y_of_tubes(0.25, 20);

@@ -100,5 +100,32 @@ TEST_F(NearbyScores, DependNeitherOnWhatWasScoredBeforeNorOnThreads) {
             used.score_amid({around(middle)}, inside, {.max_threads = 3}));
 }
 
+TEST_F(NearbyScores, AreTheSameWhetherTheyWereExpectedOrNot) {
+  const std::vector<Circles> all = [&] {
+    std::vector<Circles> circles;
+    for (const Vec3& at : {middle, Vec3(-middle), Vec3(Vec3::UnitX())}) {
+      circles.push_back({around(at)});
+    }
+    return circles;
+  }();
+  std::vector<Circles> narrower = all;
+  for (Circles& circles : narrower) {
+    std::vector<Vec3> ring = ring_around(circles.front().front(), 0.5 * kRadPerDeg);
+    ring.insert(ring.begin(), circles.front().front());
+    circles.push_back(ring);
+  }
+  narrower.push_back(narrower.front());  // one twice
+  for (const int threads : {1, 3}) {
+    NearbyScorer expecting(visibility, significance, camera);
+    expecting.expect(all, {.max_threads = threads});
+    expecting.expect(narrower, {.max_threads = threads});
+    for (const Circles& circles : narrower) {
+      const std::vector<Vec3> within = ring_around(circles.front().front(), 0.3 * kRadPerDeg);
+      NearbyScorer fresh(visibility, significance, camera);
+      EXPECT_EQ(expecting.score_amid(circles, within, {}), fresh.score_amid(circles, within, {}));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage

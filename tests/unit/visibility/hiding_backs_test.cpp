@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include "vantage/spatial/directions.h"
 #include "vantage/visibility/face_visibility.h"
+#include "vantage/visibility/vertex_visibility.h"
 
 #include "support/shapes.h"
 #include "support/voxel_surface.h"
@@ -103,6 +105,43 @@ TEST(HidingBacks, OfAPocketHideWhatNoFrontHides) {
       EXPECT_EQ(seen[v], 0);  // inside the pocket, whose backs are all that is below it
     }
   }
+}
+
+TEST(HidingBacks, AreAllOfWhatIsTooCrowdedToLookAt) {
+  // Closed needles side by side, in one box all of them: every face is near every other.
+  TriMesh needles;
+  for (int i = 0; i < 60; ++i) {
+    TriMesh needle = test::box(1.0, 1e-4, 1e-4, 1);
+    for (Vec3& p : needle.positions) {
+      p = Vec3(p.x(), p.x() + p.y() + 1e-3 * i, p.x() + p.z());
+    }
+    needles = test::together(needles, needle, Vec3::Zero());
+  }
+  EXPECT_EQ(backs_of(needles), (Count{720, 720}));
+}
+
+/// Whether it makes no difference to know about many eyes.
+void expect_same_for_many(const TriMesh& mesh, const std::vector<FaceSides>& sides) {
+  const VertexVisibility one(mesh, sides);
+  const VertexVisibility many(mesh, sides, 1000);
+  for (const Vec3& towards : direction_set(ViewSphereBase::Icosahedron, 2).directions) {
+    for (const Viewpoint& eye : {Viewpoint{Projection::Orthographic, towards},
+                                 Viewpoint{Projection::Perspective, 5.0 * towards},
+                                 Viewpoint{Projection::Perspective, 0.4 * towards}}) {
+      ASSERT_EQ(one.visible_vertices(eye), many.visible_vertices(eye)) << towards.transpose();
+    }
+  }
+}
+
+TEST(HidingBacks, AreLeftOutForManyEyesAndChangeNothing) {
+  expect_same_for_many(test::torus(1.0, 0.3, 60, 30), {FaceSides::Front});
+  expect_same_for_many(funnel(0.5), {FaceSides::Front});
+  expect_same_for_many(funnel(1.5, Vec3(0.1, 0.03, 0.0)), {FaceSides::Front});
+  expect_same_for_many(test::inside_out(test::box(1.0, 1.0, 1.0, 3)), {FaceSides::Front});
+  expect_same_for_many(test::together(test::torus(1.0, 0.3, 24, 12), test::sheet(2.0, 2.0, 5),
+                                      Vec3(-1.0, -1.0, 0.1)),
+                       {FaceSides::Front, FaceSides::Both});
+  expect_same_for_many({}, {FaceSides::Front});
 }
 
 TEST(HidingBacks, AreAllThatMatter) {
