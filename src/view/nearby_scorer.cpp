@@ -151,6 +151,7 @@ const NearbyScorer::Seen& NearbyScorer::seen_from(const Vec3& direction) {
 
 std::vector<const NearbyScorer::Seen*> NearbyScorer::seen_from(const std::vector<Vec3>& circle) {
   std::vector<const Seen*> seen;
+  seen.reserve(circle.size());
   for (const Vec3& direction : circle) {
     seen.push_back(&seen_from(direction));  // stays where it is in the map
   }

@@ -90,9 +90,9 @@ Boxes boxes_around(const Boxes& inner) {
 /// Goes down from pairs of boxes to pairs of faces.
 class Descent {
  public:
-  Descent(const Surface& surface, std::size_t most,
+  Descent(const Surface& surface, std::size_t patience,
           const std::function<void(std::uint32_t, std::uint32_t)>& visit)
-      : left_(most), visit_(visit) {
+      : left_(patience), visit_(visit) {
     levels_.push_back(boxes_of_faces(surface));
     while (levels_.back().count > 1) {
       levels_.push_back(boxes_around(levels_.back()));
@@ -112,6 +112,9 @@ class Descent {
     const Boxes& inner = levels_[level - 1];
     const std::size_t end = std::min(inner.count, (a + 1) * kFan);
     for (std::size_t one = a * kFan; one < end && !has_stopped_; ++one) {
+      if (!spend()) {
+        return;
+      }
       unsigned found = inner.overlaps(one, inner, b * kFan);
       for (std::size_t other = b * kFan; found != 0 && !has_stopped_; ++other, found >>= 1U) {
         if ((found & 1U) == 0 || other < one) {
@@ -119,20 +122,18 @@ class Descent {
         }
         if (level > 1) {
           go_down(level - 1, one, other);
-        } else if (one != other) {
-          reach(one, other);
+        } else if (one != other && spend()) {
+          visit_(static_cast<std::uint32_t>(one), static_cast<std::uint32_t>(other));
         }
       }
     }
   }
 
-  void reach(std::size_t f, std::size_t g) {
-    if (left_ == 0) {
-      has_stopped_ = true;
-      return;
-    }
-    --left_;
-    visit_(static_cast<std::uint32_t>(f), static_cast<std::uint32_t>(g));
+  /// \return false if nothing is left to spend.
+  bool spend() {
+    has_stopped_ = left_ == 0;
+    left_ -= has_stopped_ ? 0 : 1;
+    return !has_stopped_;
   }
 
   std::size_t left_;
@@ -143,9 +144,9 @@ class Descent {
 
 }  // namespace
 
-bool for_each_close_pair(const Surface& surface, std::size_t most,
+bool for_each_close_pair(const Surface& surface, std::size_t patience,
                          const std::function<void(std::uint32_t, std::uint32_t)>& visit) {
-  return Descent(surface, most, visit).go();
+  return Descent(surface, patience, visit).go();
 }
 
 }  // namespace vantage

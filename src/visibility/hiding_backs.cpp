@@ -22,8 +22,8 @@ constexpr double kClear = 0x1p-40;
 // speak of.
 constexpr double kFlatShell = 1e-9;
 
-// Pairs of faces whose boxes overlap, per face, up to which they are looked at; a fine mesh has ten.
-constexpr std::size_t kMostPairs = 200;
+// Steps a face that the search for faces near each other may take; a fine mesh takes thirty.
+constexpr std::size_t kStepsPerFace = 100;
 
 using Corners = std::array<Vec3, 3>;
 
@@ -106,7 +106,7 @@ class BackCheck {
         hides_[shell] = 1;
       }
     };
-    if (!for_each_close_pair(surface_, kMostPairs * surface_.faces.size(), meet)) {
+    if (!for_each_close_pair(surface_, kStepsPerFace * surface_.faces.size(), meet)) {
       std::fill(hides_.begin(), hides_.end(), 1);
     }
   }
