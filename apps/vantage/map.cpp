@@ -58,7 +58,7 @@ struct MapCommand {
     }
     const Model loaded = session.load(model);
     const ShapeAnalysis shape = session.computing([&] {
-      return by_skeleton ? analyse_shape(loaded, options, session.run())
+      return by_skeleton ? analyse_shape(loaded, options, session.run(), nullptr, AnalysisUse::Map)
                          : prepare_surface(loaded, session.run());
     });
     if (name == "pmi-saliency") {

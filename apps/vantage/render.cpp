@@ -66,7 +66,8 @@ struct RenderCommand {
     const Model loaded = session.load(model, look.reading(options.width, options.height));
     const bool needs_map = !view.empty() || show != "plain";
     const ShapeAnalysis shape = session.computing([&] {
-      return needs_map ? analyse_shape(loaded, options, run.part(0.0, 0.5))
+      const AnalysisUse use = view.empty() ? AnalysisUse::Map : AnalysisUse::Views;
+      return needs_map ? analyse_shape(loaded, options, run.part(0.0, 0.5), nullptr, use)
                        : prepare_surface(loaded, run);
     });
     if (!camera) {

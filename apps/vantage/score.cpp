@@ -84,9 +84,10 @@ struct ScoreCommand {
       return;
     }
     measure = "kssm";
-    const ShapeAnalysis shape =
-        session.computing([&] { return analyse_shape(loaded, options, run.part(0.0, 0.5)); });
-    const VertexVisibility visibility(shape.surface, shape.sides);
+    const ShapeAnalysis shape = session.computing([&] {
+      return analyse_shape(loaded, options, run.part(0.0, 0.5), nullptr, AnalysisUse::Map);
+    });
+    const VertexVisibility visibility(shape.surface, shape.sides, points.size());
     const std::optional<FaceVisibility> faces = faces_to_score(shape, options);
     const ScoringCamera camera = scoring_camera(shape, options);
     const ViewScorer scorer = faces ? ViewScorer(*faces, shape.map.of_vertex, camera)

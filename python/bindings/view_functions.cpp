@@ -70,7 +70,7 @@ py::array visible(const py::object& model, const py::object& F, const py::object
   std::vector<std::uint8_t> table = released({progress, threads}, [&](const RunContext& run) {
     const auto analysis = subject.analysed(settings, surface_only, run.part(0.0, 0.2));
     const ShapeAnalysis& shape = analysis->shape;
-    const VertexVisibility visibility(shape.surface, shape.sides);
+    const VertexVisibility visibility(shape.surface, shape.sides, views.points.size());
     const ScoringCamera camera = scoring_camera(shape, settings.view);
     vertex_count = shape.surface_vertex.size();
     std::vector<std::uint8_t> rows;
@@ -95,7 +95,7 @@ py::array visible(const py::object& model, const py::object& F, const py::object
 std::vector<double> kssm_scores(const Analysis& analysis, const ViewOptions& options,
                                 const Views& views, const RunContext& run) {
   const ShapeAnalysis& shape = analysis.shape;
-  const VertexVisibility visibility(shape.surface, shape.sides);
+  const VertexVisibility visibility(shape.surface, shape.sides, views.points.size());
   const std::optional<FaceVisibility> faces = faces_to_score(shape, options);
   const ScoringCamera camera = scoring_camera(shape, options);
   const ViewScorer scorer = faces ? ViewScorer(*faces, shape.map.of_vertex, camera)

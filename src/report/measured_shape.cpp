@@ -104,8 +104,9 @@ ShapeAnalysis analyse_for(const Model& model, const ViewOptions& options,
                           std::span<const Measure> measures, const RunContext& run) {
   const bool deep = std::any_of(measures.begin(), measures.end(),
                                 [](const Measure& m) { return m.needs.kssm || m.needs.skeleton; });
-  return deep || !options.focus.empty() ? analyse_shape(model, options, run)
-                                        : prepare_surface(model, run);
+  return deep || !options.focus.empty()
+             ? analyse_shape(model, options, run, nullptr, AnalysisUse::Map)
+             : prepare_surface(model, run);
 }
 
 void require_area(const ShapeAnalysis& shape, const std::string& name) {

@@ -119,7 +119,7 @@ void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext&
 }
 
 ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options, const RunContext& run,
-                            StageSeconds* seconds) {
+                            StageSeconds* seconds, AnalysisUse use) {
   auto mark = std::chrono::steady_clock::now();
   StageSeconds ignored;
   StageSeconds& took = seconds != nullptr ? *seconds : ignored;
@@ -139,7 +139,11 @@ ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options, cons
         add_skeleton(shape, options, run.part(0.8, 0.95));
         took.skeleton = lap(mark);
       },
-      [&] { views = std::make_shared<ViewPreparation>(shape); });
+      [&] {
+        if (use == AnalysisUse::Views) {
+          views = std::make_shared<ViewPreparation>(shape);
+        }
+      });
   shape.views = std::move(views);
   add_map(shape, options, run.part(0.95, 1.0));
   if (focus) {

@@ -118,8 +118,8 @@ struct ShapeAnalysis {
   KssmMap map{};                                ///< Filled by add_map().
   std::vector<std::string> warnings{};          ///< Every repair and doubt, one sentence each.
   std::optional<CloudAnalysis> cloud{};         ///< Set if the model has no faces.
-  /// Filled by analyse_shape(), for it takes no longer there; where it is missing, what looks for
-  /// views makes it. Of `surface` and `sides` as they are: reset it with them.
+  /// Filled by analyse_shape() for views; where it is missing, what looks for views makes it. Of
+  /// `surface` and `sides` as they are: reset it with them.
   std::shared_ptr<const ViewPreparation> views{};
 };
 
@@ -136,10 +136,16 @@ void add_skeleton(ShapeAnalysis& shape, const ViewOptions& options, const RunCon
 /// Adds the significance map. \pre skeleton is there. \throw Cancelled
 void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
 
-/// All of the above, and beside it what looking for views needs; `seconds` receives the stage times
-/// if not null.
+/// What an analysis is made for.
+enum class AnalysisUse {
+  Views,  ///< Views will be looked for: what that needs is made beside the contraction.
+  Map,    ///< The map and the skeleton are all that is wanted.
+};
+
+/// All of the above; `seconds` receives the stage times if not null.
 ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options,
-                            const RunContext& run = {}, StageSeconds* seconds = nullptr);
+                            const RunContext& run = {}, StageSeconds* seconds = nullptr,
+                            AnalysisUse use = AnalysisUse::Views);
 
 /// A per-vertex field of the surface carried to the input's vertices; isolated ones get 0.
 std::vector<double> on_input_vertices(const ShapeAnalysis& shape, std::span<const double> field);
