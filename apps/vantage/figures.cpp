@@ -78,7 +78,7 @@ struct FiguresCommand {
         session.computing([&] { return find_views(shape, up, alone, run.part(0.4, 0.5)); });
     times.seconds.search = seconds_since(search);
     report.set =
-        find_view_set(shape, VertexVisibility(shape.surface, shape.sides), report.camera,
+        find_view_set(shape, VertexVisibility(shape.surface, shape.sides, 1000), report.camera,
                       report.best.direction, up.axis, options, report.warnings, run.part(0.5, 0.6));
     const std::vector<Figure> figures = paper_figures(shape, report, options, run.part(0.6, 1.0));
     const std::filesystem::path place = models.size() == 1

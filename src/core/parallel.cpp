@@ -22,7 +22,8 @@ constexpr std::chrono::milliseconds kStopPoll{50};
 }  // namespace
 
 void with_threads(const RunContext& run, const std::function<void()>& work) {
-  if (run.max_threads <= 0) {
+  // Inside of loops that have few enough threads, an arena of its own would add to them.
+  if (run.max_threads <= 0 || tbb::this_task_arena::max_concurrency() <= run.max_threads) {
     work();
     return;
   }
@@ -45,13 +46,17 @@ void parallel_for(const RunContext& run, std::size_t count, std::size_t grain,
   }
   const std::size_t chunks = (count + grain - 1) / grain;
   with_threads(run, [&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chunks, 1),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        for (std::size_t chunk = range.begin(); chunk < range.end(); ++chunk) {
-                          run.check();
-                          body(chunk * grain, std::min(count, (chunk + 1) * grain));
-                        }
-                      });
+    // Of its own: a failure of a loop around this one must not end it with chunks left out.
+    tbb::task_group_context own(tbb::task_group_context::isolated);
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, chunks, 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t chunk = range.begin(); chunk < range.end(); ++chunk) {
+            run.check();
+            body(chunk * grain, std::min(count, (chunk + 1) * grain));
+          }
+        },
+        own);
   });
 }
 
@@ -83,7 +88,8 @@ void run_both(const RunContext& run, const std::function<void()>& first,
     return;
   }
   with_threads(run, [&] {
-    tbb::task_group beside;
+    tbb::task_group_context own(tbb::task_group_context::isolated);
+    tbb::task_group beside(own);
     std::exception_ptr of_second;
     beside.run([&] {
       try {

@@ -219,8 +219,8 @@ Figure sphere_figure(const ShapeAnalysis& shape, const SaliencyView& saliency,
 
 Figure rapid_figure(const ShapeAnalysis& shape, const ViewReport& report,
                     const ViewOptions& options, const RunContext& run) {
-  const std::shared_ptr<const ViewPreparation> prepared = preparation_of(shape);
-  const ViewScorer scorer(prepared->visibility, shape.map.of_vertex, report.camera);
+  const std::shared_ptr<const VertexVisibility> visibility = visibility_of(shape, 200);
+  const ViewScorer scorer(*visibility, shape.map.of_vertex, report.camera);
   RunContext quiet = run;
   quiet.report = nullptr;
   const ScoreBatch score = [&](const std::vector<Vec3>& directions) {

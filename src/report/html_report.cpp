@@ -233,11 +233,10 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, const Vi
     throw InvalidInput("this build has no 3D page; build it where npm is installed");
   }
   const Frame frame{report.camera.sphere.centre, 0.5 * report.camera.sphere.diameter};
-  const std::shared_ptr<const ViewPreparation> prepared = preparation_of(shape);
+  const std::shared_ptr<const VertexVisibility> visibility = visibility_of(shape, 200);
   const std::optional<FaceVisibility> faces = faces_to_score(shape, options);
-  const ViewScorer scorer =
-      faces ? ViewScorer(*faces, shape.map.of_vertex, report.camera)
-            : ViewScorer(prepared->visibility, shape.map.of_vertex, report.camera);
+  const ViewScorer scorer = faces ? ViewScorer(*faces, shape.map.of_vertex, report.camera)
+                                  : ViewScorer(*visibility, shape.map.of_vertex, report.camera);
   const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, kSphereLevel);
   RunContext quiet = run;
   quiet.report = nullptr;

@@ -235,10 +235,10 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, UpAxis up, const Vi
   report.camera = scoring_camera(shape, options);
   report.up = up;
   report.total = kNone;
-  const std::shared_ptr<const ViewPreparation> prepared = preparation_of(shape);
+  const std::shared_ptr<const VertexVisibility> visibility = visibility_of(shape, 2);
   const auto described = [&](const FoundView& found, bool is_best) {
     ReportedView view =
-        describe_view(shape, prepared->visibility, report.camera, found.direction, up, options);
+        describe_view(shape, *visibility, report.camera, found.direction, up, options);
     view.score = measurer.values(std::vector<Vec3>{found.direction}).front().front();
     view.score_fraction = kNone;
     view.objective = is_best ? score.score(view.score) * options.prior.factor(frame, view.direction)

@@ -141,10 +141,11 @@ ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options, cons
       },
       [&] {
         if (use == AnalysisUse::Views) {
-          views = std::make_shared<ViewPreparation>(shape);
+          views = std::make_shared<ViewPreparation>(shape, run);
         }
       });
   shape.views = std::move(views);
+  took.skeleton += lap(mark);
   add_map(shape, options, run.part(0.95, 1.0));
   if (focus) {
     focus_on(shape, *focus);

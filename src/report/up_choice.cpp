@@ -17,9 +17,10 @@ UpChoice choose_up(const Model& model, const ShapeAnalysis& shape, const ViewOpt
     return {expected, "format", {}};
   }
   const UpAxis other = expected == UpAxis::Y ? UpAxis::Z : UpAxis::Y;
-  const auto [planes, with_y_up, with_z_up] = posture_of(shape);
+  const Posture posture = posture_of(shape);
   const bool is_y = expected == UpAxis::Y;
-  if (!stands_only_on(is_y ? with_z_up : with_y_up, is_y ? with_y_up : with_z_up)) {
+  if (!stands_only_on(is_y ? posture.with_z_up : posture.with_y_up,
+                      is_y ? posture.with_y_up : posture.with_z_up)) {
     return {expected, "format", {}};
   }
   const std::string name(up_name(other));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -28,9 +30,10 @@ struct Posture {
 
 /// Immutable; copies of an analysis share it.
 struct ViewPreparation {
-  /// Of the shape's surface. \pre its history, skeleton and map are not looked at.
-  explicit ViewPreparation(const ShapeAnalysis& shape);
+  /// Of the shape's surface; its history, skeleton and map are not looked at. \throw Cancelled
+  explicit ViewPreparation(const ShapeAnalysis& shape, const RunContext& run = {});
 
+  std::uint64_t surface_print;  ///< Of the surface and the sides that it is of.
   VertexVisibility visibility;
   Posture posture;
   std::vector<FlatPart> walls;                  ///< flat_parts().
@@ -39,10 +42,16 @@ struct ViewPreparation {
   std::shared_ptr<const SketchSurface> coarse;  ///< For a SketchScorer by sketch_options().
 };
 
+/// That of the shape if it is of its surface as that is now, else null.
+const ViewPreparation* views_of(const ShapeAnalysis& shape);
+
 /// That of the shape, or one found now.
 Posture posture_of(const ShapeAnalysis& shape);
 
 /// That of the shape, or one made now.
 std::shared_ptr<const ViewPreparation> preparation_of(const ShapeAnalysis& shape);
+
+/// The visibility of these, or one made now for about so many eyes.
+std::shared_ptr<const VertexVisibility> visibility_of(const ShapeAnalysis& shape, std::size_t eyes);
 
 }  // namespace vantage

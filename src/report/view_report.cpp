@@ -77,8 +77,9 @@ ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& v
   view.score = visible_sum(shape.map.of_vertex, visible);
   view.score_fraction = total > 0.0 ? view.score / total : 0.0;
   view.objective = view.score;
+  const ViewPreparation* views = views_of(shape);
   view.visible_area_fraction = visible_area_fraction(
-      shape.views ? shape.views->vertex_areas : vertex_areas(shape.surface), visible);
+      views != nullptr ? views->vertex_areas : vertex_areas(shape.surface), visible);
   view.picture = frame_points(referenced_points(shape.surface), camera.viewpoint(direction),
                               camera.sphere.centre, up_vector(up),
                               static_cast<double>(options.width) / options.height, options.margin);

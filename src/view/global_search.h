@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <limits>
+#include <vector>
 
 #include "vantage/view/search.h"
 

@@ -42,7 +42,8 @@ std::vector<Vec3> area_vectors_by_normal(const TriMesh& surface, double area) {
     const Vec3 vector = area_vector(surface, t);
     const double size = vector.norm();
     if (size > 0.0) {
-      const Vec3 at = (vector / size * kCells).array().round() + kCells;
+      // Of the least of faces the length is rounded so much that components exceed 1.
+      const Vec3 at = (vector / size * kCells).array().round().max(-kCells).min(kCells) + kCells;
       const std::uint32_t cell =
           (static_cast<std::uint32_t>(at.x()) * kSide + static_cast<std::uint32_t>(at.y())) *
               kSide +

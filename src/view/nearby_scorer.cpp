@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -249,6 +250,14 @@ void NearbyScorer::expect(std::span<const Circles> all, const RunContext& run) {
     std::shared_ptr<Midst> made{};
   };
 
+  std::vector<Vec3> missing;
+  for (const Circles& circles : all) {
+    std::copy_if(circles.front().begin(), circles.front().end(), std::back_inserter(missing),
+                 [&](const Vec3& direction) {
+                   return circles.size() == 1 && !remembered_.contains(bits_of(direction));
+                 });
+  }
+  score_all(missing, run);
   std::vector<Job> jobs;
   for (const Circles& circles : all) {
     Job job{&circles.back()};

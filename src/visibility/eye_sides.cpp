@@ -91,7 +91,9 @@ void EyeGrid::block_sides(const FaceBlocks& blocks, float steep) {
   const Eigen::Vector3f at = eye_.position.cast<float>();
   const bool perspective = eye_.projection == Projection::Perspective;
   block_side_.assign(blocks.radius.size(), 0);
-  if (blocks.cosine.empty()) {
+  // Squares of far eyes overflow; each face is looked at then.
+  constexpr float kFarthest = 1e6F;
+  if (blocks.cosine.empty() || !(at.norm() < kFarthest)) {
     return;
   }
   for (std::size_t i = 0; i < block_side_.size(); ++i) {

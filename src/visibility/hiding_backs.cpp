@@ -146,18 +146,20 @@ class BackCheck {
     return false;
   }
 
-  /// Whether both sites are clearly on one side of the face's plane, by single precision.
+  /// Whether both sites are clearly beyond all of the face's corners along its normal, however that is
+  /// rounded, by single precision.
   [[nodiscard]] bool is_beside_plane(std::uint32_t a, std::uint32_t b, std::uint32_t face) const {
     constexpr float kRoundings = 0x1p-18F;  // a dozen of numbers below 1, and far more than kClear
     const FloatPoints& at = surface_.rounded;
     const FacePlanes& planes = surface_.planes;
     const auto height = [&](std::uint32_t site) {
       return planes.x[face] * at.x[site] + planes.y[face] * at.y[site] +
-             planes.z[face] * at.z[site] - planes.offset[face];
+             planes.z[face] * at.z[site];
     };
-    const float of_a = height(a);
-    const float of_b = height(b);
-    return std::min(of_a, of_b) > kRoundings || std::max(of_a, of_b) < -kRoundings;
+    const auto [low, high] = std::minmax({height(a), height(b)});
+    const auto& [i, j, k] = surface_.faces[face];
+    const auto [lowest, highest] = std::minmax({height(i), height(j), height(k)});
+    return low > highest + kRoundings || high < lowest - kRoundings;
   }
 
   [[nodiscard]] std::uint32_t shell_at(std::size_t edge) const {

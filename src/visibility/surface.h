@@ -27,8 +27,8 @@ struct FacePlanes {
   std::vector<float> x{}, y{}, z{}, offset{};
 };
 
-/// Balls around runs of faces, which are near each other because faces are in Morton order, and cones
-/// around their normals, which small surfaces do without.
+/// Balls around runs of faces, which are near each other because faces are in Morton order, and
+/// cones around their normals, which small surfaces do without.
 struct FaceBlocks {
   /// Faces a block. [ours, by measurement]
   static constexpr std::size_t kFaces = 32;

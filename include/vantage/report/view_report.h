@@ -90,7 +90,7 @@ ViewOptions preset_options(Preset preset);
 struct StageSeconds {
   double load = 0.0;      ///< Reading the file.
   double contract = 0.0;  ///< Repairs and contraction.
-  double skeleton = 0.0;  ///< Surgery, centring, pruning.
+  double skeleton = 0.0;  ///< Surgery, centring, pruning; and what views still wait for then.
   double map = 0.0;       ///< Distances and their sum.
   double search = 0.0;    ///< Both views.
   double render = 0.0;    ///< Pictures.
@@ -118,8 +118,8 @@ struct ShapeAnalysis {
   KssmMap map{};                                ///< Filled by add_map().
   std::vector<std::string> warnings{};          ///< Every repair and doubt, one sentence each.
   std::optional<CloudAnalysis> cloud{};         ///< Set if the model has no faces.
-  /// Filled by analyse_shape() for views; where it is missing, what looks for views makes it. Of
-  /// `surface` and `sides` as they are: reset it with them.
+  /// Filled by analyse_shape() for views; where it is missing, or of another surface than `surface`
+  /// is by now, what looks for views makes it.
   std::shared_ptr<const ViewPreparation> views{};
 };
 

@@ -156,6 +156,25 @@ TEST_P(ForThreads, AnItemsExceptionReachesTheCaller) {
             "the odd one");
 }
 
+TEST_P(ForThreads, AFailedItemLeavesNoLoopOfAnotherHalfDone) {
+  const auto raised = many_threads();
+  std::atomic<int> half_done{0};
+  const auto work = [&](std::size_t i, const RunContext&) {
+    if (i == 5) {
+      throw std::runtime_error("one of them");
+    }
+    // A loop inside, told nothing of threads: it ends in full or throws.
+    std::atomic<std::size_t> done{0};
+    parallel_for({}, 4000, 1, [&](std::size_t begin, std::size_t end) { done += end - begin; });
+    half_done += done.load() == 4000 ? 0 : 1;
+  };
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    EXPECT_EQ(thrown_by([&] { parallel_items({.max_threads = GetParam()}, 12, work); }),
+              "one of them");
+  }
+  EXPECT_EQ(half_done.load(), 0);
+}
+
 TEST_P(ForThreads, BothAreRunToTheirEnds) {
   const auto raised = many_threads();
   const RunContext run{.max_threads = GetParam()};

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "vantage/mesh/measures.h"
+
 #include "support/shapes.h"
 #include "unit/report/model_of.h"
 
@@ -146,6 +148,22 @@ TEST(FindViews, FindsTheSameWhereNothingWasPrepared) {
   EXPECT_EQ(choose_up(model, bare, options).axis, up.axis);
   EXPECT_EQ(view_json(model, bare, find_views(bare, up, options), options),
             view_json(model, shape, find_views(shape, up, options), options));
+}
+
+TEST(FindViews, OfASurfaceThatWasChangedUsesNothingOfTheOldOne) {
+  const ViewOptions options;
+  ShapeAnalysis shape = analyse_shape(model_of(y_of_tubes(0.2, 24)), options);
+  for (Vec3& p : shape.surface.positions) {
+    p = Vec3(p.x(), p.z(), 3.0 * p.y());  // turned inside out and drawn out
+  }
+  shape.sphere = enclosing_sphere(shape.surface.positions);
+  ShapeAnalysis bare = shape;
+  bare.views.reset();
+  const ViewReport found = find_views(shape, UpAxis::Y, options);
+  const ViewReport expected = find_views(bare, UpAxis::Y, options);
+  EXPECT_EQ(found.best.direction, expected.best.direction);
+  EXPECT_EQ(found.best.visible_area_fraction, expected.best.visible_area_fraction);
+  EXPECT_EQ(found.worst.score, expected.worst.score);
 }
 
 TEST(FindViews, SeesAsMuchOfAnInsideOutModel) {

@@ -119,5 +119,15 @@ TEST(Brinks, OfARoundSurfaceAreNone) {
       brink_directions(flat_parts(test::sphere(4)), {.sphere = {Vec3::Zero(), 2.0}}).empty());
 }
 
+TEST(FlatParts, OfFacesWhoseAreaIsHardlyANumberAreFinite) {
+  for (const double size : {1e-80, 1e-81, 1e-85, 1e-100}) {
+    const TriMesh tiny{{Vec3::Zero(), size * Vec3::UnitX(), size * Vec3(0.2, 1.0, 0.7)},
+                       {{0, 1, 2}}};
+    for (const FlatPart& part : flat_parts(tiny)) {
+      EXPECT_TRUE(part.normal.allFinite()) << size;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage
