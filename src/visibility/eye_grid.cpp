@@ -66,12 +66,13 @@ VANTAGE_INLINE Many most_of(const std::array<Many, 3>& of) {
 
 /// The cells that places lie in, counted along one axis.
 template <unsigned Lanes>
-VANTAGE_INLINE void keep_cells(typename Registers<Lanes>::Floats at, float last,
+VANTAGE_INLINE void keep_cells(const typename Registers<Lanes>::Floats& at, float last,
                                std::array<std::uint32_t, Lanes>& cells) {
   const typename Registers<Lanes>::Floats zero{};
-  at = at < zero ? zero : at;
-  at = zero + last < at ? zero + last : at;
-  keep(__builtin_convertvector(at, typename Registers<Lanes>::Truths), cells);
+  const typename Registers<Lanes>::Floats end = zero + last;
+  const typename Registers<Lanes>::Floats inside = at < zero ? zero : at;
+  keep(__builtin_convertvector(end < inside ? end : inside, typename Registers<Lanes>::Truths),
+       cells);
 }
 
 }  // namespace
