@@ -12,7 +12,7 @@
 #include "vantage/view/stance.h"
 #include "vantage/visibility/vertex_visibility.h"
 
-#include "view/sketch_parts.h"
+#include "view/sketch_surface.h"
 
 /// \file
 /// What views of a surface are looked for with, whatever its map: made beside the contraction.

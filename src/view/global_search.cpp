@@ -10,6 +10,7 @@
 
 #include "vantage/spatial/directions.h"
 
+#include "view/ascent.h"
 #include "view/error_model.h"
 #include "view/sphere_angles.h"
 
@@ -17,29 +18,23 @@ namespace vantage {
 namespace {
 
 // How much is looked at on the way. All ours, chosen on the models that docs/search.md names.
-constexpr int kDenseLevel = 5;           // 10 242 directions, 2° apart, of which are looked at …
-constexpr std::size_t kFirstLook = 642;  // … the first, 8° apart, which are level 3, …
-constexpr std::size_t kCloserLook = 2562;  // … of the next, halfway, those next to a promising one,
-constexpr double kHalfwayRad = 5.8 * kRadPerDeg;  // which reaches the six around it,
-constexpr double kHillRad = 4.0 * kRadPerDeg;     // and all as near to the top of a hill as this.
-constexpr std::size_t kHills = 3;                 // so many at a time
-constexpr std::size_t kFirst = 12;                // scored before anything is learnt, …
-constexpr double kFirstApartRad = 8.0 * kRadPerDeg;  // … far from each other
-constexpr std::size_t kBatch = 6;                    // scored at a time from then on
-constexpr double kApartRad = 1.0 * kRadPerDeg;
-constexpr double kBoldness = 0.5;  // doubts added to an expected score to rank directions
-constexpr double kGivenUp = 3.0;   // doubts by which all must lie below the best to end it
-constexpr std::size_t kScouts =
-    3;  // of each batch: where they could be better by so many doubts, …
+constexpr int kDenseLevel = 5;           // 10 242 directions, 2° apart. First are looked at …
+constexpr std::size_t kFirstLook = 162;  // … the first of them, 16° apart, which are level 2, …
+constexpr std::size_t kCloserLook = 642;  // … then, of level 3, those next to a promising one, …
+constexpr std::size_t kNearerLook = 2562;         // … of level 4, too, …
+constexpr double kCloserRad = 11.0 * kRadPerDeg;  // … within reach of the six around it, …
+constexpr double kNearerRad = 5.8 * kRadPerDeg;
+constexpr double kHillRad = 4.0 * kRadPerDeg;  // … and all as near to the top of a hill as this.
+constexpr std::size_t kSureMarks = 4;          // landmarks scored whatever their estimates
+constexpr double kFirstApartRad =
+    8.0 * kRadPerDeg;                           // between those scored before anything is learnt
+constexpr std::size_t kBatch = 6;               // scored at a time from then on …
+constexpr double kApartRad = 1.0 * kRadPerDeg;  // … as far from each other, …
+constexpr std::size_t kScouts = 3;  // … of these where they could be better by the most doubts …
 constexpr double kScoutsApartRad = 8.0 * kRadPerDeg;  // … and far from all that is scored
-constexpr std::size_t kSureMarks = 4;
-constexpr std::size_t kLikedMarks = 8;
+constexpr double kBoldness = 0.5;  // doubts added to an expected score to rank directions
 constexpr double kSameHillRad = 1.0 * kRadPerDeg;
 constexpr double kTooLow = 2.0;  // a place below the best by so much of the noise does not climb
-constexpr double kWidestRingRad = 1.0 * kRadPerDeg;  // of a climb; each climb halves it
-// Finer climbs go amid the ring before, and from so many on amid the same: the next disputes so few
-// vertices that preparing it does not pay. [ours]
-constexpr std::size_t kCircles = 2;
 
 /// All directions that may take part.
 const DirectionSet& dense_directions() {
@@ -80,6 +75,7 @@ class Hunt {
  public:
   Hunt(const Guides& guides, Goal goal)
       : guides_(guides),
+        effort_(guides.effort),
         sign_(goal == Goal::Best ? 1.0 : -1.0),
         listed_(dense_.directions.size(), 0) {}
 
@@ -96,8 +92,12 @@ class Hunt {
   /// The best few of what was scored, as they were scored, each hill once, but for those too low.
   [[nodiscard]] std::vector<Candidate> best_known(std::size_t count) const;
 
+  /// How rough scores are, or estimates; 0 where estimates are exact and teach nothing.
+  [[nodiscard]] double noise() const { return model_.noise(); }
+
  private:
   void list(const std::vector<std::uint32_t>& dense, const RunContext& run);
+  void look_around(std::size_t places, double reach_rad, std::size_t count);
   void open(std::vector<Candidate> places);
   void score(const std::vector<std::size_t>& chosen);
   [[nodiscard]] std::vector<std::uint32_t> near(const Vec3& centre, double reach_rad,
@@ -116,6 +116,7 @@ class Hunt {
   [[nodiscard]] bool is_hopeless() const;
 
   const Guides& guides_;
+  const Effort& effort_;
   double sign_;
   const DirectionSet& dense_ = dense_directions();
   std::vector<std::uint8_t> listed_;  // of the dense directions: in the model
@@ -151,18 +152,23 @@ void Hunt::list(const std::vector<std::uint32_t>& dense, const RunContext& run) 
   }
 }
 
+/// Has the directions next to the best few take part, of the first `count`.
+void Hunt::look_around(std::size_t places, double reach_rad, std::size_t count) {
+  const std::vector<std::size_t> best = ranked(0.0);
+  std::vector<std::uint32_t> halfway;
+  for (std::size_t k = 0; k < std::min(places, best.size()); ++k) {
+    const std::vector<std::uint32_t> around = near(model_.direction(best[k]), reach_rad, count);
+    halfway.insert(halfway.end(), around.begin(), around.end());
+  }
+  list(halfway, {});
+}
+
 void Hunt::look_over(const RunContext& run) {
   std::vector<std::uint32_t> first(kFirstLook);
   std::iota(first.begin(), first.end(), 0U);
   list(first, run);
-  const std::vector<std::size_t> best = ranked(0.0);
-  std::vector<std::uint32_t> halfway;
-  for (std::size_t k = 0; k < guides_.effort.promising; ++k) {
-    const std::vector<std::uint32_t> around =
-        near(model_.direction(best[k]), kHalfwayRad, kCloserLook);
-    halfway.insert(halfway.end(), around.begin(), around.end());
-  }
-  list(halfway, {});
+  look_around(effort_.first_promising, kCloserRad, kCloserLook);
+  look_around(effort_.promising, kNearerRad, kNearerLook);
 }
 
 void Hunt::score(const std::vector<std::size_t>& chosen) {
@@ -190,7 +196,7 @@ void Hunt::score_marks(const std::vector<Vec3>& landmarks, const std::vector<Vec
   std::vector<Candidate> marks = by_estimate(landmarks);
   const std::size_t sure = std::min(kSureMarks, marks.size());
   std::stable_sort(marks.begin() + static_cast<std::ptrdiff_t>(sure), marks.end(), best_first);
-  marks.resize(std::min(marks.size(), sure + kLikedMarks));
+  marks.resize(std::min(marks.size(), sure + effort_.marks));
   std::vector<std::size_t> chosen;
   chosen.reserve(marks.size());
   for (const Candidate& mark : marks) {
@@ -202,7 +208,7 @@ void Hunt::score_marks(const std::vector<Vec3>& landmarks, const std::vector<Vec
   std::vector<Candidate> edges = by_estimate(brinks);
   std::stable_sort(edges.begin(), edges.end(), best_first);
   std::vector<Vec3> directions;
-  for (std::size_t i = 0; i < std::min(edges.size(), guides_.effort.brinks); ++i) {
+  for (std::size_t i = 0; i < std::min(edges.size(), effort_.brinks); ++i) {
     directions.push_back(edges[i].direction);
   }
   const std::vector<double> values = guides_.exact.scores(directions, 0);
@@ -241,7 +247,7 @@ std::vector<std::size_t> Hunt::pick(std::size_t count, double apart_rad, double 
   return chosen;
 }
 
-/// Adds the unknown candidates that could be best by kGivenUp doubts, far from all that is scored or
+/// Adds the unknown candidates that could be best by some doubts, far from all that is scored or
 /// chosen: lest the search stays on the hills it knows.
 void Hunt::add_scouts(std::vector<std::size_t>& chosen) const {
   std::vector<Vec3> taken;
@@ -255,8 +261,8 @@ void Hunt::add_scouts(std::vector<std::size_t>& chosen) const {
   const double best = winner_of(Goal::Best, known_).score;
   const double limit = std::cos(kScoutsApartRad);
   const std::size_t full = chosen.size() + kScouts;
-  for (const std::size_t c : ranked(kGivenUp)) {
-    if (chosen.size() == full || prospect(c, kGivenUp) <= best) {
+  for (const std::size_t c : ranked(effort_.given_up)) {
+    if (chosen.size() == full || prospect(c, effort_.given_up) <= best) {
       return;
     }
     const bool is_far = std::none_of(taken.begin(), taken.end(), [&](const Vec3& other) {
@@ -271,7 +277,7 @@ void Hunt::add_scouts(std::vector<std::size_t>& chosen) const {
 
 /// Has all dense directions around the best few of some places take part.
 void Hunt::open(std::vector<Candidate> places) {
-  for (const Candidate& top : best_apart(std::move(places), kHills, kHillRad)) {
+  for (const Candidate& top : best_apart(std::move(places), effort_.hills, kHillRad)) {
     list(near(top.direction, kHillRad, dense_.directions.size()), {});
   }
 }
@@ -287,8 +293,8 @@ std::vector<Candidate> Hunt::expectations() const {
 
 std::vector<Candidate> Hunt::best_known(std::size_t count) const {
   std::vector<Candidate> tops = best_apart(known_, count, kSameHillRad);
-  if (model_.noise() > 0.0) {  // 0 where estimates are exact and teach nothing
-    const double least = tops.front().score - kTooLow * model_.noise();
+  if (noise() > 0.0) {
+    const double least = tops.front().score - kTooLow * noise();
     tops.erase(std::find_if(tops.begin(), tops.end(),
                             [&](const Candidate& top) { return top.score < least; }),
                tops.end());
@@ -303,7 +309,7 @@ std::vector<Candidate> Hunt::best_known(std::size_t count) const {
 bool Hunt::is_hopeless() const {
   const double best = winner_of(Goal::Best, known_).score;
   for (std::size_t c = 0; c < model_.size(); ++c) {
-    if (!model_.knows(c) && prospect(c, kGivenUp) > best) {
+    if (!model_.knows(c) && prospect(c, effort_.given_up) > best) {
       return false;
     }
   }
@@ -311,9 +317,9 @@ bool Hunt::is_hopeless() const {
 }
 
 void Hunt::settle(const RunContext& run) {
-  score(pick(kFirst, kFirstApartRad, 0.0));
-  for (std::size_t scored = kFirst; scored < guides_.effort.places; scored += kBatch) {
-    run.advance("search", static_cast<double>(scored) / static_cast<double>(guides_.effort.places));
+  score(pick(effort_.first, kFirstApartRad, 0.0));
+  for (std::size_t scored = effort_.first; scored < effort_.places; scored += kBatch) {
+    run.advance("search", static_cast<double>(scored) / static_cast<double>(effort_.places));
     open(expectations());
     if (is_hopeless()) {
       return;
@@ -324,125 +330,6 @@ void Hunt::settle(const RunContext& run) {
   }
 }
 
-/// A place on a hill that is climbed.
-struct Hill {
-  Candidate top;
-  Circles circles{};  ///< In whose midst nearby scores are asked for, once there are any.
-};
-
-/// Hills are rough: places climb by rings, and the fewer are left the finer.
-class Ascent {
- public:
-  Ascent(const Guides& guides, Goal goal) : guides_(guides), goal_(goal) {}
-
-  Candidate climb_finely(const std::vector<Candidate>& tops, const RunContext& run);
-
- private:
-  void keep_apart(std::size_t count, double apart_rad);
-  void climb_exactly(const RingSteps& rings, int level, const RunContext& run);
-  void climb_nearby(const RingSteps& rings, const RunContext& run);
-  void approach(double ring_rad);
-
-  const Guides& guides_;
-  Goal goal_;
-  std::vector<Hill> hills_{};  // best first
-};
-
-/// Two places within one ring have climbed to the same top, or would.
-void Ascent::keep_apart(std::size_t count, double apart_rad) {
-  const double limit = std::cos(apart_rad);
-  std::vector<Hill> kept;
-  for (Hill& hill : hills_) {
-    const bool taken = std::any_of(kept.begin(), kept.end(), [&](const Hill& other) {
-      return other.top.direction.dot(hill.top.direction) > limit;
-    });
-    if (!taken && kept.size() < count) {
-      kept.push_back(std::move(hill));
-    }
-  }
-  hills_ = std::move(kept);
-}
-
-void Ascent::climb_exactly(const RingSteps& rings, int level, const RunContext& run) {
-  std::vector<Candidate> tops;
-  for (const Hill& hill : hills_) {
-    tops.push_back(hill.top);
-  }
-  climb(tops, goal_, rings, guides_.exact, level, run);
-  for (std::size_t i = 0; i < tops.size(); ++i) {
-    hills_[i].top = tops[i];
-  }
-}
-
-/// Makes each place and the ring around it, all of them scored by now, those in whose midst it climbs
-/// on.
-void Ascent::approach(double ring_rad) {
-  std::vector<Circles> amid;
-  for (Hill& hill : hills_) {
-    if (hill.circles.size() < kCircles) {
-      std::vector<Vec3> circle{hill.top.direction};
-      for (const Candidate& place : ring_of(hill.top, ring_rad)) {
-        circle.push_back(place.direction);
-      }
-      hill.circles.push_back(std::move(circle));
-      amid.push_back(hill.circles);
-    }
-  }
-  if (guides_.expect_nearby) {
-    guides_.expect_nearby(amid);
-  }
-  for (Hill& hill : hills_) {
-    hill.top.score = guides_.nearby(hill.circles, {hill.top.direction}).front();
-  }
-}
-
-void Ascent::climb_nearby(const RingSteps& rings, const RunContext& run) {
-  if (hills_.front().circles.size() < kCircles) {  // like all others
-    approach(2.0 * rings.first_rad);
-  }
-  for (Hill& hill : hills_) {
-    const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
-      return guides_.nearby(hill.circles, directions);
-    };
-    Evaluator evaluator(score);
-    std::vector<Candidate> top{hill.top};
-    climb(top, goal_, rings, evaluator, 0, run);
-    hill.top = top.front();
-  }
-}
-
-Candidate Ascent::climb_finely(const std::vector<Candidate>& tops, const RunContext& run) {
-  const Climbs& climbs = goal_ == Goal::Best ? guides_.effort.to_best : guides_.effort.to_worst;
-  const std::size_t count = climbs.size();
-  for (const Candidate& top : tops) {
-    hills_.push_back({top});
-  }
-  Candidate best_scored = tops.front();
-  double ring_rad = kWidestRingRad;
-  for (std::size_t k = 0; k < count && climbs[k] > 0; ++k, ring_rad *= 0.5) {
-    keep_apart(climbs[k], ring_rad);
-    const bool is_last = k + 1 == count || climbs[k + 1] == 0;
-    const RingSteps rings{ring_rad,
-                          is_last ? std::min(ring_rad, guides_.effort.finest_rad) : ring_rad};
-    const RunContext part = run.part(static_cast<double>(k) / static_cast<double>(count),
-                                     static_cast<double>(k + 1) / static_cast<double>(count));
-    if (k > 0 && guides_.nearby) {
-      climb_nearby(rings, part);
-    } else {
-      climb_exactly(rings, static_cast<int>(k) + 1, part);
-    }
-    std::stable_sort(hills_.begin(), hills_.end(), [&](const Hill& one, const Hill& other) {
-      return is_better(goal_, one.top.score, other.top.score);
-    });
-    if (k == 0) {
-      best_scored = hills_.front().top;
-    }
-  }
-  Candidate found = hills_.front().top;
-  found.score = guides_.exact.scores({found.direction}, static_cast<int>(count)).front();
-  return is_better(goal_, best_scored.score, found.score) ? best_scored : found;
-}
-
 }  // namespace
 
 Candidate search_globally(const Guides& guides, Goal goal, const SearchHints& hints,
@@ -451,8 +338,8 @@ Candidate search_globally(const Guides& guides, Goal goal, const SearchHints& hi
   hunt.look_over(run.part(0.0, 0.3));
   hunt.score_marks(hints.landmarks, hints.brinks);
   hunt.settle(run.part(0.3, 0.7));
-  const Climbs& climbs = goal == Goal::Best ? guides.effort.to_best : guides.effort.to_worst;
-  return Ascent(guides, goal).climb_finely(hunt.best_known(climbs.front()), run.part(0.7, 1.0));
+  const std::vector<Candidate> tops = hunt.best_known(guides.effort.to(goal).places.front());
+  return climb_hills(guides, goal, tops, hunt.noise(), run.part(0.7, 1.0));
 }
 
 }  // namespace vantage

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -30,19 +31,36 @@ constexpr std::size_t kDenseSeeds = 3;
 constexpr RingSteps kDenseSteps{4.0 * kRadPerDeg, 0.01 * kRadPerDeg};
 // Global search: usually; where scores are cheap; and where there is nothing cheaper than scores,
 // so that the first look is at 2 562 directions. [ours, docs/search.md]
-constexpr Climbs kManyClimbs{6, 4, 3, 2, 1};
-constexpr Effort kUsual{.promising = 30,
+constexpr Effort kUsual{.first_promising = 25,
+                        .promising = 30,
+                        .hills = 2,
+                        .marks = 5,
+                        .brinks = 8,
+                        .first = 9,
                         .places = 108,
-                        .brinks = 12,
-                        .to_best = {4, 3, 2, 1, 1},
-                        .to_worst = {3, 2, 1, 1, 0}};
-constexpr Effort kThorough{
-    .promising = 30, .places = 288, .brinks = 150, .to_best = kManyClimbs, .to_worst = kManyClimbs};
-constexpr Effort kByScores{.promising = 642,
-                           .places = 288,
+                        .given_up = 2.7,
+                        .to_best = {{4, 3, 2, 1, 1}, 0.5},
+                        .to_worst = {{3, 2, 1, 1, 0}, 1.5}};
+constexpr Effort kThorough{.first_promising = 30,
+                           .promising = 30,
+                           .hills = 3,
+                           .marks = 8,
                            .brinks = 150,
-                           .to_best = kManyClimbs,
-                           .to_worst = kManyClimbs,
+                           .first = 12,
+                           .places = 288,
+                           .given_up = 3.3,
+                           .to_best = {{6, 4, 3, 2, 1}, 1.0},
+                           .to_worst = {{6, 4, 3, 2, 1}, 2.0}};
+constexpr Effort kByScores{.first_promising = 162,
+                           .promising = 642,
+                           .hills = 3,
+                           .marks = 8,
+                           .brinks = 150,
+                           .first = 12,
+                           .places = 288,
+                           .given_up = 3.0,
+                           .to_best = {{6, 4, 3, 2, 1}},
+                           .to_worst = {{6, 4, 3, 2, 1}},
                            .finest_rad = 0.01 * kRadPerDeg};
 // Share of the progress bar that the start set takes.
 constexpr double kStartShare = 0.7;
@@ -178,10 +196,7 @@ class Inquiry {
         return nearby_(circles, directions);
       };
     }
-    if (!has_estimates_) {
-      return {exact_, exact_, kByScores, std::move(counted), expect_nearby_};
-    }
-    return {estimates_, exact_, is_thorough_ ? kThorough : kUsual, std::move(counted),
+    return {has_estimates_ ? estimates_ : exact_, exact_, effort(), std::move(counted),
             expect_nearby_};
   }
 
@@ -201,6 +216,19 @@ class Inquiry {
   }
 
  private:
+  /// Scores by area, which come without nearby ones, are smooth: how much a climb gains is not told by
+  /// the noise of what estimates them, and so all climb.
+  [[nodiscard]] Effort effort() const {
+    if (!has_estimates_) {
+      return kByScores;
+    }
+    Effort effort = is_thorough_ ? kThorough : kUsual;
+    if (!nearby_) {
+      effort.to_best.hope = effort.to_worst.hope = std::numeric_limits<double>::infinity();
+    }
+    return effort;
+  }
+
   Evaluator exact_;
   Evaluator estimates_;
   ScoreNearby nearby_;

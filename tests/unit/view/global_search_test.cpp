@@ -8,12 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "vantage/view/search.h"
-#include "vantage/visibility/vertex_visibility.h"
 
-#include "support/shapes.h"
 #include "view/climb.h"
 #include "view/evaluator.h"
-#include "view/sketch_scorer.h"
 #include "view/sphere_angles.h"
 
 namespace vantage {
@@ -72,7 +69,8 @@ TEST(GlobalSearchByEstimates, ScoresExactlyOnlyWhereTheEstimateLeads) {
   EXPECT_EQ(views.best.evaluations + views.worst.evaluations, exact);
   EXPECT_EQ(views.best.estimates + views.worst.estimates, estimated);
   EXPECT_LT(exact, 250U);
-  EXPECT_GE(estimated, 642U);  // the whole sphere, 8° apart
+  EXPECT_GE(estimated, 162U);  // the whole sphere, 16° apart, …
+  EXPECT_LT(estimated, 900U);  // … and closer where it matters: 642 are 8° apart
 }
 
 TEST(GlobalSearchByEstimates, FindsAHillThatTheEstimateRanksBelowManyThatAreNotThere) {
@@ -224,102 +222,6 @@ TEST(GlobalSearch, LooksAtLandmarksThatTheFirstLookPassesBetween) {
   const FoundView worst =
       search_view(batch_of(edge_on), 10.0, Goal::Worst, {}, {}, {.landmarks = {pit}});
   EXPECT_LT(angle_between(worst.direction, pit), 0.5 * kRadPerDeg);
-}
-
-class SketchScores : public testing::Test {
- protected:
-  TriMesh mesh = test::torus(1.0, 0.4, 200, 60);
-  std::vector<FaceSides> sides{FaceSides::Front};
-  VertexVisibility visibility{mesh, sides};
-  std::vector<double> significance = [this] {
-    std::vector<double> values;
-    for (const Vec3& p : mesh.positions) {
-      values.push_back(1.0 + p.x() * p.x() + 0.5 * p.z());
-    }
-    return values;
-  }();
-  std::vector<Vec3> directions = direction_set(ViewSphereBase::Icosahedron, 1).directions;
-
-  void expect_near_exact(const ScoringCamera& camera) const {
-    const SketchScorer sketch(mesh, sides, significance, camera);
-    const ViewScorer exact(visibility, significance, camera);
-    const std::vector<double> estimates = sketch.score_all(directions);
-    const std::vector<double> scores = exact.score_all(directions);
-    for (std::size_t i = 0; i < scores.size(); ++i) {
-      // A cell is 1/112 of the picture, which is little wider than the sphere: the tube, 0.8 of
-      // 2.8, is at least 28 of them wide and known to half a cell a side.
-      EXPECT_NEAR(estimates[i], scores[i], exact.total() / 28.0);
-    }
-  }
-};
-
-TEST_F(SketchScores, FollowTheExactOnesInPerspective) {
-  expect_near_exact({.sphere = {Vec3::Zero(), 2.8}});
-}
-
-TEST_F(SketchScores, FollowTheExactOnesInParallelProjection) {
-  expect_near_exact({.sphere = {Vec3::Zero(), 2.8}, .projection = Projection::Orthographic});
-}
-
-TEST_F(SketchScores, FollowTheExactOnesFromVeryFar) {
-  expect_near_exact({.sphere = {Vec3::Zero(), 2.8}, .distance_factor = 1e6});
-}
-
-TEST_F(SketchScores, AreFiniteFromAnEyeOnTheSphereAndInsideTheModel) {
-  // The torus has a radius of 1.4: of these spheres it fills the first and reaches out of the
-  // others, so that corners lie beside the eye and behind it. (Casts are checked by sanitizers.)
-  for (const double diameter : {2.8, 2.0, 1e-3, 1e-12}) {
-    const SketchScorer sketch(mesh, sides, significance,
-                              {.sphere = {Vec3::Zero(), diameter}, .distance_factor = 1.0 + 1e-15});
-    for (const double score : sketch.score_all(directions)) {
-      EXPECT_TRUE(score >= 0.0 && std::isfinite(score));
-    }
-  }
-}
-
-TEST_F(SketchScores, AreTheSameForAnyNumberOfThreads) {
-  const SketchScorer sketch(mesh, sides, significance, {.sphere = {Vec3::Zero(), 2.8}});
-  EXPECT_EQ(sketch.score_all(directions, {.max_threads = 1}),
-            sketch.score_all(directions, {.max_threads = 3}));
-}
-
-TEST_F(SketchScores, LeaveOutIsolatedVerticesAndKeepTheSidesOfComponents) {
-  // An open sheet before the torus, and a vertex of no face before both.
-  TriMesh scene;
-  scene.positions.emplace_back(9.0, 9.0, 9.0);
-  const TriMesh both = test::together(test::sheet(0.5, 0.5, 20), mesh, Vec3(0.0, 0.0, 2.0));
-  scene.positions.insert(scene.positions.end(), both.positions.begin(), both.positions.end());
-  for (Triangle t : both.triangles) {
-    scene.triangles.push_back({t[0] + 1, t[1] + 1, t[2] + 1});
-  }
-  const std::vector<FaceSides> rules{FaceSides::Front, FaceSides::Both, FaceSides::Front};
-  const std::vector<double> ones(scene.positions.size(), 1.0);
-  const ScoringCamera far{.sphere = {Vec3(0, 0, 1), 6.0}};
-  const SketchScorer sketch(scene, rules, ones, far);
-  const VertexVisibility sight(scene, rules);
-  const ViewScorer exact(sight, ones, far);
-  // From below, the back of the sheet counts as it does for exact scores.
-  const std::vector<Vec3> below{-Vec3::UnitZ()};
-  EXPECT_NEAR(sketch.score_all(below).front(), exact.score(below.front()), 0.03 * exact.total());
-}
-
-TEST(SketchScorer, CountsEachFlatSideOfABoxAtItsCorners) {
-  // From along (1, 1, 1) seven of a cube's eight corners are seen, from along x four of them: each
-  // corner is seen as soon as one of its three sides is turned to the eye.
-  const TriMesh cube = test::box(1.0, 1.0, 1.0, 1);
-  const std::vector<double> ones(cube.positions.size(), 1.0);
-  const SketchScorer sketch(cube, {FaceSides::Front}, ones, {.sphere = {Vec3::Constant(0.5), 1.8}});
-  const std::vector<double> seen =
-      sketch.score_all(std::vector<Vec3>{Vec3(1, 1, 1).normalized(), Vec3::UnitX()});
-  EXPECT_NEAR(seen[0], 7.0, 1e-3);
-  EXPECT_NEAR(seen[1], 4.0, 1e-3);
-}
-
-TEST(SketchScorer, FindsNothingOnAMapThatIsZero) {
-  const TriMesh mesh = test::sphere(3);
-  const std::vector<double> zero(mesh.positions.size(), 0.0);
-  const SketchScorer sketch(mesh, {FaceSides::Front}, zero, {.sphere = {Vec3::Zero(), 2.0}});
-  EXPECT_EQ(sketch.score_all(std::vector<Vec3>{Vec3::UnitX()}).front(), 0.0);
 }
 
 }  // namespace
