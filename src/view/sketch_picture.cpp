@@ -93,10 +93,11 @@ VANTAGE_INLINE void SketchPicture::draw_faces(const SketchFrame& frame) {
   for (std::size_t first = 0; first < surface_.face_count; first += Lanes) {
     const Many height = rise_along<Many>(surface_.planes.axis, first, frame.eye) -
                         frame.slope * load<Many>(surface_.planes.offset.data() + first);
-    if (!any_of(height > behind)) {
+    const auto may_show = height > behind;
+    if (!any_of(may_show)) {
       continue;
     }
-    outline<Lanes>(first, frame, outlines);
+    outline<Lanes>(first, frame, may_show, outlines);
     for (unsigned lane = 0; lane < Lanes; ++lane) {
       if (outlines.is_drawn[lane] != 0) {
         draw_face<Lanes>(first + lane, outlines, lane);
@@ -111,9 +112,11 @@ VANTAGE_INLINE void SketchPicture::draw_faces(const SketchFrame& frame) {
 }
 #endif
 
-/// Makes faces ready. Those that pad the list have no area and so are not drawn.
+/// Makes faces ready. Those that pad the list have no area and so are not drawn. Each face is judged
+/// by itself, so that it does not matter how many are looked at side by side.
 template <unsigned Lanes>
 VANTAGE_INLINE void SketchPicture::outline(std::size_t first, const SketchFrame& frame,
+                                           const IntsOf<Lanes>& may_show,
                                            Outlines<Lanes>& outlines) const {
   using Many = FloatsOf<Lanes>;
   std::array<SketchSpots<Many>, 3> corner;
@@ -151,8 +154,8 @@ VANTAGE_INLINE void SketchPicture::outline(std::size_t first, const SketchFrame&
   }
   const auto two_sided = load<IntsOf<Lanes>>(surface_.two_sided.data() + first);
   const auto last = static_cast<std::int32_t>(cells_) - 1;
-  store(((area > zero) | ((area < zero) & two_sided)) & (left <= right) & (bottom <= top) &
-            (left <= last) & (bottom <= last) & (right >= 0) & (top >= 0),
+  store(((area > zero) | ((area < zero) & two_sided)) & may_show & (left <= right) &
+            (bottom <= top) & (left <= last) & (bottom <= last) & (right >= 0) & (top >= 0),
         outlines.is_drawn.data());
 }
 

@@ -44,7 +44,8 @@ class SketchPicture {
   void draw_faces_wide(const SketchFrame& frame);
 #endif
   template <unsigned Lanes>
-  void outline(std::size_t first, const SketchFrame& frame, Outlines<Lanes>& outlines) const;
+  void outline(std::size_t first, const SketchFrame& frame, const IntsOf<Lanes>& may_show,
+               Outlines<Lanes>& outlines) const;
   template <unsigned Lanes>
   void draw_face(std::size_t face, const Outlines<Lanes>& outlines, unsigned lane);
 

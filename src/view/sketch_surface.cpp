@@ -133,9 +133,12 @@ SketchSurface sketch_surface(const TriMesh& surface, const std::vector<FaceSides
   for (const std::uint32_t f : morton_order(normals)) {
     const bool is_two_sided = side_of[faces[f][0]] == FaceSides::Both;
     sketch.two_sided.push_back(is_two_sided ? -1 : 0);
-    const double height = normals[f].dot(positions[faces[f][0]]);
-    sketch.planes.append(normals[f],
-                         is_two_sided ? SketchPlanes::kAlways : static_cast<float>(height));
+    if (is_two_sided) {
+      sketch.planes.append(Vec3::Zero(), SketchPlanes::kAlways);
+    } else {
+      const double height = normals[f].dot(positions[faces[f][0]]);
+      sketch.planes.append(normals[f], static_cast<float>(height));
+    }
     for (std::size_t k = 0; k < 3; ++k) {
       sketch.corners[k].append(positions[faces[f][k]]);
     }

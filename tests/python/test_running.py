@@ -210,8 +210,14 @@ def test_results_can_be_pickled(cat):
 def test_a_hundred_calls_leave_nothing_behind(call):
     for _ in range(10):
         call()
-    before = bytes_in_use()
-    for _ in range(100):
-        call()
-    # One number for each of the 48 vertices left by every call would be 38 KB; nothing is.
-    assert bytes_in_use() - before < 20_000
+    left = []
+    for _ in range(5):
+        before = bytes_in_use()
+        for _ in range(100):
+            call()
+        left.append(bytes_in_use() - before)
+        # One number for each of the 48 vertices left by every call would be 38 KB; nothing is. The
+        # first hundreds may fill the allocator's stores of freed pieces, one for each thread.
+        if left[-1] < 20_000:
+            break
+    assert left[-1] < 20_000, left

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -164,6 +165,22 @@ TEST(SketchPicture, HoldsTheNearestFaceOfEachCell) {
   // From behind there is nothing, and what was there is gone.
   picture.draw(SketchFrame(-Vec3::UnitZ(), camera, kCells));
   EXPECT_LT(picture.nearness()[kMiddle], 0.0F);
+}
+
+TEST(SketchPicture, ShowsTheBacksOfTwoSidedFaces) {
+  const TriMesh mesh = test::sheet(1.0, 1.0, 3);
+  constexpr std::size_t kCells = 64;
+  constexpr std::size_t kMiddle = kCells / 2 * kCells + kCells / 2;
+  for (const Projection projection : {Projection::Perspective, Projection::Orthographic}) {
+    const ScoringCamera camera{.sphere = {Vec3(0.5, 0.5, -0.5), 4.0}, .projection = projection};
+    for (const FaceSides side : {FaceSides::Front, FaceSides::Both}) {
+      const SketchSurface coarse = sketch_surface(mesh, {side}, camera.sphere, 1000);
+      SketchPicture picture(coarse, kCells);
+      picture.draw(SketchFrame(-Vec3::UnitZ(), camera, kCells));
+      const bool is_seen = picture.nearness()[kMiddle] > std::numeric_limits<float>::lowest();
+      EXPECT_EQ(is_seen, side == FaceSides::Both);
+    }
+  }
 }
 
 }  // namespace
