@@ -340,8 +340,7 @@ def broken_table(program, folder):
         for file in sorted(p for p in folder.rglob("*") if p.is_file() and p.suffix.lower() in suffixes):
             start = time.monotonic()
             try:
-                done = subprocess.run([program, "view", file, "-o", out + "/r", "--no-images", "-q",
-                                       "--search", "rapid"],
+                done = subprocess.run([program, "view", file, "-o", out + "/r", "--no-images", "-q"],
                                       capture_output=True, timeout=BROKEN_SECONDS, preexec_fn=limit,
                                       check=False)
                 code = done.returncode
