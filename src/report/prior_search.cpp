@@ -54,6 +54,8 @@ FoundViews search_under_prior(const ScoreBatch& score, double total, const ViewP
   }
   views.best.score = pure.scores({views.best.direction}, 0).front();
   const std::size_t scored = pure.trace().size();
+  const std::vector<KnownScore> lessons = known_scores(estimated, pure, hints.brinks);
+  plain.known.insert(plain.known.end(), lessons.begin(), lessons.end());
   views.worst = search_view(remembered, total, Goal::Worst, options, run.part(0.8, 1.0), plain);
   views.worst.estimates = estimated.trace().size() + nearby_asked - views.best.estimates;
   // What the best view had scored before is not the worst view's cost.

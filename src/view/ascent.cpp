@@ -38,7 +38,7 @@ class Ascent {
 
   const Guides& guides_;
   Goal goal_;
-  const Climbs& climbs_;
+  const Pursuit& pursuit_;
   double hope_;                // of what a first climb gains
   std::vector<Hill> hills_{};  // best first
 };
@@ -46,8 +46,8 @@ class Ascent {
 Ascent::Ascent(const Guides& guides, Goal goal, const std::vector<Candidate>& tops, double noise)
     : guides_(guides),
       goal_(goal),
-      climbs_(guides.effort.to(goal)),
-      hope_(noise > 0.0 ? climbs_.hope * noise : std::numeric_limits<double>::infinity()) {
+      pursuit_(guides.effort.to(goal)),
+      hope_(noise > 0.0 ? pursuit_.hope * noise : std::numeric_limits<double>::infinity()) {
   for (const Candidate& top : tops) {
     hills_.push_back({top});
   }
@@ -134,12 +134,12 @@ void Ascent::climb_nearby(const RingSteps& rings, const RunContext& run) {
 }
 
 Candidate Ascent::climb_finely(const RunContext& run) {
-  const std::size_t count = climbs_.places.size();
+  const std::size_t count = pursuit_.places.size();
   Candidate best_scored = hills_.front().top;
   double ring_rad = kWidestRingRad;
-  for (std::size_t k = 0; k < count && climbs_.places[k] > 0; ++k, ring_rad *= 0.5) {
-    keep_apart(climbs_.places[k], ring_rad);
-    const bool is_last = k + 1 == count || climbs_.places[k + 1] == 0;
+  for (std::size_t k = 0; k < count && pursuit_.places[k] > 0; ++k, ring_rad *= 0.5) {
+    keep_apart(pursuit_.places[k], ring_rad);
+    const bool is_last = k + 1 == count || pursuit_.places[k + 1] == 0;
     const RingSteps rings{ring_rad,
                           is_last ? std::min(ring_rad, guides_.effort.finest_rad) : ring_rad};
     const RunContext part = run.part(static_cast<double>(k) / static_cast<double>(count),

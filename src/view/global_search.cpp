@@ -25,13 +25,14 @@ constexpr std::size_t kNearerLook = 2562;         // … of level 4, too, …
 constexpr double kCloserRad = 11.0 * kRadPerDeg;  // … within reach of the six around it, …
 constexpr double kNearerRad = 5.8 * kRadPerDeg;
 constexpr double kHillRad = 4.0 * kRadPerDeg;  // … and all as near to the top of a hill as this.
-constexpr std::size_t kSureMarks = 4;          // landmarks scored whatever their estimates
-constexpr double kFirstApartRad =
-    8.0 * kRadPerDeg;                           // between those scored before anything is learnt
-constexpr std::size_t kBatch = 6;               // scored at a time from then on …
-constexpr double kApartRad = 1.0 * kRadPerDeg;  // … as far from each other, …
-constexpr std::size_t kScouts = 3;  // … of these where they could be better by the most doubts …
-constexpr double kScoutsApartRad = 8.0 * kRadPerDeg;  // … and far from all that is scored
+// After a search that taught what estimates are wrong by, half as many count as promising.
+constexpr std::size_t kTaughtShare = 2;
+constexpr std::size_t kSureMarks = 4;  // landmarks scored whatever their estimates
+// Apart are those scored before anything is learnt, those scored at a time from then on, and scouts and
+// all that is scored:
+constexpr double kFirstApartRad = 8.0 * kRadPerDeg;
+constexpr double kApartRad = 1.0 * kRadPerDeg;
+constexpr double kScoutsApartRad = 8.0 * kRadPerDeg;
 constexpr double kBoldness = 0.5;  // doubts added to an expected score to rank directions
 constexpr double kSameHillRad = 1.0 * kRadPerDeg;
 constexpr double kTooLow = 2.0;  // a place below the best by so much of the noise does not climb
@@ -73,11 +74,8 @@ std::vector<Candidate> best_apart(std::vector<Candidate> candidates, std::size_t
 /// scores teach about them decides what is scored next.
 class Hunt {
  public:
-  Hunt(const Guides& guides, Goal goal)
-      : guides_(guides),
-        effort_(guides.effort),
-        sign_(goal == Goal::Best ? 1.0 : -1.0),
-        listed_(dense_.directions.size(), 0) {}
+  /// \param lessons of estimates by a search before, if there was one.
+  Hunt(const Guides& guides, Goal goal, const std::vector<KnownScore>& lessons);
 
   /// Estimates of the whole sphere, closer where they promise something.
   void look_over(const RunContext& run);
@@ -86,7 +84,8 @@ class Hunt {
   /// trusted with.
   void score_marks(const std::vector<Vec3>& landmarks, const std::vector<Vec3>& brinks);
 
-  /// Scores directions until none is left that could be better, or enough are scored.
+  /// Scores directions until none is left that could be better, or enough are scored. The first of them
+  /// teach what estimates are wrong by, unless a search before did.
   void settle(const RunContext& run);
 
   /// The best few of what was scored, as they were scored, each hill once, but for those too low.
@@ -115,14 +114,34 @@ class Hunt {
   [[nodiscard]] std::vector<Candidate> expectations() const;
   [[nodiscard]] bool is_hopeless() const;
 
+  [[nodiscard]] bool is_scored(const Vec3& direction) const {
+    return std::any_of(known_.begin(), known_.end(),
+                       [&](const Candidate& known) { return known.direction == direction; });
+  }
+
   const Guides& guides_;
   const Effort& effort_;
+  const Pursuit& pursuit_;
   double sign_;
   const DirectionSet& dense_ = dense_directions();
   std::vector<std::uint8_t> listed_;  // of the dense directions: in the model
+  bool is_taught_;                    // what estimates are wrong by, by a search before
   ErrorModel model_{};
   std::vector<Candidate> known_{};  // scored exactly, as sign · score
 };
+
+Hunt::Hunt(const Guides& guides, Goal goal, const std::vector<KnownScore>& lessons)
+    : guides_(guides),
+      effort_(guides.effort),
+      pursuit_(guides.effort.to(goal)),
+      sign_(goal == Goal::Best ? 1.0 : -1.0),
+      listed_(dense_.directions.size(), 0),
+      is_taught_(!lessons.empty()) {
+  for (const KnownScore& lesson : lessons) {
+    model_.learn(model_.add(lesson.direction, sign_ * lesson.estimate), sign_ * lesson.score);
+    known_.push_back({lesson.direction, sign_ * lesson.score});
+  }
+}
 
 /// The dense directions near one, of the first `count`.
 std::vector<std::uint32_t> Hunt::near(const Vec3& centre, double reach_rad,
@@ -143,7 +162,9 @@ void Hunt::list(const std::vector<std::uint32_t>& dense, const RunContext& run) 
   for (const std::uint32_t i : dense) {
     if (listed_[i] == 0) {
       listed_[i] = 1;
-      fresh.push_back(dense_.directions[i]);
+      if (!is_scored(dense_.directions[i])) {
+        fresh.push_back(dense_.directions[i]);
+      }
     }
   }
   const std::vector<double> values = guides_.estimates.scores(fresh, 0, run);
@@ -167,8 +188,9 @@ void Hunt::look_over(const RunContext& run) {
   std::vector<std::uint32_t> first(kFirstLook);
   std::iota(first.begin(), first.end(), 0U);
   list(first, run);
-  look_around(effort_.first_promising, kCloserRad, kCloserLook);
-  look_around(effort_.promising, kNearerRad, kNearerLook);
+  const std::size_t share = is_taught_ ? kTaughtShare : 1;
+  look_around(effort_.first_promising / share, kCloserRad, kCloserLook);
+  look_around(effort_.promising / share, kNearerRad, kNearerLook);
 }
 
 void Hunt::score(const std::vector<std::size_t>& chosen) {
@@ -251,7 +273,7 @@ std::vector<std::size_t> Hunt::pick(std::size_t count, double apart_rad, double 
 /// chosen: lest the search stays on the hills it knows.
 void Hunt::add_scouts(std::vector<std::size_t>& chosen) const {
   std::vector<Vec3> taken;
-  taken.reserve(known_.size() + chosen.size() + kScouts);
+  taken.reserve(known_.size() + chosen.size() + effort_.scouts);
   for (const Candidate& known : known_) {
     taken.push_back(known.direction);
   }
@@ -260,9 +282,9 @@ void Hunt::add_scouts(std::vector<std::size_t>& chosen) const {
   }
   const double best = winner_of(Goal::Best, known_).score;
   const double limit = std::cos(kScoutsApartRad);
-  const std::size_t full = chosen.size() + kScouts;
-  for (const std::size_t c : ranked(effort_.given_up)) {
-    if (chosen.size() == full || prospect(c, effort_.given_up) <= best) {
+  const std::size_t full = chosen.size() + effort_.scouts;
+  for (const std::size_t c : ranked(pursuit_.given_up)) {
+    if (chosen.size() == full || prospect(c, pursuit_.given_up) <= best) {
       return;
     }
     const bool is_far = std::none_of(taken.begin(), taken.end(), [&](const Vec3& other) {
@@ -309,7 +331,7 @@ std::vector<Candidate> Hunt::best_known(std::size_t count) const {
 bool Hunt::is_hopeless() const {
   const double best = winner_of(Goal::Best, known_).score;
   for (std::size_t c = 0; c < model_.size(); ++c) {
-    if (!model_.knows(c) && prospect(c, effort_.given_up) > best) {
+    if (!model_.knows(c) && prospect(c, pursuit_.given_up) > best) {
       return false;
     }
   }
@@ -317,14 +339,16 @@ bool Hunt::is_hopeless() const {
 }
 
 void Hunt::settle(const RunContext& run) {
-  score(pick(effort_.first, kFirstApartRad, 0.0));
-  for (std::size_t scored = effort_.first; scored < effort_.places; scored += kBatch) {
+  const std::size_t first = is_taught_ ? 0 : effort_.first;
+  score(pick(first, kFirstApartRad, 0.0));
+  for (std::size_t scored = first; scored < effort_.places;
+       scored += effort_.prospects + effort_.scouts) {
     run.advance("search", static_cast<double>(scored) / static_cast<double>(effort_.places));
     open(expectations());
     if (is_hopeless()) {
       return;
     }
-    std::vector<std::size_t> next = pick(kBatch - kScouts, kApartRad, kBoldness);
+    std::vector<std::size_t> next = pick(effort_.prospects, kApartRad, kBoldness);
     add_scouts(next);
     score(next);
   }
@@ -334,7 +358,7 @@ void Hunt::settle(const RunContext& run) {
 
 Candidate search_globally(const Guides& guides, Goal goal, const SearchHints& hints,
                           const RunContext& run) {
-  Hunt hunt(guides, goal);
+  Hunt hunt(guides, goal, hints.known);
   hunt.look_over(run.part(0.0, 0.3));
   hunt.score_marks(hints.landmarks, hints.brinks);
   hunt.settle(run.part(0.3, 0.7));

@@ -34,33 +34,36 @@ constexpr RingSteps kDenseSteps{4.0 * kRadPerDeg, 0.01 * kRadPerDeg};
 constexpr Effort kUsual{.first_promising = 25,
                         .promising = 30,
                         .hills = 2,
-                        .marks = 5,
+                        .marks = 3,
                         .brinks = 8,
                         .first = 9,
-                        .places = 108,
-                        .given_up = 2.7,
-                        .to_best = {{4, 3, 2, 1, 1}, 0.5},
-                        .to_worst = {{3, 2, 1, 1, 0}, 1.5}};
+                        .prospects = 2,
+                        .scouts = 2,
+                        .places = 72,
+                        .to_best = {.given_up = 2.7, .places = {4, 3, 2, 1, 1}, .hope = 0.5},
+                        .to_worst = {.given_up = 2.3, .places = {3, 2, 1, 1, 0}, .hope = 1.5}};
 constexpr Effort kThorough{.first_promising = 30,
                            .promising = 30,
                            .hills = 3,
                            .marks = 8,
                            .brinks = 150,
                            .first = 12,
+                           .prospects = 2,
+                           .scouts = 3,
                            .places = 288,
-                           .given_up = 3.3,
-                           .to_best = {{6, 4, 3, 2, 1}, 1.0},
-                           .to_worst = {{6, 4, 3, 2, 1}, 2.0}};
+                           .to_best = {.given_up = 3.3, .places = {6, 4, 3, 2, 1}, .hope = 1.0},
+                           .to_worst = {.given_up = 2.3, .places = {6, 4, 3, 2, 1}, .hope = 2.0}};
 constexpr Effort kByScores{.first_promising = 162,
                            .promising = 642,
                            .hills = 3,
                            .marks = 8,
                            .brinks = 150,
                            .first = 12,
+                           .prospects = 2,
+                           .scouts = 3,
                            .places = 288,
-                           .given_up = 3.0,
-                           .to_best = {{6, 4, 3, 2, 1}},
-                           .to_worst = {{6, 4, 3, 2, 1}},
+                           .to_best = {.given_up = 3.0, .places = {6, 4, 3, 2, 1}},
+                           .to_worst = {.given_up = 3.0, .places = {6, 4, 3, 2, 1}},
                            .finest_rad = 0.01 * kRadPerDeg};
 // Share of the progress bar that the start set takes.
 constexpr double kStartShare = 0.7;
@@ -200,6 +203,11 @@ class Inquiry {
             expect_nearby_};
   }
 
+  /// What estimates were wrong by so far, but for directions that none is trusted with.
+  [[nodiscard]] std::vector<KnownScore> lessons(std::span<const Vec3> brinks) const {
+    return known_scores(estimates_, exact_, brinks);
+  }
+
   /// Reports a view as found by all that was asked since the last report.
   FoundView report(const Candidate& found) {
     FoundView view;
@@ -273,7 +281,10 @@ FoundViews search_best_and_worst(const ScoreBatch& score, double total,
   if (is_global(total, options)) {
     const Guides guides = inquiry.guides();
     views.best = inquiry.report(search_globally(guides, Goal::Best, hints, run.part(0.0, 0.6)));
-    views.worst = inquiry.report(search_globally(guides, Goal::Worst, hints, run.part(0.6, 1.0)));
+    SearchHints taught = hints;
+    const std::vector<KnownScore> lessons = inquiry.lessons(hints.brinks);
+    taught.known.insert(taught.known.end(), lessons.begin(), lessons.end());
+    views.worst = inquiry.report(search_globally(guides, Goal::Worst, taught, run.part(0.6, 1.0)));
   } else {
     Evaluator& evaluator = inquiry.exact();
     const double middle = 0.5 * (1.0 + kStartShare);

@@ -16,8 +16,9 @@
 
 namespace vantage {
 
-/// Which places climb.
-struct Climbs {
+/// How long the search goes on to one end.
+struct Pursuit {
+  double given_up;  ///< By so many doubts all must lie below the best to end the scoring of places.
   /// How many of the best climb by rings of 1°, 0.5°, …; a 0 ends it.
   std::array<std::size_t, 5> places;
   /// By rings of 1° they climb one after the other, the best first, and only those that become the
@@ -33,14 +34,15 @@ struct Effort {
   std::size_t marks;            ///< Landmarks scored because estimates like them.
   std::size_t brinks;           ///< So many of the best brinks are scored.
   std::size_t first;            ///< Directions scored before anything is learnt.
-  std::size_t places;           ///< About so many are scored at most before the climb.
-  double given_up;              ///< By so many doubts all must lie below the best to end it before.
-  Climbs to_best;
-  Climbs to_worst;
+  std::size_t prospects;  ///< Of the best prospects so many are scored at a time from then on, …
+  std::size_t scouts;     ///< … and where they could be better by the most doubts so many.
+  std::size_t places;     ///< About so many are scored at most before the climb.
+  Pursuit to_best;
+  Pursuit to_worst;
   /// The last climb goes on to rings as narrow as this.
   double finest_rad = std::numeric_limits<double>::infinity();
 
-  [[nodiscard]] const Climbs& to(Goal goal) const {
+  [[nodiscard]] const Pursuit& to(Goal goal) const {
     return goal == Goal::Best ? to_best : to_worst;
   }
 };

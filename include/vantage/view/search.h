@@ -87,6 +87,13 @@ using Circles = std::vector<std::vector<Vec3>>;
 using ScoreNearby =
     std::function<std::vector<double>(const Circles& circles, const std::vector<Vec3>& directions)>;
 
+/// What a direction was estimated at and what it then scored.
+struct KnownScore {
+  Vec3 direction = Vec3::UnitZ();  ///< Unit vector from the centre to the eye.
+  double estimate = 0.0;           ///< As SearchHints::estimate gave it.
+  double score = 0.0;              ///< As the scorer gave it.
+};
+
 /// What helps the global search and does not change what it looks for.
 struct SearchHints {
   /// If given, scores that are nearly right and much cheaper: the sphere is looked over by them, and
@@ -102,6 +109,8 @@ struct SearchHints {
   std::vector<Vec3> landmarks{};
   /// Directions to score whatever the estimate says, such as brink_directions().
   std::vector<Vec3> brinks{};
+  /// What estimates are wrong by, from a search before: what they teach is not asked for again.
+  std::vector<KnownScore> known{};
   /// Whether scores cost so little that the search may take many more of them, as of small models.
   bool scores_are_cheap = false;
 };
@@ -114,7 +123,8 @@ FoundView search_view(const ScoreBatch& score, double total, Goal goal,
                       const SearchOptions& options = {}, const RunContext& run = {},
                       const SearchHints& hints = {});
 
-/// Both searches, sharing what they evaluate: the views are those of search_view().
+/// Both searches, sharing what they evaluate. The worst view is that of search_view() with what is known
+/// of estimates by then.
 /// \throw InvalidInput, Cancelled
 FoundViews search_best_and_worst(const ScoreBatch& score, double total,
                                  const SearchOptions& options = {}, const RunContext& run = {},

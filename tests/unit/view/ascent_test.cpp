@@ -36,7 +36,7 @@ class TwoHills : public testing::Test {
     };
     Evaluator exact(score);
     Effort effort{};
-    effort.to_best = {{2, 1, 0, 0, 0}, hope};
+    effort.to_best = {.given_up = 0.0, .places = {2, 1, 0, 0, 0}, .hope = hope};
     const Guides guides{exact, exact, effort};
     std::vector<Candidate> tops;
     for (const Vec3& top : {first, second}) {

@@ -113,18 +113,59 @@ TEST(GlobalSearchByEstimates, ReportsExactScoresAndNoDirectionTwice) {
   }
 }
 
+TEST(GlobalSearchByEstimates, LearnsFromTheSearchBefore) {
+  std::size_t estimated = 0;
+  const SearchHints hints{.estimate = batch_of(wrong_by(0.3), &estimated)};
+  const FoundViews both = search_best_and_worst(batch_of(hills), 10.0, {}, {}, hints);
+  const std::size_t together = estimated;
+  SearchHints taught = hints;
+  for (const SearchStep& step : both.best.trace) {
+    if (step.level == 0) {  // rings of climbs are not estimated
+      taught.known.push_back({step.direction, wrong_by(0.3)(step.direction), step.score});
+    }
+  }
+  const FoundView alone = search_view(batch_of(hills), 10.0, Goal::Worst, {}, {}, hints);
+  estimated = 0;
+  const FoundView after = search_view(batch_of(hills), 10.0, Goal::Worst, {}, {}, taught);
+  EXPECT_EQ(after.direction, both.worst.direction);
+  EXPECT_LT(angle_between(after.direction, kLow), kFoundRad);
+  EXPECT_LT(estimated, alone.estimates - 50);
+  EXPECT_LT(together, both.best.estimates + alone.estimates);
+}
+
+TEST(Evaluator, TellsWhatWasEstimatedAndScoredButForSome) {
+  const ScoreBatch guess = batch_of(wrong_by(0.3));
+  const ScoreBatch score = batch_of(hills);
+  Evaluator estimates(guess);
+  Evaluator exact(score);
+  const Vec3 x = Vec3::UnitX();
+  const Vec3 y = Vec3::UnitY();
+  const Vec3 z = Vec3::UnitZ();
+  estimates.scores({z, x, y}, 0);
+  exact.scores({x, -x, y}, 0);
+  const std::vector<KnownScore> known = known_scores(estimates, exact, std::vector<Vec3>{y});
+  ASSERT_EQ(known.size(), 1U);
+  EXPECT_EQ(known.front().direction, x);
+  EXPECT_EQ(known.front().estimate, wrong_by(0.3)(x));
+  EXPECT_EQ(known.front().score, hills(x));
+}
+
+void expect_rings_of_1_and_half_a_degree(const Circles& circles) {
+  double width = 1.001 * kRadPerDeg;
+  for (const std::vector<Vec3>& circle : circles) {
+    EXPECT_EQ(circle.size(), 7U);
+    for (const Vec3& other : circle) {
+      EXPECT_LT(angle_between(circle.front(), other), width);
+    }
+    width *= 0.5;
+  }
+  EXPECT_LE(circles.size(), 2U);
+}
+
 /// Nearby scores that are wrong by up to `error`, and how many were asked for.
 ScoreNearby nearby_wrong_by(double error, std::size_t* asked) {
   return [error, asked](const Circles& circles, const std::vector<Vec3>& directions) {
-    double width = 1.001 * kRadPerDeg;
-    for (const std::vector<Vec3>& circle : circles) {
-      EXPECT_EQ(circle.size(), 7U);
-      for (const Vec3& other : circle) {
-        EXPECT_LT(angle_between(circle.front(), other), width);
-      }
-      width *= 0.5;
-    }
-    EXPECT_LE(circles.size(), 2U);
+    expect_rings_of_1_and_half_a_degree(circles);
     *asked += directions.size();
     return batch_of(wrong_by(error))(directions);
   };
