@@ -74,7 +74,7 @@ void Ascent::climb_in_turn(const RingSteps& rings, const RunContext& run) {
   double highest = -std::numeric_limits<double>::infinity();
   std::vector<Hill> climbed;
   for (Hill& hill : hills_) {
-    if (sign * hill.top.score + hope_ > highest) {
+    if (climbed.empty() || sign * hill.top.score + hope_ > highest) {
       std::vector<Candidate> top{hill.top};
       climb(top, goal_, rings, guides_.exact, 1, run);
       hill.top = top.front();

@@ -50,6 +50,7 @@ VANTAGE_INLINE bool any_of(const Truths& truths) {
   return any != 0;
 }
 
+/// The first of the two if the second is no number, as of larger().
 template <class Floats>
 VANTAGE_INLINE Floats smaller(const Floats& a, const Floats& b) {
   return b < a ? b : a;

@@ -43,13 +43,13 @@ VANTAGE_INLINE void keep(Planes& planes, const Many& along_x, const Many& along_
   store(offset, planes.offset.data());
 }
 
-/// The first cells whose middles lie at a place or beyond.
+/// The first cells whose middles lie at a place or beyond; far to the left for what is no number.
 template <unsigned Lanes>
 VANTAGE_INLINE IntsOf<Lanes> cell_after(const FloatsOf<Lanes>& at) {
   constexpr float kCentre = 0.5F;  // of a cell
   const FloatsOf<Lanes> zero{};
   return __builtin_convertvector(
-      smaller(larger(at, zero - kFarOutside), zero + kFarOutside) + kCentre, IntsOf<Lanes>);
+      smaller(larger(zero - kFarOutside, at), zero + kFarOutside) + kCentre, IntsOf<Lanes>);
 }
 
 }  // namespace

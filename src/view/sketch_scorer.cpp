@@ -117,9 +117,10 @@ VANTAGE_INLINE void Sketch::project_points(const SketchFrame& frame, std::size_t
   const auto cells = static_cast<std::int32_t>(picture_.cells());
   const Many last = zero + (static_cast<float>(cells) - 1.001F);
   const auto spot = project<Many>(frame, points_.position, first);
-  // A point between the middles of four cells: half a cell back, and inside the picture.
-  const Many x = smaller(larger(spot.x - 0.5F, zero), last);
-  const Many y = smaller(larger(spot.y - 0.5F, zero), last);
+  // A point between the middles of four cells: half a cell back, and inside the picture, as is what is
+  // no number, of a point that single precision does not reach.
+  const Many x = smaller(larger(zero, spot.x - 0.5F), last);
+  const Many y = smaller(larger(zero, spot.y - 0.5F), last);
   store(x, x_.data() + first);
   store(y, y_.data() + first);
   store(spot.nearness, near_.data() + first);

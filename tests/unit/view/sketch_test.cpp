@@ -57,8 +57,9 @@ TEST_F(SketchScores, FollowTheExactOnesFromVeryFar) {
 
 TEST_F(SketchScores, AreFiniteFromAnEyeOnTheSphereAndInsideTheModel) {
   // The torus has a radius of 1.4: of these spheres it fills the first and reaches out of the
-  // others, so that corners lie beside the eye and behind it. (Casts are checked by sanitizers.)
-  for (const double diameter : {2.8, 2.0, 1e-3, 1e-12}) {
+  // others, so that corners lie beside the eye and behind it, at last beyond single precision. (Casts
+  // and places in the picture are checked by sanitizers.)
+  for (const double diameter : {2.8, 2.0, 1e-3, 1e-12, 1e-60}) {
     const SketchScorer sketch(mesh, sides, significance,
                               {.sphere = {Vec3::Zero(), diameter}, .distance_factor = 1.0 + 1e-15});
     for (const double score : sketch.score_all(directions)) {
