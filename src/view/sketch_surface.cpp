@@ -20,13 +20,22 @@ constexpr std::size_t kBeforeCollapse = 10;
 // are merged in a grid. [ours]
 constexpr std::size_t kTooMany = 2;
 
-/// Positions in single precision, three numbers each.
-std::vector<float> packed(const std::vector<Vec3>& positions) {
-  std::vector<float> numbers;
-  numbers.reserve(3 * positions.size());
-  for (const Vec3& p : positions) {
-    numbers.insert(numbers.end(), {static_cast<float>(p.x()), static_cast<float>(p.y()),
-                                   static_cast<float>(p.z())});
+/// Positions of the corners in single precision, three numbers for each vertex. Those of no face lie
+/// where a corner does: far from all faces, they would widen the grid's cells.
+std::vector<float> packed(const std::vector<Vec3>& positions,
+                          const std::vector<std::uint32_t>& corners) {
+  const Vec3& somewhere = positions[corners.front()];
+  std::vector<float> numbers(3 * positions.size());
+  const auto put = [&](std::size_t v, const Vec3& p) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      numbers[3 * v + k] = static_cast<float>(p[static_cast<Eigen::Index>(k)]);
+    }
+  };
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    put(v, somewhere);
+  }
+  for (const std::uint32_t v : corners) {
+    put(v, positions[v]);
   }
   return numbers;
 }
@@ -34,12 +43,13 @@ std::vector<float> packed(const std::vector<Vec3>& positions) {
 /// The corners of faces as they become coarser; vertices stay where they are.
 class Coarsening {
  public:
-  Coarsening(const std::vector<Triangle>& triangles, const std::vector<Vec3>& positions)
-      : positions_(packed(positions)) {
+  /// \param triangles one at least.
+  Coarsening(const std::vector<Triangle>& triangles, const std::vector<Vec3>& positions) {
     corners_.reserve(3 * triangles.size());
     for (const Triangle& t : triangles) {
       corners_.insert(corners_.end(), t.begin(), t.end());
     }
+    positions_ = packed(positions, corners_);
   }
 
   /// Merges vertices in the cells of a grid: thin walls may close up, which a sketch can bear.
@@ -72,8 +82,8 @@ class Coarsening {
     }
   }
 
-  std::vector<float> positions_;
   std::vector<std::uint32_t> corners_{};
+  std::vector<float> positions_{};
 };
 
 /// The corners of the surface's faces, or of about so many that look like them.

@@ -128,6 +128,16 @@ TEST(SketchSurface, HasAboutSoManyFacesAndKeepsTheShape) {
   }
 }
 
+TEST(SketchSurface, IsTheSameWithAVertexOfNoFaceFarAway) {
+  TriMesh mesh = test::sphere(5);
+  const SketchSurface alone = sketch_surface(mesh, {FaceSides::Front}, {Vec3::Zero(), 2.0}, 500);
+  mesh.positions.emplace_back(1e4, 0.0, 0.0);
+  const SketchSurface with =
+      sketch_surface(mesh, {FaceSides::Front, FaceSides::Front}, {Vec3::Zero(), 2.0}, 500);
+  EXPECT_EQ(with.corners[0].x, alone.corners[0].x);
+  EXPECT_EQ(with.face_count, alone.face_count);
+}
+
 TEST(SketchSurface, IsBoundedWhereNothingCanBeCollapsed) {
   // A thousand tetrahedra: none can lose an edge, so that they are merged.
   TriMesh crumbs;
