@@ -2,7 +2,6 @@
 #include "view/global_search.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -222,7 +221,9 @@ void Hunt::score_marks(const std::vector<Vec3>& landmarks, const std::vector<Vec
   std::vector<std::size_t> chosen;
   chosen.reserve(marks.size());
   for (const Candidate& mark : marks) {
-    chosen.push_back(model_.add(mark.direction, mark.score));
+    if (!is_scored(mark.direction)) {  // or a search before taught what it teaches
+      chosen.push_back(model_.add(mark.direction, mark.score));
+    }
   }
   score(chosen);
   open(known_);

@@ -174,7 +174,8 @@ VANTAGE_INLINE void SketchPicture::draw_face(std::size_t face, const Outlines<La
       static_cast<float>(bottom) + Block{0.5F, 0.5F, 0.5F, 0.5F, 1.5F, 1.5F, 1.5F, 1.5F};
   for (std::int32_t column = std::max(0, outlines.left[lane]); column <= right;
        column += kColumns) {
-    // What is beyond the last column or row lies outside the face.
+    // What is beyond the last column or row lies outside the face, if the sphere encloses it; else it
+    // may be drawn into the next row.
     const Block x =
         static_cast<float>(column) + Block{0.5F, 1.5F, 2.5F, 3.5F, 0.5F, 1.5F, 2.5F, 3.5F};
     std::array<Block, 3> across;

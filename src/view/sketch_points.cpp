@@ -2,9 +2,7 @@
 #include "view/sketch_points.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <utility>
 
 #include <Eigen/Geometry>
 

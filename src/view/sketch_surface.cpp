@@ -16,9 +16,13 @@ namespace {
 // Collapsing edges keeps the shape best, but takes long from many faces: first, vertices are merged in
 // the cells of a grid, until there are so many times the faces asked for. [ours, docs/search.md]
 constexpr std::size_t kBeforeCollapse = 10;
-// Many small components can't be collapsed any further: above so many times the faces asked for, they
-// are merged in a grid. [ours]
-constexpr std::size_t kTooMany = 2;
+// It deletes small components until few enough faces are left, and with them what they hide: where a
+// component has fewer than so many of the faces asked for, all is merged in the grid and no more, to as
+// many as before a collapse. [ours]
+constexpr std::size_t kFacesOfComponent = 16;
+// In a lattice of like parts all may vanish in cells of one size: if not one in so many of the faces
+// asked for is left, smaller cells are tried. [ours]
+constexpr std::size_t kVanished = 4;
 
 /// Positions of the corners in single precision, three numbers for each vertex. Those of no face lie
 /// where a corner does: far from all faces, they would widen the grid's cells.
@@ -54,49 +58,46 @@ class Coarsening {
 
   /// Merges vertices in the cells of a grid: thin walls may close up, which a sketch can bear.
   void merge_in_grid(std::size_t faces) {
-    shrink(faces, [&](std::uint32_t* coarse) {
-      return meshopt_simplifySloppy(coarse, corners_.data(), corners_.size(), positions_.data(),
-                                    positions_.size() / 3, 3 * sizeof(float), 3 * faces,
-                                    std::numeric_limits<float>::max(), nullptr);
-    });
+    for (std::size_t asked = faces; corners_.size() > 3 * asked; asked *= 2) {
+      std::vector<std::uint32_t> coarse(corners_.size());
+      coarse.resize(meshopt_simplifySloppy(
+          coarse.data(), corners_.data(), corners_.size(), positions_.data(), positions_.size() / 3,
+          3 * sizeof(float), 3 * asked, std::numeric_limits<float>::max(), nullptr));
+      if (coarse.size() > 3 * faces / kVanished) {
+        corners_ = std::move(coarse);
+        return;
+      }
+    }
   }
 
   void collapse_edges(std::size_t faces) {
     constexpr float kAnyError = 1.0F;
-    shrink(faces, [&](std::uint32_t* coarse) {
-      return meshopt_simplify(coarse, corners_.data(), corners_.size(), positions_.data(),
-                              positions_.size() / 3, 3 * sizeof(float), 3 * faces, kAnyError, 0,
-                              nullptr);
-    });
+    if (corners_.size() > 3 * faces) {
+      std::vector<std::uint32_t> coarse(corners_.size());
+      coarse.resize(meshopt_simplify(coarse.data(), corners_.data(), corners_.size(),
+                                     positions_.data(), positions_.size() / 3, 3 * sizeof(float),
+                                     3 * faces, kAnyError, 0, nullptr));
+      corners_ = std::move(coarse);
+    }
   }
 
   [[nodiscard]] const std::vector<std::uint32_t>& corners() const { return corners_; }
 
  private:
-  template <class Shrink>
-  void shrink(std::size_t faces, const Shrink& shrink) {
-    if (corners_.size() > 3 * faces) {
-      std::vector<std::uint32_t> coarse(corners_.size());
-      coarse.resize(shrink(coarse.data()));
-      corners_ = std::move(coarse);
-    }
-  }
-
   std::vector<std::uint32_t> corners_{};
   std::vector<float> positions_{};
 };
 
 /// The corners of the surface's faces, or of about so many that look like them.
 std::vector<Triangle> coarse_faces(const TriMesh& surface, const std::vector<Vec3>& positions,
-                                   std::size_t count) {
+                                   std::size_t components, std::size_t count) {
   if (surface.triangles.size() <= count) {
     return surface.triangles;
   }
   Coarsening coarsening(surface.triangles, positions);
   coarsening.merge_in_grid(kBeforeCollapse * count);
-  coarsening.collapse_edges(count);
-  if (coarsening.corners().size() > 3 * kTooMany * count) {
-    coarsening.merge_in_grid(count);
+  if (kFacesOfComponent * components <= count) {
+    coarsening.collapse_edges(count);
   }
   std::vector<Triangle> faces;
   const std::vector<std::uint32_t>& corners = coarsening.corners();
@@ -131,7 +132,7 @@ SketchSurface sketch_surface(const TriMesh& surface, const std::vector<FaceSides
   for (const Vec3& p : surface.positions) {
     positions.push_back(in_frame(sphere, p));
   }
-  const std::vector<Triangle> faces = coarse_faces(surface, positions, count);
+  const std::vector<Triangle> faces = coarse_faces(surface, positions, sides.size(), count);
   std::vector<Vec3> normals;
   normals.reserve(faces.size());
   for (const auto& [a, b, c] : faces) {

@@ -23,7 +23,9 @@ struct SketchSurface {
   std::vector<std::uint32_t> order{};     ///< All vertices of the whole surface, along a curve.
 };
 
-/// The surface, or one of about `count` faces if it has more. \param sphere the scoring camera's.
+/// The surface, or one of at most `count` faces if it has more; of ten times as many, or more, if it
+/// consists of parts so small that few faces would hide next to nothing. \param sides one per component.
+/// \param sphere the scoring camera's.
 SketchSurface sketch_surface(const TriMesh& surface, const std::vector<FaceSides>& sides,
                              const Sphere& sphere, std::size_t count);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "view/ascent.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 

@@ -36,8 +36,8 @@ class SketchScores : public testing::Test {
     const std::vector<double> estimates = sketch.score_all(directions);
     const std::vector<double> scores = exact.score_all(directions);
     for (std::size_t i = 0; i < scores.size(); ++i) {
-      // A cell is 1/112 of the picture, which is little wider than the sphere: the tube, 0.8 of
-      // 2.8, is at least 28 of them wide and known to half a cell a side.
+      // A cell is 1/96 of the picture, which is as wide as the sphere: the tube, 0.8 of 2.8, is 27
+      // of them wide and known to half a cell a side, and the ways of its sides have some to spare.
       EXPECT_NEAR(estimates[i], scores[i], exact.total() / 28.0);
     }
   }
@@ -138,22 +138,44 @@ TEST(SketchSurface, IsTheSameWithAVertexOfNoFaceFarAway) {
   EXPECT_EQ(with.face_count, alone.face_count);
 }
 
-TEST(SketchSurface, IsBoundedWhereNothingCanBeCollapsed) {
-  // A thousand tetrahedra: none can lose an edge, so that they are merged.
-  TriMesh crumbs;
+/// A thousand tetrahedra around the places of a lattice, up to `jitter` off them.
+TriMesh crumbs(double jitter) {
+  TriMesh mesh;
   for (std::uint32_t i = 0; i < 1000; ++i) {
-    const Vec3 at = Vec3(i % 10, i / 10 % 10, i / 100 % 10);
-    crumbs.positions.insert(
-        crumbs.positions.end(),
-        {at, at + 0.5 * Vec3::UnitX(), at + 0.5 * Vec3::UnitY(), at + 0.5 * Vec3::UnitZ()});
+    const Vec3 off(std::sin(7.1 * i), std::sin(5.3 * i), std::sin(3.7 * i));
+    const Vec3 at = Vec3(i % 10, i / 10 % 10, i / 100 % 10) + jitter * off;
+    mesh.positions.insert(
+        mesh.positions.end(),
+        {at, at + 0.8 * Vec3::UnitX(), at + 0.8 * Vec3::UnitY(), at + 0.8 * Vec3::UnitZ()});
     const std::uint32_t k = 4 * i;
-    crumbs.triangles.insert(
-        crumbs.triangles.end(),
+    mesh.triangles.insert(
+        mesh.triangles.end(),
         {{k, k + 2, k + 1}, {k, k + 1, k + 3}, {k, k + 3, k + 2}, {k + 1, k + 2, k + 3}});
   }
+  return mesh;
+}
+
+TEST(SketchSurface, KeepsSomethingOfALatticeOfSmallParts) {
   const std::vector<FaceSides> sides(1000, FaceSides::Front);
-  const SketchSurface coarse = sketch_surface(crumbs, sides, {Vec3::Constant(5.0), 20.0}, 300);
-  EXPECT_LE(coarse.face_count, 600U);
+  const SketchSurface coarse = sketch_surface(crumbs(0.0), sides, {Vec3::Constant(5.0), 20.0}, 300);
+  EXPECT_GT(coarse.face_count, 75U);
+  EXPECT_LE(coarse.face_count, 4000U);
+}
+
+TEST(SketchScorer, HidesSmallPartsBehindOthers) {
+  const TriMesh mesh = crumbs(0.3);
+  const std::vector<FaceSides> sides(1000, FaceSides::Front);
+  const std::vector<double> ones(mesh.positions.size(), 1.0);
+  const ScoringCamera camera{.sphere = {Vec3::Constant(4.9), 18.0}};
+  const SketchScorer sketch(mesh, sides, ones, camera);
+  const VertexVisibility sight(mesh, sides);
+  const ViewScorer exact(sight, ones, camera);
+  const std::vector<Vec3> oblique{Vec3(0.5, 0.3, 0.8).normalized(),
+                                  Vec3(-0.7, 0.6, 0.2).normalized()};
+  const std::vector<double> estimates = sketch.score_all(oblique);
+  for (std::size_t i = 0; i < oblique.size(); ++i) {
+    EXPECT_NEAR(estimates[i] / exact.score(oblique[i]), 1.0, 0.1);
+  }
 }
 
 TEST(SketchPicture, HoldsTheNearestFaceOfEachCell) {
