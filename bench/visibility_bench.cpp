@@ -26,7 +26,6 @@
 #include "core/parallel.h"
 #include "spatial/ray_scene.h"
 #include "support/shapes.h"
-#include "view/nearby_scorer.h"
 #include "view/sphere_angles.h"
 
 namespace vantage {
@@ -250,54 +249,6 @@ void compare(benchmark::State& state, const Subject& subject, Projection project
   state.counters["cpu_rays/ours"] = theirs.processor / ours.processor;
 }
 
-/// Scores in the midst of a middle and a ring of 1° that are known, by NearbyScorer, beside exact ones:
-/// how many times longer an exact one takes, what making ready costs in exact ones, and by which
-/// share of a score the nearby ones are wrong.
-void score_nearby(benchmark::State& state, const Subject& subject) {
-  const TriMesh mesh = subject.make();
-  const OrientedMesh oriented = orient_shells(mesh);
-  const VertexVisibility visibility(oriented.mesh, oriented.sides);
-  const ScoringCamera camera{.sphere = enclosing_sphere(referenced_points(mesh))};
-  const std::vector<double> ones(mesh.positions.size(), 1.0);
-  const ViewScorer scorer(visibility, ones, camera);
-  NearbyScorer nearby(visibility, ones, camera);
-  const RunContext alone{.max_threads = 1};
-  const std::vector<Vec3> middles = direction_set(ViewSphereBase::Icosahedron, 0).directions;
-  std::size_t next = 0;
-  Spent ready;
-  Spent near;
-  Spent exact;
-  double wrong = 0.0;
-  double most_wrong = 0.0;
-  for (auto _ : state) {
-    const Vec3& middle = middles[next++ % middles.size()];
-    std::vector<Vec3> others = ring_around(middle, kRadPerDeg);
-    others.insert(others.begin(), middle);
-    std::vector<Vec3> inside = ring_around(middle, 0.5 * kRadPerDeg);
-    for (const Vec3& d : ring_around(middle, 0.2 * kRadPerDeg)) {
-      inside.push_back(d);
-    }
-    nearby.score_all(others, alone);
-    ready += spent_on([&] { nearby.score_amid({others}, {}, alone); });
-    std::vector<double> guessed;
-    const Spent now = spent_on([&] { guessed = nearby.score_amid({others}, inside, alone); });
-    near += now;
-    state.SetIterationTime(now.wall / static_cast<double>(inside.size()));
-    std::vector<double> scores;
-    exact += spent_on([&] { scores = scorer.score_all(inside, alone); });
-    for (std::size_t i = 0; i < inside.size(); ++i) {
-      const double error = std::abs(guessed[i] / scores[i] - 1.0);
-      wrong += error / static_cast<double>(inside.size());
-      most_wrong = std::max(most_wrong, error);
-    }
-  }
-  state.counters["vertices"] = static_cast<double>(mesh.positions.size());
-  state.counters["exact/nearby"] = exact.processor / near.processor;
-  state.counters["ready_in_exact"] = 12.0 * ready.processor / exact.processor;
-  state.counters["wrong_ppm"] = 1e6 * wrong / static_cast<double>(next);
-  state.counters["most_wrong_ppm"] = 1e6 * most_wrong;
-}
-
 void BM_PrepareVisibility(benchmark::State& state) {
   const TriMesh mesh = dented_ball_of(state.range(0));
   for (auto _ : state) {
@@ -322,11 +273,6 @@ BENCHMARK(BM_VisibleArea)->Arg(1)->Arg(100)->Unit(benchmark::kMillisecond);
 
 [[maybe_unused]] const bool kRegistered = [] {
   for (const Subject& subject : subjects()) {
-    benchmark::RegisterBenchmark(("BM_ScoreNearby/" + subject.name).c_str(),
-                                 [=](benchmark::State& state) { score_nearby(state, subject); })
-        ->UseManualTime()
-        ->Iterations(12)
-        ->Unit(benchmark::kMillisecond);
     for (const Projection projection : {Projection::Perspective, Projection::Orthographic}) {
       for (const int threads : {1, 2}) {
         const std::string name =

@@ -20,7 +20,7 @@ int main() {
     return scores;
   };
   const SearchOptions options{.strategy = SearchStrategy::Rapid};
-  const FoundView best = search_view(score, 3.0, Goal::Best, options);
+  const FoundView best = search_view({score, 3.0}, Goal::Best, options);
   const Vec3 right = (2.0 * front + side).normalized();  // where the gradient vanishes
   std::printf("best %.4f of %.4f at %.3f %.3f %.3f after %zu scores\n", best.score,
               (2.0 * front + side).norm(), best.direction.x(), best.direction.y(),
@@ -30,7 +30,7 @@ int main() {
   std::stop_source stop;
   stop.request_stop();
   try {
-    static_cast<void>(search_view(score, 3.0, Goal::Best, options, {.stop = stop.get_token()}));
+    static_cast<void>(search_view({score, 3.0}, Goal::Best, options, {.stop = stop.get_token()}));
     return 1;
   } catch (const Cancelled&) {
     return best.direction.dot(right) > 0.999 ? 0 : 1;

@@ -125,8 +125,7 @@ struct CompareCommand {
                    padded(direction_text(method.views.worst.direction), kView) +
                    rounded(with.best_folded_deg, 3) + "°, " + rounded(with.worst_folded_deg, 3) +
                    "°, " + rounded(with.rank_correlation, 2) + ", " +
-                   std::to_string(comparison.evaluations(method)) + ", " +
-                   rounded(method.seconds, 2));
+                   std::to_string(method.views.evaluations) + ", " + rounded(method.seconds, 2));
     }
     session.tell("all views of the set: " + rounded(comparison.survey_seconds, 3) +
                  " s; results in " + printable(path) + "/");

@@ -108,8 +108,8 @@ struct RenderCommand {
 
   [[nodiscard]] Camera found(const ShapeAnalysis& shape, const Model& loaded,
                              const ViewOptions& options, const RunContext& run) const {
-    const ViewReport report = find_views(shape, choose_up(loaded, shape, options), options, run);
-    return view == "best" ? report.best.picture : report.worst.picture;
+    const Goal goal = view == "best" ? Goal::Best : Goal::Worst;
+    return find_view(shape, goal, choose_up(loaded, shape, options), options, run).picture;
   }
 
   void report(Session& session, const Camera& camera, const ViewOptions& options) const {

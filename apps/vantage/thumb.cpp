@@ -3,7 +3,6 @@
 
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
-#include "vantage/report/quick_view.h"
 #include "vantage/report/view_report.h"
 
 #include "commands.h"
@@ -60,14 +59,15 @@ struct ThumbCommand {
     const RunContext run = session.run();
     const Model loaded = session.load(model, look.reading(size, size));
     const ShapeAnalysis shape = session.computing([&] { return prepare_surface(loaded, run); });
-    const QuickView view = session.computing(
-        [&] { return find_quick_view(loaded, shape, options, run.part(0.1, 0.7)); });
-    look.write(file, loaded, shape, view.picture, Picture::Plain, options, up_vector(view.up.axis),
-               run.part(0.7, 1.0));
+    const PictureView found = session.computing(
+        [&] { return find_picture_view(loaded, shape, options, run.part(0.1, 0.7)); });
+    const Camera& camera = found.view.picture;
+    const Vec3 above = up_vector(found.up.axis);
+    look.write(file, loaded, shape, camera, Picture::Plain, options, above, run.part(0.7, 1.0));
     if (file != "-") {
-      preview.show(session, shape, view.picture, options, look.look(up_vector(view.up.axis)), run);
+      preview.show(session, shape, camera, options, look.look(above), run);
     }
-    report(session, view);
+    report(session, found);
     for (const std::string& note : loaded.notes) {
       if (session.flags.verbose) {
         session.say("note: " + note);
@@ -76,16 +76,15 @@ struct ThumbCommand {
   }
 
  private:
-  void report(Session& session, const QuickView& view) const {
+  void report(Session& session, const PictureView& found) const {
     session.end_progress();
     if (session.flags.json && file != "-") {
-      const Vec3& d = view.direction;
+      const Vec3& d = found.view.direction;
       const nlohmann::ordered_json json = {{"file", file},
                                            {"size", size},
                                            {"direction", {d.x(), d.y(), d.z()}},
-                                           {"up", up_name(view.up.axis)},
-                                           {"vertices", view.vertices},
-                                           {"evaluations", view.evaluations}};
+                                           {"up", up_name(found.up.axis)},
+                                           {"vertices", found.vertices}};
       write_file("-", json.dump(2) + "\n");
     }
   }

@@ -106,17 +106,13 @@ Comparison compare_methods(const ShapeAnalysis& shape, const ViewOptions& option
   comparison.set = measurer.set();
   comparison.planes = mirror_planes(shape.surface);
   comparison.survey_seconds = seconds_since(start);
-  const bool by_gradient = options.search.strategy == SearchStrategy::Gradient;
-  comparison.set_counts = !by_gradient;
   const RunContext searching = run.part(0.6, 1.0);
   for (std::size_t m = 0; m < measurer.measures().size(); ++m) {
     searching.advance("views",
                       static_cast<double>(m) / static_cast<double>(measurer.measures().size()));
     const auto begun = Clock::now();
-    comparison.methods.push_back({measurer.measures()[m],
-                                  by_gradient ? gradient_views(measurer, m, options.search, run)
-                                              : extreme_views(measurer, m, run),
-                                  values[m]});
+    comparison.methods.push_back(
+        {measurer.measures()[m], extreme_views(measurer, m, options.search, run), values[m]});
     comparison.methods.back().seconds = seconds_since(begun);
   }
   for (const ComparedMethod& a : comparison.methods) {

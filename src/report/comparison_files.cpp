@@ -8,6 +8,8 @@
 #include "vantage/io/write.h"
 #include "vantage/report/comparison.h"
 
+#include "report/option_echo.h"
+
 namespace vantage {
 namespace {
 
@@ -59,7 +61,7 @@ std::string method_table(const Comparison& comparison) {
     html += "<tr><th>" + method.measure.name + "</th><td>" +
             (method.measure.better == Better::More ? "max" : "min") + "</td>" +
             view_cells(method.views.best) + view_cells(method.views.worst) + "<td>" +
-            std::to_string(comparison.evaluations(method)) + "</td></tr>\n";
+            std::to_string(method.views.evaluations) + "</td></tr>\n";
   }
   return html + "</table>\n<p>What it took is in <a href=\"timings.csv\">timings.csv</a>.</p>\n";
 }
@@ -93,7 +95,7 @@ std::string comparison_json(const Model& model, const Comparison& comparison, Up
   json["model"] = model.name;
   json["up"] = up_name(up);
   json["views"] = comparison.set.directions.size();
-  json["search"] = comparison.set_counts ? "rings" : "gradient";
+  json["search"] = strategy_name(options.search.strategy);
   if (with_seconds) {
     json["seconds"] = comparison.survey_seconds;
   }
@@ -107,7 +109,7 @@ std::string comparison_json(const Model& model, const Comparison& comparison, Up
                                {"better", method.measure.better == Better::More ? "max" : "min"},
                                {"best", view_of(method.views.best)},
                                {"worst", view_of(method.views.worst)},
-                               {"evaluations", comparison.evaluations(method)}});
+                               {"evaluations", method.views.evaluations}});
     if (with_seconds) {
       json["methods"].back()["seconds"] = method.seconds;
     }
@@ -137,7 +139,7 @@ std::string comparison_csv(const Comparison& comparison) {
       const Vec3& d = view->direction;
       add_numbers(csv, {d.x(), d.y(), d.z(), view->value});
     }
-    csv += ',' + std::to_string(comparison.evaluations(method)) + '\n';
+    csv += ',' + std::to_string(method.views.evaluations) + '\n';
   }
   return csv;
 }

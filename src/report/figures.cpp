@@ -227,7 +227,7 @@ Figure rapid_figure(const ShapeAnalysis& shape, const ViewReport& report,
     return scorer.score_all(directions, quiet);
   };
   const SearchOptions search = preset_options(Preset::Paper).search;
-  const FoundView found = search_view(score, scorer.total(), Goal::Best, search, quiet);
+  const FoundView found = search_view({score, scorer.total()}, Goal::Best, search, quiet);
   const LineDrawing drawing =
       search_figure(found.trace, search.base, Goal::Best, scorer.total(), options.height);
   return {"figure-4-search", drawing.image(), drawing.svg()};

@@ -134,7 +134,7 @@ Json sphere_part(const DirectionSet& set, const std::vector<double>& scores) {
 Json rapid_part(const ScoreBatch& score, double total, Goal goal, const RunContext& run) {
   SearchOptions options = preset_options(Preset::Paper).search;
   options.epsilon = 0.0;
-  const FoundView found = search_view(score, total, goal, options, run);
+  const FoundView found = search_view({score, total}, goal, options, run);
   Json steps = Json::array();
   for (const SearchStep& step : found.trace) {
     steps.push_back(

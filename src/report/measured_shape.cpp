@@ -13,85 +13,16 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/significance/mesh_saliency.h"
 
-#include "report/prior_search.h"
+#include "report/measure_objective.h"
 #include "report/view_preparation.h"
-#include "view/sphere_angles.h"
 
 namespace vantage {
 namespace {
 
-// Rings around a view of the set, whose directions are about 9° apart at level 3. [ours]
-constexpr double kFirstRingRad = 4.0 * kRadPerDeg;
-constexpr double kLastRingRad = 1.0 * kRadPerDeg;
+constexpr int kSetLevel = 3;  // 642 views: a part of the definition of measures built on the set
 
-/// Values of any directions as scores that grow with how good the view is, at least 0.
-class GrowingScore {
- public:
-  GrowingScore(ViewMeasurer& measurer, const RunContext& run) : measurer_(&measurer), run_(run) {
-    run_.report = nullptr;
-    const std::vector<double>& values = measurer.set_values(run_).front();
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const Vec3& d = measurer.set().directions[i];
-      of_set_[{d.x(), d.y(), d.z()}] = values[i];
-      highest_ = std::isfinite(values[i]) ? std::max(highest_, values[i]) : highest_;
-    }
-  }
-
-  [[nodiscard]] double highest() const { return std::max(highest_, 0.0); }
-
-  [[nodiscard]] bool is_falling() const {
-    return measurer_->measures().front().better == Better::Less;
-  }
-
-  std::vector<double> operator()(const std::vector<Vec3>& directions) const {
-    std::vector<double> scores(directions.size(), 0.0);
-    std::vector<Vec3> fresh;
-    std::vector<std::size_t> place;
-    for (std::size_t i = 0; i < directions.size(); ++i) {
-      const Vec3& d = directions[i];
-      const auto known = of_set_.find({d.x(), d.y(), d.z()});
-      if (known != of_set_.end()) {
-        scores[i] = score(known->second);
-      } else {
-        fresh.push_back(d);
-        place.push_back(i);
-      }
-    }
-    const MeasureValues values = measurer_->values(fresh, run_);
-    for (std::size_t k = 0; k < fresh.size(); ++k) {
-      scores[place[k]] = score(values.front()[k]);
-    }
-    return scores;
-  }
-
-  [[nodiscard]] double score(double value) const {
-    return is_falling() ? std::max(0.0, highest() - value) : value;
-  }
-
- private:
-  ViewMeasurer* measurer_;
-  RunContext run_;
-  std::map<std::array<double, 3>, double> of_set_{};
-  double highest_ = -std::numeric_limits<double>::infinity();
-};
-
-/// Climbs from a view by smaller and smaller rings.
-MeasuredView climbed(const ViewMeasurer& measurer, std::size_t m, MeasuredView view, Goal goal,
-                     std::size_t& evaluations, const RunContext& run) {
-  const Measure& measure = measurer.measures()[m];
-  for (double step = kFirstRingRad; step >= kLastRingRad; step *= 0.5) {
-    const std::vector<Vec3> ring = ring_around(view.direction, step);
-    const std::vector<double> values = measurer.values_of(m, ring, run);
-    evaluations += ring.size();
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const bool moves = goal == Goal::Best ? measure.is_better(values[i], view.value)
-                                            : measure.is_better(view.value, values[i]);
-      if (moves) {
-        view = {ring[i], values[i]};
-      }
-    }
-  }
-  return view;
+MeasuredView measured(const FoundView& found, const MeasureObjective& by) {
+  return {found.direction, by.value(found.score)};
 }
 
 }  // namespace
@@ -143,65 +74,27 @@ std::vector<double> vertex_map(const ShapeAnalysis& shape, const ViewOptions& op
     throw InvalidInput("there is no map '" + std::string(name) +
                        "'; there are kssm, mesh-saliency, pmi-saliency");
   }
-  constexpr int kLevel = 3;
   const ViewMeasurer measurer(measure_subject(shape, options), {find_measure("pmi-saliency")},
-                              kLevel, run);
+                              kSetLevel, run);
   return saliency_on_vertices(shape.surface, measurer.model().terms.saliency_of_face);
 }
 
-namespace {
-
-/// The best, or the worst, view of the set, climbed from.
-MeasuredView extreme_view(ViewMeasurer& measurer, std::size_t m, Goal goal,
-                          std::size_t& evaluations, const RunContext& run) {
-  const std::vector<double>& values = measurer.set_values(run)[m];
-  const Measure& measure = measurer.measures()[m];
-  std::size_t found = 0;
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    const bool is_farther = goal == Goal::Best ? measure.is_better(values[i], values[found])
-                                               : measure.is_better(values[found], values[i]);
-    found = is_farther ? i : found;
+MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m, const SearchOptions& options,
+                            const RunContext& run) {
+  if (options.strategy == SearchStrategy::Gradient) {
+    require_gradient(measurer.measures()[m]);
   }
-  RunContext quiet = run;
-  quiet.report = nullptr;
-  return climbed(measurer, m, {measurer.set().directions[found], values[found]}, goal, evaluations,
-                 quiet);
-}
-
-}  // namespace
-
-MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m, const RunContext& run) {
-  MeasuredViews views;
-  views.best = extreme_view(measurer, m, Goal::Best, views.evaluations, run);
-  views.worst = extreme_view(measurer, m, Goal::Worst, views.evaluations, run);
-  return views;
+  const RunContext quiet{.stop = run.stop, .max_threads = run.max_threads};
+  const MeasureObjective by(measurer, m, quiet);
+  const FoundViews found = search_best_and_worst(by.objective(), options, quiet);
+  return {measured(found.best, by), measured(found.worst, by),
+          found.best.evaluations + found.worst.evaluations};
 }
 
 MeasuredView best_view(ViewMeasurer& measurer, std::size_t m, const RunContext& run) {
-  std::size_t evaluations = 0;
-  return extreme_view(measurer, m, Goal::Best, evaluations, run);
-}
-
-MeasuredViews gradient_views(const ViewMeasurer& measurer, std::size_t m,
-                             const SearchOptions& options, const RunContext& run) {
-  const Measure& measure = measurer.measures()[m];
-  require_gradient(measure);
-  RunContext quiet = run;
-  quiet.report = nullptr;
-  const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
-    return measurer.values_of(m, directions, quiet);
-  };
-  const bool rises = measure.better == Better::More;
-  SearchOptions by_gradient = options;
-  by_gradient.strategy = SearchStrategy::Gradient;
-  constexpr double kTotal = 1.0;  // there is something to find; its size does not matter here
-  const FoundView best =
-      search_view(score, kTotal, rises ? Goal::Best : Goal::Worst, by_gradient, quiet);
-  const FoundView worst =
-      search_view(score, kTotal, rises ? Goal::Worst : Goal::Best, by_gradient, quiet);
-  return {{best.direction, best.score},
-          {worst.direction, worst.score},
-          best.evaluations + worst.evaluations};
+  const RunContext quiet{.stop = run.stop, .max_threads = run.max_threads};
+  const MeasureObjective by(measurer, m, quiet);
+  return measured(search_view(by.objective(), Goal::Best, {}, quiet), by);
 }
 
 void require_gradient(const Measure& measure) {
@@ -223,33 +116,37 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, UpAxis up, const Vi
   if (options.search.strategy == SearchStrategy::Gradient) {
     require_gradient(find_measure(options.method));
   }
-  constexpr int kLevel = 3;
   const double kNone = std::numeric_limits<double>::quiet_NaN();
-  ViewMeasurer measurer(measure_subject(shape, options), {find_measure(options.method)}, kLevel,
+  ViewMeasurer measurer(measure_subject(shape, options), {find_measure(options.method)}, kSetLevel,
                         run.part(0.0, 0.6));
-  const GrowingScore score(measurer, run);
+  const MeasureObjective by(measurer, 0, run.part(0.0, 0.6));
   const UprightFrame frame = upright_frame(up_vector(up));
-  auto [best, worst] = search_under_prior(score, score.highest(), options.prior, frame,
-                                          options.search, run.part(0.6, 1.0), {});
+  ViewObjective objective = by.objective();
+  if (!options.prior.is_uniform) {
+    objective.preference = [&](const Vec3& direction, double score) {
+      return score * options.prior.factor(frame, direction);
+    };
+  }
+  auto [best, worst] = search_best_and_worst(objective, options.search, run.part(0.6, 1.0));
   ViewReport report;
   report.camera = scoring_camera(shape, options);
   report.up = up;
   report.total = kNone;
   const std::shared_ptr<const VertexVisibility> visibility = visibility_of(shape, 2);
-  const auto described = [&](const FoundView& found, bool is_best) {
+  const auto described = [&](const FoundView& found) {
     ReportedView view =
         describe_view(shape, *visibility, report.camera, found.direction, up, options);
     view.score = measurer.values(std::vector<Vec3>{found.direction}).front().front();
     view.score_fraction = kNone;
-    view.objective = is_best ? score.score(view.score) * options.prior.factor(frame, view.direction)
-                             : view.score;
     return view;
   };
-  report.best = described(best, true);
-  report.worst = described(worst, false);
+  report.best = described(best);
+  report.best.objective = best.preference;
+  report.worst = described(worst);
+  report.worst.objective = report.worst.score;
   for (FoundView* found : {&best, &worst}) {
     for (SearchStep& step : found->trace) {
-      step.score = score.is_falling() ? score.highest() - step.score : step.score;
+      step.score = by.value(step.score);
     }
   }
   report.best_search = std::move(best);

@@ -118,17 +118,11 @@ void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext&
   }
 }
 
-ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options, const RunContext& run,
-                            StageSeconds* seconds, AnalysisUse use) {
+ShapeAnalysis analyse_surface(ShapeAnalysis shape, const ViewOptions& options,
+                              const RunContext& run, StageSeconds* seconds, AnalysisUse use) {
   auto mark = std::chrono::steady_clock::now();
   StageSeconds ignored;
   StageSeconds& took = seconds != nullptr ? *seconds : ignored;
-  ShapeAnalysis shape = prepare_surface(model, run);
-  std::optional<SceneObject> focus;  // found before the work, lest a wrong name costs minutes
-  if (!options.focus.empty()) {
-    focus = find_object(list_objects(model, shape), options.focus);
-  }
-  took.load += lap(mark);
   // The contraction leaves most of a second core idle.
   std::shared_ptr<const ViewPreparation> views;
   run_both(
@@ -147,10 +141,25 @@ ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options, cons
   shape.views = std::move(views);
   took.skeleton += lap(mark);
   add_map(shape, options, run.part(0.95, 1.0));
+  took.map = lap(mark);
+  return shape;
+}
+
+ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options, const RunContext& run,
+                            StageSeconds* seconds, AnalysisUse use) {
+  auto mark = std::chrono::steady_clock::now();
+  ShapeAnalysis prepared = prepare_surface(model, run);
+  std::optional<SceneObject> focus;  // found before the work, lest a wrong name costs minutes
+  if (!options.focus.empty()) {
+    focus = find_object(list_objects(model, prepared), options.focus);
+  }
+  if (seconds != nullptr) {
+    seconds->load += lap(mark);
+  }
+  ShapeAnalysis shape = analyse_surface(std::move(prepared), options, run, seconds, use);
   if (focus) {
     focus_on(shape, *focus);
   }
-  took.map = lap(mark);
   run.advance("map", 1.0);
   return shape;
 }

@@ -2,17 +2,15 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "vantage/report/view_report.h"
 #include "vantage/spatial/mirror_symmetry.h"
-#include "vantage/view/landmarks.h"
 #include "vantage/view/stance.h"
 #include "vantage/visibility/vertex_visibility.h"
 
-#include "view/sketch_surface.h"
+#include "report/coarse_surface.h"
 
 /// \file
 /// What views of a surface are looked for with, whatever its map: made beside the contraction.
@@ -33,25 +31,20 @@ struct ViewPreparation {
   /// Of the shape's surface; its history, skeleton and map are not looked at. \throw Cancelled
   explicit ViewPreparation(const ShapeAnalysis& shape, const RunContext& run = {});
 
-  std::uint64_t surface_print;  ///< Of the surface and the sides that it is of.
   VertexVisibility visibility;
   Posture posture;
-  std::vector<FlatPart> walls;                  ///< flat_parts().
-  std::vector<Vec3> landmarks;                  ///< landmark_directions().
-  std::vector<double> vertex_areas;             ///< vertex_areas().
-  std::shared_ptr<const SketchSurface> coarse;  ///< For a SketchScorer by sketch_options().
+  std::vector<double> vertex_areas;    ///< vertex_areas().
+  CoarseSurface coarse;                ///< What estimates of scores look at.
+  VertexVisibility coarse_visibility;  ///< Of its mesh.
 };
-
-/// That of the shape if it is of its surface as that is now, else null.
-const ViewPreparation* views_of(const ShapeAnalysis& shape);
-
-/// That of the shape, or one found now.
-Posture posture_of(const ShapeAnalysis& shape);
 
 /// That of the shape, or one made now.
 std::shared_ptr<const ViewPreparation> preparation_of(const ShapeAnalysis& shape);
 
-/// The visibility of these, or one made now for about so many eyes.
+/// The visibility of the shape's, or one made now for about so many eyes.
 std::shared_ptr<const VertexVisibility> visibility_of(const ShapeAnalysis& shape, std::size_t eyes);
+
+/// The posture of the shape's, or one found now.
+Posture posture_of(const ShapeAnalysis& shape);
 
 }  // namespace vantage

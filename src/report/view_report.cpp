@@ -7,16 +7,13 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/render/framing.h"
 #include "vantage/report/measured_shape.h"
-#include "vantage/view/landmarks.h"
 
-#include "core/parallel.h"
-#include "report/prior_search.h"
+#include "report/coarse_surface.h"
+#include "report/map_objective.h"
 #include "report/scored_view.h"
 #include "report/twins.h"
 #include "report/vertex_share.h"
 #include "report/view_preparation.h"
-#include "view/nearby_scorer.h"
-#include "view/sketch_scorer.h"
 
 namespace vantage {
 namespace {
@@ -30,6 +27,15 @@ double visible_area_fraction(std::span<const double> areas, std::span<const std:
     seen += visible[v] != 0 ? areas[v] : 0.0;
   }
   return all > 0.0 ? seen / all : 0.0;
+}
+
+/// The camera of a picture from a direction.
+Camera framed(const ShapeAnalysis& shape, const Vec3& direction, UpAxis up,
+              const ViewOptions& options) {
+  const ScoringCamera camera = scoring_camera(shape, options);
+  return frame_points(referenced_points(shape.surface), camera.viewpoint(direction),
+                      camera.sphere.centre, up_vector(up),
+                      static_cast<double>(options.width) / options.height, options.margin);
 }
 
 }  // namespace
@@ -77,12 +83,9 @@ ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& v
   view.score = visible_sum(shape.map.of_vertex, visible);
   view.score_fraction = total > 0.0 ? view.score / total : 0.0;
   view.objective = view.score;
-  const ViewPreparation* views = views_of(shape);
   view.visible_area_fraction = visible_area_fraction(
-      views != nullptr ? views->vertex_areas : vertex_areas(shape.surface), visible);
-  view.picture = frame_points(referenced_points(shape.surface), camera.viewpoint(direction),
-                              camera.sphere.centre, up_vector(up),
-                              static_cast<double>(options.width) / options.height, options.margin);
+      shape.views ? shape.views->vertex_areas : vertex_areas(shape.surface), visible);
+  view.picture = framed(shape, direction, up, options);
   return view;
 }
 
@@ -101,21 +104,18 @@ ReportedView describe_scored_view(const ShapeAnalysis& shape, const VertexVisibi
 namespace {
 
 /// Compares what was found with a dense search of the same objective.
-DenseGap gap_to_dense(const FoundViews& found, const ScoreBatch& score, double total,
-                      const ViewPrior& prior, const UprightFrame& frame, const RunContext& run) {
+DenseGap gap_to_dense(const FoundViews& found, const ViewObjective& objective,
+                      const RunContext& run) {
   const FoundViews dense =
-      search_under_prior(score, total, prior, frame, {.strategy = SearchStrategy::Dense}, run);
-  const auto objective = [&](const FoundView& view) {
-    return view.score * prior.factor(frame, view.direction);
-  };
+      search_best_and_worst(objective, {.strategy = SearchStrategy::Dense}, run);
   double highest = dense.best.score;
   for (const SearchStep& step : dense.best.trace) {
     highest = std::max(highest, step.score);
   }
   DenseGap gap;
   gap.evaluations = dense.best.evaluations + dense.worst.evaluations;
-  if (objective(dense.best) > 0.0) {
-    gap.best_ratio = objective(found.best) / objective(dense.best);
+  if (dense.best.preference > 0.0) {
+    gap.best_ratio = found.best.preference / dense.best.preference;
   }
   if (highest > dense.worst.score) {
     gap.worst_above = (found.worst.score - dense.worst.score) / (highest - dense.worst.score);
@@ -123,8 +123,14 @@ DenseGap gap_to_dense(const FoundViews& found, const ScoreBatch& score, double t
   return gap;
 }
 
-// A model of very few vertices is looked over by its scores. [ours, docs/search.md]
-constexpr std::size_t kEstimatedFrom = 500;
+/// Of the best view and what mirror planes make of it, the one most toward the front.
+void settle_on_the_front(FoundView& best, std::vector<TwinView>& twins, const UprightFrame& frame) {
+  TwinView first{best.direction, best.score, best.preference};
+  settle_near_ties(first, twins, frame);
+  best.direction = first.direction;
+  best.score = first.score;
+  best.preference = first.objective;
+}
 
 }  // namespace
 
@@ -137,77 +143,35 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
   ViewReport report;
   report.camera = scoring_camera(shape, options);
   report.up = up;
-  const std::shared_ptr<const ViewPreparation> prepared = preparation_of(shape);
-  const VertexVisibility& visibility = prepared->visibility;
-  const std::optional<FaceVisibility> faces = faces_to_score(shape, options);
-  const ViewScorer scorer = faces ? ViewScorer(*faces, shape.map.of_vertex, report.camera)
-                                  : ViewScorer(visibility, shape.map.of_vertex, report.camera);
+  const MapObjective map(shape, options, run);
+  const ViewScorer& scorer = map.scorer();
   report.total = scorer.total();
   if (!(report.total > 0.0)) {
     report.warnings.emplace_back(
         "the significance map is zero everywhere, so every view is as good as any other");
   }
-  // Progress belongs to the search as a whole: the batches only listen for a stop.
-  RunContext batch_run = run;
-  batch_run.report = nullptr;
-  const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
-    return scorer.score_all(directions, batch_run);
-  };
-  ScoreBatch remembered = score;
-  SearchHints hints;
-  std::optional<SketchScorer> sketch;
-  NearbyScorer amid(visibility, shape.map.of_vertex, report.camera);
-  if (options.search.strategy == SearchStrategy::Global) {
-    if (!faces) {
-      remembered = [&](const std::vector<Vec3>& directions) {
-        return amid.score_all(directions, batch_run);
-      };
-      hints.nearby = [&](const Circles& circles, const std::vector<Vec3>& directions) {
-        return amid.score_amid(circles, directions, batch_run);
-      };
-      hints.expect_nearby = [&](const std::vector<Circles>& circles) {
-        amid.expect(circles, batch_run);
-      };
-    }
-    hints.landmarks = prepared->landmarks;
-    hints.brinks = brink_directions(prepared->walls, report.camera);
-    const std::size_t size = shape.surface.positions.size();
-    hints.scores_are_cheap = size < kCheapBelow;
-    if (size >= (faces ? kCheapBelow : kEstimatedFrom)) {
-      sketch.emplace(shape.surface, shape.sides, vertex_shares(shape, options.weight),
-                     report.camera, sketch_options(size), prepared->coarse);
-      hints.estimate = [&](const std::vector<Vec3>& directions) {
-        return sketch->score_all(directions, batch_run);
-      };
-    }
-  }
-  const double search_share = options.view_set || options.certify ? 0.25 : 1.0;  // of the bar
   const UprightFrame frame = upright_frame(up_vector(up));
-  FoundViews found = search_under_prior(remembered, report.total, options.prior, frame,
-                                        options.search, run.part(0.0, search_share), hints);
+  const ViewObjective objective = map.objective(frame);
+  const double search_share = options.view_set || options.certify ? 0.25 : 1.0;  // of the bar
+  FoundViews found = search_best_and_worst(objective, options.search, run.part(0.0, search_share));
   auto& [best, worst] = found;
   report.twins = twins_of(best.direction, shape, scorer, options.prior, frame);
   if (!options.prior.is_uniform) {
-    TwinView first{best.direction, best.score,
-                   best.score * options.prior.factor(frame, best.direction)};
-    settle_near_ties(first, report.twins, frame);
-    best.direction = first.direction;
-    best.score = first.score;
+    settle_on_the_front(best, report.twins, frame);
   }
   if (options.certify) {  // what is reported, and so not before near-ties are settled
-    report.dense_gap = gap_to_dense(found, score, report.total, options.prior, frame,
-                                    run.part(search_share, options.view_set ? 0.6 : 1.0));
+    report.dense_gap =
+        gap_to_dense(found, objective, run.part(search_share, options.view_set ? 0.6 : 1.0));
   }
   const auto described = [&](const FoundView& view) {
-    return describe_scored_view(shape, visibility, scorer, view.direction, up, options);
+    return describe_scored_view(shape, map.visibility(), scorer, view.direction, up, options);
   };
-  run_both(
-      batch_run, [&, &best = best] { report.best = described(best); },
-      [&, &worst = worst] { report.worst = described(worst); });
+  report.best = described(best);
+  report.worst = described(worst);
   report.worst.objective = report.worst.score;  // no prior has a say in it
   if (options.view_set) {
     report.set =
-        find_view_set(shape, visibility, scorer, best.direction, up, options, report.warnings,
+        find_view_set(shape, map.visibility(), scorer, best.direction, up, options, report.warnings,
                       run.part(options.certify ? 0.6 : search_share, 1.0));
   }
   report.best_search = std::move(best);
@@ -223,6 +187,49 @@ ViewReport find_views(const ShapeAnalysis& shape, const UpChoice& up, const View
     report.warnings.push_back(up.note);
   }
   return report;
+}
+
+ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const UpChoice& up,
+                       const ViewOptions& options, const RunContext& run) {
+  check_fields(options, kViewFields);
+  if (!sums_a_map(options.method)) {
+    const ViewReport both = find_views_by_measure(shape, up.axis, options, run);
+    return goal == Goal::Best ? both.best : both.worst;
+  }
+  const MapObjective map(shape, options, run);
+  const UprightFrame frame = upright_frame(up_vector(up.axis));
+  FoundView found = search_view(map.objective(frame), goal, options.search, run);
+  if (goal == Goal::Best && !options.prior.is_uniform) {
+    std::vector<TwinView> twins =
+        twins_of(found.direction, shape, map.scorer(), options.prior, frame);
+    settle_on_the_front(found, twins, frame);
+  }
+  ReportedView view = describe_scored_view(shape, map.visibility(), map.scorer(), found.direction,
+                                           up.axis, options);
+  view.objective = goal == Goal::Best ? view.objective : view.score;
+  return view;
+}
+
+PictureView find_picture_view(const Model& model, const ShapeAnalysis& prepared,
+                              const ViewOptions& options, const RunContext& run) {
+  constexpr std::size_t kLarge = 200'000;  // vertices [ours]
+  ShapeAnalysis surface = prepared;
+  const bool is_large = !prepared.cloud && prepared.surface.positions.size() > kLarge;
+  if (is_large) {
+    CoarseSurface coarse =
+        coarse_surface(prepared.surface, prepared.sides, kLarge / 2, run.part(0.0, 0.3));
+    surface.surface = std::move(coarse.mesh);
+    surface.sides = std::move(coarse.sides);
+  }
+  const ShapeAnalysis shape = analyse_surface(std::move(surface), options, run.part(0.3, 0.8));
+  PictureView found;
+  found.up = choose_up(model, shape, options);
+  found.view = find_view(shape, Goal::Best, found.up, options, run.part(0.8, 1.0));
+  found.vertices = shape.surface.positions.size();
+  if (is_large) {
+    found.view.picture = framed(prepared, found.view.direction, found.up.axis, options);
+  }
+  return found;
 }
 
 }  // namespace vantage

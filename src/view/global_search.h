@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "view/climb.h"
-#include "view/search_guides.h"
+#include "view/local_ascent.h"
 
 namespace vantage {
 
-/// The global search: docs/search.md has the steps and the numbers. \throw Cancelled
-Candidate search_globally(const Guides& guides, Goal goal, const SearchHints& hints,
-                          const RunContext& run);
+/// Estimates over the sphere, exact values of the most promising directions, ascent from the best of
+/// those (docs/search.md). \throw Cancelled
+Candidate search_globally(const SearchTarget& target, const RunContext& run);
 
 }  // namespace vantage

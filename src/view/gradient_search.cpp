@@ -45,7 +45,7 @@ Vec3 turned(const Vec3& from, const Vec3& aside, double angle_rad) {
 }
 
 /// Central differences along two directions across each climber that has moved.
-void find_gradients(std::vector<Climber>& climbers, Goal goal, Evaluator& evaluator, int level) {
+void find_gradients(std::vector<Climber>& climbers, const SearchTarget& target, int level) {
   std::vector<Vec3> probes;
   std::vector<std::size_t> owners;
   for (std::size_t i = 0; i < climbers.size(); ++i) {
@@ -59,7 +59,7 @@ void find_gradients(std::vector<Climber>& climbers, Goal goal, Evaluator& evalua
       }
     }
   }
-  const std::vector<double> scores = evaluator.scores(probes, level);
+  const std::vector<double> scores = target.values(probes, level);
   for (std::size_t k = 0; k < owners.size(); ++k) {
     Climber& climber = climbers[owners[k]];
     const Vec3 right = climber.here.direction.unitOrthogonal();
@@ -72,12 +72,12 @@ void find_gradients(std::vector<Climber>& climbers, Goal goal, Evaluator& evalua
       climber.way_rad = 0.0;  // flat, or at the edge of where there is a score: nowhere to go
       continue;
     }
-    climber.uphill = (goal == Goal::Best ? 1.0 : -1.0) / length * slope;
+    climber.uphill = slope / length;
   }
 }
 
 /// One step of each climber along its gradient, taken only if it helps.
-void advance(std::vector<Climber>& climbers, Goal goal, Evaluator& evaluator, int level) {
+void advance(std::vector<Climber>& climbers, const SearchTarget& target, int level) {
   std::vector<Vec3> trials;
   std::vector<std::size_t> owners;
   for (std::size_t i = 0; i < climbers.size(); ++i) {
@@ -86,10 +86,10 @@ void advance(std::vector<Climber>& climbers, Goal goal, Evaluator& evaluator, in
       trials.push_back(turned(climbers[i].here.direction, climbers[i].uphill, climbers[i].way_rad));
     }
   }
-  const std::vector<double> scores = evaluator.scores(trials, level);
+  const std::vector<double> scores = target.values(trials, level);
   for (std::size_t k = 0; k < owners.size(); ++k) {
     Climber& climber = climbers[owners[k]];
-    if (is_better(goal, scores[k], climber.here.score)) {
+    if (scores[k] > climber.here.value) {
       climber.here = {trials[k], scores[k]};
       climber.is_moved = true;
     } else {
@@ -100,17 +100,17 @@ void advance(std::vector<Climber>& climbers, Goal goal, Evaluator& evaluator, in
 
 }  // namespace
 
-Candidate search_by_gradient(Evaluator& evaluator, Goal goal, const SearchOptions& options,
-                             double total, const RunContext& run) {
+Candidate search_by_gradient(const SearchTarget& target, const SearchOptions& options,
+                             const RunContext& run) {
   std::vector<Vec3> starts;
   starts.reserve(static_cast<std::size_t>(options.starts));
   for (int i = 0; i < options.starts; ++i) {
     starts.push_back(random_direction(options.seed, i));
   }
-  if (!(total > 0.0)) {
+  if (target.is_flat()) {
     starts.resize(1);
   }
-  const std::vector<double> scores = evaluator.scores(starts, 0);
+  const std::vector<double> scores = target.values(starts, 0);
   std::vector<Climber> climbers;
   climbers.reserve(starts.size());
   std::vector<Candidate> ends;
@@ -118,7 +118,7 @@ Candidate search_by_gradient(Evaluator& evaluator, Goal goal, const SearchOption
   for (std::size_t i = 0; i < starts.size(); ++i) {
     climbers.push_back({.here = {starts[i], scores[i]}});
   }
-  for (int level = 1; total > 0.0 && level <= kMostSteps; ++level) {
+  for (int level = 1; !target.is_flat() && level <= kMostSteps; ++level) {
     std::size_t active = 0;
     for (const Climber& climber : climbers) {
       active += climber.is_done() ? 0 : 1;
@@ -127,13 +127,13 @@ Candidate search_by_gradient(Evaluator& evaluator, Goal goal, const SearchOption
       break;
     }
     run.advance("search", std::min(1.0, static_cast<double>(level) / kMostSteps));
-    find_gradients(climbers, goal, evaluator, level);
-    advance(climbers, goal, evaluator, level);
+    find_gradients(climbers, target, level);
+    advance(climbers, target, level);
   }
   for (const Climber& climber : climbers) {
     ends.push_back(climber.here);
   }
-  return winner_of(goal, ends);
+  return largest_apart(std::move(ends), 1, 0.0).front();
 }
 
 }  // namespace vantage

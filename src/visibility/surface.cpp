@@ -211,40 +211,6 @@ FloatPoints rounded_points(std::span<const Vec3> points) {
   return rounded;
 }
 
-SurfacePart part_of(const Surface& surface, const std::vector<std::uint32_t>& faces) {
-  SurfacePart part;
-  part.site_in_part.assign(surface.sites.size(), Surface::kNoSite);
-  for (const std::uint32_t f : faces) {
-    for (const std::uint32_t site : surface.faces[f]) {
-      part.site_in_part[site] = 0;
-    }
-  }
-  Surface& small = part.surface;
-  small.frame = surface.frame;
-  for (std::uint32_t site = 0; site < surface.sites.size(); ++site) {
-    if (part.site_in_part[site] == 0) {
-      part.site_in_part[site] = static_cast<std::uint32_t>(part.site_of.size());
-      part.site_of.push_back(site);
-      small.sites.push_back(surface.sites[site]);
-    }
-  }
-  for (const std::uint32_t f : faces) {
-    const auto [a, b, c] = surface.faces[f];
-    small.faces.push_back({part.site_in_part[a], part.site_in_part[b], part.site_in_part[c]});
-    small.area_vectors.push_back(surface.area_vectors[f]);
-    small.twice_areas.push_back(surface.twice_areas[f]);
-    small.sides.push_back(surface.sides[f]);
-    small.face_of_mesh.push_back(surface.face_of_mesh[f]);
-    if (!surface.backs.empty()) {
-      small.backs.push_back(surface.backs[f]);
-    }
-  }
-  small.rounded = rounded_points(small.sites);
-  small.planes = planes_of(small);
-  small.blocks = blocks_of(small);
-  return part;
-}
-
 std::vector<std::uint8_t> vertices_of_sites(const Surface& surface,
                                             std::span<const std::uint8_t> of_site) {
   std::vector<std::uint8_t> of_vertex(surface.site_of_vertex.size(), 0);

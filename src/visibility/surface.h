@@ -68,16 +68,6 @@ Viewpoint eye_in_frame(const Viewpoint& eye, const UnitFrame& frame);
 /// \throw InvalidInput if there are neither.
 Surface prepare_surface(const TriMesh& mesh, std::span<const FaceSides> sides);
 
-/// Some of a surface's faces, with the sites that they use.
-struct SurfacePart {
-  Surface surface{};  ///< In the same frame and order; its site_of_vertex is empty.
-  std::vector<std::uint32_t> site_of{};       ///< Of each site, the one of the whole.
-  std::vector<std::uint32_t> site_in_part{};  ///< Of each of the whole, or kNoSite.
-};
-
-/// \param faces ascending.
-SurfacePart part_of(const Surface& surface, const std::vector<std::uint32_t>& faces);
-
 /// One value for each vertex of the mesh, that of its site; 0 for vertices without a site.
 /// \param of_site at least one value a site; more are not looked at.
 std::vector<std::uint8_t> vertices_of_sites(const Surface& surface,

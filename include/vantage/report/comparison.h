@@ -37,12 +37,6 @@ struct Comparison {
   std::vector<ComparedMethod> methods{};            ///< As asked for.
   std::vector<std::vector<Agreement>> agreement{};  ///< Of each with each; symmetric.
   double survey_seconds = 0.0;  ///< Looking at the set, for all of them at once.
-  bool set_counts = true;       ///< Whether the searches began with the views of the set.
-
-  /// Views that the search by a method looked at.
-  [[nodiscard]] std::size_t evaluations(const ComparedMethod& method) const {
-    return method.views.evaluations + (set_counts ? set.directions.size() : 0);
-  }
 };
 
 /// Angle between two directions, degrees.

@@ -42,20 +42,16 @@ struct MeasuredView {
 struct MeasuredViews {
   MeasuredView best{};
   MeasuredView worst{};
-  std::size_t evaluations = 0;  ///< Views looked at for them, those of the set left out.
+  std::size_t evaluations = 0;  ///< Views scored for them, those of the set among them.
 };
 
-/// Best and worst view of the set, then by rings of six directions that halve from 4° to 1° as
-/// long as one of them is better. \param m index into measurer.measures().
-MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m, const RunContext& run = {});
+/// Best and worst view by one measure. \param m index into measurer.measures().
+/// \throw InvalidInput as require_gradient() for a search along the gradient. \throw Cancelled
+MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m,
+                            const SearchOptions& options = {}, const RunContext& run = {});
 
 /// The best of these alone, for half the work.
 MeasuredView best_view(ViewMeasurer& measurer, std::size_t m, const RunContext& run = {});
-
-/// Best and worst view by one measure, each by Lee's search along the gradient from random starts.
-/// \throw InvalidInput as require_gradient().
-MeasuredViews gradient_views(const ViewMeasurer& measurer, std::size_t m,
-                             const SearchOptions& options, const RunContext& run = {});
 
 /// \throw InvalidInput for a measure that counts things: it has no gradient.
 void require_gradient(const Measure& measure);

@@ -118,8 +118,8 @@ struct ShapeAnalysis {
   KssmMap map{};                                ///< Filled by add_map().
   std::vector<std::string> warnings{};          ///< Every repair and doubt, one sentence each.
   std::optional<CloudAnalysis> cloud{};         ///< Set if the model has no faces.
-  /// Filled by analyse_shape() for views; where it is missing, or of another surface than `surface`
-  /// is by now, what looks for views makes it.
+  /// Of `surface`, filled by analyse_shape() for views. Where it is missing, what looks for views
+  /// makes it; whoever changes `surface` resets it.
   std::shared_ptr<const ViewPreparation> views{};
 };
 
@@ -146,6 +146,11 @@ enum class AnalysisUse {
 ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options,
                             const RunContext& run = {}, StageSeconds* seconds = nullptr,
                             AnalysisUse use = AnalysisUse::Views);
+
+/// All of it but prepare_surface(), whose result it takes.
+ShapeAnalysis analyse_surface(ShapeAnalysis prepared, const ViewOptions& options,
+                              const RunContext& run = {}, StageSeconds* seconds = nullptr,
+                              AnalysisUse use = AnalysisUse::Views);
 
 /// A per-vertex field of the surface carried to the input's vertices; isolated ones get 0.
 std::vector<double> on_input_vertices(const ShapeAnalysis& shape, std::span<const double> field);
@@ -229,6 +234,23 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
 /// The same with an up axis that was chosen; its note joins the warnings.
 ViewReport find_views(const ShapeAnalysis& shape, const UpChoice& up, const ViewOptions& options,
                       const RunContext& run = {});
+
+/// One of these two alone, for less work. \throw Cancelled
+ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const UpChoice& up,
+                       const ViewOptions& options, const RunContext& run = {});
+
+/// A view that is found for its picture.
+struct PictureView {
+  ReportedView view{};       ///< Framed on the whole surface.
+  UpChoice up{};             ///< As used.
+  std::size_t vertices = 0;  ///< Of the surface that was analysed.
+};
+
+/// The best view of a prepared surface, for a picture of it. A surface of more than 200 000 vertices
+/// is decimated to half as many before it is analysed, so that the view may differ a little from
+/// find_views(). \throw Cancelled
+PictureView find_picture_view(const Model& model, const ShapeAnalysis& prepared,
+                              const ViewOptions& options, const RunContext& run = {});
 
 /// Describes the view from a given direction. \pre the map is there.
 ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& visibility,

@@ -22,7 +22,7 @@ namespace vantage {
 enum class SearchStrategy {
   Rapid,       ///< The paper's: best corner of a base, then Loop refinement around it.
   Exhaustive,  ///< Every direction of a set.
-  Global,      ///< Ours: finds what Dense finds by a fraction of its scores; docs/search.md.
+  Global,      ///< Ours: finds what Dense finds at a fraction of its scores; docs/search.md.
   Dense,       ///< Ours: icosahedron level 5, then refinement around the best three. Slow.
   Gradient,    ///< Lee 2005: along the gradient from seeded random directions.
 };
@@ -54,80 +54,55 @@ inline constexpr auto kGradientFields = std::tuple{
           "random directions that --search gradient starts from"},
 };
 
-/// One evaluated direction of a search, in order of evaluation.
+/// One scored direction of a search, in order of scoring.
 struct SearchStep {
   int level = 0;                   ///< 0: the start set; then one per refinement.
   Vec3 direction = Vec3::UnitZ();  ///< Unit vector to the eye.
-  double score = 0.0;              ///< As the scorer gave it.
+  double score = 0.0;              ///< As ViewObjective::score gave it.
 };
 
 /// One view found by a search.
 struct FoundView {
-  Vec3 direction = Vec3::UnitZ();  ///< Unit vector from the centre to the eye.
-  double score = 0.0;              ///< As the scorer gave it.
-  std::size_t evaluations = 0;     ///< Directions scored for it; none is scored twice.
-  std::size_t estimates = 0;  ///< Directions that an estimate, or a nearby score, was asked for.
-  std::vector<SearchStep> trace{};  ///< Each evaluated direction.
+  Vec3 direction = Vec3::UnitZ();   ///< Unit vector from the centre to the eye.
+  double score = 0.0;               ///< As ViewObjective::score gave it.
+  double preference = 0.0;          ///< What was maximised; the score unless there is a preference.
+  std::size_t evaluations = 0;      ///< Directions scored for it; none is scored twice.
+  std::size_t estimates = 0;        ///< Directions that the surrogate was asked for.
+  std::vector<SearchStep> trace{};  ///< Each scored direction.
 };
 
 /// Result of search_best_and_worst().
 struct FoundViews {
-  FoundView best{};   ///< Of the largest score.
-  FoundView worst{};  ///< Its evaluations and trace hold only what the best had not scored before.
+  FoundView best{};   ///< Of the largest preference.
+  FoundView worst{};  ///< Of the least score; its trace holds only what the best had not scored.
 };
 
-/// Scores a batch of directions; must be a pure function of each direction.
+/// Scores a batch of directions; a pure function of each direction.
 using ScoreBatch = std::function<std::vector<double>(const std::vector<Vec3>&)>;
 
-/// Directions around one, which comes first; each circle is in the midst of the one before.
-using Circles = std::vector<std::vector<Vec3>>;
-
-/// Scores directions in the midst of circles, the first of which is scored exactly: nearly right, and
-/// much cheaper than a score. Pure in both.
-using ScoreNearby =
-    std::function<std::vector<double>(const Circles& circles, const std::vector<Vec3>& directions)>;
-
-/// What a direction was estimated at and what it then scored.
-struct KnownScore {
-  Vec3 direction = Vec3::UnitZ();  ///< Unit vector from the centre to the eye.
-  double estimate = 0.0;           ///< As SearchHints::estimate gave it.
-  double score = 0.0;              ///< As the scorer gave it.
+/// What is looked for on the view sphere. KSSM, every measure, thumbnails and scores of your own
+/// are searched by this one interface.
+struct ViewObjective {
+  ScoreBatch score{};  ///< Required; finite.
+  /// The score if everything were visible, ≥ 0: what SearchOptions::epsilon as a fraction refers
+  /// to. At 0 all views are equal, and the first direction is the answer.
+  double total = 0.0;
+  /// Nearly the score at a fraction of its cost: tells SearchStrategy::Global where to score.
+  /// Unset: the score does.
+  ScoreBatch surrogate{};
+  /// What the best view maximises, of a direction and its score. Unset: the score.
+  std::function<double(const Vec3& direction, double score)> preference{};
+  int survey_level = 4;  ///< Icosahedron level that SearchStrategy::Global surveys first, 0–6.
+  double finest_deg = 0.01;  ///< Its ascent ends with rings as narrow as this, > 0.
 };
 
-/// What helps the global search and does not change what it looks for.
-struct SearchHints {
-  /// If given, scores that are nearly right and much cheaper: the sphere is looked over by them, and
-  /// exact scores are asked for only where they lead.
-  ScoreBatch estimate{};
-  /// If given, hills are climbed by these once some directions around are scored; what is found is
-  /// scored.
-  ScoreNearby nearby{};
-  /// If given, told what nearby scores will be asked for amid, so that several can be made ready at a
-  /// time.
-  std::function<void(const std::vector<Circles>&)> expect_nearby{};
-  /// Directions to look at whatever their neighbours say, such as landmark_directions().
-  std::vector<Vec3> landmarks{};
-  /// Directions to score whatever the estimate says, such as brink_directions().
-  std::vector<Vec3> brinks{};
-  /// What estimates are wrong by, from a search before: what they teach is not asked for again.
-  std::vector<KnownScore> known{};
-  /// Whether scores cost so little that the search may take many more of them, as of small models.
-  bool scores_are_cheap = false;
-};
+/// Searches the sphere for the view of largest preference or of least score. Ties go to the lowest
+/// index of the set, then to what was found first. 	hrow InvalidInput, Cancelled
+FoundView search_view(const ViewObjective& objective, Goal goal, const SearchOptions& options = {},
+                      const RunContext& run = {});
 
-/// Searches the sphere. Ties go to the lowest index of the set, then to what was found first.
-/// \param score scores directions. \param total the score if everything were visible, ≥ 0: what
-/// `epsilon` as a fraction refers to; at 0 all views are equal and the first direction is returned.
-/// \throw InvalidInput, Cancelled
-FoundView search_view(const ScoreBatch& score, double total, Goal goal,
-                      const SearchOptions& options = {}, const RunContext& run = {},
-                      const SearchHints& hints = {});
-
-/// Both searches, sharing what they evaluate. The worst view is that of search_view() with what is known
-/// of estimates by then.
-/// \throw InvalidInput, Cancelled
-FoundViews search_best_and_worst(const ScoreBatch& score, double total,
-                                 const SearchOptions& options = {}, const RunContext& run = {},
-                                 const SearchHints& hints = {});
+/// Both searches, sharing what they score. 	hrow InvalidInput, Cancelled
+FoundViews search_best_and_worst(const ViewObjective& objective, const SearchOptions& options = {},
+                                 const RunContext& run = {});
 
 }  // namespace vantage

@@ -42,8 +42,6 @@ class VertexVisibility {
                                                            const RunContext& run = {}) const;
 
  private:
-  friend class NearbySight;
-
   struct Scene;
   std::unique_ptr<Scene> scene_;
 };

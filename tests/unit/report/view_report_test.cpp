@@ -150,20 +150,43 @@ TEST(FindViews, FindsTheSameWhereNothingWasPrepared) {
             view_json(model, shape, find_views(shape, up, options), options));
 }
 
-TEST(FindViews, OfASurfaceThatWasChangedUsesNothingOfTheOldOne) {
+TEST(FindView, IsTheOneThatBothAreFoundWith) {
   const ViewOptions options;
-  ShapeAnalysis shape = analyse_shape(model_of(y_of_tubes(0.2, 24)), options);
-  for (Vec3& p : shape.surface.positions) {
-    p = Vec3(p.x(), p.z(), 3.0 * p.y());  // turned inside out and drawn out
+  const Model model = model_of(y_of_tubes(0.2, 24));
+  const ShapeAnalysis shape = analyse_shape(model, options);
+  const UpChoice up = choose_up(model, shape, options);
+  const ViewReport both = find_views(shape, up, options);
+  for (const Goal goal : {Goal::Best, Goal::Worst}) {
+    const ReportedView& expected = goal == Goal::Best ? both.best : both.worst;
+    const ReportedView found = find_view(shape, goal, up, options);
+    EXPECT_EQ(found.direction, expected.direction);
+    EXPECT_EQ(found.score, expected.score);
+    EXPECT_EQ(found.objective, expected.objective);
+    EXPECT_EQ(found.picture.fov_y_deg, expected.picture.fov_y_deg);
   }
-  shape.sphere = enclosing_sphere(shape.surface.positions);
-  ShapeAnalysis bare = shape;
-  bare.views.reset();
-  const ViewReport found = find_views(shape, UpAxis::Y, options);
-  const ViewReport expected = find_views(bare, UpAxis::Y, options);
-  EXPECT_EQ(found.best.direction, expected.best.direction);
-  EXPECT_EQ(found.best.visible_area_fraction, expected.best.visible_area_fraction);
-  EXPECT_EQ(found.worst.score, expected.worst.score);
+}
+
+TEST(FindPictureView, IsTheBestView) {
+  const ViewOptions options;
+  const Model model = model_of(y_of_tubes(0.2, 24));
+  const ShapeAnalysis shape = analyse_shape(model, options);
+  const PictureView found = find_picture_view(model, prepare_surface(model), options);
+  EXPECT_EQ(found.view.direction,
+            find_views(shape, choose_up(model, shape, options), options).best.direction);
+  EXPECT_EQ(found.vertices, shape.surface.positions.size());
+}
+
+TEST(FindPictureView, OfALargeSurfaceLooksAtADecimatedCopyAndFramesTheWhole) {
+  const Model model = model_of(torus(1.0, 0.4, 640, 320));
+  ASSERT_GT(model.mesh.positions.size(), 200'000U);
+  const ShapeAnalysis prepared = prepare_surface(model);
+  const PictureView found = find_picture_view(model, prepared, {});
+  EXPECT_LE(found.vertices, 100'000U);
+  EXPECT_GT(found.vertices, 90'000U);
+  const ReportedView framed =
+      describe_view(prepared, VertexVisibility(prepared.surface, prepared.sides),
+                    scoring_camera(prepared, {}), found.view.direction, found.up.axis, {});
+  EXPECT_EQ(found.view.picture.fov_y_deg, framed.picture.fov_y_deg);
 }
 
 TEST(FindViews, SeesAsMuchOfAnInsideOutModel) {

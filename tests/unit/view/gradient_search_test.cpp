@@ -27,20 +27,20 @@ SearchOptions by_gradient(int starts, std::uint64_t seed = 0) {
 }
 
 TEST(GradientSearch, ClimbsAHillFromOneStart) {
-  const FoundView best = search_view(hill, 2.0, Goal::Best, by_gradient(1));
+  const FoundView best = search_view({hill, 2.0}, Goal::Best, by_gradient(1));
   // The last way that is tried is a quarter of a degree.
   EXPECT_GT(best.direction.dot(kPeak), std::cos(0.25 * 3.14159 / 180.0));
 }
 
 TEST(GradientSearch, GoesDownForTheWorst) {
-  const FoundView worst = search_view(hill, 2.0, Goal::Worst, by_gradient(1));
+  const FoundView worst = search_view({hill, 2.0}, Goal::Worst, by_gradient(1));
   EXPECT_LT(worst.score, 1e-4);
 }
 
 TEST(GradientSearch, IsTheSameForTheSameSeedAndAnotherForAnother) {
-  const FoundView a = search_view(hill, 2.0, Goal::Best, by_gradient(1, 5));
-  const FoundView b = search_view(hill, 2.0, Goal::Best, by_gradient(1, 5));
-  const FoundView c = search_view(hill, 2.0, Goal::Best, by_gradient(1, 6));
+  const FoundView a = search_view({hill, 2.0}, Goal::Best, by_gradient(1, 5));
+  const FoundView b = search_view({hill, 2.0}, Goal::Best, by_gradient(1, 5));
+  const FoundView c = search_view({hill, 2.0}, Goal::Best, by_gradient(1, 6));
   EXPECT_EQ(a.direction, b.direction);
   EXPECT_NE(a.trace.front().direction, c.trace.front().direction);
 }
@@ -57,10 +57,10 @@ TEST(GradientSearch, GetsStuckOnASmallHillUnlessItStartsOften) {
   };
   double least = std::numeric_limits<double>::infinity();
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
-    least = std::min(least, search_view(two_hills, 2.0, Goal::Best, by_gradient(1, seed)).score);
+    least = std::min(least, search_view({two_hills, 2.0}, Goal::Best, by_gradient(1, seed)).score);
   }
   EXPECT_LT(least, 1.5001);
-  EXPECT_GT(search_view(two_hills, 2.0, Goal::Best, by_gradient(16)).score, 1.999);
+  EXPECT_GT(search_view({two_hills, 2.0}, Goal::Best, by_gradient(16)).score, 1.999);
 }
 
 TEST(GradientSearch, StopsWhereTheScoreIsFlatOrInfinite) {
@@ -69,12 +69,12 @@ TEST(GradientSearch, StopsWhereTheScoreIsFlatOrInfinite) {
       return std::vector<double>(directions.size(), value);
     };
     // Each start and its four probes.
-    EXPECT_EQ(search_view(flat, 1.0, Goal::Best, by_gradient(3)).evaluations, 3U * 5U);
+    EXPECT_EQ(search_view({flat, 1.0}, Goal::Best, by_gradient(3)).evaluations, 3U * 5U);
   }
 }
 
 TEST(GradientSearch, NeedsAStart) {
-  EXPECT_THROW(search_view(hill, 2.0, Goal::Best, by_gradient(0)), InvalidInput);
+  EXPECT_THROW(search_view({hill, 2.0}, Goal::Best, by_gradient(0)), InvalidInput);
 }
 
 }  // namespace

@@ -70,6 +70,7 @@ MeasureValues values_of(const ShapeAnalysis& shape, std::span<const double> sali
 ShapeAnalysis moved(ShapeAnalysis shape, double scale, double angle_rad, const Vec3& axis,
                     const Vec3& shift) {
   shape.surface = test::moved(shape.surface, scale, angle_rad, axis, shift);
+  shape.views.reset();
   shape.sphere = enclosing_sphere(referenced_points(shape.surface));
   std::vector<Vec3>& nodes = shape.skeleton.graph.nodes;
   nodes = test::moved({nodes, {}}, scale, angle_rad, axis, shift).positions;

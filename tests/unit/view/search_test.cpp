@@ -72,7 +72,7 @@ SearchOptions paper() {
 //   with p and c opposite: 3/8 (m + q) + 1/8 (p + c) ∝ (−0.118, 0.382, 0.917), score 1.917.
 //   Gain 0.083 < ε: keep m and stop after 8 + 4 + 6 evaluations.
 TEST(RapidSearch, FollowsTheTraceComputedByHand) {
-  const FoundView found = search_view(scoring(height), 8.0, Goal::Best, paper());
+  const FoundView found = search_view({scoring(height), 8.0}, Goal::Best, paper());
   std::vector<int> levels;
   for (const SearchStep& step : found.trace) {
     levels.push_back(step.level);
@@ -82,7 +82,7 @@ TEST(RapidSearch, FollowsTheTraceComputedByHand) {
 }
 
 TEST(RapidSearch, HasTheSecondRingComputedByHand) {
-  const FoundView found = search_view(scoring(height), 8.0, Goal::Best, paper());
+  const FoundView found = search_view({scoring(height), 8.0}, Goal::Best, paper());
   const Vec3 m = Vec3::UnitZ();
   const Vec3 p = Vec3(-1, 0, 1).normalized();
   const Vec3 q = Vec3(-1, 3, 3).normalized();
@@ -99,7 +99,7 @@ TEST(RapidSearch, UsesLoopsWeightsForItsFirstRing) {
   // The edge from a = (−,−,+) to (−,+,+): opposite are (+,+,+) in z = + and, in x = − (whose
   // diagonal runs from (−,−,−) to (−,+,+)), the corner (−,−,−).
   //   3/8 [(−,−,+) + (−,+,+)] + 1/8 [(+,+,+) + (−,−,−)] = 3/8 (−2, 0, 2): the direction (−1, 0, 1).
-  const FoundView found = search_view(scoring(height), 8.0, Goal::Best, paper());
+  const FoundView found = search_view({scoring(height), 8.0}, Goal::Best, paper());
   const Vec3 expected = Vec3(-1, 0, 1).normalized();
   EXPECT_TRUE(std::any_of(found.trace.begin(), found.trace.end(), [&](const SearchStep& s) {
     return s.level == 1 && (s.direction - expected).norm() < 1e-15;
@@ -109,7 +109,7 @@ TEST(RapidSearch, UsesLoopsWeightsForItsFirstRing) {
 TEST(RapidSearch, StopsWhenARingGainsLessThanARawEpsilon) {
   SearchOptions options = paper();
   options.epsilon = 10.0;  // more than the whole range of the score
-  const FoundView found = search_view(scoring(height), 8.0, Goal::Best, options);
+  const FoundView found = search_view({scoring(height), 8.0}, Goal::Best, options);
   EXPECT_EQ(found.trace.back().level, 1);
   // The move to the ring's best happens before the stop.
   EXPECT_NEAR(found.score, 2.0, 1e-15);
@@ -120,7 +120,7 @@ TEST(RapidSearch, TakesEpsilonAsAFractionOfTheTotal) {
   options.epsilon_is_fraction = true;
   // The first ring gains 0.4226: stopped by 0.1 of a total of 5, not by 0.1 of a total of 4.
   const auto last_level = [&](double total) {
-    return search_view(scoring(height), total, Goal::Best, options).trace.back().level;
+    return search_view({scoring(height), total}, Goal::Best, options).trace.back().level;
   };
   EXPECT_EQ(last_level(5.0), 1);
   EXPECT_GT(last_level(4.0), 1);
@@ -130,14 +130,14 @@ TEST(RapidSearch, GoesOnToANarrowRingIfAsked) {
   SearchOptions options = paper();
   options.epsilon = 10.0;
   options.require_narrow_ring = true;
-  const FoundView found = search_view(scoring(height), 8.0, Goal::Best, options);
+  const FoundView found = search_view({scoring(height), 8.0}, Goal::Best, options);
   EXPECT_LT(degrees_between(found.trace.back().direction, found.direction), 2.0);
 }
 
 TEST(RapidSearch, EndsAtAThousandthOfADegreeWhateverEpsilon) {
   SearchOptions options = paper();
   options.epsilon = 0.0;
-  const FoundView found = search_view(scoring(height), 8.0, Goal::Best, options);
+  const FoundView found = search_view({scoring(height), 8.0}, Goal::Best, options);
   const double last = degrees_between(found.trace.back().direction, found.direction);
   EXPECT_LE(last, 0.001);
   EXPECT_GT(last, 0.00002);
@@ -145,13 +145,13 @@ TEST(RapidSearch, EndsAtAThousandthOfADegreeWhateverEpsilon) {
 
 TEST(RapidSearch, FindsTheWorstByTheSameRule) {
   SearchOptions options = paper();
-  const FoundView found = search_view(scoring(height), 8.0, Goal::Worst, options);
+  const FoundView found = search_view({scoring(height), 8.0}, Goal::Worst, options);
   // (−,−,−) is the first of the lowest corners; it is on the diagonal of z = − too.
   EXPECT_NEAR(found.score, 0.0, 1e-15);
 }
 
 TEST(RapidSearch, OfABlankMapIsTheFirstDirection) {
-  const FoundView found = search_view(scoring([](const Vec3&) { return 0.0; }), 0.0, Goal::Best,
+  const FoundView found = search_view({scoring([](const Vec3&) { return 0.0; }), 0.0}, Goal::Best,
                                       {.strategy = SearchStrategy::Rapid});
   EXPECT_EQ(found.direction, direction_set(ViewSphereBase::Icosahedron, 3).directions[0]);
 }
@@ -161,7 +161,7 @@ TEST(ExhaustiveSearch, IsALinearScan) {
   const auto best =
       std::max_element(directions.begin(), directions.end(),
                        [](const Vec3& a, const Vec3& b) { return hills(a) < hills(b); });
-  const FoundView found = search_view(scoring(hills), 1.0, Goal::Best,
+  const FoundView found = search_view({scoring(hills), 1.0}, Goal::Best,
                                       {.strategy = SearchStrategy::Exhaustive, .subdivisions = 4});
   EXPECT_EQ(found.direction, *best);
   EXPECT_EQ(found.evaluations, 2562U);
@@ -172,13 +172,13 @@ TEST(ExhaustiveSearch, GivesTiesToTheLowestIndex) {
   const auto directions = direction_set(ViewSphereBase::Icosahedron, 2).directions;
   const auto first =
       std::find_if(directions.begin(), directions.end(), [](const Vec3& d) { return d.z() > 0.0; });
-  const FoundView found = search_view(flat, 1.0, Goal::Best,
+  const FoundView found = search_view({flat, 1.0}, Goal::Best,
                                       {.strategy = SearchStrategy::Exhaustive, .subdivisions = 2});
   EXPECT_EQ(found.direction, *first);
 }
 
 TEST(GlobalSearch, FindsTheTallestOfSeveralHills) {
-  const FoundView found = search_view(scoring(hills), 1.0, Goal::Best);
+  const FoundView found = search_view({scoring(hills), 1.0}, Goal::Best);
   // The two other hills shift the top of the first; at the top the score is at least that of
   // peak().
   EXPECT_GE(found.score, hills(peak()));
@@ -188,18 +188,18 @@ TEST(GlobalSearch, FindsTheTallestOfSeveralHills) {
 TEST(GlobalSearch, ReachesAHundredthOfADegree) {
   const Vec3 top = Vec3(0.123, 0.456, -0.789).normalized();
   const FoundView found =
-      search_view(scoring([&](const Vec3& d) { return 1.0 + d.dot(top); }), 1.0, Goal::Best);
+      search_view({scoring([&](const Vec3& d) { return 1.0 + d.dot(top); }), 1.0}, Goal::Best);
   EXPECT_LT(degrees_between(found.direction, top), 0.01);
 }
 
 TEST(GlobalSearch, FindsTheLowestOfSeveralPits) {
   const FoundView found =
-      search_view(scoring([](const Vec3& d) { return 2.0 - hills(d); }), 1.0, Goal::Worst);
+      search_view({scoring([](const Vec3& d) { return 2.0 - hills(d); }), 1.0}, Goal::Worst);
   EXPECT_LE(found.score, 2.0 - hills(peak()));
 }
 
 TEST(GlobalSearch, OfABlankMapIsTheFirstDirection) {
-  const FoundView found = search_view(scoring([](const Vec3&) { return 0.0; }), 0.0, Goal::Worst);
+  const FoundView found = search_view({scoring([](const Vec3&) { return 0.0; }), 0.0}, Goal::Worst);
   EXPECT_EQ(found.direction, direction_set(ViewSphereBase::Icosahedron, 3).directions[0]);
 }
 
@@ -216,13 +216,13 @@ double needle(const Vec3& d) {
 TEST(DenseSearch, FindsANarrowPeakBetweenTheDirectionsOfACoarseSet) {
   const Vec3 top = Vec3(0.31, 0.52, 0.79).normalized();
   const FoundView found =
-      search_view(scoring(needle), 1.0, Goal::Best, {.strategy = SearchStrategy::Dense});
+      search_view({scoring(needle), 1.0}, Goal::Best, {.strategy = SearchStrategy::Dense});
   EXPECT_LT(degrees_between(found.direction, top), 0.011);
 }
 
 TEST(DenseSearch, StartsFromTheDirectionsOfLevelFive) {
   const FoundView found =
-      search_view(scoring(needle), 1.0, Goal::Best, {.strategy = SearchStrategy::Dense});
+      search_view({scoring(needle), 1.0}, Goal::Best, {.strategy = SearchStrategy::Dense});
   EXPECT_EQ(std::count_if(found.trace.begin(), found.trace.end(),
                           [](const SearchStep& step) { return step.level == 0; }),
             10242);
@@ -238,20 +238,21 @@ TEST_P(SearchBy, ScoresNoDirectionTwice) {
     asked.emplace(d.x(), d.y(), d.z());
     return hills(d);
   });
-  const FoundViews found = search_best_and_worst(counting, 1.0, {.strategy = GetParam()});
+  const FoundViews found = search_best_and_worst({counting, 1.0}, {.strategy = GetParam()});
   EXPECT_EQ(asked.size(), count);
   EXPECT_EQ(found.best.evaluations + found.worst.evaluations, count);
 }
 
 TEST_P(SearchBy, FindsTheSameTogetherAsAlone) {
   const SearchOptions options{.strategy = GetParam()};
-  const FoundViews both = search_best_and_worst(scoring(hills), 1.0, options);
-  EXPECT_EQ(both.best.direction, search_view(scoring(hills), 1.0, Goal::Best, options).direction);
-  EXPECT_EQ(both.worst.direction, search_view(scoring(hills), 1.0, Goal::Worst, options).direction);
+  const FoundViews both = search_best_and_worst({scoring(hills), 1.0}, options);
+  EXPECT_EQ(both.best.direction, search_view({scoring(hills), 1.0}, Goal::Best, options).direction);
+  EXPECT_EQ(both.worst.direction,
+            search_view({scoring(hills), 1.0}, Goal::Worst, options).direction);
 }
 
 TEST_P(SearchBy, KeepsATraceOfWhatItScored) {
-  const FoundView found = search_view(scoring(hills), 1.0, Goal::Best, {.strategy = GetParam()});
+  const FoundView found = search_view({scoring(hills), 1.0}, Goal::Best, {.strategy = GetParam()});
   ASSERT_EQ(found.trace.size(), found.evaluations);
   for (const SearchStep& step : found.trace) {
     ASSERT_EQ(step.score, hills(step.direction));
@@ -265,7 +266,7 @@ TEST_P(SearchBy, ReportsFractionsThatNeverDecreaseAndEndAtOne) {
     EXPECT_GE(fraction, last);
     last = fraction;
   }};
-  search_best_and_worst(scoring(hills), 1.0, {.strategy = GetParam()}, run);
+  search_best_and_worst({scoring(hills), 1.0}, {.strategy = GetParam()}, run);
   EXPECT_EQ(last, 1.0);
 }
 
@@ -275,7 +276,7 @@ TEST_P(SearchBy, StopsOnRequest) {
     source.request_stop();
     return hills(d);
   });
-  EXPECT_THROW(search_view(stopping, 1.0, Goal::Best, {.strategy = GetParam()},
+  EXPECT_THROW(search_view({stopping, 1.0}, Goal::Best, {.strategy = GetParam()},
                            {.stop = source.get_token()}),
                Cancelled);
 }
@@ -285,9 +286,9 @@ INSTANTIATE_TEST_SUITE_P(Strategies, SearchBy,
                                          SearchStrategy::Global, SearchStrategy::Dense));
 
 TEST(SearchView, RefusesOptionsOutsideTheirRange) {
-  EXPECT_THROW(search_view(scoring(hills), 1.0, Goal::Best, {.subdivisions = 9}), InvalidInput);
-  EXPECT_THROW(search_view(scoring(hills), 1.0, Goal::Best, {.epsilon = -1.0}), InvalidInput);
-  EXPECT_THROW(search_view(scoring(hills), -1.0, Goal::Best), InvalidInput);
+  EXPECT_THROW(search_view({scoring(hills), 1.0}, Goal::Best, {.subdivisions = 9}), InvalidInput);
+  EXPECT_THROW(search_view({scoring(hills), 1.0}, Goal::Best, {.epsilon = -1.0}), InvalidInput);
+  EXPECT_THROW(search_view({scoring(hills), -1.0}, Goal::Best), InvalidInput);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/evaluator.h"
+#include "view/score_memo.h"
 
 #include <algorithm>
 #include <bit>
@@ -14,20 +14,15 @@ constexpr std::size_t kBatch = 32;
 
 }  // namespace
 
-Evaluator::Key Evaluator::key_of(const Vec3& direction) {
+ScoreMemo::Key ScoreMemo::key_of(const Vec3& direction) {
   return {std::bit_cast<std::uint64_t>(direction.x()), std::bit_cast<std::uint64_t>(direction.y()),
           std::bit_cast<std::uint64_t>(direction.z())};
 }
 
-std::optional<double> Evaluator::known(const Vec3& direction) const {
-  const auto at = known_.find(key_of(direction));
-  return at != known_.end() ? std::optional<double>(at->second) : std::nullopt;
-}
-
-std::vector<double> Evaluator::scores(const std::vector<Vec3>& directions, int level) {
+std::vector<double> ScoreMemo::scores(const std::vector<Vec3>& directions, int level) {
   std::vector<Vec3> fresh;
   for (const Vec3& d : directions) {
-    if (known_.try_emplace(key_of(d), 0.0).second) {
+    if (score_of_.try_emplace(key_of(d), 0.0).second) {
       fresh.push_back(d);
     }
   }
@@ -38,19 +33,19 @@ std::vector<double> Evaluator::scores(const std::vector<Vec3>& directions, int l
                          " values for " + std::to_string(fresh.size()) + " directions");
     }
     for (std::size_t i = 0; i < fresh.size(); ++i) {
-      known_[key_of(fresh[i])] = values[i];
+      score_of_[key_of(fresh[i])] = values[i];
       trace_.push_back({level, fresh[i], values[i]});
     }
   }
   std::vector<double> result;
   result.reserve(directions.size());
   for (const Vec3& d : directions) {
-    result.push_back(known_.at(key_of(d)));
+    result.push_back(score_of_.at(key_of(d)));
   }
   return result;
 }
 
-std::vector<double> Evaluator::scores(const std::vector<Vec3>& directions, int level,
+std::vector<double> ScoreMemo::scores(const std::vector<Vec3>& directions, int level,
                                       const RunContext& run) {
   std::vector<double> result;
   result.reserve(directions.size());
@@ -63,18 +58,6 @@ std::vector<double> Evaluator::scores(const std::vector<Vec3>& directions, int l
     result.insert(result.end(), part.begin(), part.end());
   }
   run.advance("search", 1.0);
-  return result;
-}
-
-std::vector<KnownScore> known_scores(const Evaluator& estimates, const Evaluator& exact,
-                                     std::span<const Vec3> but_for) {
-  std::vector<KnownScore> result;
-  for (const SearchStep& step : exact.trace()) {
-    const std::optional<double> estimate = estimates.known(step.direction);
-    if (estimate && std::find(but_for.begin(), but_for.end(), step.direction) == but_for.end()) {
-      result.push_back({step.direction, *estimate, step.score});
-    }
-  }
   return result;
 }
 

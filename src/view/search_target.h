@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "vantage/core/run_context.h"
+#include "vantage/view/search.h"
+
+#include "view/score_memo.h"
+
+namespace vantage {
+
+/// What one search maximises: the preference for the best view, the negative score for the worst.
+/// Two searches over one memo share what they score.
+class SearchTarget {
+ public:
+  /// \param surrogate of the objective's surrogate; the same as `exact` if it has none.
+  SearchTarget(const ViewObjective& objective, Goal goal, ScoreMemo& exact, ScoreMemo& surrogate)
+      : objective_(&objective), goal_(goal), exact_(&exact), surrogate_(&surrogate) {}
+
+  /// Values of directions; new scores are recorded at `level`.
+  [[nodiscard]] std::vector<double> values(const std::vector<Vec3>& directions, int level) const {
+    return values_of(directions, exact_->scores(directions, level));
+  }
+
+  /// The same of a start set, with progress.
+  [[nodiscard]] std::vector<double> values(const std::vector<Vec3>& directions,
+                                           const RunContext& run) const {
+    return values_of(directions, exact_->scores(directions, 0, run));
+  }
+
+  /// What the surrogate makes of them.
+  [[nodiscard]] std::vector<double> estimates(const std::vector<Vec3>& directions,
+                                              const RunContext& run) const {
+    return values_of(directions, surrogate_->scores(directions, 0, run));
+  }
+
+  /// Whether every view is as good as any other.
+  [[nodiscard]] bool is_flat() const { return objective_->total == 0.0; }
+
+  [[nodiscard]] const ViewObjective& objective() const { return *objective_; }
+
+ private:
+  [[nodiscard]] std::vector<double> values_of(const std::vector<Vec3>& directions,
+                                              std::vector<double> scores) const {
+    for (std::size_t i = 0; i < scores.size(); ++i) {
+      if (goal_ == Goal::Worst) {
+        scores[i] = -scores[i];
+      } else if (objective_->preference) {
+        scores[i] = objective_->preference(directions[i], scores[i]);
+      }
+    }
+    return scores;
+  }
+
+  const ViewObjective* objective_;
+  Goal goal_;
+  ScoreMemo* exact_;
+  ScoreMemo* surrogate_;
+};
+
+}  // namespace vantage
