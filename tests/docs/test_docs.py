@@ -13,7 +13,7 @@ PROGRAM = os.environ.get("VANTAGE", "")
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 LAB_PAGES = sorted((ROOT / "docs/lab").glob("*.md"))
 OTHER_PAGES = [ROOT / name for name in ("SECURITY.md", "CONTRIBUTING.md", "THIRD_PARTY.md", "CHANGELOG.md",
-                                        "models/SOURCES.md")]
+                                        "models/SOURCES.md", "examples/engines/README.md", "viewer/README.md")]
 COMMANDS = ("view", "skeleton", "map", "score", "compare", "eval", "measures", "render", "thumb", "info", "batch",
             "results query", "results export", "results diff", "results merge", "figures", "completion")
 # What a reader puts in for the words in capitals.
