@@ -17,7 +17,6 @@ printf 'dx,dy,dz\n%s\n' "$eye" >"$scratch/eye.csv"
 "$program" score models/horse.ply --directions "$scratch/eye.csv" --visible "$scratch/seen.npy" -o "$scratch/scores.csv" -q
 /usr/bin/python3 scripts/picture_models.py "$scratch/map.ply" "$scratch/seen.npy" "$scratch"
 draw() { "$program" render "$scratch/$1.ply" -o "docs/pictures/$2.png" --style asset --direction "$3" --size 400x320 -q; }
-draw seen horse-seen-from-its-eye "$eye"
 draw seen horse-seen-from-beside -0.6,0.3,1
 "$program" view "$scratch/cloud.xyz" -o "$scratch/cloud" --size 400x320 --up y -q
 cp "$scratch/cloud/best-skeleton.png" docs/pictures/horse-cloud-skeleton.png

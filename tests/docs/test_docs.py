@@ -132,7 +132,8 @@ class Pages(unittest.TestCase):
         found = set()
         for page in PAGES + OTHER_PAGES:
             found |= {(page.name, name) for name in re.findall(
-                r"^ {4}(?:[A-Z_]+=\S+ )*((?:scripts|bench|python)/[a-z0-9_./-]+)", page.read_text(encoding="utf-8"), re.MULTILINE)}
+                r"(?:^ {4}(?:[A-Z_]+=\S+ )*|`)((?:scripts|bench)/[a-z0-9_./-]+\.(?:sh|py))\b",
+                page.read_text(encoding="utf-8"), re.MULTILINE)}
         self.assertGreater(len(found), 10)
         for page, name in sorted(found):
             self.assertTrue(os.access(ROOT / name, os.X_OK), f"{page}: {name} cannot be run")
