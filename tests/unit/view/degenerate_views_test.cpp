@@ -107,8 +107,8 @@ std::string table() {
 }
 
 TEST(DegenerateViews, GiveWhatTheDocumentationSays) {
-  const auto page = std::filesystem::path(__FILE__).parent_path() /
-                    "../../golden/views_of_next_to_nothing.md";
+  const auto page =
+      std::filesystem::path(__FILE__).parent_path() / "../../golden/views_of_next_to_nothing.md";
   std::ifstream file(page);
   ASSERT_TRUE(file) << page;
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
