@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Checks the measures on real meshes: identities, convergence, similarity. Prints tables in Markdown.
 
-    scripts/check_measures.py FOLDER [--vantage PROGRAM] [--models N] [--page docs/measures.md]
+    scripts/check_measures.py FOLDER [--vantage PROGRAM] [--models N] [--page docs/lab/YYYY-MM-measures.md]
     scripts/check_measures.py FOLDER --models N --survey
 
 FOLDER holds closed meshes (.off .obj .ply .stl .glb), of which the N smallest are taken. Identities are of

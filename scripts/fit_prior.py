@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: MIT
 """Fits the upright prior to views that people chose, cross-validates it by model, prints the table.
 
-    fit_prior.py FOLDER --vantage PROGRAM [--cache FOLDER] [--sphere 4] [--page docs/prior.md] [--check]
+    fit_prior.py FOLDER --vantage PROGRAM [--cache FOLDER] [--sphere 4] [--page docs/lab/YYYY-MM-prior.md] [--check]
                  [--beside METHOD...]
 
 FOLDER holds views.csv (model,subject,status,vx,vy,vz,…), mirror_planes.csv (model,nx,ny,nz) and the
 models in models/, y up. Score fields come from `PROGRAM score MODEL --sphere N` and are kept in the
-cache. docs/prior.md explains the method; --page writes the tables into that page, between its marks;
+cache. docs/lab/2026-11-prior.md explains the method; --page writes the tables into that page, between its marks;
 --check fails when the claims of the page do not hold; --beside tries further measures, each with a fitted
 exponent, as factors beside KSSM and in its place, and says so on the page. Needs numpy (Debian: python3-numpy).
 """
@@ -25,7 +25,7 @@ except ImportError:
     print("NOTHING WAS TESTED: this script needs numpy (Debian: python3-numpy)", file=sys.stderr)
     sys.exit(77)
 
-# Exponents of the front and the side term, see docs/prior.md; chosen, not fitted.
+# Exponents of the front and the side term, see docs/lab/2026-11-prior.md; chosen, not fitted.
 FRONT_SHARE = 0.08
 SIDE_SHARE = 0.04
 STRENGTHS = (1.0, 1.5, 2.0, 3.0, 4.0)  # candidates, chosen by the training models
@@ -302,7 +302,7 @@ def page(study, results, likelihood, fitted, level):
 
 
 def check(results):
-    """The claims of docs/prior.md that a change of the method must not break; what fails."""
+    """The claims of docs/lab/2026-11-prior.md that a change of the method must not break; what fails."""
     mean = {name: row["moved, folded"].mean() for name, row in results.items()}
     ours = mean["**ours: prior × KSSM**, left-out models"]
     rivals = ("three-quarter (1, 0.6, 1)", "prior alone, left-out models", "KSSM alone",

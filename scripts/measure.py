@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures the program on real models and prints the tables of docs/performance.md as Markdown.
+"""Measures the program on real models and prints the tables of docs/performance.md and of docs/lab as Markdown.
 
     measure.py view   PROGRAM MODEL...    one row a model: sizes, cycles against genus, seconds by stage
     measure.py rapid  PROGRAM MODEL...    the paper's rapid search against 10 242 directions

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Measures contraction and skeletons on real models and prints the tables of docs/contraction.md as Markdown.
+"""Measures contraction and skeletons on real models and prints the tables of docs/lab/2026-11-contraction.md as Markdown.
 
     measure_contraction.py fidelity  PROGRAM MODEL...   --contraction auto against exact: the two maps, the best views
     measure_contraction.py parts     PROGRAM MODEL...   whether auto's levels or its graph make its map differ from exact's

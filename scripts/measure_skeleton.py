@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Measures skeletons against their surfaces and prints the table of docs/skeleton.md as Markdown.
+"""Measures skeletons against their surfaces and prints the table of docs/lab/2026-11-skeleton.md as Markdown.
 
     measure_skeleton.py PROGRAM MODEL...
 

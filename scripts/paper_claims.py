@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks each claim of the paper on the paper's models and writes docs/paper.md.
+"""Checks each claim of the paper on the paper's models and writes a page of docs/lab.
 
-    scripts/paper_claims.py MODELS [--vantage PROGRAM] [-o docs/paper.md] [--only NAME …]
+    scripts/paper_claims.py MODELS [--vantage PROGRAM] [-o docs/lab/YYYY-MM-paper-claims.md] [--only NAME …]
 
 MODELS is a folder with the paper's models (the names are in MODEL_FILES). Needs NumPy. The measured
 numbers are kept in a JSON file (--cache) so that an interrupted run goes on. They count for the same
@@ -12,6 +12,7 @@ minutes on two cores.
 
 import argparse
 import csv
+import datetime
 import io
 import itertools
 import json
@@ -194,7 +195,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("models", type=Path)
     parser.add_argument("--vantage", default="build/release/apps/vantage/vantage")
-    parser.add_argument("-o", "--output", type=Path, default=Path("docs/paper.md"))
+    today = datetime.date.today()
+    parser.add_argument("-o", "--output", type=Path, default=Path(f"docs/lab/{today:%Y-%m}-paper-claims.md"))
     parser.add_argument("--cache", type=Path, default=Path("build/paper_claims.json"))
     parser.add_argument("--times", action="store_true", help="with the seconds measured; on a quiet machine")
     parser.add_argument("--only", nargs="*", default=list(MODEL_FILES))
@@ -213,7 +215,9 @@ def main():
                 cache.put(name, made_from, found)
             if found is not None:
                 numbers[name] = found
-    options.output.write_text(page(numbers, MODEL_FILES, options.times))
+    commit = subprocess.run(["git", "-C", here, "rev-parse", "--short", "HEAD"], capture_output=True, check=True,
+                            text=True).stdout.strip()
+    options.output.write_text(page(numbers, MODEL_FILES, f"{today:%B %Y}", commit, options.times))
 
 
 if __name__ == "__main__":

@@ -7,6 +7,9 @@ NEIGHBOURING_CORNERS = 70.53  # degrees: arccos(1/3)
 
 HEAD = """# The paper's claims, checked
 
+Laboratory page of {month}, commit {commit}. Each claim of the paper with the command that checks it, the numbers and a
+verdict. It is a record of that time and is not kept up to date; what holds now is in [evidence](../evidence.md).
+
 Made by `scripts/paper_claims.py` from the program's own output: no number and no verdict on this page is
 written by hand. Models are the paper's shapes, by the names at the end of the page; some had to be
 subdivided or decimated from a scan of the same shape, so that vertices are not the paper's own. Where the
@@ -172,14 +175,15 @@ def belly_table(cache):
     return lines
 
 
-def page(cache, files, times=False):
+def page(cache, files, month, commit, times=False):
+    """\\param month such as November 2026"""
     models = {name: cache[name] for name in files if "topology" in cache.get(name, {})}
-    lines = [HEAD, "| claim | command | number | verdict |", "| --- | --- | --- | --- |"]
+    lines = [HEAD.format(month=month, commit=commit), "| claim | command | number | verdict |", "| --- | --- | --- | --- |"]
     lines += [f"| {claim} | {command} | {number} | **{outcome}** |"
               for claim, command, number, outcome in rows_of(models)]
     lines += ["", "What the paper says of others is not ours to check: Kim et al. 2010 evaluate mesh saliency "
               "and propose no new map, and Gooch et al. 2001 write on artistic composition. How far KSSM "
-              "agrees with what people choose and look at is in evidence.md.", "",
+              "agrees with what people choose and look at is on the [page of evidence](../evidence.md).", "",
               "## The dinosaur's belly",
               "The animal looks along −y and stands on z. Its parts are the vertices in boxes, given in shares of "
               "the bounding box in `scripts/paper_shapes.py`, so that every tessellation has the same parts. "
@@ -187,7 +191,7 @@ def page(cache, files, times=False):
               "the belly's vertices turned to the eye that this leg alone hides.", "", *belly_table(cache), "",
               *(["## Times", "The paper's Table 1 (its title speaks of a segmentation) beside this program, "
                  "without pictures; the paper does not name its machine.", "", *table_1(cache), ""]
-                if times else ["## Times", "The paper's Table 1 is beside ours in performance.md; "
+                if times else ["## Times", "The paper's Table 1 is beside ours on the [page of performance](../performance.md); "
                                "`--times` puts those of this run here, for a machine with nothing else to do.",
                                ""]), "## Models",
               *[f"- {name}: `{file}`" for name, file in files.items() if name in cache]]

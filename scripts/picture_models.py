@@ -3,7 +3,7 @@
 """Models that pictures of the documentation are made of: picture_models.py MAP.ply SEEN.npy FOLDER
 
 seen.ply: the surface of MAP.ply (as vantage map writes it), vertices that SEEN.npy (vantage score --visible) has warm;
-cloud.xyz: its points alone; prior.ply: a sphere with the upright prior's value (docs/prior.md), dark is low. Needs NumPy.
+cloud.xyz: its points alone. Needs NumPy.
 """
 import pathlib
 import sys
@@ -35,31 +35,12 @@ def read_map(path):
     return table["place"], np.frombuffer(body, FACE, faces, vertices * VERTEX.itemsize)["corners"]
 
 
-def prior(side, up, front):
-    return np.exp(-8.481 * (up - 0.315) ** 2 - 1.171 * (1 - 4 * side ** 2 * front ** 2) - 0.08 * (1 - front)
-                  - 0.04 * (1 - side))
-
-
-def sphere(rings):
-    """Places and faces of a sphere of meridians and circles around y."""
-    polar = np.pi * np.arange(rings + 1) / rings
-    turn = np.pi * np.arange(2 * rings) / rings
-    places = np.stack([np.outer(np.sin(polar), np.sin(turn)), np.outer(np.cos(polar), np.ones_like(turn)),
-                       np.outer(np.sin(polar), np.cos(turn))], -1).reshape(-1, 3)
-    a = (np.arange(rings)[:, None] * 2 * rings + np.arange(2 * rings)[None, :]).ravel()
-    b = a - a % (2 * rings) + (a + 1) % (2 * rings)
-    return places, np.concatenate([np.stack([a, a + 2 * rings, b], -1), np.stack([b, a + 2 * rings, b + 2 * rings], -1)])
-
-
 def main():
     folder = pathlib.Path(sys.argv[3])
     places, faces = read_map(pathlib.Path(sys.argv[1]))
     seen = np.load(sys.argv[2])["seen"][:, :1] != 0
     write_ply(folder / "seen.ply", places, np.where(seen, [230, 120, 40], [120, 130, 145]), faces)
     np.savetxt(folder / "cloud.xyz", places, "%.6g")
-    places, faces = sphere(90)
-    value = prior(*places.T)[:, None]
-    write_ply(folder / "prior.ply", places, (40 + 215 * value * [1.0, 0.85, 0.5]).clip(0, 255), faces)
 
 
 if __name__ == "__main__":

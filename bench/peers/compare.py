@@ -3,7 +3,7 @@
 """Times our contraction and skeleton against CGAL's, in alternation: a Markdown table and a log-log plot.
 
     bench/peers/compare.py --ours build/release/apps/vantage/vantage --call build/release/bench/skeleton_call \
-        --peer build/peers/cgal_skeleton [--runs 3] [--plot FILE.svg] [--into docs/performance.md] MESH…
+        --peer build/peers/cgal_skeleton [--runs 3] [--plot FILE.svg] [--into docs/lab/YYYY-MM-performance.md] MESH…
 
 Meshes must be closed, triangulated and in one piece. Both read the same PLY. Of all runs the least wall time
 of the call itself counts (reading files does not), and the least processor time of it, all threads together, which

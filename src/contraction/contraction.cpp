@@ -80,7 +80,7 @@ std::vector<Piece> cut_into_pieces(const TriMesh& mesh, std::vector<std::uint32_
 constexpr std::size_t kProxyFrom = 20'000;
 constexpr std::size_t kProxySize = 10'000;
 /// The skeleton of such a component starts from at most so many merged vertices [ours: fewer lose
-/// limbs; trials in docs/contraction.md].
+/// limbs; trials in docs/lab].
 constexpr std::size_t kMergedSize = 40'000;
 /// A proxy must be smaller than this share of its component to be worth it.
 constexpr double kProxyShare = 0.7;

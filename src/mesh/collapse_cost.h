@@ -55,7 +55,7 @@ inline Fans fans_of(const TriMesh& mesh) {
 class ByQuadric {
  public:
   /// Share of the squared edge length in the cost, against the squared distance to the planes [ours:
-  /// even triangles contract like the fine surface; docs/contraction.md has the trials].
+  /// even triangles contract like the fine surface; docs/lab has the trials].
   static constexpr double kEvenness = 0.05;
   /// Weight of the plane through a border edge, upright on its face, against that of the face.
   static constexpr double kBorder = 1.0;

@@ -11,8 +11,9 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("VANTAGE", "")
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+LAB_PAGES = sorted((ROOT / "docs/lab").glob("*.md"))
 OTHER_PAGES = [ROOT / name for name in ("SECURITY.md", "CONTRIBUTING.md", "THIRD_PARTY.md", "CHANGELOG.md",
-                                        "models/SOURCES.md")]
+                                        "models/SOURCES.md", "examples/engines/README.md", "viewer/README.md")]
 COMMANDS = ("view", "skeleton", "map", "score", "compare", "eval", "measures", "render", "thumb", "info", "batch",
             "results query", "results export", "results diff", "results merge", "figures", "completion")
 # What a reader puts in for the words in capitals.
@@ -113,7 +114,7 @@ def anchors_of(page):
 class Pages(unittest.TestCase):
 
     def test_links_and_file_names_lead_somewhere(self):
-        for page in PAGES + OTHER_PAGES:
+        for page in PAGES + OTHER_PAGES + LAB_PAGES:
             text = page.read_text(encoding="utf-8")
             for target, anchor in re.findall(r"\]\(([^)#]*)#?([^)]*)\)", text):
                 if re.match(r"[a-z]+:", target):
@@ -122,6 +123,8 @@ class Pages(unittest.TestCase):
                 self.assertTrue(file.exists(), f"{page.name}: {target}")
                 if anchor:
                     self.assertIn(anchor, anchors_of(file), f"{page.name}: {target}#{anchor}")
+            if page in LAB_PAGES:
+                continue  # they name files of their time
             for name in re.findall(r"`((?:docs|scripts|models|examples|bench|tests|src|include)/[a-z0-9_./-]+)`", text):
                 self.assertTrue((ROOT / name).exists(), f"{page.name}: {name}")
 
@@ -129,7 +132,8 @@ class Pages(unittest.TestCase):
         found = set()
         for page in PAGES + OTHER_PAGES:
             found |= {(page.name, name) for name in re.findall(
-                r"^ {4}(?:[A-Z_]+=\S+ )*((?:scripts|bench|python)/[a-z0-9_./-]+)", page.read_text(encoding="utf-8"), re.MULTILINE)}
+                r"(?:^ {4}(?:[A-Z_]+=\S+ )*|`)((?:scripts|bench)/[a-z0-9_./-]+\.(?:sh|py))\b",
+                page.read_text(encoding="utf-8"), re.MULTILINE)}
         self.assertGreater(len(found), 10)
         for page, name in sorted(found):
             self.assertTrue(os.access(ROOT / name, os.X_OK), f"{page}: {name} cannot be run")
@@ -138,7 +142,7 @@ class Pages(unittest.TestCase):
         sources = "".join(path.read_text(encoding="utf-8", errors="replace")
                           for path in (ROOT / "tests").rglob("*.*") if path.suffix in (".cpp", ".py"))
         named = 0
-        for page in (ROOT / "SECURITY.md", ROOT / "docs/security.md", ROOT / "docs/mutations.md"):
+        for page in (ROOT / "SECURITY.md", ROOT / "docs/security.md", ROOT / "docs/lab/2026-11-mutations.md"):
             for suite, test in re.findall(r"`(\w+)\.([A-Z]\w+)\*?`", page.read_text(encoding="utf-8")):
                 named += 1
                 self.assertRegex(sources, rf"TEST(_[FP])?\({suite}\w*,\s*{test}", page.name)
@@ -161,8 +165,31 @@ class Pages(unittest.TestCase):
         self.assertGreater(blocks, 0)
 
     def test_every_page_is_reached_from_the_readme(self):
-        linked = set(re.findall(r"docs/([\w-]+\.md)", (ROOT / "README.md").read_text(encoding="utf-8")))
+        readme = (ROOT / "README.md").read_text(encoding="utf-8")
+        linked = set(re.findall(r"\]\(docs/([\w/-]+\.md)", readme))
         self.assertEqual({page.name for page in PAGES[1:]} - linked, set())
+        self.assertIn("lab/README.md", linked)
+
+    def test_the_manual_has_at_most_twenty_thousand_words(self):
+        words = {page.name: len(page.read_text(encoding="utf-8").split()) for page in PAGES}
+        self.assertLessEqual(sum(words.values()), 20000, words)
+
+    def test_the_laboratory_lists_its_pages_each_with_date_and_commit(self):
+        index = (ROOT / "docs/lab/README.md").read_text(encoding="utf-8")
+        listed = re.findall(r"\]\((\d{4}-\d\d-[\w-]+\.md)\)", index)
+        self.assertEqual(sorted(listed), [page.name for page in LAB_PAGES if page.name != "README.md"])
+        for name in listed:
+            head = (ROOT / "docs/lab" / name).read_text(encoding="utf-8").split("\n")[2]
+            self.assertRegex(head, r"^Laboratory page of [A-Z]\w+ \d{4}, commit [0-9a-f]{7,}\. ", name)
+
+    def test_the_page_of_the_prior_has_the_constants_of_the_program(self):
+        header = (ROOT / "include/vantage/view/prior.h").read_text(encoding="utf-8")
+        of_program = re.findall(r"^  double (\w+_(?:sine|strength)) = ([\d.]+);", header, re.MULTILINE)
+        of_page = re.findall(r"^\| `(\w+)` \| ([\d.]+) \|", (ROOT / "docs/prior.md").read_text(encoding="utf-8"),
+                             re.MULTILINE)
+        self.assertEqual(len(of_program), 5)
+        self.assertEqual([(name, float(value)) for name, value in of_page],
+                         [(name, float(value)) for name, value in of_program])
 
 
 if __name__ == "__main__":

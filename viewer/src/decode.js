@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the page's data block to typed arrays. docs/formats.md describes the block.
+// From the page's data block to typed arrays. viewer/README.md describes the block.
 
 export function readData() {
   return JSON.parse(document.getElementById('data').textContent);

@@ -24,7 +24,7 @@ namespace vantage {
 
 /// How much work goes into a picture.
 enum class Quality {
-  Draft,   ///< 9 rays a pixel, 2 occlusion rays each: thumbnails.
+  Draft,   ///< 9 rays a pixel, 1 occlusion ray each: thumbnails.
   Normal,  ///< 16 and 2: pictures on a screen.
   Fine,    ///< 64 and 4: print.
 };

@@ -9,7 +9,7 @@
 
 /// \file
 /// report.html: one self-contained page to explore a result in. docs/report.md describes it,
-/// docs/formats.md its data block.
+/// viewer/README.md its data block.
 
 namespace vantage {
 

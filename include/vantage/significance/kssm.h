@@ -37,7 +37,7 @@ struct KssmOptions {
   /// Levels after the input whose displacement spans at most this fraction of D contribute nothing;
   /// 0 keeps all that span more than 1e-6 D (the paper). Ours: three times the distance of
   /// skeleton samples. What spans less is mostly the noise of the sampling, and normalising would
-  /// blow it up to the whole range (docs/kssm.md has the trials).
+  /// blow it up to the whole range (docs/lab has the trials).
   double flat_level = 0.06;
 };
 

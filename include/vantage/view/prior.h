@@ -11,7 +11,7 @@
 
 /// \file
 /// A prior on the view direction: what people look at a thing from, whatever its shape. The search
-/// for the best view may multiply its score by it; docs/prior.md has the evidence.
+/// for the best view may multiply its score by it; docs/prior.md says what it is worth.
 
 namespace vantage {
 
@@ -31,7 +31,8 @@ UprightFrame upright_frame(const Vec3& up);
 /// With s, u, f the direction's components along side, up and front:
 ///     exp(−elevation_strength (u − elevation_sine)² − corner_strength (1 − 4 s² f²)
 ///         − front_strength (1 − f) − side_strength (1 − s))
-/// All constants are ours: fitted by scripts/fit_prior.py to views that people chose.
+/// All constants are ours. The first three were fitted to views that people chose, under the map of
+/// an earlier version; scripts/fit_prior.py no longer gives them (docs/prior.md).
 struct UprightPrior {
   double elevation_sine = 0.315;      ///< Sine of the elevation people prefer: 18°.
   double elevation_strength = 8.481;  ///< How much they do, ≥ 0.

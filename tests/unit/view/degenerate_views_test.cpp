@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What each measure gives where there is nothing, or next to nothing, to look at: the table of
-// docs/measures.md is what this test finds.
+// tests/golden/views_of_next_to_nothing.md is what this test finds.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -107,7 +107,8 @@ std::string table() {
 }
 
 TEST(DegenerateViews, GiveWhatTheDocumentationSays) {
-  const auto page = std::filesystem::path(__FILE__).parent_path() / "../../../docs/measures.md";
+  const auto page =
+      std::filesystem::path(__FILE__).parent_path() / "../../golden/views_of_next_to_nothing.md";
   std::ifstream file(page);
   ASSERT_TRUE(file) << page;
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

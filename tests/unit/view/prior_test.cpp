@@ -36,16 +36,6 @@ std::string problem_of(std::string_view text) {
   return "none";
 }
 
-TEST(UprightPrior, HasTheConstantsOfTheDocumentedTable) {
-  // docs/prior.md, "Constants, fitted on all models"; scripts/fit_prior.py computes them.
-  const UprightPrior prior;
-  EXPECT_DOUBLE_EQ(prior.elevation_sine, 0.315);
-  EXPECT_DOUBLE_EQ(prior.elevation_strength, 8.481);
-  EXPECT_DOUBLE_EQ(prior.corner_strength, 1.171);
-  EXPECT_DOUBLE_EQ(prior.front_strength, 0.080);
-  EXPECT_DOUBLE_EQ(prior.side_strength, 0.040);
-}
-
 TEST(UprightPrior, IsPositiveAndAtMostOne) {
   for (const Vec3& d : sphere()) {
     const double p = upright_prior().factor(kFrame, d);
