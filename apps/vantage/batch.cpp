@@ -335,7 +335,7 @@ struct BatchCommand {
                                                         {.entry_bytes = runner.limits.memory_bytes,
                                                          .timeout_s = runner.timeout_s,
                                                          .stop = session.run().stop})
-                              : batch::entries_of_manifest(manifest);
+                              : batch::entries_of_manifest(manifest, session.run().stop);
     });
   }
 

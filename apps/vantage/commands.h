@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 
 #include "session.h"
-#include "settings.h"
 
 /// \file
 /// One function a command: it adds the command's flags and, when the command line names it, does
@@ -41,7 +40,8 @@ Command& add_command(CLI::App& program, Session& session, const char* name, cons
   command->add_flags(*app, session);
   app->footer(examples);
   app->final_callback([command, app, &session] {
-    apply_settings(*app);
+    session.apply_limits();  // settings may be read from a pipe that nobody writes to
+    session.configure(*app);
     session.apply_limits();
     command->run(session);
   });

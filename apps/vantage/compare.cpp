@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "measure_flags.h"
 #include "method_flags.h"
+#include "output_file.h"
 #include "output_folder.h"
 #include "terminal.h"
 
@@ -40,6 +41,7 @@ struct CompareCommand {
     app.add_flag("--no-images", no_images, "no contact sheet and no page");
     saliency.add_to(app);
     method.add_to(app, {.map = true, .camera = true});
+    add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
 
@@ -49,8 +51,8 @@ struct CompareCommand {
     const std::vector<Measure> measures = chosen_measures(session, options);
     const RunContext run = session.run();
     const Model loaded = session.load(model);
-    OutputFolder output(folder.empty() ? loaded.name + ".compare" : folder);
-    output.check();
+    OutputFolder output(folder.empty() ? folder_named(loaded.name, ".compare") : folder);
+    output.check(session.flags.force);
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_for(loaded, options, measures, run.part(0.0, 0.2)); });
     require_area(shape, model);
@@ -71,7 +73,7 @@ struct CompareCommand {
     output.write();
     session.end_progress();
     if (session.flags.json) {
-      write_file("-", comparison_json(loaded, comparison, up.axis, options, true));
+      write_output("-", comparison_json(loaded, comparison, up.axis, options, true));
       return;
     }
     summarise(session, comparison, output.path());

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <string>
 
-#include "vantage/io/write.h"
-
 #include "commands.h"
 #include "option_text.h"
+#include "output_file.h"
 
 /// \file
 /// `vantage completion bash|zsh|fish`: scripts that shells complete command lines with, written
@@ -221,9 +220,9 @@ struct CompletionCommand {
   }
 
   void run(Session& /*session*/) const {
-    write_file("-", shell == "bash"  ? bash_script(*program)
-                    : shell == "zsh" ? zsh_script(*program)
-                                     : fish_script(*program));
+    write_output("-", shell == "bash"  ? bash_script(*program)
+                      : shell == "zsh" ? zsh_script(*program)
+                                       : fish_script(*program));
   }
 };
 

@@ -11,6 +11,7 @@
 #include "input_text.h"
 #include "measure_flags.h"
 #include "method_flags.h"
+#include "output_file.h"
 #include "terminal.h"
 
 namespace vantage::cli {
@@ -43,14 +44,16 @@ struct EvalCommand {
     app.add_option("--views-csv", views_file, "also write one row a method and model of views");
     app.add_option("--gaze-csv", gaze_file, "also write one row a map and model of gaze");
     method.add_to(app, {.map = true, .camera = true});
+    add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
 
   void run(Session& session) const {
     const ViewOptions options = method.resolve();
     const std::vector<Measure> measures = parse_measures(names, "--method");
-    const auto records = session.reading([&] { return read_records(folder); });
-    const std::string before = page.empty() ? "" : session.reading([&] { return read_text(page); });
+    check_outputs(session.flags);
+    const auto records = session.read([&] { return read_records(folder); });
+    const std::string before = page.empty() ? "" : session.read([&] { return read_text(page); });
     check_marks(before);
     const auto journal = output.empty() ? std::make_unique<EvaluationJournal>()
                                         : std::make_unique<EvaluationJournal>(journal_file());
@@ -68,7 +71,7 @@ struct EvalCommand {
                   " models were evaluated by an earlier run");
     }
     const std::string tables = made_by(options, measures) + evidence_tables(views, gaze);
-    write_file("-", tables);
+    write_output("-", tables);
     if (!output.empty()) {
       write_file(output + "/tables.md", tables);
       write_file(output + "/views.csv", view_agreement_csv(views));
@@ -76,13 +79,13 @@ struct EvalCommand {
     }
     if (!page.empty()) {
       const std::size_t begin = before.find(kBegin) + kBegin.size();
-      write_file(page, before.substr(0, begin) + tables + before.substr(before.find(kEnd)));
+      write_output(page, before.substr(0, begin) + tables + before.substr(before.find(kEnd)));
     }
     if (!views_file.empty()) {
-      write_file(views_file, view_agreement_csv(views));
+      write_output(views_file, view_agreement_csv(views));
     }
     if (!gaze_file.empty()) {
-      write_file(gaze_file, gaze_agreement_csv(gaze));
+      write_output(gaze_file, gaze_agreement_csv(gaze));
     }
   }
 
@@ -92,6 +95,18 @@ struct EvalCommand {
     return "Made by vantage " + std::string(version()) + " with " + library_versions() +
            ", options_hash " + options_hash(options) + ", " + plural(measures.size(), "method") +
            " of 642 views.\n\n";
+  }
+
+  /// People's choices are in files of such names too.
+  void check_outputs(const CommonFlags& flags) const {
+    for (const std::string* file : {&views_file, &gaze_file}) {
+      check_output(*file, OutputKind::Table, flags);
+    }
+    if (!output.empty()) {
+      for (const char* const name : {"/tables.md", "/views.csv", "/gaze.csv"}) {
+        check_result(output + name, OutputKind::Table, flags);
+      }
+    }
   }
 
   /// In the folder for results, which is made.

@@ -3,17 +3,20 @@
 
 #include <chrono>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "vantage/core/error.h"
 #include "vantage/io/write.h"
 #include "vantage/report/view_report.h"
 
 #include "commands.h"
 #include "method_flags.h"
+#include "output_file.h"
 #include "output_folder.h"
 #include "terminal.h"
 #include "view_set_flags.h"
@@ -35,6 +38,7 @@ struct FiguresCommand {
   std::string folder{};
   MethodFlags method{};
   ViewSetFlags several{};
+  std::set<std::string> folders{};
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
 
   void add_flags(CLI::App& app, Session& session) {
@@ -42,12 +46,17 @@ struct FiguresCommand {
     app.add_option("-o,--output", folder, "folder for the figures")->required();
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
     several.add_set_to(app);
+    add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
 
   void run(Session& session) {
-    ViewOptions options = session.reading([&] { return method.resolve(session.flags.seed); });
+    ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
     options.view_set = several.request_or(kSheetViews);
+    for (const char* const name : {"table-1-times.csv", "table-1-times.md"}) {
+      check_result((std::filesystem::path(folder) / name).string(), OutputKind::Table,
+                   session.flags);
+    }
     std::vector<StageTimes> times;
     for (const std::string& model : models) {
       times.push_back(draw(session, model, options));
@@ -56,7 +65,7 @@ struct FiguresCommand {
     write(session, std::filesystem::path(folder) / "table-1-times.md", times_markdown(times));
     session.end_progress();
     if (session.flags.json) {
-      write_file("-", nlohmann::ordered_json{{"files", files}}.dump(2) + "\n");
+      write_output("-", nlohmann::ordered_json{{"files", files}}.dump(2) + "\n");
     }
   }
 
@@ -83,7 +92,7 @@ struct FiguresCommand {
     const std::vector<Figure> figures = paper_figures(shape, report, options, run.part(0.6, 1.0));
     const std::filesystem::path place = models.size() == 1
                                             ? std::filesystem::path(folder)
-                                            : std::filesystem::path(folder) / loaded.name;
+                                            : std::filesystem::path(folder) / own_folder(loaded);
     make_folder(folder);
     make_folder(place.string());
     for (const Figure& figure : figures) {
@@ -96,6 +105,17 @@ struct FiguresCommand {
     times.vertices = shape.check.vertices;
     times.faces = shape.check.faces;
     return times;
+  }
+
+  /// The folder of one model of several. \throw InvalidInput if another model has it.
+  std::string own_folder(const Model& loaded) {
+    const bool climbs = loaded.name == "." || loaded.name == "..";  // of a file "...ply"
+    const std::string name = folder_named(loaded.name, climbs ? "_" : "");
+    if (!folders.insert(name).second) {
+      throw InvalidInput("two models are called '" + name +
+                         "'; give each a folder of its own with -o");
+    }
+    return name;
   }
 
   void write(Session& session, const std::filesystem::path& path, std::string_view bytes) {

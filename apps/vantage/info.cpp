@@ -3,7 +3,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "vantage/io/write.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/mesh_check.h"
 #include "vantage/mesh/weld.h"
@@ -12,6 +11,7 @@
 
 #include "commands.h"
 #include "method_flags.h"
+#include "output_file.h"
 #include "terminal.h"
 
 namespace vantage::cli {
@@ -45,7 +45,7 @@ struct InfoCommand {
                                                  ? std::vector<SceneObject>{}
                                                  : list_objects(loaded, welded_surface(welded));
     if (session.flags.json) {
-      write_file("-", json(loaded, welded, as_read, check, objects));
+      write_output("-", json(loaded, welded, as_read, check, objects));
     } else {
       print(session, loaded, welded, as_read, check);
       print_objects(session, objects);

@@ -7,6 +7,9 @@
 #include <string>
 
 #include "vantage/core/error.h"
+#include "vantage/io/write.h"
+
+#include "output_file.h"
 
 namespace vantage::cli {
 namespace {
@@ -84,11 +87,11 @@ void LookFlags::write(const std::string& path, const Model& model, const ShapeAn
                       const Camera& camera, Picture picture, const ViewOptions& options,
                       const Vec3& up, const RunContext& run) const {
   const Model* asset = asset_ ? &model : nullptr;
-  if (depth_ == 8) {
-    write_picture(path, draw_picture(shape, camera, picture, options, look(up), run, asset));
-  } else {
-    write_picture(path, draw_picture_deep(shape, camera, picture, options, look(up), run, asset));
-  }
+  write_output(
+      path,
+      depth_ == 8
+          ? picture_bytes(path, draw_picture(shape, camera, picture, options, look(up), run, asset))
+          : png_bytes(draw_picture_deep(shape, camera, picture, options, look(up), run, asset)));
 }
 
 RenderOptions LookFlags::look(const Vec3& up) const {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
@@ -7,8 +8,10 @@
 #include "vantage/core/version.h"
 
 #include "commands.h"
+#include "finite_numbers.h"
 #include "option_text.h"
 #include "session.h"
+#include "terminal.h"
 
 namespace {
 
@@ -30,11 +33,9 @@ int report_usage(const CLI::ParseError& error) {
   while (!problem.empty() && (problem.back() == '\n' || problem.back() == '.')) {
     problem.pop_back();
   }
-  for (char& c : problem) {
-    c = c == '\n' ? ' ' : c;
-  }
+  std::replace(problem.begin(), problem.end(), '\n', ' ');
   const char* remedy = problem.find("; ") == std::string::npos ? "; see --help" : "";
-  std::fprintf(stderr, "vantage: %s%s\n", problem.c_str(), remedy);
+  std::fprintf(stderr, "vantage: %s%s\n", vantage::cli::printable(problem).c_str(), remedy);
   return vantage::cli::kWrongUsage;
 }
 
@@ -69,6 +70,7 @@ int main(int argc, char** argv) {
     add_figures_command(program, session);
     add_completion_command(program, session);
     add_manual_command(program, session);
+    require_finite_numbers(program);
     program.parse(argc, argv);
     session.end_progress();
     if (std::fflush(stdout) != 0) {

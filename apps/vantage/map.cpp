@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "measure_flags.h"
 #include "method_flags.h"
+#include "output_file.h"
 #include "output_folder.h"
 #include "terminal.h"
 
@@ -45,6 +46,7 @@ struct MapCommand {
                    "folder for the displacement of each contraction level: level-00.ply, …");
     saliency.add_to(app);
     method.add_to(app, {.map = true, .camera = true});
+    add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
 
@@ -56,6 +58,8 @@ struct MapCommand {
       throw CLI::ValidationError(levels.empty() ? "--focus" : "--levels",
                                  "goes with --method kssm or thickness only");
     }
+    check_output(file, OutputKind::Shape, session.flags);
+    check_levels(levels, session.flags);
     const Model loaded = session.load(model);
     const ShapeAnalysis shape = session.computing([&] {
       return by_skeleton ? analyse_shape(loaded, options, session.run(), nullptr, AnalysisUse::Map)
@@ -67,7 +71,7 @@ struct MapCommand {
     const std::vector<double> field = name == "thickness"
                                           ? shape.map.thickness()
                                           : vertex_map(shape, options, name, session.run());
-    write_file(file, map_bytes(loaded, shape, field));
+    write_output(file, map_bytes(loaded, shape, field));
     if (!levels.empty()) {
       make_folder(levels);
       for (std::size_t j = 0; j < shape.map.displacement.size(); ++j) {
@@ -91,7 +95,7 @@ struct MapCommand {
                                            {"levels", shape.history.level_count()},
                                            {"level_factors", shape.map.level_factor},
                                            {"warnings", shape.warnings}};
-      write_file("-", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+      write_output("-", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
       return;
     }
     session.tell(

@@ -3,11 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "vantage/io/write.h"
 #include "vantage/view/measure.h"
 
 #include "commands.h"
 #include "method_flags.h"
+#include "output_file.h"
 
 namespace vantage::cli {
 namespace {
@@ -32,7 +32,7 @@ struct MeasuresCommand {
                         {"meaning", m.meaning},
                         {"source", m.source}});
       }
-      write_file("-", rows.dump(2) + "\n");
+      write_output("-", rows.dump(2) + "\n");
       return;
     }
     constexpr std::size_t kName = 30;

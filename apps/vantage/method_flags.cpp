@@ -2,6 +2,7 @@
 #include "method_flags.h"
 
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -40,8 +41,8 @@ void set_epsilon(SearchOptions& search, std::string text) {
     text.pop_back();
   }
   const double value = number_or_throw<double>(text, "--epsilon", "a number, or a number and %");
-  if (!(value >= 0.0)) {
-    throw CLI::ValidationError("--epsilon", "must not be negative");
+  if (!(value >= 0.0) || !std::isfinite(value)) {
+    throw CLI::ValidationError("--epsilon", "must be finite and not negative");
   }
   search.epsilon = search.epsilon_is_fraction ? value / 100.0 : value;
 }

@@ -26,6 +26,10 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 2> kMarkers{"view.json", "compare.json"};
 
 bool holds(const fs::path& folder, std::string_view marker) {
+  std::error_code error;
+  if (!fs::is_regular_file(folder / marker, error)) {  // nobody may ever write to a pipe
+    return false;
+  }
   std::ifstream stream(folder / marker, std::ios::binary);
   if (!stream) {
     return false;
@@ -40,18 +44,23 @@ bool is_ours(const fs::path& folder) {
                      [&](std::string_view marker) { return holds(folder, marker); });
 }
 
-/// The process that wrote a file under its temporary name (".NAME.part.PROCESS"), if it is such.
-std::optional<pid_t> writer_of(const fs::path& file) {
+/// A file under its temporary name, ".NAME.part.PROCESS".
+struct PartFile {
+  std::string name{};
+  pid_t writer = 0;
+};
+
+std::optional<PartFile> part_file(const fs::path& file) {
   constexpr std::string_view kPart = ".part.";
   const std::string name = file.filename().string();
   const std::size_t at = name.rfind(kPart);
   pid_t process = 0;
   const char* const end = name.data() + name.size();
-  if (!name.starts_with('.') || at == std::string::npos ||
+  if (!name.starts_with('.') || at == std::string::npos || at == 0 ||
       std::from_chars(name.data() + at + kPart.size(), end, process).ptr != end || process <= 0) {
     return std::nullopt;
   }
-  return process;
+  return PartFile{name.substr(1, at - 1), process};
 }
 
 /// Whether there is nothing in the folder but what a killed run left.
@@ -59,23 +68,8 @@ bool holds_leftovers_only(const fs::path& folder) {
   std::error_code error;
   const fs::directory_iterator files(folder, error);
   return !error && std::all_of(begin(files), end(files), [](const fs::directory_entry& entry) {
-    return writer_of(entry.path()).has_value();
+    return part_file(entry.path()).has_value();
   });
-}
-
-/// Removes temporary files whose writers were killed.
-void remove_parts_of_killed_runs(const fs::path& folder) {
-  std::error_code error;
-  std::vector<fs::path> leftovers;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    const std::optional<pid_t> writer = writer_of(entry.path());
-    if (writer && ::kill(*writer, 0) != 0 && errno == ESRCH) {
-      leftovers.push_back(entry.path());
-    }
-  }
-  for (const fs::path& file : leftovers) {
-    fs::remove(file, error);
-  }
 }
 
 }  // namespace
@@ -88,7 +82,17 @@ void make_folder(const std::string& path) {
   }
 }
 
-void OutputFolder::check() const {
+std::string folder_named(const std::string& model, const std::string& ending) {
+  constexpr std::size_t kLongestName = 255;
+  std::size_t length = std::min(model.size(), kLongestName - ending.size());
+  while (length < model.size() && length > 0 &&
+         (static_cast<unsigned char>(model[length]) & 0xC0U) == 0x80U) {
+    --length;  // not within a letter
+  }
+  return model.substr(0, length) + ending;
+}
+
+void OutputFolder::check(bool force) const {
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
   if (!fs::exists(status)) {
@@ -97,9 +101,10 @@ void OutputFolder::check() const {
   if (!fs::is_directory(status)) {
     throw IoError(path_, "is a file where the results' folder should be; choose another with -o");
   }
-  if (!holds_leftovers_only(path_) && !is_ours(path_)) {
+  if (!force && !holds_leftovers_only(path_) && !is_ours(path_)) {
     throw IoError(path_,
-                  "holds files that are not results of vantage; choose another folder with -o");
+                  "holds files that are not results of vantage; choose another folder with -o, or "
+                  "say --force to write among them");
   }
 }
 
@@ -111,7 +116,7 @@ void OutputFolder::write() {
   std::error_code error;
   const bool fresh = !fs::exists(path_, error);
   make_folder(path_);
-  remove_parts_of_killed_runs(path_);
+  remove_parts_of_killed_runs();
   std::vector<fs::path> written;
   try {
     for (const auto& [name, bytes] : files_) {
@@ -131,6 +136,25 @@ void OutputFolder::write() {
   remove_former_views();
 }
 
+bool OutputFolder::writes(std::string_view name) const {
+  return std::any_of(files_.begin(), files_.end(),
+                     [&](const auto& file) { return file.first == name; });
+}
+
+void OutputFolder::remove_parts_of_killed_runs() const {
+  std::error_code error;
+  std::vector<fs::path> leftovers;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path_, error)) {
+    const std::optional<PartFile> part = part_file(entry.path());
+    if (part && writes(part->name) && ::kill(part->writer, 0) != 0 && errno == ESRCH) {
+      leftovers.push_back(entry.path());
+    }
+  }
+  for (const fs::path& file : leftovers) {
+    fs::remove(file, error);
+  }
+}
+
 void OutputFolder::remove_former_views() const {
   if (replaced_ == nullptr) {
     return;
@@ -139,9 +163,7 @@ void OutputFolder::remove_former_views() const {
   std::vector<fs::path> leftovers;
   for (const fs::directory_entry& entry : fs::directory_iterator(path_, error)) {
     const std::string name = entry.path().filename().string();
-    const bool written = std::any_of(files_.begin(), files_.end(),
-                                     [&](const auto& file) { return file.first == name; });
-    if (!written && replaced_(name) && entry.is_regular_file(error)) {
+    if (!writes(name) && replaced_(name) && entry.is_regular_file(error)) {
       leftovers.push_back(entry.path());
     }
   }

@@ -16,8 +16,9 @@ class OutputFolder {
   /// view.json of ours is refused by check(), before any work is done.
   explicit OutputFolder(std::string path) : path_(std::move(path)) {}
 
+  /// \param force also takes a folder of somebody else's files.
   /// \throw IoError if writing there would replace somebody else's files, or it is not a folder.
-  void check() const;
+  void check(bool force) const;
 
   /// Takes a file to write.
   void add(std::string name, std::string bytes);
@@ -34,12 +35,18 @@ class OutputFolder {
   [[nodiscard]] std::vector<std::string> names() const;
 
  private:
+  [[nodiscard]] bool writes(std::string_view name) const;
+  /// Removes temporary files of ours whose writers were killed.
+  void remove_parts_of_killed_runs() const;
   void remove_former_views() const;
 
   std::string path_;
   std::vector<std::pair<std::string, std::string>> files_{};
   bool (*replaced_)(std::string_view) = nullptr;
 };
+
+/// The name of a model's folder: its own, cut where the ending would make it too long.
+std::string folder_named(const std::string& model, const std::string& ending);
 
 /// Makes a folder and its parents. \throw IoError
 void make_folder(const std::string& path);

@@ -36,18 +36,14 @@ std::string checked_picture_name(const std::string& path) {
   return path;
 }
 
-void write_picture(const std::string& path, const Image& image) {
-  write_file(path, extension_of(path) == ".webp" ? webp_bytes(image) : png_bytes(image));
+std::string picture_bytes(const std::string& path, const Image& image) {
+  return extension_of(path) == ".webp" ? webp_bytes(image) : png_bytes(image);
 }
 
 void check_depth(const std::string& path, int depth) {
   if (depth != 8 && extension_of(path) == ".webp") {
     throw CLI::ValidationError("--depth", "a WebP has 8 bits a channel; write a PNG");
   }
-}
-
-void write_picture(const std::string& path, const DeepImage& image) {
-  write_file(path, png_bytes(image));
 }
 
 }  // namespace vantage::cli

@@ -14,11 +14,8 @@ namespace vantage::cli {
 /// file managers ask for thumbnails under temporary names. \throw CLI::ValidationError
 std::string checked_picture_name(const std::string& path);
 
-/// Writes a WebP if the name ends so, else a PNG. \throw IoError, InvalidInput
-void write_picture(const std::string& path, const Image& image);
-
-/// Writes a PNG of 16 bit. \throw IoError
-void write_picture(const std::string& path, const DeepImage& image);
+/// A WebP if the name ends so, else a PNG. \throw IoError, InvalidInput
+std::string picture_bytes(const std::string& path, const Image& image);
 
 /// Refuses 16 bit for a name that means another format than PNG. \throw CLI::ValidationError
 void check_depth(const std::string& path, int depth);

@@ -43,7 +43,7 @@ void PreviewFlag::show(Session& session, const ShapeAnalysis& shape, const Camer
   const Image image = draw_picture(shape, camera, Picture::Plain, small, look, run);
   std::string text = terminal_picture(image, protocol);
   text.pop_back();  // the line's end comes with the message
-  session.tell(text);
+  session.show(text);
 }
 
 }  // namespace vantage::cli

@@ -9,6 +9,8 @@
 
 #include <unistd.h>
 
+#include "terminal.h"
+
 namespace vantage::cli {
 namespace {
 
@@ -28,8 +30,9 @@ void Progress::show(std::string_view stage, double fraction) {
   if (!terminal_ || now - start_ < kPatience || (shown_ && now - last_ < kRefresh)) {
     return;
   }
+  const std::string name = printable(stage);
   if (fraction < 0.0) {  // of an unknown whole
-    std::fprintf(stderr, "\r\033[K%.*s", static_cast<int>(stage.size()), stage.data());
+    std::fprintf(stderr, "\r\033[K%s", name.c_str());
     std::fflush(stderr);
     shown_ = true;
     last_ = now;
@@ -40,8 +43,7 @@ void Progress::show(std::string_view stage, double fraction) {
   for (int i = 0; i < kWidth; ++i) {
     bar += i < filled ? "━" : "─";
   }
-  std::fprintf(stderr, "\r\033[K%s %3.0f %%  %.*s", bar.c_str(), 100.0 * fraction,
-               static_cast<int>(stage.size()), stage.data());
+  std::fprintf(stderr, "\r\033[K%s %3.0f %%  %s", bar.c_str(), 100.0 * fraction, name.c_str());
   std::fflush(stderr);
   shown_ = true;
   last_ = now;

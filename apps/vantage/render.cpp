@@ -14,6 +14,7 @@
 #include "input_text.h"
 #include "look_flags.h"
 #include "method_flags.h"
+#include "output_file.h"
 #include "picture_file.h"
 #include "terminal.h"
 
@@ -49,19 +50,21 @@ struct RenderCommand {
         ->group("Pictures");
     look.add_to(app, Quality::Normal, /*asset=*/false);
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
+    add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
 
   void run(Session& session) {
     look.check(file);
-    ViewOptions options = session.reading([&] { return method.resolve(session.flags.seed); });
+    check_output(file, OutputKind::Picture, session.flags);
+    ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
     options.margin = look.margin();
     const RunContext run = session.run();
     const Vec3 direction =
         direction_text.empty() ? Vec3::UnitZ() : unit(parse_vector(direction_text, "--direction"));
     std::optional<Camera> camera;
     if (!camera_file.empty()) {
-      camera = session.reading([&] { return parse_camera(read_text(camera_file), camera_file); });
+      camera = session.read([&] { return parse_camera(read_text(camera_file), camera_file); });
     }
     const Model loaded = session.load(model, look.reading(options.width, options.height));
     const bool needs_map = !view.empty() || show != "plain";
@@ -125,7 +128,7 @@ struct RenderCommand {
                                            {"target", point(camera.target)},
                                            {"up", point(camera.up)},
                                            {"fov_y_deg", camera.fov_y_deg}};
-      write_file("-", json.dump(2) + "\n");
+      write_output("-", json.dump(2) + "\n");
       return;
     }
     session.tell(printable(file) + ": " + std::to_string(options.width) + " × " +

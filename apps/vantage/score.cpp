@@ -17,6 +17,7 @@
 #include "input_text.h"
 #include "measure_flags.h"
 #include "method_flags.h"
+#include "output_file.h"
 #include "terminal.h"
 #include "visible_table.h"
 
@@ -65,6 +66,7 @@ struct ScoreCommand {
                    "also write which direction sees which vertex to this .npy file (NumPy)");
     saliency.add_to(app);
     method.add_to(app, {.map = true, .camera = true});
+    add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
 
@@ -77,7 +79,9 @@ struct ScoreCommand {
     if (free_eyes && !visible.empty()) {
       throw CLI::ValidationError("--visible", "needs directions: --sphere or --directions");
     }
-    const std::vector<Vec3> points = session.reading([&] { return points_to_score(); });
+    const std::vector<Vec3> points = session.read([&] { return points_to_score(); });
+    check_output(file, OutputKind::Table, session.flags);
+    check_output(visible, OutputKind::Shape, session.flags);
     const Model loaded = session.load(model);
     if (measures.size() > 1 || measures.front().name != "kssm" || sampling > 1) {
       score_measures(session, loaded, options, measures, points);
@@ -99,7 +103,7 @@ struct ScoreCommand {
     if (!visible.empty()) {
       const VisibleSets sets = visible_sets(visibility, scoring_camera(shape, options), points,
                                             shape.surface.positions.size(), session.run());
-      write_file(visible, visible_table(sets, shape.map.of_vertex));
+      write_output(visible, visible_table(sets, shape.map.of_vertex));
     }
     session.end_progress();
     write(session, measures, points, {scores});
@@ -152,7 +156,7 @@ struct ScoreCommand {
              const std::vector<Vec3>& points, const MeasureValues& values) const {
     session.end_progress();
     const bool as_json = session.flags.json && file == "-";
-    write_file(file, as_json ? json(measures, points, values) : csv(measures, points, values));
+    write_output(file, as_json ? json(measures, points, values) : csv(measures, points, values));
   }
 
   [[nodiscard]] std::vector<Vec3> points_to_score() const {

@@ -30,7 +30,7 @@ struct ServeCommand {
   }
 
   void run(Session& session) const {
-    auto site = session.reading([&] { return batch::FolderSite(folder); });
+    auto site = session.read([&] { return batch::FolderSite(folder); });
     const RunContext run = session.run();
     const batch::SiteServer server(std::move(site), port);
     session.end_progress();

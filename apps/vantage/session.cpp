@@ -16,6 +16,7 @@
 
 #include "vantage/core/error.h"
 
+#include "settings.h"
 #include "terminal.h"
 
 namespace vantage::cli {
@@ -117,8 +118,13 @@ void Session::limit_threads() {
   limited_to_ = flags.threads;
 }
 
+void Session::configure(CLI::App& command) {
+  const Abandonable abandonable;
+  apply_settings(command);
+}
+
 Model Session::load(const std::string& path, const ReadOptions& options) {
-  return reading([&] { return computing([&] { return load_model(path, run(), options); }); });
+  return read([&] { return load_model(path, run(), options); });
 }
 
 void Session::say(const std::string& text) {
@@ -129,6 +135,10 @@ void Session::say(const std::string& text) {
 }
 
 void Session::tell(const std::string& text) {
+  show(printable_lines(text));
+}
+
+void Session::show(const std::string& text) {
   progress_.finish();
   if (!flags.quiet && !flags.json) {
     std::printf("%s\n", text.c_str());

@@ -32,6 +32,7 @@ struct CommonFlags {
   bool json = false;
   bool quiet = false;
   bool verbose = false;
+  bool force = false;
   int threads = 0;
   std::uint64_t seed = 0;
   RunLimits limits{};
@@ -64,8 +65,17 @@ class Session {
   /// Holds the process to the limits that were asked for; before any work.
   void apply_limits() const { cli::apply_limits(flags.limits); }
 
+  /// Sets what the command line left open, from the environment and --config.
+  void configure(CLI::App& command);
+
   /// Reads a model; a failure in here means exit code 3.
   Model load(const std::string& path, const ReadOptions& options = {});
+
+  /// Reads something small that the user named; like load().
+  template <class Step>
+  auto read(Step&& step) {
+    return reading([&] { return computing(step); });
+  }
 
   /// Runs a step that reads the user's input; a failure in here means exit code 3.
   template <class Step>
@@ -87,6 +97,8 @@ class Session {
   void say(const std::string& text);
   /// Writes a result to standard output unless `-q` or `--json` was given.
   void tell(const std::string& text);
+  /// The same for text that drives the terminal, a picture.
+  void show(const std::string& text);
 
   /// Clears the progress line.
   void end_progress() { progress_.finish(); }

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -19,6 +18,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* kConfig = "config";
+constexpr std::size_t kLargest = 1U << 20U;  ///< Of a file of options, bytes.
 
 /// A value and where it stands.
 struct Setting {
@@ -67,17 +67,20 @@ void check_keys(const Json& settings, const CLI::App& app, const std::string& fi
 
 Json read_settings(const std::string& file, const CLI::App& program) {
   std::ifstream stream(file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) {
+  std::string text(kLargest, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!stream.eof()) {  // or a device that never ends
     throw CLI::ValidationError(file, "cannot be read; --config names a JSON file of options");
   }
+  text.resize(static_cast<std::size_t>(stream.gcount()));
   Json settings;
   try {
-    settings = Json::parse(text.str(), nullptr, true, true);
+    settings = Json::parse(text, nullptr, true, true);
   } catch (const Json::parse_error& error) {
     throw CLI::ValidationError(file, "not JSON at byte " + std::to_string(error.byte) +
                                          "; write {\"threads\": 2, \"view\": {\"size\": 600}}");
+  } catch (const Json::out_of_range&) {
+    throw CLI::ValidationError(file, "has a number that is too large");
   }
   if (!settings.is_object()) {
     throw CLI::ValidationError(file, "holds no JSON object; write {\"threads\": 2}");

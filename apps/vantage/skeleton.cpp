@@ -14,6 +14,7 @@
 
 #include "commands.h"
 #include "method_flags.h"
+#include "output_file.h"
 #include "output_folder.h"
 #include "terminal.h"
 
@@ -52,12 +53,16 @@ struct SkeletonCommand {
     app.add_flag("--measure", measure,
                  "measure the skeleton against the surface: length outside, limbs, visibility");
     method.add_to(app, {});
+    add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
 
   void run(Session& session) {
     const ViewOptions options = method.resolve();
     const RunContext run = session.run();
+    check_output(file, OutputKind::Shape, session.flags);
+    check_output(meso, OutputKind::Shape, session.flags);
+    check_levels(levels, session.flags);
     const Model loaded = session.load(model);
     ShapeAnalysis shape = session.computing([&] {
       ShapeAnalysis result = prepare_surface(loaded, session.run());
@@ -65,12 +70,12 @@ struct SkeletonCommand {
       add_skeleton(result, options, run.part(0.8, 1.0));
       return result;
     });
-    write_file(file, bytes(shape));
+    write_output(file, bytes(shape));
     if (!levels.empty()) {
       write_levels(loaded, shape);
     }
     if (!meso.empty()) {
-      write_file(meso, level_bytes(loaded, shape, shape.history.thinnest()));
+      write_output(meso, level_bytes(loaded, shape, shape.history.thinnest()));
     }
     warn_of_cut_loops(shape);
     if (measure) {
@@ -163,7 +168,7 @@ struct SkeletonCommand {
       if (quality) {
         json["quality"] = quality_json(shape);
       }
-      write_file("-", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+      write_output("-", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
       return;
     }
     session.tell(printable(loaded.name) + ": " + plural(graph.nodes.size(), "node") + ", " +

@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "look_flags.h"
 #include "method_flags.h"
+#include "output_file.h"
 #include "picture_file.h"
 #include "preview_flag.h"
 #include "terminal.h"
@@ -42,6 +43,7 @@ struct ThumbCommand {
         ->capture_default_str();
     look.add_to(app, Quality::Draft, /*asset=*/true);
     preview.add_to(app);
+    add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
 
@@ -50,6 +52,7 @@ struct ThumbCommand {
       throw CLI::RequiredError("FILE");
     }
     look.check(file);
+    check_output(file, OutputKind::Picture, session.flags);
     ViewOptions options;
     options.width = options.height = size;
     options.margin = look.margin();
@@ -85,7 +88,7 @@ struct ThumbCommand {
                                            {"direction", {d.x(), d.y(), d.z()}},
                                            {"up", up_name(found.up.axis)},
                                            {"vertices", found.vertices}};
-      write_file("-", json.dump(2) + "\n");
+      write_output("-", json.dump(2) + "\n");
     }
   }
 };

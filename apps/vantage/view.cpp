@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "measure_flags.h"
 #include "method_flags.h"
+#include "output_file.h"
 #include "output_folder.h"
 #include "preview_flag.h"
 #include "terminal.h"
@@ -67,22 +68,24 @@ struct ViewCommand {
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
     several.add_to(app);
     preview.add_to(app);
+    add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
 
   void run(Session& session) const {
     const auto start = Clock::now();
-    ViewOptions options = session.reading([&] { return method.resolve(session.flags.seed); });
+    ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
     options.pictures = !no_images;
     options.view_set = several.request();
     measure.apply(options);
     const RunContext run = session.run();
 
     StageSeconds seconds;
+    check_output(trace, OutputKind::Table, session.flags);
     const Model loaded = session.load(model);
     seconds.load = seconds_since(start);
-    OutputFolder output(folder.empty() ? loaded.name + ".vantage" : folder);
-    output.check();
+    OutputFolder output(folder.empty() ? folder_named(loaded.name, ".vantage") : folder);
+    output.check(session.flags.force);
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_shape(loaded, options, run.part(0.02, 0.5), &seconds); });
     if (!sums_a_map(options.method)) {
@@ -114,11 +117,11 @@ struct ViewCommand {
       session.say("note: this program was built without npm, so that there is no report.html");
     }
     if (!trace.empty()) {
-      write_file(trace, trace_csv(report));
+      write_output(trace, trace_csv(report));
     }
     session.end_progress();
     if (session.flags.json) {
-      write_file("-", view_json(loaded, shape, report, options, &seconds));
+      write_output("-", view_json(loaded, shape, report, options, &seconds));
     } else {
       preview.show(session, shape, report.best.picture, options, {}, session.run());
       summarise(session, loaded, shape, report, output, seconds);

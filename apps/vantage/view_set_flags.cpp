@@ -13,6 +13,7 @@
 #include "vantage/render/render.h"
 #include "vantage/report/figures.h"
 
+#include "output_file.h"
 #include "terminal.h"
 
 namespace vantage::cli {
@@ -245,7 +246,7 @@ void ViewSetFlags::write_tour(OutputFolder& output, const ShapeAnalysis& shape,
     encoder.add(render(shape.surface, camera, {}, {}, look, run.part(done, next)));
     done = next;
   }
-  write_file(tour_, encoder.finish());
+  write_output(tour_, encoder.finish());
 }
 
 ViewOptions view_options_of(const MethodFlags& method, const ViewSetFlags& several,

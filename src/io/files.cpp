@@ -80,10 +80,12 @@ int write_all(int descriptor, std::string_view bytes) {
   return 0;
 }
 
-/// "folder/.name.part.123" for "folder/name" in process 123.
+/// "folder/.name.part.123" for "folder/name" in process 123; a name too long for that is cut.
 std::string temporary_path(const std::string& path) {
+  constexpr std::size_t kLongestName = 255;
   const std::size_t name = path.find_last_of('/') + 1;
-  return path.substr(0, name) + "." + path.substr(name) + ".part." + std::to_string(::getpid());
+  const std::string end = ".part." + std::to_string(::getpid());
+  return path.substr(0, name) + "." + path.substr(name, kLongestName - 1 - end.size()) + end;
 }
 
 void write_in_place(const std::string& path, std::string_view bytes) {
@@ -110,18 +112,69 @@ int create_alone(const std::string& path) {
   return ::open(path.c_str(), kFlags, 0666);
 }
 
-/// \param path name for messages. \param target the file behind it, links followed.
-void replace_file(const std::string& path, const std::string& target, std::string_view bytes) {
-  const std::string temporary = temporary_path(target);
+/// Writes to an open file and on to the disk. \return 0 or errno
+int write_whole(int descriptor, std::string_view bytes) {
+  const int error = write_all(descriptor, bytes);
+  return error == 0 ? flush(descriptor) : error;
+}
+
+/// Gives a file without a name this one, in place of what has it. \return 0 or errno
+int name_file(int descriptor, const std::string& path) {
+  const std::string self = "/proc/self/fd/" + std::to_string(descriptor);
+  const auto link_as = [&](const std::string& name) {
+    const int failed = ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW);
+    return failed == 0 ? 0 : errno;
+  };
+  if (const int error = link_as(path); error != EEXIST) {
+    return error;
+  }
+  const std::string temporary = temporary_path(path);
+  ::unlink(temporary.c_str());  // a dead process's, or a link that somebody laid there
+  if (const int error = link_as(temporary); error != 0) {
+    return error;
+  }
+  if (::rename(temporary.c_str(), path.c_str()) == 0) {
+    return 0;
+  }
+  const int error = errno;
+  ::unlink(temporary.c_str());
+  return error;
+}
+
+/// Where the file system knows files without a name, a process that is killed leaves nothing behind.
+/// \return whether it does; `error`: 0 or errno
+bool replace_by_nameless(const std::string& path, std::string_view bytes, int& error) {
+  const std::size_t name = path.find_last_of('/') + 1;
+  const std::string folder = name == 0 ? "." : path.substr(0, name);
+  const Descriptor file(::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666));
+  if (file.number() < 0) {
+    return false;
+  }
+  error = write_whole(file.number(), bytes);
+  if (error != 0) {
+    return true;
+  }
+  error = name_file(file.number(), path);
+  return error != ENOENT;  // of a machine without /proc
+}
+
+void replace_file(const std::string& path, std::string_view bytes) {
+  int error = 0;
+  if (replace_by_nameless(path, bytes, error)) {
+    if (error != 0) {
+      throw IoError(path, "cannot be written", error);
+    }
+    return;
+  }
+  const std::string temporary = temporary_path(path);
   Descriptor file(create_alone(temporary));
   if (file.number() < 0) {
     throw IoError(path, "cannot be created", errno);
   }
-  int error = write_all(file.number(), bytes);
-  error = error == 0 ? flush(file.number()) : error;
+  error = write_whole(file.number(), bytes);
   const int close_error = file.close();
   error = error == 0 ? close_error : error;
-  if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) {
+  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) {
     error = errno;
   }
   if (error != 0) {
@@ -166,18 +219,31 @@ void write_file(const std::string& path, std::string_view bytes) {
 
   struct stat status {};
 
-  if (::stat(path.c_str(), &status) == 0) {
+  if (::lstat(path.c_str(), &status) == 0) {
     if (S_ISDIR(status.st_mode)) {
       throw IoError(path, "is a folder, not a file");
     }
-    if (!S_ISREG(status.st_mode)) {  // a device or a pipe must not be replaced by a file
+    if (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)) {  // not to be replaced by a file
       write_in_place(path, bytes);
       return;
     }
   }
-  std::error_code no_such_file;
-  const std::filesystem::path target = std::filesystem::canonical(path, no_such_file);
-  replace_file(path, no_such_file ? path : target.string(), bytes);
+  replace_file(path, bytes);
+}
+
+void write_named_file(const std::string& path, std::string_view bytes) {
+  struct stat status {};
+
+  if (path != "-" && ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) &&
+      !S_ISDIR(status.st_mode)) {
+    write_in_place(path, bytes);  // a pipe has a reader, who waits
+    return;
+  }
+  std::error_code error;
+  const bool is_link = path != "-" && std::filesystem::is_symlink(path, error);
+  const std::filesystem::path target =
+      is_link ? std::filesystem::canonical(path, error) : std::filesystem::path(path);
+  write_file(error ? path : target.string(), bytes);
 }
 
 }  // namespace vantage

@@ -159,7 +159,7 @@ std::string skeleton_graphml(const SkeletonFile& skeleton) {
 }
 
 std::string skeleton_obj(const CurveGraph& graph) {
-  std::string text;
+  std::string text = "# written by vantage\n";
   for (const Vec3& node : graph.nodes) {
     text += "v " + coordinates(node, " ") + "\n";
   }

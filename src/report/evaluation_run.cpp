@@ -165,9 +165,9 @@ EvaluationJournal::EvaluationJournal(std::string file) : state_(std::make_unique
   if (!std::filesystem::exists(state_->file, error)) {
     return;
   }
-  std::istringstream lines(read_file(state_->file));
+  const std::string text = read_file(state_->file);
+  std::istringstream lines(text);
   std::string whole;
-  bool is_broken = false;
   for (std::string line; std::getline(lines, line);) {
     try {
       const Json json = Json::parse(line);
@@ -176,10 +176,16 @@ EvaluationJournal::EvaluationJournal(std::string file) : state_(std::make_unique
       state_->rows[json.at("key").get<std::string>()] = std::move(rows);
       whole += line + '\n';
     } catch (const Json::exception&) {
-      is_broken = true;  // the run was killed while it wrote this line
+      // One of an older program is left out, and one that was cut as its program was killed.
+      const Json found = Json::parse(line, nullptr, false);
+      const bool is_row = found.is_object() && found.contains("key") && found.contains("views");
+      if (!is_row && !lines.eof()) {
+        throw FormatError(state_->file, "after byte " + std::to_string(whole.size()),
+                          "is no row of vantage eval; move the file away, or name another folder");
+      }
     }
   }
-  if (is_broken || lines.str().size() != whole.size()) {
+  if (text.size() != whole.size()) {
     write_file(state_->file, whole);
   }
 }
@@ -205,7 +211,8 @@ void EvaluationJournal::add(const std::string& key, const EvaluatedModel& rows) 
   const std::string line = json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
   const std::lock_guard lock(state_->mutex);
   constexpr mode_t kMode = 0644;
-  const int file = ::open(state_->file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, kMode);
+  const int file =
+      ::open(state_->file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, kMode);
   const bool is_written =
       file >= 0 && ::write(file, line.data(), line.size()) == static_cast<ssize_t>(line.size()) &&
       (::fsync(file) == 0 || errno == EINVAL);

@@ -1,12 +1,15 @@
 """Wrong usage, bad input, full disks, signals: one sentence, the right exit code, nothing left."""
 
+import json
 import os
+import re
 import signal
 import subprocess
 import time
 import unittest
 
 from program import MODELS, PROGRAM, ProgramTest
+from shapes import box
 
 CUBE = ("OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
         "4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n")
@@ -34,6 +37,27 @@ class Usage(ProgramTest):
         self.check_usage("view", "a.off", "--size", "0x10")
         self.check_usage("view", "a.off", "--epsilon", "much")
         self.check_usage("view", "a.off", "--max-steps", "0")
+
+    def test_no_number_is_a_nan_or_infinite(self):
+        self.write("a.off", box(1.0))
+        real = 0
+        for command in ("view", "thumb", "render", "map", "skeleton", "score", "compare", "figures", "eval", "info", "serve",
+                        "batch"):
+            text = self.vantage(command, "--help").out
+            for option in re.findall(r"^ +(?:-\w,)?(--[a-z-]+) X\b", text, re.MULTILINE):
+                real += 1
+                for number in ("nan", "-nan", "inf", "-inf", "1e999", "infinity", "nan(1)"):
+                    done = self.vantage(command, "a.off", f"{option}={number}", exit_code=2)
+                    self.assertIn(option, done.err, (command, option, number))
+                    self.assertEqual(len(done.err.strip().splitlines()), 1, done.err)
+        self.assertGreater(real, 50)
+        for command in (("view", "a.off", "--epsilon=nan"), ("view", "a.off", "--epsilon=inf"), ("view", "a.off", "--epsilon=inf%"),
+                        ("render", "a.off", "-o", "r.png", "--direction=nan,0,1"),
+                        ("render", "a.off", "-o", "r.png", "--direction=inf,0,1")):
+            self.vantage(*command, exit_code=2)
+        for numbers in ("nan,0,1", "inf,0,1", "1e999,0,1"):
+            self.write("d.csv", f"dx,dy,dz\n{numbers}\n")
+            self.vantage("score", "a.off", "--directions", "d.csv", exit_code=3)
 
     def test_word_that_is_no_choice(self):
         self.check_usage("view", "a.off", "--search", "psychic")
@@ -98,11 +122,55 @@ class Input(ProgramTest):
         self.write("dot.off", "OFF\n3 1 0\n1 1 1\n1 1 1\n1 1 1\n3 0 1 2\n")
         self.vantage("view", "dot.off", exit_code=1)
 
-    def test_control_characters_do_not_reach_the_terminal(self):
-        name = "evil\x1b[31m.off"
-        self.write(name, "nonsense")
-        done = self.vantage("view", name, exit_code=3)
-        self.assertNotIn("\x1b", done.err)
+
+class Terminal(ProgramTest):
+    """What names and words from outside may do to the terminal: be read."""
+
+    EVIL = (b"\x1b[31m", b"\x1b]0;owned\x07", b"\x9b31m", "\u009b31m".encode(), b"\xc2", b"\xff\xfe", b"\xc0\x9b",
+            b"\xed\xa0\x80", b"\xf5\x80\x80\x80", "\u202eff0.x".encode(), "\u2066x".encode(), "\u200fx".encode(),
+            "\u061cx".encode(), "\u2028x".encode(), b"two\nlines", b"\r\x08\x7f")
+
+    def assert_harmless(self, *command):
+        """Runs it and looks at both streams."""
+        done = subprocess.run([PROGRAM, *command], cwd=self.dir, capture_output=True, timeout=120, check=False)
+        self.assertNotEqual(done.stdout + done.stderr, b"", command)
+        for stream in (done.stdout, done.stderr):
+            text = stream.decode()  # fails if it is no UTF-8
+            self.assertNotRegex(text, "[\x00-\x09\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]", command)
+        if done.returncode in (1, 2, 3):
+            self.assertEqual(len(done.stderr.strip().splitlines()), 1, (command, done.stderr))
+        return done
+
+    def test_in_errors_of_usage_and_of_files(self):
+        self.write("a.off", box(1.0))
+        for evil in self.EVIL:
+            for command in ((b"--" + evil,), (evil,), (b"view", b"a.off", evil), (b"info", evil + b".off"),
+                            (b"info", b"a.off", b"--threads", evil), (b"render", b"a.off", b"--direction", b"0,0,1", b"-o", b"t" + evil + b".jpg"),
+                            (b"thumb", b"a.off", evil + b"/t.png"), (b"info", b"a.off", b"--config", evil),
+                            (b"score", b"a.off", b"--directions", evil), (b"score", b"a.off", b"--method", evil, b"--sphere", b"0"),
+                            (b"view", b"a.off", b"-o", b"a.off/" + evil), (b"view", b"a.off", b"--focus", evil),
+                            (b"render", b"a.off", b"-o", b"r.png", b"--direction", evil), (b"serve", evil),
+                            (b"eval", evil), (b"batch", b"--manifest", evil, b"-o", b"b"), (b"results", b"query", evil),
+                            (b"completion", evil), (b"manual", evil)):
+                self.assertNotEqual(self.assert_harmless(*command).returncode, 0, command)
+
+    def test_in_the_environment_and_in_a_file_of_options(self):
+        self.write("c.json", json.dumps({"info": {"\x1b[31m\u202e\u009b": 1}}))
+        self.assert_harmless(b"info", b"a.off", b"--config", b"c.json")
+        self.write("c.json", json.dumps({"threads": "\x1b[31m\u202e\u009b"}))
+        self.assert_harmless(b"info", b"a.off", b"--config", b"c.json")
+
+    def test_in_what_is_said_of_a_file_that_is_read(self):
+        for i, evil in enumerate(self.EVIL):
+            name = evil.replace(b"/", b"") + b".off"
+            (self.dir / os.fsdecode(name)).write_text(box(1.0))
+            for command in ((b"info", name), (b"map", name, b"-o", name + b".ply"), (b"thumb", name, name + b".png", b"-s", b"16"),
+                            (b"skeleton", name, b"-o", name + b".json"), (b"figures", name, b"-o", b"f", b"--size", b"32"),
+                            (b"compare", name, b"-o", b"c%d" % i, b"--method", b"silhouette-length", b"--no-images"),
+                            (b"view", name, b"-o", b"v%d" % i, b"--no-images", b"--search", b"rapid", b"-v")):
+                if command[0] == b"thumb":
+                    continue  # says nothing
+                self.assertEqual(self.assert_harmless(*command).returncode, 0, command)
 
 
 class Output(ProgramTest):

@@ -6,6 +6,7 @@ import os
 import signal
 import socket
 import subprocess
+import time
 import unittest
 
 from program import PROGRAM, ProgramTest
@@ -91,15 +92,22 @@ class Serve(ProgramTest):
 
     def test_no_path_leads_out_of_the_folder(self):
         folder = self.results()
+        (folder / "results.data").write_text("{}")
         os.symlink(self.dir / "secret.json", folder / "link.json")
         os.symlink(self.dir, folder / "up")
         (folder / ".hidden").mkdir()
         (folder / ".hidden" / "x.json").write_text("{}")
+        os.symlink(".hidden/x.json", folder / "shown.json")
+        os.symlink(".hidden", folder / "shown")
+        os.symlink("results.data", folder / "data.json")
+        os.symlink("one", folder / "also-one")
+        os.mkfifo(folder / "pipe.json")
         with self.served(folder) as address:
             for path in ("/../secret.json", "/%2e%2e/secret.json", "/..%2fsecret.json", "/%2e%2e%2fsecret.json",
                          "/one/../../secret.json", "/..\\secret.json", "/models/../secret.json",
                          "/models/../../secret.json", "/models/shown/../secret.json", "//secret.json",
-                         f"/{self.dir}/secret.json", f"//{self.dir}/secret.json", "/link.json", "/up/secret.json",
+                         f"/{self.dir}/secret.json", f"//{self.dir}/secret.json", "/link.json", "/up/secret.json", "/shown.json", "/shown/x.json",
+                         "/data.json", "/also-one/view.json", "/pipe.json", "/models/shown.json",
                          "/.hidden/x.json", "/one/./view.json", "/secret.json%00.png", "/one/view.json%00",
                          "/etc/passwd", "/one", "/one/", "/index-1.html", "/index-x.html", "/index-99999999999999999999.html"):
                 status, _, body = self.ask(address, path)
@@ -113,7 +121,106 @@ class Serve(ProgramTest):
             self.assertEqual(self.ask(address, "/", host="127.0.0.1.example.com:80")[0], 403)
             self.assertEqual(self.ask(address, "/", host="localhost:1234")[0], 200)
             for method in ("POST", "PUT", "DELETE"):
-                self.assertIn(self.ask(address, "/one/view.json", method=method)[0], (400, 404))
+                self.assertIn(self.ask(address, "/one/view.json", method=method)[0], (400, 404, 405))
+
+    def send(self, address, request, timeout=30):
+        """All that comes back for these bytes until the server closes the connection."""
+        port = int(address.rstrip("/").rsplit(":", 1)[1])
+        answer = b""
+        with socket.create_connection(("127.0.0.1", port), timeout=timeout) as connection:
+            with contextlib.suppress(ConnectionError):
+                connection.sendall(request.replace(b"HOST", f"Host: 127.0.0.1:{port}".encode()))
+            with contextlib.suppress(ConnectionError):
+                while part := connection.recv(65536):
+                    answer += part
+        return answer
+
+    def test_every_answer_has_a_policy_and_files_are_in_a_sandbox(self):
+        folder = self.results()
+        (folder / "one" / "evil.html").write_text("<script>fetch('/')</script>")
+        (folder / "one" / "report.html").write_text("<script>fetch('/')</script>")
+        (folder / "one" / "evil.svg").write_text("<svg xmlns='http://www.w3.org/2000/svg'><script>1</script></svg>")
+        with self.served(folder) as address:
+            for path in ("/", "/one/evil.html", "/one/report.html", "/one/evil.svg", "/one/best.png", "/one/view.json",
+                         "/missing", "/%zz", "/favicon.ico"):
+                head = self.ask(address, path)[1]
+                policies = [line for line in head.splitlines() if line.startswith("Content-Security-Policy: ")]
+                self.assertEqual(len(policies), 1, (path, head))
+                self.assertIn("default-src 'none'", policies[0])
+                if path != "/":
+                    self.assertIn("; sandbox", policies[0], path)
+                    self.assertNotIn("allow-same-origin", policies[0])
+                if path not in ("/", "/one/report.html"):
+                    self.assertNotIn("script", policies[0], path)
+            self.assertIn(b"Content-Security-Policy", self.send(address, b"nonsense\r\n\r\n"))
+            self.assertIn("Content-Security-Policy", self.ask(address, "/", host="example.com")[1])
+
+    def test_a_part_beyond_the_end_is_refused_and_many_parts_cost_nothing(self):
+        folder = self.results()
+        size = (folder / "one" / "best.png").stat().st_size
+        with self.served(folder) as address:
+            for wanted in ("999999999-", f"{size}-", f"{size}-{size}", "-0"):
+                for path in ("/one/best.png", "/"):
+                    if path == "/" and wanted != "999999999-" and wanted != "-0":
+                        continue
+                    head, body = self.send(address, f"GET {path} HTTP/1.1\r\nHOST\r\nRange: bytes={wanted}\r\n"
+                                           "Connection: close\r\n\r\n".encode()).split(b"\r\n\r\n", 1)
+                    self.assertTrue(head.startswith(b"HTTP/1.1 416"), (wanted, head))
+                    self.assertIn(b"Content-Length: 0", head)
+                    self.assertEqual(body, b"")
+            for wanted in ("0-999999999", "5-", "-999999999", ",".join(["0-"] * 2000)):
+                head, body = self.send(address, f"GET /one/best.png HTTP/1.1\r\nHOST\r\nRange: bytes={wanted}\r\n"
+                                       "Connection: close\r\n\r\n".encode()).split(b"\r\n\r\n", 1)
+                self.assertTrue(head.startswith(b"HTTP/1.1 200"), (wanted[:40], head))
+                self.assertEqual(len(body), size)
+
+    def test_a_request_larger_than_a_page_needs_is_cut_off(self):
+        with self.served(self.results()) as address:
+            chunk = b"10000\r\n" + b"x" * 0x10000 + b"\r\n"
+            for request in (b"POST / HTTP/1.1\r\nHOST\r\nTransfer-Encoding: chunked\r\n\r\n" + chunk * 64,
+                            b"POST / HTTP/1.1\r\nHOST\r\nContent-Length: 99999999\r\n\r\n" + b"x" * 99999):
+                answer = self.send(address, request)
+                self.assertIn(answer[9:12], (b"405", b""))
+                self.assertNotIn(b"200 OK", answer)
+            answer = self.send(address, b"GET / HTTP/1.1\r\nHOST\r\n" + b"a: b\r\n" * 200_000)
+            self.assertLessEqual(answer.count(b"HTTP/1.1"), 1)
+            self.assertNotIn(b"200 OK", answer)
+            self.assertEqual(self.ask(address, "/")[0], 200)
+
+    def test_it_ends_at_once_however_many_connections_are_open(self):
+        with self.served(self.results()) as address:
+            port = int(address.rstrip("/").rsplit(":", 1)[1])
+            idle = [socket.create_connection(("127.0.0.1", port)) for _ in range(40)]
+            for connection in idle:
+                self.addCleanup(connection.close)
+            for connection in idle[:8]:
+                connection.sendall(b"GET / HTTP/1.1\r\n")  # and then nothing
+            time.sleep(0.3)
+            started = time.monotonic()
+        self.assertLess(time.monotonic() - started, 1.5)
+
+    def test_connections_that_are_kept_open_keep_nobody_waiting(self):
+        with self.served(self.results()) as address:
+            port = int(address.rstrip("/").rsplit(":", 1)[1])
+            for _ in range(6):  # what a browser opens and keeps
+                connection = socket.create_connection(("127.0.0.1", port))
+                self.addCleanup(connection.close)
+                connection.sendall(f"GET / HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n".encode())
+                self.assertIn(b"200 OK", connection.recv(65536))
+            started = time.monotonic()
+            self.assertEqual(self.ask(address, "/")[0], 200)
+            self.assertLess(time.monotonic() - started, 2.0)
+
+    def test_a_request_that_drips_is_cut_off(self):
+        with self.served(self.results()) as address:
+            port = int(address.rstrip("/").rsplit(":", 1)[1])
+            with socket.create_connection(("127.0.0.1", port)) as connection:
+                started = time.monotonic()
+                with self.assertRaises(ConnectionError):
+                    while time.monotonic() - started < 20:
+                        connection.sendall(b"G")
+                        time.sleep(0.2)
+                self.assertLess(time.monotonic() - started, 10.0)
 
     def test_names_of_models_cannot_become_markup(self):
         folder = self.results()

@@ -60,6 +60,9 @@ class Settings(ProgramTest):
                  ('{"size": null}', "c.json: size: has no value"),
                  ('{"size": "big"}', "c.json: size: --size"),
                  ('{"size": ', "c.json: not JSON at byte 10"),
+                 ('{"size": 1e999}', "c.json: has a number that is too large"),
+                 ('{"size": -1e999}', "c.json: has a number that is too large"),
+                 ('{"margin": "nan"}', "c.json: margin: --margin: must be a finite number"),
                  ("[1]", "c.json: holds no JSON object"))
         for text, message in cases:
             self.write("c.json", text)

@@ -1,12 +1,14 @@
 """Thumbnails and the look of pictures: what file managers and catalogues rely on."""
 
 import base64
+import configparser
 import json
 import re
+import subprocess
 import unittest
 
 from png import read_png
-from program import MODELS, ProgramTest
+from program import MODELS, PROGRAM, ProgramTest
 from shapes import box
 
 FAN = MODELS / "fan.ply"
@@ -114,6 +116,36 @@ class Thumb(ProgramTest):
             done = subprocess.run([os.environ["VANTAGE"], "thumb", "-", "-o", "-", "-s", "32"],
                                   stdin=model, capture_output=True, timeout=300, check=True)
         self.assertEqual(read_png(done.stdout)[:2], (32, 32))
+
+
+class FileManagers(ProgramTest):
+    """The entry that file managers read."""
+
+    def command(self, model, file, size):
+        """What a file manager calls, as a list of words."""
+        entry = configparser.ConfigParser(interpolation=None)
+        entry.read(MODELS.parent / "apps/vantage/desktop/vantage.thumbnailer")
+        words = entry["Thumbnailer Entry"]["Exec"].split()
+        self.assertEqual(words[0], entry["Thumbnailer Entry"]["TryExec"])
+        return [{"%i": str(model), "%o": str(file), "%s": str(size)}.get(word, word) for word in words[1:]]
+
+    def test_its_command_makes_a_thumbnail(self):
+        file = self.write("made-beforehand", "")
+        self.vantage(*self.command(FAN, file, 128))
+        self.assertEqual(read_png(file.read_bytes())[:2], (128, 128))
+
+    def test_its_command_takes_no_more_than_a_minute_and_4_gb(self):
+        words = self.command("-", "t.png", 128)
+        seconds = words.index("--timeout") + 1
+        self.assertLessEqual(float(words[seconds]), 60)
+        self.assertRegex(words[words.index("--max-memory") + 1], "^[1-4]GB$")
+        words[seconds] = "0.5"  # not to wait for it
+        with subprocess.Popen([PROGRAM, *words], cwd=self.dir, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            self.assertEqual(process.wait(timeout=60), 1)
+        # Of a model that does not fit, there is a sentence and no file.
+        words[words.index("--max-memory") + 1] = "64MB"
+        self.vantage(*[{"-": str(MODELS / "mannequin.ply")}.get(word, word) for word in words], exit_code=None)
+        self.assertFalse((self.dir / "t.png").exists())
 
 
 class Preview(ProgramTest):

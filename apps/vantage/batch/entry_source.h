@@ -77,7 +77,9 @@ std::unique_ptr<EntrySource> entries_of_paths(std::vector<std::string> inputs, E
 /// Entries of a manifest ("-": standard input): JSON lines with "path" and, if wanted, "key",
 /// "name", "up"; or CSV with such columns in its header; or a path a line (or ended by a zero
 /// byte). What it is shows in its first line. Paths are relative to the manifest's folder.
+/// \param stop ends waiting for a pipe: next() throws Cancelled.
 /// \throw IoError if it cannot be opened.
-std::unique_ptr<EntrySource> entries_of_manifest(const std::string& path);
+std::unique_ptr<EntrySource> entries_of_manifest(const std::string& path,
+                                                 std::stop_token stop = {});
 
 }  // namespace vantage::batch

@@ -59,9 +59,10 @@ bool is_hidden(std::string_view path) {
          path.find('\\') != std::string_view::npos;
 }
 
+/// No links: they might lead to what is hidden.
 bool is_file(const fs::path& path) {
   std::error_code error;
-  return fs::is_regular_file(path, error);
+  return fs::is_regular_file(fs::symlink_status(path, error));
 }
 
 /// A view.json of ours; nothing if it is not one.
@@ -171,16 +172,6 @@ std::optional<SitePage> FolderSite::index(std::size_t page) const {
   return made;
 }
 
-std::optional<fs::path> FolderSite::inside(const fs::path& file) const {
-  std::error_code error;
-  const fs::path real = fs::canonical(file, error);
-  if (error || !is_file(real)) {
-    return std::nullopt;
-  }
-  const auto [end, ignored] = std::mismatch(root_.begin(), root_.end(), real.begin(), real.end());
-  return end == root_.end() ? std::optional(real) : std::nullopt;
-}
-
 std::optional<SitePage> FolderSite::find(std::string_view path) const {
   if (!path.starts_with('/') || is_hidden(path)) {
     return std::nullopt;
@@ -196,26 +187,27 @@ std::optional<SitePage> FolderSite::find(std::string_view path) const {
     const bool good = error == std::errc{} && end == digits.data() + digits.size() && page > 1;
     return good ? index(page - 1) : std::nullopt;
   }
-  fs::path file = root_ / path.substr(1);
+  fs::path file = path.substr(1);
   if (!is_batch_ && path.starts_with(kModels)) {  // where the index looks for results
     const std::string_view below = path.substr(kModels.size());
     const std::string own = root_.filename().string() + "/";
-    file = root_ / below;
-    if (!is_file(file) && below.starts_with(own)) {
-      file = root_ / below.substr(own.size());
+    file = below;
+    if (!is_file(root_ / file) && below.starts_with(own)) {
+      file = below.substr(own.size());
     }
-    if (file.filename() == kThumbnailFile && !is_file(file)) {
+    if (file.filename() == kThumbnailFile && !is_file(root_ / file)) {
       file.replace_filename("best.png");
     }
   }
   const std::string extension = file.extension().string();
   const auto* const kind = std::find_if(kKinds.begin(), kKinds.end(),
                                         [&](const Kind& k) { return k.extension == extension; });
-  const std::optional<fs::path> real = inside(file);
-  if (kind == kKinds.end() || !real) {
+  if (kind == kKinds.end() || file.is_absolute()) {
     return std::nullopt;
   }
-  return SitePage{.type = kind->type, .file = *real};
+  SitePage page{.type = kind->type, .file = ServedFile::open(root_, file)};
+  page.is_report = file.filename() == "report.html";
+  return page.file ? std::optional(std::move(page)) : std::nullopt;
 }
 
 }  // namespace vantage::batch

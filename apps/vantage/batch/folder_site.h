@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "batch/served_file.h"
 
 /// \file
 /// A folder of results as a web site: which path shows what. Knows nothing of HTTP.
@@ -14,9 +16,10 @@ namespace vantage::batch {
 
 /// What stands at a path.
 struct SitePage {
-  std::string type{};            ///< Media type.
-  std::string body{};            ///< Whole, if `file` is empty.
-  std::filesystem::path file{};  ///< A regular file inside the folder.
+  std::string type{};                        ///< Media type.
+  std::string body{};                        ///< Of a page made here, if there is no `file`.
+  std::shared_ptr<const ServedFile> file{};  ///< A file of the folder.
+  bool is_report = false;                    ///< Whether its name is that of a report of ours.
 };
 
 /// The folder of a batch (a page of its store, made anew each time, so that a batch that still runs
@@ -27,15 +30,13 @@ class FolderSite {
   explicit FolderSite(const std::string& folder);
 
   /// What stands at the decoded path of a request ("/", "/models/x/best.png"); nothing for what does
-  /// not exist, is hidden, lies outside the folder (links are followed first), or is of a kind that
-  /// results never are. \throw IoError if the store cannot be read.
+  /// not exist, is hidden, lies outside the folder or behind a link, or is of a kind that results
+  /// never are. \throw IoError if the store cannot be read.
   [[nodiscard]] std::optional<SitePage> find(std::string_view path) const;
 
  private:
   [[nodiscard]] std::optional<SitePage> index(std::size_t page) const;
   [[nodiscard]] std::string results_index() const;
-  [[nodiscard]] std::optional<std::filesystem::path> inside(
-      const std::filesystem::path& file) const;
 
   std::filesystem::path root_;
   bool is_batch_ = false;

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
-#include "vantage/core/error.h"
-
 #include "batch/entry_source.h"
 #include "batch/naming.h"
+#include "batch/stoppable_bytes.h"
 
 namespace vantage::batch {
 namespace {
@@ -25,22 +22,8 @@ using Fields = std::map<std::string, std::string>;
 
 class ManifestSource : public EntrySource {
  public:
-  explicit ManifestSource(const std::string& path)
-      : name_(path), folder_(std::filesystem::path(path).parent_path()) {
-    file_ = path == "-" ? stdin : std::fopen(path.c_str(), "rbe");
-    if (file_ == nullptr) {
-      throw IoError(path, "cannot be read", errno);
-    }
-  }
-
-  ManifestSource(const ManifestSource&) = delete;
-  ManifestSource& operator=(const ManifestSource&) = delete;
-
-  ~ManifestSource() override {
-    if (file_ != stdin) {
-      std::fclose(file_);
-    }
-  }
+  ManifestSource(const std::string& path, std::stop_token stop)
+      : folder_(std::filesystem::path(path).parent_path()), bytes_(path, std::move(stop)) {}
 
   std::optional<Entry> next() override {
     while (true) {
@@ -66,7 +49,8 @@ class ManifestSource : public EntrySource {
     std::string line;
     bool inside = false;
     bool any = false;
-    for (int c = 0; (c = std::getc(file_)) != EOF;) {
+    while (const std::optional<char> read = bytes_.next()) {
+      const char c = *read;
       any = true;
       if (c == '\0' && (zero_ended_ || kind_ == Kind::Unknown)) {
         zero_ended_ = true;
@@ -77,13 +61,10 @@ class ManifestSource : public EntrySource {
         break;
       }
       if (line.size() < kLongestLine) {
-        line += static_cast<char>(c);
+        line += c;
       }
     }
     ++line_number_;
-    if (std::ferror(file_) != 0) {
-      throw IoError(name_, "cannot be read", errno);
-    }
     if (!any) {
       return std::nullopt;
     }
@@ -211,9 +192,8 @@ class ManifestSource : public EntrySource {
     return entry;
   }
 
-  std::string name_;
   std::filesystem::path folder_;
-  std::FILE* file_ = nullptr;
+  StoppableBytes bytes_;
   Kind kind_ = Kind::Unknown;
   bool zero_ended_ = false;
   std::vector<std::string> header_{};
@@ -223,8 +203,8 @@ class ManifestSource : public EntrySource {
 
 }  // namespace
 
-std::unique_ptr<EntrySource> entries_of_manifest(const std::string& path) {
-  return std::make_unique<ManifestSource>(path);
+std::unique_ptr<EntrySource> entries_of_manifest(const std::string& path, std::stop_token stop) {
+  return std::make_unique<ManifestSource>(path, std::move(stop));
 }
 
 }  // namespace vantage::batch

@@ -111,7 +111,12 @@ class Runner {
   void fill() {
     while (!source_ended_ && ready_.size() < static_cast<std::size_t>(options_.workers) &&
            waiting_ < kMostWaiting && !stop_.stop_requested()) {
-      std::optional<Entry> entry = source_.next();
+      std::optional<Entry> entry;
+      try {
+        entry = source_.next();
+      } catch (const Cancelled&) {
+        return;  // step() ends the run in order
+      }
       if (entry) {
         take_up(std::move(*entry));
       } else {

@@ -4,25 +4,36 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <cstdint>
-#include <fstream>
 #include <optional>
-#include <system_error>
+#include <string>
 #include <thread>
 #include <utility>
 
 // Its system headers define names that Eigen's use, so no header of ours that needs Eigen is here.
-#include <httplib.h>
-
 #include "vantage/core/error.h"
+
+#include "batch/http_connection.h"
 
 namespace vantage::batch {
 namespace {
 
 constexpr const char* kLoopback = "127.0.0.1";
-/// Requests carry no body.
-constexpr std::size_t kLargestRequest = 1 << 16;
-constexpr std::size_t kThreads = 4;
+/// A browser opens six connections and keeps them.
+constexpr std::size_t kThreads = 16;
+constexpr int kRequestsPerConnection = 200;
+
+constexpr const char* kPolicy = "Content-Security-Policy";
+/// How every policy begins.
+const std::string kNothing =
+    "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; "
+    "style-src 'unsafe-inline'; ";
+/// The pages made here have a script that only ever sets text.
+const std::string kOwnPage = kNothing + "img-src 'self'; script-src 'unsafe-inline'";
+/// Anybody may have written a file of these names: in a sandbox it has no origin, so that it can
+/// read nothing of this server, and it can ask nobody for anything.
+const std::string kReport =
+    kNothing + "img-src data: blob:; script-src 'unsafe-inline'; sandbox allow-scripts";
+const std::string kFile = kNothing + "img-src 'self' data:; sandbox";
 
 /// Whether the name by which the server was asked for is this machine's own. A page from elsewhere
 /// can make its own name lead here, but not change what the browser sends as Host.
@@ -31,35 +42,48 @@ bool is_own_name(const std::string& host) {
   return name == kLoopback || name == "localhost";
 }
 
-void send_file(const std::filesystem::path& path, const std::string& type,
-               httplib::Response& response) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  auto stream = std::make_shared<std::ifstream>(path, std::ios::binary);
-  if (error || !*stream) {
-    response.status = 404;
-    return;
+/// Whether a part is asked for that begins beyond the end. Any other range is answered by the whole.
+bool is_beyond(const httplib::Request& request, std::size_t size) {
+  httplib::Ranges ranges;
+  if (!request.has_header("Range") ||
+      !httplib::detail::parse_range_header(request.get_header_value("Range"), ranges) ||
+      ranges.size() != 1) {
+    return false;
   }
-  if (size == 0) {
+  const auto [first, last] = ranges.front();
+  return first < 0 ? last == 0 : static_cast<std::size_t>(first) >= size;
+}
+
+void send_file(const std::shared_ptr<const ServedFile>& file, const std::string& type,
+               httplib::Response& response) {
+  if (file->size() == 0) {
     response.set_content("", type);
     return;
   }
   response.set_content_provider(
-      static_cast<std::size_t>(size), type.c_str(),
-      [stream](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+      file->size(), type.c_str(),
+      [file](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
         constexpr std::size_t kChunk = 1 << 16;
         std::string chunk(std::min(length, kChunk), '\0');
-        stream->seekg(static_cast<std::streamoff>(offset));
-        stream->read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
-        return stream->gcount() > 0 &&
-               sink.write(chunk.data(), static_cast<std::size_t>(stream->gcount()));
+        const std::size_t got = file->read(offset, chunk.data(), chunk.size());
+        return got > 0 && sink.write(chunk.data(), got);
       });
 }
 
+void send(const SitePage& page, const httplib::Request& request, httplib::Response& response) {
+  response.set_header(kPolicy, !page.file ? kOwnPage : page.is_report ? kReport : kFile);
+  const std::size_t size = page.file ? page.file->size() : page.body.size();
+  if (is_beyond(request, size)) {
+    response.status = 416;
+    response.set_header("Content-Range", "bytes */" + std::to_string(size));
+  } else if (page.file) {
+    send_file(page.file, page.type, response);
+  } else {
+    response.set_content(page.body, page.type.c_str());
+  }
+}
+
 void answer(const FolderSite& site, const httplib::Request& request, httplib::Response& response) {
-  response.set_header("X-Content-Type-Options", "nosniff");
-  response.set_header("Referrer-Policy", "no-referrer");
-  response.set_header("Cache-Control", "no-cache");
   if (!is_own_name(request.get_header_value("Host"))) {
     response.status = 403;
     response.set_content("This server answers to 127.0.0.1 and localhost only.\n", "text/plain");
@@ -77,15 +101,68 @@ void answer(const FolderSite& site, const httplib::Request& request, httplib::Re
     response.set_content(std::string(error.what()) + "\n", "text/plain; charset=utf-8");
     return;
   }
-  if (!page) {
+  if (page) {
+    send(*page, request, response);
+  } else {
     response.status = 404;
     response.set_content("There is no such result.\n", "text/plain");
-  } else if (page->file.empty()) {
-    response.set_content(page->body, page->type.c_str());
-  } else {
-    send_file(page->file, page->type, response);
   }
 }
+
+/// Of every answer, also of those that the library makes itself.
+void add_headers(const httplib::Request& /*request*/, httplib::Response& response) {
+  response.set_header("X-Content-Type-Options", "nosniff");
+  response.set_header("Referrer-Policy", "no-referrer");
+  response.set_header("Cache-Control", "no-cache");
+  response.set_header("Accept-Ranges", "none");
+  if (!response.has_header(kPolicy)) {
+    response.set_header(kPolicy, kFile);
+  }
+}
+
+httplib::Server::HandlerResponse refuse_writing(const httplib::Request& request,
+                                                httplib::Response& response) {
+  if (request.method == "GET" || request.method == "HEAD") {
+    return httplib::Server::HandlerResponse::Unhandled;
+  }
+  response.status = 405;
+  response.set_header("Allow", "GET, HEAD");
+  return httplib::Server::HandlerResponse::Handled;
+}
+
+/// The library's server on connections that have an end.
+class Server final : public httplib::Server {
+ public:
+  void end() {
+    ended_ = true;
+    stop();
+  }
+
+ private:
+  bool process_and_close_socket(socket_t socket) override {
+    HttpConnection connection(socket, ended_);
+    bool is_last = false;
+    for (int left = kRequestsPerConnection - 1; !is_last && connection.wait_for_request(); --left) {
+      bool was_read = false;
+      bool has_body = false;
+      bool closed = false;
+      const bool answered =
+          process_request(connection, left == 0, closed, [&](httplib::Request& request) {
+            was_read = true;
+            request.ranges.clear();  // the library would put thousands of them together in memory
+            has_body =
+                request.has_header("Content-Length") || request.has_header("Transfer-Encoding");
+          });
+      is_last = !answered || closed || !was_read || has_body || left == 0;
+      if (has_body || !was_read) {
+        connection.drain();
+      }
+    }
+    return true;
+  }
+
+  std::atomic<bool> ended_ = false;
+};
 
 }  // namespace
 
@@ -93,7 +170,7 @@ struct SiteServer::Parts {
   explicit Parts(FolderSite shown) : site(std::move(shown)) {}
 
   FolderSite site;
-  httplib::Server server{};
+  Server server{};
   std::string address{};
   std::atomic<bool> ended = false;
   std::thread listener{};
@@ -101,9 +178,10 @@ struct SiteServer::Parts {
 
 SiteServer::SiteServer(FolderSite site, int port)
     : parts_(std::make_unique<Parts>(std::move(site))) {
-  httplib::Server& server = parts_->server;
+  Server& server = parts_->server;
   server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
-  server.set_payload_max_length(kLargestRequest);
+  server.set_pre_routing_handler(refuse_writing);
+  server.set_post_routing_handler(add_headers);
   server.Get(".*",
              [parts = parts_.get()](const httplib::Request& request, httplib::Response& response) {
                answer(parts->site, request, response);
@@ -129,7 +207,7 @@ SiteServer::~SiteServer() {
   while (!parts_->server.is_running() && !parts_->ended) {
     std::this_thread::yield();  // stop() before the listener runs would be forgotten
   }
-  parts_->server.stop();
+  parts_->server.end();
   parts_->listener.join();
 }
 

@@ -13,14 +13,18 @@
 #include "vantage/mesh/tri_mesh.h"
 
 /// \file
-/// Writers give bytes; write_file() puts them on disk under a temporary name and renames, so that
-/// a failed run leaves no half-written file.
+/// Writers give bytes; write_file() puts them on disk before they have a name, so that a failed run
+/// leaves no half-written file.
 
 namespace vantage {
 
-/// Writes all of `bytes` to `path` ("-": standard output), whole or not at all.
+/// Writes all of `bytes` to `path` ("-": standard output), whole or not at all, in place of the file,
+/// link or pipe that is there: a link is never written through. A device is written to.
 /// \throw IoError
 void write_file(const std::string& path, std::string_view bytes);
+
+/// The same under a name that the user gave: links are followed and pipes written to. \throw IoError
+void write_named_file(const std::string& path, std::string_view bytes);
 
 /// Binary little-endian PLY of a map: x y z, quality (float), red green blue, triangles.
 /// \param double_precision positions as double instead of float.

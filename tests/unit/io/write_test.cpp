@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <png.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "vantage/core/error.h"
@@ -50,11 +51,33 @@ TEST(WriteFile, ReplacesAFileAndLeavesNothingElse) {
   EXPECT_THAT(names_in(folder.path()), ElementsAre("a.txt"));
 }
 
-TEST(WriteFile, WritesThroughALink) {
+TEST(WriteFile, ReplacesALinkAndAPipe) {
   const TemporaryFolder folder;
   write_file(folder.file("target"), "old");
   std::filesystem::create_symlink("target", folder.file("link"));
-  write_file(folder.file("link"), "new");
+  ASSERT_EQ(::mkfifo(folder.file("pipe").c_str(), 0600), 0);
+  for (const char* const name : {"link", "pipe"}) {
+    write_file(folder.file(name), "new");
+    EXPECT_TRUE(
+        std::filesystem::is_regular_file(std::filesystem::symlink_status(folder.file(name))));
+  }
+  EXPECT_EQ(read_file(folder.file("target")), "old");
+}
+
+TEST(WriteFile, TakesTheLongestNameThereIs) {
+  const TemporaryFolder folder;
+  const std::string name(255, 'n');
+  write_file(folder.file(name), "old");
+  write_file(folder.file(name), "new");
+  EXPECT_EQ(read_file(folder.file(name)), "new");
+  EXPECT_THAT(names_in(folder.path()), ElementsAre(name));
+}
+
+TEST(WriteNamedFile, WritesThroughALink) {
+  const TemporaryFolder folder;
+  write_file(folder.file("target"), "old");
+  std::filesystem::create_symlink("target", folder.file("link"));
+  write_named_file(folder.file("link"), "new");
   EXPECT_TRUE(std::filesystem::is_symlink(folder.file("link")));
   EXPECT_EQ(read_file(folder.file("target")), "new");
 }
@@ -63,6 +86,7 @@ TEST(WriteFile, DoesNotWriteThroughALinkLaidUnderItsTemporaryName) {
   const TemporaryFolder folder;
   write_file(folder.file("victim"), "kept");
   const std::string temporary = ".a.txt.part." + std::to_string(::getpid());
+  write_file(folder.file("a.txt"), "old");  // what has no name yet needs no temporary one
   std::filesystem::create_symlink("victim", folder.file(temporary));
   write_file(folder.file("a.txt"), "new");
   EXPECT_EQ(read_file(folder.file("victim")), "kept");
@@ -135,7 +159,8 @@ CurveGraph two_sticks() {
 }
 
 TEST(SkeletonFiles, ObjCountsFromOne) {
-  EXPECT_EQ(skeleton_obj(two_sticks()), "v 0 0 0\nv 1 0.5 0\nv 2 0 1e-09\nl 1 2\nl 2 3\n");
+  EXPECT_EQ(skeleton_obj(two_sticks()),
+            "# written by vantage\nv 0 0 0\nv 1 0.5 0\nv 2 0 1e-09\nl 1 2\nl 2 3\n");
 }
 
 TEST(SkeletonFiles, PlyDeclaresEdges) {

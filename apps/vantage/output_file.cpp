@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "output_file.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <span>
+#include <system_error>
+
+#include "vantage/core/error.h"
+#include "vantage/io/write.h"
+
+namespace vantage::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 2> kPictures{".png", ".webp"};
+constexpr std::array<std::string_view, 4> kShapes{".json", ".swc", ".graphml", ".npy"};
+/// How tables of ours begin. Other CSV files may be directions, eyes or choices of people.
+constexpr std::array<std::string_view, 8> kTableHeads{
+    "method,dx,dy,dz,score\n",      "method,x,y,z,score\n", "method,model,mean_deg,",
+    "map,model,correlation,",       "goal,step,level,",     "model,vertices,faces,",
+    "| model | vertices | faces |", "Made by vantage "};
+/// In PLY and OBJ files, which are models too.
+constexpr std::string_view kMark = " written by vantage\n";
+
+bool is_only_written(const fs::path& path, OutputKind kind) {
+  const std::span<const std::string_view> extensions =
+      kind == OutputKind::Picture ? std::span<const std::string_view>(kPictures)
+      : kind == OutputKind::Shape ? std::span<const std::string_view>(kShapes)
+                                  : std::span<const std::string_view>();
+  return std::find(extensions.begin(), extensions.end(), path.extension().string()) !=
+         extensions.end();
+}
+
+bool is_ours(std::string_view head, OutputKind kind) {
+  if (kind == OutputKind::Picture) {
+    return head.starts_with("\x89PNG\r\n") ||
+           (head.starts_with("RIFF") && head.substr(8).starts_with("WEBP"));
+  }
+  if (kind == OutputKind::Shape) {
+    return head.find(kMark) != std::string_view::npos;
+  }
+  return std::any_of(kTableHeads.begin(), kTableHeads.end(),
+                     [&](std::string_view known) { return head.starts_with(known); });
+}
+
+/// The first bytes of a regular file; nothing if there is none.
+std::optional<std::string> head_of(const fs::path& path) {
+  constexpr std::size_t kHead = 128;
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) {
+    return std::nullopt;
+  }
+  std::string head(kHead, '\0');
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(stream.gcount()));
+  return head;
+}
+
+}  // namespace
+
+void add_force_flag(CLI::App& app, CommonFlags& flags) {
+  app.add_flag("--force", flags.force, "replace files that were not written by vantage too")
+      ->configurable(false)
+      ->group("Common");
+}
+
+void check_output(const std::string& path, OutputKind kind, const CommonFlags& flags) {
+  if (path == "-" || flags.force || is_only_written(path, kind)) {
+    return;
+  }
+  const std::optional<std::string> head = head_of(path);
+  if (head && !head->empty() && !is_ours(*head, kind)) {
+    throw IoError(path,
+                  "is there already, and vantage did not write it; choose another name, or say "
+                  "--force to replace it");
+  }
+}
+
+void check_result(const std::string& path, OutputKind kind, const CommonFlags& flags) {
+  std::error_code error;
+  if (!fs::is_symlink(path, error)) {
+    check_output(path, kind, flags);
+  }
+}
+
+void check_levels(const std::string& folder, const CommonFlags& flags) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator();
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with("level-") && name.ends_with(".ply")) {
+      check_result(entry->path().string(), OutputKind::Shape, flags);
+    }
+  }
+}
+
+void write_output(const std::string& path, std::string_view bytes) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (path == "-" || (fs::exists(status) && !fs::is_regular_file(status))) {
+    const Abandonable abandonable;
+    write_named_file(path, bytes);
+  } else {
+    write_named_file(path, bytes);
+  }
+}
+
+}  // namespace vantage::cli

