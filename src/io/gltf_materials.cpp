@@ -100,7 +100,7 @@ std::optional<std::string_view> view_bytes(const Json& root, const Json& index,
   if (!buffer.is_number_unsigned() || buffer.get<std::size_t>() >= document.buffers.size()) {
     return std::nullopt;
   }
-  const std::string_view bytes = document.buffers[buffer.get<std::size_t>()];
+  const std::string_view bytes = *document.buffers[buffer.get<std::size_t>()];
   const Json& offset = member(view, "byteOffset");
   const Json& length = member(view, "byteLength");
   const std::size_t from = offset.is_number_unsigned() ? offset.get<std::size_t>() : 0;
