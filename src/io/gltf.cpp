@@ -68,8 +68,8 @@ class SceneReader {
                     std::to_string(shapeless_primitives_));
     }
     if (untextured_primitives_ > 0) {
-      builder_.note("primitives whose texture coordinates are not in the file: " +
-                    std::to_string(untextured_primitives_));
+      builder_.note("texture coordinates of a primitive left out: they are not in the file (" +
+                    std::to_string(untextured_primitives_) + " of such)");
     }
     if (skipped_primitives_ > 0) {
       builder_.note("primitives of points or lines left out: " +

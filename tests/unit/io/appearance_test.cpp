@@ -236,7 +236,7 @@ TEST(ObjLibraries, AreReadOnceHoweverOftenTheyAreNamed) {
                                   },
                                   kAll};
   const Model model = parse_obj(
-      "mtllib a.mtl\nmtllib ./a.mtl\nmtllib a.mtl\nmtllib a.mtl ././a.mtl\nv 0 0 0\nv 1 0 0\n"
+      "mtllib a.mtl\nmtllib ./a.mtl\nmtllib a.mtl\nmtllib .//./a.mtl\nv 0 0 0\nv 1 0 0\n"
       "v 1 1 0\nusemtl m\nf 1 2 3\n",
       "a.obj", {}, surroundings);
   EXPECT_EQ(model.appearance.materials.size(), 1U);
