@@ -19,7 +19,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const vantage::RunContext run;
   const vantage::ModelBuilder builder(vantage::ModelFormat::Threemf, "fuzz.3mf", run, 0);
   try {
-    vantage::ThreemfPartReader reader("fuzz.model", builder);
+    std::size_t records_left = 100'000;
+    const std::string name = "fuzz.model";
+    vantage::ThreemfPartReader reader(name, builder, records_left);
     const std::size_t half = size / 2;
     reader.add(bytes.substr(0, half));
     reader.add(bytes.substr(half));

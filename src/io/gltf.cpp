@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,12 +50,26 @@ class SceneReader {
   }
 
   void read() {
-    std::vector<Visit> pending;
-    add_visits(root_nodes(), Transform::Identity(), 1, pending);
-    while (!pending.empty()) {
-      const Visit visit = pending.back();
-      pending.pop_back();
-      read_node(visit, pending);
+    const std::vector<int> roots = root_nodes();
+    std::vector<Level> levels;
+    levels.push_back({roots, Transform::Identity()});
+    while (!levels.empty()) {
+      Level& level = levels.back();
+      if (level.next == level.nodes.size()) {
+        levels.pop_back();
+        continue;
+      }
+      const int node = level.nodes[level.next++];
+      const Transform parent = level.parent;  // its place moves as levels are added
+      read_node(node, parent, levels);
+    }
+    if (shapeless_primitives_ > 0) {
+      builder_.note("primitives without positions left out: " +
+                    std::to_string(shapeless_primitives_));
+    }
+    if (untextured_primitives_ > 0) {
+      builder_.note("texture coordinates of a primitive left out: they are not in the file (" +
+                    std::to_string(untextured_primitives_) + " of such)");
     }
     if (skipped_primitives_ > 0) {
       builder_.note("primitives of points or lines left out: " +
@@ -63,21 +78,13 @@ class SceneReader {
   }
 
  private:
-  struct Visit {
-    int node;
+  /// Nodes side by side, and which of them is next. A stack of these is no deeper than the file has
+  /// nodes, however often they name each other.
+  struct Level {
+    std::span<const int> nodes;
     Transform parent;
-    std::size_t depth;
+    std::size_t next = 0;
   };
-
-  /// Puts nodes on the stack, the first on top.
-  static void add_visits(const std::vector<int>& nodes, const Transform& parent, std::size_t depth,
-                         std::vector<Visit>& pending) {
-    const auto first = static_cast<std::ptrdiff_t>(pending.size());
-    for (const int node : nodes) {
-      pending.push_back({node, parent, depth});
-    }
-    std::reverse(pending.begin() + first, pending.end());
-  }
 
   /// The default scene, else the first, else every node that is nobody's child.
   std::vector<int> root_nodes() {
@@ -112,12 +119,12 @@ class SceneReader {
     return roots;
   }
 
-  void read_node(const Visit& visit, std::vector<Visit>& pending) {
-    const auto n = static_cast<std::size_t>(visit.node);
-    if (visit.node < 0 || n >= gltf_.nodes.size()) {
-      builder_.fail("node " + std::to_string(visit.node) + " does not exist");
+  void read_node(int index, const Transform& parent, std::vector<Level>& levels) {
+    const auto n = static_cast<std::size_t>(index);
+    if (index < 0 || n >= gltf_.nodes.size()) {
+      builder_.fail("node " + std::to_string(index) + " does not exist");
     }
-    if (visit.depth > gltf_.nodes.size()) {
+    if (levels.size() > gltf_.nodes.size()) {
       builder_.fail("node " + std::to_string(n) + " is its own ancestor");
     }
     if (visits_left_-- == 0) {
@@ -126,7 +133,7 @@ class SceneReader {
           "to the file");
     }
     const tinygltf::Node& node = gltf_.nodes[n];
-    const Transform world = visit.parent * local_transform(node, n);
+    const Transform world = parent * local_transform(node, n);
     if (!world.allFinite()) {
       builder_.fail("the transform of node " + std::to_string(n) + " is not finite");
     }
@@ -135,10 +142,12 @@ class SceneReader {
         builder_.fail("node " + std::to_string(n) + " shows a mesh that does not exist");
       }
       const tinygltf::Mesh& mesh = gltf_.meshes[static_cast<std::size_t>(node.mesh)];
-      builder_.begin_part(node.name.empty() ? mesh.name : node.name);
+      const std::string& name = node.name.empty() ? mesh.name : node.name;
+      spend(name.size());
+      builder_.begin_part(name);
       read_mesh(mesh, world);
     }
-    add_visits(node.children, world, visit.depth + 1, pending);
+    levels.push_back({node.children, world});
   }
 
   Transform local_transform(const tinygltf::Node& node, std::size_t n) const {
@@ -172,6 +181,7 @@ class SceneReader {
   }
 
   void read_mesh(const tinygltf::Mesh& mesh, const Transform& world) {
+    spend(mesh.primitives.size());
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
       const bool is_surface = primitive.mode >= TINYGLTF_MODE_TRIANGLES;
       const bool is_cloud = primitive.mode == TINYGLTF_MODE_POINTS && !has_triangles_;
@@ -197,7 +207,7 @@ class SceneReader {
   void read_primitive(const tinygltf::Primitive& primitive, const Transform& world) {
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) {
-      builder_.note("a primitive without positions was left out");
+      ++shapeless_primitives_;
       return;
     }
     const GltfAccessor points(document_, position->second, budget_, builder_);
@@ -269,7 +279,7 @@ class SceneReader {
           values[i] = {uvs.value(i, 0), uvs.value(i, 1)};
         }
       } catch (const FormatError&) {  // the shape is sound without them
-        builder_.note("texture coordinates of a primitive left out: they are not in the file");
+        ++untextured_primitives_;
       }
     }
     for (const auto& [u, v] : values) {
@@ -354,6 +364,8 @@ class SceneReader {
   bool has_triangles_ = false;
   bool has_colours_ = false;
   std::size_t skipped_primitives_ = 0;
+  std::size_t shapeless_primitives_ = 0;
+  std::size_t untextured_primitives_ = 0;
 };
 
 }  // namespace

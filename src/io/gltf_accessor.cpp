@@ -127,7 +127,7 @@ GltfAccessor::Run GltfAccessor::view(const GltfDocument& document, std::int64_t 
   if (entry.buffer < 0 || static_cast<std::size_t>(entry.buffer) >= document.buffers.size()) {
     fail("lies in a buffer that does not exist");
   }
-  const std::string& buffer = document.buffers[static_cast<std::size_t>(entry.buffer)];
+  const std::string& buffer = *document.buffers[static_cast<std::size_t>(entry.buffer)];
   if (entry.byteOffset > buffer.size() || entry.byteLength > buffer.size() - entry.byteOffset) {
     fail("lies in a buffer view that reaches beyond its buffer");
   }

@@ -181,7 +181,7 @@ class Unpacker {
     if (!buffer || !offset || !length || *buffer >= document_.buffers.size()) {
       fail(who, "does not say where its packed bytes are");
     }
-    const std::string_view bytes = document_.buffers[*buffer];
+    const std::string_view bytes = *document_.buffers[*buffer];
     if (*offset > bytes.size() || *length > bytes.size() - *offset) {
       fail(who, "has packed bytes that reach beyond their buffer");
     }
@@ -211,7 +211,7 @@ class Unpacker {
     view.byteLength = out.size();
     view.byteOffset = 0;
     view.buffer = static_cast<int>(document_.buffers.size());
-    document_.buffers.push_back(std::move(out));
+    document_.buffers.push_back(std::make_shared<const std::string>(std::move(out)));
   }
 
   void unpack_primitive(tinygltf::Primitive& primitive, const Json& json) {
@@ -287,7 +287,7 @@ class Unpacker {
     accessor.byteOffset = 0;
     accessor.count = elements;
     accessor.sparse.isSparse = false;
-    document_.buffers.push_back(std::move(bytes));
+    document_.buffers.push_back(std::make_shared<const std::string>(std::move(bytes)));
     gltf_.bufferViews.push_back(view);
     gltf_.accessors.push_back(std::move(accessor));
     return static_cast<int>(gltf_.accessors.size()) - 1;

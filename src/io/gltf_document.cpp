@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
+#include <set>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -153,15 +155,19 @@ void check_version(const Json& root, const ModelBuilder& builder) {
   }
 }
 
-std::string read_buffer(const Json& buffer, std::size_t index, const Chunks& chunks,
+SharedBytes shared(std::string bytes) {
+  return std::make_shared<const std::string>(std::move(bytes));
+}
+
+SharedBytes read_buffer(const Json& buffer, std::size_t index, const Chunks& chunks,
                         const BufferSource& source, const ModelBuilder& builder) {
   const std::string label = "buffer " + std::to_string(index);
   if (is_fallback_buffer(buffer)) {
-    return {};
+    return shared({});
   }
   const auto entry = buffer.is_object() ? buffer.find("uri") : buffer.end();
   if (!buffer.is_object() || entry == buffer.end()) {
-    return index == 0 && chunks.has_binary ? std::string(chunks.binary) : std::string();
+    return shared(index == 0 && chunks.has_binary ? std::string(chunks.binary) : std::string());
   }
   if (!entry->is_string()) {
     builder.fail("the URI of " + label + " is not text");
@@ -172,7 +178,7 @@ std::string read_buffer(const Json& buffer, std::size_t index, const Chunks& chu
     if (!data) {
       builder.fail("the data URI of " + label + " is not well formed base64");
     }
-    return std::move(*data);
+    return shared(std::move(*data));
   }
   const std::optional<std::string> path = relative_path_of_uri(uri);
   if (!path) {
@@ -185,6 +191,21 @@ std::string read_buffer(const Json& buffer, std::size_t index, const Chunks& chu
                  ", which cannot be found without the model's folder; name the model by its path");
   }
   return source(*path);
+}
+
+/// Reads the buffers. Those that are one file share its bytes, which count once.
+void read_buffers(const Json& root, const Chunks& chunks, const BufferSource& source,
+                  const ModelBuilder& builder, GltfDocument& document) {
+  const auto list = root.find("buffers");
+  if (list == root.end() || !list->is_array()) {
+    return;
+  }
+  std::set<const std::string*> known;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    document.buffers.push_back(read_buffer((*list)[i], i, chunks, source, builder));
+    const SharedBytes& bytes = document.buffers.back();
+    document.total_bytes += known.insert(bytes.get()).second ? bytes->size() : 0;
+  }
 }
 
 /// Leaves their extensions out, but not which of them each one is.
@@ -269,12 +290,7 @@ GltfDocument read_gltf_document(std::string_view bytes, const Surroundings& surr
   document.base_colours = gltf_base_colours(root);
   document.texcoord_sets = gltf_texcoord_sets(root);
   document.total_bytes = bytes.size();
-  if (const auto list = root.find("buffers"); list != root.end() && list->is_array()) {
-    for (std::size_t i = 0; i < list->size(); ++i) {
-      document.buffers.push_back(read_buffer((*list)[i], i, chunks, surroundings.buffers, builder));
-      document.total_bytes += document.buffers.back().size();
-    }
-  }
+  read_buffers(root, chunks, surroundings.buffers, builder, document);
   unpack_gltf(root, document, builder);
   if (builder.keeps_appearance()) {
     read_gltf_materials(root, document, surroundings, builder);

@@ -17,12 +17,12 @@ namespace vantage {
 /// A glTF file: its structure as tinygltf reads it, and its buffers as we read them.
 struct GltfDocument {
   tinygltf::Model structure{};         ///< Scenes, nodes, meshes, accessors, buffer views.
-  std::vector<std::string> buffers{};  ///< All bytes of each buffer.
+  std::vector<SharedBytes> buffers{};  ///< All bytes of each buffer; none is null.
   /// Of each material, linear, in [0, 1].
   std::vector<std::array<double, 3>> base_colours{};
   /// Which TEXCOORD_n the colour texture of each material uses.
   std::vector<int> texcoord_sets{};
-  std::size_t total_bytes = 0;     ///< Of the file and its buffers.
+  std::size_t total_bytes = 0;     ///< Of the file and its buffers, each counted once.
   std::size_t unpacked_bytes = 0;  ///< Of what was packed in them.
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "io/gltf_uri.h"
@@ -100,7 +101,7 @@ std::optional<std::string_view> view_bytes(const Json& root, const Json& index,
   if (!buffer.is_number_unsigned() || buffer.get<std::size_t>() >= document.buffers.size()) {
     return std::nullopt;
   }
-  const std::string_view bytes = document.buffers[buffer.get<std::size_t>()];
+  const std::string_view bytes = *document.buffers[buffer.get<std::size_t>()];
   const Json& offset = member(view, "byteOffset");
   const Json& length = member(view, "byteLength");
   const std::size_t from = offset.is_number_unsigned() ? offset.get<std::size_t>() : 0;
@@ -185,7 +186,14 @@ class MaterialReader {
         loader_.complain(label, "is not in the file");
         return std::nullopt;
       }
-      return loader_.embedded(*bytes, label);
+      if (useless_.count(bytes->data()) > 0) {
+        return std::nullopt;
+      }
+      std::optional<Image> image_there = loader_.embedded(*bytes, label);
+      if (!image_there) {
+        useless_.insert(bytes->data());
+      }
+      return image_there;
     }
     const auto& text = uri.get_ref<const std::string&>();
     if (text.substr(0, 5) == "data:") {
@@ -209,6 +217,7 @@ class MaterialReader {
   TextureLoader loader_;
   std::vector<Texture> textures_{};
   std::map<std::size_t, std::optional<std::uint32_t>> known_{};
+  std::set<const char*> useless_{};  ///< Where bytes of buffers begin that gave no picture.
 };
 
 }  // namespace

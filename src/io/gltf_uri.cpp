@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cstdint>
+#include <filesystem>
 
 namespace vantage {
 namespace {
@@ -95,7 +96,7 @@ std::optional<std::string> relative_path_of_uri(std::string_view uri) {
       path->find('\\') != std::string::npos || path->find('\0') != std::string::npos) {
     return std::nullopt;
   }
-  return path;
+  return std::filesystem::path(*path).lexically_normal().string();
 }
 
 }  // namespace vantage

@@ -91,12 +91,14 @@ DecodedPicture decode_jpeg(std::string_view bytes, std::size_t most_pixels, int 
     if (!problem.empty()) {
       result.problem = std::move(problem);
     } else {
+      result.pixels = std::size_t{jpeg.image_width} * jpeg.image_height;
       Image image;
       image.width = static_cast<int>(jpeg.output_width);
       image.height = static_cast<int>(jpeg.output_height);
       image.rgba.resize(std::size_t{4} * jpeg.output_width * jpeg.output_height);
       if (read_rows(&jpeg, &errors, image.rgba.data())) {
-        result = {std::move(image), {}};
+        result.image = std::move(image);
+        result.problem.clear();
       }
     }
   }

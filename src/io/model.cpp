@@ -3,6 +3,8 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <new>
 #include <system_error>
 
@@ -62,8 +64,12 @@ fs::path place_beside(const std::string& model_path, const std::string& relative
   return inside.empty() || *inside.begin() == ".." ? fs::path() : wanted;
 }
 
-/// Reads the buffer `relative` below the folder of `model_path`.
-std::string read_beside(const std::string& model_path, const std::string& relative) {
+/// Buffers that were read, by where they are.
+using KnownBuffers = std::map<fs::path, SharedBytes>;
+
+/// The buffer `relative` below the folder of `model_path`; a file is read once.
+SharedBytes read_beside(const std::string& model_path, const std::string& relative,
+                        KnownBuffers& known) {
   std::error_code error;
   const fs::path wanted = place_beside(model_path, relative, error);
   if (error) {
@@ -74,7 +80,11 @@ std::string read_beside(const std::string& model_path, const std::string& relati
     throw FormatError(model_path, "",
                       "names the buffer " + relative + ", which lies outside the model's folder");
   }
-  return read_file(wanted.string());
+  SharedBytes& bytes = known[wanted];
+  if (!bytes) {
+    bytes = std::make_shared<const std::string>(read_file(wanted.string()));
+  }
+  return bytes;
 }
 
 /// The same for a file that the model can do without.
@@ -107,8 +117,9 @@ Model load_model(const std::string& path, const RunContext& run, const ReadOptio
     if (path == "-") {
       return parse_with(bytes, "standard input", run, {{}, {}, options});
     }
+    KnownBuffers known;
     const Surroundings surroundings{
-        [&path](const std::string& relative) { return read_beside(path, relative); },
+        [&](const std::string& relative) { return read_beside(path, relative, known); },
         [&path](const std::string& relative) { return side_file(path, relative); }, options};
     return parse_with(bytes, path, run, surroundings);
   } catch (const std::bad_alloc&) {

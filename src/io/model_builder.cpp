@@ -8,8 +8,7 @@
 #include <utility>
 
 #include "vantage/core/error.h"
-#include "vantage/io/write.h"
-#include "vantage/mesh/measures.h"
+#include "vantage/mesh/extent.h"
 #include "vantage/mesh/polygon.h"
 
 namespace vantage {
@@ -43,7 +42,7 @@ void ModelBuilder::add_point(const Vec3& point, Place place) {
     fail(place, "a coordinate is not a finite number");
   }
   if (point.cwiseAbs().maxCoeff() > kLargestCoordinate) {
-    fail(place, "a coordinate is beyond 1e100; rescale the model");
+    fail(place, "a coordinate is beyond 1e60; rescale the model");
   }
   if (point_count() == kMostVertices) {
     fail(place, "more than 4294967294 vertices");
@@ -164,10 +163,8 @@ void ModelBuilder::check_indices() const {
 }
 
 void ModelBuilder::check_extent() const {
-  const double extent = bounding_box(model_.mesh.positions).longest_side();
-  if (extent > 0.0 && extent < kSmallestExtent) {
-    fail("the whole model is only " + number_text(extent) +
-         " across, too small to compute with; rescale it");
+  if (const std::string problem = extent_problem(model_.mesh.positions); !problem.empty()) {
+    fail("the model " + problem);
   }
 }
 

@@ -13,11 +13,6 @@
 
 namespace vantage {
 
-/// Largest magnitude of a coordinate that is read: squares and products of three stay finite.
-inline constexpr double kLargestCoordinate = 1e100;
-/// Smallest extent of a model that is read: squares of it stay normal numbers.
-inline constexpr double kSmallestExtent = 1e-100;
-
 /// Collects what a reader finds, checks it, and makes the Model. Memory grows with what was added,
 /// never with what a header declares.
 class ModelBuilder {
@@ -89,8 +84,8 @@ class ModelBuilder {
   [[noreturn]] void fail(Place place, std::string_view problem) const;
   [[noreturn]] void fail(std::string_view problem) const;
 
-  /// The finished model. \throw FormatError if a face names a vertex that is not there, if the
-  /// extent is too small to compute with, or if there are neither faces nor points.
+  /// The finished model. \throw FormatError if a face names a vertex that is not there, if nothing can
+  /// be computed with the extent (extent_problem()), or if there are neither faces nor points.
   Model finish();
 
  private:

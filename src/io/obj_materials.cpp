@@ -36,7 +36,7 @@ std::optional<std::string> inside_folder(const std::string& path) {
 }  // namespace
 
 void ObjMaterials::add_library(std::string_view names) {
-  if (!names.empty()) {
+  if (!names.empty() && known_libraries_.emplace(names).second) {
     libraries_.emplace_back(names);
   }
 }
@@ -51,12 +51,22 @@ bool ObjMaterials::read_library(std::string_view name) {
   if (!path || !surroundings_.side_files) {
     return false;
   }
-  const SideFile file = surroundings_.side_files(*path);
+  const auto known = library_is_read_.find(*path);
+  if (known != library_is_read_.end()) {
+    return known->second;
+  }
+  const bool is_read = read_materials(*path);
+  library_is_read_[*path] = is_read;
+  return is_read;
+}
+
+bool ObjMaterials::read_materials(const std::string& path) {
+  const SideFile file = surroundings_.side_files(path);
   if (!file.bytes) {
     return false;
   }
+  const std::string folder = folder_of(path);
   for (auto& [material, look] : parse_mtl(*file.bytes)) {
-    const std::string folder = folder_of(*path);
     look.picture = look.picture.empty() ? "" : folder + with_slashes(look.picture);
     look.mask = look.mask.empty() ? "" : folder + with_slashes(look.mask);
     materials_.try_emplace(material, look);
@@ -108,6 +118,7 @@ Material ObjMaterials::material(const MtlMaterial& source) {
 }
 
 void ObjMaterials::finish() {
+  std::size_t left_out = 0;
   for (const std::string& names : libraries_) {
     bool found = read_library(names);
     std::string_view rest = names;
@@ -115,10 +126,14 @@ void ObjMaterials::finish() {
          name = take_token(rest)) {
       found = read_library(name) || found;
     }
-    if (!found) {
+    if (!found && left_out++ < kMostTextureNotes) {
       builder_.note("the material library " + in_quotes(names) +
                     " was left out: it cannot be read in the model's folder");
     }
+  }
+  if (left_out > kMostTextureNotes) {
+    builder_.note("more material libraries were left out: " +
+                  std::to_string(left_out - kMostTextureNotes));
   }
   std::vector<Material> materials(index_of_name_.size());
   std::size_t unknown = 0;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,13 +37,16 @@ class ObjMaterials {
 
  private:
   [[nodiscard]] bool read_library(std::string_view name);
+  [[nodiscard]] bool read_materials(const std::string& path);
   Material material(const MtlMaterial& source);
   std::optional<std::uint32_t> texture(const MtlMaterial& source);
 
   const Surroundings& surroundings_;
   ModelBuilder& builder_;
   TextureLoader loader_;
-  std::vector<std::string> libraries_{};
+  std::vector<std::string> libraries_{};                  ///< As named, each once, in order.
+  std::set<std::string, std::less<>> known_libraries_{};  ///< The same.
+  std::map<std::string, bool> library_is_read_{};         ///< Of each path that was tried.
   std::map<std::string, MtlMaterial, std::less<>> materials_{};
   std::map<std::string, std::uint32_t, std::less<>> index_of_name_{};
   std::map<std::string, std::optional<std::uint32_t>> known_pictures_{};

@@ -47,11 +47,12 @@ DecodedPicture decode_png(std::string_view bytes, std::size_t most_pixels) {
     return {std::nullopt, std::move(problem)};
   }
   png.format = PNG_FORMAT_RGBA;
+  const std::size_t pixels = std::size_t{png.width} * png.height;
   Image image = blank(png.width, png.height);
   if (png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr) == 0) {
-    return {std::nullopt, std::string("is not a sound PNG: ") + png.message};
+    return {std::nullopt, std::string("is not a sound PNG: ") + png.message, pixels};
   }
-  return {std::move(image), {}};
+  return {std::move(image), {}, pixels};
 }
 
 DecodedPicture decode_webp(std::string_view bytes, std::size_t most_pixels) {
@@ -69,9 +70,9 @@ DecodedPicture decode_webp(std::string_view bytes, std::size_t most_pixels) {
   Image image = blank(columns, rows);
   if (WebPDecodeRGBAInto(data, bytes.size(), image.rgba.data(), image.rgba.size(), 4 * width) ==
       nullptr) {
-    return {std::nullopt, "is not a sound WebP"};
+    return {std::nullopt, "is not a sound WebP", columns * rows};
   }
-  return {std::move(image), {}};
+  return {std::move(image), {}, columns * rows};
 }
 
 DecodedPicture decode_picture(std::string_view bytes, std::size_t most_pixels, int wanted_side) {

@@ -22,7 +22,8 @@ inline constexpr std::size_t kMostPicturePixels = std::size_t{1} << 26U;
 /// A picture, or why there is none.
 struct DecodedPicture {
   std::optional<Image> image{};
-  std::string problem{};  ///< Continues "the picture …"; empty if there is an image.
+  std::string problem{};   ///< Continues "the picture …"; empty if there is an image.
+  std::size_t pixels = 0;  ///< That were decoded, or may have been before the problem was met.
 };
 
 /// Reads a picture. Nothing is allocated before its declared size is within the limits and

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "io/number_parsing.h"
@@ -52,6 +53,7 @@ constexpr std::array<RoleName, 12> kVertexRoles = {{{"x", PlyRole::X},
                                                     {"diffuse_green", PlyRole::Green},
                                                     {"diffuse_blue", PlyRole::Blue}}};
 
+/// What a property of this name is for.
 PlyRole role_of(const PlyElement& element, const PlyProperty& property) {
   PlyRole role = PlyRole::Other;
   if (element.kind == PlyElement::Kind::Vertex && !property.is_list) {
@@ -64,9 +66,7 @@ PlyRole role_of(const PlyElement& element, const PlyProperty& property) {
              (property.name == "vertex_indices" || property.name == "vertex_index")) {
     role = PlyRole::Indices;
   }
-  const bool taken = std::any_of(element.properties.begin(), element.properties.end(),
-                                 [&](const PlyProperty& earlier) { return earlier.role == role; });
-  return taken ? PlyRole::Other : role;  // the first of its kind counts
+  return role;
 }
 
 class HeaderReader {
@@ -144,6 +144,7 @@ class HeaderReader {
       element.kind = PlyElement::Kind::Strips;
     }
     header_.elements.push_back(std::move(element));
+    roles_.clear();
   }
 
   void read_property(std::string_view rest) {
@@ -164,6 +165,9 @@ class HeaderReader {
       builder_.fail(cursor_.place(), "a property has no name");
     }
     property.role = role_of(element, property);
+    if (!roles_.insert(property.role).second) {
+      property.role = PlyRole::Other;  // the first of its kind counts
+    }
     element.properties.push_back(std::move(property));
   }
 
@@ -214,6 +218,7 @@ class HeaderReader {
   TextCursor cursor_;
   const ModelBuilder& builder_;
   PlyHeader header_{};
+  std::set<PlyRole> roles_{};  ///< Of the last element's properties.
   bool has_format_ = false;
   bool has_vertices_ = false;
 };

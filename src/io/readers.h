@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,8 +15,11 @@
 
 namespace vantage {
 
+/// Bytes of a buffer; names of one file share them.
+using SharedBytes = std::shared_ptr<const std::string>;
+
 /// Gives the bytes of an external buffer named by a relative path, or throws IoError.
-using BufferSource = std::function<std::string(const std::string& relative_path)>;
+using BufferSource = std::function<SharedBytes(const std::string& relative_path)>;
 
 /// A file beside the model that it can do without: its bytes, or why there are none.
 struct SideFile {

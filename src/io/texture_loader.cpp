@@ -10,8 +10,10 @@
 namespace vantage {
 
 std::optional<Image> TextureLoader::embedded(std::string_view bytes, const std::string& label) {
-  DecodedPicture picture = decode_picture(bytes, std::min(pixels_left_, kMostPicturePixels),
-                                          surroundings_.options.texture_side);
+  DecodedPicture picture =
+      decode_picture(bytes, std::min({pixels_left_, decoded_left_, kMostPicturePixels}),
+                     surroundings_.options.texture_side);
+  decoded_left_ -= std::min(picture.pixels, decoded_left_);
   if (!picture.image) {
     complain(label, picture.problem);
     return std::nullopt;
@@ -26,12 +28,20 @@ std::optional<Image> TextureLoader::beside(const std::string& path) {
     complain(label, "cannot be found without the model's folder; name the model by its path");
     return std::nullopt;
   }
-  const SideFile file = surroundings_.side_files(path);
-  if (!file.bytes) {
-    complain(label, file.problem);
+  if (useless_.count(path) > 0) {
     return std::nullopt;
   }
-  return embedded(*file.bytes, label);
+  const SideFile file = surroundings_.side_files(path);
+  std::optional<Image> image;
+  if (file.bytes) {
+    image = embedded(*file.bytes, label);
+  } else {
+    complain(label, file.problem);
+  }
+  if (!image) {
+    useless_.insert(path);
+  }
+  return image;
 }
 
 void TextureLoader::complain(const std::string& label, const std::string& problem) {

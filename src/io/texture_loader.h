@@ -3,8 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +18,9 @@ namespace vantage {
 
 /// Most pixels of all pictures of a model together. [ours]: 512 MB, eight textures of 4096 × 4096.
 inline constexpr std::size_t kMostTexturePixels = std::size_t{1} << 27U;
+/// Most pixels that are decoded for them: pictures that turn out to be damaged count, and JPEGs of
+/// which only an eighth is kept count whole. [ours]: some seconds.
+inline constexpr std::size_t kMostDecodedPixels = 4 * kMostTexturePixels;
 /// Most notes about pictures of one model; more are counted.
 inline constexpr std::size_t kMostTextureNotes = 5;
 
@@ -31,8 +34,12 @@ class TextureLoader {
   /// Decodes a picture that the file itself holds. \param label how a note calls it.
   std::optional<Image> embedded(std::string_view bytes, const std::string& label);
 
-  /// Reads and decodes a file beside the model, named by a path as relative_path_of_uri() gives it.
+  /// Reads and decodes a file beside the model, named by a path as relative_path_of_uri() gives it. One
+  /// that gave no picture is not tried again.
   std::optional<Image> beside(const std::string& path);
+
+  /// Pixels that may still be decoded.
+  [[nodiscard]] std::size_t decoded_left() const { return decoded_left_; }
 
   /// A note about a picture that cannot be had.
   void complain(const std::string& label, const std::string& problem);
@@ -44,6 +51,8 @@ class TextureLoader {
   const Surroundings& surroundings_;
   ModelBuilder& builder_;
   std::size_t pixels_left_ = kMostTexturePixels;
+  std::size_t decoded_left_ = kMostDecodedPixels;
+  std::set<std::string> useless_{};  ///< Files that gave no picture.
   std::size_t complaints_ = 0;
 };
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -26,10 +29,13 @@ constexpr const char* kUsualRoot = "3d/3dmodel.model";
 constexpr std::size_t kMostPerByte = 64;
 /// … and this many in any case; objects may be visited as often. [ours]
 constexpr std::size_t kMostInSmallFile = 1'000'000;
+/// Objects, items, components and colours that may be read, and one for each byte of the file: each is
+/// kept, and takes more than its text. [ours]
+constexpr std::size_t kMostRecordsOfSmallFile = 100'000;
 /// Larger relationships are none. [ours]
 constexpr std::size_t kLargestRelationships = 1'000'000;
 
-using Parts = std::map<std::string, ThreemfPart>;
+using Parts = std::map<std::string, ThreemfPart, std::less<>>;
 
 /// The name of the part to begin with.
 std::string root_of(std::string_view bytes, const ModelBuilder& builder) {
@@ -63,18 +69,17 @@ Parts read_parts(std::string_view bytes, const std::string& root, ModelBuilder& 
   Parts parts;
   std::string name;
   std::optional<ThreemfPartReader> reader;
-  std::size_t done = 0;
+  std::size_t records_left = kMostRecordsOfSmallFile + bytes.size();
   const PartSink sink{[&](const std::string& part) {
                         name = part;
                         const bool is_wanted = part == root || part.ends_with(".model");
                         if (is_wanted) {
-                          reader.emplace(part, builder);
+                          reader.emplace(part, builder, records_left);
                         }
                         return is_wanted;
                       },
                       [&](std::string_view piece) {
                         reader->add(piece);
-                        done += piece.size();
                         builder.advance(0, 1);
                       },
                       [&] { parts[name] = reader->finish(); }};
@@ -100,19 +105,26 @@ class PlateReader {
 
   void read(const std::string& root) {
     const ThreemfPart& part = parts_.at(root);
-    std::vector<Visit> pending;
-    add_visits(part.items, root, Eigen::Affine3d::Identity(), 1, pending);
+    std::vector<ThreemfUse> each;
     if (part.items.empty()) {
       builder_.note("nothing is to be built: each object of the file is shown once");
       for (const auto& [id, object] : part.objects) {
-        pending.push_back({root, id, Eigen::Affine3d::Identity(), 1});
+        each.push_back({{}, id, unmoved()});
       }
-      std::reverse(pending.begin(), pending.end());
     }
-    while (!pending.empty()) {
-      const Visit visit = std::move(pending.back());
-      pending.pop_back();
-      read_object(visit, pending);
+    std::vector<Level> levels;
+    levels.push_back({part.items.empty() ? each : part.items, root, Eigen::Affine3d::Identity()});
+    while (!levels.empty()) {
+      Level& level = levels.back();
+      if (level.next == level.uses.size()) {
+        levels.pop_back();
+        continue;
+      }
+      const ThreemfUse& use = level.uses[level.next++];
+      Eigen::Affine3d inner = Eigen::Affine3d::Identity();
+      inner.affine() = use.transform.transpose();
+      const Visit visit{use.part.empty() ? level.part : use.part, use.object, level.outer * inner};
+      read_object(visit, levels);
     }
     if (left_out_ > 0) {
       builder_.note("objects that only support others left out: " + std::to_string(left_out_));
@@ -132,25 +144,20 @@ class PlateReader {
   }
 
  private:
-  struct Visit {
-    std::string part;
-    std::uint32_t object;
-    Eigen::Affine3d transform;
-    std::size_t depth;
+  /// Objects shown together, and which of them is next. A stack of these is no deeper than the file has
+  /// objects, however often they show each other.
+  struct Level {
+    std::span<const ThreemfUse> uses;
+    std::string_view part;
+    Eigen::Affine3d outer;
+    std::size_t next = 0;
   };
 
-  /// Puts uses on the stack, the first on top.
-  static void add_visits(const std::vector<ThreemfUse>& uses, const std::string& part,
-                         const Eigen::Affine3d& outer, std::size_t depth,
-                         std::vector<Visit>& pending) {
-    const auto first = static_cast<std::ptrdiff_t>(pending.size());
-    for (const ThreemfUse& use : uses) {
-      Eigen::Affine3d inner = Eigen::Affine3d::Identity();
-      inner.affine() = use.transform.transpose();
-      pending.push_back({use.part.empty() ? part : use.part, use.object, outer * inner, depth});
-    }
-    std::reverse(pending.begin() + first, pending.end());
-  }
+  struct Visit {
+    std::string_view part;
+    std::uint32_t object;
+    Eigen::Affine3d transform;
+  };
 
   void spend(std::size_t amount) {
     if (amount > budget_) {
@@ -172,9 +179,9 @@ class PlateReader {
     return object->second;
   }
 
-  void read_object(const Visit& visit, std::vector<Visit>& pending) {
+  void read_object(const Visit& visit, std::vector<Level>& levels) {
     const ThreemfObject& object = object_of(visit);
-    if (visit.depth > objects_) {
+    if (levels.size() > objects_) {
       builder_.fail("object " + std::to_string(visit.object) + " is a component of itself");
     }
     if (visits_left_-- == 0) {
@@ -185,14 +192,14 @@ class PlateReader {
       return;
     }
     add_mesh(object, visit);
-    add_visits(object.components, visit.part, visit.transform, visit.depth + 1, pending);
+    levels.push_back({object.components, visit.part, visit.transform});
   }
 
   void add_mesh(const ThreemfObject& object, const Visit& visit) {
     if (object.points.empty()) {
       return;
     }
-    spend(object.points.size() + object.triangles.size() * 3);
+    spend(object.points.size() + object.triangles.size() * 3 + object.name.size());
     builder_.begin_part(object.name);
     const std::size_t first = builder_.point_count();
     for (const Vec3& point : object.points) {
@@ -205,8 +212,9 @@ class PlateReader {
       const auto& [a, b, c] = object.triangles[t];
       if (builder_.keeps_appearance()) {
         const std::uint32_t material = object.materials[t];
-        builder_.begin_material(
-            material == Appearance::kNone ? material : material + first_material_.at(visit.part));
+        builder_.begin_material(material == Appearance::kNone
+                                    ? material
+                                    : material + first_material_.find(visit.part)->second);
       }
       builder_.add_triangle(first + a, first + (is_mirrored ? c : b), first + (is_mirrored ? b : c),
                             {"vertex", first});
@@ -219,7 +227,7 @@ class PlateReader {
   std::size_t visits_left_;
   std::size_t objects_ = 0;
   std::size_t left_out_ = 0;
-  std::map<std::string, std::uint32_t> first_material_{};
+  std::map<std::string, std::uint32_t, std::less<>> first_material_{};
 };
 
 }  // namespace

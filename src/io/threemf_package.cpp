@@ -8,6 +8,7 @@
 #include <archive.h>
 #include <archive_entry.h>
 
+#include "io/archive_locale.h"
 #include "io/number_parsing.h"
 
 namespace vantage {
@@ -84,6 +85,7 @@ std::string part_name(std::string_view name) {
 }
 
 void read_package(std::string_view bytes, const PartSink& sink, const ModelBuilder& builder) {
+  const ArchiveLocale names_beyond_ascii;
   const Reader reader(archive_read_new());
   archive* const a = reader.get();
   archive_read_support_format_zip(a);

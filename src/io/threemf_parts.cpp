@@ -10,6 +10,7 @@
 #include <expat.h>
 
 #include "vantage/core/error.h"
+#include "vantage/mesh/extent.h"
 
 #include "core/srgb.h"
 #include "io/number_parsing.h"
@@ -91,8 +92,11 @@ using Parser = std::unique_ptr<XML_ParserStruct, FreeParser>;
 /// thrown again outside.
 class ThreemfPartReader::State {
  public:
-  State(const std::string& name, const ModelBuilder& builder)
-      : name_(name), builder_(builder), parser_(XML_ParserCreateNS(nullptr, kBetween)) {
+  State(const std::string& name, const ModelBuilder& builder, std::size_t& records_left)
+      : name_(name),
+        builder_(builder),
+        records_left_(records_left),
+        parser_(XML_ParserCreateNS(nullptr, kBetween)) {
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(parser_.get(), &on_start, &on_end);
     XML_SetStartDoctypeDeclHandler(parser_.get(), &on_document_type);
@@ -107,6 +111,12 @@ class ThreemfPartReader::State {
     if (status != XML_STATUS_OK) {
       fail(std::string("is not well-formed XML: ") +
            XML_ErrorString(XML_GetErrorCode(parser_.get())));
+    }
+    // expat keeps what is not whole yet, and begins it anew with each piece.
+    added_ += static_cast<XML_Index>(piece.size());
+    if (added_ - XML_GetCurrentByteIndex(parser_.get()) >
+        static_cast<XML_Index>(kLongestThreemfElement + piece.size())) {
+      fail("an element is longer than any of a 3D model");
     }
   }
 
@@ -151,7 +161,18 @@ class ThreemfPartReader::State {
                       problem);
   }
 
+  /// Takes room for something that is kept.
+  void spend() {
+    if (records_left_ == 0) {
+      fail("more objects, items and colours than the size of the file allows");
+    }
+    --records_left_;
+  }
+
   void start(std::string_view element, const Attributes& attributes) {
+    if (++depth_ > kDeepestThreemfElement) {
+      fail("its elements are nested deeper than any of a 3D model");
+    }
     if (element == "vertex") {
       add_vertex(attributes);
     } else if (element == "triangle") {
@@ -173,6 +194,7 @@ class ThreemfPartReader::State {
   }
 
   void end(std::string_view element) {
+    --depth_;
     if (element == "object") {
       object_ = nullptr;
     }
@@ -181,8 +203,10 @@ class ThreemfPartReader::State {
   void add_colour(std::string_view element, const Attributes& attributes) {
     if (element == "basematerials" || element == "colorgroup") {
       const auto id = attributes.index("id");
+      spend();
       group_ = id ? &groups_[*id] : nullptr;
     } else if ((element == "base" || element == "color") && group_ != nullptr) {
+      spend();
       group_->push_back(static_cast<std::uint32_t>(part_.materials.size()));
       part_.materials.push_back(
           material_of(attributes.text(element == "base" ? "displaycolor" : "color").value_or("")));
@@ -194,6 +218,7 @@ class ThreemfPartReader::State {
     if (!id) {
       fail("an object has no id");
     }
+    spend();
     const auto [place, is_new] = part_.objects.try_emplace(*id);
     if (!is_new) {
       fail("two objects have the id " + std::to_string(*id));
@@ -221,7 +246,7 @@ class ThreemfPartReader::State {
     const std::string_view token = trimmed(*text);
     const std::optional<double> value = number_from(token);
     if (!value || !(std::abs(*value) <= kLargestCoordinate)) {
-      fail(value ? "a coordinate is not finite, or beyond 1e100" : number_problem(token));
+      fail(value ? "a coordinate is not finite, or beyond 1e60" : number_problem(token));
     }
     part_.needs_double = part_.needs_double || needs_double(token, *value);
     return *value;
@@ -258,7 +283,8 @@ class ThreemfPartReader::State {
                                         : object_material_);
   }
 
-  ThreemfUse use(const Attributes& attributes) const {
+  ThreemfUse use(const Attributes& attributes) {
+    spend();
     const auto object = attributes.index("objectid");
     if (!object) {
       fail("something is shown that has no objectid");
@@ -266,7 +292,7 @@ class ThreemfPartReader::State {
     ThreemfUse use;
     use.object = *object;
     use.part = part_name(attributes.text("path").value_or(""));
-    use.transform << 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0;
+    use.transform = unmoved();
     if (const auto text = attributes.text("transform")) {
       TextCursor numbers(*text);
       for (Eigen::Index i = 0; i < use.transform.size(); ++i) {
@@ -282,7 +308,10 @@ class ThreemfPartReader::State {
 
   const std::string name_;
   const ModelBuilder& builder_;
+  std::size_t& records_left_;
   Parser parser_;
+  XML_Index added_ = 0;  ///< Bytes of the part.
+  int depth_ = 0;
   std::exception_ptr failure_{};
   ThreemfPart part_{};
   ThreemfObject* object_ = nullptr;  ///< Being read; a map keeps its place.
@@ -292,8 +321,9 @@ class ThreemfPartReader::State {
   std::uint32_t object_material_ = Appearance::kNone;
 };
 
-ThreemfPartReader::ThreemfPartReader(const std::string& name, const ModelBuilder& builder)
-    : state_(std::make_unique<State>(name, builder)) {}
+ThreemfPartReader::ThreemfPartReader(const std::string& name, const ModelBuilder& builder,
+                                     std::size_t& records_left)
+    : state_(std::make_unique<State>(name, builder, records_left)) {}
 
 ThreemfPartReader::~ThreemfPartReader() = default;
 

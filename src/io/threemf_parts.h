@@ -21,6 +21,12 @@ namespace vantage {
 /// Rows as 3MF writes them: a point is a row in front of it, the last row shifts.
 using ThreemfTransform = Eigen::Matrix<double, 4, 3>;
 
+/// The transform that leaves everything where it is.
+inline ThreemfTransform unmoved() {
+  return (ThreemfTransform() << 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
+      .finished();
+}
+
 /// An object shown somewhere.
 struct ThreemfUse {
   std::string part{};  ///< Of the package; empty: the one that says so.
@@ -47,12 +53,19 @@ struct ThreemfPart {
   bool needs_double = false;          ///< Coordinates say more than a float holds.
 };
 
+/// Elements may be nested this deep: the format needs six levels. [ours]
+inline constexpr int kDeepestThreemfElement = 64;
+/// Bytes that an element with its attributes, or a comment, may have: names are the longest. [ours]
+inline constexpr std::size_t kLongestThreemfElement = 1'000'000;
+
 /// Reads a part of the type 3D model, piece by piece. A document type, and with it every entity, is
 /// refused.
 class ThreemfPartReader {
  public:
-  /// \param name of the part, for messages. Both must outlive this.
-  ThreemfPartReader(const std::string& name, const ModelBuilder& builder);
+  /// \param name of the part, for messages. \param records_left objects, uses of them and colours that
+  /// may still be read; counts down. All must outlive this.
+  ThreemfPartReader(const std::string& name, const ModelBuilder& builder,
+                    std::size_t& records_left);
   ~ThreemfPartReader();
   ThreemfPartReader(const ThreemfPartReader&) = delete;
   ThreemfPartReader& operator=(const ThreemfPartReader&) = delete;

@@ -14,8 +14,15 @@ constexpr std::uint32_t kWhole = 0xffffffffu;  // an edge that is not split
 /// Lengths closer than this are equal, relatively: rounding must not decide how a symmetric shape is
 /// split.
 constexpr double kTie = 1e-9;
-/// Each round halves the longest edges: enough for edges of any finite length over D.
+/// Each round halves the longest edges, up to rounding: enough for edges of any finite length over D.
 constexpr int kMostRounds = 40;
+
+/// Whether both halves of an edge are clearly shorter than it is. Where its ends are but a few steps of
+/// rounding apart they need not be, and splitting would never end.
+bool shortens(const Vec3& a, const Vec3& middle, const Vec3& b) {
+  const double most = 0.75 * (a - b).norm();
+  return (a - middle).norm() <= most && (middle - b).norm() <= most;
+}
 
 /// Middle vertex of each edge that is too long, or kWhole; appends the middles to `mesh`.
 std::vector<std::uint32_t> add_middles(TriMesh& mesh, const EdgeTable& table,
@@ -27,9 +34,10 @@ std::vector<std::uint32_t> add_middles(TriMesh& mesh, const EdgeTable& table,
     const auto faces = table.faces_of_edge[e];
     const bool wanted =
         std::any_of(faces.begin(), faces.end(), [&](std::uint32_t f) { return chosen[f]; });
-    if (wanted && (a - b).norm() > (1.0 + kTie) * longest) {
+    const Vec3 m = 0.5 * (a + b);
+    if (wanted && (a - b).norm() > (1.0 + kTie) * longest && shortens(a, m, b)) {
       middle[e] = static_cast<std::uint32_t>(mesh.positions.size());
-      mesh.positions.push_back(0.5 * (a + b));
+      mesh.positions.push_back(m);
     }
   }
   return middle;

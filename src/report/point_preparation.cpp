@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "vantage/mesh/extent.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 #include "vantage/mesh/weld.h"
@@ -40,6 +41,7 @@ std::vector<Triangle> join(const std::vector<Vec3>& points,
 
 ShapeAnalysis prepare_points(const Model& model, const RunContext& run) {
   WeldedMesh welded = weld(model.mesh, run);
+  check_extent(welded.mesh.positions, model.name);
   ShapeAnalysis shape;
   shape.cloud.emplace();
   std::vector<std::uint8_t>& outlier = shape.cloud->outlier;
@@ -57,6 +59,7 @@ ShapeAnalysis prepare_points(const Model& model, const RunContext& run) {
   shape.sides = {FaceSides::Both};
   shape.check.vertices = n;
   shape.check.components = connected_components(shape.surface).count;
+  list_coarse_coordinates(shape.surface.positions, shape.warnings);
   if (welded.merged_vertices > 0) {
     shape.warnings.push_back(std::to_string(welded.merged_vertices) +
                              " point(s) welded to an earlier one at the same position");

@@ -1,9 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+#include <string>
+#include <vector>
+
 #include "vantage/report/view_report.h"
 
 namespace vantage {
+
+/// \throw InvalidInput if nothing can be computed with points so large, small or far away.
+void check_extent(std::span<const Vec3> points, const std::string& name);
+
+/// Warns of coordinates that hold few places across the points.
+void list_coarse_coordinates(std::span<const Vec3> points, std::vector<std::string>& warnings);
 
 /// prepare_surface() for a model without faces: welds, finds outliers, and joins the points by the
 /// triangles that their local Delaunay rings hold. Lists everything left out in `warnings`.

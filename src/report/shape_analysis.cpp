@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "vantage/mesh/extent.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/weld.h"
 #include "vantage/report/focus.h"
@@ -63,19 +64,37 @@ void list_repairs(const WeldedMesh& welded, const OrientedMesh& oriented, const 
 
 }  // namespace
 
+void check_extent(std::span<const Vec3> points, const std::string& name) {
+  if (const std::string problem = extent_problem(points); !problem.empty()) {
+    throw InvalidInput(name + ": the model " + problem);
+  }
+}
+
+void list_coarse_coordinates(std::span<const Vec3> points, std::vector<std::string>& warnings) {
+  constexpr double kManySteps = 1e6;  // as single precision has across a model at the origin [ours]
+  if (steps_across(points) < kManySteps) {
+    warnings.emplace_back(
+        "the model is so far from the origin that its coordinates are coarse: move it nearer and "
+        "write it again");
+  }
+}
+
 ShapeAnalysis prepare_surface(const Model& model, const RunContext& run) {
   if (model.mesh.triangles.empty()) {
     return prepare_points(model, run);
   }
   WeldedMesh welded = weld(model.mesh, run);
+  const std::vector<Vec3> points = referenced_points(welded.mesh);
+  check_extent(points, model.name);
   ShapeAnalysis shape;
   OrientedMesh oriented;
   run_both(
       run, [&] { oriented = orient_shells(welded.mesh, run); },
       [&] { shape.check = check_mesh(welded.mesh, run); });
   list_repairs(welded, oriented, shape.check, shape.warnings);
+  list_coarse_coordinates(points, shape.warnings);
   run.check();
-  shape.sphere = enclosing_sphere(referenced_points(welded.mesh));
+  shape.sphere = enclosing_sphere(points);
   if (welded.mesh.triangles.empty() || !(shape.sphere.diameter > 0.0)) {
     throw InvalidInput(
         model.name +

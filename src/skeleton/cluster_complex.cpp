@@ -86,6 +86,12 @@ const Link* ClusterComplex::find(std::uint32_t cluster, std::uint32_t neighbour)
 }
 
 bool ClusterComplex::has_face(std::uint32_t cluster, std::uint32_t x, std::uint32_t y) const {
+  // Looked for at the corner of fewest faces: others may have thousands.
+  for (std::uint32_t* corner : {&x, &y}) {
+    if (faces_of_[*corner].size() < faces_of_[cluster].size()) {
+      std::swap(*corner, cluster);
+    }
+  }
   return std::any_of(faces_of_[cluster].begin(), faces_of_[cluster].end(), [&](std::uint32_t f) {
     const auto [p, q] = others(faces_[f], cluster);
     return (p == x && q == y) || (p == y && q == x);

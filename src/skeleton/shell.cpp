@@ -164,9 +164,10 @@ std::array<int, 2> Shell::cell_of(const Vec3& p) const {
   for (int a = 0; a < 2; ++a) {
     const int axis = (up_ + 1 + a) % 3;
     const double place = std::floor((p[axis] - low_[axis]) / cell_size_);
-    const int last = cells_.at(static_cast<std::size_t>(a)) - 1;
+    const auto last = static_cast<double>(cells_.at(static_cast<std::size_t>(a)) - 1);
+    // A place that is not a number counts to the first cell.
     cell.at(static_cast<std::size_t>(a)) =
-        static_cast<int>(std::clamp(place, 0.0, static_cast<double>(last)));
+        place > 0.0 ? static_cast<int>(std::min(place, last)) : 0;
   }
   return cell;
 }

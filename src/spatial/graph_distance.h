@@ -21,19 +21,25 @@ class GraphDistance {
   [[nodiscard]] double operator()(const Vec3& point) const;
 
  private:
-  /// A box of the tree: inner nodes have two children, leaves a run of segments.
+  /// A box of the tree: inner nodes have two children, leaves a run of pieces.
   struct Box {
     Vec3 low;
     Vec3 high;
-    std::uint32_t
-        first;  ///< Leaf: first segment. Inner: index of the left child; right follows it.
-    std::uint32_t count;  ///< Leaf: segments. Inner: 0.
+    std::uint32_t first;  ///< Leaf: first piece. Inner: index of the left child; right follows it.
+    std::uint32_t count;  ///< Leaf: pieces. Inner: 0.
   };
 
+  /// A segment, or a part of a long one: long segments have large boxes, that leave nothing out.
+  struct Piece {
+    std::array<Vec3, 2> part;
+    std::array<Vec3, 2> segment;  ///< Whole, to which distances are measured.
+  };
+
+  void cut_long_segments();
   void build(std::uint32_t box, std::uint32_t begin, std::uint32_t end);
   [[nodiscard]] double leaf_distance_squared(const Box& box, const Vec3& point) const;
 
-  std::vector<std::array<Vec3, 2>> segments_{};
+  std::vector<Piece> pieces_{};
   std::vector<Box> boxes_{};
 };
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -54,15 +55,15 @@ int sense(const Triangle& face, const std::array<std::uint32_t, 2>& edge) {
 /// Whether the faces of each set that meet at the edge run as often one way as the other.
 bool balanced(std::span<const std::uint32_t> faces_at_edge, const std::vector<Triangle>& faces,
               const std::array<std::uint32_t, 2>& edge, DisjointSets& sets) {
-  return std::all_of(faces_at_edge.begin(), faces_at_edge.end(), [&](std::uint32_t f) {
-    int sum = 0;
-    for (const std::uint32_t other : faces_at_edge) {
-      if (sets.root(other) == sets.root(f)) {
-        sum += sense(faces[other], edge);
-      }
-    }
-    return sum == 0;
-  });
+  if (faces_at_edge.size() == 2 && sets.root(faces_at_edge[0]) == sets.root(faces_at_edge[1])) {
+    return sense(faces[faces_at_edge[0]], edge) + sense(faces[faces_at_edge[1]], edge) == 0;
+  }
+  std::map<std::uint32_t, int> sum_of_set;
+  for (const std::uint32_t f : faces_at_edge) {
+    sum_of_set[sets.root(f)] += sense(faces[f], edge);
+  }
+  return std::all_of(sum_of_set.begin(), sum_of_set.end(),
+                     [](const auto& sum) { return sum.second == 0; });
 }
 
 /// Joins faces across edges of two; across edges of more only if their shells need each other to

@@ -68,6 +68,21 @@ class Limits(ProgramTest):
             self.assertLess((self.dir / "m.gltf").stat().st_size, 70_000)
             self.vantage("info", "m.gltf", "--max-memory", "200MB", exit_code=exit_code)
 
+    def test_a_file_that_thousands_of_buffers_name_is_read_once(self):
+        self.write("two.bin", TRIANGLE + bytes(2_000_000))
+        scene = json.loads(gltf("two.bin"))
+        scene["buffers"] = [{"byteLength": 36, "uri": "./" * (i % 3) + "two.bin"} for i in range(2000)]
+        self.write("m.gltf", json.dumps(scene))
+        self.vantage("info", "m.gltf", "--max-memory", "200MB")
+
+    def test_nested_elements_and_empty_items_of_a_small_3mf_take_little_memory(self):
+        for resources, items in (("<a>" * 8_000_000 + "</a>" * 8_000_000, ""), ("", '<item objectid="1"/>' * 2_000_000)):
+            with zipfile.ZipFile(self.dir / "m.3mf", "w", zipfile.ZIP_DEFLATED) as archive:
+                archive.writestr("3D/3dmodel.model", f"<model><resources>{resources}</resources><build>{items}</build></model>")
+            self.assertLess((self.dir / "m.3mf").stat().st_size, 100_000)
+            done = self.vantage("info", "m.3mf", "--max-memory", "150MB", exit_code=3)
+            self.assertRegex(done.err, "nested deeper|than the size of the file allows")
+
     def test_a_run_that_takes_longer_than_allowed_ends_in_one_sentence_and_leaves_nothing(self):
         done = self.vantage("view", MODELS / "mannequin.ply", "-o", "out", "--search", "exhaustive", "--subdivisions",
                             "5", "--timeout", "0.5", exit_code=1)

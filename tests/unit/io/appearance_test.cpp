@@ -10,6 +10,9 @@
 #include "vantage/io/write.h"
 
 #include "io/base64.h"
+#include "io/model_builder.h"
+#include "io/readers.h"
+#include "io/texture_loader.h"
 #include "unit/io/temporary_folder.h"
 
 namespace vantage::test {
@@ -132,6 +135,38 @@ TEST(GltfAppearance, CoordinatesThatLeaveTheFileAreANote) {
   EXPECT_THAT(model.appearance.uvs.at(3), ElementsAre(0.0F, 0.0F));
 }
 
+TEST(GltfAppearance, TriesAPictureThatIsNoneOnce) {
+  const TemporaryFolder folder;
+  write_file(folder.file("no.png"), "\x89PNG and no more");
+  std::string materials;
+  std::string textures;
+  std::string images;
+  for (int i = 0; i < 60; ++i) {
+    const std::string comma = i == 0 ? "" : ",";
+    materials += comma + R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":)" +
+                 std::to_string(i) + "}}}";
+    textures += comma + R"({"source":)" + std::to_string(i) + "}";
+    images += comma + R"({"uri":")" + (i % 2 == 0 ? "./" : "") + "no.png\"}";
+  }
+  write_file(folder.file("a.gltf"),
+             gltf(materials, R"(,"textures":[)" + textures + R"(],"images":[)" + images + "]"));
+  const Model model = load_model(folder.file("a.gltf"), {}, kAll);
+  EXPECT_THAT(model.notes, ElementsAre(HasSubstr("'no.png' was left out")));
+}
+
+TEST(TextureLoader, CountsThePixelsOfDamagedPicturesToo) {
+  constexpr int kSide = 64;
+  constexpr std::size_t kPixels = std::size_t{kSide} * kSide;
+  std::string damaged = png_bytes(Image{kSide, kSide, std::vector<std::uint8_t>(4 * kPixels, 255)});
+  damaged[damaged.size() - 20] = static_cast<char>(damaged[damaged.size() - 20] ^ 1);
+  const RunContext run;
+  ModelBuilder builder(ModelFormat::Gltf, "a.gltf", run, 0);
+  const Surroundings none;
+  TextureLoader loader(none, builder);
+  EXPECT_FALSE(loader.embedded(damaged, "one").has_value());
+  EXPECT_EQ(loader.decoded_left(), kMostDecodedPixels - kPixels);
+}
+
 TEST(GltfAppearance, ReadsATextureBesideTheModelButNotThroughALinkOutOfItsFolder) {
   const TemporaryFolder folder;
   const TemporaryFolder elsewhere;
@@ -189,6 +224,33 @@ TEST_F(ObjAppearance, WithoutItsLibraryIsANote) {
   const Model model = loaded("mtllib b.mtl\nusemtl m\nf 1 2 3\n", "");
   EXPECT_THAT(model.appearance.materials, IsEmpty());
   EXPECT_THAT(model.notes, Contains(HasSubstr("the material library 'b.mtl' was left out")));
+}
+
+TEST(ObjLibraries, AreReadOnceHoweverOftenTheyAreNamed) {
+  int reads = 0;
+  const Surroundings surroundings{{},
+                                  [&](const std::string& path) {
+                                    EXPECT_EQ(path, "a.mtl");
+                                    ++reads;
+                                    return SideFile{"newmtl m\nKd 1 0 0\n", {}};
+                                  },
+                                  kAll};
+  const Model model = parse_obj(
+      "mtllib a.mtl\nmtllib ./a.mtl\nmtllib a.mtl\nmtllib .//./a.mtl\nv 0 0 0\nv 1 0 0\n"
+      "v 1 1 0\nusemtl m\nf 1 2 3\n",
+      "a.obj", {}, surroundings);
+  EXPECT_EQ(model.appearance.materials.size(), 1U);
+  EXPECT_EQ(reads, 1);
+}
+
+TEST_F(ObjAppearance, CountsLibrariesThatAreNotThere) {
+  std::string lines;
+  for (int i = 0; i < 12; ++i) {
+    lines += "mtllib no" + std::to_string(i) + ".mtl\n";
+  }
+  const Model model = loaded(lines + "usemtl m\nf 1 2 3\n", "");
+  EXPECT_EQ(model.notes.size(), 6U);
+  EXPECT_THAT(model.notes, Contains(HasSubstr("more material libraries were left out: 7")));
 }
 
 TEST_F(ObjAppearance, DoesNotReadALibraryOutsideItsFolder) {

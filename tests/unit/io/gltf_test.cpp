@@ -229,6 +229,48 @@ TEST(Gltf, RefusesSparseIndicesThatDoNotAscend) {
   EXPECT_THAT(scene.error(), HasSubstr("sparse indices that do not ascend below its length"));
 }
 
+TEST(Gltf, RefusesANodeThatIsItsOwnChildThousandsOfTimesBeforeMemoryEnds) {
+  Scene scene;
+  std::string children = "0";
+  std::string others;
+  for (int i = 0; i < 40'000; ++i) {
+    children += ",0";
+    others += ",{}";
+  }
+  scene.nodes = R"([{"children":[)" + children + "]}" + others + "]";
+  EXPECT_THAT(scene.error(), HasSubstr("is its own ancestor"));
+}
+
+TEST(Gltf, CountsTheNamesOfNodesThatAreShownManyTimes) {
+  Scene scene;
+  std::string children = "1";
+  for (int i = 0; i < 2000; ++i) {
+    children += ",1";
+  }
+  scene.nodes = R"([{"children":[)" + children + R"(]},{"mesh":0,"name":")" +
+                std::string(20'000, 'n') + "\"}]";
+  EXPECT_THAT(scene.error(), HasSubstr("out of proportion"));
+}
+
+TEST(Gltf, CountsPrimitivesWithoutPositionsInOneNote) {
+  Scene scene;
+  scene.primitive += R"(,{"attributes":{}},{"attributes":{}})";
+  EXPECT_THAT(scene.parsed().notes, ElementsAre("primitives without positions left out: 2"));
+}
+
+TEST(Gltf, CountsPrimitivesThatShowNothing) {
+  Scene scene;
+  std::string children = "1";
+  for (int i = 0; i < 10'000; ++i) {
+    children += ",1";
+  }
+  for (int i = 0; i < 4000; ++i) {
+    scene.primitive += R"(,{"attributes":{"POSITION":0},"mode":1})";
+  }
+  scene.nodes = R"([{"children":[)" + children + R"(]},{"mesh":0}])";
+  EXPECT_THAT(scene.error(), HasSubstr("out of proportion"));
+}
+
 TEST(Gltf, RefusesNodesThatAreTheirOwnAncestors) {
   Scene scene;
   scene.nodes = R"([{"children":[1]},{"children":[0],"mesh":0}])";

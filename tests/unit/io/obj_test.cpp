@@ -161,9 +161,15 @@ TEST(Obj, RefusesTooFewOrTooManyNumbersInAVertex) {
 }
 
 TEST(Obj, RefusesCoordinatesWhoseSquaresLeaveTheDoubles) {
-  EXPECT_THAT(error_text("v 1e101 0 0\n", "a.obj"),
-              HasSubstr("line 1: a coordinate is beyond 1e100"));
-  EXPECT_THAT(error_text("v 0 0 0\nv 1e-150 0 0\n", "a.obj"), HasSubstr("only 1e-150 across"));
+  EXPECT_THAT(error_text("v 1e61 0 0\n", "a.obj"),
+              HasSubstr("line 1: a coordinate is beyond 1e60"));
+  EXPECT_THAT(error_text("v 0 0 0\nv 1e-61 0 0\n", "a.obj"), HasSubstr("less than 1e-60 across"));
+}
+
+TEST(Obj, RefusesAModelOfAFewStepsOfItsCoordinates) {
+  EXPECT_THAT(error_text("v 1e15 0 0\nv 1000000000000001 0 0\n", "a.obj"),
+              HasSubstr("only 8 places apart"));
+  EXPECT_EQ(parse_model("v 1e12 0 0\nv 1000000000001 0 0\n", "a.obj").mesh.positions.size(), 2U);
 }
 
 TEST(Obj, RefusesAFileWithNothingInIt) {

@@ -7,6 +7,7 @@
 #include "vantage/io/model.h"
 #include "vantage/mesh/measures.h"
 
+#include "io/archive_locale.h"
 #include "unit/io/error_text.h"
 #include "unit/io/zip_archive.h"
 
@@ -117,6 +118,21 @@ TEST(Threemf, ReadsObjectsOfOtherParts) {
   EXPECT_EQ(plate.parsed().mesh.positions.size(), 4U);
 }
 
+TEST(Threemf, ReadsARootPartWhoseNameIsNotAscii) {
+  std::string relationships = kRelationships;
+  const std::string root = "3D/модель-é.model";
+  relationships.replace(relationships.find("3D/3dmodel.model"), 16, root);
+  const ArchiveLocale names_beyond_ascii;  // that the writer marks them as UTF-8
+  const std::string bytes = zip_archive({{"_rels/.rels", relationships}, {root, Plate().model()}});
+  EXPECT_EQ(parse_model(bytes, "a.3mf").mesh.positions.size(), 4U);
+}
+
+TEST(Threemf, LeavesTheLocaleOfTheThreadAsItWas) {
+  const locale_t before = uselocale(nullptr);
+  static_cast<void>(Plate().parsed());
+  EXPECT_EQ(uselocale(nullptr), before);
+}
+
 TEST(Threemf, KeepsTheFilesUnitAndNamesIt) {
   Plate plate;
   plate.attributes = R"(unit="inch")";
@@ -193,6 +209,64 @@ TEST(ThreemfError, RefusesObjectsThatDoubleAtEveryLevel) {
                        "</components></object>";
   }
   plate.items = R"(<item objectid="59"/>)";
+  EXPECT_THAT(plate.error(), HasSubstr("out of proportion"));
+}
+
+TEST(ThreemfError, RefusesElementsNestedDeeperThanAnyModel) {
+  Plate plate;
+  std::string open;
+  std::string close;
+  for (int depth = 0; depth < 60; ++depth) {
+    open += "<a>";
+    close += "</a>";
+  }
+  plate.resources += open + close;
+  EXPECT_EQ(plate.parsed().mesh.positions.size(), 4U);
+  plate.resources += open + open + close + close;
+  EXPECT_THAT(plate.error(), HasSubstr("nested deeper"));
+}
+
+TEST(ThreemfError, RefusesAnElementThatIsLongerThanAnyOfAModel) {
+  Plate plate;
+  plate.attributes += " a=\"" + std::string(900'000, 'a') + '"';
+  EXPECT_EQ(plate.parsed().mesh.positions.size(), 4U);
+  plate.attributes += " b=\"" + std::string(900'000, 'b') + '"';
+  EXPECT_THAT(plate.error(), HasSubstr("longer than any"));
+}
+
+TEST(ThreemfError, RefusesMoreItemsObjectsAndColoursThanBytes) {
+  const std::string item = R"(<item objectid="1"/>)";
+  const std::string colour = "<base/>";
+  for (const bool items : {true, false}) {
+    Plate plate;
+    std::string many;
+    for (int i = 0; i < 110'000; ++i) {
+      many += items ? item : colour;
+    }
+    (items ? plate.items : plate.resources) +=
+        items ? many : "<basematerials id=\"9\">" + many + "</basematerials>";
+    EXPECT_THAT(plate.error(), HasSubstr("more objects, items and colours"));
+  }
+}
+
+TEST(ThreemfError, RefusesAnObjectThatHoldsItselfThousandsOfTimesBeforeMemoryEnds) {
+  Plate plate;
+  std::string uses;
+  for (int i = 0; i < 40'000; ++i) {
+    uses += R"(<component objectid="2"/>)";
+  }
+  plate.resources += "<object id=\"2\"><components>" + uses + "</components></object>";
+  for (int id = 3; id < 40'000; ++id) {
+    plate.resources += "<object id=\"" + std::to_string(id) + "\"/>";
+  }
+  plate.items = R"(<item objectid="2"/>)";
+  EXPECT_THAT(plate.error(), HasSubstr("component of itself"));
+}
+
+TEST(ThreemfError, CountsTheNamesOfObjectsThatAreShownManyTimes) {
+  Plate plate;
+  plate.resources.replace(plate.resources.find("one"), 3, std::string(900'000, 'n'));
+  plate.items += plate.items + plate.items;
   EXPECT_THAT(plate.error(), HasSubstr("out of proportion"));
 }
 

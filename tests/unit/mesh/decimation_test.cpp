@@ -114,6 +114,17 @@ TEST(SplitLongEdges, KeepsNeighboursOfChosenFacesFitting) {
   EXPECT_EQ(border_edges(split_long_edges(box, chosen, 0.4, {})), 0U);
 }
 
+TEST(SplitLongEdges, EndsWhereMiddlesAreNoPlacesOfTheirOwn) {
+  TriMesh box = test::box(1, 1, 1, 1);
+  for (Vec3& p : box.positions) {
+    p += Vec3::Constant(1e15);  // 8 steps from one double to the next
+  }
+  const TriMesh fine =
+      split_long_edges(box, std::vector<bool>(box.triangles.size(), true), 0.04, {});
+  constexpr std::size_t kPlacesOnTheSides = 6 * 9 * 9;
+  EXPECT_LT(fine.positions.size(), 4 * kPlacesOnTheSides);
+}
+
 TEST(Decimate, DoesNotDependOnTheUnitOfLength) {
   const TriMesh mesh = test::torus(1.0, 0.4, 40, 20);
   const Decimation whole = decimate(mesh, 200, {});

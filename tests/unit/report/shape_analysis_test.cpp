@@ -54,6 +54,28 @@ TEST(PrepareSurface, RefusesPointsOnALine) {
   EXPECT_THROW(prepare_surface(model_of(points)), InvalidInput);
 }
 
+TEST(PrepareSurface, RefusesWhatNothingCanBeComputedWith) {
+  for (const auto& [factor, shift] :
+       std::vector<std::array<double, 2>>{{1e61, 0.0}, {1e-62, 0.0}, {1.0, 1e15}}) {
+    Model model = model_of(test::box(1, 1, 1, 1));
+    Model cloud = model_of({model.mesh.positions, {}});
+    for (Model* m : {&model, &cloud}) {
+      for (Vec3& p : m->mesh.positions) {
+        p = factor * p + Vec3::Constant(shift);
+      }
+      EXPECT_THROW(prepare_surface(*m), InvalidInput) << factor;
+    }
+  }
+}
+
+TEST(PrepareSurface, WarnsOfCoarseCoordinates) {
+  Model model = model_of(test::box(1, 1, 1, 1));
+  for (Vec3& p : model.mesh.positions) {
+    p += Vec3::Constant(1e11);
+  }
+  EXPECT_THAT(prepare_surface(model).warnings, testing::Contains(testing::HasSubstr("coarse")));
+}
+
 TEST(PrepareSurface, RefusesAModelWithoutExtent) {
   TriMesh dot;
   dot.positions.assign(3, Vec3(1.0, 2.0, 3.0));

@@ -250,5 +250,32 @@ TEST(ShellOutsideLength, AgreesWithSolidAnglesAmongSpikes) {
   EXPECT_GE(partly_outside, 20);
 }
 
+TEST(ShellInside, OfPlacesThatAreNoNumbersEnds) {
+  const TriMesh mesh = test::torus(1.0, 0.3, 20, 10);
+  const auto components = one_component(mesh);
+  const Shell shell(mesh, components);
+  const Vec3 nowhere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  const Vec3 far = Vec3::Constant(std::numeric_limits<double>::infinity());
+  for (const Vec3& p : {nowhere, far, Vec3(-far)}) {
+    EXPECT_FALSE(shell.inside(0, p));
+    EXPECT_FALSE(shell.inside(0, Vec3::Zero(), p));
+    static_cast<void>(shell.outside_length(0, p, Vec3::Zero()));
+  }
+}
+
+TEST(ShellInside, OfABoxWhoseAreasHaveNoSquaresEnds) {
+  TriMesh mesh = test::box(1, 2, 3, 3);
+  for (Vec3& p : mesh.positions) {
+    p *= 1e100;
+  }
+  const auto components = one_component(mesh);
+  const Shell shell(mesh, components);
+  const Vec3 middle = bounding_box(mesh.positions).low + 0.5 * bounding_box(mesh.positions).size();
+  EXPECT_TRUE(shell.inside(0, middle));
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    static_cast<void>(shell.wall_at(v));
+  }
+}
+
 }  // namespace
 }  // namespace vantage

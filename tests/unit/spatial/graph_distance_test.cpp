@@ -52,6 +52,12 @@ double worst_error(const CurveGraph& graph, Pcg32& random, int queries) {
   return worst;
 }
 
+TEST(GraphDistance, AgreesWithBruteForceWhereManyLongSegmentsAreCut) {
+  Pcg32 random(11);
+  const CurveGraph graph = random_graph(random, 1000, 3000);
+  EXPECT_LT(worst_error(graph, random, 500), 10.0 * kRounding);
+}
+
 TEST(GraphDistance, AgreesWithBruteForceOnRandomGraphs) {
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U}) {
     Pcg32 random(seed);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/mesh/extent.h"
+
+#include <cmath>
+#include <limits>
+
+#include "vantage/mesh/measures.h"
+
+namespace vantage {
+namespace {
+
+double largest_coordinate(const Box& box) {
+  return box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff();
+}
+
+}  // namespace
+
+double steps_across(std::span<const Vec3> points) {
+  const Box box = bounding_box(points);
+  const double largest = largest_coordinate(box);
+  const double next = std::nextafter(largest, std::numeric_limits<double>::infinity());
+  return box.longest_side() / (next - largest);
+}
+
+std::string extent_problem(std::span<const Vec3> points) {
+  const Box box = bounding_box(points);
+  const double side = box.longest_side();
+  if (largest_coordinate(box) > kLargestCoordinate) {
+    return "has coordinates beyond 1e60; rescale it";
+  }
+  if (side > 0.0 && side < kSmallestExtent) {
+    return "is less than 1e-60 across, too small to compute with; rescale it";
+  }
+  if (side > 0.0 && steps_across(points) < kFewestSteps) {
+    return "is so far from the origin that its coordinates tell only " +
+           std::to_string(static_cast<int>(steps_across(points))) +
+           " places apart across it; move it nearer and write it again";
+  }
+  return {};
+}
+
+}  // namespace vantage
