@@ -24,11 +24,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const fs::path taken = folder.path() / "taken";
   fs::remove(taken);
   // The second entry is passed over, the third cannot be taken: its file is there already.
-  std::istringstream orders("take " + taken.string() + "\nskip\ntake " + taken.string() + "\n");
+  std::istringstream orders("take \"" + taken.string() + "\"\nskip\ntake \"" + taken.string() +
+                            "\"\n");
   std::streambuf* const before = std::cin.rdbuf(orders.rdbuf());
   std::cin.clear();
   const MemoryFile archive(data, size);
-  vantage::batch::unpack_archive(archive.path(), kMost, nobody);
+  vantage::batch::unpack_archive(archive.path(), {.entry_bytes = kMost}, nobody);
   std::cin.rdbuf(before);
   for (const fs::directory_entry& entry : fs::directory_iterator(folder.path())) {
     constexpr std::uint64_t kBlock = 1 << 16;

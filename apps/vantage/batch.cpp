@@ -12,9 +12,11 @@
 #include "vantage/core/version.h"
 #include "vantage/report/view_report.h"
 
+#include "batch/confined_folder.h"
 #include "batch/content_hash.h"
 #include "batch/entry_source.h"
 #include "batch/folder_lock.h"
+#include "batch/folder_owner.h"
 #include "batch/naming.h"
 #include "batch/overview.h"
 #include "batch/results_store.h"
@@ -24,7 +26,7 @@
 #include "batch_slurm.h"
 #include "commands.h"
 #include "method_flags.h"
-#include "output_folder.h"
+#include "standard_output.h"
 #include "terminal.h"
 #include "view_outputs.h"
 #include "view_set_flags.h"
@@ -50,15 +52,14 @@ class ShardSource : public batch::EntrySource {
   std::optional<batch::Entry> next() override {
     while (true) {
       std::optional<batch::Entry> entry = all_->next();
-      if (!entry || (entry->shard ? *entry->shard == shard_.index : shard_.holds(entry->key))) {
+      if (!entry || (entry->shard ? *entry->shard % shard_.count == shard_.index
+                                  : shard_.holds(entry->key))) {
         return entry;
       }
     }
   }
 
-  std::string fetch(const batch::Entry& entry, const std::string& file) override {
-    return all_->fetch(entry, file);
-  }
+  void fetch(batch::Entry& entry, const std::string& file) override { all_->fetch(entry, file); }
 
  private:
   std::unique_ptr<batch::EntrySource> all_;
@@ -180,9 +181,13 @@ struct BatchCommand {
     const std::optional<batch::Shard> part = checked_shard();
     prepare(session, part);
     std::unique_ptr<batch::EntrySource> source = open_source(session);
-    const batch::FolderLock lock(folder, runner.work_name);
+    const batch::ConfinedFolder root(folder);
+    if (!no_overview && !part) {
+      batch::check_overview(root);
+    }
+    const batch::FolderLock lock(root, runner.work_name);
     if (on_slurm) {
-      run_shards(session, *source);
+      run_shards(session, *source, root);
       return;
     }
     std::unique_ptr<batch::ResultBook> book;
@@ -204,11 +209,12 @@ struct BatchCommand {
     const batch::RunnerCounts counts = batch::run_batch(*source, *book, runner, run.stop, report);
     if (auto* const store = dynamic_cast<batch::ResultsStore*>(book.get())) {
       const bool changed = counts.done + counts.failed + counts.duplicates > 0;
-      if (!no_overview && (changed || !fs::exists(fs::path(folder) / "index.html"))) {
-        batch::write_overview(folder, *store, run);
+      if (!no_overview && (changed || !root.exists("index.html"))) {
+        batch::write_overview(root, *store, run);
       }
     }
     summarise(session, counts);
+    finish_standard_output();
     if (counts.failed + counts.skipped_failed > 0) {
       session.exit_code = kSomeFailed;
     }
@@ -258,7 +264,7 @@ struct BatchCommand {
     runner.worker_arguments = {"batch-worker",
                                "--write=" + (kinds.text().empty() ? "json" : kinds.text())};
     append_flags(runner.worker_arguments, method_options);
-    prepare_folder();
+    batch::prepare_folder(folder);
   }
 
   /// Options as they were given.
@@ -275,7 +281,7 @@ struct BatchCommand {
     }
   }
 
-  void run_shards(Session& session, batch::EntrySource& source) {
+  void run_shards(Session& session, batch::EntrySource& source, const batch::ConfinedFolder& root) {
     batch::SlurmRequest& request = slurm.request;
     request.folder = fs::absolute(folder).lexically_normal().string();
     request.cpus = std::max(1, jobs) * runner.threads;
@@ -303,30 +309,17 @@ struct BatchCommand {
                  (record.options == runner.options_hash(entry.up) || record.options.empty()) &&
                  !(runner.retry_failed && record.status == "failed");
         }};
-    run_on_slurm(session, source, store, slurm, plan);
+    run_on_slurm(session, source, store, root, slurm, plan);
     if (!no_overview && !slurm.detach) {
-      batch::write_overview(folder, store, session.run());
+      batch::write_overview(root, store, session.run());
     }
     const batch::StatusCounts counts = store.counts();
     summarise(session,
               {.done = counts.done, .failed = counts.failed, .duplicates = counts.duplicates});
+    finish_standard_output();
     if (counts.failed > 0) {
       session.exit_code = kSomeFailed;
     }
-  }
-
-  /// Refuses a folder with somebody else's files.
-  void prepare_folder() const {
-    std::error_code error;
-    const bool fresh = !fs::exists(folder, error) || fs::is_empty(folder, error);
-    const bool ours = fs::exists(fs::path(folder) / batch::ResultsStore::kFileName, error) ||
-                      fs::exists(fs::path(folder) / "shards", error) ||
-                      fs::exists(batch::work_folder(folder, ""), error);
-    if (!fresh && !ours) {
-      throw IoError(folder,
-                    "holds files that are not results of a batch; choose another folder with -o");
-    }
-    make_folder(folder);
   }
 
   std::unique_ptr<batch::EntrySource> open_source(Session& session) const {
@@ -334,6 +327,7 @@ struct BatchCommand {
       return manifest.empty() ? batch::entries_of_paths(inputs, filter, folder,
                                                         {.entry_bytes = runner.limits.memory_bytes,
                                                          .timeout_s = runner.timeout_s,
+                                                         .attempts = runner.attempts,
                                                          .stop = session.run().stop})
                               : batch::entries_of_manifest(manifest, session.run().stop);
     });

@@ -4,19 +4,16 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <thread>
 #include <vector>
 
 #include "vantage/core/error.h"
 #include "vantage/core/version.h"
-#include "vantage/io/write.h"
 
 #include "batch/shard_log.h"
 #include "batch/shard_merge.h"
 #include "batch/shard_plan.h"
-#include "output_folder.h"
 #include "terminal.h"
 
 namespace vantage::cli {
@@ -35,13 +32,11 @@ constexpr std::uint32_t kMostShards = 1000;
 constexpr std::chrono::milliseconds kFirstLook(500);
 constexpr std::chrono::milliseconds kLaterLook(5000);
 
-std::string plan_path(const std::string& folder) {
-  return folder + "/slurm/plan.jsonl";
-}
-
-std::string job_path(const std::string& folder) {
-  return folder + "/slurm/job";
-}
+// In the batch's folder.
+constexpr const char* kFolder = "slurm";
+constexpr const char* kPlan = "slurm/plan.jsonl";
+constexpr const char* kJob = "slurm/job";
+constexpr const char* kScript = "slurm/shard.sh";
 
 std::uint32_t shard_of(const Entry& entry, std::uint32_t shards) {
   if (entry.shard) {
@@ -58,20 +53,20 @@ std::uint32_t shard_of(const Entry& entry, std::uint32_t shards) {
 /// One collection on its way through Slurm.
 class SlurmRun {
  public:
-  SlurmRun(Session& session, batch::ResultsStore& store, const SlurmFlags& flags,
-           const SlurmBatch& batch)
-      : session_(session), store_(store), flags_(flags), batch_(batch) {}
+  SlurmRun(Session& session, batch::ResultsStore& store, const batch::ConfinedFolder& folder,
+           const SlurmFlags& flags, const SlurmBatch& batch)
+      : session_(session), store_(store), folder_(folder), flags_(flags), batch_(batch) {}
 
   void plan(batch::EntrySource& entries) {
-    make_folder(flags_.request.folder + "/slurm");
-    models_ = batch::write_plan(entries, plan_path(flags_.request.folder));
+    folder_.make_folders(kFolder);
+    models_ = batch::write_plan(entries, folder_, kPlan);
     if (flags_.request.shards == 0) {
       const std::int64_t wanted = (models_ + kModelsPerShard - 1) / kModelsPerShard;
       flags_.request.shards =
           static_cast<std::uint32_t>(std::clamp<std::int64_t>(wanted, 1, kMostShards));
     }
     if (flags_.balance) {
-      batch::balance_plan(plan_path(flags_.request.folder), flags_.request.shards);
+      batch::balance_plan(folder_, kPlan, flags_.request.shards);
     }
   }
 
@@ -82,8 +77,10 @@ class SlurmRun {
       if (shards.empty()) {
         return;
       }
+      remove_links();
+      folder_.write(kScript, batch::slurm_script(flags_.request));
       const std::string job = batch::submit_slurm(flags_.request, shards);
-      write_file(job_path(flags_.request.folder), job + "\n");
+      folder_.write(kJob, job + "\n");
       session_.say("job " + job + ": " + plural(static_cast<std::size_t>(models_), "model") +
                    " in " + plural(shards.size(), "shard"));
       if (flags_.detach) {
@@ -98,13 +95,25 @@ class SlurmRun {
  private:
   /// A job that an earlier parent submitted, and did not live to see the end of.
   void join_earlier_job() {
-    std::ifstream file(job_path(flags_.request.folder));
-    std::string job;
-    if (std::getline(file, job) && !job.empty() && has_tasks(batch::slurm_progress(job))) {
+    constexpr std::size_t kLongestId = 32;
+    const std::string text = folder_.beginning_of(kJob, kLongestId);
+    const std::string job = text.substr(0, text.find('\n'));
+    if (batch::is_job(job) && has_tasks(batch::slurm_progress(job))) {
       session_.say("job " + job + " of an earlier run is still there; waiting for it first");
       await(job);
     } else {
       batch::merge_shards({flags_.request.folder}, store_);
+    }
+  }
+
+  /// Slurm appends to logs through links: what is none of its logs is not left in their place.
+  void remove_links() const {
+    std::error_code error;
+    const fs::directory_iterator files(folder_.path_of(kFolder), error);
+    for (const fs::directory_entry& file : files) {
+      if (file.is_symlink(error)) {
+        folder_.remove(std::string(kFolder) + "/" + file.path().filename().string());
+      }
     }
   }
 
@@ -133,8 +142,7 @@ class SlurmRun {
       throw;
     }
     batch::cancel_slurm(job);  // tasks that are held would stay for ever
-    std::error_code error;
-    fs::remove(job_path(flags_.request.folder), error);
+    folder_.remove(kJob);
     batch::merge_shards({flags_.request.folder}, store_);
   }
 
@@ -145,7 +153,7 @@ class SlurmRun {
 
   template <class Take>
   void for_each_unfinished(Take&& take) {
-    const auto entries = batch::entries_of_manifest(plan_path(flags_.request.folder));
+    const auto entries = batch::entries_of_manifest(folder_.path_of(kPlan));
     while (const std::optional<Entry> entry = entries->next()) {
       if (!has_ended(*entry)) {
         take(*entry);
@@ -186,6 +194,7 @@ class SlurmRun {
 
   Session& session_;
   batch::ResultsStore& store_;
+  const batch::ConfinedFolder& folder_;
   SlurmFlags flags_;
   const SlurmBatch& batch_;
   std::int64_t models_ = 0;
@@ -217,8 +226,9 @@ void SlurmFlags::add_to(CLI::App& app) {
 }
 
 void run_on_slurm(Session& session, batch::EntrySource& entries, batch::ResultsStore& store,
-                  const SlurmFlags& flags, const SlurmBatch& batch) {
-  SlurmRun run(session, store, flags, batch);
+                  const batch::ConfinedFolder& folder, const SlurmFlags& flags,
+                  const SlurmBatch& batch) {
+  SlurmRun run(session, store, folder, flags, batch);
   run.plan(entries);
   run.run();
 }

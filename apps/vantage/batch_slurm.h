@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "batch/confined_folder.h"
 #include "batch/entry_source.h"
 #include "batch/model_record.h"
 #include "batch/results_store.h"
@@ -35,6 +36,7 @@ struct SlurmBatch {
 /// Interrupted, it cancels the job and merges what there is; run again, it joins a job that still
 /// runs. \throw Cancelled, IoError
 void run_on_slurm(Session& session, batch::EntrySource& entries, batch::ResultsStore& store,
-                  const SlurmFlags& flags, const SlurmBatch& batch);
+                  const batch::ConfinedFolder& folder, const SlurmFlags& flags,
+                  const SlurmBatch& batch);
 
 }  // namespace vantage::cli

@@ -136,7 +136,8 @@ struct BatchWorkerCommand {
           {"reason", reason}, {"error", replaced(error, path, key)}, {"peak_bytes", peak_bytes()}};
     };
     try {
-      say(answers, {{"content", batch::content_hash(path)}});
+      const std::string content = batch::content_hash(path);
+      say(answers, {{"content", content}});
       std::string word;
       if (!std::getline(std::cin, word) || word != "go") {
         return nullptr;
@@ -145,6 +146,9 @@ struct BatchWorkerCommand {
       session.flags.threads = order.at("threads").get<int>();
       const RunContext run = session.run();
       Model model = load_model(path, run);
+      if (batch::content_hash(path) != content) {
+        return failed("changed", path + ": was changed while it was read; --retry failed");
+      }
       reading = false;
       model.name = batch::path_of_key(order.at("name").get<std::string>());
       return result_of(order, model, run);
@@ -224,16 +228,17 @@ struct BatchWorkerCommand {
 
 struct BatchUnpackCommand {
   std::string archive{};
-  std::uint64_t entry_bytes = 0;
+  batch::UnpackLimits limits{};
 
   void add_flags(CLI::App& app, Session& /*session*/) {
     app.group("");  // not for people
     app.add_option("ARCHIVE", archive)->required();
-    app.add_option("BYTES", entry_bytes)->required();
+    app.add_option("BYTES", limits.entry_bytes)->required();
+    app.add_option("PASSED", limits.passed)->required();
   }
 
   void run(Session& /*session*/) const {
-    batch::unpack_archive(batch::path_of_key(archive), entry_bytes, STDOUT_FILENO);
+    batch::unpack_archive(batch::path_of_key(archive), limits, STDOUT_FILENO);
   }
 };
 

@@ -8,6 +8,8 @@
 
 #include "vantage/core/error.h"
 
+#include "batch/folder_lock.h"
+#include "batch/folder_owner.h"
 #include "batch/overview.h"
 #include "batch/results_store.h"
 #include "batch/shard_merge.h"
@@ -15,6 +17,8 @@
 #include "method_flags.h"
 #include "results_diff.h"
 #include "results_table.h"
+#include "row_file.h"
+#include "standard_output.h"
 #include "terminal.h"
 
 namespace vantage::cli {
@@ -27,53 +31,10 @@ std::unique_ptr<batch::ResultsStore> open_store(Session& session, const std::str
       [&] { return std::make_unique<batch::ResultsStore>(folder, batch::Database::Mode::Read); });
 }
 
-/// A file that is written row by row and gets its name only when it is whole; "-": standard output.
-class RowFile {
- public:
-  explicit RowFile(const std::string& path) : path_(path), temporary_(path + ".part") {
-    if (path != "-") {
-      std::remove(temporary_.c_str());  // a dead process's, or a link not to be written through
-    }
-    file_ = path == "-" ? stdout : std::fopen(temporary_.c_str(), "wbxe");
-    if (file_ == nullptr) {
-      throw IoError(path, "cannot be created", errno);
-    }
-  }
-
-  RowFile(const RowFile&) = delete;
-  RowFile& operator=(const RowFile&) = delete;
-
-  ~RowFile() {
-    if (file_ != nullptr && file_ != stdout) {
-      std::fclose(file_);
-      std::remove(temporary_.c_str());
-    }
-  }
-
-  void add(const std::string& row) {
-    if (std::fwrite(row.data(), 1, row.size(), file_) != row.size()) {
-      throw IoError(path_, "cannot be written", errno);
-    }
-  }
-
-  void finish() {
-    std::FILE* const file = std::exchange(file_, nullptr);
-    const bool flushed = std::fflush(file) == 0;
-    if (file == stdout) {
-      return;
-    }
-    if (std::fclose(file) != 0 || !flushed || std::rename(temporary_.c_str(), path_.c_str()) != 0) {
-      const int error = errno;
-      std::remove(temporary_.c_str());
-      throw IoError(path_, "cannot be written", error);
-    }
-  }
-
- private:
-  std::string path_;
-  std::string temporary_;
-  std::FILE* file_ = nullptr;
-};
+/// JSON as text; what a foreign store has that is no UTF-8 is replaced.
+std::string text_of(const Json& json, int indent = -1) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
 
 struct ExportCommand {
   std::vector<std::string> folders{};
@@ -119,7 +80,7 @@ struct ExportCommand {
   static std::string csv_row(const batch::Statement& row, std::size_t count) {
     std::vector<std::string> cells;
     for (std::size_t i = 0; i < count; ++i) {
-      cells.push_back(cell_text(row, static_cast<int>(i)));
+      cells.push_back(csv_text(row, static_cast<int>(i)));
     }
     return csv_line(cells);
   }
@@ -138,7 +99,7 @@ struct ExportCommand {
     for (const char* part : {"up", "camera", "best", "worst"}) {
       json[part] = result.is_object() && result.contains(part) ? result[part] : Json(nullptr);
     }
-    return json.dump() + "\n";
+    return text_of(json) + "\n";
   }
 };
 
@@ -190,10 +151,11 @@ struct QueryCommand {
       }
     }
     if (session.flags.json) {
-      std::printf("%s\n", list.dump(2).c_str());
+      std::printf("%s\n", text_of(list, 2).c_str());
     } else {
       print(table);
     }
+    finish_standard_output();
   }
 
  private:
@@ -252,7 +214,7 @@ struct DiffCommand {
     const auto b = open_store(session, after);
     const DiffCounts counts = diff_results(*a, *b, tolerance, [&](const Difference& difference) {
       if (session.flags.json) {
-        std::printf("%s\n", to_json(difference).dump().c_str());
+        std::printf("%s\n", text_of(to_json(difference)).c_str());
       } else {
         session.tell(difference_line(difference));
       }
@@ -260,6 +222,7 @@ struct DiffCommand {
     session.tell(plural(counts.equal, "model") + " alike, " + grouped(counts.changed) +
                  " changed, " + grouped(counts.removed) + " only in A, " + grouped(counts.added) +
                  " only in B");
+    finish_standard_output();
   }
 };
 
@@ -277,12 +240,19 @@ struct MergeCommand {
   }
 
   void run(Session& session) const {
-    batch::ResultsStore store(folders.front(), batch::Database::Mode::Create);
+    batch::prepare_folder(folders.front());
+    const std::string corner = "merge";
+    const batch::ConfinedFolder root(folders.front(), corner);
+    if (!no_overview) {
+      batch::check_overview(root);
+    }
     const RunContext context = session.run();
+    const batch::FolderLock lock(root, corner, context);
+    batch::ResultsStore store(folders.front(), batch::Database::Mode::Create);
     const batch::MergeCounts merged =
         session.reading([&] { return batch::merge_shards(folders, store, context); });
     if (!no_overview) {
-      batch::write_overview(folders.front(), store, context);
+      batch::write_overview(root, store, context);
     }
     summarise(session, merged, store.counts());
   }
@@ -297,7 +267,8 @@ struct MergeCommand {
                  count(counts.done) + " done, " + count(counts.failed) + " failed, " +
                  count(counts.duplicates) + " with the content of another");
     if (merged.torn > 0) {
-      session.say("note: " + plural(merged.torn, "line") + " of the shards' files were no records");
+      session.say("note: " + plural(merged.torn, "line") +
+                  " of shards and stores were no sound records and were left out");
     }
     if (session.flags.json) {
       const Json json = {{"read", merged.seen},
@@ -307,6 +278,7 @@ struct MergeCommand {
                          {"duplicates", counts.duplicates}};
       std::printf("%s\n", json.dump().c_str());
     }
+    finish_standard_output();
   }
 };
 

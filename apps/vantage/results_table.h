@@ -34,6 +34,10 @@ batch::Statement select_rows(batch::ResultsStore& store, const std::vector<std::
 /// A cell's text as exports write it; numbers in the shortest form that reads back the same.
 std::string cell_text(const batch::Statement& row, int column);
 
+/// The same for CSV: a spreadsheet would compute a text that begins with = + - @, a tab or a carriage
+/// return, so an apostrophe is put before it.
+std::string csv_text(const batch::Statement& row, int column);
+
 /// A cell as JSON. \param name of its column.
 nlohmann::ordered_json cell_json(const batch::Statement& row, int column, const std::string& name);
 

@@ -177,8 +177,10 @@ class Archives(BatchTest):
                 info = tarfile.TarInfo(name)
                 info.size = len(content)
                 archive.addfile(info, io.BytesIO(content.encode()))
-        self.batch("m.tar")
-        self.assertEqual(sorted(self.rows()), ["m.tar//../../evil.off", "m.tar//a.off", "m.tar//a.off//2"])
+        self.batch("m.tar", exit_code=4)
+        status = {key: row["status"] for key, row in self.rows().items()}
+        self.assertEqual(status, {"m.tar//../../evil.off": "done", "m.tar//a.off": "done", "m.tar//a.off//2": "done",
+                                  "m.tar//hard.off": "failed", "m.tar//link.off": "failed"})
         self.assertEqual(sorted(p.name for p in self.dir.iterdir()), ["m.tar", "out"])
 
     def test_a_torn_archive_gives_what_can_be_read_and_fails_for_the_rest(self):

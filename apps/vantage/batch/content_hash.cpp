@@ -4,19 +4,23 @@
 #include <array>
 #include <cerrno>
 #include <filesystem>
-#include <optional>
+#include <set>
 #include <vector>
 
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
 #include <sodium.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "vantage/core/error.h"
 
+#include "batch/descriptor.h"
+
 namespace vantage::batch {
 namespace {
 
+namespace fs = std::filesystem;
 using Digest = std::array<unsigned char, crypto_hash_sha256_BYTES>;
 
 constexpr std::size_t kBlock = 1 << 18;
@@ -39,24 +43,34 @@ Digest digest_of(std::string_view text) {
   return digest;
 }
 
-/// Feeds a file to the hash; `copy` receives its bytes as long as they fit.
-void feed(crypto_hash_sha256_state& state, const std::string& path, std::string* copy) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) {
+/// Opens a regular file, and waits for nothing: a pipe or a device might never end.
+Descriptor opened(const std::string& path) {
+  Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+
+  struct stat status {};
+
+  if (file.number() < 0 || ::fstat(file.number(), &status) != 0) {
     throw IoError(path, "cannot be read", errno);
   }
+  if (!S_ISREG(status.st_mode)) {
+    throw IoError(path, "is not a regular file, and no model is read from others");
+  }
+  return file;
+}
+
+/// Feeds a file to the hash; `copy` receives its bytes as long as they fit.
+void feed(crypto_hash_sha256_state& state, const Descriptor& file, const std::string& path,
+          std::string* copy) {
   std::vector<unsigned char> block(kBlock);
   while (true) {
-    const ssize_t got = ::read(file, block.data(), block.size());
+    const ssize_t got = ::read(file.number(), block.data(), block.size());
     if (got < 0 && errno == EINTR) {
       continue;
     }
-    if (got <= 0) {
-      const int error = got < 0 ? errno : 0;
-      ::close(file);
-      if (error != 0) {
-        throw IoError(path, "cannot be read", error);
-      }
+    if (got < 0) {
+      throw IoError(path, "cannot be read", errno);
+    }
+    if (got == 0) {
       return;
     }
     const auto count = static_cast<std::size_t>(got);
@@ -88,22 +102,35 @@ std::string percent_decoded(const std::string& uri) {
   return text;
 }
 
+/// Where a buffer is; empty unless that is in the model's folder or below, also behind all links.
+/// What the reader refuses for its looks alone, a scheme or "..", never gets further than that.
+std::string place_inside(const fs::path& folder, const std::string& uri) {
+  std::error_code error;
+  const fs::path place = fs::canonical(folder / percent_decoded(uri), error);
+  const fs::path inside = error ? fs::path() : place.lexically_relative(folder);
+  return inside.empty() || *inside.begin() == ".." ? "" : place.string();
+}
+
 void feed_gltf_buffers(crypto_hash_sha256_state& state, const std::string& path,
                        const std::string& text) {
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("buffers") || !json["buffers"].is_array()) {
     return;
   }
-  const auto folder = std::filesystem::path(path).parent_path();
+  std::error_code error;
+  const fs::path folder = fs::canonical(fs::absolute(path).parent_path(), error);
+  std::set<std::string> fed;
   for (const auto& buffer : json["buffers"]) {
     if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) {
       continue;
     }
-    const std::string uri = percent_decoded(buffer["uri"].get<std::string>());
-    std::error_code error;
-    const auto file = folder / uri;
-    if (!uri.starts_with("data:") && std::filesystem::is_regular_file(file, error)) {
-      feed(state, file.string(), nullptr);
+    const auto& uri = buffer["uri"].get_ref<const std::string&>();
+    const std::string place = uri.starts_with("data:") ? "" : place_inside(folder, uri);
+    if (!place.empty() && fed.insert(place).second) {
+      try {
+        feed(state, opened(place), place, nullptr);
+      } catch (const IoError&) {  // the reader will say what is wrong with it
+      }
     }
   }
 }
@@ -119,7 +146,7 @@ std::string content_hash(const std::string& path) {
   }
   const bool gltf = extension == ".gltf";
   std::string text;
-  feed(state, path, gltf ? &text : nullptr);
+  feed(state, opened(path), path, gltf ? &text : nullptr);
   if (gltf) {
     feed_gltf_buffers(state, path, text);
   }

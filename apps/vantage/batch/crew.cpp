@@ -2,7 +2,6 @@
 #include "batch/crew.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <filesystem>
 #include <utility>
 
@@ -10,8 +9,6 @@
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
-
-#include "vantage/core/error.h"
 
 #include "batch/naming.h"
 
@@ -29,17 +26,11 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// 300 → "300", 0.5 → "0.5".
-std::string limit_text(double seconds) {
-  std::string text = std::to_string(seconds);
-  text.erase(text.find_last_not_of('0') + 1);
-  return text.ends_with('.') ? text.substr(0, text.size() - 1) : text;
-}
-
 }  // namespace
 
-Crew::Crew(const RunnerOptions& options, const std::stop_token& stop)
+Crew::Crew(const RunnerOptions& options, const ConfinedFolder& root, const std::stop_token& stop)
     : options_(options),
+      root_(root),
       stop_event_(::eventfd(0, EFD_CLOEXEC)),
       on_stop_(stop,
                [event = stop_event_] {
@@ -68,13 +59,8 @@ void Crew::start(Job& job, bool last) {
                                                     options_.quiet_workers);
   }
   seat->job = &job;
-  seat->staging = (fs::path(work_folder(options_.folder, options_.work_name)) /
-                   ("out-" + std::to_string(++staged_)))
-                      .string();
-  std::error_code error;
-  if (!fs::create_directory(seat->staging, error)) {
-    throw IoError(seat->staging, "cannot be created", error.value());
-  }
+  seat->staging = work_folder(options_.work_name) + "/out-" + std::to_string(++staged_);
+  root_.make_new_folder(seat->staging);
   ++job.attempts;
   job.stage = Stage::Hashing;
   job.seat = &*seat;
@@ -87,7 +73,7 @@ void Crew::start(Job& job, bool last) {
                       {"file", key_of_path(fs::path(job.entry.shown_path()).filename().string())},
                       {"name", job.record.name},
                       {"up", job.entry.up},
-                      {"staging", key_of_path(seat->staging)},
+                      {"staging", key_of_path(root_.path_of(seat->staging))},
                       {"threads", std::max(options_.threads, shared)}};
   seat->process->send(order.dump());
 }
@@ -104,8 +90,7 @@ void Crew::dismiss(Job& job) {
 }
 
 Job& Crew::leave(Seat& seat) {
-  std::error_code error;
-  fs::remove_all(seat.staging, error);
+  root_.remove(seat.staging);
   Job& job = *std::exchange(seat.job, nullptr);
   job.seat = nullptr;
   return job;
@@ -194,7 +179,7 @@ void Crew::enforce_time(std::vector<CrewEvent>& events) {
         seconds_since(seat.job->start) > options_.timeout_s) {
       events.push_back(
           lost(seat, "timeout",
-               "took longer than the time limit of " + limit_text(options_.timeout_s) + " s"));
+               "took longer than the time limit of " + seconds_text(options_.timeout_s) + " s"));
     }
   }
 }
@@ -207,18 +192,12 @@ void Crew::kill() {
 }
 
 void Crew::remove_work() const {
-  std::error_code error;
-  fs::remove_all(work_folder(options_.folder, options_.work_name), error);
+  root_.remove(work_folder(options_.work_name));
 }
 
 void Crew::clear_work() const {
   remove_work();
-  const std::string folder = work_folder(options_.folder, options_.work_name);
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw IoError(folder, "cannot be created", error.value());
-  }
+  root_.make_folders(work_folder(options_.work_name));
 }
 
 }  // namespace vantage::batch

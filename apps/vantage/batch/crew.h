@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "batch/confined_folder.h"
 #include "batch/entry_source.h"
 #include "batch/model_record.h"
 #include "batch/runner.h"
@@ -35,6 +36,8 @@ enum class Stage {
 struct Job {
   Entry entry{};                                  ///< From the source.
   std::string file{};                             ///< What the worker reads.
+  std::string unpacked{};                         ///< Folder of an archive's entry, to remove.
+  std::uint64_t unpacked_bytes = 0;               ///< What that takes on the disk.
   ModelRecord record{};                           ///< As far as it is known.
   std::optional<ModelRecord> before{};            ///< What the book said when it was taken up.
   Stage stage = Stage::Ready;                     ///< Where it is.
@@ -48,7 +51,7 @@ struct Job {
 struct Seat {
   std::unique_ptr<WorkerProcess> process{};  ///< Started when first needed.
   Job* job = nullptr;                        ///< Null: idle.
-  std::string staging{};                     ///< Folder for the job's results.
+  std::string staging{};                     ///< Name of the folder for the job's results.
 };
 
 /// What a worker, or its end, has said about its job.
@@ -56,7 +59,7 @@ struct CrewEvent {
   enum class Kind { Content, Result, Failure };
   Job* job = nullptr;         ///< For Failure and Result no longer in its worker's hands.
   Kind kind = Kind::Failure;  ///< Content: job->record.content is known.
-  std::string staging{};      ///< Of a Result: the folder to put in place.
+  std::string staging{};      ///< Of a Result: name of the folder to put in place.
   std::string reason{};       ///< Of a Failure.
   std::string error{};        ///< Of a Failure.
 };
@@ -64,7 +67,7 @@ struct CrewEvent {
 /// A fixed number of workers, each replaced when it crashes, hangs or has run into a limit.
 class Crew {
  public:
-  Crew(const RunnerOptions& options, const std::stop_token& stop);
+  Crew(const RunnerOptions& options, const ConfinedFolder& root, const std::stop_token& stop);
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
   ~Crew();
@@ -76,7 +79,7 @@ class Crew {
   /// Lets a Hashed job run.
   static void go(Job& job);
   /// Takes a Hashed job from its worker.
-  static void dismiss(Job& job);
+  void dismiss(Job& job);
   /// Waits a moment for something to happen. \return everything that did.
   std::vector<CrewEvent> wait();
   /// Kills all workers; their jobs are nobody's.
@@ -90,10 +93,11 @@ class Crew {
   void listen(Seat& seat, std::vector<CrewEvent>& events);
   void conclude(Seat& seat, const std::string& line, std::vector<CrewEvent>& events);
   void enforce_time(std::vector<CrewEvent>& events);
-  static CrewEvent lost(Seat& seat, std::string reason, std::string error);
-  static Job& leave(Seat& seat);
+  CrewEvent lost(Seat& seat, std::string reason, std::string error);
+  Job& leave(Seat& seat);
 
   const RunnerOptions& options_;
+  const ConfinedFolder& root_;
   int stop_event_;
   std::stop_callback<std::function<void()>> on_stop_;
   std::int64_t staged_ = 0;

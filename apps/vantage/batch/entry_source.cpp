@@ -133,8 +133,8 @@ class PathSource : public EntrySource {
     }
   }
 
-  std::string fetch(const Entry& /*entry*/, const std::string& file) override {
-    return archive_ ? archive_->fetch(file) : std::string();
+  void fetch(Entry& entry, const std::string& file) override {
+    archive_ ? archive_->fetch(entry, file) : EntrySource::fetch(entry, file);
   }
 
  private:

@@ -15,13 +15,14 @@ namespace vantage::batch {
 
 /// One model to do.
 struct Entry {
-  std::string key{};          ///< Identity; UTF-8.
-  std::string path{};         ///< File to read; for an archive's entry the archive.
-  std::string member{};       ///< Entry inside the archive `path`; empty for plain files.
-  std::string name{};         ///< From the manifest; empty: the file's stem.
-  std::string up{};           ///< From the manifest; empty: as the command line says.
-  std::int64_t position = 0;  ///< Place among all entries, before any is left out.
-  std::string problem{};      ///< Not empty: cannot be done, for this reason.
+  std::string key{};             ///< Identity; UTF-8.
+  std::string path{};            ///< File to read; for an archive's entry the archive.
+  std::string member{};          ///< Entry inside the archive `path`; empty for plain files.
+  std::string name{};            ///< From the manifest; empty: the file's stem.
+  std::string up{};              ///< From the manifest; empty: as the command line says.
+  std::int64_t position = 0;     ///< Place among all entries, before any is left out.
+  std::string problem{};         ///< Not empty: cannot be done; one sentence.
+  std::string reason = "input";  ///< Of a problem, as in ModelRecord; "disk": there is no room.
   std::optional<std::uint32_t> shard{};  ///< From a balanced plan; else the key's hash decides.
 
   /// What naming templates call the path: the member's if there is one.
@@ -40,12 +41,11 @@ class EntrySource {
   /// \throw IoError
   virtual std::optional<Entry> next() = 0;
 
-  /// Copies the entry that next() gave last out of its archive into a new file.
-  /// \return empty, or why that cannot be.
-  virtual std::string fetch(const Entry& entry, const std::string& file) {
-    static_cast<void>(entry);
+  /// Copies the entry that next() gave last out of its archive into a new file; where that cannot
+  /// be, `problem` and `reason` say why.
+  virtual void fetch(Entry& entry, const std::string& file) {
     static_cast<void>(file);
-    return {};
+    entry.problem = "is in an archive, which this list of models cannot reach into";
   }
 };
 
@@ -63,6 +63,7 @@ struct EntryFilter {
 struct ArchiveLimits {
   std::uint64_t entry_bytes = 0;  ///< Of one entry unpacked; 0: any number.
   double timeout_s = 300.0;       ///< From one entry to the next, and for unpacking one.
+  int attempts = 2;               ///< At what ends the process that unpacks; at least 1.
   std::stop_token stop{};         ///< Ends waiting.
 };
 

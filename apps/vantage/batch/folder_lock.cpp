@@ -2,35 +2,50 @@
 #include "batch/folder_lock.h"
 
 #include <cerrno>
-#include <filesystem>
+#include <chrono>
+#include <thread>
 
 #include <fcntl.h>
 #include <sys/file.h>
-#include <unistd.h>
 
 #include "vantage/core/error.h"
 
-#include "batch/runner.h"
-
 namespace vantage::batch {
+namespace {
 
-FolderLock::FolderLock(const std::string& folder, const std::string& work_name) {
-  const std::string work = work_folder(folder, "");
-  std::error_code error;
-  std::filesystem::create_directories(work, error);
-  const std::string path = (std::filesystem::path(work) / (work_name + ".lock")).string();
-  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file_ < 0) {
-    throw IoError(path, "cannot be created", errno);
+Descriptor opened(const ConfinedFolder& folder, const std::string& work_name) {
+  folder.make_folders(".work");
+  const std::string name = ".work/" + work_name + ".lock";
+  Descriptor file(folder.open_file(name, O_RDWR | O_CREAT));
+  if (file.number() < 0) {
+    throw IoError(folder.path_of(name), "cannot be created", errno);
   }
-  if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    ::close(file_);
-    throw IoError(folder, "is in use by another batch; wait for it, or choose another folder");
+  return file;
+}
+
+/// Whether nobody else holds it. Locks that a file system does not have are held by nobody.
+bool is_taken(const Descriptor& file) {
+  return ::flock(file.number(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const ConfinedFolder& folder, const std::string& work_name)
+    : file_(opened(folder, work_name)) {
+  if (!is_taken(file_)) {
+    throw IoError(folder.path(),
+                  "is in use by another batch; wait for it, or choose another folder");
   }
 }
 
-FolderLock::~FolderLock() {
-  ::close(file_);
+FolderLock::FolderLock(const ConfinedFolder& folder, const std::string& work_name,
+                       const RunContext& run)
+    : file_(opened(folder, work_name)) {
+  constexpr std::chrono::milliseconds kPause(50);
+  while (!is_taken(file_)) {
+    run.check();
+    std::this_thread::sleep_for(kPause);
+  }
 }
 
 }  // namespace vantage::batch

@@ -3,6 +3,11 @@
 
 #include <string>
 
+#include "vantage/core/run_context.h"
+
+#include "batch/confined_folder.h"
+#include "batch/descriptor.h"
+
 namespace vantage::batch {
 
 /// Keeps a second batch out of the same folder, or the same shard, while this one runs; gone with
@@ -10,13 +15,13 @@ namespace vantage::batch {
 class FolderLock {
  public:
   /// \throw IoError if another process holds it.
-  FolderLock(const std::string& folder, const std::string& work_name);
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-  ~FolderLock();
+  FolderLock(const ConfinedFolder& folder, const std::string& work_name);
+
+  /// Waits until nobody else holds it. \throw IoError, Cancelled
+  FolderLock(const ConfinedFolder& folder, const std::string& work_name, const RunContext& run);
 
  private:
-  int file_ = -1;
+  Descriptor file_;
 };
 
 }  // namespace vantage::batch

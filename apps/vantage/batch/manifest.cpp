@@ -16,6 +16,8 @@ namespace {
 // A longer line is no path and no options; it is cut so that a wrong file cannot fill the memory.
 constexpr std::size_t kLongestLine = 1U << 20U;
 
+constexpr const char* kNoAxis = " has an \"up\" that is none of x y z -x -y -z";
+
 enum class Kind { Unknown, JsonLines, Csv, Paths };
 
 using Fields = std::map<std::string, std::string>;
@@ -135,6 +137,15 @@ class ManifestSource : public EntrySource {
     return entry;
   }
 
+  static bool is_axis(const std::string& up) {
+    static const char* const kAxes[] = {"", "x", "y", "z", "-x", "-y", "-z"};
+    return std::find(std::begin(kAxes), std::end(kAxes), up) != std::end(kAxes);
+  }
+
+  [[nodiscard]] std::string place() const {
+    return "line " + std::to_string(line_number_) + " of the manifest";
+  }
+
   Fields fields_of(const std::string& line, std::string& problem) const {
     Fields fields;
     if (kind_ == Kind::Paths) {
@@ -147,14 +158,14 @@ class ManifestSource : public EntrySource {
     } else {
       const auto json = nlohmann::json::parse(line, nullptr, false);
       if (!json.is_object()) {
-        problem = "is not a JSON object";
+        problem = " is not a JSON object";
         return fields;
       }
       for (const auto& [key, value] : json.items()) {
         if (value.is_string()) {
           fields[key] = value.get<std::string>();
         } else if (key == "path" || key == "key" || key == "name" || key == "up") {
-          problem = "has a \"" + key + "\" that is no text";
+          problem = " has a \"" + key + "\" that is no text";
         }
       }
     }
@@ -164,24 +175,26 @@ class ManifestSource : public EntrySource {
   Entry entry_of(const std::string& line) {
     if (kind_ == Kind::JsonLines) {
       if (std::optional<Entry> planned = planned_entry(line)) {
+        if (!is_axis(planned->up)) {
+          planned->problem = place() + kNoAxis;
+          planned->up.clear();
+        }
         return *planned;
       }
     }
     std::string problem;
     Fields fields = fields_of(line, problem);
-    static const char* const kAxes[] = {"", "x", "y", "z", "-x", "-y", "-z"};
     if (problem.empty() && fields["path"].empty()) {
-      problem = "names no path";
+      problem = " names no path";
     }
     const std::string& up = fields["up"];
-    if (problem.empty() && std::find(std::begin(kAxes), std::end(kAxes), up) == std::end(kAxes)) {
-      problem = "has an \"up\" that is none of x y z -x -y -z";
+    if (problem.empty() && !is_axis(up)) {
+      problem = kNoAxis;
     }
     Entry entry;
     if (!problem.empty()) {
-      const std::string place = "line " + std::to_string(line_number_) + " of the manifest";
-      entry.problem = place + " " + problem;
-      entry.key = fields["path"].empty() ? place : key_of_path(fields["path"]);
+      entry.problem = place() + problem;
+      entry.key = fields["path"].empty() ? place() : key_of_path(fields["path"]);
       return entry;
     }
     const std::filesystem::path path(fields["path"]);

@@ -5,10 +5,48 @@
 
 #include <nlohmann/json.hpp>
 
+#include "batch/confined_folder.h"
+
 namespace vantage::batch {
+namespace {
+
+/// Whether brackets nest no deeper than any record of ours: writing JSON is recursive.
+bool is_shallow(std::string_view json) {
+  constexpr int kDeepest = 32;
+  int depth = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < json.size() && depth <= kDeepest; ++i) {
+    const char c = json[i];
+    if (in_text) {
+      i += c == '\\' ? 1 : 0;
+      in_text = c != '"';
+    } else if (c == '"') {
+      in_text = true;
+    } else if (c == '[' || c == '{') {
+      ++depth;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+  return depth <= kDeepest;
+}
+
+}  // namespace
+
+bool is_sound(const ModelRecord& record) {
+  const bool placed = record.folder.empty() || ConfinedFolder::is_name(record.folder);
+  const bool ended = record.status == "done" || record.status == "failed";
+  if (record.key.empty() || !placed || !ended) {
+    return false;
+  }
+  return record.result.empty() ||
+         (is_shallow(record.result) &&
+          nlohmann::json::parse(record.result, nullptr, false).is_object());
+}
 
 bool may_pass_next_time(const std::string& reason) {
-  return reason == "crash" || reason == "timeout" || reason == "memory" || reason == "output";
+  return reason == "crash" || reason == "timeout" || reason == "memory" || reason == "output" ||
+         reason == "changed";
 }
 
 nlohmann::ordered_json to_json(const ModelRecord& record) {
@@ -35,7 +73,8 @@ nlohmann::ordered_json to_json(const ModelRecord& record) {
 }
 
 std::optional<ModelRecord> record_from_line(const std::string& line) {
-  const auto json = nlohmann::ordered_json::parse(line, nullptr, false);
+  const auto json =
+      is_shallow(line) ? nlohmann::ordered_json::parse(line, nullptr, false) : nullptr;
   if (!json.is_object()) {
     return std::nullopt;
   }
@@ -65,7 +104,7 @@ std::optional<ModelRecord> record_from_line(const std::string& line) {
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   }
-  return record;
+  return is_sound(record) ? std::optional(std::move(record)) : std::nullopt;
 }
 
 bool supersedes(const ModelRecord& a, const ModelRecord& b) {

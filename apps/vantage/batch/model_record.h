@@ -37,7 +37,8 @@ struct ModelRecord {
   std::string options{};       ///< Sixteen hexadecimal digits.
   std::string version{};       ///< Of the program.
   std::string status{};        ///< "done" or "failed".
-  std::string reason{};        ///< Of a failure: input, crash, timeout, memory, output, name, work.
+  std::string reason{};        ///< Of a failure: input, changed, crash, timeout, memory, output,
+                               ///< name, work.
   std::string error{};         ///< Of a failure: one sentence.
   std::string folder{};        ///< Of the results, relative to the batch's folder; empty if none.
   std::string duplicate_of{};  ///< Key of the model with the same content whose results count.
@@ -52,7 +53,11 @@ bool may_pass_next_time(const std::string& reason);
 /// A record as one JSON object, keys in a fixed order.
 nlohmann::ordered_json to_json(const ModelRecord& record);
 
-/// Reads to_json(). Empty if the text is not a record (a torn last line, for instance).
+/// Whether a record can be one of ours, whoever wrote it: a folder that is a ConfinedFolder's name, a
+/// status that there is, a result that is a JSON object of sound depth.
+bool is_sound(const ModelRecord& record);
+
+/// Reads to_json(). Empty if the text is not a sound record (a torn last line, for instance).
 std::optional<ModelRecord> record_from_line(const std::string& line);
 
 /// Whether `a` is to be kept where two shards or runs recorded the same model: done before failed,

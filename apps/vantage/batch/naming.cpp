@@ -45,9 +45,12 @@ bool is_plain(char c) {
          c == '_' || c == '-';
 }
 
-/// One part of a path that no file system and no shell takes amiss.
+/// One part of a path that no file system and no shell takes amiss. One that is too long is cut, and
+/// ends with digits of the whole text's hash, so that different ones stay different.
 std::string safe_part(std::string_view text, std::size_t longest = kLongestPart) {
+  constexpr std::size_t kDigits = 8;
   std::string part;
+  std::size_t kept = 0;  // bytes of the part before which it is cut, if it must be
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t length = utf8_length(text, i);
     // C1 control characters drive terminals just as C0 ones do.
@@ -56,10 +59,12 @@ std::string safe_part(std::string_view text, std::size_t longest = kLongestPart)
     const bool keep = length > 1 ? !c1 : is_plain(text[i]);
     const std::size_t step = length == 0 ? 1 : length;
     if (part.size() + (keep ? step : 1) > longest) {
+      part = part.substr(0, kept) + "-" + text_hash(text).substr(0, kDigits);
       break;
     }
     part += keep ? std::string(text.substr(i, step)) : std::string("_");
     i += step;
+    kept = part.size() + kDigits + 1 <= longest ? part.size() : kept;
   }
   if (!part.empty() && (part[0] == '.' || part[0] == '-')) {
     part[0] = '_';

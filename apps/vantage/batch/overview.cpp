@@ -5,11 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "vantage/core/error.h"
 #include "vantage/core/image.h"
 #include "vantage/io/write.h"
 
@@ -20,7 +20,6 @@
 namespace vantage::batch {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kRowsPerPage = 50'000;
@@ -39,17 +38,59 @@ std::string sheet_name(std::size_t sheet) {
   return name.data();
 }
 
+constexpr int kSheetWidth = kColumns * (kThumbnailSide + kGap) + kGap;
+
+/// Whether a file begins as a page of write_overview() does.
+bool is_page(const ConfinedFolder& folder, const std::string& name) {
+  constexpr std::size_t kEnough = 4096;
+  return folder.beginning_of(name, kEnough).find("<title>Vantage: results</title>") !=
+         std::string::npos;
+}
+
+/// Whether a file is a PNG of 8 bit RGBA of the size that only a contact sheet has.
+bool is_sheet(const ConfinedFolder& folder, const std::string& name) {
+  constexpr std::size_t kHeaderBytes = 26;
+  const std::string head = folder.beginning_of(name, kHeaderBytes);
+  const auto number = [&](std::size_t at) {
+    int value = 0;
+    for (std::size_t i = at; i < at + 4; ++i) {
+      value = (value & 0x7FFFFF) * 256 + static_cast<unsigned char>(head[i]);
+    }
+    return value;
+  };
+  return head.size() == kHeaderBytes && head.starts_with("\x89PNG\r\n\x1A\n") &&
+         head.ends_with("\x08\x06") && number(16) == kSheetWidth &&
+         number(20) % (kThumbnailSide + kGap) == kGap && number(20) < kSheetWidth;
+}
+
+using IsOurs = bool (*)(const ConfinedFolder&, const std::string&);
+
+/// Refuses to replace somebody else's file.
+void check_place(const ConfinedFolder& folder, const std::string& name, IsOurs is_ours) {
+  if (folder.exists(name) && !is_ours(folder, name)) {
+    throw IoError(folder.path_of(name),
+                  "is not a file of vantage and would be replaced; move it away, or use "
+                  "--no-overview");
+  }
+}
+
+void write_checked(const ConfinedFolder& folder, const std::string& name, std::string_view bytes,
+                   IsOurs is_ours) {
+  check_place(folder, name, is_ours);
+  folder.write(name, bytes);
+}
+
 /// White sheets that fill with thumbnails.
 class ContactSheets {
  public:
-  explicit ContactSheets(std::string folder) : folder_(std::move(folder)) {}
+  explicit ContactSheets(const ConfinedFolder& folder) : folder_(folder) {}
 
   void add(const Image& thumbnail) {
     if (sheet_ >= kSheets) {
       return;
     }
     if (image_.rgba.empty()) {
-      image_.width = kColumns * (kThumbnailSide + kGap) + kGap;
+      image_.width = kSheetWidth;
       image_.height = kRows * (kThumbnailSide + kGap) + kGap;
       image_.rgba.assign(
           4 * static_cast<std::size_t>(image_.width) * static_cast<std::size_t>(image_.height),
@@ -67,8 +108,10 @@ class ContactSheets {
     if (tile_ > 0) {
       write();
     }
-    std::error_code error;
-    for (std::size_t old = sheet_; fs::remove(fs::path(folder_) / sheet_name(old), error); ++old) {
+    for (std::size_t old = sheet_; is_sheet(folder_, sheet_name(old)); ++old) {
+      if (!folder_.remove(sheet_name(old))) {
+        break;
+      }
     }
     return sheet_;
   }
@@ -95,32 +138,43 @@ class ContactSheets {
     image_.height = (tile_ + kColumns - 1) / kColumns * (kThumbnailSide + kGap) + kGap;
     image_.rgba.resize(4 * static_cast<std::size_t>(image_.width) *
                        static_cast<std::size_t>(image_.height));
-    write_file((fs::path(folder_) / sheet_name(sheet_)).string(), png_bytes(image_));
+    write_checked(folder_, sheet_name(sheet_), png_bytes(image_), is_sheet);
     image_.rgba.clear();
     tile_ = 0;
     ++sheet_;
   }
 
-  std::string folder_;
+  const ConfinedFolder& folder_;
   Image image_{};
   int tile_ = 0;
   std::size_t sheet_ = 0;
 };
 
 /// One row of the page's table; see kIndexScript for the order of its cells.
-Json row_of(const Statement& row, const fs::path& place) {
-  std::error_code error;
-  const bool has_folder = !row.text(5).empty();
+std::string row_of(const Statement& row, const ConfinedFolder& root) {
+  const std::string folder = ConfinedFolder::is_name(row.text(5)) ? row.text(5) : "";
   const auto shown = [&](const char* file, int bit) {
-    return has_folder && fs::exists(place / file, error) ? bit : 0;
+    return root.exists(model_folder(folder) + "/" + file) ? bit : 0;
   };
   const auto number = [&](int column) {
     return row.is_null(column) ? Json(nullptr) : Json(row.number(column));
   };
-  return Json::array({row.text(0), row.text(1), row.text(2), row.text(3), row.text(4), row.text(5),
-                      number(6), number(7), row.is_null(8) ? Json(nullptr) : Json(row.integer(8)),
-                      shown(kThumbnailFile, kHasThumbnail) | shown("best.png", kHasPicture) |
-                          shown("report.html", kHasReport)});
+  const Json cells =
+      Json::array({row.text(0), row.text(1), row.text(2), row.text(3), row.text(4), folder,
+                   number(6), number(7), row.is_null(8) ? Json(nullptr) : Json(row.integer(8)),
+                   shown(kThumbnailFile, kHasThumbnail) | shown("best.png", kHasPicture) |
+                       shown("report.html", kHasReport)});
+  return script_safe(cells.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+/// The small picture of a model that was really run.
+std::optional<Image> thumbnail_in(const Statement& row, const ConfinedFolder& root) {
+  constexpr std::size_t kLargest = 1U << 20U;
+  return row.text(3).empty()
+             ? parse_png(
+                   root.beginning_of(model_folder(row.text(5)) + "/" + kThumbnailFile, kLargest),
+                   kThumbnailSide)
+             : std::nullopt;
 }
 
 Statement table_rows(ResultsStore& store) {
@@ -144,7 +198,12 @@ std::vector<std::string> page_names(std::size_t pages) {
 
 }  // namespace
 
-Overview write_overview(const std::string& folder, ResultsStore& store, const RunContext& run) {
+void check_overview(const ConfinedFolder& folder) {
+  check_place(folder, page_name(0), is_page);
+  check_place(folder, sheet_name(0), is_sheet);
+}
+
+Overview write_overview(const ConfinedFolder& folder, ResultsStore& store, const RunContext& run) {
   ContactSheets sheets(folder);
   const StatusCounts counts = store.counts();
   const auto total = static_cast<std::size_t>(counts.done + counts.failed + counts.duplicates);
@@ -155,20 +214,18 @@ Overview write_overview(const std::string& folder, ResultsStore& store, const Ru
     std::string data;
     for (std::size_t i = 0; i < kRowsPerPage && rows.step(); ++i) {
       run.advance("index", static_cast<double>(done++) / static_cast<double>(total + 1));
-      const fs::path place = fs::path(models_folder(folder)) / rows.text(5);
-      const auto thumbnail = !rows.text(5).empty() && rows.text(3).empty()
-                                 ? read_png((place / kThumbnailFile).string(), kThumbnailSide)
-                                 : std::nullopt;
-      if (thumbnail) {
+      if (const std::optional<Image> thumbnail = thumbnail_in(rows, folder)) {
         sheets.add(*thumbnail);
       }
-      data += (data.empty() ? "" : ",\n") + script_safe(row_of(rows, place).dump());
+      data += (data.empty() ? "" : ",\n") + row_of(rows, folder);
     }
-    write_file((fs::path(folder) / page_name(page)).string(),
-               index_page(data, page_names(pages), page, counts));
+    write_checked(folder, page_name(page), index_page(data, page_names(pages), page, counts),
+                  is_page);
   }
-  std::error_code error;
-  for (std::size_t old = pages; fs::remove(fs::path(folder) / page_name(old), error); ++old) {
+  for (std::size_t old = pages; is_page(folder, page_name(old)); ++old) {
+    if (!folder.remove(page_name(old))) {
+      break;
+    }
   }
   return {pages, sheets.finish()};
 }
@@ -180,13 +237,13 @@ std::optional<std::string> overview_page(const std::string& folder, ResultsStore
   if (page >= pages) {
     return std::nullopt;
   }
+  const ConfinedFolder root(folder);
   Statement rows = table_rows(store);
   for (std::size_t i = 0; i < page * kRowsPerPage && rows.step(); ++i) {
   }
   std::string data;
   for (std::size_t i = 0; i < kRowsPerPage && rows.step(); ++i) {
-    const fs::path place = fs::path(models_folder(folder)) / rows.text(5);
-    data += (data.empty() ? "" : ",\n") + script_safe(row_of(rows, place).dump());
+    data += (data.empty() ? "" : ",\n") + row_of(rows, root);
   }
   return index_page(data, page_names(pages), page, counts);
 }

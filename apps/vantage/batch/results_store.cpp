@@ -27,9 +27,7 @@ CREATE TABLE IF NOT EXISTS timings(
 
 // Models with the same content stand for one: the first by position that was run. The view answers
 // for all of them with its results, so that it does not matter who ran them, or in how many shards.
-constexpr const char* kView = R"sql(
-DROP VIEW IF EXISTS results;
-CREATE VIEW results AS
+constexpr const char* kView = R"sql(VIEW results AS
 SELECT m.key AS key, m.name AS name, c.status AS status,
   CASE WHEN c.key = m.key THEN '' ELSE c.key END AS duplicate_of,
   c.reason AS reason, c.error AS error, m.content AS content, m.options AS options,
@@ -86,10 +84,30 @@ ModelRecord record_of(const Statement& row) {
   return record;
 }
 
+// Things in a database that no store has: anything but its own, where it is not finished yet;
+// else what runs when a record is put, or is read in the place of one.
+constexpr const char* kForeign =
+    "SELECT COUNT(*) FROM sqlite_schema WHERE name NOT IN ('models', 'timings', 'results', "
+    "'models_content', 'models_folder') AND name NOT LIKE 'sqlite%'";
+constexpr const char* kOdd =
+    "SELECT COUNT(*) + (SELECT 2 - COUNT(*) FROM sqlite_schema WHERE type = 'table' AND "
+    "name IN ('models', 'timings')) FROM sqlite_schema WHERE type = 'trigger' OR "
+    "sql LIKE 'CREATE VIRTUAL%'";
+
+std::int64_t number_of(Database& database, const std::string& question) {
+  Statement answer(database, question);
+  answer.step();
+  return answer.integer(0);
+}
+
 std::string store_path(const std::string& folder, Database::Mode mode) {
   const auto path = std::filesystem::path(folder) / ResultsStore::kFileName;
   std::error_code error;
-  if (mode == Database::Mode::Read && !std::filesystem::is_regular_file(path, error)) {
+  const std::filesystem::file_status status = std::filesystem::symlink_status(path, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw IoError(path.string(), "is not a regular file but a link or a folder; move it away");
+  }
+  if (mode == Database::Mode::Read && !std::filesystem::exists(status)) {
     throw IoError(folder, "holds no results of a batch: " + std::string(ResultsStore::kFileName) +
                               " is not there");
   }
@@ -119,18 +137,24 @@ struct ResultsStore::Statements {
 
 ResultsStore::ResultsStore(const std::string& folder, Database::Mode mode)
     : database_(store_path(folder, mode), mode) {
-  database_.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;");
-  Statement version(database_, "PRAGMA user_version");
-  version.step();
-  const std::int64_t schema = version.integer(0);
-  version.reset();
+  // What somebody else wrote into the schema is not run.
+  database_.run("PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON;");
+  const std::int64_t schema = number_of(database_, "PRAGMA user_version");
   if (schema > kSchema) {
     throw IoError(database_.path(), "was written by a newer version of vantage; use that one");
   }
+  if (number_of(database_, schema == 0 ? kForeign : kOdd) > 0) {
+    throw IoError(database_.path(),
+                  "is a database, but not of results of a batch; choose another folder");
+  }
+  database_.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;");
   if (schema < kSchema) {
-    database_.run(std::string("BEGIN IMMEDIATE;") + kTables + kView +
+    database_.run(std::string("BEGIN IMMEDIATE;") + kTables +
+                  "DROP VIEW IF EXISTS results; CREATE " + kView +
                   "PRAGMA user_version = " + std::to_string(kSchema) + "; COMMIT;");
   }
+  // Before the view of that name in the file, which may say anything.
+  database_.run(std::string("CREATE TEMP ") + kView);
   statements_ = std::make_unique<Statements>(database_);
 }
 

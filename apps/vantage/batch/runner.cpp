@@ -17,7 +17,6 @@
 
 #include "batch/crew.h"
 #include "batch/naming.h"
-#include "batch/result_folder.h"
 
 namespace vantage::batch {
 namespace {
@@ -26,6 +25,21 @@ namespace fs = std::filesystem;
 
 // Models that wait for an equal one to be finished; beyond this nothing new is taken up.
 constexpr std::size_t kMostWaiting = 1024;
+// The same for what is unpacked from archives and not done with yet, whatever it waits for.
+constexpr std::size_t kMostUnpacked = 64;
+constexpr std::uint64_t kMostUnpackedBytes = 1'000'000'000;
+
+constexpr const char* kNoRoom = "cannot hold more results; make room and run it again";
+
+/// What a file takes on the disk.
+std::uint64_t bytes_on_disk(const std::string& path) {
+  constexpr std::uint64_t kBlock = 512;
+
+  struct stat status {};
+
+  return ::stat(path.c_str(), &status) == 0 ? static_cast<std::uint64_t>(status.st_blocks) * kBlock
+                                            : 0;
+}
 
 FileStamp stamp_of(const std::string& path) {
   struct stat status {};
@@ -63,8 +77,9 @@ class Runner {
         options_(options),
         stop_(stop),
         report_(report),
+        root_(options.folder, options.work_name),
         started_ms_(std::max(now_ms(), book.latest_ms())),
-        crew_(options, stop) {}
+        crew_(options, root_, stop) {}
 
   RunnerCounts run() {
     crew_.clear_work();
@@ -110,7 +125,8 @@ class Runner {
   /// Takes up entries until every worker has a next one.
   void fill() {
     while (!source_ended_ && ready_.size() < static_cast<std::size_t>(options_.workers) &&
-           waiting_ < kMostWaiting && !stop_.stop_requested()) {
+           waiting_ < kMostWaiting && unpacked_ < kMostUnpacked &&
+           unpacked_bytes_ < kMostUnpackedBytes && !stop_.stop_requested()) {
       std::optional<Entry> entry;
       try {
         entry = source_.next();
@@ -153,8 +169,11 @@ class Runner {
       remove(kept);
       return;
     }
+    if (kept.entry.reason == "disk") {
+      throw IoError(options_.folder, kNoRoom, ENOSPC);
+    }
     if (!kept.entry.problem.empty()) {
-      fail(kept, "input", kept.entry.problem);
+      fail(kept, kept.entry.reason, kept.entry.problem);
     } else {
       ready_.push_back(&kept);
     }
@@ -183,8 +202,7 @@ class Runner {
       return !options_.retry_failed;
     }
     if (before.duplicate_of.empty()) {
-      std::error_code error;
-      return !before.folder.empty() && fs::is_directory(place_of(before.folder), error);
+      return root_.is_folder(model_folder(before.folder));
     }
     const std::optional<ModelRecord> first = book_.find(before.duplicate_of);
     return first && first->duplicate_of.empty() && first->content == before.content &&
@@ -194,22 +212,21 @@ class Runner {
 
   /// Brings a model out of its archive, into a file of its own.
   void fetch(Job& job) {
-    const fs::path folder = fs::path(work_folder(options_.folder, options_.work_name)) /
-                            ("in-" + std::to_string(++fetched_));
-    std::error_code error;
-    if (!fs::create_directory(folder, error)) {
-      throw IoError(folder.string(), "cannot be created", error.value());
-    }
+    job.unpacked = work_folder(options_.work_name) + "/in-" + std::to_string(++fetched_);
+    root_.make_new_folder(job.unpacked);
     const std::string name =
         folder_name("{stem}.{ext}", {.path = job.entry.member, .key = job.record.key});
-    job.file = (folder / name).string();
-    job.entry.problem = source_.fetch(job.entry, job.file);
+    job.file = root_.path_of(job.unpacked + "/" + name);
+    source_.fetch(job.entry, job.file);
+    job.unpacked_bytes = bytes_on_disk(job.file);
+    unpacked_bytes_ += job.unpacked_bytes;
+    ++unpacked_;
   }
 
   void answer(const CrewEvent& event) {
     Job& job = *event.job;
     if (event.kind == CrewEvent::Kind::Result) {
-      move_into_place(event.staging, place_of(job.record.folder));
+      root_.move(event.staging, model_folder(job.record.folder));
       job.record.status = "done";
       ++counts_.done;
       settle(job);
@@ -219,8 +236,7 @@ class Runner {
       return;
     }
     if (event.reason == "disk") {
-      throw IoError(options_.folder, "cannot hold more results; make room and run it again",
-                    ENOSPC);
+      throw IoError(options_.folder, kNoRoom, ENOSPC);
     }
     release(job);
     if (may_pass_next_time(event.reason) && job.attempts < options_.attempts) {
@@ -249,12 +265,12 @@ class Runner {
     ModelRecord& record = job.record;
     if (job.before && job.before->content == record.content && same_question(*job.before, record) &&
         still_answers(*job.before)) {
-      Crew::dismiss(job);
+      crew_.dismiss(job);
       keep(job);
       return;
     }
     if (const auto ahead = running_.find(content_key(record)); ahead != running_.end()) {
-      Crew::dismiss(job);
+      crew_.dismiss(job);
       job.stage = Stage::Waiting;
       ahead->second->equals.push_back(&job);
       ++waiting_;
@@ -262,7 +278,7 @@ class Runner {
     }
     const std::optional<ModelRecord> first = book_.find_content(record);
     if (first && first->key != record.key && may_stand_for(*first)) {
-      Crew::dismiss(job);
+      crew_.dismiss(job);
       settle_as_equal(job, *first);
       return;
     }
@@ -301,7 +317,7 @@ class Runner {
                : still_answers(first);
   }
 
-  /// Names the job's folder. \return false, with the job failed, if another model has that name.
+  /// Names the job's folder. \return false, with the job failed, if that name is not free.
   bool claim_folder(Job& job) {
     ModelRecord& record = job.record;
     record.folder = folder_name(options_.name_template, {.path = job.entry.shown_path(),
@@ -313,14 +329,41 @@ class Runner {
       owner = claim->second;
     }
     if (!owner.empty() && owner != record.key && !give_way(owner, record.content)) {
-      Crew::dismiss(job);
-      fail(job, "name",
-           "its results would go to '" + std::exchange(record.folder, {}) +
-               "', which holds those of " + owner + "; use a --name with {hash8} or {key8}");
+      refuse_name(job, "holds those of " + owner + "; use a --name with {hash8} or {key8}");
+      return false;
+    }
+    if (!may_be_replaced(record.folder)) {
+      refuse_name(job, "is not a folder of results of vantage; move it away, then --retry failed");
       return false;
     }
     claims_[record.folder] = record.key;
     return true;
+  }
+
+  void refuse_name(Job& job, const std::string& because) {
+    crew_.dismiss(job);
+    fail(
+        job, "name",
+        "its results would go to '" + std::exchange(job.record.folder, {}) + "', which " + because);
+  }
+
+  /// Whether there is nothing in a model's place, or results of ours.
+  [[nodiscard]] bool may_be_replaced(const std::string& folder) const {
+    const std::string place = model_folder(folder);
+    for (std::size_t slash = place.find('/'); slash != std::string::npos;
+         slash = place.find('/', slash + 1)) {
+      if (const std::string above = place.substr(0, slash);
+          root_.exists(above) && !root_.is_folder(above)) {
+        return false;
+      }
+    }
+    return !root_.exists(place) || root_.is_empty_folder(place) || holds_results(place);
+  }
+
+  /// Whether a folder is one that a worker has made: only such a one is ever removed.
+  [[nodiscard]] bool holds_results(const std::string& place) const {
+    constexpr std::size_t kEnough = 64;
+    return root_.beginning_of(place + "/view.json", kEnough).starts_with("{\n  \"vantage\": ");
   }
 
   /// Whether results of the same content, made with other options, may be replaced.
@@ -384,23 +427,20 @@ class Runner {
     job.record.timings.finished_ms = std::max(now_ms(), started_ms_ + 1);
     book_.put(job.record);
     if (job.before && !job.before->folder.empty() && job.before->folder != job.record.folder &&
-        book_.owner_of(job.before->folder).empty()) {
-      std::error_code error;  // results of what the file held before
-      fs::remove_all(place_of(job.before->folder), error);
+        book_.owner_of(job.before->folder).empty() &&
+        holds_results(model_folder(job.before->folder))) {
+      root_.remove(model_folder(job.before->folder));  // results of what the file held before
     }
     report_(counts_, &job.record);
   }
 
   void remove(const Job& job) {
-    if (job.file != job.entry.path) {
-      std::error_code error;
-      fs::remove_all(fs::path(job.file).parent_path(), error);
+    if (!job.unpacked.empty()) {
+      root_.remove(job.unpacked);
+      unpacked_bytes_ -= job.unpacked_bytes;
+      --unpacked_;
     }
     jobs_.remove_if([&](const Job& other) { return &other == &job; });
-  }
-
-  [[nodiscard]] std::string place_of(const std::string& folder) const {
-    return (fs::path(models_folder(options_.folder)) / folder).string();
   }
 
   EntrySource& source_;
@@ -408,11 +448,14 @@ class Runner {
   const RunnerOptions& options_;
   std::stop_token stop_;
   const Report& report_;
+  const ConfinedFolder root_;
   std::list<Job> jobs_{};  // in the order of the input
   std::deque<Job*> ready_{};
   std::map<std::string, Job*> running_{};        // by content and options
   std::map<std::string, std::string> claims_{};  // folder → key of the running model
   std::size_t waiting_ = 0;
+  std::size_t unpacked_ = 0;
+  std::uint64_t unpacked_bytes_ = 0;
   std::int64_t fetched_ = 0;
   std::int64_t started_ms_;  // later than every record of earlier runs, whatever their clocks
   bool source_ended_ = false;
@@ -422,13 +465,12 @@ class Runner {
 
 }  // namespace
 
-std::string work_folder(const std::string& folder, const std::string& work_name) {
-  const fs::path all = fs::path(folder) / ".work";
-  return work_name.empty() ? all.string() : (all / work_name).string();
+std::string work_folder(const std::string& work_name) {
+  return ".work/" + work_name;
 }
 
-std::string models_folder(const std::string& folder) {
-  return (fs::path(folder) / "models").string();
+std::string model_folder(const std::string& folder) {
+  return "models/" + folder;
 }
 
 RunnerCounts run_batch(EntrySource& source, ResultBook& book, const RunnerOptions& options,

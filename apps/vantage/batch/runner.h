@@ -50,9 +50,10 @@ RunnerCounts run_batch(EntrySource& source, ResultBook& book, const RunnerOption
                        const std::stop_token& stop,
                        const std::function<void(const RunnerCounts&, const ModelRecord*)>& report);
 
-/// Folder below a batch's folder that holds what is being worked on; its contents may be lost.
-std::string work_folder(const std::string& folder, const std::string& work_name);
-/// Folder below a batch's folder that holds the results' folders.
-std::string models_folder(const std::string& folder);
+/// Name, in a batch's folder, of the folder that holds what is being worked on; its contents may be
+/// lost.
+std::string work_folder(const std::string& work_name);
+/// Name, in a batch's folder, of a model's results. \param folder as its record has it.
+std::string model_folder(const std::string& folder);
 
 }  // namespace vantage::batch

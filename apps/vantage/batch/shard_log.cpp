@@ -3,25 +3,45 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
-#include <filesystem>
-#include <fstream>
 
+#include <fcntl.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include "vantage/core/error.h"
-#include "vantage/io/write.h"
 
 #include "batch/content_hash.h"
+#include "batch/descriptor.h"
 
 namespace vantage::batch {
 namespace {
 
-namespace fs = std::filesystem;
-
 // Records between two checkpoints: rewriting a shard of minutes costs less than a model.
 constexpr std::size_t kCheckpoint = 256;
+
+// A record is a few kB; the rest of a longer line is no record and fills no memory.
+constexpr std::size_t kLongestLine = 16U << 20U;
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+/// The next line without its end, cut where it is too long. \return false at the end.
+bool read_line(std::FILE* file, std::string& line) {
+  line.clear();
+  int c = 0;
+  while ((c = ::getc_unlocked(file)) != EOF && c != '\n') {
+    if (line.size() <= kLongestLine) {
+      line += static_cast<char>(c);
+    }
+  }
+  return c != EOF || !line.empty();
+}
 
 std::string file_name(const Shard& shard) {
   std::array<char, 64> name{};
@@ -58,18 +78,34 @@ Shard parse_shard(const std::string& text) {
                      "'");
 }
 
-std::string shard_folder(const std::string& folder) {
-  return (fs::path(folder) / "shards").string();
+bool is_shard_file(std::string_view name) {
+  constexpr std::string_view kLike = "shard-00000-of-00000.jsonl";
+  const std::string_view stem = name.substr(0, kLike.size());
+  const bool fits = stem.size() == kLike.size() &&
+                    std::equal(stem.begin(), stem.end(), kLike.begin(), [](char c, char like) {
+                      return like == '0' ? c >= '0' && c <= '9' : c == like;
+                    });
+  return fits && (name.size() == kLike.size() || name.substr(kLike.size()) == ".log");
 }
 
 std::size_t read_shard_file(const std::string& path,
                             const std::function<void(const ModelRecord&)>& take) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
+  Descriptor opened(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+
+  struct stat status {};
+
+  if (opened.number() < 0 && errno == ENOENT) {
+    return 0;  // a log that its shard has just put into its file
+  }
+  if (opened.number() < 0 || ::fstat(opened.number(), &status) != 0) {
     throw IoError(path, "cannot be read", errno);
   }
+  if (!S_ISREG(status.st_mode)) {
+    throw IoError(path, "is not a regular file; move it away");
+  }
+  const File file(::fdopen(opened.release(), "rb"));
   std::size_t torn = 0;
-  for (std::string line; std::getline(file, line);) {
+  for (std::string line; read_line(file.get(), line);) {
     if (const std::optional<ModelRecord> record = record_from_line(line)) {
       take(*record);
     } else {
@@ -79,15 +115,17 @@ std::size_t read_shard_file(const std::string& path,
   return torn;
 }
 
-ShardLog::ShardLog(const std::string& folder, const Shard& shard) {
-  std::error_code error;
-  fs::create_directories(shard_folder(folder), error);
-  path_ = (fs::path(shard_folder(folder)) / file_name(shard)).string();
-  log_path_ = path_ + ".log";
-  read(path_);
-  read(log_path_);
-  if (fs::exists(log_path_, error)) {
-    finish();  // a killed run left it: its records come first into the file
+ShardLog::ShardLog(const std::string& folder, const Shard& shard)
+    : folder_(folder,
+              "shard-" + std::to_string(shard.index) + "-of-" + std::to_string(shard.count)),
+      name_(std::string(kShardFolder) + "/" + file_name(shard)),
+      log_name_(name_ + ".log") {
+  folder_.make_folders(kShardFolder);
+  read(name_);
+  read(log_name_);
+  if (folder_.exists(log_name_) || !folder_.exists(name_)) {
+    // A killed run's records come first into the file; an empty one shows whose folder this is.
+    finish();
   }
 }
 
@@ -97,10 +135,9 @@ ShardLog::~ShardLog() {
   }
 }
 
-void ShardLog::read(const std::string& path) {
-  std::error_code error;
-  if (fs::exists(path, error)) {
-    read_shard_file(path, [this](const ModelRecord& record) { remember(record); });
+void ShardLog::read(const std::string& name) {
+  if (folder_.exists(name)) {
+    read_shard_file(folder_.path_of(name), [this](const ModelRecord& record) { remember(record); });
   }
 }
 
@@ -145,9 +182,10 @@ std::int64_t ShardLog::latest_ms() {
 }
 
 void ShardLog::open_log() {
-  log_ = std::fopen(log_path_.c_str(), "abe");
+  const int file = folder_.open_file(log_name_, O_WRONLY | O_APPEND | O_CREAT);
+  log_ = file < 0 ? nullptr : ::fdopen(file, "ab");
   if (log_ == nullptr) {
-    throw IoError(log_path_, "cannot be created", errno);
+    throw IoError(folder_.path_of(log_name_), "cannot be created", errno);
   }
 }
 
@@ -157,7 +195,7 @@ void ShardLog::put(const ModelRecord& record) {
   }
   const std::string line = to_json(record).dump() + "\n";
   if (std::fwrite(line.data(), 1, line.size(), log_) != line.size() || std::fflush(log_) != 0) {
-    throw IoError(log_path_, "cannot be written", errno);
+    throw IoError(folder_.path_of(log_name_), "cannot be written", errno);
   }
   remember(record);
   if (++unsaved_ >= kCheckpoint) {
@@ -170,14 +208,13 @@ void ShardLog::finish() {
   for (const auto& [key, record] : records_) {
     text += to_json(record).dump() + "\n";
   }
-  write_file(path_, text);
+  folder_.write(name_, text);
   // Only now, with the records safe under their final name, may the log go.
   if (log_ != nullptr) {
     std::fclose(log_);
     log_ = nullptr;
   }
-  std::error_code error;
-  fs::remove(log_path_, error);
+  folder_.remove(log_name_);
   unsaved_ = 0;
 }
 

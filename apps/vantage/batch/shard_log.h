@@ -8,8 +8,10 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
+#include "batch/confined_folder.h"
 #include "batch/result_book.h"
 
 namespace vantage::batch {
@@ -44,12 +46,13 @@ class ShardLog : public ResultBook {
   void finish() override;
 
  private:
-  void read(const std::string& path);
+  void read(const std::string& name);
   void remember(const ModelRecord& record);
   void open_log();
 
-  std::string path_;
-  std::string log_path_;
+  ConfinedFolder folder_;
+  std::string name_;
+  std::string log_name_;
   std::FILE* log_ = nullptr;
   std::size_t unsaved_ = 0;
   std::map<std::string, ModelRecord> records_{};
@@ -57,12 +60,15 @@ class ShardLog : public ResultBook {
   std::map<std::string, std::string> owner_of_folder_{};
 };
 
-/// Reads every record of a shard file or its log; lines that are torn are passed over.
-/// \return how many lines were no records. \throw IoError
+/// Reads every record of a shard file or its log, which must be a regular file; lines that are torn
+/// or hold no sound record are passed over. \return how many these were. \throw IoError
 std::size_t read_shard_file(const std::string& path,
                             const std::function<void(const ModelRecord&)>& take);
 
-/// Folder of the shard files below a batch's folder.
-std::string shard_folder(const std::string& folder);
+/// Whether a name is that of a shard file or its log.
+bool is_shard_file(std::string_view name);
+
+/// Name, in a batch's folder, of the folder of the shard files.
+inline constexpr const char* kShardFolder = "shards";
 
 }  // namespace vantage::batch

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "vantage/core/error.h"
+
 #include "batch/shard_log.h"
 
 namespace vantage::batch {
@@ -14,12 +16,16 @@ namespace fs = std::filesystem;
 std::vector<std::string> shard_files(const std::string& folder) {
   std::vector<std::string> files;
   std::error_code error;
-  for (const auto& file : fs::directory_iterator(shard_folder(folder), error)) {
-    const std::string name = file.path().filename().string();
+  const fs::path shards = fs::path(folder) / kShardFolder;
+  fs::directory_iterator file(shards, error);
+  for (; !error && file != fs::directory_iterator(); file.increment(error)) {
     // A log holds what a shard that runs, or was killed, has not yet put into its file.
-    if (name.starts_with("shard-") && (name.ends_with(".jsonl") || name.ends_with(".jsonl.log"))) {
-      files.push_back(file.path().string());
+    if (is_shard_file(file->path().filename().string())) {
+      files.push_back(file->path().string());
     }
+  }
+  if (error && error != std::errc::no_such_file_or_directory) {
+    throw IoError(shards.string(), "cannot be listed", error.value());
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -32,9 +38,18 @@ MergeCounts merge_shards(const std::vector<std::string>& folders, ResultsStore& 
   MergeCounts counts;
   const auto take = [&](const ModelRecord& record) {
     run.check();
+    if (!is_sound(record)) {  // a row of a store
+      ++counts.torn;
+      return;
+    }
     ++counts.seen;
     counts.taken += store.merge(record) ? 1 : 0;
   };
+  for (const std::string& folder : folders) {
+    if (!fs::is_directory(folder)) {
+      throw IoError(folder, "is not a folder of a batch");
+    }
+  }
   store.begin();
   for (const std::string& folder : folders) {
     for (const std::string& file : shard_files(folder)) {

@@ -15,7 +15,7 @@ namespace vantage::batch {
 struct MergeCounts {
   std::size_t seen = 0;   ///< Records read.
   std::size_t taken = 0;  ///< Of these, new or better than what was there.
-  std::size_t torn = 0;   ///< Lines that were no records.
+  std::size_t torn = 0;   ///< Lines and rows that were no sound records, and were left out.
 };
 
 /// Folds the shard files of the folders, and the stores of all but the first, into the first one's

@@ -30,26 +30,22 @@ constexpr std::uint64_t kCostOfAnyModel = 500'000;
 /// A file that appears under its name when it is complete.
 class WholeFile {
  public:
-  explicit WholeFile(std::string path) : path_(std::move(path)), partial_(path_ + ".part") {
-    std::remove(partial_.c_str());  // a dead process's, or a link that is not to be written through
-    file_.reset(std::fopen(partial_.c_str(), "wbxe"));
-    if (!file_) {
-      throw IoError(partial_, "cannot be written", errno);
-    }
-  }
+  WholeFile(const ConfinedFolder& folder, std::string name)
+      : folder_(folder), name_(std::move(name)), file_(::fdopen(folder.create_part(), "wb")) {}
 
   void line(const nlohmann::ordered_json& json) {
     const std::string text =
         json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
     if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) {
-      throw IoError(partial_, "cannot be written", errno);
+      throw IoError(folder_.path_of(name_), "cannot be written", errno);
     }
   }
 
   void finish() {
-    if (std::fflush(file_.get()) != 0 || std::rename(partial_.c_str(), path_.c_str()) != 0) {
-      throw IoError(path_, "cannot be written", errno);
+    if (std::fflush(file_.get()) != 0) {
+      throw IoError(folder_.path_of(name_), "cannot be written", errno);
     }
+    folder_.finish_part(name_);
   }
 
  private:
@@ -57,8 +53,8 @@ class WholeFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
-  std::string path_;
-  std::string partial_;
+  const ConfinedFolder& folder_;
+  std::string name_;
   std::unique_ptr<std::FILE, Close> file_{};
 };
 
@@ -90,8 +86,9 @@ std::uint64_t cost_of(const Entry& entry) {
 
 }  // namespace
 
-std::int64_t write_plan(EntrySource& entries, const std::string& path) {
-  WholeFile file(path);
+std::int64_t write_plan(EntrySource& entries, const ConfinedFolder& folder,
+                        const std::string& name) {
+  WholeFile file(folder, name);
   std::int64_t count = 0;
   while (const std::optional<Entry> entry = entries.next()) {
     write_entry(file, *entry, std::nullopt);
@@ -101,7 +98,8 @@ std::int64_t write_plan(EntrySource& entries, const std::string& path) {
   return count;
 }
 
-void balance_plan(const std::string& path, std::uint32_t shards) {
+void balance_plan(const ConfinedFolder& folder, const std::string& name, std::uint32_t shards) {
+  const std::string path = folder.path_of(name);
   std::vector<std::pair<std::uint64_t, std::size_t>> by_cost;
   const std::unique_ptr<EntrySource> sizes = entries_of_manifest(path);
   while (const std::optional<Entry> entry = sizes->next()) {
@@ -123,7 +121,7 @@ void balance_plan(const std::string& path, std::uint32_t shards) {
     shard_of[index] = shard;
     least.emplace(load + cost, shard);
   }
-  WholeFile file(path);
+  WholeFile file(folder, name);
   const std::unique_ptr<EntrySource> entries = entries_of_manifest(path);
   std::size_t index = 0;
   while (const std::optional<Entry> entry = entries->next()) {

@@ -2,13 +2,11 @@
 #include "batch/slurm.h"
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <sstream>
 #include <thread>
 
 #include "vantage/core/error.h"
-#include "vantage/io/write.h"
 
 #include "batch/program_call.h"
 
@@ -29,6 +27,15 @@ std::string quoted(const std::string& word) {
     text += c == '\'' ? std::string("'\\''") : std::string(1, c);
   }
   return text + "'";
+}
+
+/// A path in one of sbatch's patterns, where a percent sign begins a field.
+std::string in_pattern(const std::string& path) {
+  std::string text;
+  for (const char c : path) {
+    text += c == '%' ? std::string("%%") : std::string(1, c);
+  }
+  return text;
 }
 
 std::string first_line(const std::string& text) {
@@ -85,21 +92,21 @@ std::string slurm_script(const SlurmRequest& request) {
 
 std::string submit_slurm(const SlurmRequest& request, const std::vector<std::uint32_t>& indices) {
   const std::string script = request.folder + "/slurm/shard.sh";
-  write_file(script, slurm_script(request));
   std::string array = index_ranges(indices);
   if (request.at_once > 0) {
     array += "%" + std::to_string(request.at_once);
   }
-  std::vector<std::string> command = {"sbatch",
-                                      "--parsable",
-                                      "--job-name=vantage",
-                                      "--array=" + array,
-                                      "--ntasks=1",
-                                      "--cpus-per-task=" + std::to_string(request.cpus),
-                                      "--requeue",
-                                      "--open-mode=append",
-                                      "--output=" + request.folder + "/slurm/shard-%a.log",
-                                      "--signal=B:TERM@" + std::to_string(kWarningSeconds)};
+  std::vector<std::string> command = {
+      "sbatch",
+      "--parsable",
+      "--job-name=vantage",
+      "--array=" + array,
+      "--ntasks=1",
+      "--cpus-per-task=" + std::to_string(request.cpus),
+      "--requeue",
+      "--open-mode=append",
+      "--output=" + in_pattern(request.folder) + "/slurm/shard-%a.log",
+      "--signal=B:TERM@" + std::to_string(kWarningSeconds)};
   if (request.memory_mb > 0) {
     command.push_back("--mem=" + std::to_string(request.memory_mb));
   }
@@ -114,19 +121,21 @@ std::string submit_slurm(const SlurmRequest& request, const std::vector<std::uin
   const ProgramResult result = call_program(command);
   // "1234" or "1234;cluster"
   std::string id = result.output.substr(0, result.output.find_first_of(";\n"));
-  const bool number = !id.empty() && std::all_of(id.begin(), id.end(), [](unsigned char c) {
-    return std::isdigit(c) != 0;
-  });
-  if (result.exit_code != 0 || !number) {
+  if (result.exit_code != 0 || !is_job(id)) {
     throw IoError("sbatch", "did not take the job: " + first_line(result.messages));
   }
   return id;
 }
 
+bool is_job(const std::string& text) {
+  return !text.empty() &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
 SlurmProgress slurm_progress(const std::string& job) {
   for (int attempt = 0;; ++attempt) {
-    const ProgramResult result =
-        call_program({"squeue", "--noheader", "--array", "--jobs=" + job, "--format=%T %r"});
+    const ProgramResult result = call_program(
+        {"squeue", "--noheader", "--array", "--jobs=" + job, "--name=vantage", "--format=%T %r"});
     if (result.exit_code == 0) {
       SlurmProgress progress;
       std::istringstream lines(result.output);
@@ -150,7 +159,7 @@ SlurmProgress slurm_progress(const std::string& job) {
 }
 
 void cancel_slurm(const std::string& job) {
-  call_program({"scancel", job});
+  call_program({"scancel", "--name=vantage", job});
 }
 
 }  // namespace vantage::batch

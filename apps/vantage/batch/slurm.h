@@ -12,7 +12,7 @@ namespace vantage::batch {
 
 /// What a job array is asked to be.
 struct SlurmRequest {
-  std::string folder{};                ///< Absolute; script and logs go to folder/slurm/.
+  std::string folder{};                ///< Absolute; script and logs are in folder/slurm/.
   std::vector<std::string> command{};  ///< The shard's command line; "--shard i/n" is added.
   std::uint32_t shards = 1;            ///< [n], tasks of the array.
   std::uint32_t at_once = 0;           ///< Tasks that may run together; 0: as many as fit.
@@ -37,14 +37,18 @@ std::string index_ranges(const std::vector<std::uint32_t>& indices);
 /// with 75, for RequeueExit=75, unless no model of it had ended since it began; shards whose models have all ended succeed, even if some failed.
 std::string slurm_script(const SlurmRequest& request);
 
-/// Submits tasks `indices` of the request. \return the job's id. \throw IoError with sbatch's words.
+/// Submits tasks `indices` of the request, whose script is in folder/slurm/shard.sh.
+/// \return the job's id. \throw IoError with sbatch's words.
 std::string submit_slurm(const SlurmRequest& request, const std::vector<std::uint32_t>& indices);
 
 /// Tasks of a job that have not ended; none if the job is unknown (it has ended, and was forgotten).
 /// \throw IoError if the controller does not answer for long.
 SlurmProgress slurm_progress(const std::string& job);
 
-/// Ends all tasks of a job that have not ended.
+/// Whether a text can be the id of a job.
+bool is_job(const std::string& text);
+
+/// Ends all tasks of a job that have not ended; of jobs named vantage, as batches are.
 void cancel_slurm(const std::string& job);
 
 }  // namespace vantage::batch

@@ -52,10 +52,10 @@ Image thumbnail_of(const Image& image) {
   return small;
 }
 
-std::optional<Image> read_png(const std::string& path, int longest_side) {
+std::optional<Image> parse_png(std::string_view bytes, int longest_side) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_file(&png, path.c_str()) == 0) {
+  if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) {
     return std::nullopt;
   }
   png.format = PNG_FORMAT_RGBA;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <optional>
-#include <string>
+#include <string_view>
 
 #include "vantage/core/image.h"
 
@@ -18,7 +18,7 @@ inline constexpr int kThumbnailSide = 160;
 /// its longest side is kThumbnailSide. Pictures that are small already stay as they are.
 Image thumbnail_of(const Image& image);
 
-/// Reads a PNG. Empty if it cannot be read or a side is longer than `longest_side`.
-std::optional<Image> read_png(const std::string& path, int longest_side);
+/// Decodes a PNG. Empty if it is none or a side is longer than `longest_side`.
+std::optional<Image> parse_png(std::string_view bytes, int longest_side);
 
 }  // namespace vantage::batch

@@ -117,6 +117,7 @@ bool WorkerProcess::receive() {
       return true;
     }
     if (got == 0 || errno != EINTR) {
+      closed_ = true;
       return false;
     }
   }
@@ -159,6 +160,12 @@ int WorkerProcess::end() {
     ::close(from_worker_);
   }
   return status_;
+}
+
+std::string seconds_text(double seconds) {
+  std::string text = std::to_string(seconds);
+  text.erase(text.find_last_not_of('0') + 1);
+  return text.ends_with('.') ? text.substr(0, text.size() - 1) : text;
 }
 
 std::string how_it_ended(int wait_status) {

@@ -44,6 +44,9 @@ class WorkerProcess {
   /// Waits for a whole line; empty if the worker ends, the time is over or a stop is requested.
   std::optional<std::string> await_line(double timeout_s, const std::stop_token& stop);
 
+  /// Whether it has closed its end, which it does by ending.
+  [[nodiscard]] bool has_closed() const { return closed_; }
+
   /// Kills it and waits. \return how it ended, as waitpid() says.
   int end();
 
@@ -52,8 +55,12 @@ class WorkerProcess {
   int to_worker_ = -1;
   int from_worker_ = -1;
   int status_ = 0;
+  bool closed_ = false;
   std::string received_{};
 };
+
+/// 300 → "300", 0.5 → "0.5".
+std::string seconds_text(double seconds);
 
 /// "signal 11 (Segmentation fault)", "exit code 3".
 std::string how_it_ended(int wait_status);

@@ -53,8 +53,20 @@ TEST(FolderName, CutsLongNamesBetweenCharacters) {
     stem += "日";
   }
   const std::string name = folder_name("{stem}", {.path = stem + ".ply", .key = "k"});
-  EXPECT_EQ(name.size(), 99U) << "33 characters of 3 bytes fit into 100";
-  EXPECT_EQ(stem.substr(0, name.size()), name);
+  EXPECT_EQ(name.size(), 99U) << "30 characters of 3 bytes, a dash and 8 digits fit into 100";
+  EXPECT_EQ(stem.substr(0, 90), name.substr(0, 90));
+}
+
+TEST(FolderName, KeepsLongNamesApartWhereverTheyDiffer) {
+  const std::string a(240, 'a');
+  const auto named = [](const std::string& text, const std::string& path) {
+    return folder_name(text, {.path = path, .key = "k", .content = "0123456789abcdef"});
+  };
+  EXPECT_EQ(named("{stem}", a + "1.ply"), named("{stem}", a + "1.ply"));
+  EXPECT_NE(named("{stem}", a + "1.ply"), named("{stem}", a + "2.ply"));
+  // The fields fit, but not together; what is cut off may be all that differs.
+  EXPECT_NE(named("{parent}-{stem}-1", a + "/" + a), named("{parent}-{stem}-2", a + "/" + a));
+  EXPECT_LE(named("{parent}-{stem}", a + "/" + a).size(), 150U);
 }
 
 TEST(CheckTemplate, RefusesUnknownFieldsAndPartsWithoutAName) {
