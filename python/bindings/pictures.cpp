@@ -102,7 +102,7 @@ Image drawn(const Analysis& analysis, const Camera& camera, Picture picture,
     return render(analysis.shape.surface, camera, on_surface(colours, analysis.shape), {}, look,
                   run);
   }
-  const Model* asset = settings.asset_colours ? &*analysis.model : nullptr;
+  const Model* asset = settings.look.style == Style::Asset ? &*analysis.model : nullptr;
   return draw_picture(analysis.shape, camera, picture, settings.view, look, run, asset);
 }
 

@@ -92,9 +92,9 @@ QuickView find_quick_view(const Model& model, const ShapeAnalysis& shape,
   settle_near_ties(best, twins, frame);
   view.direction = best.direction;
   view.evaluations = found.evaluations;
-  view.picture = frame_points(referenced_points(shape.surface), camera.viewpoint(view.direction),
-                              camera.sphere.centre, up,
-                              static_cast<double>(options.width) / options.height, options.margin);
+  view.picture = frame_points(
+      referenced_points(shape.surface), camera.viewpoint(view.direction), camera.sphere.centre, up,
+      static_cast<double>(options.width) / options.height, options.margin_percent / 100.0);
   run.advance("search", 1.0);
   return view;
 }

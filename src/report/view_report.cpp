@@ -82,7 +82,8 @@ ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& v
       views != nullptr ? views->vertex_areas : vertex_areas(shape.surface), visible);
   view.picture = frame_points(referenced_points(shape.surface), camera.viewpoint(direction),
                               camera.sphere.centre, up_vector(up),
-                              static_cast<double>(options.width) / options.height, options.margin);
+                              static_cast<double>(options.width) / options.height,
+                              options.margin_percent / 100.0);
   return view;
 }
 

@@ -169,7 +169,6 @@ Start evaluate_start(Evaluator& evaluator, const SearchOptions& options, const R
 
 void check_options(double total, const SearchOptions& options) {
   check_fields(options, kSearchFields);
-  check_fields(options, kGradientFields);
   if (!(options.epsilon >= 0.0) || !std::isfinite(options.epsilon)) {
     throw InvalidInput("option epsilon must be finite and not negative");
   }
