@@ -36,8 +36,7 @@ const T& expected(const OptionValue& value, std::string_view name, const char* w
 
 template <class Options, class Value>
 void describe(const Field<Options, Value>& field, Option& row) {
-  row.kind =
-      std::is_integral_v<NumberOf<Value>> ? OptionKind::Integer : OptionKind::Number;
+  row.kind = std::is_integral_v<NumberOf<Value>> ? OptionKind::Integer : OptionKind::Number;
   row.low = static_cast<double>(field.low);
   row.high = static_cast<double>(field.high);
   if (!field.unit.empty()) {

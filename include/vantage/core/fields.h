@@ -26,6 +26,7 @@ template <class Value>
 struct NumberIn {
   using type = Value;
 };
+
 template <class Value>
 struct NumberIn<std::optional<Value>> {
   using type = Value;
@@ -76,10 +77,10 @@ enum class TextForm {
 /// A text as it is.
 template <class Options>
 struct Word {
-  std::string_view name;                ///< As in Field.
-  std::string Options::*member;         ///< As in Field; empty where nothing is set.
-  std::string_view help;                ///< As in Field.
-  TextForm form = TextForm::Plain;      ///< What texts look like.
+  std::string_view name;            ///< As in Field.
+  std::string Options::*member;     ///< As in Field; empty where nothing is set.
+  std::string_view help;            ///< As in Field.
+  TextForm form = TextForm::Plain;  ///< What texts look like.
 };
 
 /// What is written as a text and stands in no single member.

@@ -40,17 +40,17 @@ enum class OptionKind {
 
 /// One option.
 struct Option {
-  std::string name{};                 ///< As flags and results have it, e.g. "max-steps".
-  std::string group{};                ///< Which commands and functions offer it, e.g. "camera".
-  std::string heading{};              ///< That the help lists it under.
-  std::string help{};                 ///< One line; empty: neither a flag nor a keyword.
-  std::string off_help{};             ///< Of a switch that is on unless `--no-NAME` is given.
+  std::string name{};                  ///< As flags and results have it, e.g. "max-steps".
+  std::string group{};                 ///< Which commands and functions offer it, e.g. "camera".
+  std::string heading{};               ///< That the help lists it under.
+  std::string help{};                  ///< One line; empty: neither a flag nor a keyword.
+  std::string off_help{};              ///< Of a switch that is on unless `--no-NAME` is given.
   OptionKind kind = OptionKind::Text;  ///< What its values are.
-  TextForm form = TextForm::Plain;    ///< Of a text.
-  std::vector<std::string> words{};   ///< Of a choice.
-  double low = 0.0;                   ///< Of a number.
-  double high = 0.0;                  ///< Of a number.
-  bool is_of_pictures = false;        ///< Of RenderOptions: no part of view.json.
+  TextForm form = TextForm::Plain;     ///< Of a text.
+  std::vector<std::string> words{};    ///< Of a choice.
+  double low = 0.0;                    ///< Of a number.
+  double high = 0.0;                   ///< Of a number.
+  bool is_of_pictures = false;         ///< Of RenderOptions: no part of view.json.
   std::function<OptionValue(const AllOptions&)> value{};  ///< What it is.
   /// Sets it, and what follows from it. \throw InvalidInput that begins with "option NAME"
   std::function<void(AllOptions&, const OptionValue&)> set{};

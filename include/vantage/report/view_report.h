@@ -114,8 +114,8 @@ inline constexpr auto kViewFields = std::tuple{
            "of the scoring camera"},
     Field{"distance", &ViewOptions::distance_factor, 1.001, 1e6,
           "eye to centre; unset: the sphere fills the view", "radii of the enclosing sphere"},
-    Field{"fov", &ViewOptions::fov_y_deg, 1.0, 170.0, "vertical field of view of the scoring camera",
-          "degrees"},
+    Field{"fov", &ViewOptions::fov_y_deg, 1.0, 170.0,
+          "vertical field of view of the scoring camera", "degrees"},
     Choice{"up", &ViewOptions::up, kUpWords,
            "up axis of the model; auto: z for STL, y otherwise, unless the model clearly stands on "
            "the other"},

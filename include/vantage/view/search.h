@@ -50,10 +50,11 @@ std::string epsilon_text(const SearchOptions& options);
 
 /// The table of SearchOptions.
 inline constexpr auto kSearchFields = std::tuple{
-    Choice{"search", &SearchOptions::strategy, "rapid|exhaustive|global|dense|gradient",
-           "global: finds what dense finds, by a fraction of its scores; dense: 10242 directions, "
-           "then refinement, slow; rapid: the paper's; exhaustive: a direction set; gradient: Lee's "
-           "ascent from random starts"},
+    Choice{
+        "search", &SearchOptions::strategy, "rapid|exhaustive|global|dense|gradient",
+        "global: finds what dense finds, by a fraction of its scores; dense: 10242 directions, "
+        "then refinement, slow; rapid: the paper's; exhaustive: a direction set; gradient: Lee's "
+        "ascent from random starts"},
     Choice{"base", &SearchOptions::base, "cube|icosahedron",
            "polyhedron of the view sphere; a rapid search begins with the cube"},
     Field{"subdivisions", &SearchOptions::subdivisions, 0, 8,
