@@ -20,8 +20,9 @@ namespace vantage {
 
 /// Options of select_views().
 struct ViewSetOptions {
-  std::optional<int> views{};        ///< At most this many; unset: as many as `coverage` needs.
-  std::optional<double> coverage{};  ///< Stop at this share of what candidates see, in (0, 1], or 1.
+  std::optional<int> views{};  ///< At most this many; unset: as many as `coverage` needs.
+  /// Stop at this share of what any candidate sees, in (0, 1]; unset: 1.
+  std::optional<double> coverage{};
   double min_separation_deg = 0.0;  ///< Between any two views, degrees, in [0, 180].
   bool refine = true;               ///< Move each view after the first to a local peak of its gain.
   int level = 4;                    ///< Candidates: the icosahedron split this often, 0–6.
