@@ -65,11 +65,7 @@ FUNCTIONS = [  # name, own keywords, groups of options, result
 
 def annotation(row):
     """The option's type, in the words of Python 3.9."""
-    if row["name"] == "prior":
-        return "Optional[_Path]"
-    if row["name"] == "focus":
-        return "Optional[Union[str, int]]"
-    text = row["type"].replace("tuple[", "Tuple[")
+    text = row["type"].replace("tuple[", "Tuple[").replace("str | os.PathLike[str]", "_Path")
     kinds = text.split(" | ")
     return f"Optional[Union[{', '.join(kinds)}]]" if len(kinds) > 1 else f"Optional[{text}]"
 

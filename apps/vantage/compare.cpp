@@ -19,9 +19,8 @@ struct CompareCommand {
   std::string folder{};
   std::string names = "all";
   std::string search = "rings";
-  int starts = SearchOptions{}.starts;
+  OptionFlags gradient{};
   bool no_images = false;
-  SaliencyFlags saliency{};
   MethodFlags method{};
 
   void add_flags(CLI::App& app, Session& session) {
@@ -35,19 +34,15 @@ struct CompareCommand {
                    "of all methods but those that count things")
         ->check(CLI::IsMember({"rings", "gradient"}))
         ->capture_default_str();
-    app.add_option("--starts", starts, "random directions that --search gradient starts from")
-        ->check(CLI::Range(1, 4096))
-        ->capture_default_str();
+    gradient.add(app, find_option("starts"));
     app.add_flag("--no-images", no_images, "no contact sheet and no page");
-    saliency.add_to(app);
-    method.add_to(app, {.map = true, .camera = true});
+    method.add_to(app, {.map = true, .saliency = true, .camera = true});
     add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
 
   void run(Session& session) const {
     ViewOptions options = method.resolve();
-    saliency.apply(options);
     const std::vector<Measure> measures = chosen_measures(session, options);
     const RunContext run = session.run();
     const Model loaded = session.load(model);
@@ -87,13 +82,15 @@ struct CompareCommand {
   std::vector<Measure> chosen_measures(const Session& session, ViewOptions& options) const {
     std::vector<Measure> measures = parse_measures(names, "--method");
     if (search != "gradient") {
-      if (starts != SearchOptions{}.starts) {
+      if (gradient.has("starts")) {
         throw CLI::ValidationError("--starts", "goes with --search gradient only");
       }
       return measures;
     }
     options.search.strategy = SearchStrategy::Gradient;
-    options.search.starts = starts;
+    AllOptions given;
+    gradient.apply(given);
+    options.search.starts = given.view.search.starts;
     options.search.seed = session.flags.seed;
     if (names == "all") {
       std::erase_if(measures, [](const Measure& m) { return m.is_count; });

@@ -9,6 +9,7 @@
 #include "vantage/render/render.h"
 #include "vantage/report/view_report.h"
 
+#include "option_flags.h"
 #include "picture_file.h"
 
 /// \file
@@ -24,13 +25,13 @@ class LookFlags {
   void add_to(CLI::App& app, Quality quality, bool asset);
 
   /// The look that was asked for; the size is left alone.
-  [[nodiscard]] const RenderOptions& look() const { return look_; }
+  [[nodiscard]] RenderOptions look() const { return resolved().look; }
 
   /// The same on the ground of a model whose up axis is known.
   [[nodiscard]] RenderOptions look(const Vec3& up) const;
 
   /// Whether the colours and materials of the file are wanted.
-  [[nodiscard]] bool of_asset() const { return asset_; }
+  [[nodiscard]] bool of_asset() const { return look().style == Style::Asset; }
 
   /// Refuses what a picture of this name cannot hold; before any work. \throw CLI::ValidationError
   void check(const std::string& path) const { check_depth(path, depth_); }
@@ -44,14 +45,15 @@ class LookFlags {
              const Camera& camera, Picture picture, const ViewOptions& options, const Vec3& up,
              const RunContext& run) const;
 
-  /// Empty border as a fraction of the picture's shorter side.
-  [[nodiscard]] double margin() const { return margin_per_cent_ / 100.0; }
+  /// Empty border, per cent of the picture's shorter side.
+  [[nodiscard]] double margin_percent() const { return resolved().view.margin_percent; }
 
  private:
-  RenderOptions look_{};
-  bool asset_ = false;
+  [[nodiscard]] AllOptions resolved() const;
+
+  AllOptions start_{};  // unless flags say otherwise
+  OptionFlags flags_{};
   int depth_ = 8;
-  double margin_per_cent_ = 4.0;
 };
 
 }  // namespace vantage::cli

@@ -9,7 +9,6 @@
 #include "vantage/report/measured_shape.h"
 
 #include "commands.h"
-#include "measure_flags.h"
 #include "method_flags.h"
 #include "output_file.h"
 #include "output_folder.h"
@@ -29,7 +28,6 @@ struct MapCommand {
   std::string file{};
   std::string levels{};
   std::string name = "kssm";
-  SaliencyFlags saliency{};
   MethodFlags method{};
 
   void add_flags(CLI::App& app, Session& session) {
@@ -44,15 +42,13 @@ struct MapCommand {
         ->capture_default_str();
     app.add_option("--levels", levels,
                    "folder for the displacement of each contraction level: level-00.ply, …");
-    saliency.add_to(app);
-    method.add_to(app, {.map = true, .camera = true});
+    method.add_to(app, {.map = true, .saliency = true, .camera = true});
     add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
 
   void run(Session& session) {
     ViewOptions options = method.resolve();
-    saliency.apply(options);
     const bool by_skeleton = name == "kssm" || name == "thickness";
     if (!by_skeleton && (!levels.empty() || !options.focus.empty())) {
       throw CLI::ValidationError(levels.empty() ? "--focus" : "--levels",

@@ -14,18 +14,7 @@ namespace vantage::cli {
 /// Parses "kssm,vmi" or "all". \throw CLI::ValidationError naming what there is.
 std::vector<Measure> parse_measures(const std::string& text, const std::string& flag);
 
-/// Flags of mesh saliency.
-class SaliencyFlags {
- public:
-  void add_to(CLI::App& app);
-
-  void apply(ViewOptions& options) const { options.saliency = options_; }
-
- private:
-  MeshSaliencyOptions options_{};
-};
-
-/// --method NAME of one measure, and what it depends on.
+/// --method NAME of one measure.
 class MeasureFlags {
  public:
   void add_to(CLI::App& app);
@@ -34,7 +23,6 @@ class MeasureFlags {
 
  private:
   std::string name_ = "kssm";
-  SaliencyFlags saliency_{};
 };
 
 }  // namespace vantage::cli

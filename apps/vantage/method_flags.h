@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
+#include <cstdint>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "vantage/report/view_report.h"
 
+#include "option_flags.h"
+
 namespace vantage::cli {
 
 /// Which groups of method flags a command offers.
 struct FlagGroups {
-  bool map = false;      ///< How KSSM is formed.
-  bool camera = false;   ///< The scoring camera and up.
-  bool search = false;   ///< The search.
-  bool picture = false;  ///< --size.
+  bool map = false;       ///< How KSSM is formed.
+  bool saliency = false;  ///< How mesh saliency is.
+  bool camera = false;    ///< The scoring camera and up.
+  bool search = false;    ///< The search.
+  bool picture = false;   ///< --size.
 };
 
 /// Turns command line flags into ViewOptions: the preset first, then whatever was given.
@@ -30,19 +32,7 @@ class MethodFlags {
   [[nodiscard]] ViewOptions resolve(std::uint64_t seed = 0) const;
 
  private:
-  using Override = std::function<void(ViewOptions&)>;
-
-  void add_map_flags(CLI::App& app);
-  void add_camera_flags(CLI::App& app);
-  void add_search_flags(CLI::App& app);
-  template <class Part, class Table>
-  void add_numbers(CLI::App& app, const std::string& group, Part ViewOptions::*part,
-                   const Table& table);
-
-  std::string preset_ = "default";
-  std::string search_{};
-  std::string prior_{};
-  std::vector<Override> overrides_{};
+  OptionFlags flags_{};
 };
 
 /// The axis of "x", "-y", … \pre it is one of these.
@@ -56,9 +46,6 @@ struct CommonFlags;
 void add_common_flags(CLI::App& app, CommonFlags& flags);
 
 /// Parses "WIDTHxHEIGHT", or one number for a square. \throw CLI::ValidationError
-std::pair<int, int> parse_size(const std::string& text);
-
-/// Adds --size WxH.
-void add_size_flag(CLI::App& app, std::function<void(int width, int height)> take);
+std::pair<int, int> parse_size(const std::string& text, const std::string& flag);
 
 }  // namespace vantage::cli

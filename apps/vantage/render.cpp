@@ -58,7 +58,7 @@ struct RenderCommand {
     look.check(file);
     check_output(file, OutputKind::Picture, session.flags);
     ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
-    options.margin = look.margin();
+    options.margin_percent = look.margin_percent();
     const RunContext run = session.run();
     const Vec3 direction =
         direction_text.empty() ? Vec3::UnitZ() : unit(parse_vector(direction_text, "--direction"));
@@ -106,7 +106,8 @@ struct RenderCommand {
     const ScoringCamera scoring = scoring_camera(shape, options);
     return frame_points(referenced_points(shape.surface), scoring.viewpoint(direction),
                         shape.sphere.centre, up_vector(choose_up(loaded, shape, options).axis),
-                        static_cast<double>(options.width) / options.height, options.margin);
+                        static_cast<double>(options.width) / options.height,
+                        options.margin_percent / 100.0);
   }
 
   [[nodiscard]] Camera found(const ShapeAnalysis& shape, const Model& loaded,
@@ -121,13 +122,16 @@ struct RenderCommand {
     };
     if (session.flags.json) {
       session.end_progress();
-      const nlohmann::ordered_json json = {{"file", file},
-                                           {"width", options.width},
-                                           {"height", options.height},
-                                           {"eye", point(camera.eye)},
-                                           {"target", point(camera.target)},
-                                           {"up", point(camera.up)},
-                                           {"fov_y_deg", camera.fov_y_deg}};
+      const nlohmann::ordered_json json = {
+          {"file", file},
+          {"width", options.width},
+          {"height", options.height},
+          {"eye", point(camera.eye)},
+          {"target", point(camera.target)},
+          {"up", point(camera.up)},
+          {"fov_y_deg", camera.fov_y_deg},
+          {"options",
+           nlohmann::ordered_json::parse(options_json({.view = options, .look = look.look()}))}};
       write_output("-", json.dump(2) + "\n");
       return;
     }

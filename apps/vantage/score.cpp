@@ -34,7 +34,6 @@ struct ScoreCommand {
   int sphere = -1;
   int view_set = 3;
   int sampling = 1;
-  SaliencyFlags saliency{};
   MethodFlags method{};
 
   void add_flags(CLI::App& app, Session& session) {
@@ -64,15 +63,13 @@ struct ScoreCommand {
         ->capture_default_str();
     app.add_option("--visible", visible,
                    "also write which direction sees which vertex to this .npy file (NumPy)");
-    saliency.add_to(app);
-    method.add_to(app, {.map = true, .camera = true});
+    method.add_to(app, {.map = true, .saliency = true, .camera = true});
     add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
 
   void run(Session& session) {
     ViewOptions options = method.resolve();
-    saliency.apply(options);
     const std::vector<Measure> measures = parse_measures(measure, "--method");
     const RunContext run = session.run();
     const bool free_eyes = !eyes.empty();

@@ -22,7 +22,7 @@ struct ThumbCommand {
   std::string model{};
   std::string file{};
   int size = 256;
-  std::string up = "auto";
+  OptionFlags up{};
   LookFlags look{};
   PreviewFlag preview{};
 
@@ -38,9 +38,7 @@ struct ThumbCommand {
     app.add_option("-s,--size", size, "width and height, pixels")
         ->check(CLI::Range(1, kLargestThumbnail))
         ->capture_default_str();
-    app.add_option("--up", up, "up axis of the model: x y z -x -y -z, or auto, as in view")
-        ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z", "auto"}))
-        ->capture_default_str();
+    up.add(app, find_option("up"));
     look.add_to(app, Quality::Draft, /*asset=*/true);
     preview.add_to(app);
     add_force_flag(app, session.flags);
@@ -53,12 +51,11 @@ struct ThumbCommand {
     }
     look.check(file);
     check_output(file, OutputKind::Picture, session.flags);
-    ViewOptions options;
+    AllOptions given;
+    up.apply(given);
+    ViewOptions& options = given.view;
     options.width = options.height = size;
-    options.margin = look.margin();
-    if (up != "auto") {
-      options.up = up_axis(up);
-    }
+    options.margin_percent = look.margin_percent();
     const RunContext run = session.run();
     const Model loaded = session.load(model, look.reading(size, size));
     const ShapeAnalysis shape = session.computing([&] { return prepare_surface(loaded, run); });

@@ -65,7 +65,8 @@ struct ViewCommand {
     app.add_flag("--no-images", no_images, "no pictures and no report");
     app.add_flag("--no-report", no_report, "no report.html, the page to explore the result in");
     measure.add_to(app);
-    method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
+    method.add_to(app,
+                  {.map = true, .saliency = true, .camera = true, .search = true, .picture = true});
     several.add_to(app);
     preview.add_to(app);
     add_force_flag(app, session.flags);

@@ -69,35 +69,18 @@ std::string check_tour_name(const std::string& file) {
   return known ? "" : "the tour's file must end in .webp or .png (animated PNG)";
 }
 
+std::optional<ViewSetRequest> checked(const ViewOptions& options) {
+  try {
+    return checked_view_set(options);
+  } catch (const InvalidInput& error) {
+    throw refused(error);
+  }
+}
+
 }  // namespace
 
 void ViewSetFlags::add_set_to(CLI::App& app) {
-  const std::string group = kGroup;
-  app.add_option("--views", views_, "this many views that together see most")
-      ->check(CLI::Range(1, 1000))
-      ->group(group);
-  app.add_option("--coverage", coverage_,
-                 "views until this share of what can be seen at all is seen, above 0 to 1")
-      ->check(CLI::Range(0.0, 1.0))
-      ->group(group);
-  app.add_option("--min-separation", request_.set.min_separation_deg,
-                 "least angle between two of the views, degrees")
-      ->check(CLI::Range(0.0, 180.0))
-      ->capture_default_str()
-      ->group(group);
-  app.add_option("--select", select_,
-                 "kssm: newly seen significance; vazquez: entropy of unseen faces; feixas: merging "
-                 "by mutual information")
-      ->check(CLI::IsMember({"kssm", "vazquez", "feixas"}))
-      ->default_str("kssm")
-      ->group(group);
-  app.add_option("--information", request_.information,
-                 "with --select feixas: stop when the merged view's information is this share of "
-                 "the channel's")
-      ->check(CLI::Range(0.0, 1.0))
-      ->group(group);
-  app.add_flag("--no-refine", no_refine_, "leave the views on the 2562 candidate directions")
-      ->group(group);
+  flags_.add_groups(app, {"set"});
 }
 
 void ViewSetFlags::add_to(CLI::App& app) {
@@ -115,50 +98,33 @@ void ViewSetFlags::add_to(CLI::App& app) {
       ->group(group);
   app.add_option_function<std::string>(
          "--tour-size",
-         [this](const std::string& text) { std::tie(width_, height_) = parse_size(text); },
+         [this](const std::string& text) {
+           std::tie(width_, height_) = parse_size(text, "--tour-size");
+         },
          "size of the tour's pictures in pixels, like --size")
       ->default_str("480x360")
       ->group(group);
 }
 
 std::optional<ViewSetRequest> ViewSetFlags::request() const {
-  ViewSetRequest request = request_;
-  request.selection = select_ == "vazquez"  ? ViewSelection::Vazquez
-                      : select_ == "feixas" ? ViewSelection::Feixas
-                                            : ViewSelection::Kssm;
-  request.set.views = views_.value_or(0);
-  request.set.coverage = coverage_.value_or(1.0);
-  request.set.refine = !no_refine_;
-  if (coverage_ && !(*coverage_ > 0.0)) {
-    throw CLI::ValidationError("--coverage", "must be above 0");
-  }
-  const bool by_kssm = request.selection == ViewSelection::Kssm;
-  const bool by_information = request.information > 0.0;
-  if (by_information && request.selection != ViewSelection::Feixas) {
-    throw CLI::ValidationError("--information", "needs --select feixas");
-  }
-  if (!by_kssm && (coverage_ || request.set.min_separation_deg > 0.0)) {
-    throw CLI::ValidationError("--select", select_ +
-                                               " chooses a number of views; --coverage and "
-                                               "--min-separation go with --select kssm");
-  }
-  if (views_ || coverage_ || by_information) {
-    return request;
-  }
-  if (!tour_.empty() || !select_.empty() || request.set.min_separation_deg > 0.0) {
+  AllOptions all;
+  flags_.apply(all);
+  const std::optional<ViewSetRequest> request = checked(all.view);
+  if (!request && (!tour_.empty() || flags_.has("select"))) {
     throw CLI::ValidationError("--views",
-                               "say how many views are wanted, with --views N or "
-                               "--coverage C");
+                               "say how many views are wanted, with --views N or --coverage C");
   }
-  return std::nullopt;
+  return request;
 }
 
 ViewSetRequest ViewSetFlags::request_or(int views) const {
-  ViewSetFlags numbered = *this;
-  if (!views_ && !coverage_ && !(request_.information > 0.0)) {
-    numbered.views_ = views;
+  AllOptions all;
+  flags_.apply(all);
+  ViewSetRequest& request = all.view.view_set ? *all.view.view_set : all.view.view_set.emplace();
+  if (!request.set.views && !request.set.coverage && !(request.information > 0.0)) {
+    request.set.views = views;
   }
-  return numbered.request().value();
+  return checked(all.view).value();
 }
 
 double ViewSetFlags::seconds(const Tour& tour) const {

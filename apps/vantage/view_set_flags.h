@@ -9,6 +9,7 @@
 #include "vantage/report/view_report.h"
 
 #include "method_flags.h"
+#include "option_flags.h"
 #include "output_folder.h"
 #include "view_outputs.h"
 
@@ -36,11 +37,7 @@ class ViewSetFlags {
                   UpAxis up, const RunContext& run) const;
   [[nodiscard]] double seconds(const Tour& tour) const;
 
-  ViewSetRequest request_{};
-  std::optional<int> views_{};
-  std::optional<double> coverage_{};
-  std::string select_{};
-  bool no_refine_ = false;
+  OptionFlags flags_{};
   std::string tour_{};
   double seconds_ = 0.0;
   int fps_ = 15;

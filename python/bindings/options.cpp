@@ -1,69 +1,170 @@
 // SPDX-License-Identifier: MIT
 #include "options.h"
 
+#include <algorithm>
 #include <string>
+#include <utility>
 
-#include "look_options.h"
-#include "option_makers.h"
+#include <pybind11/stl.h>
+
+#include "vantage/core/error.h"
 
 namespace vantage::python {
 namespace {
 
-Settings start_of(Preset preset) {
-  Settings settings;
-  settings.view = preset_options(preset);
-  set_quality(settings.look, Quality::Normal);
-  return settings;
+std::string keyword_of(const Option& option) {
+  std::string name = option.name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
 }
 
-Option preset_option() {
-  return word_option(
-      "preset", std::string(kMethodGroup), "default: our choices; paper: the paper's",
-      {"default", "paper"},
-      [](Settings& s, std::size_t i) { s = start_of(static_cast<Preset>(i)); },
-      [](const Settings& s) { return s.view.preset; });
+/// As the program's command line has it.
+std::string flag_of(const Option& option) {
+  const OptionValue value = option.value({});
+  const bool* const is_on = std::get_if<bool>(&value);
+  return (is_on != nullptr && *is_on ? "--no-" : "--") + option.name;
 }
 
-std::vector<Option> make_table() {
-  std::vector<Option> table;
-  table.push_back(preset_option());  // what the others then change
-  add_method_options(table);
-  add_view_options(table);
-  add_look_options(table);
-  return table;
+/// As Python writes the type.
+std::string type_of(const Option& option) {
+  switch (option.kind) {
+    case OptionKind::Number:
+      return "float";
+    case OptionKind::Integer:
+      return "int";
+    case OptionKind::Switch:
+      return "bool";
+    case OptionKind::Choice: {
+      std::string words;
+      for (const std::string& word : option.words) {
+        words.append(words.empty() ? "\"" : ", \"").append(word).append("\"");
+      }
+      return "Literal[" + words + "]";
+    }
+    case OptionKind::Text:
+      break;
+  }
+  switch (option.form) {
+    case TextForm::Name:
+      return "str | int";
+    case TextForm::File:
+      return "str | os.PathLike[str]";
+    case TextForm::Share:
+      return "float | str";
+    case TextForm::Size:
+      return "tuple[int, int] | int | str";
+    case TextForm::Plain:
+      break;
+  }
+  return "str";
 }
 
-bool shapes_analysis(const Option& option) {
-  return option.group == kMethodGroup || option.group == kMapGroup;
+/// A text of an option, from all that Python may say it by.
+std::string text_from(const Option& option, const py::object& given) {
+  if (option.form == TextForm::File) {
+    return py::module_::import("os").attr("fspath")(given).cast<std::string>();
+  }
+  if (py::isinstance<py::str>(given)) {
+    return given.cast<std::string>();
+  }
+  if (option.form == TextForm::Share) {
+    return py::repr(py::float_(given)).cast<std::string>();
+  }
+  if (option.form == TextForm::Size && py::isinstance<py::sequence>(given)) {
+    std::string text;
+    for (const py::handle side : given) {
+      text += (text.empty() ? "" : "x") + py::str(side).cast<std::string>();
+    }
+    return text;
+  }
+  if (option.form == TextForm::Plain) {
+    throw py::cast_error();
+  }
+  return py::str(given).cast<std::string>();
+}
+
+/// A whole number, from anything that stands for one.
+OptionValue whole_from(const Option& option, const py::object& given) {
+  const auto number = py::reinterpret_steal<py::object>(PyNumber_Index(given.ptr()));
+  if (!number) {
+    PyErr_Clear();
+    throw py::cast_error();
+  }
+  if (number < py::int_(0)) {
+    refuse_number(option.name, number.cast<double>(), option.low, option.high);
+  }
+  return number.cast<std::uint64_t>();
+}
+
+/// \throw py::cast_error if it is of another type
+OptionValue value_from(const Option& option, const py::object& given) {
+  switch (option.kind) {
+    case OptionKind::Number:
+      return given.cast<double>();
+    case OptionKind::Integer:
+      return whole_from(option, given);
+    case OptionKind::Switch:
+      if (!py::isinstance<py::bool_>(given)) {
+        throw py::cast_error();
+      }
+      return given.cast<bool>();
+    case OptionKind::Choice:
+      return given.cast<std::string>();
+    case OptionKind::Text:
+      break;
+  }
+  return text_from(option, given);
+}
+
+py::object object_of(const Option& option, const OptionValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) {
+    if (option.form == TextForm::Size) {
+      const std::size_t x = text->find('x');
+      return py::make_tuple(std::stoi(text->substr(0, x)), std::stoi(text->substr(x + 1)));
+    }
+    if (option.form == TextForm::Share && !text->ends_with('%')) {
+      return py::float_(py::str(*text));
+    }
+  }
+  return py::cast(value);
+}
+
+/// A complaint about an option, by its keyword.
+std::string in_keywords(std::string what, const Option& option) {
+  const std::string start = "option " + option.name;
+  return what.starts_with(start) ? what.replace(0, start.size(), "option " + keyword_of(option))
+                                 : what;
 }
 
 void apply(Settings& settings, const py::dict& keywords, bool is_analysed) {
   for (const Option& option : option_table()) {
-    if (!keywords.contains(option.name)) {
+    const std::string keyword = keyword_of(option);
+    if (!option.is_listed() || !keywords.contains(keyword)) {
       continue;
     }
-    const py::object value = keywords[py::str(option.name)];
-    if (value.is_none()) {
+    const py::object given = keywords[py::str(keyword)];
+    if (given.is_none()) {
       continue;
     }
-    if (is_analysed && shapes_analysis(option)) {
-      throw InvalidInput("option " + option.name +
+    if (is_analysed && (option.group == "method" || option.group == "map")) {
+      throw InvalidInput("option " + keyword +
                          " shapes the analysis; give it to analyse() instead");
     }
-    option.set(settings, value);
+    try {
+      option.set(settings, value_from(option, given));
+    } catch (const py::cast_error&) {
+      throw py::type_error("option " + keyword + " must be " + type_of(option));
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(in_keywords(error.what(), option));
+    }
   }
-  finish_view_set(settings);
+  settings.view.view_set = checked_view_set(settings.view);
 }
 
 }  // namespace
 
-const std::vector<Option>& option_table() {
-  static const std::vector<Option> kTable = make_table();
-  return kTable;
-}
-
 Settings settings_of(const py::dict& keywords) {
-  Settings settings = start_of(Preset::Default);
+  Settings settings = all_options(Preset::Default);
   apply(settings, keywords, false);
   return settings;
 }
@@ -71,6 +172,44 @@ Settings settings_of(const py::dict& keywords) {
 Settings settings_over(Settings base, const py::dict& keywords) {
   apply(base, keywords, true);
   return base;
+}
+
+py::dict default_values(const std::string& preset) {
+  py::dict keywords;
+  keywords["preset"] = preset;
+  const Settings settings = settings_of(keywords);
+  py::dict values;
+  for (const Option& option : option_table()) {
+    if (option.is_listed()) {
+      values[py::str(keyword_of(option))] = object_of(option, option.value(settings));
+    }
+  }
+  return values;
+}
+
+py::list option_rows() {
+  const py::dict ours = default_values("default");
+  const py::dict papers = default_values("paper");
+  py::list rows;
+  for (const Option& option : option_table()) {
+    if (!option.is_listed()) {
+      continue;
+    }
+    const bool is_number = option.kind == OptionKind::Number || option.kind == OptionKind::Integer;
+    py::dict row;
+    row["name"] = keyword_of(option);
+    row["flag"] = flag_of(option);
+    row["group"] = option.group;
+    row["type"] = type_of(option);
+    row["help"] = option.help;
+    row["choices"] = option.words;
+    row["low"] = is_number ? py::object(py::float_(option.low)) : py::none();
+    row["high"] = is_number ? py::object(py::float_(option.high)) : py::none();
+    row["default"] = ours[row["name"]];
+    row["paper"] = papers[row["name"]];
+    rows.append(row);
+  }
+  return rows;
 }
 
 }  // namespace vantage::python

@@ -76,7 +76,8 @@ Camera camera_from(const Standpoint& from, const Analysis& analysis, const ViewO
   const ScoringCamera scoring = scoring_camera(shape, options);
   return frame_points(referenced_points(shape.surface), scoring.viewpoint(*from.direction),
                       shape.sphere.centre, up_vector(up.axis),
-                      static_cast<double>(options.width) / options.height, options.margin);
+                      static_cast<double>(options.width) / options.height,
+                      options.margin_percent / 100.0);
 }
 
 /// Colours of the input's vertices on those of the surface; of several at one place the first counts.
@@ -102,7 +103,7 @@ Image drawn(const Analysis& analysis, const Camera& camera, Picture picture,
     return render(analysis.shape.surface, camera, on_surface(colours, analysis.shape), {}, look,
                   run);
   }
-  const Model* asset = settings.asset_colours ? &*analysis.model : nullptr;
+  const Model* asset = settings.look.style == Style::Asset ? &*analysis.model : nullptr;
   return draw_picture(analysis.shape, camera, picture, settings.view, look, run, asset);
 }
 

@@ -142,9 +142,11 @@ std::shared_ptr<const Analysis> Subject::analysed(const Settings& settings, cons
     return analysis_;
   }
   auto made = std::make_shared<Analysis>();
-  made->model = model_ ? model_
-                       : std::make_shared<const Model>(load_model(
-                             path_, run.part(0.0, 0.05), {.appearance = settings.asset_colours}));
+  made->model =
+      model_
+          ? model_
+          : std::make_shared<const Model>(load_model(
+                path_, run.part(0.0, 0.05), {.appearance = settings.look.style == Style::Asset}));
   made->shape = analyse(*made->model, settings.view, run.part(0.05, 1.0));
   made->settings = settings;
   return made;

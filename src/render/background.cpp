@@ -36,6 +36,17 @@ std::optional<Rgb8> parse_colour(std::string_view text) {
   return colour;
 }
 
+/// "#rrggbb".
+std::string colour_text(const Rgb8& colour) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text = "#";
+  for (const std::uint8_t channel : colour) {
+    text += kDigits[channel / 16U];
+    text += kDigits[channel % 16U];
+  }
+  return text;
+}
+
 }  // namespace
 
 void set_background(RenderOptions& options, std::string_view text) {
@@ -53,13 +64,21 @@ void set_background(RenderOptions& options, std::string_view text) {
     }
     if (!top || (two && !bottom)) {
       throw InvalidInput(
-          "expected transparent, gradient, white, black, #rrggbb, or two colours as TOP:BOTTOM, "
-          "found '" +
+          "option background must be transparent, gradient, white, black, #rrggbb, or two of these "
+          "colours as TOP:BOTTOM, not '" +
           std::string(text) + "'");
     }
   }
   options.background = top;
   options.background_bottom = bottom;
+}
+
+std::string background_text(const RenderOptions& options) {
+  if (!options.background) {
+    return "transparent";
+  }
+  const std::string top = colour_text(*options.background);
+  return options.background_bottom ? top + ":" + colour_text(*options.background_bottom) : top;
 }
 
 }  // namespace vantage

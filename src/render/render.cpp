@@ -117,6 +117,26 @@ void set_quality(RenderOptions& options, Quality quality) {
   options.ambient_rays = kRays[static_cast<std::size_t>(quality)][1];
 }
 
+void set_quality_word(RenderOptions& options, std::string_view word) {
+  const auto index = index_of_word(kQualityWords, word);
+  if (!index) {
+    throw InvalidInput("option quality must be draft, normal or fine, not '" + std::string(word) +
+                       "'");
+  }
+  set_quality(options, static_cast<Quality>(*index));
+}
+
+std::string quality_word(const RenderOptions& options) {
+  for (const Quality quality : {Quality::Draft, Quality::Normal, Quality::Fine}) {
+    RenderOptions of_quality;
+    set_quality(of_quality, quality);
+    if (of_quality.samples == options.samples && of_quality.ambient_rays == options.ambient_rays) {
+      return std::string(word_at(kQualityWords, static_cast<std::size_t>(quality)));
+    }
+  }
+  return "";
+}
+
 std::vector<Image> render_coats(const TriMesh& mesh, const Camera& camera,
                                 std::span<const Paint> paints, const RenderOptions& options,
                                 const RunContext& run) {

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string_view>
+#include <nlohmann/json.hpp>
 
-#include "vantage/report/view_report.h"
+#include "vantage/report/option_table.h"
 
 namespace vantage {
 
-std::string_view strategy_name(SearchStrategy strategy);  ///< "rapid", …
-std::string_view base_name(ViewSphereBase base);          ///< "cube", "icosahedron"
-std::string_view preset_name(Preset preset);              ///< "default", "paper"
-std::string_view weight_name(Weight weight);              ///< "vertex", "area"
-std::string_view projection_name(Projection projection);  ///< "perspective", "orthographic"
+/// Every option of a view under its name, as view.json has them.
+nlohmann::ordered_json option_echo(const ViewOptions& options);
 
 }  // namespace vantage

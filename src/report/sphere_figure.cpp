@@ -86,8 +86,9 @@ Image sphere_panel(const ShapeAnalysis& shape, std::span<const double> map,
   }
   const Viewpoint eye{Projection::Perspective,
                       shape.sphere.centre + kDistance * radius * from.normalized()};
-  const Camera framed = frame_points(nodes, eye, shape.sphere.centre, up_vector(up),
-                                     static_cast<double>(look.width) / look.height, options.margin);
+  const Camera framed =
+      frame_points(nodes, eye, shape.sphere.centre, up_vector(up),
+                   static_cast<double>(look.width) / look.height, options.margin_percent / 100.0);
   return render(mesh, framed, colours, {}, look, run);
 }
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -42,8 +43,8 @@ Json view_of(const ReportedView& view, const Json& image) {
           {"frame", frame_of(view.picture)}};
 }
 
-Json camera_of(const ScoringCamera& camera) {
-  return {{"projection", projection_name(camera.projection)},
+Json camera_of(const ScoringCamera& camera, const Json& projection) {
+  return {{"projection", projection},
           {"fov_y_deg", camera.fov_y_deg},
           {"target", point(camera.sphere.centre)},
           {"distance", camera.distance()}};
@@ -114,6 +115,7 @@ void add_trace(std::string& csv, std::string_view goal, const FoundView& found) 
 
 std::string view_json(const Model& model, const ShapeAnalysis& shape, const ViewReport& report,
                       const ViewOptions& options, const StageSeconds* seconds) {
+  Json echo = option_echo(options);
   Json json;
   json["vantage"] = version();
   json["schema"] = kSchema;
@@ -129,12 +131,12 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
     json["focus"] = options.focus;
   }
   json["method"] = options.method;
-  json["preset"] = preset_name(options.preset);
-  json["weight"] = weight_name(options.weight);
+  json["preset"] = echo["preset"];
+  json["weight"] = echo["weight"];
   json["prior"] = options.prior.name;
   json["up"] = up_name(report.up);
   json["up_source"] = report.up_source;
-  json["camera"] = camera_of(report.camera);
+  json["camera"] = camera_of(report.camera, echo["projection"]);
   json["best"] = view_of(report.best, options.pictures ? Json("best.png") : Json(nullptr));
   json["worst"] = view_of(report.worst, options.pictures ? Json("worst.png") : Json(nullptr));
   if (report.set && options.view_set) {
@@ -152,8 +154,8 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
   json["total"] = report.total;
   const SearchOptions& search = options.search;
   json["search"] = {
-      {"strategy", strategy_name(search.strategy)},
-      {"base", base_name(search.base)},
+      {"strategy", echo["search"]},
+      {"base", echo["base"]},
       {"subdivisions", search.subdivisions},
       {"epsilon", search.epsilon_is_fraction ? search.epsilon * report.total : search.epsilon},
       {"evaluations", report.best_search.evaluations},
@@ -177,6 +179,7 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
   warnings.insert(warnings.end(), shape.warnings.begin(), shape.warnings.end());
   warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
   json["warnings"] = warnings;
+  json["options"] = std::move(echo);
   if (seconds != nullptr) {
     json["seconds"] = seconds_of(*seconds);
   }

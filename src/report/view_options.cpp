@@ -1,21 +1,33 @@
 // SPDX-License-Identifier: MIT
-#include <array>
+#include <charconv>
 #include <cstdint>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/version.h"
 #include "vantage/report/view_report.h"
 
+#include "io/files.h"
 #include "report/option_echo.h"
 
 namespace vantage {
 namespace {
 
-template <class Options, class Table>
-void echo_fields(nlohmann::ordered_json& json, const Options& options, const Table& table) {
-  for_each_field(
-      table, [&](const auto& field) { json[std::string(field.name)] = options.*(field.member); });
+constexpr int kLargestSide = 16384;
+
+/// One side of a picture. \throw InvalidInput
+int side_of(std::string_view number, std::string_view size) {
+  int side = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), side);
+  if (error != std::errc{} || end != number.data() + number.size()) {
+    throw InvalidInput("option size must be WIDTHxHEIGHT like 800x600, not '" + std::string(size) +
+                       "'");
+  }
+  if (side < 1 || side > kLargestSide) {
+    throw InvalidInput("option size must be between 1 and 16384 pixels a side");
+  }
+  return side;
 }
 
 /// Everything of a prior that shapes the result; its name does not.
@@ -24,7 +36,9 @@ nlohmann::ordered_json prior_echo(const ViewPrior& prior) {
   if (prior.is_uniform) {
     return json;
   }
-  echo_fields(json, prior.upright, kUprightPriorFields);
+  for_each_field(kUprightPriorFields, [&](const auto& field) {
+    json[std::string(field.name)] = prior.upright.*(field.member);
+  });
   for (const PriorLobe& lobe : prior.lobes) {
     json["lobes"].push_back(
         {lobe.direction.x(), lobe.direction.y(), lobe.direction.z(), lobe.weight, lobe.width_rad});
@@ -53,35 +67,12 @@ Vec3 up_vector(UpAxis axis) {
 }
 
 std::string_view up_name(UpAxis axis) {
-  constexpr std::array<std::string_view, 6> kNames{"x", "y", "z", "-x", "-y", "-z"};
-  return kNames[static_cast<std::size_t>(axis)];
+  return word_at(kUpWords, static_cast<std::size_t>(axis));
 }
 
 UpAxis default_up(ModelFormat format) {
   // A printer's plate lies in x and y.
   return format == ModelFormat::Stl || format == ModelFormat::Threemf ? UpAxis::Z : UpAxis::Y;
-}
-
-std::string_view strategy_name(SearchStrategy strategy) {
-  constexpr std::array<std::string_view, 5> kNames{"rapid", "exhaustive", "global", "dense",
-                                                   "gradient"};
-  return kNames[static_cast<std::size_t>(strategy)];
-}
-
-std::string_view base_name(ViewSphereBase base) {
-  return base == ViewSphereBase::Cube ? "cube" : "icosahedron";
-}
-
-std::string_view weight_name(Weight weight) {
-  return weight == Weight::Area ? "area" : "vertex";
-}
-
-std::string_view preset_name(Preset preset) {
-  return preset == Preset::Paper ? "paper" : "default";
-}
-
-std::string_view projection_name(Projection projection) {
-  return projection == Projection::Perspective ? "perspective" : "orthographic";
 }
 
 ViewOptions preset_options(Preset preset) {
@@ -105,62 +96,10 @@ ViewOptions preset_options(Preset preset) {
 }
 
 std::string options_hash(const ViewOptions& options) {
-  nlohmann::ordered_json json;
+  nlohmann::ordered_json json = option_echo(options);
   json["version"] = version();
-  json["preset"] = preset_name(options.preset);
-  json["contraction"] = static_cast<int>(options.contraction.method);
-  json["contraction-scaling"] = static_cast<int>(options.contraction.scaling);
-  echo_fields(json, options.contraction, kContractionFields);
-  json["skeleton-scaling"] = static_cast<int>(options.skeleton.scaling);
-  echo_fields(json, options.skeleton, kSkeletonFields);
-  json["centre"] = options.skeleton.centre;
-  json["prune"] = options.skeleton.prune;
-  json["suppression"] = static_cast<int>(options.kssm.suppression);
-  json["kinematics"] = static_cast<int>(options.kssm.kinematics);
-  json["area-weighted-mean"] = options.kssm.area_weighted_mean;
-  echo_fields(json, options.kssm, kKssmFields);
-  if (options.method != "kssm") {
-    json["method"] = options.method;
-    echo_fields(json, options.saliency, kMeshSaliencyFields);
-    json["saliency-signed"] = options.saliency.signed_curvature;
-    json["saliency-area"] = options.saliency.area_kernel;
-  }
-  json["weight"] = weight_name(options.weight);
-  json["finished-graph"] = options.kssm_to_finished_graph;
-  json["search"] = strategy_name(options.search.strategy);
-  json["base"] = base_name(options.search.base);
-  echo_fields(json, options.search, kSearchFields);
-  if (options.search.strategy == SearchStrategy::Gradient) {
-    echo_fields(json, options.search, kGradientFields);
-    json["seed"] = options.search.seed;
-  }
-  json["epsilon"] = options.search.epsilon;
-  json["epsilon-is-fraction"] = options.search.epsilon_is_fraction;
-  json["narrow-ring"] = options.search.require_narrow_ring;
   json["prior"] = prior_echo(options.prior);
-  json["projection"] = projection_name(options.projection);
-  echo_fields(json, options, kViewFields);
-  json["distance"] = options.distance_factor ? nlohmann::ordered_json(*options.distance_factor)
-                                             : nlohmann::ordered_json(nullptr);
-  json["up"] = options.up ? std::string(up_name(*options.up)) : "auto";
-  json["size"] = {options.width, options.height};
-  if (options.margin != ViewOptions{}.margin) {
-    json["margin"] = options.margin;
-  }
-  json["pictures"] = options.pictures;
-  if (options.certify) {
-    json["certify"] = true;
-  }
-  if (!options.focus.empty()) {
-    json["focus"] = options.focus;
-  }
-  if (options.view_set) {
-    echo_fields(json, options.view_set->set, kViewSetFields);
-    echo_fields(json, *options.view_set, kViewSetRequestFields);
-    json["refine"] = options.view_set->set.refine;
-    json["level"] = options.view_set->set.level;
-    json["select"] = selection_name(options.view_set->selection);
-  }
+  json["view-set"] = options.view_set.has_value();
 
   // FNV-1a, 64 bit: a fingerprint to compare runs by, not a seal.
   std::uint64_t hash = 0xcbf29ce484222325ULL;
@@ -176,8 +115,30 @@ std::string options_hash(const ViewOptions& options) {
 }
 
 std::string_view selection_name(ViewSelection selection) {
-  constexpr std::array<std::string_view, 3> kNames{"kssm", "vazquez", "feixas"};
-  return kNames[static_cast<std::size_t>(selection)];
+  return word_at(kSelectionWords, static_cast<std::size_t>(selection));
+}
+
+void set_size(ViewOptions& options, std::string_view text) {
+  const std::size_t x = text.find('x');
+  const int width = side_of(text.substr(0, x), text);
+  const int height = x == std::string_view::npos ? width : side_of(text.substr(x + 1), text);
+  options.width = width;
+  options.height = height;
+}
+
+std::string size_text(const ViewOptions& options) {
+  return std::to_string(options.width) + "x" + std::to_string(options.height);
+}
+
+void set_prior(ViewOptions& options, std::string_view text) {
+  const std::string name(text);
+  options.prior = name == "none"      ? no_prior()
+                  : name == "upright" ? upright_prior()
+                                      : parse_prior(read_file(name), name);
+}
+
+std::string prior_text(const ViewOptions& options) {
+  return options.prior.name;
 }
 
 }  // namespace vantage

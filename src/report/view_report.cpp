@@ -35,7 +35,8 @@ Camera framed(const ShapeAnalysis& shape, const Vec3& direction, UpAxis up,
   const ScoringCamera camera = scoring_camera(shape, options);
   return frame_points(referenced_points(shape.surface), camera.viewpoint(direction),
                       camera.sphere.centre, up_vector(up),
-                      static_cast<double>(options.width) / options.height, options.margin);
+                      static_cast<double>(options.width) / options.height,
+                      options.margin_percent / 100.0);
 }
 
 }  // namespace

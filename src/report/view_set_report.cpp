@@ -45,7 +45,7 @@ std::vector<Vec3> channel_views(const ShapeAnalysis& shape, const ScoringCamera&
   const FaceVisibility faces(shape.surface, shape.sides);
   const ViewChannel channel = channel_table(faces, shape.surface.triangles.size(), eyes, run);
   const std::size_t count =
-      request.set.views > 0 ? static_cast<std::size_t>(request.set.views) : directions.size();
+      request.set.views ? static_cast<std::size_t>(*request.set.views) : directions.size();
   const std::vector<ChannelPick> picks =
       request.selection == ViewSelection::Vazquez
           ? greedy_entropy_views(channel, count, run)
@@ -69,9 +69,9 @@ void warn_of(const ViewSet& set, const ViewSetRequest& request,
     warnings.push_back("the set's views were chosen from " + std::to_string(set.candidates) +
                        " directions to save memory");
   }
-  if (static_cast<std::size_t>(request.set.views) > set.views.size()) {
+  if (request.set.views && static_cast<std::size_t>(*request.set.views) > set.views.size()) {
     warnings.push_back(std::to_string(set.views.size()) + " of " +
-                       std::to_string(request.set.views) +
+                       std::to_string(*request.set.views) +
                        " views found: a further one would show nothing new" +
                        (request.set.min_separation_deg > 0.0 ? " or stand too near" : ""));
   } else if (set.stop == ViewSetStop::Exhausted) {

@@ -65,7 +65,6 @@ Candidate search_for(const SearchTarget& target, const SearchOptions& options,
 
 void check_search(const ViewObjective& objective, const SearchOptions& options) {
   check_fields(options, kSearchFields);
-  check_fields(options, kGradientFields);
   if (!(options.epsilon >= 0.0) || !std::isfinite(options.epsilon)) {
     throw InvalidInput("option epsilon must be finite and not negative");
   }

@@ -22,7 +22,6 @@ namespace {
 
 // The table of candidates stays below this. [ours]: 2562 candidates up to 3.3 million vertices.
 constexpr double kMostTableBytes = 1024.0 * 1024.0 * 1024.0;
-constexpr int kFinestLevel = 6;
 // Refinement: half the 4° between candidates of level 4, down to what no picture shows. [ours]
 constexpr double kFirstStepRad = 2.0 * kRadPerDeg;
 constexpr double kLastStepRad = 0.1 * kRadPerDeg;
@@ -42,11 +41,8 @@ int affordable_level(int wanted, std::size_t bits) {
 
 void check(const ViewSetOptions& options) {
   check_fields(options, kViewSetFields);
-  if (!(options.coverage > 0.0)) {
-    throw InvalidInput("option coverage must be more than 0");
-  }
-  if (options.level < 0 || options.level > kFinestLevel) {
-    throw InvalidInput("the level of a view set's candidates must be between 0 and 6");
+  if (options.coverage && !(*options.coverage > 0.0)) {
+    throw InvalidInput("option coverage must be above 0");
   }
 }
 
@@ -137,11 +133,11 @@ class Selection {
   }
 
   bool finished() {
-    if (options_.views > 0 && result_.views.size() >= static_cast<std::size_t>(options_.views)) {
+    if (options_.views && result_.views.size() >= static_cast<std::size_t>(*options_.views)) {
       result_.stop = ViewSetStop::Count;
       return true;
     }
-    if (seen_ >= options_.coverage * result_.reachable * (1.0 - kRounding)) {
+    if (seen_ >= options_.coverage.value_or(1.0) * result_.reachable * (1.0 - kRounding)) {
       result_.stop = ViewSetStop::Coverage;
       return true;
     }

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Every option of the program's method is a keyword of the same name, range and default."""
+"""Every row of the table of options is a flag, a keyword, in the echo of results and in their hash."""
 
 import inspect
+import json
 import math
 import re
 
@@ -13,76 +14,112 @@ import vantage
 V, F = torus(8, 6)
 
 # Flags that are no part of the method: files, how it runs, what is printed, moving pictures.
-NOT_KEYWORDS = {"help", "output", "trace", "no-images", "no-report", "preview", "tour",
-                "tour-seconds", "fps", "tour-size", "json", "quiet", "verbose", "config", "sampling",
-                "depth",  # arrays have 8 bits a channel
-                "seed",  # every command has it, but only the gradient search draws
-                "max-memory", "timeout",  # limits of a process; Python's own belongs to its user
-                "levels",
-                "meso"}
-# Switches that turn something off are keywords that are on.
-RENAMED = {"no-prune": "prune", "no-centre": "centre", "no-refine": "refine"}
-FUNCTIONS = {"view": vantage.best_view, "skeleton": vantage.skeleton, "map": vantage.vertex_map,
-             "score": vantage.score, "render": vantage.render}
+NO_OPTIONS = {"help", "output", "trace", "no-images", "no-report", "preview", "tour", "tour-seconds", "fps",
+              "tour-size", "json", "quiet", "verbose", "config", "threads", "max-memory", "timeout",
+              "depth", "sampling", "levels", "meso", "measure", "visible", "method", "show", "direction",
+              "directions", "eyes", "sphere", "view-set", "camera", "view",
+              "seed"}  # of every command; the row of that name is the keyword
+ROWS = vantage.options()
+COMMANDS = {  # what offers which groups of the table
+    "view": (vantage.best_view, {"method", "map", "saliency", "camera", "search", "set", "size"}),
+    "skeleton": (vantage.skeleton, {"method"}),
+    "map": (vantage.vertex_map, {"method", "map", "saliency", "camera"}),
+    "score": (vantage.score, {"method", "map", "saliency", "camera"}),
+    "render": (vantage.render, {"method", "map", "camera", "search", "size", "look"}),
+}
+TEXTS = {"focus": "0", "epsilon": "2%", "prior": "none", "size": (40, 30), "background": "#102030"}
+WITH = {"starts": {"search": "gradient"}, "seed": {"search": "gradient"}, "refine": {"views": 2},
+        "min_separation": {"views": 2}, "information": {"select": "feixas", "views": 2}, "select": {"views": 2}}
 
 
 def flags_of(help_text):
-    """Name, kind (N, X, a word or choices) and default of each flag in a command's help; None where it has none."""
+    """Of each flag in a command's help: kind (N, X, a word or choices), range and default, None where it has none."""
     pattern = r"^ +(?:-\w,)?--([\w-]+)(?:\{\w+\})?(?: (\S+))?(.*(?:\n {30}.*)*)"
+    flags = {}
     for name, kind, rest in re.findall(pattern, help_text, re.MULTILINE):
-        default = re.search(r"\((?:\S+ to \S+; )?default: ([^)]+)\)$", re.sub(r"\s+", " ", rest).strip())
-        yield name, kind, default.group(1).split(";")[0] if default else None
+        says = re.search(r"\((?:(\S+) to (\S+?))?(?:; )?(?:default: (.+))?\)$", re.sub(r"\s+", " ", rest).strip())
+        flags[name] = (kind, *(says.groups() if says else (None, None, None)))
+    return flags
 
 
-@pytest.mark.parametrize("command", FUNCTIONS)
-def test_every_flag_is_a_keyword(program, command):
-    keywords = inspect.signature(FUNCTIONS[command]).parameters
-    flags = {name for name, _, _ in flags_of(program(command, "--help").decode())}
-    assert len(flags) > 12
-    missing = {flag for flag in flags - NOT_KEYWORDS
-               if RENAMED.get(flag, flag).replace("-", "_") not in keywords
-               and not (flag == "visible")}  # visible_vertices() is a function of its own
-    assert not missing, f"add them to python/bindings/*_options.cpp: {sorted(missing)}"
+def another(row):
+    """A valid value that is not the default."""
+    if row["choices"]:
+        return next(word for word in row["choices"] if word != row["default"])
+    if row["type"] == "bool":
+        return not row["default"]
+    if row["low"] is None:
+        return TEXTS[row["name"]]
+    for value in (row["low"], row["low"] + 1, row["high"]):  # of small numbers the fast ones
+        if value not in (row["default"], 0):
+            return int(value) if row["type"] == "int" else value
+    raise AssertionError(row)
 
 
-@pytest.mark.parametrize("command", ["view", "render"])
-def test_defaults_are_those_of_the_help(program, command):
-    ours = vantage.defaults()
-    compared = 0
-    for name, kind, default in flags_of(program(command, "--help").decode()):
-        keyword = name.replace("-", "_")
-        if default is None or keyword not in ours or name in ("prior", "size"):
+@pytest.mark.parametrize("command", COMMANDS)
+def test_flags_are_the_rows_of_the_table(program, command):
+    _, groups = COMMANDS[command]
+    flags = flags_of(program(command, "--help").decode())
+    rows = {row["flag"].removeprefix("--"): row for row in ROWS if row["group"] in groups and row["name"] != "seed"}
+    assert len(rows) > 10
+    assert flags.keys() - NO_OPTIONS == rows.keys()
+    for name, row in rows.items():
+        kind, low, high, default = flags[name]
+        if row["type"] == "bool":
+            assert kind == "", name
             continue
-        value = ours[keyword]
-        if kind in ("N", "X"):
-            assert math.isclose(float(default), value, rel_tol=1e-12), name
+        assert {"int": "N", "float": "X"}.get(row["type"], "|".join(row["choices"]) or "TEXT") == kind, name
+        assert (row["low"], row["high"]) == (low and float(low), high and float(high)), name
+        if row["default"] is None:
+            assert default is None, name
+        elif row["low"] is not None:
+            assert math.isclose(float(default), row["default"], rel_tol=1e-12), name
         else:
-            assert default == value, name
-        compared += 1
-    assert compared > 15
-    assert (ours["prior"], ours["size"]) == ("upright", (800, 600))
+            assert default == ("800x600" if name == "size" else row["default"]), name
 
 
-def test_ranges_are_those_of_the_help(program):
-    text = program("view", "--help").decode()
-    rows = {row["name"]: row for row in vantage.options()}
-    ranges = re.findall(r"--([\w-]+) [NX]\s[^()]*(?:\([^()]* [^()]*\)\s+)*?\((\S+) to ([^\s;)]+)", text)
-    assert len(ranges) > 12
-    for name, low, high in ranges:
-        row = rows.get(name.replace("-", "_"))
-        if row is not None:
-            assert (row["low"], row["high"]) == (float(low), float(high)), name
+@pytest.mark.parametrize("command", COMMANDS)
+def test_keywords_are_the_rows_of_the_table(command):
+    function, groups = COMMANDS[command]
+    keywords = inspect.signature(function).parameters
+    for row in ROWS:
+        assert (row["name"] in keywords) == (row["group"] in groups), row["name"]
+        if row["group"] in groups:
+            assert row["help"].split()[0] in function.__doc__, row["name"]
 
 
-def test_choices_are_those_of_the_help(program):
-    text = program("view", "--help").decode() + program("render", "--help").decode()
-    rows = {row["name"]: row for row in vantage.options()}
-    listed = re.findall(r"--([\w-]+) (\w[\w-]*(?:\|[\w-]+)+)", text)
-    assert len(listed) > 8
-    for name, choices in listed:
-        row = rows.get(name.replace("-", "_"))
-        if row is not None:
-            assert set(re.findall(r'"([^"]+)"', row["type"])) == set(choices.split("|")), name
+def echoed(row, value):
+    """As JSON has a value that Python gives."""
+    return "x".join(map(str, value)) if isinstance(value, tuple) else value
+
+
+@pytest.mark.parametrize("row", [row for row in ROWS if row["group"] != "look"], ids=lambda row: row["name"])
+def test_results_name_each_option_and_their_hash_tells_it(row):
+    given = WITH.get(row["name"], {})
+    with_default = json.loads(vantage.best_view(V, F, **given).json)
+    value = another(row)
+    changed = json.loads(vantage.best_view(V, F, **{**given, row["name"]: value}).json)
+    name = row["flag"].removeprefix("--").removeprefix("no-")
+    assert changed["options"][name] == echoed(row, value)
+    assert with_default["options"][name] != changed["options"][name]
+    assert with_default["options_hash"] != changed["options_hash"]
+
+
+@pytest.mark.parametrize("row", [row for row in ROWS if row["group"] == "look"], ids=lambda row: row["name"])
+def test_pictures_name_how_they_look(program, tmp_path, models, row):
+    value = another(row)
+    flags = [row["flag"]] if row["type"] == "bool" else [row["flag"], str(value)]
+    out = program("render", models / "fan.ply", "-o", tmp_path / "p.png", "--direction", "1,1,1", "--size", "16",
+                  "--json", *flags)
+    assert json.loads(out)["options"][row["flag"].removeprefix("--")] == value
+
+
+def test_there_is_no_keyword_without_a_row():
+    for function, _ in COMMANDS.values():
+        names = {row["name"] for row in ROWS}
+        own = {"model", "F", "progress", "threads", "method", "levels", "measure", "directions", "eyes", "sphere",
+               "view_set", "direction", "camera", "view", "show", "colours"}
+        assert inspect.signature(function).parameters.keys() - own <= names
 
 
 def test_all_defaults_given_are_the_same_as_none():
@@ -100,7 +137,7 @@ def test_all_defaults_of_the_paper_are_its_preset():
 
 @pytest.mark.parametrize("keywords, message", [
     ({"weight": "areas"}, "must be one of vertex, area"),
-    ({"fov": 500}, "option fov is 500 but must be between 1.0 and 170.0"),
+    ({"fov": 500}, "option fov is 500 but must be between 1 and 170"),
     ({"fov": math.nan}, "option fov is nan"),
     ({"subdivisions": 9}, "between 0 and 8"),
     ({"distance": 1.0}, "option distance"),

@@ -46,8 +46,11 @@ struct ContractionOptions {
   int max_steps = 20;                 ///< At most this many steps (Cao).
 };
 
-/// Names, ranges and help of the numbers in ContractionOptions.
+/// The table of ContractionOptions.
 inline constexpr auto kContractionFields = std::tuple{
+    Choice{"contraction", &ContractionOptions::method, "auto|exact",
+           "how the surface is contracted: large components by a decimated proxy, or all exactly"},
+    Choice{"contraction-scaling", &ContractionOptions::scaling, "sphere|box", kNoFlag},
     Field{"contraction-growth", &ContractionOptions::contraction_growth, 1.01, 100.0,
           "factor on the contraction weight per step [s_L] (Cao 2010: 3; Au 2008: 2)"},
     Field{"contraction-limit", &ContractionOptions::contraction_limit, 1.0, 1e9,

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -32,13 +33,14 @@ enum class Quality {
 /// How surfaces look.
 enum class Style {
   Clay,       ///< Matt, softly lit from the viewer's left.
+  Asset,      ///< The same in the colours and materials of the file, where these are at hand.
   Technical,  ///< A shaded drawing: outlines and sharp edges as lines, hidden ones left out.
 };
 
 /// What is drawn and how.
 struct RenderOptions {
-  int width = 800;                   ///< px
-  int height = 600;                  ///< px
+  int width = 800;                   ///< px; the program's pictures: of ViewOptions.
+  int height = 600;                  ///< px; as `width`.
   int samples = 16;                  ///< Rays per pixel, rounded up to a square.
   int ambient_rays = 0;              ///< Occlusion rays per sample; 0 switches them off.
   std::optional<Rgb8> background{};  ///< Unset: transparent.
@@ -51,21 +53,37 @@ struct RenderOptions {
   Vec3 up = Vec3::UnitY();   ///< Of the ground.
 };
 
-/// Names, ranges and help of the numbers in RenderOptions.
-inline constexpr auto kRenderFields = std::tuple{
-    Field{"samples", &RenderOptions::samples, 1, 1024, "rays per pixel"},
-    Field{"ambient-rays", &RenderOptions::ambient_rays, 0, 1024, "occlusion rays per sample"},
-    Field{"crease", &RenderOptions::crease_deg, 0.0, 80.0,
-          "edges that bend by more are sharp, degrees"},
-};
-
+/// Names of Quality.
+inline constexpr const char* kQualityWords = "draft|normal|fine";
 /// Sets the numbers of rays.
 void set_quality(RenderOptions& options, Quality quality);
+/// The same from "draft", "normal" or "fine". \throw InvalidInput
+void set_quality_word(RenderOptions& options, std::string_view word);
+/// The word of the numbers of rays; empty if they are those of none.
+std::string quality_word(const RenderOptions& options);
 
 /// Sets the background from a word: "transparent", "gradient", "white", "black", "#rrggbb", or two
 /// of these colours as "TOP:BOTTOM".
 /// \throw InvalidInput for any other text; `options` are then as they were.
 void set_background(RenderOptions& options, std::string_view text);
+/// "transparent", "#rrggbb" or "#rrggbb:#rrggbb".
+std::string background_text(const RenderOptions& options);
+
+/// The table of RenderOptions.
+inline constexpr auto kRenderFields = std::tuple{
+    Text{"quality", set_quality_word, quality_word, "rays spent on each pixel", TextForm::Plain,
+         kQualityWords},
+    Field{"samples", &RenderOptions::samples, 1, 1024, kNoFlag},
+    Field{"ambient-rays", &RenderOptions::ambient_rays, 0, 1024, kNoFlag},
+    Text{"background", set_background, background_text,
+         "transparent, gradient, white, black, #rrggbb, or two of these colours as TOP:BOTTOM"},
+    Choice{"style", &RenderOptions::style, "clay|asset|technical",
+           "clay: matt and softly lit; asset: the same in the file's own colours and materials; "
+           "technical: a drawing with outlines and sharp edges"},
+    Switch{"ground", &RenderOptions::ground, "a soft shadow on the ground under the model"},
+    Field{"crease", &RenderOptions::crease_deg, 0.0, 80.0,
+          "edges that bend by more are sharp, 0: facets", "degrees"},
+};
 
 /// A curve drawn as tubes through the surface, which then becomes translucent.
 struct TubeOverlay {

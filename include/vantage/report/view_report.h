@@ -45,6 +45,8 @@ enum class UpAxis { X, Y, Z, MinusX, MinusY, MinusZ };
 
 /// Unit vector of an axis.
 Vec3 up_vector(UpAxis axis);
+/// Names of UpAxis, and of none.
+inline constexpr const char* kUpWords = "x|y|z|-x|-y|-z|auto";
 /// "x", "-y", …
 std::string_view up_name(UpAxis axis);
 /// The axis a format implies when nothing is said: z for STL and 3MF, y otherwise.
@@ -69,7 +71,7 @@ struct ViewOptions {
   std::optional<UpAxis> up{};                       ///< Unset: choose_up().
   int width = 800;                                  ///< Of pictures, px.
   int height = 600;                                 ///< Of pictures, px.
-  double margin = 0.04;                             ///< Of pictures, of the shorter side, [0, 0.5).
+  double margin_percent = 4.0;                      ///< Of pictures, of the shorter side, [0, 50).
   bool pictures = true;                             ///< Whether view.json names pictures.
   /// Several views besides best and worst.
   std::optional<ViewSetRequest> view_set{};
@@ -77,10 +79,63 @@ struct ViewOptions {
   std::string focus{};
 };
 
-/// Names, ranges and help of the numbers in ViewOptions itself.
+/// Sets both sides of pictures from "800x600" or "600". \throw InvalidInput
+void set_size(ViewOptions& options, std::string_view text);
+/// "800x600".
+std::string size_text(const ViewOptions& options);
+/// Sets the prior from "none", "upright" or the name of a file. \throw IoError, FormatError
+void set_prior(ViewOptions& options, std::string_view text);
+/// The name of the prior.
+std::string prior_text(const ViewOptions& options);
+
+/// The table of ViewOptions. Presets come first: they set what the others then change.
 inline constexpr auto kViewFields = std::tuple{
+    Group{"method", "Method"},
+    Choice{"preset", &ViewOptions::preset, "default|paper",
+           "default: our choices; paper: the paper's"},
+    Word{"method", &ViewOptions::method, kNoFlag},
+    Group{"method", "Details of contraction and skeleton"},
+    Part{&ViewOptions::contraction, kContractionFields},
+    Part{&ViewOptions::skeleton, kSkeletonFields},
+    Group{"map", "Method"},
+    Word{"focus", &ViewOptions::focus,
+         "only this object's significance counts, the others still hide it: name or number as "
+         "listed by info",
+         TextForm::Name},
+    Choice{"weight", &ViewOptions::weight, "vertex|area",
+           "what counts: vertices, or the surface they stand for, however it is cut into faces"},
+    Part{&ViewOptions::kssm, kKssmFields},
+    Choice{"graph", &ViewOptions::kssm_to_finished_graph, "raw|finished",
+           "skeleton that distances are taken to: before or after centring and pruning"},
+    Group{"saliency", "Mesh saliency"},
+    Part{&ViewOptions::saliency, kMeshSaliencyFields},
+    Group{"camera", "Camera"},
+    Choice{"projection", &ViewOptions::projection, "perspective|orthographic",
+           "of the scoring camera"},
+    Field{"distance", &ViewOptions::distance_factor, 1.001, 1e6,
+          "eye to centre, in radii of the enclosing sphere; unset: the sphere fills the view"},
     Field{"fov", &ViewOptions::fov_y_deg, 1.0, 170.0,
-          "vertical field of view of the scoring camera, degrees"},
+          "vertical field of view of the scoring camera", "degrees"},
+    Choice{"up", &ViewOptions::up, kUpWords,
+           "up axis of the model; auto: z for STL, y otherwise, unless the model clearly stands on "
+           "the other"},
+    Group{"search", "Search"},
+    Part{&ViewOptions::search, kSearchFields},
+    Text{"prior", set_prior, prior_text,
+         "what the best view's score is multiplied by: none (as preset paper has it), upright (how "
+         "people look at things), or a JSON file",
+         TextForm::File},
+    Switch{"certify", &ViewOptions::certify,
+           "search densely as well, and report how far the views found are behind; slow"},
+    Group{"size", "Pictures"},
+    Text{"size", set_size, size_text,
+         "size of pictures in pixels: WIDTHxHEIGHT, or one number for a square", TextForm::Size},
+    Switch{"pictures", &ViewOptions::pictures, kNoFlag},
+    Group{"look", "Pictures"},
+    Field{"margin", &ViewOptions::margin_percent, 0.0, 45.0, "empty border around the model",
+          "per cent of the picture's shorter side"},
+    Group{"set", "Several views"},
+    Part{&ViewOptions::view_set, kViewSetRequestFields},
 };
 
 /// The options a preset stands for.

@@ -19,6 +19,8 @@ enum class ViewSelection {
   Feixas,   ///< Greedy merge by viewpoint mutual information.
 };
 
+/// Names of ViewSelection.
+inline constexpr const char* kSelectionWords = "kssm|vazquez|feixas";
 /// "kssm", "vazquez" or "feixas".
 std::string_view selection_name(ViewSelection selection);
 
@@ -29,8 +31,12 @@ struct ViewSetRequest {
   double information = 0.0;  ///< Feixas: stop at this share of I(V;Z); 0: by number alone.
 };
 
-/// Names, ranges and help of the numbers in ViewSetRequest itself.
+/// The table of ViewSetRequest.
 inline constexpr auto kViewSetRequestFields = std::tuple{
+    Part{&ViewSetRequest::set, kViewSetFields},
+    Choice{"select", &ViewSetRequest::selection, kSelectionWords,
+           "kssm: newly seen significance; vazquez: entropy of unseen faces; feixas: merging by "
+           "mutual information"},
     Field{"information", &ViewSetRequest::information, 0.0, 1.0,
           "feixas: stop when the merged view's information falls to this share of the channel's"},
 };

@@ -41,8 +41,13 @@ struct KssmOptions {
   double flat_level = 0.06;
 };
 
-/// Names, ranges and help of the numbers in KssmOptions.
+/// The table of KssmOptions.
 inline constexpr auto kKssmFields = std::tuple{
+    Choice{"suppression", &KssmOptions::suppression, "mean|local-maxima",
+           "what lowers the share of an even level: its mean, or its local maxima"},
+    Choice{"kinematics", &KssmOptions::kinematics, "displacement|velocity",
+           "what is summed: the distance to the skeleton, or its change a step"},
+    Switch{"area-weighted-mean", &KssmOptions::area_weighted_mean, kNoFlag},
     Field{
         "flat-level", &KssmOptions::flat_level, 0.0, 1.0,
         "leave out levels whose displacement spans at most this fraction of the model's diameter"},

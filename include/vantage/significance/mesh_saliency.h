@@ -22,10 +22,15 @@ struct MeshSaliencyOptions {
   bool area_kernel = false;       ///< Weight the Gaussian means by vertex area as well.
 };
 
-/// Names, ranges and help of the numbers in MeshSaliencyOptions.
+/// The table of MeshSaliencyOptions.
 inline constexpr auto kMeshSaliencyFields = std::tuple{
     Field{"saliency-scale", &MeshSaliencyOptions::saliency_scale, 0.0005, 0.02,
           "smallest scale of mesh saliency, as a fraction of the bounding box's diagonal"},
+    Switch{"signed", &MeshSaliencyOptions::signed_curvature,
+           "mesh saliency keeps the sign of the mean curvature (its absolute value counts "
+           "otherwise)"},
+    Choice{"kernel-weight", &MeshSaliencyOptions::area_kernel, "vertex|area",
+           "what the Gaussian means of mesh saliency count: vertices, or the area they stand for"},
 };
 
 /// The map and what it was made of.

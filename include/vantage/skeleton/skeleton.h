@@ -27,12 +27,19 @@ struct SkeletonOptions {
   bool prune = true;         ///< Cut spurious ends.
 };
 
-/// Names, ranges and help of the numbers in SkeletonOptions.
+/// The table of SkeletonOptions.
 inline constexpr auto kSkeletonFields = std::tuple{
+    Choice{"skeleton-scaling", &SkeletonOptions::scaling, "sphere|box", kNoFlag},
     Field{"skeleton-spacing", &SkeletonOptions::spacing, 1e-4, 0.5,
           "distance of skeleton samples as a fraction of the model's diameter (Cao 2010: 0.02)"},
     Field{"prune-ratio", &SkeletonOptions::prune_ratio, 0.0, 100.0,
           "cut ends shorter than this times the local thickness"},
+    Switch{"prune", &SkeletonOptions::prune,
+           "cut ends of the skeleton shorter than the local thickness",
+           "keep ends shorter than the local thickness"},
+    Switch{"centre", &SkeletonOptions::centre,
+           "move skeleton nodes to the middle of what they stand for",
+           "leave skeleton nodes where the contraction put them"},
 };
 
 /// A curve skeleton and what each node stands for.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -42,16 +43,30 @@ struct SearchOptions {
   std::uint64_t seed = 0;  ///< Of these directions.
 };
 
-/// Names, ranges and help of the numbers in SearchOptions.
+/// Sets ε from "0.1" (a raw sum) or "0.1%" (of the total). \throw InvalidInput
+void set_epsilon(SearchOptions& options, std::string_view text);
+/// "0.1" or "0.1%".
+std::string epsilon_text(const SearchOptions& options);
+
+/// The table of SearchOptions.
 inline constexpr auto kSearchFields = std::tuple{
+    Choice{
+        "search", &SearchOptions::strategy, "rapid|exhaustive|global|dense|gradient",
+        "global: finds what dense finds, by a fraction of its scores; dense: 10242 directions, "
+        "then refinement, slow; rapid: the paper's; exhaustive: a direction set; gradient: Lee's "
+        "ascent from random starts"},
+    Choice{"base", &SearchOptions::base, "cube|icosahedron",
+           "polyhedron of the view sphere; a rapid search begins with the cube"},
     Field{"subdivisions", &SearchOptions::subdivisions, 0, 8,
           "times the base of the view sphere is split in four"},
-};
-
-/// The same of the gradient search alone.
-inline constexpr auto kGradientFields = std::tuple{
     Field{"starts", &SearchOptions::starts, 1, 4096,
-          "random directions that --search gradient starts from"},
+          "random directions that a gradient search starts from"},
+    Field{"seed", &SearchOptions::seed, 0, UINT64_MAX,
+          "start of random sequences: a gradient search draws its starts"},
+    Text{"epsilon", set_epsilon, epsilon_text,
+         "rapid search stops when a ring gains less: a raw sum, or a share of the total with %",
+         TextForm::Share},
+    Switch{"narrow-ring", &SearchOptions::require_narrow_ring, kNoFlag},
 };
 
 /// One scored direction of a search, in order of scoring.

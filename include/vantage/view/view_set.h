@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -19,20 +20,24 @@ namespace vantage {
 
 /// Options of select_views().
 struct ViewSetOptions {
-  int views = 0;                    ///< At most this many; 0: as many as `coverage` needs.
-  double coverage = 1.0;            ///< Stop at this share of what any candidate sees, in (0, 1].
+  std::optional<int> views{};  ///< At most this many; unset: as many as `coverage` needs.
+  /// Stop at this share of what any candidate sees, in (0, 1]; unset: 1.
+  std::optional<double> coverage{};
   double min_separation_deg = 0.0;  ///< Between any two views, degrees, in [0, 180].
   bool refine = true;               ///< Move each view after the first to a local peak of its gain.
   int level = 4;                    ///< Candidates: the icosahedron split this often, 0–6.
 };
 
-/// Names, ranges and help of the numbers in ViewSetOptions.
+/// The table of ViewSetOptions.
 inline constexpr auto kViewSetFields = std::tuple{
-    Field{"views", &ViewSetOptions::views, 0, 1000, "this many views that together see most"},
+    Field{"views", &ViewSetOptions::views, 1, 1000, "this many views that together see most"},
     Field{"coverage", &ViewSetOptions::coverage, 0.0, 1.0,
           "views until this share of what can be seen at all is seen, above 0"},
     Field{"min-separation", &ViewSetOptions::min_separation_deg, 0.0, 180.0,
-          "least angle between two of the views, degrees"},
+          "least angle between two of the views", "degrees"},
+    Switch{"refine", &ViewSetOptions::refine, "move views away from the 2562 candidate directions",
+           "leave the views on the 2562 candidate directions"},
+    Field{"view-set-level", &ViewSetOptions::level, 0, 6, kNoFlag},
 };
 
 /// One view of a set.

@@ -174,7 +174,7 @@ std::string complaint_about(const ContractionOptions& options) {
 }
 
 TEST(Contract, RefusesOptionsOutOfRangeByName) {
-  for_each_field(kContractionFields, [](const auto& field) {
+  for_each_number(kContractionFields, [](const auto& field) {
     ContractionOptions options;
     options.*(field.member) = field.high;
     options.*(field.member) *= 2;
@@ -193,7 +193,7 @@ TEST(Contract, RefusesNotANumberByName) {
 }
 
 TEST(Contract, RefusesOptionsBelowTheirRangeByName) {
-  for_each_field(kContractionFields, [](const auto& field) {
+  for_each_number(kContractionFields, [](const auto& field) {
     ContractionOptions options;
     options.*(field.member) = field.low;
     options.*(field.member) -= 1;

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "option_flags.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include "terminal.h"
+
+namespace vantage::cli {
+namespace {
+
+/// As the help says a default; empty where nothing is set.
+std::string default_text(const OptionValue& value) {
+  if (const auto* number = std::get_if<double>(&value)) {
+    return rounded(*number);
+  }
+  if (const auto* whole = std::get_if<std::uint64_t>(&value)) {
+    return std::to_string(*whole);
+  }
+  const auto* text = std::get_if<std::string>(&value);
+  return text == nullptr ? "" : *text;
+}
+
+/// Whether a text can be judged without looking at anything else.
+bool stands_alone(const Option& option) {
+  return option.form != TextForm::File && option.form != TextForm::Name;
+}
+
+}  // namespace
+
+CLI::ValidationError refused(const InvalidInput& error, std::string flag) {
+  constexpr std::string_view kStart = "option ";
+  const std::string what = error.what();
+  const std::size_t end = what.find(' ', kStart.size());
+  if (!what.starts_with(kStart) || end == std::string::npos) {
+    return CLI::ValidationError(flag, what);
+  }
+  flag = flag.empty() ? "--" + what.substr(kStart.size(), end - kStart.size()) : flag;
+  return CLI::ValidationError(flag + what.substr(end));
+}
+
+template <class Value>
+CLI::Option* OptionFlags::add_value(CLI::App& app, const Option& option) {
+  return app.add_option_function<Value>(
+      "--" + option.name,
+      [this, &option](const Value& value) {
+        if constexpr (std::is_same_v<Value, std::int64_t>) {
+          given_[option.name] = static_cast<std::uint64_t>(value);  // checked to be in range
+        } else {
+          given_[option.name] = value;
+        }
+        if (option.kind == OptionKind::Text && stands_alone(option)) {
+          AllOptions any;
+          try {
+            option.set(any, given_[option.name]);
+          } catch (const InvalidInput& error) {
+            throw refused(error);
+          }
+        }
+      },
+      option.help);
+}
+
+void OptionFlags::add_flag(CLI::App& app, const Option& option) {
+  const bool is_on = std::get<bool>(option.value({}));
+  app.add_flag_callback((is_on ? "--no-" : "--") + option.name,
+                        [this, &option, is_on] { given_[option.name] = !is_on; },
+                        is_on ? option.off_help : option.help)
+      ->group(option.heading);
+}
+
+void OptionFlags::add(CLI::App& app, const Option& option, const AllOptions& start) {
+  CLI::Option* flag = nullptr;
+  switch (option.kind) {
+    case OptionKind::Switch:
+      add_flag(app, option);
+      return;
+    case OptionKind::Number:
+      flag = add_value<double>(app, option)->check(CLI::Range(option.low, option.high));
+      break;
+    case OptionKind::Integer:
+      flag = add_value<std::int64_t>(app, option)
+                 ->check(CLI::Range(static_cast<std::int64_t>(option.low),
+                                    static_cast<std::int64_t>(option.high)));
+      break;
+    case OptionKind::Choice:
+      flag = add_value<std::string>(app, option)->check(CLI::IsMember(option.words));
+      break;
+    case OptionKind::Text:
+      flag = add_value<std::string>(app, option);
+      break;
+  }
+  flag->group(option.heading);
+  const std::string value = default_text(option.value(start));
+  if (!value.empty()) {
+    flag->default_str(value);
+  }
+}
+
+void OptionFlags::add_groups(CLI::App& app, std::initializer_list<std::string_view> groups,
+                             const AllOptions& start) {
+  for (const Option& option : option_table()) {
+    const bool is_wanted = std::find(groups.begin(), groups.end(), option.group) != groups.end();
+    if (is_wanted && option.is_listed() && option.name != "seed") {  // which every command has
+      add(app, option, start);
+    }
+  }
+}
+
+void OptionFlags::apply(AllOptions& all) const {
+  try {
+    for (const Option& option : option_table()) {
+      const auto given = given_.find(option.name);
+      if (given != given_.end()) {
+        option.set(all, given->second);
+      }
+    }
+  } catch (const InvalidInput& error) {
+    throw refused(error);
+  }
+}
+
+}  // namespace vantage::cli
