@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
+
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 
