@@ -15,7 +15,8 @@ struct Fragment {
   bool hit = false;      ///< Some sample shows the surface.
   bool full = false;     ///< All of them do.
   bool one_patch = false;
-  bool line = false;  ///< Some sample shows a feature line.
+  float off_plane = 0.0F;  ///< How far the samples lie at most from the plane of the first hit.
+  bool line = false;       ///< Some sample shows a feature line.
 };
 
 /// What they show of one coat.
@@ -32,6 +33,9 @@ inline bool same_patch(const SurfacePlace& a, const SurfacePlace& b, float toler
   return a.normal.dot(b.normal) > kAlike &&
          std::abs(a.normal.dot(b.position - a.position)) <= tolerance;
 }
+
+/// Differences between colours count over their brightness, at least this. [ours]
+inline constexpr float kDarkestColour = 0.05F;
 
 /// Fragments of whole rows of a picture, and of the rows beside them that take part in their pixels.
 struct FragmentRows {
@@ -52,6 +56,14 @@ struct FragmentRows {
   [[nodiscard]] bool has(int x, int y) const {
     return x >= 0 && x < width && y >= first_row && y < first_row + rows;
   }
+
+  /// Whether a pixel shows one patch of the surface in one colour of a coat, or nothing at all, as
+  /// those beside it do: then it need not be sampled further. \param pixel size at the surface.
+  [[nodiscard]] bool is_plain(int x, int y, std::size_t coat, float pixel) const;
+
+  /// Whether the surface may end or step back in a pixel or beside it.
+  /// \param tolerance distance from a plane that is no step.
+  [[nodiscard]] bool may_break(int x, int y, float tolerance) const;
 
   [[nodiscard]] std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y - first_row) * static_cast<std::size_t>(width) +

@@ -25,13 +25,9 @@ constexpr int kFirstSamples = 4;
 constexpr float kOnePatch = 0.96F;
 /// How far its samples may lie from one plane, px. [ours]
 constexpr float kOnePlanePx = 1.0F;
-/// How far neighbours may lie from the plane of a fragment, px. [ours]
-constexpr float kNeighbourPx = 2.0F;
-/// How much the colours of a fragment's samples may differ from their mean, and fragments side by
-/// side from each other, over their brightness. [ours]
+/// How much the colours of a fragment's samples may differ from their mean, over its brightness.
+/// [ours]
 constexpr float kEvenColour = 0.06F;
-constexpr float kAlikeColour = 0.25F;
-constexpr float kDarkest = 0.05F;  // differences between darker colours count as of this one
 /// Occlusion rays of a sample that shows what no probe near it does. [ours]
 constexpr std::size_t kSampleRays = 4;
 /// Occlusion looks this far, over the scene's radius: what is further darkens no crevice.
@@ -61,6 +57,8 @@ constexpr int kMostLayers = 16;
 /// What lies behind a layer is looked for so much further, in units of the frame: more than float
 /// rounding (1e-7 at distances up to 8).
 constexpr float kLayerGap = 1e-5F;
+/// Places within this share of the least step of one plane are surely no step. [ours]
+constexpr double kCalmJump = 0.25;
 const Vec3 kInk(0.012, 0.014, 0.018);
 
 /// Largest distance from the frame's origin of anything drawn.
@@ -92,7 +90,6 @@ Scene::Scene(const DrawnSurface& surface, const Camera& camera, std::span<const 
              const RenderOptions& options, const RunContext& run)
     : surface_(&surface),
       options_(options),
-      colour_(linear_of_srgb(options.colour)),
       first_(sample_pattern(std::min(kFirstSamples, options.samples))),
       pattern_(sample_pattern(options.samples)) {
   const double reach = drawn_reach(surface, paints);
@@ -101,7 +98,7 @@ Scene::Scene(const DrawnSurface& surface, const Camera& camera, std::span<const 
   rays_.emplace(camera, surface.frame(), options.ground ? (1.0 + kOcclusionReach) * reach : reach,
                 options.width, options.height);
   for (const Paint& paint : paints) {
-    add_coat(paint);
+    coats_.emplace_back(paint, surface, *rays_, options);
   }
   mask_.emplace(surface.mesh(), *rays_, pixel_, options.width, options.height);
   run.check();
@@ -122,25 +119,6 @@ Scene::Scene(const DrawnSurface& surface, const Camera& camera, std::span<const 
   if (options.style == Style::Technical) {
     add_lines(run);
   }
-}
-
-void Scene::add_coat(const Paint& paint) {
-  auto coat = std::make_unique<Coat>();
-  for (const Rgb8& colour : paint.vertex_colours) {
-    coat->colour_of_vertex.emplace_back(linear_of_srgb(colour).cast<float>());
-  }
-  if (paint.overlay.graph != nullptr) {
-    CurveGraph graph = *paint.overlay.graph;
-    for (Vec3& node : graph.nodes) {
-      node = surface_->frame().to_frame(node);
-    }
-    coat->tubes.emplace(graph, paint.overlay.radius * surface_->frame().scale, *rays_,
-                        options_.width, options_.height);
-    coat->tube_colour = linear_of_srgb(paint.overlay.colour);
-    has_tubes_ = true;
-  }
-  coat->skin = paint.appearance != nullptr ? surface_->skin() : nullptr;
-  coats_.push_back(std::move(coat));
 }
 
 void Scene::add_lines(const RunContext& run) {
@@ -181,7 +159,9 @@ SceneBand Scene::band(int first_row, int rows, const RunContext& run) const {
         run);
   }
   if (contours_) {
-    band.outlines = contours_->coverage(first_row, rows, run);
+    const auto tolerance = static_cast<float>(kCalmJump * kLeastJump * surface_->reach());
+    band.outlines = contours_->coverage(
+        first_row, rows, [&](int x, int y) { return band.rows.may_break(x, y, tolerance); }, run);
   }
   return band;
 }
@@ -216,8 +196,15 @@ Scene::SamplePacket Scene::samples(int x, int y, const Pattern& pattern, std::si
   return samples;
 }
 
+bool Scene::may_show_anything(int x, int y) const {
+  return mask_->may_show(x, y) || (creases_ && creases_->may_show(x, y)) ||
+         std::any_of(coats_.begin(), coats_.end(), [&](const Coat& coat) {
+           return coat.tubes() && coat.tubes()->may_show(x, y);
+         });
+}
+
 void Scene::make_fragment(int x, int y, FragmentRows& rows) const {
-  if (!mask_->may_show(x, y) && !has_tubes_ && !creases_) {
+  if (!may_show_anything(x, y)) {
     return;
   }
   const std::size_t count = first_.size();
@@ -236,19 +223,20 @@ void Scene::make_fragment(int x, int y, FragmentRows& rows) const {
       fragment.place = place;
     }
     const Vec3f offset = place.position - fragment.place.position;
-    alike = alike && fragment.place.normal.dot(place.normal) >= kOnePatch &&
-            std::abs(fragment.place.normal.dot(offset)) <= kOnePlanePx * static_cast<float>(pixel_);
+    fragment.off_plane = std::max(fragment.off_plane, std::abs(fragment.place.normal.dot(offset)));
+    alike = alike && fragment.place.normal.dot(place.normal) >= kOnePatch;
     normals += place.normal;
   }
   fragment.hit = hits > 0;
   fragment.full = hits == count;
-  fragment.one_patch = fragment.full && alike && !fragment.line;
+  fragment.one_patch = fragment.full && alike && !fragment.line &&
+                       fragment.off_plane <= kOnePlanePx * static_cast<float>(pixel_);
   if (fragment.one_patch) {
     fragment.place.normal = normals.normalized();
   }
   for (std::size_t c = 0; c < coats_.size(); ++c) {
     rows.of_coats[rows.index(x, y) * coats_.size() + c] =
-        coat_fragment(*coats_[c], std::span(packet).first(count), fragment.one_patch);
+        coat_fragment(coats_[c], std::span(packet).first(count), fragment.one_patch);
   }
 }
 
@@ -256,15 +244,15 @@ CoatFragment Scene::coat_fragment(const Coat& coat, std::span<const Sample> samp
                                   bool one_patch) const {
   CoatFragment fragment;
   for (const Sample& sample : samples) {
-    fragment.tube =
-        fragment.tube ||
-        (coat.tubes && std::isfinite(coat.tubes->closest_hit(sample.ray, sample.x, sample.y).t));
+    fragment.tube = fragment.tube ||
+                    (coat.tubes() &&
+                     std::isfinite(coat.tubes()->closest_hit(sample.ray, sample.x, sample.y).t));
   }
   if (!one_patch) {
     return fragment;
   }
-  if (coat.skin == nullptr && coat.colour_of_vertex.empty()) {
-    fragment.albedo = colour_.cast<float>();
+  if (coat.is_uniform()) {
+    fragment.albedo = coat.shown(samples.front().hit, 0.0).colour.cast<float>();
     fragment.even = !fragment.tube;
     return fragment;
   }
@@ -272,48 +260,18 @@ CoatFragment Scene::coat_fragment(const Coat& coat, std::span<const Sample> samp
   std::array<Vec3f, kFirstSamples> colours{};
   bool opaque = true;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const Skin::Shown shown = shown_at(coat, samples[i].hit, width);
+    const Skin::Shown shown = coat.shown(samples[i].hit, width);
     opaque = opaque && shown.opacity == 1.0 && !shown.unlit;
     colours[i] = shown.colour.cast<float>();
     fragment.albedo += colours[i] / static_cast<float>(samples.size());
   }
-  const float most = kEvenColour * (fragment.albedo.maxCoeff() + kDarkest);
+  const float most = kEvenColour * (fragment.albedo.maxCoeff() + kDarkestColour);
   fragment.even =
       opaque && !fragment.tube &&
       std::all_of(colours.begin(), colours.begin() + samples.size(), [&](const auto& c) {
         return (c - fragment.albedo).cwiseAbs().maxCoeff() <= most;
       });
   return fragment;
-}
-
-bool Scene::is_plain(int x, int y, std::size_t coat, const FragmentRows& rows) const {
-  const Fragment& own = rows.at(x, y);
-  const CoatFragment& own_coat = rows.at(x, y, coat);
-  if (own.hit ? !(own.one_patch && own_coat.even) : own.line || own_coat.tube) {
-    return false;
-  }
-  constexpr std::array<std::array<int, 2>, 4> kBeside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
-  for (const auto& [right, down] : kBeside) {
-    if (!rows.has(x + right, y + down)) {
-      continue;
-    }
-    const Fragment& other = rows.at(x + right, y + down);
-    const CoatFragment& other_coat = rows.at(x + right, y + down, coat);
-    if (other.line || other_coat.tube || other.full != own.hit || other.hit != own.hit) {
-      return false;
-    }
-    if (!own.hit) {
-      continue;
-    }
-    if (!same_patch(own.place, other.place, kNeighbourPx * static_cast<float>(pixel_))) {
-      return false;
-    }
-    const float most = kAlikeColour * (own_coat.albedo.maxCoeff() + kDarkest);
-    if (other.one_patch && (own_coat.albedo - other_coat.albedo).cwiseAbs().maxCoeff() > most) {
-      return false;
-    }
-  }
-  return true;
 }
 
 Light Scene::plain_light(int x, int y, std::size_t coat, const SceneBand& band) const {
@@ -332,7 +290,7 @@ Light Scene::plain_light(int x, int y, std::size_t coat, const SceneBand& band) 
     }
     SurfacePoint point = point_at(fragment.place, ray.direction, static_cast<double>(open));
     point.albedo = band.rows.at(x, y, coat).albedo.cast<double>();
-    light.behind(shaded(point), coats_[coat]->tubes ? translucent_opacity(point, false) : 1.0);
+    light.behind(shaded(point), coats_[coat].tubes() ? translucent_opacity(point, false) : 1.0);
   }
   add_ground(light, ray, x, y);
   return light;
@@ -340,22 +298,6 @@ Light Scene::plain_light(int x, int y, std::size_t coat, const SceneBand& band) 
 
 Vec3 Scene::to_camera(const Vec3& vector) const {
   return {vector.dot(rays_->right()), vector.dot(rays_->up()), vector.dot(rays_->back())};
-}
-
-Skin::Shown Scene::shown_at(const Coat& coat, const RayHit& hit, double width) const {
-  Skin::Shown shown;
-  if (coat.skin != nullptr) {
-    shown = coat.skin->at(hit.face, hit.u, hit.v, width);
-  }
-  if (coat.colour_of_vertex.empty()) {
-    shown.colour = shown.has_material ? shown.colour : colour_;
-    return shown;
-  }
-  const Triangle& t = surface_->mesh().triangles[hit.face];
-  const Vec3f colour = (1.0F - hit.u - hit.v) * coat.colour_of_vertex[t[0]] +
-                       hit.u * coat.colour_of_vertex[t[1]] + hit.v * coat.colour_of_vertex[t[2]];
-  shown.colour = shown.colour.cwiseProduct(colour.cast<double>().cwiseMax(0.0).cwiseMin(1.0));
-  return shown;
 }
 
 float Scene::probed(const SurfacePlace& place, std::span<const Vec3f> directions) const {
@@ -391,7 +333,7 @@ SurfacePoint Scene::surface_at(const Sample& sample, const RayHit& hit) const {
 Light Scene::surface_light(const Coat& coat, Sample& sample, const RayHit& hit,
                            bool before_tube) const {
   const double width = pixel_ / std::sqrt(static_cast<double>(pattern_.size()));
-  const Skin::Shown shown = shown_at(coat, hit, width);
+  const Skin::Shown shown = coat.shown(hit, width);
   if (shown.unlit) {
     return {shown.colour, shown.opacity};
   }
@@ -402,7 +344,7 @@ Light Scene::surface_light(const Coat& coat, Sample& sample, const RayHit& hit,
   SurfacePoint point = is_first ? *sample.surface : surface_at(sample, hit);
   point.albedo = shown.colour;
   return {shaded(point),
-          shown.opacity * (coat.tubes ? translucent_opacity(point, before_tube) : 1.0)};
+          shown.opacity * (coat.tubes() ? translucent_opacity(point, before_tube) : 1.0)};
 }
 
 Light Scene::light_of(const Coat& coat, Sample& sample) const {
@@ -412,14 +354,15 @@ Light Scene::light_of(const Coat& coat, Sample& sample) const {
     return light;
   }
   const PictureRay& ray = sample.ray;
-  const TubeHit tube = coat.tubes ? coat.tubes->closest_hit(ray, sample.x, sample.y) : TubeHit{};
+  const TubeHit tube =
+      coat.tubes() ? coat.tubes()->closest_hit(ray, sample.x, sample.y) : TubeHit{};
   const bool has_tube = std::isfinite(tube.t);
   RayHit layer = sample.hit;
   for (int count = 0; layer && static_cast<double>(layer.t) <= tube.t && count < kMostLayers;
        ++count) {
     const Light seen = surface_light(coat, sample, layer, has_tube);
     light.behind(seen.colour, seen.alpha);
-    if (coat.skin == nullptr || !coat.skin->has_openings() || seen.alpha >= 1.0) {
+    if (!coat.has_openings() || seen.alpha >= 1.0) {
       break;
     }
     RayPacket next{ray.segment()};
@@ -429,7 +372,7 @@ Light Scene::light_of(const Coat& coat, Sample& sample) const {
   }
   if (has_tube) {
     SurfacePoint point;
-    point.albedo = coat.tube_colour;
+    point.albedo = coat.tube_colour();
     point.normal = to_camera(tube.normal);
     point.to_viewer = to_camera(-ray.direction);
     light.behind(shade_tube(point), 1.0);
@@ -480,7 +423,7 @@ void Scene::refine(int x, int y, const SceneBand& band, std::span<PixelLight> li
       packet[i].band = &band;
       for (std::size_t c = 0; c < coats_.size() && packet[i].ray.can_hit; ++c) {
         if (lights[c].refined) {
-          const Light light = light_of(*coats_[c], packet[i]);
+          const Light light = light_of(coats_[c], packet[i]);
           lights[c].light.colour += light.colour / static_cast<double>(pattern_.size());
           lights[c].light.alpha += light.alpha / static_cast<double>(pattern_.size());
         }
@@ -492,7 +435,7 @@ void Scene::refine(int x, int y, const SceneBand& band, std::span<PixelLight> li
 void Scene::pixel(int x, int y, const SceneBand& band, std::span<PixelLight> lights) const {
   bool any_refined = false;
   for (std::size_t c = 0; c < coats_.size(); ++c) {
-    const bool plain = is_plain(x, y, c, band.rows);
+    const bool plain = band.rows.is_plain(x, y, c, static_cast<float>(pixel_));
     lights[c] = {plain ? plain_light(x, y, c, band) : Light{}, !plain};
     any_refined = any_refined || !plain;
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "vantage/core/run_context.h"
 #include "vantage/render/render.h"
 
+#include "render/coat.h"
 #include "render/contours.h"
 #include "render/drawn_surface.h"
 #include "render/fragment.h"
@@ -39,14 +39,6 @@ struct Light {
 struct PixelLight {
   Light light{};
   bool refined = false;  ///< From all samples of the pixel, not from its fragment.
-};
-
-/// What one picture of the scene shows on and in its surface.
-struct Coat {
-  std::vector<Vec3f> colour_of_vertex{};  ///< Linear; empty: the scene's own.
-  const Skin* skin = nullptr;
-  std::optional<Tubes> tubes{};
-  Vec3 tube_colour = Vec3::Zero();
 };
 
 /// What is known of some rows of a picture before their pixels are made.
@@ -93,15 +85,14 @@ class Scene {
   using Pattern = std::vector<std::array<double, 2>>;
   using SamplePacket = std::array<Sample, 4>;
 
-  void add_coat(const Paint& paint);
   void add_lines(const RunContext& run);
   [[nodiscard]] SamplePacket samples(int x, int y, const Pattern& pattern, std::size_t first,
                                      std::size_t count, double width) const;
 
+  [[nodiscard]] bool may_show_anything(int x, int y) const;
   void make_fragment(int x, int y, FragmentRows& rows) const;
   [[nodiscard]] CoatFragment coat_fragment(const Coat& coat, std::span<const Sample> samples,
                                            bool one_patch) const;
-  [[nodiscard]] bool is_plain(int x, int y, std::size_t coat, const FragmentRows& rows) const;
   [[nodiscard]] Light plain_light(int x, int y, std::size_t coat, const SceneBand& band) const;
   void refine(int x, int y, const SceneBand& band, std::span<PixelLight> lights) const;
 
@@ -112,7 +103,6 @@ class Scene {
   [[nodiscard]] SurfacePoint point_at(const SurfacePlace& place, const Vec3& ray_direction,
                                       double openness) const;
   [[nodiscard]] Vec3 shaded(const SurfacePoint& point) const;
-  [[nodiscard]] Skin::Shown shown_at(const Coat& coat, const RayHit& hit, double width) const;
   [[nodiscard]] float probed(const SurfacePlace& place, std::span<const Vec3f> directions) const;
   void add_ground(Light& light, const PictureRay& ray, int x, int y) const;
   [[nodiscard]] double shadow(const PictureRay& ray, double t, int x, int y) const;
@@ -121,7 +111,6 @@ class Scene {
 
   const DrawnSurface* surface_;
   RenderOptions options_;
-  Vec3 colour_;
   double pixel_ = 0.0;  // size of a pixel at the middle of the scene
   Pattern first_;       // what fragments are made of
   Pattern pattern_;
@@ -131,8 +120,7 @@ class Scene {
   std::optional<HemisphereDirections> probe_directions_{};
   std::optional<HemisphereDirections> sample_directions_{};
   std::optional<Ground> ground_{};
-  std::vector<std::unique_ptr<Coat>> coats_{};
-  bool has_tubes_ = false;
+  std::vector<Coat> coats_{};
   std::optional<Tubes> creases_{};
   std::optional<Contours> contours_{};
 };
