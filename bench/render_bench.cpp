@@ -36,10 +36,10 @@ void run_render(benchmark::State& state, const TriMesh& mesh, const RenderOption
   for (auto _ : state) {
     benchmark::DoNotOptimize(render(mesh, camera, {}, {}, options).rgba.data());
   }
-  const double samples = static_cast<double>(options.width) * options.height * options.samples;
+  const double pixels = static_cast<double>(options.width) * options.height;
   state.counters["vertices"] = static_cast<double>(mesh.positions.size());
-  state.counters["samples/s"] =
-      benchmark::Counter(samples, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["pixels/s"] =
+      benchmark::Counter(pixels, benchmark::Counter::kIsIterationInvariantRate);
 }
 
 void BM_Picture(benchmark::State& state) {
@@ -52,7 +52,26 @@ void BM_Thumbnail(benchmark::State& state) {
 
 void BM_PictureWithOcclusion(benchmark::State& state) {
   run_render(state, sphere_of_level(state),
-             {.width = 512, .height = 512, .samples = 16, .ambient_rays = 4});
+             {.width = 512, .height = 512, .samples = 16, .ambient_rays = 16});
+}
+
+/// What a further view of a surface costs: rays alone, in the three paints of a result.
+void BM_ThreePaintsOfAPictureSurface(benchmark::State& state) {
+  const TriMesh mesh = sphere_of_level(state);
+  const Camera camera = camera_for(mesh);
+  const std::vector<Rgb8> colours(mesh.positions.size(), Rgb8{200, 40, 40});
+  const CurveGraph graph{{mesh.positions[0], mesh.positions[1]}, {{0, 1}}};
+  const std::vector<Paint> paints{
+      {}, {colours, {}, nullptr}, {{}, {.graph = &graph, .radius = 0.01}, nullptr}};
+  const RenderOptions options{.width = 512, .height = 512, .samples = 16, .ambient_rays = 16};
+  const PictureSurface surface(mesh);
+  if (surface.render(camera, paints, options).size() != paints.size()) {
+    state.SkipWithError("a picture is missing");
+    return;
+  }
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(surface.render(camera, paints, options).data());
+  }
 }
 
 void BM_CornerNormals(benchmark::State& state) {
@@ -83,6 +102,11 @@ BENCHMARK(BM_Picture)
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_PictureWithOcclusion)
+    ->ArgName("level")
+    ->Arg(6)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_ThreePaintsOfAPictureSurface)
     ->ArgName("level")
     ->Arg(6)
     ->UseRealTime()

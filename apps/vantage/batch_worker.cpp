@@ -184,13 +184,14 @@ struct BatchWorkerCommand {
     const UpChoice up = choose_up(model, shape, own);
     const ViewReport report = find_views(shape, up, own, run);
     OutputFolder output(batch::path_of_key(order.at("staging").get<std::string>()));
-    if (const auto best = add_pictures(output, kinds_, shape, report, own, run)) {
+    ShapePictures pictures(shape);
+    if (const auto best = add_pictures(output, kinds_, pictures, report, own, run)) {
       output.add(batch::kThumbnailFile, png_bytes(batch::thumbnail_of(*best)));
     }
     if (kinds_.has("views")) {
-      several.write(output, shape, report, up.axis, own, run);
+      several.write(output, shape, pictures, report, up.axis, own, run);
     }
-    add_report(output, kinds_, model, shape, report, own, run);
+    add_report(output, kinds_, model, shape, pictures, report, own, run);
     add_data(output, kinds_, model, shape, report, own,
              batch::path_of_key(order.at("file").get<std::string>()));
     const Json view = without_missing_images(Json::parse(view_json(model, shape, report, own)));

@@ -100,14 +100,15 @@ struct ViewCommand {
 
     const auto render_start = Clock::now();
     output.add("view.json", view_json(loaded, shape, report, options));
+    ShapePictures pictures(shape);
     if (!no_images) {
-      add_pictures(output, OutputKinds::all(), shape, report, options, run.part(0.9, 0.94));
+      add_pictures(output, OutputKinds::all(), pictures, report, options, run.part(0.9, 0.94));
       if (!no_report && sums_a_map(options.method)) {
-        add_report(output, OutputKinds::all(), loaded, shape, report, options,
+        add_report(output, OutputKinds::all(), loaded, shape, pictures, report, options,
                    run.part(0.94, 0.98));
       }
     }
-    several.write(output, shape, report, up.axis, options, run.part(0.98, 1.0));
+    several.write(output, shape, pictures, report, up.axis, options, run.part(0.98, 1.0));
     seconds.render = seconds_since(render_start);
     add_data(output, OutputKinds::all(), loaded, shape, report, options,
              std::filesystem::path(model).filename().string());

@@ -84,11 +84,11 @@ std::string OutputKinds::text() const {
 }
 
 std::optional<Image> add_pictures(OutputFolder& output, const OutputKinds& kinds,
-                                  const ShapeAnalysis& shape, const ViewReport& report,
+                                  ShapePictures& pictures, const ViewReport& report,
                                   const ViewOptions& options, const RunContext& run) {
-  std::optional<Image> best;
+  std::vector<std::string> names;
+  std::vector<Image> images;
   for (const bool of_best : {true, false}) {
-    std::vector<std::string> names;
     std::vector<Picture> wanted;
     for (const PictureKind& picture : kPictures) {
       if (picture.of_best == of_best && kinds.has(picture.kind)) {
@@ -99,24 +99,28 @@ std::optional<Image> add_pictures(OutputFolder& output, const OutputKinds& kinds
     if (wanted.empty()) {
       continue;
     }
-    std::vector<Image> images =
-        take_pictures(shape, (of_best ? report.best : report.worst).picture, wanted, options,
-                      of_best ? run.part(0.0, 0.5) : run.part(0.5, 1.0));
-    for (std::size_t i = 0; i < images.size(); ++i) {
-      output.add(names[i] + ".png", png_bytes(images[i]));
-      if (names[i] == "best") {
-        best = std::move(images[i]);
-      }
+    const Camera& camera = (of_best ? report.best : report.worst).picture;
+    for (Image& image : pictures.take(camera, wanted, options, {},
+                                      of_best ? run.part(0.0, 0.5) : run.part(0.5, 1.0))) {
+      images.push_back(std::move(image));
+    }
+  }
+  std::vector<std::string> files = png_files(images, run);
+  std::optional<Image> best;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    output.add(names[i] + ".png", std::move(files[i]));
+    if (names[i] == "best") {
+      best = std::move(images[i]);
     }
   }
   return best;
 }
 
 void add_report(OutputFolder& output, const OutputKinds& kinds, const Model& loaded,
-                const ShapeAnalysis& shape, const ViewReport& report, const ViewOptions& options,
-                const RunContext& run) {
+                const ShapeAnalysis& shape, ShapePictures& pictures, const ViewReport& report,
+                const ViewOptions& options, const RunContext& run) {
   if (kinds.has(kReport)) {
-    output.add("report.html", report_html(loaded, shape, report, options, run));
+    output.add("report.html", report_html(loaded, shape, pictures, report, options, run));
   }
 }
 

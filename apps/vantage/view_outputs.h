@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "vantage/io/model.h"
+#include "vantage/report/shape_pictures.h"
 #include "vantage/report/view_report.h"
 
 #include "output_folder.h"
@@ -39,13 +40,13 @@ class OutputKinds {
 
 /// Adds the pictures among `kinds`. \return the best view's, if it is among them. \throw Cancelled
 std::optional<Image> add_pictures(OutputFolder& output, const OutputKinds& kinds,
-                                  const ShapeAnalysis& shape, const ViewReport& report,
+                                  ShapePictures& pictures, const ViewReport& report,
                                   const ViewOptions& options, const RunContext& run);
 
 /// Adds report.html if it is among `kinds`. \throw Cancelled
 void add_report(OutputFolder& output, const OutputKinds& kinds, const Model& loaded,
-                const ShapeAnalysis& shape, const ViewReport& report, const ViewOptions& options,
-                const RunContext& run);
+                const ShapeAnalysis& shape, ShapePictures& pictures, const ViewReport& report,
+                const ViewOptions& options, const RunContext& run);
 
 /// Adds map, skeleton and cameras among `kinds`. \param file the model's file name.
 void add_data(OutputFolder& output, const OutputKinds& kinds, const Model& loaded,

@@ -143,8 +143,9 @@ Image contact_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, View
 
 }  // namespace
 
-void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, const ViewReport& report,
-                         UpAxis up, const ViewOptions& options, const RunContext& run) const {
+void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, ShapePictures& pictures,
+                         const ViewReport& report, UpAxis up, const ViewOptions& options,
+                         const RunContext& run) const {
   output.replace_all(is_of_a_set);
   if (!report.set) {
     return;
@@ -159,8 +160,9 @@ void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, const
     if (options.pictures) {
       const RunContext part =
           run.part(static_cast<double>(i) * step, std::min(1.0, static_cast<double>(i + 1) * step));
-      output.add(name + ".png", png_bytes(take_picture(shape, views[i].picture, Picture::Plain,
-                                                       options, {}, part)));
+      constexpr std::array kPlain{Picture::Plain};
+      output.add(name + ".png",
+                 png_bytes(pictures.take(views[i].picture, kPlain, options, {}, part).front()));
     }
     output.add("camera-" + name + ".gltf",
                camera_gltf(views[i].picture, size, shape.sphere.diameter));
@@ -171,7 +173,7 @@ void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, const
     output.add("views.png", png_bytes(contact_sheet(shape, *report.set, options)));
   }
   if (report.set->tour.length_rad > 0.0) {
-    write_tour(output, shape, report, up, run.part(stills_share, 1.0));
+    write_tour(output, shape, pictures, report, up, run.part(stills_share, 1.0));
   } else if (!tour_.empty()) {
     throw InvalidInput(
         "one view sees everything asked for, so there is no tour; ask for more "
@@ -180,7 +182,8 @@ void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, const
 }
 
 void ViewSetFlags::write_tour(OutputFolder& output, const ShapeAnalysis& shape,
-                              const ViewReport& report, UpAxis up, const RunContext& run) const {
+                              ShapePictures& pictures, const ViewReport& report, UpAxis up,
+                              const RunContext& run) const {
   const ReportedViewSet& set = *report.set;
   const double aspect = static_cast<double>(width_) / height_;
   const double length = seconds(set.tour);
@@ -209,7 +212,7 @@ void ViewSetFlags::write_tour(OutputFolder& output, const ShapeAnalysis& shape,
   for (const Camera& camera :
        tour_cameras(shape, set, report.camera, up, aspect, static_cast<std::size_t>(frames))) {
     const double next = std::min(1.0, done + 1.0 / frames);
-    encoder.add(render(shape.surface, camera, {}, {}, look, run.part(done, next)));
+    encoder.add(pictures.take_plain(camera, look, run.part(done, next)));
     done = next;
   }
   write_output(tour_, encoder.finish());

@@ -29,12 +29,13 @@ class ViewSetFlags {
   [[nodiscard]] ViewSetRequest request_or(int views) const;
 
   /// Adds pictures and cameras of the set, and the moving camera, to the folder; writes --tour.
-  void write(OutputFolder& output, const ShapeAnalysis& shape, const ViewReport& report, UpAxis up,
-             const ViewOptions& options, const RunContext& run) const;
+  void write(OutputFolder& output, const ShapeAnalysis& shape, ShapePictures& pictures,
+             const ViewReport& report, UpAxis up, const ViewOptions& options,
+             const RunContext& run) const;
 
  private:
-  void write_tour(OutputFolder& output, const ShapeAnalysis& shape, const ViewReport& report,
-                  UpAxis up, const RunContext& run) const;
+  void write_tour(OutputFolder& output, const ShapeAnalysis& shape, ShapePictures& pictures,
+                  const ViewReport& report, UpAxis up, const RunContext& run) const;
   [[nodiscard]] double seconds(const Tour& tour) const;
 
   OptionFlags flags_{};

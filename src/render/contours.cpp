@@ -13,6 +13,8 @@ namespace vantage {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::infinity();
+/// Where no ray was cast, since nothing breaks there.
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 /// A step in depth counts if it is so many times what the slopes beside it foretell. [ours]: a
 /// surface that merely turns away makes steps that grow by less from sample to sample.
 constexpr double kSudden = 3.0;
@@ -35,6 +37,9 @@ double slope(double a, double b) {
 
 /// Whether the surface breaks between b and c, of four samples in a row.
 bool breaks(double a, double b, double c, double d, double least_jump) {
+  if (std::isnan(b) || std::isnan(c)) {
+    return false;
+  }
   if (b == kNothing || c == kNothing) {
     return b != c;
   }
@@ -100,10 +105,35 @@ double Contours::depth(int x, int y) const {
              : kNothing;
 }
 
-std::vector<double> Contours::coverage(int first_row, int rows, const RunContext& run) const {
+std::vector<double> Contours::coverage(int first_row, int rows, const MayBreak& may_break,
+                                       const RunContext& run) const {
   // Lines reach in from breaks beside these rows, and a break needs two samples on either side.
   const int halo = static_cast<int>(std::ceil(radius_)) + 2;
   const int first = first_row * side_ - halo;
+  // Floor of a sample over the samples of a pixel, also before the picture.
+  const auto pixel_of = [&](int sample) { return (sample + halo * side_) / side_ - halo; };
+  const int left = pixel_of(-halo) - 1;
+  const int top = pixel_of(first) - 1;
+  const int across = pixel_of(width_ * side_ + halo - 1) + 2 - left;
+  const int down = pixel_of(first + rows * side_ + 2 * halo - 1) + 2 - top;
+  std::vector<std::uint8_t> wanted(static_cast<std::size_t>(across) *
+                                   static_cast<std::size_t>(down));
+  const auto wanted_at = [&](int x, int y) -> std::uint8_t& {
+    return wanted[static_cast<std::size_t>(y - top) * static_cast<std::size_t>(across) +
+                  static_cast<std::size_t>(x - left)];
+  };
+  for (int y = top; y < top + down; ++y) {
+    for (int x = left; x < left + across; ++x) {
+      if (!may_break(x, y)) {
+        continue;
+      }
+      for (int j = std::max(top, y - 1); j <= std::min(top + down - 1, y + 1); ++j) {
+        for (int i = std::max(left, x - 1); i <= std::min(left + across - 1, x + 1); ++i) {
+          wanted_at(i, j) = 1;
+        }
+      }
+    }
+  }
   DepthGrid grid{width_ * side_ + 2 * halo, rows * side_ + 2 * halo, {}};
   grid.depth.assign(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.rows),
                     kNothing);
@@ -113,7 +143,7 @@ std::vector<double> Contours::coverage(int first_row, int rows, const RunContext
           const int y = first + static_cast<int>(row);
           for (int x = 0; x < grid.width; ++x) {
             grid.depth[row * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x)] =
-                depth(x - halo, y);
+                wanted_at(pixel_of(x - halo), pixel_of(y)) != 0 ? depth(x - halo, y) : kUnknown;
           }
         }
       });

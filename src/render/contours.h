@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "vantage/core/run_context.h"
@@ -18,9 +19,14 @@ class Contours {
   Contours(const RayScene& scene, const PictureRays& rays, int width, int side, double line_px,
            double least_jump);
 
+  /// Whether the surface may break in a pixel or between it and those beside it.
+  using MayBreak = std::function<bool(int x, int y)>;
+
   /// How much of each pixel of some rows is covered by lines, in [0, 1]; row by row.
-  /// \throw Cancelled
-  [[nodiscard]] std::vector<double> coverage(int first_row, int rows, const RunContext& run) const;
+  /// \param may_break is asked about pixels beyond the rows and beyond the picture, too; rays are
+  /// cast where it is true, and a pixel beside. \throw Cancelled
+  [[nodiscard]] std::vector<double> coverage(int first_row, int rows, const MayBreak& may_break,
+                                             const RunContext& run) const;
 
  private:
   [[nodiscard]] double depth(int x, int y) const;

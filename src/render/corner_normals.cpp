@@ -59,7 +59,18 @@ double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-Corner make_corner(const TriMesh& mesh, std::uint32_t id) {
+/// Area vectors of all faces.
+std::vector<Vec3> face_areas(const TriMesh& mesh, const RunContext& run) {
+  std::vector<Vec3> areas(mesh.triangles.size());
+  parallel_for(run, areas.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      areas[f] = area_vector(mesh, mesh.triangles[f]);
+    }
+  });
+  return areas;
+}
+
+Corner make_corner(const TriMesh& mesh, const std::vector<Vec3>& areas, std::uint32_t id) {
   Corner corner;
   corner.face = id / 3;
   corner.index = id % 3;
@@ -67,10 +78,9 @@ Corner make_corner(const TriMesh& mesh, std::uint32_t id) {
   const Vec3& p = mesh.positions[t[corner.index]];
   const Vec3 a = mesh.positions[t[(corner.index + 1) % 3]] - p;
   const Vec3 b = mesh.positions[t[(corner.index + 2) % 3]] - p;
-  const Vec3 area = area_vector(mesh, t);
-  const double length = area.norm();
+  const double length = areas[corner.face].norm();
   if (length > 0.0 && std::isfinite(length)) {
-    corner.normal = area / length;
+    corner.normal = areas[corner.face] / length;
     corner.weight = angle_between(a, b) * length;
   }
   return corner;
@@ -80,6 +90,7 @@ Corner make_corner(const TriMesh& mesh, std::uint32_t id) {
 struct CreaseCosines {
   double smooth;
   double crisp;
+  double half_smooth;  ///< Faces all this near to one are smooth among each other.
 };
 
 /// How much of `other` counts beside `normal`, from 0 across a crease to 1, or to −1 if it is wound
@@ -100,6 +111,19 @@ using CornerNormals = std::vector<std::array<Vec3f, 3>>;
 
 void smooth_pairwise(std::span<const Corner> corners, const CreaseCosines& crease,
                      CornerNormals& normals) {
+  const bool all_smooth = std::all_of(corners.begin(), corners.end(), [&](const Corner& corner) {
+    return corners.front().normal.dot(corner.normal) >= crease.half_smooth;
+  });
+  if (all_smooth) {
+    Vec3 sum = Vec3::Zero();
+    for (const Corner& corner : corners) {
+      sum += corner.weight * corner.normal;
+    }
+    for (const Corner& corner : corners) {
+      normals[corner.face][corner.index] = unit_or(sum, corner.normal);
+    }
+    return;
+  }
   for (const Corner& corner : corners) {
     Vec3 sum = Vec3::Zero();
     for (const Corner& other : corners) {
@@ -143,14 +167,16 @@ std::vector<std::array<Vec3f, 3>> corner_normals(const TriMesh& mesh, const Crea
                                                  const RunContext& run) {
   const WeldedMesh welded = weld(mesh);
   const IndexLists corners_at = corners_of_positions(mesh, welded);
-  const CreaseCosines cosines{std::cos(crease.smooth_rad), std::cos(crease.crisp_rad)};
+  const std::vector<Vec3> areas = face_areas(mesh, run);
+  const CreaseCosines cosines{std::cos(crease.smooth_rad), std::cos(crease.crisp_rad),
+                              std::cos(0.5 * crease.smooth_rad)};
   CornerNormals normals(mesh.triangles.size(), {Vec3f::Zero(), Vec3f::Zero(), Vec3f::Zero()});
   parallel_for(run, corners_at.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     std::vector<Corner> corners;
     for (std::size_t position = begin; position < end; ++position) {
       corners.clear();
       for (const std::uint32_t id : corners_at[position]) {
-        Corner corner = make_corner(mesh, id);
+        Corner corner = make_corner(mesh, areas, id);
         if (corner.weight > 0.0) {
           corners.push_back(corner);
         }

@@ -9,8 +9,6 @@
 
 #include <Eigen/Geometry>
 
-#include "vantage/core/random.h"
-
 #include "core/parallel.h"
 
 namespace vantage {
@@ -18,8 +16,9 @@ namespace {
 
 /// Cells of the grid a side: a cell is then about 2 % of the model. [ours]
 constexpr int kCells = 160;
-/// Rays from each cell; the blur below averages over about seven cells of them. [ours]
+/// Rays from each cell, one of nine sets: the blur below averages over all of them. [ours]
 constexpr std::size_t kRays = 48;
+constexpr std::size_t kSetsAcross = 3;
 /// Rays start this far above the ground, over the reach.
 constexpr double kOffset = 1e-4;
 
@@ -62,18 +61,20 @@ Ground::Ground(const TriMesh& mesh, const RayScene& scene, const Vec3& up, doubl
   left_ = 0.5 * (box[0] + box[1] - side);
   bottom_ = 0.5 * (box[2] + box[3] - side);
   const Occlusion occlusion(scene, reach, kOffset * reach, std::nullopt);
+  const HemisphereDirections directions(kRays, kSetsAcross * kSetsAcross);
+  const HemisphereFrame sky{up.cast<float>(), across_.cast<float>(), along_.cast<float>()};
   shadows_.resize(static_cast<std::size_t>(kCells) * kCells);
   parallel_for(run, shadows_.size(), kCells, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      Pcg32 random(i);
-      const double first = random.uniform();
-      const HemisphereRays rays{.count = kRays, .total = kRays, .shift = {first, random.uniform()}};
       const std::size_t column = i % kCells;
       const std::size_t row = i / kCells;
       const Vec3 point = (left_ + (static_cast<double>(column) + 0.5) * cell_) * across_ +
                          (bottom_ + (static_cast<double>(row) + 0.5) * cell_) * along_ +
                          floor_.height * up;
-      shadows_[i] = 1.0 - occlusion.openness(point, up, up, rays);
+      const std::size_t set = kSetsAcross * (row % kSetsAcross) + column % kSetsAcross;
+      const float open =
+          occlusion.openness(point.cast<float>(), sky, sky.normal, directions.part(set));
+      shadows_[i] = 1.0 - static_cast<double>(open);
     }
   });
   shadows_ = blurred(blurred(shadows_, 1, 0), 0, 1);

@@ -16,6 +16,10 @@ struct PictureRay {
   Vec3 origin = Vec3::Zero();
   Vec3 direction = Vec3::UnitZ();  ///< Unit.
   bool can_hit = false;            ///< False if it passes the whole scene by.
+
+  [[nodiscard]] RaySegment segment() const {
+    return {origin.cast<float>(), direction.cast<float>()};
+  }
 };
 
 /// A pixel range [x0, x1) × [y0, y1).

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,16 +9,17 @@
 #include "vantage/core/run_context.h"
 #include "vantage/render/render.h"
 
+#include "render/coat.h"
 #include "render/contours.h"
+#include "render/drawn_surface.h"
+#include "render/fragment.h"
 #include "render/ground.h"
 #include "render/occlusion.h"
-#include "render/openness_filter.h"
+#include "render/openness_grid.h"
 #include "render/picture_rays.h"
 #include "render/shading.h"
-#include "render/skin.h"
 #include "render/tile_mask.h"
 #include "render/tubes.h"
-#include "spatial/ray_scene.h"
 
 namespace vantage {
 
@@ -36,29 +35,29 @@ struct Light {
   }
 };
 
-/// What one picture of the scene shows on and in its surface.
-struct Coat {
-  std::vector<Vec3f> colour_of_vertex{};  ///< Linear; empty: the scene's own.
-  std::optional<Skin> skin{};
-  std::optional<Tubes> tubes{};
-  Vec3 tube_colour = Vec3::Zero();
+/// Light of a pixel in one coat.
+struct PixelLight {
+  Light light{};
+  bool refined = false;  ///< From all samples of the pixel, not from its fragment.
 };
 
 /// What is known of some rows of a picture before their pixels are made.
 struct SceneBand {
-  int first_row = 0;
-  std::vector<double> outlines{};      ///< Coverage of each pixel; empty if the style has none.
-  std::vector<SurfaceProbe> probes{};  ///< Of each pixel's middle; empty without occlusion rays.
+  FragmentRows rows;
+  int first_row = 0;                       ///< Of the band; `rows` begin before it.
+  std::optional<OpennessGrid> openness{};  ///< Nothing without occlusion rays.
+  std::vector<double> outlines{};          ///< Coverage of each pixel; empty if there are none.
 };
 
-/// Everything to be drawn, in one unit frame: a surface, once or in several coats. The rays of all
-/// coats are the same, so that further coats cost little. Immutable after construction; pixels may
-/// be asked for from many threads at once.
+/// A surface seen by a camera, in one coat or several, with all else that is drawn: the rays of all
+/// coats are the same. A few samples of each pixel tell whether it shows one patch of the surface
+/// in one colour, as its neighbours do; then it is shaded once, and else at all its samples.
+/// Immutable after construction; pixels may be asked for from many threads at once.
 class Scene {
  public:
-  /// \pre at least one paint; with materials, only one.
+  /// \param surface must outlive this. \pre at least one paint; with materials, only one.
   /// \throw InvalidInput, Cancelled
-  Scene(const TriMesh& mesh, const Camera& camera, std::span<const Paint> paints,
+  Scene(const DrawnSurface& surface, const Camera& camera, std::span<const Paint> paints,
         const RenderOptions& options, const RunContext& run);
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
@@ -68,16 +67,9 @@ class Scene {
 
   /// Light and opacity of a pixel of a band for every coat: the colour is not multiplied by the
   /// opacity. \param lights one a coat.
-  void pixel(int x, int y, const SceneBand& band, std::span<Light> lights) const;
+  void pixel(int x, int y, const SceneBand& band, std::span<PixelLight> lights) const;
 
  private:
-  /// A place of the surface that is seen.
-  struct Place {
-    Vec3 position = Vec3::Zero();
-    Vec3 normal = Vec3::UnitZ();       ///< As shaded, on the viewer's side.
-    Vec3 face_normal = Vec3::UnitZ();  ///< Of the flat face, on the viewer's side.
-  };
-
   /// A sample of the picture, and what all coats have in common there, once it is known.
   struct Sample {
     PictureRay ray{};
@@ -86,40 +78,49 @@ class Scene {
     std::size_t index = 0;  ///< In the pixel's pattern.
     const SceneBand* band = nullptr;
     RayHit hit{};
-    double crease_t = 0.0;
+    bool on_line = false;                   ///< A feature line lies before the surface.
     std::optional<SurfacePoint> surface{};  ///< At the hit; its albedo is a coat's.
   };
 
-  void add_coat(const Paint& paint, const UnitFrame& frame);
-  void add_lines(double reach, const RunContext& run);
+  using Pattern = std::vector<std::array<double, 2>>;
+  using SamplePacket = std::array<Sample, 4>;
+
+  void add_lines(const RunContext& run);
+  [[nodiscard]] SamplePacket samples(int x, int y, const Pattern& pattern, std::size_t first,
+                                     std::size_t count, double width) const;
+
+  [[nodiscard]] bool may_show_anything(int x, int y) const;
+  void make_fragment(int x, int y, FragmentRows& rows) const;
+  [[nodiscard]] CoatFragment coat_fragment(const Coat& coat, std::span<const Sample> samples,
+                                           bool one_patch) const;
+  [[nodiscard]] Light plain_light(int x, int y, std::size_t coat, const SceneBand& band) const;
+  void refine(int x, int y, const SceneBand& band, std::span<PixelLight> lights) const;
+
   [[nodiscard]] Light light_of(const Coat& coat, Sample& sample) const;
-  [[nodiscard]] Place place_of(const PictureRay& ray, const RayHit& hit) const;
-  [[nodiscard]] SurfaceProbe probe(int x, int y) const;
-  [[nodiscard]] double openness(const Place& place, int x, int y, std::size_t index,
-                                const SceneBand& band) const;
-  [[nodiscard]] std::size_t band_index(int x, int y, const SceneBand& band) const;
-  [[nodiscard]] double shadow(const PictureRay& ray, double t, int x, int y) const;
-  [[nodiscard]] RayHit nearest(const PictureRay& ray, int x, int y) const;
-  [[nodiscard]] Vec3 to_camera(const Vec3& vector) const;
-  [[nodiscard]] Skin::Shown shown_at(const Coat& coat, const RayHit& hit) const;
-  [[nodiscard]] SurfacePoint surface_at(const Sample& sample, const RayHit& hit) const;
   [[nodiscard]] Light surface_light(const Coat& coat, Sample& sample, const RayHit& hit,
                                     bool before_tube) const;
+  [[nodiscard]] SurfacePoint surface_at(const Sample& sample, const RayHit& hit) const;
+  [[nodiscard]] SurfacePoint point_at(const SurfacePlace& place, const Vec3& ray_direction,
+                                      double openness) const;
+  [[nodiscard]] Vec3 shaded(const SurfacePoint& point) const;
+  [[nodiscard]] float probed(const SurfacePlace& place, std::span<const Vec3f> directions) const;
+  void add_ground(Light& light, const PictureRay& ray, int x, int y) const;
+  [[nodiscard]] double shadow(const PictureRay& ray, double t, int x, int y) const;
+  [[nodiscard]] Vec3 to_camera(const Vec3& vector) const;
   [[nodiscard]] Vec3 background(int y) const;
 
+  const DrawnSurface* surface_;
   RenderOptions options_;
-  TriMesh mesh_;
-  std::vector<std::array<Vec3f, 3>> normals_{};
-  Vec3 colour_;
   double pixel_ = 0.0;  // size of a pixel at the middle of the scene
-  std::vector<std::array<double, 2>> pattern_;
-  std::optional<RayScene> surface_{};
+  Pattern first_;       // what fragments are made of
+  Pattern pattern_;
   std::optional<TileMask> mask_{};
   std::optional<PictureRays> rays_{};
   std::optional<Occlusion> occlusion_{};
+  std::optional<HemisphereDirections> probe_directions_{};
+  std::optional<HemisphereDirections> sample_directions_{};
   std::optional<Ground> ground_{};
-  std::vector<std::unique_ptr<Coat>> coats_{};
-  bool has_tubes_ = false;
+  std::vector<Coat> coats_{};
   std::optional<Tubes> creases_{};
   std::optional<Contours> contours_{};
 };

@@ -20,7 +20,7 @@ constexpr double kFillWrap = 0.35;
 constexpr double kKeyOcclusion = 0.55;  ///< How much of the key light comes from a wide source.
 constexpr double kRim = 0.16;
 constexpr double kSheen = 0.055;
-constexpr double kSheenPower = 28.0;
+constexpr int kSheenPower = 28;
 constexpr double kShoulder = 0.72;  ///< Brighter channels are compressed into what is left to 1.
 constexpr double kFaceOpacity = 0.56;
 constexpr double kOutlineOpacity = 0.94;
@@ -60,9 +60,19 @@ Vec3 diffuse_light(const SurfacePoint& point) {
          point.openness * (fill * kFillColour + sky * kSkyColour + (1.0 - sky) * kGroundColour);
 }
 
-double sheen(const SurfacePoint& point, double power) {
+/// A whole power > 0, by squares.
+double power_of(double base, int power) {
+  double result = 1.0;
+  for (; power > 0; power /= 2) {
+    result *= power % 2 != 0 ? base : 1.0;
+    base *= base;
+  }
+  return result;
+}
+
+double sheen(const SurfacePoint& point, int power) {
   const Vec3 half = (kKeyDirection + point.to_viewer).normalized();
-  return std::pow(std::max(0.0, point.normal.dot(half)), power);
+  return power_of(std::max(0.0, point.normal.dot(half)), power);
 }
 
 }  // namespace
@@ -87,7 +97,7 @@ Vec3 shade_tube(const SurfacePoint& point) {
   const double outline = std::min(1.0, facing(point) / kTubeOutline);
   const double ink = 0.35 + 0.65 * outline;
   const Vec3 lit = ink * point.albedo.cwiseProduct(diffuse_light(point) + Vec3::Constant(0.35));
-  return compress(lit + Vec3::Constant(0.18 * sheen(point, 2.0 * kSheenPower)));
+  return compress(lit + Vec3::Constant(0.18 * sheen(point, 2 * kSheenPower)));
 }
 
 double translucent_opacity(const SurfacePoint& point, bool before_tube) {

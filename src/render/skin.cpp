@@ -53,8 +53,8 @@ Uv transformed(const std::array<double, 6>& rows, const std::array<float, 2>& uv
 
 }  // namespace
 
-Skin::Skin(const Appearance& appearance, const TriMesh& mesh, double spacing)
-    : appearance_(&appearance), mesh_(&mesh), spacing_(spacing) {
+Skin::Skin(const Appearance& appearance, const TriMesh& mesh)
+    : appearance_(&appearance), mesh_(&mesh) {
   check_fit(appearance, mesh);
   pyramids_.resize(2 * appearance.textures.size());
   for (const Material& material : appearance.materials) {
@@ -73,7 +73,8 @@ std::size_t Skin::pyramid_of(const Material& material) {
   return 2 * std::size_t{*material.texture} + (material.alpha == AlphaMode::Opaque ? 1 : 0);
 }
 
-Texel Skin::texel(const Material& material, std::uint32_t face, float u, float v) const {
+Texel Skin::texel(const Material& material, std::uint32_t face, float u, float v,
+                  double spacing) const {
   // Faces without coordinates show the mean of the picture: wood is still brown.
   constexpr float kCoarsest = 100.0F;
   const TexturePyramid& pyramid = *pyramids_[pyramid_of(material)];
@@ -93,7 +94,7 @@ Texel Skin::texel(const Material& material, std::uint32_t face, float u, float v
                                  (uvs[2][0] - uvs[0][0]) * (uvs[1][1] - uvs[0][1])) *
                         pyramid.width() * pyramid.height();
   const double area = area_vector(*mesh_, mesh_->triangles[face]).norm();
-  const double covered = area > 0.0 ? spacing_ * std::sqrt(texels / area) : 0.0;
+  const double covered = area > 0.0 ? spacing * std::sqrt(texels / area) : 0.0;
   const double w = 1.0 - static_cast<double>(u) - static_cast<double>(v);
   const auto mix = [&](std::size_t axis) {
     const double sum = w * uvs[0][axis] + static_cast<double>(u) * uvs[1][axis] +
@@ -105,7 +106,7 @@ Texel Skin::texel(const Material& material, std::uint32_t face, float u, float v
                     static_cast<float>(std::log2(std::max(covered, kLeastCovered))));
 }
 
-Skin::Shown Skin::at(std::uint32_t face, float u, float v) const {
+Skin::Shown Skin::at(std::uint32_t face, float u, float v, double spacing) const {
   Shown shown;
   const std::uint32_t index = appearance_->material_of_triangle[face];
   if (index == Appearance::kNone) {
@@ -117,7 +118,7 @@ Skin::Shown Skin::at(std::uint32_t face, float u, float v) const {
   shown.colour = {material.colour[0], material.colour[1], material.colour[2]};
   double opacity = material.opacity;
   if (material.texture) {
-    const Texel texel = this->texel(material, face, u, v);
+    const Texel texel = this->texel(material, face, u, v, spacing);
     shown.colour = shown.colour.cwiseProduct(texel.colour.cast<double>());
     opacity *= static_cast<double>(texel.opacity);
   }

@@ -26,21 +26,21 @@ class Skin {
     bool has_material = false;   ///< Else white.
   };
 
-  /// All must outlive this. \param spacing distance of samples on the surface, in the mesh's units.
-  /// \throw InvalidInput if `appearance` does not fit the mesh.
-  Skin(const Appearance& appearance, const TriMesh& mesh, double spacing);
+  /// All must outlive this. \throw InvalidInput if `appearance` does not fit the mesh.
+  Skin(const Appearance& appearance, const TriMesh& mesh);
 
-  [[nodiscard]] Shown at(std::uint32_t face, float u, float v) const;
+  /// \param spacing distance of samples on the surface, in the mesh's units.
+  [[nodiscard]] Shown at(std::uint32_t face, float u, float v, double spacing) const;
 
   /// Whether any place may be seen through.
   [[nodiscard]] bool has_openings() const { return has_openings_; }
 
  private:
-  [[nodiscard]] Texel texel(const Material& material, std::uint32_t face, float u, float v) const;
+  [[nodiscard]] Texel texel(const Material& material, std::uint32_t face, float u, float v,
+                            double spacing) const;
 
   const Appearance* appearance_;
   const TriMesh* mesh_;
-  double spacing_;
   bool has_openings_ = false;
   [[nodiscard]] static std::size_t pyramid_of(const Material& material);
 

@@ -104,10 +104,13 @@ TubeHit Tubes::meet(const Capsule& capsule, const PictureRay& ray) {
   return hit;
 }
 
+std::span<const std::uint32_t> Tubes::near(int x, int y) const {
+  return capsules_of_tile_[static_cast<std::size_t>((y / kTilePx) * tiles_across_ + x / kTilePx)];
+}
+
 TubeHit Tubes::closest_hit(const PictureRay& ray, int x, int y) const {
   TubeHit nearest;
-  const int tile = (y / kTilePx) * tiles_across_ + x / kTilePx;
-  for (const std::uint32_t c : capsules_of_tile_[static_cast<std::size_t>(tile)]) {
+  for (const std::uint32_t c : near(x, y)) {
     const TubeHit hit = meet(capsules_[c], ray);
     if (hit.t < nearest.t) {
       nearest = hit;

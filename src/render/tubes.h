@@ -35,6 +35,9 @@ class Tubes {
   Tubes(const CurveGraph& graph, double radius, const PictureRays& rays, int width, int height,
         double joint_thickness = kJointThickness);
 
+  /// False only if no ray that belongs to pixel (x, y) meets a tube.
+  [[nodiscard]] bool may_show(int x, int y) const { return !near(x, y).empty(); }
+
   /// Nearest hit of a ray that belongs to pixel (x, y). Ties go to the lower index.
   [[nodiscard]] TubeHit closest_hit(const PictureRay& ray, int x, int y) const;
 
@@ -46,6 +49,7 @@ class Tubes {
     double radius;
   };
 
+  [[nodiscard]] std::span<const std::uint32_t> near(int x, int y) const;
   static TubeHit meet(const Capsule& capsule, const PictureRay& ray);
   static void meet_ball(const Vec3& centre, double radius, const PictureRay& ray, TubeHit& hit);
 

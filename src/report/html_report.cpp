@@ -20,7 +20,9 @@
 #include "io/base64.h"
 #include "report/display_mesh.h"
 #include "report/report_page.h"
+#include "report/vertex_share.h"
 #include "report/view_preparation.h"
+#include "view/sketch_scorer.h"
 
 namespace vantage {
 namespace {
@@ -144,13 +146,13 @@ Json rapid_part(const ScoreBatch& score, double total, Goal goal, const RunConte
 }
 
 Json view_part(const char* name, const ReportedView& view, const ShapeAnalysis& shape,
-               const Model& model, const ViewOptions& options, const Frame& frame,
-               const RunContext& run) {
+               ShapePictures& pictures, const Model& model, const ViewOptions& options,
+               const Frame& frame, const RunContext& run) {
   ViewOptions small = options;
   small.width = kStripWidth;
   small.height = kStripHeight;
-  const std::string png =
-      png_bytes(take_picture(shape, view.picture, Picture::Plain, small, {}, run));
+  constexpr std::array kPlain{Picture::Plain};
+  const std::string png = png_bytes(pictures.take(view.picture, kPlain, small, {}, run).front());
   const PictureSize size{options.width, options.height};
   return {{"name", name},
           {"direction", numbers(view.direction)},
@@ -170,13 +172,15 @@ Json view_part(const char* name, const ReportedView& view, const ShapeAnalysis& 
 }
 
 /// The views of a set after the first, which is the best one, and the round over all of them.
-void add_set(Json& data, const ViewReport& report, const ShapeAnalysis& shape, const Model& model,
-             const ViewOptions& options, const Frame& frame, const RunContext& run) {
+void add_set(Json& data, const ViewReport& report, const ShapeAnalysis& shape,
+             ShapePictures& pictures, const Model& model, const ViewOptions& options,
+             const Frame& frame, const RunContext& run) {
   const std::vector<ReportedView>& views = report.set->views;
   const std::size_t shown = std::min(views.size(), kMostStripViews);
   for (std::size_t i = 1; i < shown; ++i) {
     const std::string name = std::to_string(i + 1);
-    data["views"].push_back(view_part(name.c_str(), views[i], shape, model, options, frame, run));
+    data["views"].push_back(
+        view_part(name.c_str(), views[i], shape, pictures, model, options, frame, run));
   }
   if (shown < views.size()) {
     data["warnings"].push_back("Of the " + std::to_string(views.size()) + " views the first " +
@@ -221,28 +225,46 @@ std::string script_safe(const Json& json) {
   return safe;
 }
 
+/// Scores estimated on a coarse surface, shifted and stretched so that they meet those of the best
+/// and the worst view. Exact ones of a large model would take most of the time of a result.
+ScoreBatch estimated_scores(const ShapeAnalysis& shape, const ViewReport& report,
+                            const ViewOptions& options, const RunContext& run) {
+  const auto sketch = std::make_shared<const SketchScorer>(
+      shape.surface, shape.sides, vertex_shares(shape, options.weight), report.camera,
+      sketch_options(shape.surface.positions.size()), preparation_of(shape)->coarse);
+  const std::vector<Vec3> ends{report.worst.direction, report.best.direction};
+  const std::vector<double> known = sketch->score_all(ends, run);
+  const double range = known[1] - known[0];
+  const double exact = report.best.score - report.worst.score;
+  constexpr double kLeastRange = 1e-3;  // of all: less is the estimates' own error
+  const double stretch = std::min(range, exact) > kLeastRange * report.total ? exact / range : 1.0;
+  const double shift = report.worst.score - stretch * known[0];
+  return [sketch, stretch, shift, total = report.total, &run](const std::vector<Vec3>& directions) {
+    std::vector<double> scores = sketch->score_all(directions, run);
+    for (double& score : scores) {
+      score = std::clamp(stretch * score + shift, 0.0, total);
+    }
+    return scores;
+  };
+}
+
 }  // namespace
 
 bool has_report_page() {
   return !report_page().empty();
 }
 
-std::string report_html(const Model& model, const ShapeAnalysis& shape, const ViewReport& report,
-                        const ViewOptions& options, const RunContext& run) {
+std::string report_html(const Model& model, const ShapeAnalysis& shape, ShapePictures& pictures,
+                        const ViewReport& report, const ViewOptions& options,
+                        const RunContext& run) {
   if (!has_report_page()) {
     throw InvalidInput("this build has no 3D page; build it where npm is installed");
   }
   const Frame frame{report.camera.sphere.centre, 0.5 * report.camera.sphere.diameter};
-  const std::shared_ptr<const VertexVisibility> visibility = visibility_of(shape, 200);
-  const std::optional<FaceVisibility> faces = faces_to_score(shape, options);
-  const ViewScorer scorer = faces ? ViewScorer(*faces, shape.map.of_vertex, report.camera)
-                                  : ViewScorer(*visibility, shape.map.of_vertex, report.camera);
   const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, kSphereLevel);
   RunContext quiet = run;
   quiet.report = nullptr;
-  const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
-    return scorer.score_all(directions, quiet);
-  };
+  const ScoreBatch score = estimated_scores(shape, report, options, quiet);
 
   Json data = {{"view", Json::parse(view_json(model, shape, report, options))},
                {"up", numbers(up_vector(report.up))},
@@ -261,11 +283,11 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, const Vi
   data["rapid"] = {{"best", rapid_part(score, report.total, Goal::Best, quiet)},
                    {"worst", rapid_part(score, report.total, Goal::Worst, quiet)}};
   run.advance("report", 0.8);
-  data["views"] = {view_part("best", report.best, shape, model, options, frame, quiet),
-                   view_part("worst", report.worst, shape, model, options, frame, quiet)};
+  data["views"] = {view_part("best", report.best, shape, pictures, model, options, frame, quiet),
+                   view_part("worst", report.worst, shape, pictures, model, options, frame, quiet)};
   data["warnings"] = data["view"]["warnings"];
   if (report.set) {
-    add_set(data, report, shape, model, options, frame, quiet);
+    add_set(data, report, shape, pictures, model, options, frame, quiet);
   }
 
   constexpr std::string_view kMark = "<!--VANTAGE-DATA-->";

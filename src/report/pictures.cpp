@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: MIT
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "vantage/io/write.h"
 #include "vantage/render/colour_map.h"
 #include "vantage/render/render.h"
+#include "vantage/report/shape_pictures.h"
 #include "vantage/report/view_report.h"
+
+#include "core/parallel.h"
 
 namespace vantage {
 namespace {
@@ -53,19 +61,44 @@ Image take_picture(const ShapeAnalysis& shape, const Camera& camera, Picture pic
   return draw_picture(shape, camera, picture, options, look, run);
 }
 
-std::vector<Image> take_pictures(const ShapeAnalysis& shape, const Camera& camera,
-                                 std::span<const Picture> pictures, const ViewOptions& options,
-                                 const RunContext& run) {
+const PictureSurface& ShapePictures::surface(const RunContext& run) {
+  if (!surface_) {
+    surface_.emplace(shape_->surface, nullptr, RenderOptions{}.crease_deg, run);
+  }
+  return *surface_;
+}
+
+std::vector<Image> ShapePictures::take(const Camera& camera, std::span<const Picture> pictures,
+                                       const ViewOptions& options,
+                                       const std::optional<Rgb8>& background,
+                                       const RunContext& run) {
   RenderOptions look;
   set_quality(look, Quality::Normal);
+  look.background = background;
   std::vector<Canvas> canvases;
   std::vector<Paint> paints;
   canvases.reserve(pictures.size());  // paints look into them
   for (const Picture picture : pictures) {
-    canvases.emplace_back(shape, picture, options, look, nullptr);
+    canvases.emplace_back(*shape_, picture, options, look, nullptr);
     paints.push_back(canvases.back().paint());
   }
-  return render_coats(shape.surface, camera, paints, look, run);
+  return surface(run).render(camera, paints, look, run);
+}
+
+Image ShapePictures::take_plain(const Camera& camera, const RenderOptions& look,
+                                const RunContext& run) {
+  const Paint clay;
+  return std::move(surface(run).render(camera, std::span(&clay, 1), look, run).front());
+}
+
+std::vector<std::string> png_files(std::span<const Image> images, const RunContext& run) {
+  std::vector<std::string> files(images.size());
+  parallel_for(run, images.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      files[i] = png_bytes(images[i]);
+    }
+  });
+  return files;
 }
 
 Image draw_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,

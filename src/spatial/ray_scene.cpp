@@ -68,19 +68,42 @@ struct Embree {
   }
 };
 
-RTCRay ray(const Vec3f& origin, const Vec3f& direction, float tnear, float tfar) {
+RTCRay ray(const RaySegment& segment) {
   RTCRay result{};
-  result.org_x = origin.x();
-  result.org_y = origin.y();
-  result.org_z = origin.z();
-  result.dir_x = direction.x();
-  result.dir_y = direction.y();
-  result.dir_z = direction.z();
-  result.tnear = tnear;
-  result.tfar = tfar;
+  result.org_x = segment.origin.x();
+  result.org_y = segment.origin.y();
+  result.org_z = segment.origin.z();
+  result.dir_x = segment.direction.x();
+  result.dir_y = segment.direction.y();
+  result.dir_z = segment.direction.z();
+  result.tnear = segment.tnear;
+  result.tfar = segment.tfar;
   result.mask = ~0U;
   return result;
 }
+
+void fill(const RayPacket& rays, std::size_t count, RTCRay4& query, std::array<int, 4>& valid) {
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    valid[i] = i < count ? -1 : 0;
+    query.org_x[i] = rays[i].origin.x();
+    query.org_y[i] = rays[i].origin.y();
+    query.org_z[i] = rays[i].origin.z();
+    query.dir_x[i] = rays[i].direction.x();
+    query.dir_y[i] = rays[i].direction.y();
+    query.dir_z[i] = rays[i].direction.z();
+    query.tnear[i] = rays[i].tnear;
+    query.tfar[i] = rays[i].tfar;
+    query.mask[i] = ~0U;
+  }
+}
+
+/// What travels with one query of a RayScene.
+struct PictureContext {
+  RTCIntersectContext context{};  // first, so that a pointer to it is a pointer to this struct
+  float width = 0.0F;
+
+  explicit PictureContext(float ray_width) : width(ray_width) { rtcInitIntersectContext(&context); }
+};
 
 /// What travels with one query of a CandidateScene.
 struct CandidateContext {
@@ -116,19 +139,27 @@ struct RayScene::Scene {
   Embree embree{};
   OpacityOfHit opacity{};
 
-  static double opacity_of(const RTCFilterFunctionNArguments* query) {
+  /// Keeps the hits at places whose opacity `keep` accepts.
+  template <class Keep>
+  static void filter(const RTCFilterFunctionNArguments* query, const Keep& keep) {
+    const auto* scene = static_cast<const Scene*>(query->geometryUserPtr);
+    const float width = reinterpret_cast<const PictureContext*>(query->context)->width;
     RTCHitN* hit = query->hit;
-    return static_cast<const Scene*>(query->geometryUserPtr)
-        ->opacity(RTCHitN_primID(hit, query->N, 0), RTCHitN_u(hit, query->N, 0),
-                  RTCHitN_v(hit, query->N, 0));
+    for (unsigned i = 0; i < query->N; ++i) {
+      if (query->valid[i] != 0 &&
+          !keep(scene->opacity(RTCHitN_primID(hit, query->N, i), RTCHitN_u(hit, query->N, i),
+                               RTCHitN_v(hit, query->N, i), width))) {
+        query->valid[i] = 0;
+      }
+    }
   }
 
   static void pass_holes(const RTCFilterFunctionNArguments* query) {
-    query->valid[0] = query->valid[0] != 0 && opacity_of(query) > 0.0 ? query->valid[0] : 0;
+    filter(query, [](double opacity) { return opacity > 0.0; });
   }
 
   static void pass_glass(const RTCFilterFunctionNArguments* query) {
-    query->valid[0] = query->valid[0] != 0 && opacity_of(query) >= 0.5 ? query->valid[0] : 0;
+    filter(query, [](double opacity) { return opacity >= 0.5; });
   }
 };
 
@@ -168,11 +199,10 @@ RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 RayHit RayScene::closest_hit(const Vec3f& origin, const Vec3f& direction, float tnear,
                              float tfar) const {
   RTCRayHit query{};
-  query.ray = ray(origin, direction, tnear, tfar);
+  query.ray = ray({origin, direction, tnear, tfar});
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(scene_->embree.scene, &context, &query);
+  PictureContext context(0.0F);
+  rtcIntersect1(scene_->embree.scene, &context.context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
     return {};
   }
@@ -181,11 +211,43 @@ RayHit RayScene::closest_hit(const Vec3f& origin, const Vec3f& direction, float 
 
 bool RayScene::occluded(const Vec3f& origin, const Vec3f& direction, float tnear,
                         float tfar) const {
-  RTCRay query = ray(origin, direction, tnear, tfar);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(scene_->embree.scene, &context, &query);
+  RTCRay query = ray({origin, direction, tnear, tfar});
+  PictureContext context(0.0F);
+  rtcOccluded1(scene_->embree.scene, &context.context, &query);
   return query.tfar < 0.0F;
+}
+
+std::array<RayHit, 4> RayScene::closest_hits(const RayPacket& rays, std::size_t count,
+                                             float width) const {
+  RTCRayHit4 query{};
+  alignas(16) std::array<int, 4> valid{};
+  fill(rays, count, query.ray, valid);
+  for (unsigned& geometry : query.hit.geomID) {
+    geometry = RTC_INVALID_GEOMETRY_ID;
+  }
+  PictureContext context(width);
+  context.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect4(valid.data(), scene_->embree.scene, &context.context, &query);
+  std::array<RayHit, 4> hits{};
+  for (std::size_t i = 0; i < count; ++i) {
+    if (query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
+      hits[i] = {query.hit.primID[i], query.hit.u[i], query.hit.v[i], query.ray.tfar[i]};
+    }
+  }
+  return hits;
+}
+
+std::size_t RayScene::count_occluded(const RayPacket& rays, std::size_t count, float width) const {
+  RTCRay4 query{};
+  alignas(16) std::array<int, 4> valid{};
+  fill(rays, count, query, valid);
+  PictureContext context(width);
+  rtcOccluded4(valid.data(), scene_->embree.scene, &context.context, &query);
+  std::size_t occluded = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    occluded += query.tfar[i] < 0.0F ? 1 : 0;
+  }
+  return occluded;
 }
 
 struct CandidateScene::Scene {
@@ -230,8 +292,8 @@ bool CandidateScene::any(const Vec3& origin, const Vec3& direction, double tfar,
                          const std::function<bool(std::uint32_t)>& decide) const {
   // The far end moves out by a few units in the last place of a float.
   constexpr double far_slack = 1.0 + 1e-5;
-  RTCRay query = ray(origin.cast<float>(), direction.cast<float>(), 0.0F,
-                     static_cast<float>(tfar * far_slack));
+  RTCRay query = ray(
+      {origin.cast<float>(), direction.cast<float>(), 0.0F, static_cast<float>(tfar * far_slack)});
   CandidateContext context;
   rtcInitIntersectContext(&context.context);
   context.decide = &decide;

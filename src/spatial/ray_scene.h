@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -44,8 +46,20 @@ struct RayHit {
   explicit operator bool() const { return face != kNone; }
 };
 
-/// How opaque a place of a surface is, in [0, 1]; called from many threads at once.
-using OpacityOfHit = std::function<double(std::uint32_t face, float u, float v)>;
+/// The part of a line with tnear ≤ t ≤ tfar. The direction need not be a unit vector.
+struct RaySegment {
+  Vec3f origin = Vec3f::Zero();
+  Vec3f direction = Vec3f::UnitZ();
+  float tnear = 0.0F;
+  float tfar = std::numeric_limits<float>::infinity();
+};
+
+/// Rays that are traced together, which costs less than one by one where they run alike.
+using RayPacket = std::array<RaySegment, 4>;
+
+/// How opaque a place of a surface is, in [0, 1], for a ray that is so wide there, in the mesh's
+/// units; called from many threads at once.
+using OpacityOfHit = std::function<double(std::uint32_t face, float u, float v, float width)>;
 
 /// Triangles in single precision, for pictures. Rays pass no shared edge unnoticed.
 class RayScene {
@@ -66,6 +80,15 @@ class RayScene {
   /// Whether anything is hit with tnear ≤ t ≤ tfar.
   [[nodiscard]] bool occluded(const Vec3f& origin, const Vec3f& direction, float tnear = 0.0F,
                               float tfar = std::numeric_limits<float>::infinity()) const;
+
+  /// Nearest hits of the first `count` rays; the others hit nothing.
+  /// \param width of the rays, for places that are partly opaque.
+  [[nodiscard]] std::array<RayHit, 4> closest_hits(const RayPacket& rays, std::size_t count,
+                                                   float width = 0.0F) const;
+
+  /// How many of the first `count` rays hit something.
+  [[nodiscard]] std::size_t count_occluded(const RayPacket& rays, std::size_t count,
+                                           float width = 0.0F) const;
 
  private:
   struct Scene;

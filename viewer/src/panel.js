@@ -81,7 +81,7 @@ export function showDirection(direction, score, total) {
 export function showReplay({ path, evaluations, levels }, dense) {
   const last = path[path.length - 1];
   element('replay-text').textContent =
-    `${evaluations} views in ${levels} rings; ends at ${short(last.score)}, the view found: ${short(dense)}`;
+    `${evaluations} views in ${levels} rings; ends at about ${short(last.score)}, the view found: ${short(dense)}`;
 }
 
 /** Fills the camera box; returns a function that shows another view's camera. */

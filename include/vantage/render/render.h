@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,11 +24,13 @@
 
 namespace vantage {
 
+class DrawnSurface;
+
 /// How much work goes into a picture.
 enum class Quality {
-  Draft,   ///< 9 rays a pixel, 1 occlusion ray each: thumbnails.
-  Normal,  ///< 16 and 2: pictures on a screen.
-  Fine,    ///< 64 and 4: print.
+  Draft,   ///< 9 samples a pixel, 8 occlusion rays a probe: thumbnails.
+  Normal,  ///< 16 and 16: pictures on a screen.
+  Fine,    ///< 64 and 64: print.
 };
 
 /// How surfaces look.
@@ -41,8 +44,10 @@ enum class Style {
 struct RenderOptions {
   int width = 800;                   ///< px; the program's pictures: of ViewOptions.
   int height = 600;                  ///< px; as `width`.
-  int samples = 16;                  ///< Rays per pixel, rounded up to a square.
-  int ambient_rays = 0;              ///< Occlusion rays per sample; 0 switches them off.
+  /// Rays per pixel where edges, outlines or textures need them, rounded up to a square; elsewhere
+  /// four tell that they do not.
+  int samples = 16;
+  int ambient_rays = 0;  ///< Occlusion rays of every second pixel both ways; 0: no occlusion.
   std::optional<Rgb8> background{};  ///< Unset: transparent.
   /// The background turns to this colour towards the bottom. Looked at if `background` is set.
   std::optional<Rgb8> background_bottom{};
@@ -111,12 +116,35 @@ struct Paint {
 Image render_painted(const TriMesh& mesh, const Camera& camera, const Paint& paint,
                      const RenderOptions& options = {}, const RunContext& run = {});
 
-/// Pictures of the same mesh from the same camera in several paints, without materials: the rays are
-/// cast once, so that further pictures cost little.
-/// \throw InvalidInput, Cancelled
-std::vector<Image> render_coats(const TriMesh& mesh, const Camera& camera,
-                                std::span<const Paint> paints, const RenderOptions& options = {},
-                                const RunContext& run = {});
+/// A surface made ready to be drawn: its search tree, normals and materials. Pictures of it, from
+/// whatever camera and in whatever paint, then cost their rays alone.
+class PictureSurface {
+ public:
+  /// \param appearance its materials; null for none; must outlive this.
+  /// \param crease_deg as in RenderOptions, whose value is not looked at again.
+  /// \throw InvalidInput if there is nothing to draw; Cancelled
+  explicit PictureSurface(const TriMesh& mesh, const Appearance* appearance = nullptr,
+                          double crease_deg = RenderOptions{}.crease_deg,
+                          const RunContext& run = {});
+  ~PictureSurface();
+  PictureSurface(PictureSurface&&) noexcept;
+  PictureSurface& operator=(PictureSurface&&) noexcept;
+
+  /// Pictures from one camera in several paints: the rays are cast once. A paint's materials are
+  /// null or those of the surface; with materials there is one picture at a time.
+  /// \throw InvalidInput, Cancelled
+  [[nodiscard]] std::vector<Image> render(const Camera& camera, std::span<const Paint> paints,
+                                          const RenderOptions& options = {},
+                                          const RunContext& run = {}) const;
+
+  /// One picture in 16 bit a channel. \throw InvalidInput, Cancelled
+  [[nodiscard]] DeepImage render_deep(const Camera& camera, const Paint& paint,
+                                      const RenderOptions& options = {},
+                                      const RunContext& run = {}) const;
+
+ private:
+  std::unique_ptr<const DrawnSurface> surface_;
+};
 
 /// The same picture in 16 bit a channel. \throw InvalidInput, Cancelled
 DeepImage render_deep(const TriMesh& mesh, const Camera& camera, const Paint& paint,

@@ -5,6 +5,7 @@
 
 #include "vantage/core/run_context.h"
 #include "vantage/io/model.h"
+#include "vantage/report/shape_pictures.h"
 #include "vantage/report/view_report.h"
 
 /// \file
@@ -18,10 +19,13 @@ bool has_report_page();
 
 /// The page: the model in 3D with its significance, skeleton and contraction, the view sphere as a
 /// heat map, the views with their cameras, the paper's search to replay. Models past 300 000 faces
-/// are simplified for display, which the page says; the numbers are those of the whole model.
+/// are simplified for display, which the page says; the numbers are those of the whole model. The
+/// scores on the sphere and in the replay are estimates, which meet the exact ones at the best and
+/// the worst view.
 /// \pre the map is there. \throw InvalidInput if !has_report_page(). \throw Cancelled
-/// \complexity 642 evaluations and two rapid searches, then about 30 bytes a face.
-std::string report_html(const Model& model, const ShapeAnalysis& shape, const ViewReport& report,
-                        const ViewOptions& options, const RunContext& run = {});
+/// \complexity about a thousand estimates, then about 30 bytes a face.
+std::string report_html(const Model& model, const ShapeAnalysis& shape, ShapePictures& pictures,
+                        const ViewReport& report, const ViewOptions& options,
+                        const RunContext& run = {});
 
 }  // namespace vantage

@@ -20,7 +20,8 @@ class Seen {
   explicit Seen(TriMesh mesh) : scene_(mesh), rays_(front(), UnitFrame{}, 4.0, kSide, kSide) {}
 
   [[nodiscard]] std::vector<double> coverage(int first = 0, int rows = kSide) const {
-    return Contours(scene_, rays_, kSide, 4, kLine, 0.05).coverage(first, rows, {});
+    return Contours(scene_, rays_, kSide, 4, kLine, 0.05)
+        .coverage(first, rows, [](int, int) { return true; }, {});
   }
 
  private:

@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-constexpr HemisphereRays kMany{.count = 4096, .total = 4096, .shift = {0.37, 0.61}};
+constexpr std::size_t kMany = 4096;
 /// 4096 members of a Hammersley set count areas of simple outline to about 1 in 500.
 constexpr double kCounting = 0.004;
 constexpr double kFar = 10.0;
@@ -30,10 +30,31 @@ TriMesh disc(double radius, double height) {
   return mesh;
 }
 
+HemisphereFrame frame_of(const Vec3f& normal) {
+  return turned_frame(normal, Vec3f(0.6F, 0.0F, 0.8F), Vec3f(0.8F, 0.0F, -0.6F), Vec3f::UnitY());
+}
+
 double openness_under(const TriMesh& mesh, double reach, std::optional<Floor> floor = {},
-                      const Vec3& normal = Vec3::UnitZ()) {
+                      const Vec3f& normal = Vec3f::UnitZ()) {
   const RayScene scene(mesh);
-  return Occlusion(scene, reach, 1e-4, floor).openness(Vec3::Zero(), normal, normal, kMany);
+  const HemisphereDirections directions(kMany, 1);
+  return static_cast<double>(
+      Occlusion(scene, reach, 1e-4, floor)
+          .openness(Vec3f::Zero(), frame_of(normal), normal, directions.part(0)));
+}
+
+TEST(TurnedFrame, StandsAtRightAnglesOnEveryNormal) {
+  for (int i = 0; i < 100; ++i) {
+    const auto turn = static_cast<float>(i);
+    const Vec3f normal =
+        Vec3f(std::sin(turn), std::cos(1.7F * turn), std::sin(0.3F * turn) + 1.1F).normalized();
+    const HemisphereFrame frame = frame_of(normal);
+    EXPECT_NEAR(frame.tangent.dot(normal), 0.0F, 1e-6F);
+    EXPECT_NEAR(frame.bitangent.dot(normal), 0.0F, 1e-6F);
+    EXPECT_NEAR(frame.tangent.dot(frame.bitangent), 0.0F, 1e-6F);
+    EXPECT_NEAR(frame.tangent.norm(), 1.0F, 1e-6F);
+    EXPECT_NEAR(frame.bitangent.norm(), 1.0F, 1e-6F);
+  }
 }
 
 TEST(Occlusion, OfADiscOverheadIsItsFormFactor) {
@@ -56,28 +77,32 @@ TEST(Occlusion, InsideAClosedShellNothingIsOpen) {
 TEST(Occlusion, AFloorBlocksWhatGoesBelowIt) {
   const Floor floor{Vec3::UnitZ(), -0.1};
   const TriMesh nothing_near = disc(0.1, 100.0);
-  EXPECT_EQ(openness_under(nothing_near, kFar, floor, Vec3::UnitZ()), 1.0);
-  EXPECT_NEAR(openness_under(nothing_near, 1e6, floor, -Vec3::UnitZ()), 0.0, kCounting);
-  EXPECT_NEAR(openness_under(nothing_near, 1e6, floor, Vec3::UnitX()), 0.5, kCounting);
+  EXPECT_EQ(openness_under(nothing_near, kFar, floor, Vec3f::UnitZ()), 1.0);
+  EXPECT_NEAR(openness_under(nothing_near, 1e6, floor, -Vec3f::UnitZ()), 0.0, kCounting);
+  EXPECT_NEAR(openness_under(nothing_near, 1e6, floor, Vec3f::UnitX()), 0.5, kCounting);
 }
 
 TEST(Occlusion, AFloorOutOfReachBlocksNothing) {
-  EXPECT_EQ(openness_under(disc(0.1, 100.0), 1.0, Floor{Vec3::UnitZ(), -2.0}, -Vec3::UnitZ()), 1.0);
+  EXPECT_EQ(openness_under(disc(0.1, 100.0), 1.0, Floor{Vec3::UnitZ(), -2.0}, -Vec3f::UnitZ()),
+            1.0);
 }
 
 TEST(Occlusion, PartsOfASetTogetherAreTheSet) {
   const TriMesh mesh = disc(1.0, 1.0);
   const RayScene scene(mesh);
   const Occlusion occlusion(scene, kFar, 1e-4, {});
+  const HemisphereFrame frame = frame_of(Vec3f::UnitZ());
+  const auto open = [&](std::span<const Vec3f> directions) {
+    return static_cast<double>(
+        occlusion.openness(Vec3f::Zero(), frame, Vec3f::UnitZ(), directions));
+  };
+  constexpr std::size_t kParts = 8;
+  const HemisphereDirections dealt(kMany / kParts, kParts);
   double sum = 0.0;
-  for (std::size_t part = 0; part < 8; ++part) {
-    HemisphereRays rays = kMany;
-    rays.first = part;
-    rays.stride = 8;
-    rays.count = kMany.total / 8;
-    sum += occlusion.openness(Vec3::Zero(), Vec3::UnitZ(), Vec3::UnitZ(), rays) / 8.0;
+  for (std::size_t part = 0; part < kParts; ++part) {
+    sum += open(dealt.part(part)) / kParts;
   }
-  EXPECT_DOUBLE_EQ(sum, occlusion.openness(Vec3::Zero(), Vec3::UnitZ(), Vec3::UnitZ(), kMany));
+  EXPECT_NEAR(sum, open(HemisphereDirections(kMany, 1).part(0)), 1e-6);
 }
 
 }  // namespace

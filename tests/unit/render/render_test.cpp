@@ -149,6 +149,45 @@ TEST(Render, EdgesOfATransparentPictureHaveNoDarkFringe) {
   EXPECT_GT(partial, 50);
 }
 
+TEST(Render, ALineHalfAPixelWideHasNoGaps) {
+  // It passes between the middles of pixels for most of its length.
+  constexpr int kSide = 100;
+  constexpr double kWide = 0.5;
+  TriMesh line;
+  line.positions = {{-40, 0, 0}, {40, 3, 0}, {40, 3 + kWide, 0}, {-40, kWide, 0}};
+  line.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const Image image = render(line, front(kSide), {}, {}, square(kSide));
+  for (int x = 20; x < 80; ++x) {
+    double column = 0.0;
+    for (int y = 0; y < kSide; ++y) {
+      column += image.pixel(x, y)[3] / 255.0;
+    }
+    EXPECT_NEAR(column, kWide, 0.15) << x;
+  }
+}
+
+TEST(PictureSurface, TakesThePicturesOfSeveralPaintsAndCamerasThatEachWouldTakeAlone) {
+  const TriMesh mesh = test::torus(1.0, 0.35, 48, 24);
+  std::vector<Rgb8> colours;
+  for (const Vec3& p : mesh.positions) {
+    colours.push_back(p.x() > 0.0 ? Rgb8{220, 20, 20} : Rgb8{20, 20, 220});
+  }
+  const CurveGraph graph{{Vec3(-1, 0, 0), Vec3(1, 0, 0)}, {{0, 1}}};
+  const TubeOverlay overlay{.graph = &graph, .radius = 0.05};
+  RenderOptions options = square(64);
+  options.ambient_rays = 8;
+  const std::vector<Paint> paints{{}, {colours, {}, nullptr}, {{}, overlay, nullptr}};
+  const PictureSurface surface(mesh);
+  for (const Camera& camera :
+       {front(3.0), orthographic(Vec3(1, 2, 3).normalized(), Vec3::Zero(), 3.0)}) {
+    const std::vector<Image> images = surface.render(camera, paints, options);
+    ASSERT_EQ(images.size(), 3U);
+    EXPECT_EQ(images[0].rgba, render(mesh, camera, {}, {}, options).rgba);
+    EXPECT_EQ(images[1].rgba, render(mesh, camera, colours, {}, options).rgba);
+    EXPECT_EQ(images[2].rgba, render(mesh, camera, {}, overlay, options).rgba);
+  }
+}
+
 TEST(Render, ABackgroundMakesThePictureOpaque) {
   RenderOptions options = square(32);
   options.background = Rgb8{10, 200, 30};

@@ -36,6 +36,35 @@ TEST(RayScene, MissesBesideAndBeyondTheFarEnd) {
   EXPECT_TRUE(scene.occluded({0.5F, 0.5F, 3.0F}, {0.0F, 0.0F, -1.0F}, 0.0F, 2.1F));
 }
 
+TEST(RayScene, TracesRaysTogetherAsItDoesOneByOne) {
+  const RayScene scene(test::box(1.0, 1.0, 1.0, 3));
+  RayPacket packet;
+  for (std::size_t i = 0; i < packet.size(); ++i) {
+    const auto x = static_cast<float>(i);
+    packet[i] = {Vec3f(0.3F * x + 0.17F, 0.41F, 3.0F), Vec3f(0.0F, 0.05F * x, -1.0F)};
+  }
+  const auto hits = scene.closest_hits(packet, packet.size());
+  std::size_t blocked = 0;
+  for (std::size_t i = 0; i < packet.size(); ++i) {
+    const RayHit alone = scene.closest_hit(packet[i].origin, packet[i].direction);
+    EXPECT_EQ(hits[i].face, alone.face) << i;
+    EXPECT_NEAR(hits[i].t, alone.t, 1e-6F) << i;
+    blocked += scene.occluded(packet[i].origin, packet[i].direction) ? 1 : 0;
+  }
+  EXPECT_EQ(scene.count_occluded(packet, packet.size()), blocked);
+  EXPECT_EQ(blocked, 3U);  // the last starts beside the box
+}
+
+TEST(RayScene, LeavesTheRestOfAPacketAlone) {
+  const RayScene scene(test::box(1.0, 1.0, 1.0, 1));
+  RayPacket packet;
+  packet.fill({Vec3f(0.3F, 0.4F, 3.0F), Vec3f(0.0F, 0.0F, -1.0F)});
+  const auto hits = scene.closest_hits(packet, 2);
+  EXPECT_TRUE(hits[1]);
+  EXPECT_FALSE(hits[2]);
+  EXPECT_EQ(scene.count_occluded(packet, 3), 3U);
+}
+
 TEST(RayScene, OfNothingIsNeverHit) {
   const RayScene scene(TriMesh{});
   EXPECT_FALSE(scene.closest_hit({0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, -1.0F}));

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "render/coat.h"
+
+#include "core/srgb.h"
+
+namespace vantage {
+
+Coat::Coat(const Paint& paint, const DrawnSurface& surface, const PictureRays& rays,
+           const RenderOptions& options)
+    : surface_(&surface),
+      colour_(linear_of_srgb(options.colour)),
+      skin_(paint.appearance != nullptr ? surface.skin() : nullptr),
+      tube_colour_(linear_of_srgb(paint.overlay.colour)) {
+  colour_of_vertex_.reserve(paint.vertex_colours.size());
+  for (const Rgb8& colour : paint.vertex_colours) {
+    colour_of_vertex_.emplace_back(linear_of_srgb(colour).cast<float>());
+  }
+  if (paint.overlay.graph != nullptr) {
+    CurveGraph graph = *paint.overlay.graph;
+    for (Vec3& node : graph.nodes) {
+      node = surface.frame().to_frame(node);
+    }
+    tubes_.emplace(graph, paint.overlay.radius * surface.frame().scale, rays, options.width,
+                   options.height);
+  }
+}
+
+Skin::Shown Coat::shown(const RayHit& hit, double width) const {
+  Skin::Shown shown;
+  if (skin_ != nullptr) {
+    shown = skin_->at(hit.face, hit.u, hit.v, width);
+  }
+  if (colour_of_vertex_.empty()) {
+    shown.colour = shown.has_material ? shown.colour : colour_;
+    return shown;
+  }
+  const Triangle& t = surface_->mesh().triangles[hit.face];
+  const Vec3f colour = (1.0F - hit.u - hit.v) * colour_of_vertex_[t[0]] +
+                       hit.u * colour_of_vertex_[t[1]] + hit.v * colour_of_vertex_[t[2]];
+  shown.colour = shown.colour.cwiseProduct(colour.cast<double>().cwiseMax(0.0).cwiseMin(1.0));
+  return shown;
+}
+
+}  // namespace vantage

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "render/drawn_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "vantage/mesh/measures.h"
+
+#include "render/corner_normals.h"
+
+namespace vantage {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+/// Edges turn from smooth to crisp within so much on either side of the crease angle [ours]: at the
+/// default of 40° rounded fillets of CAD parts, rarely split finer than 12 to the full turn, stay
+/// smooth and their chamfers sharp, and bends of scans do not fray into teeth.
+constexpr double kCreaseSoftnessDeg = 10.0;
+/// Least cosine between a shading normal and the viewer; interpolated normals may lean away.
+constexpr float kLeastFacing = 0.02F;
+
+/// The normal turned until it faces the viewer at least a little.
+Vec3f facing_normal(const Vec3f& normal, const Vec3f& to_viewer) {
+  const float cosine = normal.dot(to_viewer);
+  if (cosine >= kLeastFacing) {
+    return normal;
+  }
+  return (normal + (kLeastFacing - cosine) * to_viewer).normalized();
+}
+
+Crease crease_of(double crease_deg) {
+  return {std::max(0.0, crease_deg - kCreaseSoftnessDeg) * kRadPerDeg,
+          (crease_deg + kCreaseSoftnessDeg) * kRadPerDeg};
+}
+
+double reach_of(const TriMesh& mesh) {
+  double squared = 0.0;
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t v : triangle) {
+      squared = std::max(squared, mesh.positions[v].squaredNorm());
+    }
+  }
+  return squared > 0.0 ? std::sqrt(squared) : 1.0;
+}
+
+}  // namespace
+
+DrawnSurface::DrawnSurface(const TriMesh& mesh, const Appearance* appearance, double crease_deg,
+                           const RunContext& run)
+    : frame_(unit_frame(referenced_points(mesh))), mesh_(mesh), crease_deg_(crease_deg) {
+  for (Vec3& position : mesh_.positions) {
+    position = frame_.to_frame(position);
+  }
+  reach_ = reach_of(mesh_);
+  if (crease_deg > 0.0) {
+    normals_ = corner_normals(mesh_, crease_of(crease_deg), run);
+  }
+  run.check();
+  if (appearance != nullptr && !appearance->materials.empty()) {
+    skin_.emplace(*appearance, mesh_);
+  }
+  OpacityOfHit opacity;
+  if (skin_ && skin_->has_openings()) {
+    opacity = [this](std::uint32_t face, float u, float v, float width) {
+      return skin_->at(face, u, v, static_cast<double>(width)).opacity;
+    };
+  }
+  rays_.emplace(mesh_, std::move(opacity));
+}
+
+SurfacePlace DrawnSurface::place(const RaySegment& ray, const RayHit& hit) const {
+  const Vec3f to_viewer = -ray.direction;
+  const Vec3 area = area_vector(mesh_, mesh_.triangles[hit.face]);
+  const double area_norm = area.norm();
+  SurfacePlace place;
+  place.position = ray.origin + hit.t * ray.direction;
+  place.face_normal = area_norm > 0.0 ? Vec3f((area / area_norm).cast<float>()) : to_viewer;
+  place.normal = place.face_normal;
+  if (!normals_.empty()) {
+    const std::array<Vec3f, 3>& corners = normals_[hit.face];
+    const Vec3f mixed =
+        (1.0F - hit.u - hit.v) * corners[0] + hit.u * corners[1] + hit.v * corners[2];
+    const float length = mixed.norm();
+    place.normal = length > 0.0F ? Vec3f(mixed / length) : place.face_normal;
+  }
+  if (place.face_normal.dot(to_viewer) < 0.0F) {
+    place.face_normal = -place.face_normal;
+    place.normal = -place.normal;
+  }
+  place.normal = facing_normal(place.normal, to_viewer);
+  return place;
+}
+
+}  // namespace vantage
