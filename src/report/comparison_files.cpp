@@ -8,8 +8,6 @@
 #include "vantage/io/write.h"
 #include "vantage/report/comparison.h"
 
-#include "report/option_echo.h"
-
 namespace vantage {
 namespace {
 
@@ -95,7 +93,7 @@ std::string comparison_json(const Model& model, const Comparison& comparison, Up
   json["model"] = model.name;
   json["up"] = up_name(up);
   json["views"] = comparison.set.directions.size();
-  json["search"] = strategy_name(options.search.strategy);
+  json["search"] = options.search.strategy == SearchStrategy::Gradient ? "gradient" : "global";
   if (with_seconds) {
     json["seconds"] = comparison.survey_seconds;
   }

@@ -19,10 +19,8 @@
 
 #include "io/base64.h"
 #include "report/display_mesh.h"
+#include "report/map_objective.h"
 #include "report/report_page.h"
-#include "report/vertex_share.h"
-#include "report/view_preparation.h"
-#include "view/sketch_scorer.h"
 
 namespace vantage {
 namespace {
@@ -229,18 +227,16 @@ std::string script_safe(const Json& json) {
 /// and the worst view. Exact ones of a large model would take most of the time of a result.
 ScoreBatch estimated_scores(const ShapeAnalysis& shape, const ViewReport& report,
                             const ViewOptions& options, const RunContext& run) {
-  const auto sketch = std::make_shared<const SketchScorer>(
-      shape.surface, shape.sides, vertex_shares(shape, options.weight), report.camera,
-      sketch_options(shape.surface.positions.size()), preparation_of(shape)->coarse);
+  const auto map = std::make_shared<const MapObjective>(shape, options, run);
   const std::vector<Vec3> ends{report.worst.direction, report.best.direction};
-  const std::vector<double> known = sketch->score_all(ends, run);
+  const std::vector<double> known = map->estimates(ends);
   const double range = known[1] - known[0];
   const double exact = report.best.score - report.worst.score;
   constexpr double kLeastRange = 1e-3;  // of all: less is the estimates' own error
   const double stretch = std::min(range, exact) > kLeastRange * report.total ? exact / range : 1.0;
   const double shift = report.worst.score - stretch * known[0];
-  return [sketch, stretch, shift, total = report.total, &run](const std::vector<Vec3>& directions) {
-    std::vector<double> scores = sketch->score_all(directions, run);
+  return [map, stretch, shift, total = report.total](const std::vector<Vec3>& directions) {
+    std::vector<double> scores = map->estimates(directions);
     for (double& score : scores) {
       score = std::clamp(stretch * score + shift, 0.0, total);
     }

@@ -34,7 +34,7 @@ ViewObjective MapObjective::objective(const UprightFrame& frame) const {
   const std::size_t coarse = prepared_->coarse.mesh.positions.size();
   if (kWorthwhile * coarse <= size || faces_) {
     objective.surrogate = [this](const std::vector<Vec3>& directions) {
-      return coarse_scorer_.score_all(directions, quiet_);
+      return estimates(directions);
     };
   }
   if (!prior_.is_uniform) {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "vantage/report/view_report.h"
 #include "vantage/view/search.h"
@@ -23,6 +24,11 @@ class MapObjective {
   [[nodiscard]] const ViewScorer& scorer() const { return scorer_; }
 
   [[nodiscard]] const VertexVisibility& visibility() const { return prepared_->visibility; }
+
+  /// Scores on the coarse copy, by vertices. \throw Cancelled
+  [[nodiscard]] std::vector<double> estimates(const std::vector<Vec3>& directions) const {
+    return coarse_scorer_.score_all(directions, quiet_);
+  }
 
   /// Refers to this. \param frame what the prior of the options speaks in.
   [[nodiscard]] ViewObjective objective(const UprightFrame& frame) const;
