@@ -126,9 +126,9 @@ class Input(ProgramTest):
 class Terminal(ProgramTest):
     """What names and words from outside may do to the terminal: be read."""
 
-    EVIL = (b"\x1b[31m", b"\x1b]0;owned\x07", b"\x9b31m", "\u009b31m".encode(), b"\xc2", b"\xff\xfe", b"\xc0\x9b",
-            b"\xed\xa0\x80", b"\xf5\x80\x80\x80", "\u202eff0.x".encode(), "\u2066x".encode(), "\u200fx".encode(),
-            "\u061cx".encode(), "\u2028x".encode(), b"two\nlines", b"\r\x08\x7f")
+    EVIL = (b"\x1b[31m\x1b]0;owned\x07two\nlines\r\x08\x7f",
+            "\u202eff0.x\u2066x\u200fx\u061cx\u2028x\u009b31m".encode(),
+            b"\x9b31m\xff\xfex\xc0\x9bx\xed\xa0\x80x\xf5\x80\x80\x80x\xe2\x80x\xc2")
 
     def assert_harmless(self, *command):
         """Runs it and looks at both streams."""

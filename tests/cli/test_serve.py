@@ -202,14 +202,14 @@ class Serve(ProgramTest):
     def test_connections_that_are_kept_open_keep_nobody_waiting(self):
         with self.served(self.results()) as address:
             port = int(address.rstrip("/").rsplit(":", 1)[1])
+            started = time.monotonic()
             for _ in range(6):  # what a browser opens and keeps
                 connection = socket.create_connection(("127.0.0.1", port))
                 self.addCleanup(connection.close)
                 connection.sendall(f"GET / HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n".encode())
                 self.assertIn(b"200 OK", connection.recv(65536))
-            started = time.monotonic()
             self.assertEqual(self.ask(address, "/")[0], 200)
-            self.assertLess(time.monotonic() - started, 2.0)
+            self.assertLess(time.monotonic() - started, 4.0)  # connections are kept for 5
 
     def test_a_request_that_drips_is_cut_off(self):
         with self.served(self.results()) as address:

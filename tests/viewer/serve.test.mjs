@@ -59,19 +59,21 @@ after(async () => {
   fs.rmSync(folder, { recursive: true, force: true });
 });
 
-test('the index shows all its small pictures, and soon', async () => {
+test('the index shows all its small pictures, and none waits for a connection to be free', async () => {
   const page = await browser.newPage();
   const refused = [];
   page.on('console', (m) => m.type() === 'error' && refused.push(m.text()));
   await page.setViewportSize({ width: 1200, height: 6000 });
-  const start = Date.now();
   await page.goto(address);
   await page.waitForFunction((count) => {
     const images = [...document.images];
     images.forEach((image) => { image.loading = 'eager'; });
     return images.length === count && images.every((image) => image.complete && image.naturalWidth > 0);
   }, kCount, { timeout: 60000 });
-  assert.ok(Date.now() - start < 5000, `${Date.now() - start} ms`);
+  // From asking to the first byte; kept connections are given up after 5 s.
+  const slowest = await page.evaluate(() => Math.max(
+    ...performance.getEntriesByType('resource').map((e) => e.responseStart - e.requestStart)));
+  assert.ok(slowest < 4000, `${slowest} ms`);
   assert.deepEqual(refused, []);
   await page.close();
 });
