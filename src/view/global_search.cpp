@@ -12,8 +12,9 @@ namespace vantage {
 namespace {
 
 // All ours; docs/search.md has what each trades, measured.
-constexpr std::size_t kExactValues = 48;  // directions scored exactly; half of them peaks
-constexpr std::size_t kStarts = 4;        // directions that the ascent starts from
+constexpr std::size_t kExactValues = 96;  // directions scored exactly; half of them peaks
+constexpr std::size_t kStarts = 4;        // directions that the ascent starts from, …
+constexpr double kStartsApartRad = 8.0 * kRadPerDeg;  // … so far apart: not all on one hill
 
 constexpr double kSurveyShare = 0.5;  // of the progress bar
 
@@ -62,6 +63,7 @@ Candidate search_globally(const SearchTarget& target, const RunContext& run) {
   const RunContext ascent = run.part(kSurveyShare, 1.0);
   std::size_t count = kStarts;
   double ring_rad = first_rad;
+  candidates = largest_apart(std::move(candidates), count, kStartsApartRad);
   for (int round = 1; ring_rad >= target.objective().finest_deg * kRadPerDeg; ++round) {
     candidates = largest_apart(std::move(candidates), count, ring_rad);
     ascend(candidates, {ring_rad, ring_rad}, target, round, ascent);
