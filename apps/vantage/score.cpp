@@ -32,7 +32,6 @@ struct ScoreCommand {
   std::string visible{};
   int sphere = -1;
   int view_set = 3;
-  int sampling = 1;
   SaliencyFlags saliency{};
   MethodFlags method{};
 
@@ -52,12 +51,6 @@ struct ScoreCommand {
                    "views that the measures built on a set are defined over: the icosahedron split "
                    "this many times")
         ->check(CLI::Range(0, 5))
-        ->capture_default_str();
-    app.add_option(
-           "--sampling", sampling,
-           "samples of surface and outline so many times as near to each other as is enough: "
-           "only to see that it is enough")
-        ->check(CLI::Range(1, 16))
         ->capture_default_str();
     app.add_option("-o,--output", file, "CSV file to write; - is standard output")
         ->capture_default_str();
@@ -79,7 +72,7 @@ struct ScoreCommand {
     }
     const std::vector<Vec3> points = session.reading([&] { return points_to_score(); });
     const Model loaded = session.load(model);
-    if (measures.size() > 1 || measures.front().name != "kssm" || sampling > 1) {
+    if (measures.size() > 1 || measures.front().name != "kssm") {
       score_measures(session, loaded, options, measures, points);
       return;
     }
@@ -124,7 +117,6 @@ struct ScoreCommand {
         needs_saliency(measures) ? vertex_map(shape, options, "mesh-saliency", run.part(0.4, 0.5))
                                  : std::vector<double>{};
     subject.saliency = map;
-    subject.sampling = sampling;
     ViewMeasurer measurer(subject, measures, view_set, run.part(0.5, 0.9));
     if (!eyes.empty()) {
       std::vector<Viewpoint> places;

@@ -277,8 +277,7 @@ std::vector<std::uint8_t> NearbySight::seen(const Viewpoint& eye) const {
   for (std::size_t site = 0; site < asked.size(); ++site) {
     asked[site] &= is_asked_[site];
   }
-  const std::vector<std::uint8_t> of_site =
-      look.not_hidden({.sites = part_->surface().sites}, std::move(asked));
+  const std::vector<std::uint8_t> of_site = look.not_hidden(std::move(asked));
   std::vector<std::uint8_t> of_vertex;
   of_vertex.reserve(site_of_vertex_.size());
   for (const std::uint32_t site : site_of_vertex_) {

@@ -14,7 +14,7 @@ V, F = torus(8, 6)
 
 # Flags that are no part of the method: files, how it runs, what is printed, moving pictures.
 NOT_KEYWORDS = {"help", "output", "trace", "no-images", "no-report", "preview", "tour",
-                "tour-seconds", "fps", "tour-size", "json", "quiet", "verbose", "config", "sampling",
+                "tour-seconds", "fps", "tour-size", "json", "quiet", "verbose", "config",
                 "depth",  # arrays have 8 bits a channel
                 "seed",  # every command has it, but only the gradient search draws
                 "max-memory", "timeout",  # limits of a process; Python's own belongs to its user
