@@ -47,12 +47,13 @@ class FaceLook {
     }
     list_hiding();
     list_contours();
-    result.faces.reserve(surface_.faces.size());
-    for (const std::uint32_t face : scene_.face_of_mesh) {
-      if (face != FaceScene::kNoFace && look_.is_turned(face)) {
+    result.faces.reserve(surface_.faces.size() / 2);
+    for (std::uint32_t face = 0; face < surface_.faces.size(); ++face) {
+      if (look_.is_turned(face)) {
         add(face, sums);
       }
     }
+    result.faces = in_order(result.faces);
     return result;
   }
 
@@ -255,6 +256,23 @@ class FaceLook {
       });
     });
     return is_behind;
+  }
+
+  /// The faces in the mesh's order; quicker than sorting, as about half of all are seen.
+  [[nodiscard]] std::vector<SeenFace> in_order(const std::vector<SeenFace>& faces) {
+    constexpr std::uint32_t kUnseen = ~std::uint32_t{0};
+    memory_.order.assign(scene_.triangles.size(), kUnseen);
+    for (std::uint32_t k = 0; k < faces.size(); ++k) {
+      memory_.order[faces[k].face] = k;
+    }
+    std::vector<SeenFace> ordered;
+    ordered.reserve(faces.size());
+    for (const std::uint32_t k : memory_.order) {
+      if (k != kUnseen) {
+        ordered.push_back(faces[k]);
+      }
+    }
+    return ordered;
   }
 
   /// What is seen of a face.

@@ -37,6 +37,7 @@ struct FaceLookMemory {
   std::vector<std::uint32_t> edges{};                // contours
   std::vector<std::uint8_t> on_contour{};            // of each site
   std::vector<std::uint32_t> round{};                // in which each face was last found
+  std::vector<std::uint32_t> order{};                // of each face of the mesh: where it is listed
   std::vector<double> along{};                       // see FaceSums
 };
 
