@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks the measures on real meshes: identities, convergence, similarity. Prints tables in Markdown.
+"""Checks the measures on real meshes: identities, similarity. Prints tables in Markdown.
 
     scripts/check_measures.py FOLDER [--vantage PROGRAM] [--models N] [--page docs/lab/YYYY-MM-measures.md]
-    scripts/check_measures.py FOLDER --models N --survey
 
 FOLDER holds closed meshes (.off .obj .ply .stl .glb), of which the N smallest are taken. Identities are of
-the 642 views of the set; convergence compares the samples used with such twice as near; similarity moves,
+the 642 views of the set; similarity moves,
 turns and scales the model and its views together, and moves every vertex at random by 1e-15 diameters. Exits
 with 1 if an identity is off by more than 1e-9.
 """
@@ -27,7 +26,6 @@ IDENTITY_BAR = 1e-9
 BEGIN, END = "<!-- check_measures begins -->\n", "<!-- check_measures ends -->"
 SUFFIXES = {".off", ".obj", ".ply", ".stl", ".glb"}
 SALIENCY_SCALE = 0.003  # the default of --saliency-scale
-SUMS = "kssm,mesh-saliency"  # what --weight changes
 SAME_SCALE = "turned, mesh-saliency's scale kept"
 # A fifth of a turn about a corner of the icosahedron carries the set of views into itself.
 PHI = (1 + 5**0.5) / 2
@@ -82,41 +80,6 @@ def identities(program, models):
         lines.append(f"| {model.stem} | " + " | ".join(f"{e:.1e}" for e in errors) + " | " +
                      " | ".join("yes" if h else "NO" for h in holds) + " |")
     return lines, worst
-
-
-def changes_of(program, model, level):
-    """Largest change over the range of each measure where samples are twice as near."""
-    used, finer = {}, {}
-    for values, flags in ((used, ()), (finer, ("--sampling", 2))):
-        values.update(program.scores(model, "all", "--sphere", level, "--view-set", level, *flags)[1])
-        _, sums = program.scores(model, SUMS, "--weight", "area", "--sphere", level, *flags)
-        values.update((f"{name} --weight area", v) for name, v in sums.items())
-    changes = {}
-    for name, values in finer.items():
-        span = np.ptp(values)
-        change = np.abs(values - used[name]) / span if span > 0 else np.abs(values - used[name])
-        changes[name] = float(np.max(change))
-    return changes
-
-
-def survey(program, models):
-    """The measure that changes most, for each model; 42 views."""
-    for model in models:
-        changes = changes_of(program, model, 1)
-        worst = max(changes, key=changes.get)
-        print(f"| {model.name} | `{worst}` | {100 * changes[worst]:.2f} % |", flush=True)
-
-
-def convergence(program, models):
-    changes = {}
-    for model in models:
-        for name, change in changes_of(program, model, 2).items():
-            changes.setdefault(name, []).append(change)
-    head = "| measure | " + " | ".join(m.stem for m in models) + " |"
-    lines = [head, "| --- |" + " --- |" * len(models)]
-    for name, values in changes.items():
-        lines.append(f"| `{name}` | " + " | ".join(f"{100 * v:.2f} %" for v in values) + " |")
-    return lines
 
 
 def write_off(path, positions, faces):
@@ -176,26 +139,16 @@ def main():
     parser.add_argument("folder", type=Path)
     parser.add_argument("--vantage", default="build/release/apps/vantage/vantage")
     parser.add_argument("--models", type=int, default=20)
-    parser.add_argument("--converged", type=int, default=4, help="models of the convergence table")
-    parser.add_argument("--survey", action="store_true",
-                        help="only the measure that changes most of each of the N models, over 42 views")
-    parser.add_argument("--also", type=Path, nargs="*", default=[], help="more models of the convergence table")
     parser.add_argument("--moved", type=int, default=2, help="models of the similarity table")
     parser.add_argument("--page", type=Path, help="also put the tables into this page, between its marks")
     options = parser.parse_args()
     program = Program(options.vantage)
     models = sorted((p for p in options.folder.iterdir() if p.suffix in SUFFIXES),
                     key=lambda p: (p.stat().st_size, p.name))[:options.models]
-    if options.survey:
-        survey(program, models)
-        return
-    sampled = models[:options.converged]  # where faces are few, each weighs most
-    moved = [m for m in sampled if m.suffix == ".off"][-options.moved:]
+    moved = [m for m in models if m.suffix == ".off"][:options.moved]
     text, worst = identities(program, models)
     lines = [f"### Identities on {len(models)} real meshes", "", *text, "",
              f"The largest difference is {worst:.1e} bits; the bar is {IDENTITY_BAR:.0e}.", "",
-             "### Convergence: largest change over the range where samples are twice as near", "",
-             *convergence(program, sampled + options.also), "",
              "### Similarity: largest change over the range, of " + ", ".join(m.stem for m in moved), ""]
     with tempfile.TemporaryDirectory() as folder:
         lines += similarity(program, moved, Path(folder))

@@ -33,7 +33,6 @@ struct ScoreCommand {
   std::string visible{};
   int sphere = -1;
   int view_set = 3;
-  int sampling = 1;
   MethodFlags method{};
 
   void add_flags(CLI::App& app, Session& session) {
@@ -52,12 +51,6 @@ struct ScoreCommand {
                    "views that the measures built on a set are defined over: the icosahedron split "
                    "this many times")
         ->check(CLI::Range(0, 5))
-        ->capture_default_str();
-    app.add_option(
-           "--sampling", sampling,
-           "samples of surface and outline so many times as near to each other as is enough: "
-           "only to see that it is enough")
-        ->check(CLI::Range(1, 16))
         ->capture_default_str();
     app.add_option("-o,--output", file, "CSV file to write; - is standard output")
         ->capture_default_str();
@@ -80,7 +73,7 @@ struct ScoreCommand {
     check_output(file, OutputKind::Table, session.flags);
     check_output(visible, OutputKind::Shape, session.flags);
     const Model loaded = session.load(model);
-    if (measures.size() > 1 || measures.front().name != "kssm" || sampling > 1) {
+    if (measures.size() > 1 || measures.front().name != "kssm") {
       score_measures(session, loaded, options, measures, points);
       return;
     }
@@ -125,7 +118,6 @@ struct ScoreCommand {
         needs_saliency(measures) ? vertex_map(shape, options, "mesh-saliency", run.part(0.4, 0.5))
                                  : std::vector<double>{};
     subject.saliency = map;
-    subject.sampling = sampling;
     ViewMeasurer measurer(subject, measures, view_set, run.part(0.5, 0.9));
     if (!eyes.empty()) {
       std::vector<Viewpoint> places;

@@ -24,21 +24,14 @@ constexpr double kFlat = 1e-9;
 /// The square around the disc over the disc: the picture that `plemenos` divides by.
 constexpr double kSquareOverDisc = 4.0 / std::numbers::pi;
 
-/// Σ of a map over what is seen, by vertices or by area.
-double map_sum(std::span<const double> of_vertex, const std::vector<double>& of_sample,
-               const MeasuredModel& model, const SightTable& sight) {
-  if (model.given.weight == Weight::Vertex) {
-    return visible_sum(of_vertex, sight.vertices);
-  }
-  return visible_sum(of_sample, sight.samples);
-}
-
 double kssm(const MeasuredModel& model, const SightTable& sight) {
-  return map_sum(model.given.kssm, model.kssm_of_sample, model, sight);
+  return model.given.weight == Weight::Vertex ? visible_sum(model.given.kssm, sight.vertices)
+                                              : sight.kssm_sum;
 }
 
 double mesh_saliency(const MeasuredModel& model, const SightTable& sight) {
-  return map_sum(model.saliency, model.saliency_of_sample, model, sight);
+  return model.given.weight == Weight::Vertex ? visible_sum(model.saliency, sight.vertices)
+                                              : sight.saliency_sum;
 }
 
 double visible_triangles(const MeasuredModel& /*model*/, const SightTable& sight) {

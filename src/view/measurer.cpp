@@ -117,7 +117,7 @@ void ViewMeasurer::State::prepare(const RunContext& run) {
   const std::vector<FaceSides> sides(model.given.sides.begin(), model.given.sides.end());
   needs.faces |= needs.channel || needs.neighbours || by_area;
   if (needs.faces) {
-    faces.emplace(mesh, sides, FaceVisibility::enough_spacing(mesh) / model.given.sampling);
+    faces.emplace(mesh, sides);
   }
   if (needs.skeleton) {
     const Vec3& centre = model.given.camera.sphere.centre;
@@ -155,21 +155,6 @@ void ViewMeasurer::State::prepare_maps(const RunContext& run) {
       model.saliency = compute_mesh_saliency(mesh, {}, quiet(run)).of_vertex;
     }
   }
-  if (model.given.weight == Weight::Area) {
-    const auto shares = [&](std::span<const double> of_vertex) {
-      std::vector<double> of_sample = faces->integrals(of_vertex);
-      for (double& share : of_sample) {
-        share /= faces->total_area();
-      }
-      return of_sample;
-    };
-    if (needs.kssm) {
-      model.kssm_of_sample = shares(model.given.kssm);
-    }
-    if (needs.saliency) {
-      model.saliency_of_sample = shares(model.saliency);
-    }
-  }
 }
 
 /// Fills in what one look at the surface tells. \param sight has the eye.
@@ -188,8 +173,11 @@ void ViewMeasurer::State::look_at_faces(const MeasureNeeds& wanted, SightTable& 
   }
   sight.area_logs = sum_of_logs(sight.faces);
   sight.faces.shrink_to_fit();
-  if (model.given.weight == Weight::Area && (wanted.kssm || wanted.saliency)) {
-    sight.samples = faces->seen_samples(sight.eye, alone);
+  if (model.given.weight == Weight::Area && wanted.kssm) {
+    sight.kssm_sum = faces->visible_integral(model.given.kssm, seen.faces) / faces->total_area();
+  }
+  if (model.given.weight == Weight::Area && wanted.saliency) {
+    sight.saliency_sum = faces->visible_integral(model.saliency, seen.faces) / faces->total_area();
   }
   sight.depths = seen.depths;
   sight.deepest = seen.deepest;
@@ -218,7 +206,7 @@ SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& w
     sight.channel = channel_measures(sight.faces, model.terms, model.face_areas);
   }
   if (wanted.outline) {
-    sight.outline = measure_outline(outlines->trace(eye), kTurningPhases * model.given.sampling);
+    sight.outline = measure_outline(outlines->trace(eye), kTurningPhases);
   }
   if (wanted.neighbours) {
     if (set_index != kNotOfSet) {
@@ -344,11 +332,8 @@ void ViewMeasurer::State::survey(const RunContext& run) {
 ViewMeasurer::ViewMeasurer(const MeasureSubject& subject, std::vector<Measure> measures, int level,
                            const RunContext& run)
     : state_(std::make_unique<State>()) {
-  constexpr int kMostSampling = 16;
-  if (subject.surface == nullptr || level < 0 || level > 6 || subject.sampling < 1 ||
-      subject.sampling > kMostSampling) {
-    throw InvalidInput(
-        "measuring needs a surface, a set of views of level 0 to 6 and a sampling of 1 to 16");
+  if (subject.surface == nullptr || level < 0 || level > 6) {
+    throw InvalidInput("measuring needs a surface and a set of views of level 0 to 6");
   }
   state_->model.given = subject;
   state_->model.set = direction_set(ViewSphereBase::Icosahedron, level);

@@ -61,17 +61,21 @@ ViewScorer::ViewScorer(const FaceVisibility& faces, std::span<const double> sign
                        const ScoringCamera& camera)
     : ViewScorer(significance, camera) {
   faces_ = &faces;
-  of_sample_ = faces.integrals(significance);
+  of_face_ = faces.integrals(significance);
   const double area = faces.total_area();
-  for (double& share : of_sample_) {
+  for (double& share : of_face_) {
     share = area > 0.0 ? share / area : 0.0;
   }
-  total_ = std::accumulate(of_sample_.begin(), of_sample_.end(), 0.0);
+  total_ = std::accumulate(of_face_.begin(), of_face_.end(), 0.0);
 }
 
 double ViewScorer::score_from(const Viewpoint& eye, const RunContext& run) const {
-  return faces_ != nullptr ? faces_->visible_sum(of_sample_, eye, run)
-                           : visible_sum(significance_, visibility_->visible_vertices(eye, run));
+  if (faces_ == nullptr) {
+    return visible_sum(significance_, visibility_->visible_vertices(eye, run));
+  }
+  const double area = faces_->total_area();
+  const double sum = faces_->visible_integral(significance_, faces_->seen_faces(eye, run));
+  return area > 0.0 ? sum / area : 0.0;
 }
 
 double ViewScorer::score(const Vec3& direction) const {

@@ -67,7 +67,7 @@ std::vector<double> reachable_significance(const VisibleSets& candidates, const 
   return reachable;
 }
 
-/// What views in some directions see, a bit for each vertex or sample.
+/// What views in some directions see, a bit for each vertex, or some for each face.
 using SetsOf = std::function<VisibleSets(std::span<const Vec3>, const RunContext&)>;
 
 class Selection {
@@ -203,6 +203,16 @@ SetsOf sets_of(const FaceVisibility& faces, const ScoringCamera& camera) {
   };
 }
 
+/// What each of a face's bits adds.
+std::vector<double> bit_shares(std::span<const double> of_face) {
+  std::vector<double> shares;
+  shares.reserve(of_face.size() * kBitsAFace);
+  for (const double all : of_face) {
+    shares.insert(shares.end(), kBitsAFace, all / static_cast<double>(kBitsAFace));
+  }
+  return shares;
+}
+
 ViewSet chosen(SetsOf sets_of, std::span<const double> significance, const Vec3& first,
                const ViewSetOptions& options, const RunContext& run) {
   check(options);
@@ -232,10 +242,10 @@ ViewSet select_views(const VertexVisibility& visibility, std::span<const double>
                 run);
 }
 
-ViewSet select_views(const FaceVisibility& faces, std::span<const double> of_sample,
+ViewSet select_views(const FaceVisibility& faces, std::span<const double> of_face,
                      const ScoringCamera& camera, const Vec3& first, const ViewSetOptions& options,
                      const RunContext& run) {
-  return chosen(sets_of(faces, camera), of_sample, first, options, run);
+  return chosen(sets_of(faces, camera), bit_shares(of_face), first, options, run);
 }
 
 ViewSet measure_views(const VertexVisibility& visibility, std::span<const double> significance,
@@ -245,10 +255,10 @@ ViewSet measure_views(const VertexVisibility& visibility, std::span<const double
                   options, run);
 }
 
-ViewSet measure_views(const FaceVisibility& faces, std::span<const double> of_sample,
+ViewSet measure_views(const FaceVisibility& faces, std::span<const double> of_face,
                       const ScoringCamera& camera, std::span<const Vec3> directions,
                       const ViewSetOptions& options, const RunContext& run) {
-  return measured(sets_of(faces, camera), of_sample, directions, options, run);
+  return measured(sets_of(faces, camera), bit_shares(of_face), directions, options, run);
 }
 
 }  // namespace vantage

@@ -59,10 +59,17 @@ VisibleSets visible_sets(const VertexVisibility& visibility, const ScoringCamera
 
 VisibleSets visible_sets(const FaceVisibility& faces, const ScoringCamera& camera,
                          std::span<const Vec3> directions, const RunContext& run) {
-  return sets_of(camera, directions, faces.sample_count(), run,
-                 [&](const Viewpoint& eye, const RunContext& alone) {
-                   return faces.seen_samples(eye, alone);
-                 });
+  const std::size_t bits = faces.face_count() * kBitsAFace;
+  return sets_of(camera, directions, bits, run, [&](const Viewpoint& eye, const RunContext& alone) {
+    std::vector<std::uint8_t> seen(bits, 0);
+    for (const SeenFace& face : faces.seen_faces(eye, alone)) {
+      const double share = face.visible_area / faces.face_area(face.face);
+      const auto count = static_cast<std::size_t>(share * kBitsAFace + 0.5);
+      std::fill_n(seen.begin() + static_cast<std::ptrdiff_t>(face.face * kBitsAFace),
+                  std::min(count, kBitsAFace), 1);
+    }
+    return seen;
+  });
 }
 
 }  // namespace vantage

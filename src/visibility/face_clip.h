@@ -8,97 +8,99 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "vantage/core/camera.h"
 #include "vantage/core/vec3.h"
 
-#include "visibility/polygon_rest.h"
-#include "visibility/site_picture.h"
+#include "visibility/convex_polygon.h"
 #include "visibility/surface.h"
 
 /// \file
-/// What is seen of single faces, as polygons: the face less the shadows that the faces before it
-/// cast on it from the eye (Weiler and Atherton, "Hidden surface removal using polygon area
-/// sorting", 1977, for one face at a time).
+/// What is seen of a face, as polygons: the face less the shadows that the faces before it cast on
+/// it from the eye (Weiler and Atherton, "Hidden surface removal using polygon area sorting", 1977,
+/// for one face at a time).
 
 namespace vantage {
 
-/// Convex parts of faces that are in view.
-struct SeenParts {
-  struct Part {
-    std::uint32_t face = 0;
-    double share = 0.0;   ///< Of the face's area.
-    std::size_t end = 0;  ///< Of its corners, which begin where those of the part before end.
-  };
-
-  std::vector<Part> parts{};
-  std::vector<Vec3> corners{};  ///< In the surface's frame.
-
-  [[nodiscard]] std::span<const Vec3> corners_of(std::size_t part) const {
-    const std::size_t begin = part == 0 ? 0 : parts[part - 1].end;
-    return std::span(corners).subspan(begin, parts[part].end - begin);
-  }
-};
-
-/// For one eye.
-class FaceClip {
+/// Convex polygons, counterclockwise, in the first two barycentric coordinates of a face. Keeps its
+/// memory when it is emptied.
+class Polygons {
  public:
-  /// \param turned   the side each face turns to the eye: 1 front, 2 back, 0 neither.
-  /// \param backs    hiding_backs().
-  /// \param surface, picture must outlive this.
-  FaceClip(const Surface& surface, const SitePicture& picture, const Viewpoint& eye,
-           const std::vector<std::uint8_t>& turned, const std::vector<std::uint8_t>& backs);
+  using Points = std::span<const Eigen::Vector2d>;
 
-  /// Adds what is seen of a face. \pre picture.is_whole.
-  /// \return false if so many faces lie in its place of the picture that samples are worth more.
-  [[nodiscard]] bool add_parts(std::uint32_t face, SeenParts& parts);
+  [[nodiscard]] std::size_t size() const { return ends_.size(); }
 
-  /// Lists faces that are seen just past an edge, away from a site beside it: what is next behind some
-  /// places of it that nothing lies before. May hold a face more than once.
-  /// \return whether there is such a place.
-  bool list_past(const std::array<std::uint32_t, 2>& edge, std::uint32_t beside,
-                 std::vector<std::uint32_t>& faces);
+  [[nodiscard]] Points operator[](std::size_t i) const {
+    const std::size_t begin = i == 0 ? 0 : ends_[i - 1];
+    return std::span(points_).subspan(begin, ends_[i] - begin);
+  }
 
-  /// Lists those of the wanted faces that an edge lies before. \param wanted 1 for each, else 0.
-  void list_behind(const std::array<std::uint32_t, 2>& edge, std::span<const std::uint8_t> wanted,
-                   std::vector<std::uint32_t>& faces);
+  void add(Points polygon) {
+    points_.insert(points_.end(), polygon.begin(), polygon.end());
+    ends_.push_back(points_.size());
+  }
+
+  /// Leaves the first `count`.
+  void shrink_to(std::size_t count) {
+    ends_.resize(count);
+    points_.resize(count == 0 ? 0 : ends_.back());
+  }
 
  private:
-  /// Where a face is in the picture.
-  struct Seat {
-    SitePicture::Box box{};
-    double nearest = 0.0;     // nearness of a corner
-    std::uint32_t round = 0;  // in which it was last listed
-  };
+  std::vector<Eigen::Vector2d> points_{};
+  std::vector<std::size_t> ends_{};
+};
 
-  using CellRange = std::array<std::array<std::size_t, 2>, 2>;  // columns and rows, first and last
+/// All of a face.
+inline const std::array<Eigen::Vector2d, 3> kWholeFace{
+    Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(0.0, 1.0), Eigen::Vector2d(0.0, 0.0)};
 
-  /// What is seen at a place of the picture.
-  struct Found {
-    std::uint32_t face = Surface::kNoSite;
-    double nearness = 0.0;
-  };
+/// Positive if its corners go counterclockwise; of a part of a face its share of the face's area.
+double twice_area(Polygons::Points polygon);
 
-  [[nodiscard]] bool list_near(std::uint32_t face);
-  [[nodiscard]] bool spend(std::size_t steps);
-  void set_cells(std::size_t side);
-  [[nodiscard]] Found first_at(const Eigen::Vector2d& place, double nearness);
-  void lay_grid(const std::vector<std::uint8_t>& turned, const std::vector<std::uint8_t>& backs);
-  [[nodiscard]] CellRange cells(const SitePicture::Box& box) const;
+/// Clips one face after the other, all as one eye sees them. Made for reuse.
+class FaceClip {
+ public:
+  /// Shares of a face up to this are rounding, times how many times as large as the face what lies before
+  /// it is.
+  static constexpr double kNoArea = 1e-13;
 
-  const Surface& surface_;
-  const SitePicture& picture_;
-  Viewpoint eye_;
-  SitePicture::Box box_{};  // of the picture
-  std::size_t side_ = 1;    // cells
-  Eigen::Vector2d per_cell_ = Eigen::Vector2d::Zero();
-  std::vector<std::uint32_t> first_{}, in_cells_{};  // hiding faces of each cell; one past the last
-  std::vector<Seat> seats_{};                        // of each face
-  std::uint32_t round_ = 0;
-  std::size_t steps_ = 0;  // of all work so far
-  std::vector<std::uint32_t> near_{};
-  Polygons shadows_{};
-  std::vector<std::pair<double, std::size_t>> by_size_{};  // less the area of each shadow
-  PolygonRest rest_{};
+  /// \param eye in the surface's frame. Both must outlive the use of this.
+  void begin(const Surface& surface, const Viewpoint& eye);
+
+  /// Takes a face to be clipped. \pre it is not seen edge on.
+  void take(std::uint32_t face);
+
+  /// Adds the shadow of another face. \return whether it alone hides all of the face.
+  bool add_shadow(std::uint32_t other);
+
+  /// Whether an edge lies before the inside of the face, or in it.
+  [[nodiscard]] bool is_behind(const std::array<std::uint32_t, 2>& edge) const;
+
+  /// Takes all shadows away. \param steps are counted up. \return false if they pass `most`.
+  bool subtract(std::size_t& steps, std::size_t most);
+
+  /// What is left of the face, after subtract().
+  [[nodiscard]] const Polygons& parts() const { return parts_; }
+
+ private:
+  /// A place in homogeneous barycentric coordinates of the face, as it is seen from the eye; the fourth
+  /// is the height over the face's plane on the eye's side.
+  using Corner = Eigen::Vector4d;
+
+  [[nodiscard]] Corner corner(std::uint32_t site) const;
+  void subtract(Polygons::Points polygon);
+
+  const Surface* surface_ = nullptr;
+  Viewpoint eye_{};
+  Triangle on_{};                    // the face's corners
+  Vec3 first_ = Vec3::Zero();        // corner
+  std::array<Corner, 3> of_axes_{};  // what x, y and z from there add to a place's coordinates
+  double no_area_ = kNoArea;
+  Polygons shadows_{}, parts_{}, next_{};
+  std::vector<std::pair<double, std::size_t>> by_size_{};       // less the area of each shadow
+  std::vector<Eigen::Vector2d> inside_{}, outside_{}, kept_{};  // of the part at hand
 };
 
 }  // namespace vantage

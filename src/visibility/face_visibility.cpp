@@ -1,58 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/visibility/face_visibility.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
-#include <Eigen/Geometry>
-
-#include "vantage/core/error.h"
-#include "vantage/mesh/measures.h"
-
 #include "visibility/face_look.h"
-#include "visibility/face_samples.h"
 
 namespace vantage {
-namespace {
-
-double checked(double spacing) {
-  if (!(spacing > 0.0 && spacing <= 1.0)) {
-    throw InvalidInput("the spacing of samples must be above 0 and at most 1");
-  }
-  return spacing;
-}
-
-}  // namespace
-
-double FaceVisibility::enough_spacing(const TriMesh& mesh) {
-  constexpr double kEnough = 8e4;     // [ours, by measurement]
-  constexpr double kPerSquare = 6.0;  // pieces of a squared side, about
-  const double side = kSpacing * enclosing_sphere(referenced_points(mesh)).diameter;
-  double pieces = 0.0;
-  for (const Triangle& face : mesh.triangles) {
-    const double area = 0.5 * area_vector(mesh, face).norm();
-    pieces += side > 0.0 ? std::max(1.0, kPerSquare * area / (side * side)) : 1.0;
-  }
-  return kSpacing / std::clamp(std::sqrt(kEnough / std::max(pieces, 1.0)), 1.0, 2.0);
-}
 
 FaceVisibility::FaceVisibility(const TriMesh& mesh, std::vector<FaceSides> sides)
-    : FaceVisibility(mesh, std::move(sides), enough_spacing(mesh)) {}
-
-FaceVisibility::FaceVisibility(const TriMesh& mesh, std::vector<FaceSides> sides, double spacing)
-    : samples_(std::make_unique<FaceSamples>(mesh, sides, checked(spacing))) {}
+    : scene_(std::make_unique<FaceScene>(mesh, sides)) {}
 
 FaceVisibility::~FaceVisibility() = default;
 FaceVisibility::FaceVisibility(FaceVisibility&&) noexcept = default;
 FaceVisibility& FaceVisibility::operator=(FaceVisibility&&) noexcept = default;
 
 double FaceVisibility::total_area() const {
-  return samples_->total_area();
+  return scene_->total_area;
 }
 
-std::size_t FaceVisibility::sample_count() const {
-  return samples_->pieces().places.size();
+std::size_t FaceVisibility::face_count() const {
+  return scene_->triangles.size();
+}
+
+double FaceVisibility::face_area(std::size_t face) const {
+  const Surface& surface = scene_->sight.surface();
+  const std::uint32_t at = scene_->face_of_mesh[face];
+  const double unit = surface.frame.scale;
+  return at == FaceScene::kNoFace ? 0.0 : 0.5 * surface.twice_areas[at] / (unit * unit);
 }
 
 std::vector<SeenFace> FaceVisibility::seen_faces(const Viewpoint& eye,
@@ -61,42 +33,33 @@ std::vector<SeenFace> FaceVisibility::seen_faces(const Viewpoint& eye,
 }
 
 SeenSurface FaceVisibility::seen_surface(const Viewpoint& eye, const RunContext& run) const {
-  return FaceLook(*samples_, eye_in_frame(eye, samples_->surface().frame), run).seen();
+  return look_at_faces(*scene_, eye_in_frame(eye, scene_->sight.surface().frame), run);
 }
 
 std::vector<std::uint8_t> FaceVisibility::visible_vertices(const Viewpoint& eye,
                                                            const RunContext& run) const {
-  const Surface& surface = samples_->surface();
-  Look look(samples_->sight(), eye_in_frame(eye, surface.frame), run);
+  const Surface& surface = scene_->sight.surface();
+  Look look(scene_->sight, eye_in_frame(eye, surface.frame), run);
   return vertices_of_sites(surface, look.seen_sites());
 }
 
 std::vector<double> FaceVisibility::integrals(std::span<const double> of_vertex) const {
-  const FacePieces& pieces = samples_->pieces();
-  std::vector<double> result;
-  result.reserve(sample_count());
-  for (std::size_t i = 0; i < sample_count(); ++i) {
-    const auto& [a, b, c] =
-        samples_->triangles()[samples_->surface().face_of_mesh[pieces.owner[i]]];
-    const Vec3& w = pieces.weights[i];
-    result.push_back(pieces.areas[i] *
-                     (w.x() * of_vertex[a] + w.y() * of_vertex[b] + w.z() * of_vertex[c]));
+  std::vector<double> of_face;
+  of_face.reserve(face_count());
+  for (std::size_t f = 0; f < face_count(); ++f) {
+    const auto& [a, b, c] = scene_->triangles[f];
+    of_face.push_back(face_area(f) * (of_vertex[a] + of_vertex[b] + of_vertex[c]) / 3.0);
   }
-  return result;
+  return of_face;
 }
 
-std::vector<std::uint8_t> FaceVisibility::seen_samples(const Viewpoint& eye,
-                                                       const RunContext& run) const {
-  Look look(samples_->sight(), eye_in_frame(eye, samples_->surface().frame), run);
-  return look.seen_points(samples_->points());
-}
-
-double FaceVisibility::visible_sum(std::span<const double> of_sample, const Viewpoint& eye,
-                                   const RunContext& run) const {
-  const std::vector<std::uint8_t> seen = seen_samples(eye, run);
+double FaceVisibility::visible_integral(std::span<const double> of_vertex,
+                                        std::span<const SeenFace> seen) const {
   double sum = 0.0;
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    sum += seen[i] != 0 ? of_sample[i] : 0.0;
+  for (const SeenFace& face : seen) {
+    const auto& [a, b, c] = scene_->triangles[face.face];
+    sum += face.of_corners[0] * of_vertex[a] + face.of_corners[1] * of_vertex[b] +
+           face.of_corners[2] * of_vertex[c];
   }
   return sum;
 }

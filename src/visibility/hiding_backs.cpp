@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -56,18 +57,20 @@ bool meets(const Vec3& from, const Vec3& to, const Corners& corners, const Vec3&
 class BackCheck {
  public:
   BackCheck(const Surface& surface, const SurfaceEdges& edges)
-      : surface_(surface), edges_(edges), hides_(surface.faces.size(), 0) {}
+      : surface_(surface),
+        edges_(edges),
+        hides_(surface.faces.size(), 0),
+        crossed_(surface.faces.size(), 0) {}
 
-  /// 1 for each face whose back may hide for itself.
-  std::vector<std::uint8_t> of_faces() {
+  FaceMeetings of_faces() {
     check_edges();
     check_volumes();
     check_meetings();
-    std::vector<std::uint8_t> result(hides_.size());
-    for (std::uint32_t f = 0; f < result.size(); ++f) {
-      result[f] = hides_[edges_.shell_of_face[f]];
+    std::vector<std::uint8_t> backs(hides_.size());
+    for (std::uint32_t f = 0; f < backs.size(); ++f) {
+      backs[f] = hides_[edges_.shell_of_face[f]];
     }
-    return result;
+    return {std::move(backs), std::move(crossed_)};
   }
 
  private:
@@ -97,17 +100,19 @@ class BackCheck {
     }
   }
 
-  /// No edge may meet a face of its shell.
+  /// Faces of a shell must not meet.
   void check_meetings() {
     const auto meet = [&](std::uint32_t f, std::uint32_t g) {
-      const std::uint32_t shell = edges_.shell_of_face[f];
-      if (shell == edges_.shell_of_face[g] && hides_[shell] == 0 && !share_edge(f, g) &&
-          (has_edge_in(f, g) || has_edge_in(g, f))) {
-        hides_[shell] = 1;
+      if (!share_edge(f, g) && (has_edge_in(f, g) || has_edge_in(g, f))) {
+        crossed_[f] = crossed_[g] = 1;
+        if (edges_.shell_of_face[f] == edges_.shell_of_face[g]) {
+          hides_[edges_.shell_of_face[f]] = 1;
+        }
       }
     };
     if (!for_each_close_pair(surface_, kStepsPerFace * surface_.faces.size(), meet)) {
       std::fill(hides_.begin(), hides_.end(), 1);
+      std::fill(crossed_.begin(), crossed_.end(), 1);
     }
   }
 
@@ -122,8 +127,7 @@ class BackCheck {
     return shared >= 2;
   }
 
-  /// Whether one of the face's edges meets another face. Of the two faces at an edge one runs along
-  /// it upwards, and is asked. Left out are edges that share a site with the other face: where one lies
+  /// Whether one of the face's edges meets another face. Left out are edges that share a site with the other face: where one lies
   /// in it, so does its other end, or it passes over an edge of that face, and a face beside it meets
   /// that.
   [[nodiscard]] bool has_edge_in(std::uint32_t of, std::uint32_t face) const {
@@ -135,8 +139,7 @@ class BackCheck {
     const std::array<bool, 3> shared{is_shared(own[0]), is_shared(own[1]), is_shared(own[2])};
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t next = (k + 1) % 3;
-      if (own[k] < own[next] && !shared[k] && !shared[next] &&
-          !is_beside_plane(own[k], own[next], face) &&
+      if (!shared[k] && !shared[next] && !is_beside_plane(own[k], own[next], face) &&
           meets(surface_.sites[own[k]], surface_.sites[own[next]],
                 {surface_.sites[other[0]], surface_.sites[other[1]], surface_.sites[other[2]]},
                 surface_.area_vectors[face])) {
@@ -168,12 +171,13 @@ class BackCheck {
 
   const Surface& surface_;
   const SurfaceEdges& edges_;
-  std::vector<std::uint8_t> hides_;  // of the face that each shell is named after
+  std::vector<std::uint8_t> hides_;    // of the face that each shell is named after
+  std::vector<std::uint8_t> crossed_;  // of each face
 };
 
 }  // namespace
 
-std::vector<std::uint8_t> hiding_backs(const Surface& surface, const SurfaceEdges& edges) {
+FaceMeetings find_meetings(const Surface& surface, const SurfaceEdges& edges) {
   return BackCheck(surface, edges).of_faces();
 }
 

@@ -14,21 +14,6 @@ constexpr std::size_t kGrain = 2048;  // points per chunk: a few tenths of a mil
 
 }  // namespace
 
-std::unique_ptr<EyeGrid> GridPool::borrow() {
-  const std::lock_guard lock(mutex_);
-  if (grids_.empty()) {
-    return std::make_unique<EyeGrid>();
-  }
-  std::unique_ptr<EyeGrid> grid = std::move(grids_.back());
-  grids_.pop_back();
-  return grid;
-}
-
-void GridPool::give_back(std::unique_ptr<EyeGrid> grid) {
-  const std::lock_guard lock(mutex_);
-  grids_.push_back(std::move(grid));
-}
-
 bool Sight::hidden(const SurfacePoints& points, std::uint32_t point, const Viewpoint& eye) {
   std::call_once(candidates_once_, [&] { candidates_.emplace(surface_.sites, surface_.faces); });
   const Vec3& start = points.place(point);
@@ -50,12 +35,8 @@ bool Sight::hidden(const SurfacePoints& points, std::uint32_t point, const Viewp
 
 Look::Look(Sight& sight, const Viewpoint& eye, const RunContext& run,
            std::span<const std::uint8_t> backs)
-    : sight_(sight), eye_(eye), run_(run), grid_(sight.grids_.borrow()) {
+    : sight_(sight), eye_(eye), run_(run), grid_(sight.grids_) {
   grid_->begin(sight.surface_, eye, backs.empty() ? sight.surface_.backs : backs, run);
-}
-
-Look::~Look() {
-  sight_.grids_.give_back(std::move(grid_));
 }
 
 std::vector<std::uint8_t> Look::faces_at_sites() const {
@@ -80,30 +61,22 @@ std::vector<std::uint8_t> Look::seen_sites() {
       }
     }
   }
-  return not_hidden({.sites = sight_.surface_.sites}, std::move(asked));
+  return not_hidden(std::move(asked));
 }
 
-std::vector<std::uint8_t> Look::seen_points(const SurfacePoints& points) {
-  std::vector<std::uint8_t> asked(points.exact.size(), 0);
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    asked[i] = is_turned(points.owner[i]) ? 1 : 0;
-  }
-  return not_hidden(points, std::move(asked));
-}
-
-std::vector<std::uint8_t> Look::not_hidden(const SurfacePoints& points,
-                                           std::vector<std::uint8_t> asked) {
-  std::vector<std::uint8_t> seen = std::move(asked);
-  if (!grid_->hide(sight_.surface_, points, seen, run_)) {
-    parallel_for(run_, seen.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+std::vector<std::uint8_t> Look::not_hidden(std::vector<std::uint8_t> asked) {
+  const Surface& surface = sight_.surface_;
+  const SurfacePoints points{.sites = surface.sites};
+  if (!grid_->hide(surface, points, asked, run_)) {
+    parallel_for(run_, asked.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        if (seen[i] != 0 && sight_.hidden(points, static_cast<std::uint32_t>(i), eye_)) {
-          seen[i] = 0;
+        if (asked[i] != 0 && sight_.hidden(points, static_cast<std::uint32_t>(i), eye_)) {
+          asked[i] = 0;
         }
       }
     });
   }
-  return seen;
+  return asked;
 }
 
 }  // namespace vantage

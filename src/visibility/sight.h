@@ -21,15 +21,43 @@
 
 namespace vantage {
 
-/// Grids that queries borrow, so that their memory is reused; at most one per thread exists.
-class GridPool {
+/// Working memory that queries borrow, so that it is reused; at most one per thread exists.
+template <typename Memory>
+class LentMemory {
  public:
-  std::unique_ptr<EyeGrid> borrow();
-  void give_back(std::unique_ptr<EyeGrid> grid);
+  /// Some of it, given back at the end.
+  class Loan {
+   public:
+    explicit Loan(LentMemory& owner) : owner_(owner) {
+      const std::lock_guard lock(owner_.mutex_);
+      if (owner_.free_.empty()) {
+        memory_ = std::make_unique<Memory>();
+      } else {
+        memory_ = std::move(owner_.free_.back());
+        owner_.free_.pop_back();
+      }
+    }
+
+    ~Loan() {
+      const std::lock_guard lock(owner_.mutex_);
+      owner_.free_.push_back(std::move(memory_));
+    }
+
+    Loan(const Loan&) = delete;
+    Loan& operator=(const Loan&) = delete;
+
+    Memory& operator*() const { return *memory_; }
+
+    Memory* operator->() const { return memory_.get(); }
+
+   private:
+    LentMemory& owner_;
+    std::unique_ptr<Memory> memory_{};
+  };
 
  private:
   std::mutex mutex_{};
-  std::vector<std::unique_ptr<EyeGrid>> grids_{};
+  std::vector<std::unique_ptr<Memory>> free_{};
 };
 
 class Look;
@@ -49,7 +77,7 @@ class Sight {
   friend class Look;
 
   Surface surface_;
-  GridPool grids_{};
+  LentMemory<EyeGrid> grids_{};
   std::once_flag candidates_once_{};
   std::optional<CandidateScene> candidates_{};
 };
@@ -61,9 +89,6 @@ class Look {
   ///            the surface.
   Look(Sight& sight, const Viewpoint& eye, const RunContext& run,
        std::span<const std::uint8_t> backs = {});
-  ~Look();
-  Look(const Look&) = delete;
-  Look& operator=(const Look&) = delete;
 
   /// Whether a side of the face that can be seen is turned to the eye.
   [[nodiscard]] bool is_turned(std::size_t face) const {
@@ -82,19 +107,14 @@ class Look {
   /// 1 for each site at which a face is turned to the eye and that no face hides.
   [[nodiscard]] std::vector<std::uint8_t> seen_sites();
 
-  /// The same of points on faces.
-  [[nodiscard]] std::vector<std::uint8_t> seen_points(const SurfacePoints& points);
-
-  /// 1 for each point asked about that no face hides. The first query should be the largest.
-  /// \param asked 1 for each point to be asked about, else 0.
-  [[nodiscard]] std::vector<std::uint8_t> not_hidden(const SurfacePoints& points,
-                                                     std::vector<std::uint8_t> asked);
+  /// 1 for each site asked about that no face hides. \param asked 1 for each such site, else 0.
+  [[nodiscard]] std::vector<std::uint8_t> not_hidden(std::vector<std::uint8_t> asked);
 
  private:
   Sight& sight_;
   Viewpoint eye_;
   RunContext run_;
-  std::unique_ptr<EyeGrid> grid_;
+  LentMemory<EyeGrid>::Loan grid_;
 };
 
 }  // namespace vantage

@@ -16,7 +16,7 @@ constexpr std::size_t kManyEyes = 100;
 Surface surface_for(const TriMesh& mesh, std::span<const FaceSides> sides, std::size_t eyes) {
   Surface surface = prepare_surface(mesh, sides);
   if (eyes >= kManyEyes && !surface.faces.empty()) {
-    surface.backs = hiding_backs(surface, surface_edges(surface));
+    surface.backs = find_meetings(surface, surface_edges(surface)).hiding_backs;
   }
   return surface;
 }

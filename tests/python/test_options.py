@@ -16,7 +16,7 @@ V, F = torus(8, 6)
 # Flags that are no part of the method: files, how it runs, what is printed, moving pictures.
 NO_OPTIONS = {"help", "output", "trace", "no-images", "no-report", "preview", "tour", "tour-seconds", "fps",
               "tour-size", "json", "quiet", "verbose", "config", "threads", "max-memory", "timeout",
-              "depth", "sampling", "levels", "meso", "measure", "visible", "method", "show", "direction",
+              "depth", "levels", "meso", "measure", "visible", "method", "show", "direction",
               "directions", "eyes", "sphere", "view-set", "camera", "view",
               "seed"}  # of every command; the row of that name is the keyword
 ROWS = vantage.options()

@@ -25,4 +25,10 @@ enum class Seen {
 std::vector<Seen> brute_force_visibility(const TriMesh& mesh, FaceSides sides, const Viewpoint& eye,
                                          std::size_t step = 1);
 
+/// The area of each face's picture on the plane through `centre` across the line from there to the
+/// eye: what is seen of it on a line through the picture, summed over all lines. Extended precision,
+/// independent of the library. \pre all is ahead of the eye.
+std::vector<double> brute_force_areas(const TriMesh& mesh, FaceSides sides, const Viewpoint& eye,
+                                      const Vec3& centre);
+
 }  // namespace vantage::test

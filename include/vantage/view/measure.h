@@ -45,7 +45,8 @@ struct SightTable {
   std::vector<std::uint8_t> vertices{};  ///< 1 for each vertex seen.
   std::vector<FaceArea> faces{};         ///< [a_z] of the faces seen, ascending.
   double projected_area = 0.0;           ///< [a_t] Their sum.
-  std::vector<std::uint8_t> samples{};   ///< 1 for each sample of the surface seen.
+  double kssm_sum = 0.0;                 ///< KSSM over what is seen, if weighted by area.
+  double saliency_sum = 0.0;             ///< The same of mesh saliency.
   /// Projected area by depth, see SeenSurface.
   std::array<double, SeenSurface::kDepthBins> depths{};
   double deepest = 0.0;                     ///< Greatest depth seen over the sphere's diameter.
@@ -70,13 +71,12 @@ struct MeasureSubject {
   std::span<const double> saliency{};    ///< Mesh saliency; computed if needed and not given.
   const CurveGraph* skeleton = nullptr;  ///< Centred.
   std::span<const std::uint32_t> node_of_vertex{};  ///< Node of `skeleton`; ~0 where none.
-  int sampling = 1;  ///< Times as dense as is enough, 1–16: to see that it is enough.
 };
 
 /// What measures need of a view or of the model; only that is computed.
 struct MeasureNeeds {
   bool vertices = false;    ///< SightTable::vertices.
-  bool faces = false;       ///< SightTable::faces, samples, depths.
+  bool faces = false;       ///< SightTable::faces, depths, sums by area.
   bool outline = false;     ///< SightTable::outline.
   bool channel = false;     ///< MeasuredModel::terms: every view of the set is looked at first.
   bool neighbours = false;  ///< SightTable::neighbours and MeasuredModel::set_views.
@@ -102,8 +102,6 @@ struct MeasuredModel {
   std::vector<double> saliency{};         ///< Mesh saliency of each vertex.
   std::vector<double> angle_deficits{};   ///< Of each vertex, radians.
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();  ///< Second moment of the surface over A_t.
-  std::vector<double> kssm_of_sample{};              ///< Share of each sample, if weighted by area.
-  std::vector<double> saliency_of_sample{};          ///< The same of mesh saliency.
   DirectionSet set{};                                ///< The views that channel terms are of.
   ChannelTerms terms{};                              ///< Of that set.
   std::vector<std::vector<FaceArea>> set_views{};    ///< Faces seen by each view of the set.

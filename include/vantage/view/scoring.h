@@ -70,9 +70,9 @@ class ViewScorer {
   /// Of a score by area; null for one by vertices.
   [[nodiscard]] const FaceVisibility* faces() const { return faces_; }
 
-  /// What each vertex, or by area each sample of faces(), adds to a score that sees it.
+  /// What each vertex, or by area each face of faces(), adds to a score that sees all of it.
   [[nodiscard]] std::span<const double> shares() const {
-    return faces_ != nullptr ? std::span<const double>(of_sample_) : significance_;
+    return faces_ != nullptr ? std::span<const double>(of_face_) : significance_;
   }
 
  private:
@@ -81,7 +81,7 @@ class ViewScorer {
   const VertexVisibility* visibility_ = nullptr;  // of a score by vertices
   const FaceVisibility* faces_ = nullptr;         // of a score by area
   std::span<const double> significance_;
-  std::vector<double> of_sample_{};  // share of each sample of `faces_`
+  std::vector<double> of_face_{};  // share of each face of `faces_`
   ScoringCamera camera_;
   double total_ = 0.0;
 };

@@ -83,13 +83,13 @@ ViewSet measure_views(const VertexVisibility& visibility, std::span<const double
                       const ScoringCamera& camera, std::span<const Vec3> directions,
                       const ViewSetOptions& options = {}, const RunContext& run = {});
 
-/// select_views() and measure_views() by area: what is seen are samples of faces.
-/// \param of_sample sample_count() finite values ≥ 0. \throw InvalidInput, Cancelled
-ViewSet select_views(const FaceVisibility& faces, std::span<const double> of_sample,
+/// select_views() and measure_views() by area: what is seen are eighths of faces.
+/// \param of_face face_count() finite values ≥ 0. \throw InvalidInput, Cancelled
+ViewSet select_views(const FaceVisibility& faces, std::span<const double> of_face,
                      const ScoringCamera& camera, const Vec3& first,
                      const ViewSetOptions& options = {}, const RunContext& run = {});
 /// As above. \throw InvalidInput, Cancelled
-ViewSet measure_views(const FaceVisibility& faces, std::span<const double> of_sample,
+ViewSet measure_views(const FaceVisibility& faces, std::span<const double> of_face,
                       const ScoringCamera& camera, std::span<const Vec3> directions,
                       const ViewSetOptions& options = {}, const RunContext& run = {});
 

@@ -57,7 +57,11 @@ VisibleSets visible_sets(const VertexVisibility& visibility, const ScoringCamera
                          std::span<const Vec3> directions, std::size_t vertex_count,
                          const RunContext& run = {});
 
-/// The same with one bit a sample of the faces in place of one a vertex. \throw Cancelled
+/// By area a face has so many bits: as many of the first are set as eighths of it are seen, so that
+/// several views together see of it what the one does that sees most.
+inline constexpr std::size_t kBitsAFace = 8;
+
+/// The same with kBitsAFace bits a face in place of one a vertex. \throw Cancelled
 VisibleSets visible_sets(const FaceVisibility& faces, const ScoringCamera& camera,
                          std::span<const Vec3> directions, const RunContext& run = {});
 

@@ -15,17 +15,20 @@
 #include "vantage/visibility/vertex_visibility.h"
 
 /// \file
-/// How much of each face an eye sees, whatever the tessellation. docs/visibility.md says how.
+/// How much of each face an eye sees, exactly. docs/visibility.md says how.
 
 namespace vantage {
 
-class FaceSamples;
+class FaceScene;
 
 /// One face with something to see.
 struct SeenFace {
   std::uint32_t face = 0;       ///< Of the mesh.
   double visible_area = 0.0;    ///< Of the surface, model units squared; > 0, at most the face's.
   double projected_area = 0.0;  ///< Of its picture, model units squared; see FaceVisibility.
+  /// Integrals over what is seen of the barycentric coordinates of the face's corners: what a field
+  /// linear in the face is worth there. They add up to `visible_area`.
+  std::array<double, 3> of_corners{};
 };
 
 /// Everything that one look at a surface tells.
@@ -37,44 +40,32 @@ struct SeenSurface {
   std::vector<std::uint8_t> vertices{};  ///< 1 for each vertex seen, as VertexVisibility says.
   /// Projected area by depth: bin 0 begins where the enclosing sphere does, the last ends with it.
   std::array<double, kDepthBins> depths{};
-  /// Greatest depth of the vertices, parts of faces and of edges seen, over the diameter; in [0, 1].
+  /// Greatest depth of what is seen, over the diameter; in [0, 1].
   double deepest = 0.0;
 };
 
-/// Samples a surface and asks which samples an eye sees: every face is cut into pieces, and each
-/// piece is judged by its centroid. Where areas and depths are asked for, faces that may be seen in
-/// part are clipped: what is seen of them is exact (docs/visibility.md). Of more than 60 000 faces,
-/// and from an eye that has some of the surface behind it, pieces that may be seen in part are
-/// divided again instead, and their parts are judged so. Immutable after construction; queries are
-/// const and may run on many threads at once. Answers do not depend on the number of threads.
+/// Tells what an eye sees of a surface's faces. A face is wholly seen, not seen, or clipped to the
+/// polygons in view (docs/visibility.md). Immutable after construction; queries are const and may
+/// run on many threads at once. Answers do not depend on the number of threads.
 ///
 /// Projected areas are measured on a plane across the line of sight; seen in perspective, on the
-/// one through the centre of the mesh's enclosing sphere, across the line from there to the eye. An
-/// eye inside the model has no projected area of what is not ahead of it.
+/// one through the centre of the mesh's enclosing sphere, across the line from there to the eye. For
+/// an eye inside that sphere, what is not ahead of it by a thousandth of the diameter has none.
 class FaceVisibility {
  public:
-  /// Largest side of a piece over the sphere's diameter, below which measures of all shapes of many
-  /// faces that were tried are converged (docs/visibility.md). [ours]
-  static constexpr double kSpacing = 1.0 / 96.0;
-
-  /// The same for this surface: where that gives fewer than about 80 000 pieces each weighs much, and
-  /// sides are up to half as long. \return in [kSpacing / 2, kSpacing].
-  static double enough_spacing(const TriMesh& mesh);
-
-  /// With the spacing that is enough. \param mesh vertices that share a position are treated as one.
+  /// \param mesh vertices that share a position are treated as one.
   /// \param sides one entry per component of connected_components(mesh), or one for all.
   /// \throw InvalidInput
   FaceVisibility(const TriMesh& mesh, std::vector<FaceSides> sides);
-  /// \param spacing pieces are cut until no side is longer than this share of the diameter of the
-  ///                enclosing sphere, in (0, 1]; needle-like pieces of little area stay longer.
-  /// \throw InvalidInput
-  FaceVisibility(const TriMesh& mesh, std::vector<FaceSides> sides, double spacing);
   ~FaceVisibility();
   FaceVisibility(FaceVisibility&&) noexcept;             ///< Leaves the other unusable.
   FaceVisibility& operator=(FaceVisibility&&) noexcept;  ///< The same.
 
-  [[nodiscard]] double total_area() const;         ///< Of all faces, model units squared.
-  [[nodiscard]] std::size_t sample_count() const;  ///< At least one per face that has area.
+  [[nodiscard]] double total_area() const;       ///< Of all faces, model units squared.
+  [[nodiscard]] std::size_t face_count() const;  ///< Of the mesh.
+
+  /// Model units squared; 0 for faces that repeat another one. \param face of the mesh.
+  [[nodiscard]] double face_area(std::size_t face) const;
 
   /// The faces of which something is seen, by index. \throw Cancelled
   [[nodiscard]] std::vector<SeenFace> seen_faces(const Viewpoint& eye,
@@ -87,20 +78,17 @@ class FaceVisibility {
   [[nodiscard]] std::vector<std::uint8_t> visible_vertices(const Viewpoint& eye,
                                                            const RunContext& run = {}) const;
 
-  /// The integral over each sample's piece of a field that is given at the vertices and linear in
-  /// each face. \pre one finite value per vertex.
+  /// The integral over each face of a field that is given at the vertices and linear in each face;
+  /// 0 for faces of no area and those that repeat another one.
+  /// \pre one finite value per vertex.
   [[nodiscard]] std::vector<double> integrals(std::span<const double> of_vertex) const;
 
-  /// 1 for each sample seen: for each piece that faces were cut into first. \throw Cancelled
-  [[nodiscard]] std::vector<std::uint8_t> seen_samples(const Viewpoint& eye,
-                                                       const RunContext& run = {}) const;
-
-  /// Sum of a quantity over the samples seen, in sample order. \pre one value per sample.
-  [[nodiscard]] double visible_sum(std::span<const double> of_sample, const Viewpoint& eye,
-                                   const RunContext& run = {}) const;
+  /// The integral of such a field over what is seen. \param seen as one eye sees them.
+  [[nodiscard]] double visible_integral(std::span<const double> of_vertex,
+                                        std::span<const SeenFace> seen) const;
 
  private:
-  std::unique_ptr<FaceSamples> samples_;
+  std::unique_ptr<FaceScene> scene_;
 };
 
 }  // namespace vantage

@@ -358,30 +358,13 @@ TEST(Measures, DoNotDependOnPlaceAndSize) {
   }
 }
 
-TEST(Measures, ChangeByNoHundredthWithSamplesTwiceAsNear) {
-  // Large faces that hide each other in part: the hardest for sampling.
-  const Subject rings(test::together(test::torus(1.0, 0.4, 24, 12), test::torus(0.8, 0.2, 18, 9),
-                                     Vec3(0.3, 0.2, 0.9)),
-                      Projection::Perspective);
-  MeasureSubject denser = rings.given;
-  denser.sampling = 2;
-  std::vector<Measure> measures;
-  for (const Measure& measure : builtin_measures()) {
-    // A piece of these faces spans half a bin of depth: docs/measures.md.
-    if (measure.name != "depth-distribution" && !measure.needs.saliency) {
-      measures.push_back(measure);
-    }
-  }
-  ViewMeasurer used(rings.given, measures, 1);
-  ViewMeasurer finer(denser, measures, 1);
-  for (std::size_t m = 0; m < measures.size(); ++m) {
-    const std::vector<double>& values = used.set_values()[m];
-    const std::vector<double>& better = finer.set_values()[m];
-    const auto [low, high] = std::minmax_element(better.begin(), better.end());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      EXPECT_NEAR(values[i], better[i], 0.01 * (*high - *low)) << measures[m].name;
-    }
-  }
+TEST(Measures, SumsByAreaAreWhatTheScorerSays) {
+  Subject rings(test::torus(1.0, 0.4, 24, 12));
+  rings.given.weight = Weight::Area;
+  ViewMeasurer measurer(rings.given, {find_measure("kssm")}, 1);
+  const FaceVisibility faces(rings.mesh, rings.sides);
+  const ViewScorer scorer(faces, rings.kssm, rings.given.camera);
+  EXPECT_EQ(measurer.set_values()[0], scorer.score_all(measurer.set().directions));
 }
 
 TEST(Measures, OfOnesOwnTakePart) {

@@ -163,7 +163,7 @@ TEST(MeasureViews, GivesTheGainsOfGivenViewsInTheirOrder) {
 }
 
 TEST(MeasureViews, ByAreaCountsTheSidesSeenAndNotTheCornersOfHiddenOnes) {
-  const FaceVisibility faces(cube().mesh, {FaceSides::Front}, 0.1);
+  const FaceVisibility faces(cube().mesh, {FaceSides::Front});
   const ViewScorer scorer(faces, cube().significance, cube().camera);
   const Vec3 corner = Vec3(1, 1, 1).normalized();
   const std::vector<Vec3> views{Vec3::UnitX(), corner, corner};
@@ -176,7 +176,7 @@ TEST(MeasureViews, ByAreaCountsTheSidesSeenAndNotTheCornersOfHiddenOnes) {
 }
 
 TEST(SelectViews, ByAreaCoverACubeFromTwoOppositeCorners) {
-  const FaceVisibility faces(cube().mesh, {FaceSides::Front}, 0.1);
+  const FaceVisibility faces(cube().mesh, {FaceSides::Front});
   const ViewScorer scorer(faces, cube().significance, cube().camera);
   const ViewSet set =
       select_views(faces, scorer.shares(), cube().camera, Vec3(1, 1, 1).normalized(), {.level = 2});

@@ -9,105 +9,20 @@
 #include <gtest/gtest.h>
 
 #include "support/shapes.h"
+#include "visibility/picture_cells.h"
 #include "visibility/segment.h"
 
 namespace vantage {
 namespace {
 
-using Vec2 = Eigen::Vector2d;
-using Polygon = std::vector<Vec2>;
-
 const Viewpoint kAbove{Projection::Orthographic, Vec3(0.0, 0.0, 1.0)};
-
-double area(Polygons::Points polygon) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vec2& a = polygon[k];
-    const Vec2& b = polygon[(k + 1) % polygon.size()];
-    sum += 0.5 * (a.x() * b.y() - a.y() * b.x());
-  }
-  return sum;
-}
-
-double area(const PolygonRest& rest) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < rest.parts().size(); ++i) {
-    sum += area(rest.parts()[i]);
-  }
-  return sum;
-}
-
-/// Inside, for a convex one.
-bool holds(Polygons::Points polygon, const Vec2& place) {
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vec2 way = polygon[(k + 1) % polygon.size()] - polygon[k];
-    const Vec2 to = place - polygon[k];
-    if (way.x() * to.y() - way.y() * to.x() < 0.0) {
-      return false;
-    }
-  }
-  return true;
-}
-
-TEST(PolygonRest, IsWhatIsOutside) {
-  PolygonRest rest;
-  rest.subtract(Polygon{{0.0, 0.0}, {0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}});
-  EXPECT_NEAR(area(rest), 0.25, 1e-15);
-  rest.subtract(Polygon{{0.5, -1.0}, {2.0, -1.0}, {2.0, 2.0}, {0.5, 2.0}});
-  EXPECT_NEAR(area(rest), 0.125, 1e-15);
-  rest.subtract(Polygon{{-1.0, 0.5}, {1.0, 0.5}, {1.0, 2.0}, {-1.0, 2.0}});
-  EXPECT_EQ(rest.parts().size(), 0U);
-}
-
-TEST(PolygonRest, StaysInOnePartWhereAShadowPassesItBy) {
-  PolygonRest rest;
-  rest.subtract(
-      Polygon{{1.0, 0.1}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 1.1}});  // beside the longest side
-  rest.subtract(Polygon{{-1.0, 0.0}, {0.0, 0.0}, {0.0, 1.0}});   // beside another
-  ASSERT_EQ(rest.parts().size(), 1U);
-  EXPECT_EQ(area(rest), 0.5);
-}
-
-TEST(PolygonRest, IsWhatNoShadowHolds) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> coordinate(-0.2, 1.2);
-  for (int run = 0; run < 20; ++run) {
-    std::vector<Polygon> shadows;
-    PolygonRest rest;
-    for (int k = 0; k < 5; ++k) {
-      Polygon shadow{{coordinate(random), coordinate(random)},
-                     {coordinate(random), coordinate(random)},
-                     {coordinate(random), coordinate(random)}};
-      if (area(shadow) < 0.0) {
-        std::reverse(shadow.begin(), shadow.end());
-      }
-      rest.subtract(shadow);
-      shadows.push_back(shadow);
-    }
-    std::uniform_real_distribution<double> unit(0.0, 1.0);
-    for (int i = 0; i < 2000; ++i) {
-      const Vec2 place(unit(random), unit(random));
-      const bool is_left = place.sum() < 1.0 &&
-                           std::none_of(shadows.begin(), shadows.end(), [&](const Polygon& shadow) {
-                             return holds(shadow, place);
-                           });
-      int parts = 0;
-      for (std::size_t part = 0; part < rest.parts().size(); ++part) {
-        parts += holds(rest.parts()[part], place) ? 1 : 0;
-      }
-      ASSERT_EQ(parts, is_left ? 1 : 0);
-    }
-  }
-}
+constexpr std::size_t kEnough = 100'000'000;  // steps
 
 /// What FaceClip says of a mesh that hides with both sides.
 class Clipped {
  public:
   Clipped(const TriMesh& mesh, const Viewpoint& eye)
-      : surface_(prepare_surface(mesh, sides_)),
-        local_(eye_in_frame(eye, surface_.frame)),
-        picture_(surface_, local_),
-        backs_(surface_.faces.size(), 1) {
+      : surface_(prepare_surface(mesh, sides_)), local_(eye_in_frame(eye, surface_.frame)) {
     for (std::size_t f = 0; f < surface_.faces.size(); ++f) {
       const double height =
           surface_.area_vectors[f].dot(sight_line(surface_.sites[surface_.faces[f][0]], local_));
@@ -118,22 +33,25 @@ class Clipped {
   /// Of each face of the mesh.
   [[nodiscard]] std::vector<double> shares() const {
     std::vector<double> result(surface_.faces.size(), 0.0);
-    FaceClip clip(surface_, picture_, local_, turned_, backs_);
-    SeenParts parts;
+    FaceClip clip;
+    clip.begin(surface_, local_);
     for (std::uint32_t f = 0; f < result.size(); ++f) {
-      EXPECT_TRUE(clip.add_parts(f, parts));
-    }
-    for (const SeenParts::Part& part : parts.parts) {
-      result[surface_.face_of_mesh[part.face]] += part.share;
+      std::size_t steps = 0;
+      EXPECT_TRUE(add_shadows(f, clip) || clip.subtract(steps, kEnough));
+      for (std::size_t i = 0; i < clip.parts().size(); ++i) {
+        result[surface_.face_of_mesh[f]] += twice_area(clip.parts()[i]);
+      }
     }
     return result;
   }
 
-  /// Whether a face of the mesh is clipped at all.
-  [[nodiscard]] bool is_clipped(std::uint32_t face) const {
-    FaceClip clip(surface_, picture_, local_, turned_, backs_);
-    SeenParts parts;
-    return clip.add_parts(number_of(face), parts);
+  /// Whether so many steps are enough to clip a face.
+  [[nodiscard]] bool is_clipped(std::uint32_t face, std::size_t steps) const {
+    FaceClip clip;
+    clip.begin(surface_, local_);
+    add_shadows(number_of(face), clip);
+    std::size_t taken = 0;
+    return clip.subtract(taken, steps);
   }
 
   /// The side that a face of the mesh turns to the eye.
@@ -163,6 +81,21 @@ class Clipped {
   }
 
  private:
+  /// \return whether one of them hides all of the face, of which nothing is left then.
+  bool add_shadows(std::uint32_t face, FaceClip& clip) const {
+    clip.take(face);
+    bool is_hidden = false;
+    for (std::uint32_t other = 0; other < surface_.faces.size(); ++other) {
+      is_hidden = (other != face && clip.add_shadow(other)) || is_hidden;
+    }
+    if (is_hidden) {
+      std::size_t steps = 0;
+      EXPECT_TRUE(clip.subtract(steps, kEnough));
+      EXPECT_EQ(clip.parts().size(), 0U);
+    }
+    return is_hidden;
+  }
+
   [[nodiscard]] std::uint32_t number_of(std::uint32_t face) const {
     const auto at = std::find(surface_.face_of_mesh.begin(), surface_.face_of_mesh.end(), face);
     return static_cast<std::uint32_t>(at - surface_.face_of_mesh.begin());
@@ -183,8 +116,6 @@ class Clipped {
   std::vector<FaceSides> sides_{FaceSides::Both};
   Surface surface_;
   Viewpoint local_;
-  SitePicture picture_;
-  std::vector<std::uint8_t> backs_;
   std::vector<std::uint8_t> turned_{};
 };
 
@@ -241,18 +172,20 @@ TEST(FaceClip, LeavesFacesBesideEachOtherWhole) {
   }
 }
 
-TEST(FaceClip, GivesUpWhereThousandsOfFacesLieBeforeOne) {
-  TriMesh stack;
-  for (std::uint32_t f = 0; f < 4000; ++f) {
-    const double height = 1e-4 * f;
-    for (const Vec3& p : {Vec3(0.0, 0.0, height), Vec3(1.0, 0.0, height), Vec3(0.0, 1.0, height)}) {
-      stack.positions.push_back(p);
-    }
-    stack.triangles.push_back({3 * f, 3 * f + 1, 3 * f + 2});
-  }
-  const Clipped clipped(stack, kAbove);
-  EXPECT_FALSE(clipped.is_clipped(0));
-  EXPECT_TRUE(clipped.is_clipped(2000));  // half of them are behind
+TEST(FaceClip, GivesUpAfterAsManySteps) {
+  const Clipped clipped(
+      test::together(test::sheet(4.0, 4.0, 1), test::sheet(1.0, 1.0, 8), Vec3(1.0, 1.0, 1.0)),
+      kAbove);
+  EXPECT_FALSE(clipped.is_clipped(0, 10));
+  EXPECT_TRUE(clipped.is_clipped(0, 100'000));
+}
+
+TEST(FaceClip, KeepsWhatShadowsPassByInOnePart) {
+  TriMesh mesh = test::sheet(4.0, 4.0, 1);
+  mesh = test::together(mesh, test::sheet(1.0, 1.0, 1), Vec3(-1.0, -1.0, 1.0));
+  const std::vector<double> shares = Clipped(mesh, kAbove).shares();
+  EXPECT_EQ(shares[0], 1.0);
+  EXPECT_EQ(shares[1], 1.0);
 }
 
 TEST(FaceClip, LeavesWhatSamplesSee) {

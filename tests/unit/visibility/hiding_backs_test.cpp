@@ -18,8 +18,6 @@
 namespace vantage {
 namespace {
 
-constexpr double kCoarse = 0.1;  // spacing of samples: only vertices are looked at here
-
 /// Faces whose backs are to be asked, and all faces.
 struct Count {
   std::size_t asked = 0, all = 0;
@@ -30,7 +28,7 @@ struct Count {
 Count backs_of(const TriMesh& mesh) {
   const std::vector<FaceSides> sides{FaceSides::Front};
   const Surface surface = prepare_surface(mesh, sides);
-  const auto asked = hiding_backs(surface, surface_edges(surface));
+  const auto asked = find_meetings(surface, surface_edges(surface)).hiding_backs;
   return {static_cast<std::size_t>(std::count(asked.begin(), asked.end(), 1)), asked.size()};
 }
 
@@ -48,7 +46,7 @@ TriMesh funnel(double depth, const Vec3& aside = Vec3::Zero()) {
 
 /// Whether what seen_surface() leaves out of its walk changes no vertex from any of these eyes.
 void expect_no_change(const TriMesh& mesh, const std::vector<FaceSides>& sides) {
-  const FaceVisibility visibility(mesh, sides, kCoarse);
+  const FaceVisibility visibility(mesh, sides);
   for (int x = -1; x <= 1; ++x) {
     for (int y = -1; y <= 1; ++y) {
       for (int z = -1; z <= 1; ++z) {
@@ -96,7 +94,7 @@ TEST(HidingBacks, AreAllOfAShellThatPassesThroughItself) {
 }
 
 TEST(HidingBacks, OfAPocketHideWhatNoFrontHides) {
-  const FaceVisibility visibility(funnel(1.5, Vec3(0.1, 0.03, 0.0)), {FaceSides::Front}, kCoarse);
+  const FaceVisibility visibility(funnel(1.5, Vec3(0.1, 0.03, 0.0)), {FaceSides::Front});
   const auto seen =
       visibility.seen_surface({Projection::Orthographic, Vec3(0.0, 0.0, -1.0)}).vertices;
   const TriMesh mesh = funnel(1.5, Vec3(0.1, 0.03, 0.0));

@@ -53,7 +53,7 @@ TEST_P(VisibilityOfRealModel, EqualsBruteForce) {
 
 TEST_P(VisibilityOfRealModel, IsTheSameWhetherAllBacksAreAskedOrThoseThatMatter) {
   const OrientedMesh oriented = orient_shells(load_model((root() / GetParam()).string()).mesh);
-  const FaceVisibility visibility(oriented.mesh, oriented.sides, 0.1);
+  const FaceVisibility visibility(oriented.mesh, oriented.sides);
   const Sphere sphere = enclosing_sphere(referenced_points(oriented.mesh));
   for (const Vec3& towards : {Vec3(0, 0, 1), Vec3(-1, 0, 0), Vec3(0, 1, 1), Vec3(-0.7, 0.2, -0.6),
                               Vec3(0.3, -0.8, 0.5)}) {

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "vantage/core/camera.h"
+#include "vantage/core/vec3.h"
+
+#include "visibility/surface.h"
+
+/// \file
+/// The picture of a surface divided into cells, to find faces and edges that lie before or behind
+/// each other. It only proposes: everything is rounded outwards, and the geometry decides.
+
+namespace vantage {
+
+/// From a place to the eye, or towards it.
+inline Vec3 sight_line(const Vec3& place, const Viewpoint& eye) {
+  return eye.projection == Projection::Perspective ? Vec3(eye.position - place) : eye.position;
+}
+
+/// Projects the vertices of a surface on one plane where all of them are ahead of the eye, else on
+/// the six sides of a cube around it. Made for reuse.
+class PictureCells {
+ public:
+  /// Cells of one side, from first to last.
+  struct Cells {
+    std::uint32_t left = 0, right = 0, bottom = 0, top = 0;
+  };
+
+  /// What something spans in the picture, in cells, and its depths.
+  struct Extent {
+    float left = 0.0F, right = 0.0F, bottom = 0.0F, top = 0.0F;
+    float nearest = 0.0F, farthest = 0.0F;
+
+    /// Whether this may have a place in common with the other that is not behind it.
+    [[nodiscard]] bool is_before(const Extent& other) const {
+      return nearest < other.farthest && left < other.right && other.left < right &&
+             bottom < other.top && other.bottom < top;
+    }
+  };
+
+  /// \param eye in the surface's frame. \param cells about how many there shall be. Both must
+  ///            outlive the use of this.
+  void begin(const Surface& surface, const Viewpoint& eye, std::size_t cells);
+
+  /// Whether all of the surface is ahead of the eye: the picture is one plane.
+  [[nodiscard]] bool is_flat() const { return is_flat_; }
+
+  /// Halves the number of rows and of columns. \return false if there is one of each.
+  bool coarsen();
+
+  [[nodiscard]] std::size_t cell_count() const { return std::size_t{columns_} * side_; }
+
+  [[nodiscard]] std::uint32_t cell(std::uint32_t column, std::uint32_t row) const {
+    return row * columns_ + column;
+  }
+
+  /// Of an edge's ends or of a face's corners.
+  template <std::size_t Count>
+  [[nodiscard]] Extent extent(const std::array<std::uint32_t, Count>& sites) const {
+    constexpr float kAll = std::numeric_limits<float>::infinity();
+    if (!is_flat_) {
+      return {-kAll, kAll, -kAll, kAll, -kAll, kAll};
+    }
+    const Place& first = places_[sites[0]];
+    Extent extent{first.x, first.x, first.y, first.y, first.depth, first.depth};
+    for (std::size_t k = 1; k < Count; ++k) {
+      const Place& place = places_[sites[k]];
+      extent.left = std::min(extent.left, place.x);
+      extent.right = std::max(extent.right, place.x);
+      extent.bottom = std::min(extent.bottom, place.y);
+      extent.top = std::max(extent.top, place.y);
+      extent.nearest = std::min(extent.nearest, place.depth);
+      extent.farthest = std::max(extent.farthest, place.depth);
+    }
+    return {extent.left - kSlack, extent.right + kSlack,        extent.bottom - kSlack,
+            extent.top + kSlack,  extent.nearest - kDepthSlack, extent.farthest + kDepthSlack};
+  }
+
+  /// The sides of a face in the picture, to tell what lies beside it.
+  class Outline {
+   public:
+    Outline(const PictureCells& picture, const Triangle& face);
+
+    /// Whether an edge or a face clearly lies beyond one of the sides.
+    template <std::size_t Count>
+    [[nodiscard]] bool is_beside(const std::array<std::uint32_t, Count>& sites) const {
+      if (!picture_.is_flat_) {
+        return false;
+      }
+      for (const Line& line : lines_) {
+        float most = -line.slack;
+        for (const std::uint32_t site : sites) {
+          const Place& place = picture_.places_[site];
+          most = std::max(most, line.x * place.x + line.y * place.y - line.offset);
+        }
+        if (most <= -line.slack) {
+          return true;
+        }
+      }
+      return false;
+    }
+
+   private:
+    /// Points inside have a positive x · place − offset; rounding moves it less than the slack.
+    struct Line {
+      float x = 0.0F, y = 0.0F, offset = 0.0F, slack = 0.0F;
+    };
+
+    const PictureCells& picture_;
+    std::array<Line, 3> lines_{};
+  };
+
+  /// Calls each(cells) for the cells that an edge or a face touches: of one side, or of several.
+  template <std::size_t Count, typename Each>
+  void over_sides(const std::array<std::uint32_t, Count>& sites, const Extent& extent,
+                  const Each& each) const {
+    if (is_flat_) {
+      each(Cells{nearest_cell(extent.left), nearest_cell(extent.right), nearest_cell(extent.bottom),
+                 nearest_cell(extent.top)});
+      return;
+    }
+    std::array<Vec3, Count> from_eye;
+    for (std::size_t k = 0; k < Count; ++k) {
+      from_eye[k] = surface_->sites[sites[k]] - eye_.position;
+    }
+    for (std::uint32_t side = 0; side < kSides; ++side) {
+      Cells cells;
+      if (on_side(from_eye.data(), Count, side, cells)) {
+        each(cells);
+      }
+    }
+  }
+
+  /// How many cells an edge or a face touches.
+  template <std::size_t Count>
+  [[nodiscard]] std::size_t count_cells(const std::array<std::uint32_t, Count>& sites,
+                                        const Extent& extent) const {
+    std::size_t sum = 0;
+    over_sides(sites, extent, [&](const Cells& cells) {
+      sum += std::size_t{cells.right - cells.left + 1} * (cells.top - cells.bottom + 1);
+    });
+    return sum;
+  }
+
+  /// Calls each(cell) for the cells that an edge or a face touches.
+  template <std::size_t Count, typename Each>
+  void over_cells(const std::array<std::uint32_t, Count>& sites, const Extent& extent,
+                  const Each& each) const {
+    over_sides(sites, extent, [&](const Cells& cells) {
+      for (std::uint32_t row = cells.bottom; row <= cells.top; ++row) {
+        for (std::uint32_t column = cells.left; column <= cells.right; ++column) {
+          each(cell(column, row));
+        }
+      }
+    });
+  }
+
+ private:
+  static constexpr std::uint32_t kSides = 6;
+  static constexpr std::uint32_t kMostSide = 1024;  // cells
+  // Far more than rounding to float moves a place, in cells, and a depth, in units of the frame.
+  static constexpr float kSlack = 1e-3F;
+  static constexpr float kDepthSlack = 1e-5F;
+
+  struct Place {
+    float x = 0.0F, y = 0.0F, depth = 0.0F;
+  };
+
+  [[nodiscard]] std::uint32_t nearest_cell(float place) const {
+    return static_cast<std::uint32_t>(std::clamp(place, 0.0F, static_cast<float>(side_ - 1)));
+  }
+
+  bool project();
+  [[nodiscard]] bool on_side(const Vec3* from_eye, std::size_t count, std::uint32_t side,
+                             Cells& cells) const;
+
+  const Surface* surface_ = nullptr;
+  Viewpoint eye_{};
+  bool is_flat_ = true;
+  std::uint32_t side_ = 1;       // cells along a side
+  std::uint32_t columns_ = 1;    // of all sides together
+  std::vector<Place> places_{};  // of each site, where there is one plane
+  std::vector<Vec3> exact_{};    // the same in double, not yet in cells
+};
+
+/// What is in each cell. Made for reuse.
+class CellLists {
+ public:
+  /// \param over_all over_all(each) calls each(item, cell) for all that is to be listed, twice over
+  ///                 the same.
+  template <typename OverAll>
+  void fill(std::size_t cells, const OverAll& over_all) {
+    first_.assign(cells + 1, 0);
+    over_all([this](std::uint32_t /*item*/, std::uint32_t cell) { ++first_[cell]; });
+    std::uint32_t total = 0;
+    for (std::uint32_t& count : first_) {
+      total += count;
+      count = total;  // for now the end of the cell: filling walks back to its begin
+    }
+    items_.resize(total);
+    over_all([this](std::uint32_t item, std::uint32_t cell) { items_[--first_[cell]] = item; });
+  }
+
+  /// The items of a row of cells, one after the other. \pre first ≤ last.
+  [[nodiscard]] std::span<const std::uint32_t> in_cells(std::uint32_t first,
+                                                        std::uint32_t last) const {
+    return std::span(items_).subspan(first_[first], first_[last + 1] - first_[first]);
+  }
+
+ private:
+  std::vector<std::uint32_t> first_{};  // of each cell, and one past the last
+  std::vector<std::uint32_t> items_{};
+};
+
+}  // namespace vantage
