@@ -42,8 +42,8 @@ enum class Style {
 
 /// What is drawn and how.
 struct RenderOptions {
-  int width = 800;                   ///< px; the program's pictures: of ViewOptions.
-  int height = 600;                  ///< px; as `width`.
+  int width = 800;   ///< px; the program's pictures: of ViewOptions.
+  int height = 600;  ///< px; as `width`.
   /// Rays per pixel where edges, outlines or textures need them, rounded up to a square; elsewhere
   /// four tell that they do not.
   int samples = 16;
