@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 2> kPictures{".png", ".webp"};
+constexpr std::array<std::string_view, 2> kPictureNames{".png", ".webp"};
 constexpr std::array<std::string_view, 4> kShapes{".json", ".swc", ".graphml", ".npy"};
 /// How tables of ours begin. Other CSV files may be directions, eyes or choices of people.
 constexpr std::array<std::string_view, 8> kTableHeads{
@@ -29,7 +29,7 @@ constexpr std::string_view kMark = " written by vantage\n";
 
 bool is_only_written(const fs::path& path, OutputKind kind) {
   const std::span<const std::string_view> extensions =
-      kind == OutputKind::Picture ? std::span<const std::string_view>(kPictures)
+      kind == OutputKind::Picture ? std::span<const std::string_view>(kPictureNames)
       : kind == OutputKind::Shape ? std::span<const std::string_view>(kShapes)
                                   : std::span<const std::string_view>();
   return std::find(extensions.begin(), extensions.end(), path.extension().string()) !=

@@ -33,12 +33,13 @@ constexpr const char* kNoRoom = "cannot hold more results; make room and run it 
 
 /// What a file takes on the disk.
 std::uint64_t bytes_on_disk(const std::string& path) {
-  constexpr std::uint64_t kBlock = 512;
+  constexpr std::uint64_t kBytesPerBlock = 512;
 
   struct stat status {};
 
-  return ::stat(path.c_str(), &status) == 0 ? static_cast<std::uint64_t>(status.st_blocks) * kBlock
-                                            : 0;
+  return ::stat(path.c_str(), &status) == 0
+             ? static_cast<std::uint64_t>(status.st_blocks) * kBytesPerBlock
+             : 0;
 }
 
 FileStamp stamp_of(const std::string& path) {
