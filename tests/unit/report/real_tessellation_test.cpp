@@ -44,6 +44,7 @@ class Splitter {
         halve(c, a);
       }
     }
+    split_.views.reset();  // of the surface before
     split_.surface.triangles.clear();
     for (const Triangle& face : mesh.triangles) {
       add(face);
