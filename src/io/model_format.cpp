@@ -149,7 +149,7 @@ void reject_foreign_magic(std::string_view bytes, std::string_view name) {
       "PTS and PWN are read");
 }
 
-/// What the first bytes say beyond doubt.
+/// What the first bytes say for sure.
 std::optional<ModelFormat> format_of_magic(std::string_view bytes) {
   if (starts_with(bytes, "glTF")) {
     return ModelFormat::Glb;

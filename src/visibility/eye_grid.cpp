@@ -80,7 +80,7 @@ VANTAGE_INLINE void keep_cells(const typename Registers<Lanes>::Floats& at, floa
 /// Some faces ready to tell which points may lie behind them, one lane each. Along a side x, y, 1
 /// are worth what is positive inside, its length times the distance.
 template <unsigned Lanes>
-struct EyeGrid::Handful {
+struct EyeGrid::FacePacket {
   using Floats = std::array<float, Lanes>;
   using Numbers = std::array<std::uint32_t, Lanes>;
 
@@ -98,8 +98,8 @@ struct EyeGrid::Handful {
   Numbers left, right, top, bottom;  // the cells it touches
   Floats nearest, farthest;          // its least depth and its largest, rounded outwards
   std::array<Side, 3> sides;
-  Floats doubt;  // error of these values
-  Floats least;  // points with less than this are outside
+  Floats error_bound;  // error of these values
+  Floats least;        // points with less than this are outside
 };
 
 /// Lists the points asked about and where they are.
@@ -200,7 +200,7 @@ bool EyeGrid::blocks(const Surface& surface, const SurfacePoints& points, std::u
 
 /// Makes the faces that were put in ready.
 template <unsigned Lanes>
-VANTAGE_INLINE void EyeGrid::make_ready(const Surface& surface, Handful<Lanes>& h) const {
+VANTAGE_INLINE void EyeGrid::make_ready(const Surface& surface, FacePacket<Lanes>& h) const {
   using Many = typename Registers<Lanes>::Floats;
   std::array<std::array<float, Lanes>, 3> corner_x;
   std::array<std::array<float, Lanes>, 3> corner_y;
@@ -244,15 +244,15 @@ VANTAGE_INLINE void EyeGrid::make_ready(const Surface& surface, Handful<Lanes>& 
   // products of the grid's and the outline's size, which margin_ holds a share of.
   const Many width = high_x - low_x;
   const Many height = high_y - low_y;
-  const Many doubt = 16.0F * margin_ * (width < height ? height : width);
-  keep(doubt, h.doubt);
+  const Many error_bound = 16.0F * margin_ * (width < height ? height : width);
+  keep(error_bound, h.error_bound);
   // A face whose sense is in doubt excludes nothing in its cells.
-  keep(sense * area > doubt ? -doubt : zero - kInfinity, h.least);
+  keep(sense * area > error_bound ? -error_bound : zero - kInfinity, h.least);
 }
 
 /// Bit i is set if the point in slot + i may lie behind the face in the lane.
 template <unsigned Lanes>
-VANTAGE_INLINE unsigned EyeGrid::near(const Surface& surface, const Handful<Lanes>& h,
+VANTAGE_INLINE unsigned EyeGrid::near(const Surface& surface, const FacePacket<Lanes>& h,
                                       unsigned lane, std::size_t slot) const {
   using Floats = typename Registers<Lanes>::Floats;
   using Keys = typename Registers<Lanes>::Keys;
@@ -296,7 +296,7 @@ float EyeGrid::depth_behind(const Surface& surface, const SurfacePoints& points,
 
 template <unsigned Lanes>
 void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points,
-                           const Handful<Lanes>& h, unsigned lane, std::size_t slot) {
+                           const FacePacket<Lanes>& h, unsigned lane, std::size_t slot) {
   // Other threads may strike out the same point meanwhile; they can only agree.
   const std::atomic_ref<std::uint8_t> hidden(hidden_[slot]);
   if (hidden.load(std::memory_order_relaxed) != 0) {
@@ -308,15 +308,16 @@ void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points,
     inside = std::min(
         inside, x_[slot] * side.along_x[lane] + y_[slot] * side.along_y[lane] + side.offset[lane]);
   }
-  bool is_hidden = inside > h.doubt[lane] && depth_[slot] > h.farthest[lane] && steep_[face] != 0;
+  bool is_hidden =
+      inside > h.error_bound[lane] && depth_[slot] > h.farthest[lane] && steep_[face] != 0;
   if (!is_hidden) {
     const std::uint32_t point = point_of_[slot];
     const float behind = depth_behind(surface, points, point, face);
     if (behind < -kHeightError) {
       return;  // on the eye's side
     }
-    is_hidden =
-        (behind > kHeightError && inside > h.doubt[lane]) || blocks(surface, points, point, face);
+    is_hidden = (behind > kHeightError && inside > h.error_bound[lane]) ||
+                blocks(surface, points, point, face);
   }
   if (is_hidden) {
     hidden.store(1, std::memory_order_relaxed);
@@ -325,7 +326,7 @@ void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points,
 
 template <unsigned Lanes>
 VANTAGE_INLINE std::size_t EyeGrid::strike(const Surface& surface, const SurfacePoints& points,
-                                           const Handful<Lanes>& h, unsigned lane) {
+                                           const FacePacket<Lanes>& h, unsigned lane) {
   const CellRange cells = h.cells(lane);
   std::size_t work = 1;
   for (std::uint32_t row = cells.top; row <= cells.bottom; ++row) {
@@ -357,7 +358,7 @@ struct EyeGrid::Walk {
 };
 
 template <unsigned Lanes>
-VANTAGE_INLINE std::size_t EyeGrid::strike_all(Walk& walk, Handful<Lanes>& h) {
+VANTAGE_INLINE std::size_t EyeGrid::strike_all(Walk& walk, FacePacket<Lanes>& h) {
   if (h.count == 0) {
     return 0;
   }
@@ -377,7 +378,7 @@ VANTAGE_INLINE std::size_t EyeGrid::strike_all(Walk& walk, Handful<Lanes>& h) {
 template <unsigned Lanes>
 VANTAGE_INLINE void EyeGrid::walk_some(Walk& walk, std::size_t begin, std::size_t end) {
   const std::uint8_t side = walk.side;
-  Handful<Lanes> some;
+  FacePacket<Lanes> some;
   std::size_t work = 0;
   for (std::size_t f = begin; f < end; ++f) {
     if (f % FaceBlocks::kFaces == 0) {

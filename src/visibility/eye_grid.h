@@ -94,7 +94,7 @@ class EyeGrid {
   };
 
   template <unsigned Lanes>
-  struct Handful;
+  struct FacePacket;
   struct Walk;
 
   void face_sides(const Surface& surface, const RunContext& run);
@@ -137,19 +137,19 @@ class EyeGrid {
   bool walk(const Surface& surface, const SurfacePoints& points, std::uint8_t side,
             const RunContext& run);
   template <unsigned Lanes>
-  std::size_t strike_all(Walk& walk, Handful<Lanes>& h);
+  std::size_t strike_all(Walk& walk, FacePacket<Lanes>& h);
   template <unsigned Lanes>
-  void make_ready(const Surface& surface, Handful<Lanes>& h) const;
+  void make_ready(const Surface& surface, FacePacket<Lanes>& h) const;
   template <unsigned Lanes>
-  std::size_t strike(const Surface& surface, const SurfacePoints& points, const Handful<Lanes>& h,
-                     unsigned lane);
+  std::size_t strike(const Surface& surface, const SurfacePoints& points,
+                     const FacePacket<Lanes>& h, unsigned lane);
   template <unsigned Lanes>
-  [[nodiscard]] unsigned near(const Surface& surface, const Handful<Lanes>& h, unsigned lane,
+  [[nodiscard]] unsigned near(const Surface& surface, const FacePacket<Lanes>& h, unsigned lane,
                               std::size_t slot) const;
   [[nodiscard]] float depth_behind(const Surface& surface, const SurfacePoints& points,
                                    std::uint32_t point, std::uint32_t face) const;
   template <unsigned Lanes>
-  void strike_point(const Surface& surface, const SurfacePoints& points, const Handful<Lanes>& h,
+  void strike_point(const Surface& surface, const SurfacePoints& points, const FacePacket<Lanes>& h,
                     unsigned lane, std::size_t slot);
   [[nodiscard]] bool blocks(const Surface& surface, const SurfacePoints& points,
                             std::uint32_t point, std::uint32_t face) const;

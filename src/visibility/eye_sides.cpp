@@ -53,7 +53,7 @@ void EyeGrid::face_sides(const Surface& surface, const RunContext& run) {
   const Eigen::Vector3f at = eye.position.cast<float>();
   const float offset = perspective ? 1.0F : 0.0F;
   // Bounds the rounding of the float height below: a dozen roundings of numbers of this size.
-  const float doubt = 0x1p-19F * (length + 2.0F);
+  const float error_bound = 0x1p-19F * (length + 2.0F);
   const float steep = kSteep * (length + 2.0F);
   block_sides(surface.blocks, steep);
   const auto faces_of = [&](std::size_t begin, std::size_t end) {
@@ -62,7 +62,7 @@ void EyeGrid::face_sides(const Surface& surface, const RunContext& run) {
                            offset * planes.offset[f];
       const float size = std::abs(height);
       const int side = height > 0.0F ? 1 : 2;
-      turned_[f] = static_cast<std::uint8_t>(size > doubt ? side : 3);
+      turned_[f] = static_cast<std::uint8_t>(size > error_bound ? side : 3);
       steep_[f] = static_cast<std::uint8_t>(size > steep ? 1 : 0);
     }
     for (std::size_t f = begin; f < end; ++f) {

@@ -27,7 +27,7 @@ constexpr int kVotes = 5;
 constexpr int kMaxRays = 40;
 // A crossing nearer to an edge, or a start nearer to a plane, than this is not trusted: relative to
 // the products it is computed from; some thousand rounding errors.
-constexpr double kDoubt = 1e-12;
+constexpr double kErrorBound = 1e-12;
 // A shell whose volume is below this share of area times size has no inside to speak of.
 constexpr double kFlatShell = 1e-12;
 
@@ -168,22 +168,22 @@ Crossing crossing(const Vec3& start, const Vec3& direction, const Vec3& p, const
   const Vec3 b = q - start;
   const Vec3 c = r - start;
   const double size = std::max({a.norm(), b.norm(), c.norm()});
-  const double doubt = kDoubt * size * size;
+  const double error_bound = kErrorBound * size * size;
   const std::array<double, 3> side{direction.dot(b.cross(c)), direction.dot(c.cross(a)),
                                    direction.dot(a.cross(b))};
   const auto [low, high] = std::minmax_element(side.begin(), side.end());
-  if (*low<-doubt&& * high> doubt) {
+  if (*low<-error_bound&& * high> error_bound) {
     return Crossing::None;
   }
   const Vec3 normal = (b - a).cross(c - a);
   const double height = normal.dot(a);
   const double slope = normal.dot(direction);
   const bool behind = (height > 0.0) != (slope > 0.0);
-  const double unsure_height = kDoubt * size * normal.norm();
-  if (behind && std::abs(height) > unsure_height && std::abs(slope) > kDoubt * normal.norm()) {
+  const double unsure_height = kErrorBound * size * normal.norm();
+  if (behind && std::abs(height) > unsure_height && std::abs(slope) > kErrorBound * normal.norm()) {
     return Crossing::None;
   }
-  const bool through = *low > doubt || *high < -doubt;
+  const bool through = *low > error_bound || *high < -error_bound;
   return through && std::abs(height) > unsure_height ? Crossing::Clear : Crossing::Doubtful;
 }
 
