@@ -342,12 +342,7 @@ Image take_picture(const ShapeAnalysis& shape, const Camera& camera, Picture pic
                    const ViewOptions& options, const std::optional<Rgb8>& background = {},
                    const RunContext& run = {});
 
-/// Takes several pictures with one camera, hardly slower than one. \throw Cancelled
-std::vector<Image> take_pictures(const ShapeAnalysis& shape, const Camera& camera,
-                                 std::span<const Picture> pictures, const ViewOptions& options,
-                                 const RunContext& run = {});
-
-/// The same with any look; its size is that of `options`. \throw Cancelled
+/// Takes a picture with any look; its size is that of `options`. \throw Cancelled
 /// \param asset what the shape was made from: a plain picture shows it in its own colours and
 /// materials; null for clay.
 Image draw_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
