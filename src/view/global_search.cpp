@@ -13,8 +13,8 @@ namespace {
 
 // All ours; docs/search.md has what each trades, measured.
 constexpr std::size_t kExactValues = 96;  // directions scored exactly; half of them peaks
-constexpr std::size_t kStarts = 4;        // directions that the ascent starts from, …
-constexpr double kStartsApartRad = 8.0 * kRadPerDeg;  // … so far apart: not all on one hill
+constexpr std::size_t kStarts = 6;        // directions that the ascent starts from, …
+constexpr double kStartsApartRad = 5.0 * kRadPerDeg;  // … so far apart: not all on one hill
 
 constexpr double kSurveyShare = 0.5;  // of the progress bar
 

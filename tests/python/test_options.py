@@ -14,7 +14,7 @@ import vantage
 V, F = torus(8, 6)
 
 # Flags that are no part of the method: files, how it runs, what is printed, moving pictures.
-NO_OPTIONS = {"help", "output", "trace", "no-images", "no-report", "preview", "tour", "tour-seconds", "fps",
+NO_OPTIONS = {"help", "output", "force", "trace", "no-images", "no-report", "preview", "tour", "tour-seconds", "fps",
               "tour-size", "json", "quiet", "verbose", "config", "threads", "max-memory", "timeout",
               "depth", "levels", "meso", "measure", "visible", "method", "show", "direction",
               "directions", "eyes", "sphere", "view-set", "camera", "view",
