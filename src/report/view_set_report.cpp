@@ -120,6 +120,9 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
     result.views.push_back(
         describe_scored_view(shape, visibility, scorer, view.direction, up, options));
   }
+  if (faces != nullptr) {  // sets know what is seen of a face to an eighth; nothing was seen before
+    result.choice.views.front().gain = result.views.front().score;
+  }
   result.tour = shortest_tour(directions, run);
   return result;
 }
