@@ -171,8 +171,8 @@ struct ShapeAnalysis {
   ContractionHistory history{};                 ///< Filled by add_history().
   Skeleton skeleton{};                          ///< Filled by add_skeleton().
   KssmMap map{};                                ///< Filled by add_map().
-  std::vector<std::string> warnings{};          ///< Every repair and uncertainty, one sentence each.
-  std::optional<CloudAnalysis> cloud{};         ///< Set if the model has no faces.
+  std::vector<std::string> warnings{};   ///< Every repair and uncertainty, one sentence each.
+  std::optional<CloudAnalysis> cloud{};  ///< Set if the model has no faces.
   /// Of `surface`, filled by analyse_shape() for views. Where it is missing, what looks for views
   /// makes it; whoever changes `surface` resets it.
   std::shared_ptr<const ViewPreparation> views{};
