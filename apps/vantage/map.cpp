@@ -6,7 +6,7 @@
 
 #include "vantage/io/write.h"
 #include "vantage/pipeline/measured_shape.h"
-#include "vantage/render/colour_map.h"
+#include "vantage/render/render.h"
 
 #include "commands.h"
 #include "method_flags.h"

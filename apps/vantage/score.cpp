@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/error.h"
-#include "vantage/io/csv.h"
+#include "vantage/io/model.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/measured_shape.h"
 #include "vantage/spatial/directions.h"

@@ -5,8 +5,7 @@
 
 #include "vantage/io/write.h"
 #include "vantage/pipeline/measured_shape.h"
-#include "vantage/report/html_report.h"
-#include "vantage/report/view_json.h"
+#include "vantage/report/view_report.h"
 
 #include "commands.h"
 #include "measure_flags.h"

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "vantage/pipeline/measured_shape.h"
-#include "vantage/report/view_json.h"
+#include "vantage/report/view_report.h"
 #include "vantage/view/measure.h"
 
 #include "arrays.h"

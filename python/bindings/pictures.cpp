@@ -7,8 +7,8 @@
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/find_views.h"
-#include "vantage/render/colour_map.h"
 #include "vantage/render/framing.h"
+#include "vantage/render/render.h"
 
 #include "arrays.h"
 #include "camera.h"

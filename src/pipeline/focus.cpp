@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/pipeline/focus.h"
-
 #include <algorithm>
 #include <charconv>
 #include <map>
 
 #include "vantage/core/error.h"
 #include "vantage/mesh/topology.h"
+#include "vantage/pipeline/shape_analysis.h"
 
 namespace vantage {
 namespace {

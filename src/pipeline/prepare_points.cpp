@@ -5,12 +5,13 @@
 #include <string>
 #include <utility>
 
-#include "vantage/mesh/extent.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 #include "vantage/mesh/weld.h"
-#include "vantage/skeleton/point_skeleton.h"
-#include "vantage/spatial/point_rings.h"
+
+#include "mesh/extent.h"
+#include "skeleton/point_skeleton.h"
+#include "spatial/point_rings.h"
 
 namespace vantage {
 namespace {

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "vantage/core/error.h"
-#include "vantage/mesh/extent.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/weld.h"
 #include "vantage/pipeline/shape_analysis.h"
 
 #include "core/parallel.h"
+#include "mesh/extent.h"
 #include "pipeline/prepare_points.h"
 
 namespace vantage {

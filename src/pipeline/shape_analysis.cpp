@@ -6,13 +6,12 @@
 #include <optional>
 #include <utility>
 
-#include "vantage/mesh/extent.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/weld.h"
-#include "vantage/pipeline/focus.h"
 #include "vantage/pipeline/measured_shape.h"
 
 #include "core/parallel.h"
+#include "mesh/extent.h"
 #include "pipeline/prepare_points.h"
 #include "pipeline/view_preparation.h"
 

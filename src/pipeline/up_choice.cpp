@@ -2,9 +2,9 @@
 #include <string>
 
 #include "vantage/pipeline/find_views.h"
-#include "vantage/view/stance.h"
 
 #include "pipeline/view_preparation.h"
+#include "view/stance.h"
 
 namespace vantage {
 

@@ -7,10 +7,10 @@
 
 #include "vantage/pipeline/shape_analysis.h"
 #include "vantage/spatial/mirror_symmetry.h"
-#include "vantage/view/stance.h"
 #include "vantage/visibility/vertex_visibility.h"
 
 #include "pipeline/coarse_surface.h"
+#include "view/stance.h"
 
 /// \file
 /// What views of a surface are looked for with, whatever its map: made beside the contraction.

@@ -14,7 +14,6 @@
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/measured_shape.h"
-#include "vantage/render/colour_map.h"
 #include "vantage/render/render.h"
 #include "vantage/report/pictures.h"
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "vantage/io/write.h"
-#include "vantage/render/colour_map.h"
 #include "vantage/render/render.h"
 
 #include "core/parallel.h"

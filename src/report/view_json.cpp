@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/report/view_json.h"
-
 #include <array>
 #include <numbers>
 #include <string>
@@ -10,6 +8,7 @@
 
 #include "vantage/core/version.h"
 #include "vantage/io/write.h"
+#include "vantage/report/view_report.h"
 
 #include "pipeline/option_echo.h"
 

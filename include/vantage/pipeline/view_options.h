@@ -94,7 +94,7 @@ struct ViewOptions {
   bool pictures = true;                             ///< Whether view.json names pictures.
   /// Several views besides best and worst.
   std::optional<ViewSetRequest> view_set{};
-  /// Object whose significance alone counts, see focus.h; empty: all.
+  /// Object whose significance alone counts, see find_object(); empty: all.
   std::string focus{};
 };
 

@@ -7,7 +7,7 @@
 
 #include "vantage/mesh/measures.h"
 #include "vantage/report/pictures.h"
-#include "vantage/report/view_json.h"
+#include "vantage/report/view_report.h"
 
 #include "support/model_of.h"
 #include "support/shapes.h"

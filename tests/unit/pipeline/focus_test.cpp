@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/pipeline/focus.h"
-
 #include <gtest/gtest.h>
 
 #include "vantage/core/error.h"
 #include "vantage/pipeline/find_views.h"
+#include "vantage/pipeline/shape_analysis.h"
 
 #include "support/model_of.h"
 #include "support/shapes.h"

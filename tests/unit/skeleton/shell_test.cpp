@@ -8,9 +8,9 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "vantage/core/random.h"
 #include "vantage/mesh/measures.h"
 
+#include "core/random.h"
 #include "support/dense_oracles.h"
 #include "support/shapes.h"
 #include "support/skeletons.h"

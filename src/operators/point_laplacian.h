@@ -6,7 +6,8 @@
 #include <Eigen/SparseCore>
 
 #include "vantage/operators/cotangent_laplacian.h"
-#include "vantage/spatial/point_rings.h"
+
+#include "spatial/point_rings.h"
 
 namespace vantage {
 
