@@ -128,7 +128,7 @@ TEST(NormalMatrix, StaysSparseAtAVertexOfThousandsOfNeighbours) {
   EXPECT_LT((Eigen::MatrixXd(A) - lower).norm(), 1e-9 * lower.norm());
 }
 
-{
+TEST(SparseCholeskyFactorize, WorksAgainAfterAFailure) {
   SparseCholesky solver;
   solver.analyze(system_of_torus(1.0));
   ASSERT_FALSE(solver.factorize(system_of_torus(-1.0)));
