@@ -146,7 +146,10 @@ class StepSolver {
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto v = static_cast<std::size_t>(i);
       const double count = shares_.empty() ? 1.0 : shares_.count[v];
-      rows[i] = W_L * W_L / count;
+      // L has a symmetric pattern, so that columns are as wide as rows.
+      const bool is_wide =
+          L.outerIndexPtr()[i + 1] - L.outerIndexPtr()[i] > NormalMatrix::kWidestRow;
+      rows[i] = is_wide ? 0.0 : W_L * W_L / count;
       held[i] = count * W_H[v] * W_H[v];
     }
     Eigen::SparseMatrix<double>& A = normal_->assemble(L, rows, held);
