@@ -8,9 +8,9 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "vantage/core/random.h"
 #include "vantage/operators/cotangent_laplacian.h"
 
+#include "core/random.h"
 #include "operators/step_matrix.h"
 #include "support/shapes.h"
 
