@@ -60,7 +60,7 @@ class Extremes(ProgramTest):
             self.write("limit.obj", written("obj", corners))
             with self.subTest(size=size):
                 self.vantage("compare", "limit.obj", "-o", "compared", "--force")
-                table = (self.dir / "compared/comparison.csv").read_text(encoding="utf-8").lower()
+                table = (self.dir / "compared/compare.csv").read_text(encoding="utf-8").lower()
                 self.assertNotRegex(table, r"\b(nan|inf)\b")
                 self.vantage("figures", "limit.obj", "-o", "figures", "--force")
         for command in ("compare", "figures"):
