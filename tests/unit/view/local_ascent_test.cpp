@@ -56,6 +56,24 @@ TEST(Ascent, RecordsItsRoundsAsLevels) {
   EXPECT_EQ(cone.memo.trace().size(), 1U + 3U * 6U);
 }
 
+TEST(Ascent, EndsWhereARingIsFlat) {
+  // On the top the ring of 0.04 differs from it by 0.04, that of 0.02 by 0.02.
+  Cone cone;
+  std::vector<Candidate> starts{cone.at(kTop)};
+  ascend(starts, {.first_rad = 0.04, .last_rad = 0.001, .flat = 0.03}, cone.target, 1, {});
+  EXPECT_EQ(cone.memo.trace().size(), 1U + 2U * 6U);
+  EXPECT_NEAR(starts.front().spread, 0.02, 1e-6);
+}
+
+TEST(Ascent, GivesUpWhatCannotCatchUp) {
+  // On the other side of the sphere a ring of 0.1 differs by 0.2 at most, and the top is 3 away.
+  Cone cone;
+  std::vector<Candidate> starts{cone.at(kTop), cone.at(-kTop)};
+  ascend(starts, {.first_rad = 0.1, .last_rad = 0.01, .drops_losers = true}, cone.target, 1, {});
+  EXPECT_EQ(starts[0].direction, kTop);
+  EXPECT_EQ(cone.memo.trace().size(), 2U + 4U * 6U + 6U);
+}
+
 TEST(LargestApart, LeavesOutWhatIsNearALargerOne) {
   const Vec3 x = Vec3::UnitX();
   const Vec3 beside = Vec3(1.0, 0.05, 0.0).normalized();
