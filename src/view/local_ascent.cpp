@@ -87,7 +87,8 @@ void end_some(std::vector<Climb>& climbs, const AscentRules& rules) {
       const bool is_lesser =
           &other < &climb ? climb.at->value <= other.at->value : climb.at->value < other.at->value;
       climb.is_over |= &other != &climb && is_lesser &&
-                       angle_between(climb.at->direction, other.at->direction) < climb.width_rad;
+                       angle_between(climb.at->direction, other.at->direction) <
+                           std::min(climb.width_rad, other.width_rad);
     }
   }
 }
