@@ -35,7 +35,7 @@ struct SeenFace {
 enum class FaceDetail {
   Exact,
   ByCorners,  ///< All of a face of which the eye sees two corners, else nothing: an estimate, which
-              ///< takes a tenth of the time.
+              ///< takes a quarter of the time.
 };
 
 /// Everything that one look at a surface tells.
