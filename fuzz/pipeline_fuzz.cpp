@@ -9,7 +9,7 @@
 
 #include "vantage/core/error.h"
 #include "vantage/io/model.h"
-#include "vantage/report/view_report.h"
+#include "vantage/report/view_json.h"
 
 namespace {
 

@@ -14,7 +14,8 @@
 
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
-#include "vantage/report/view_report.h"
+#include "vantage/report/pictures.h"
+#include "vantage/report/view_json.h"
 
 #include "batch/archive_reader.h"
 #include "batch/content_hash.h"

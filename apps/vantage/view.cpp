@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "vantage/io/write.h"
+#include "vantage/pipeline/measured_shape.h"
 #include "vantage/report/html_report.h"
-#include "vantage/report/measured_shape.h"
-#include "vantage/report/view_report.h"
+#include "vantage/report/view_json.h"
 
 #include "commands.h"
 #include "measure_flags.h"

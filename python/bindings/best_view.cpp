@@ -2,7 +2,8 @@
 #include <numbers>
 #include <utility>
 
-#include "vantage/report/measured_shape.h"
+#include "vantage/pipeline/measured_shape.h"
+#include "vantage/report/view_json.h"
 #include "vantage/view/measure.h"
 
 #include "arrays.h"

@@ -15,11 +15,12 @@
 #include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
 #include "vantage/render/colour_map.h"
+#include "vantage/report/view_json.h"
 #include "vantage/spatial/directions.h"
 
 #include "io/base64.h"
+#include "pipeline/map_objective.h"
 #include "report/display_mesh.h"
-#include "report/map_objective.h"
 #include "report/report_page.h"
 
 namespace vantage {

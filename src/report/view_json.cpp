@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "vantage/report/view_json.h"
+
 #include <array>
 #include <numbers>
 #include <string>
@@ -8,9 +10,8 @@
 
 #include "vantage/core/version.h"
 #include "vantage/io/write.h"
-#include "vantage/report/view_report.h"
 
-#include "report/option_echo.h"
+#include "pipeline/option_echo.h"
 
 namespace vantage {
 namespace {

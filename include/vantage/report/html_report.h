@@ -5,8 +5,8 @@
 
 #include "vantage/core/run_context.h"
 #include "vantage/io/model.h"
-#include "vantage/report/shape_pictures.h"
-#include "vantage/report/view_report.h"
+#include "vantage/pipeline/find_views.h"
+#include "vantage/report/pictures.h"
 
 /// \file
 /// report.html: one self-contained page to explore a result in. docs/report.md describes it,

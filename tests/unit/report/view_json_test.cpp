@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "vantage/report/view_json.h"
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "vantage/report/view_report.h"
-
+#include "support/model_of.h"
 #include "support/shapes.h"
-#include "unit/report/model_of.h"
 
 namespace vantage::test {
 namespace {
