@@ -12,29 +12,37 @@ constexpr std::size_t kBands = 8;
 // An origin this far outside the box says nothing, over the box's side.
 constexpr double kFar = 0.6;
 
-constexpr std::array<std::string_view, 52> kUprightNames{
-    "base_touch",      "top_touch",        "base_hull",       "top_hull",        "base_margin",
-    "top_margin",      "base_contacts",    "top_contacts",    "base_depth",      "top_depth",
-    "base_relative",   "top_relative",     "base_detail",     "top_detail",      "base_flat",
-    "top_flat",        "height_least",     "height_most",     "area_height",     "vertex_height",
-    "mass_height",     "outline_height",   "mirror_level",    "mirror_least",    "mirror_most",
-    "half_turn",       "quarter_turn",     "parallel",        "perpendicular",   "parallel_rank",
-    "filled",          "side_touch_most",  "side_flat_most",  "side_detail",     "band_bottom",
-    "band_low",        "band_high",        "band_top",        "runs_bottom",     "runs_low",
-    "runs_high",       "runs_top",         "half_turn_side",  "foot_spread",     "head_spread",
-    "base_back",      "top_back",         "side_back",       "net",             "waist_depth",
-    "origin_height",  "origin_aside"};
+constexpr std::array<std::string_view, 59> kUprightNames{
+    "base_touch",    "top_touch",       "base_hull",      "top_hull",      "base_margin",
+    "top_margin",    "base_contacts",   "top_contacts",   "base_depth",    "top_depth",
+    "base_relative", "top_relative",    "base_detail",    "top_detail",    "base_flat",
+    "top_flat",      "height_least",    "height_most",    "area_height",   "vertex_height",
+    "mass_height",   "outline_height",  "mirror_level",   "mirror_least",  "mirror_most",
+    "half_turn",     "quarter_turn",    "parallel",       "perpendicular", "parallel_rank",
+    "filled",        "side_touch_most", "side_flat_most", "side_detail",   "band_bottom",
+    "band_low",      "band_high",       "band_top",       "runs_bottom",   "runs_low",
+    "runs_high",     "runs_top",        "half_turn_side", "foot_spread",   "head_spread",
+    "base_back",     "top_back",        "side_back",      "net",           "waist_depth",
+    "origin_height", "origin_aside",    "base_centre",    "base_rim",      "top_centre",
+    "top_rim",       "base_vertices",   "top_vertices",   "band_spread"};
 
-constexpr std::array<std::string_view, 41> kFrontNames{
-    "front_touch",    "back_touch",     "front_hull",      "back_hull",      "front_contacts",
-    "back_contacts",  "front_depth",    "back_depth",      "front_detail",   "back_detail",
-    "front_flat",     "back_flat",      "mirror_side",     "mirror_front",   "half_turn",
-    "width_over_depth", "height_over_depth", "area_ahead", "vertex_ahead",   "mass_ahead",
-    "outline_ahead",  "top_ahead",      "foot_ahead",      "middle_ahead",   "parallel_front",
-    "parallel_side",  "perpendicular_front", "foot_to_top", "high_ahead",    "front_height",
-    "back_height",    "foot_width_ahead", "top_width_ahead", "floor_touch",
-    "front_back",     "back_back",      "net_ahead",       "front_margin",   "back_margin",
-    "origin_ahead",   "origin_aside"};
+constexpr std::array<std::string_view, 47> kFrontNames{
+    "front_touch",      "back_touch",        "front_hull",
+    "back_hull",        "front_contacts",    "back_contacts",
+    "front_depth",      "back_depth",        "front_detail",
+    "back_detail",      "front_flat",        "back_flat",
+    "mirror_side",      "mirror_front",      "half_turn",
+    "width_over_depth", "height_over_depth", "area_ahead",
+    "vertex_ahead",     "mass_ahead",        "outline_ahead",
+    "top_ahead",        "foot_ahead",        "middle_ahead",
+    "parallel_front",   "parallel_side",     "perpendicular_front",
+    "foot_to_top",      "high_ahead",        "front_height",
+    "back_height",      "foot_width_ahead",  "top_width_ahead",
+    "floor_touch",      "front_back",        "back_back",
+    "net_ahead",        "front_margin",      "back_margin",
+    "origin_ahead",     "origin_aside",      "front_vertices",
+    "back_vertices",    "front_centre",      "back_centre",
+    "front_rim",        "back_rim"};
 
 /// A silhouette from the side, by bands of height from the ground.
 struct Bands {
@@ -89,14 +97,14 @@ double oriented(double share, AxisDirection direction) {
 /// Mean of what is between the lowest and the highest surface of each cell of a field, and of its
 /// cells, along one of the field's own coordinates or its heights; shares of the box's side.
 struct Columns {
-  double mass_along = 0.5;      ///< Mean height of the columns' mass.
-  double mass_u = 0.5;          ///< Mean place of their mass.
+  double mass_along = 0.5;  ///< Mean height of the columns' mass.
+  double mass_u = 0.5;      ///< Mean place of their mass.
   double mass_v = 0.5;
-  double outline_u = 0.5;       ///< Mean place of the filled cells.
+  double outline_u = 0.5;  ///< Mean place of the filled cells.
   double outline_v = 0.5;
-  double high_u = 0.5;          ///< Of those cells that reach the upper half from the given side.
+  double high_u = 0.5;  ///< Of those cells that reach the upper half from the given side.
   double high_v = 0.5;
-  double filled = 0.0;          ///< Share of the cells.
+  double filled = 0.0;  ///< Share of the cells.
 };
 
 Columns columns_of(const HeightField& field, bool up_is_positive) {
@@ -111,8 +119,8 @@ Columns columns_of(const HeightField& field, bool up_is_positive) {
     if (!field.is_filled(cell)) {
       continue;
     }
-    const double u = (static_cast<double>(cell % field.columns) + 0.5) /
-                     static_cast<double>(field.columns);
+    const double u =
+        (static_cast<double>(cell % field.columns) + 0.5) / static_cast<double>(field.columns);
     const double v =
         (static_cast<double>(cell / field.columns) + 0.5) / static_cast<double>(field.rows);
     const double low = field.low[cell];
@@ -144,7 +152,9 @@ Columns columns_of(const HeightField& field, bool up_is_positive) {
   return result;
 }
 
-double log_ratio(double a, double b) { return std::log2((a + 0.01) / (b + 0.01)); }
+double log_ratio(double a, double b) {
+  return std::log2((a + 0.01) / (b + 0.01));
+}
 
 }  // namespace
 
@@ -152,9 +162,13 @@ std::array<AxisDirection, 6> axis_directions() {
   return {{{0, true}, {0, false}, {1, true}, {1, false}, {2, true}, {2, false}}};
 }
 
-std::span<const std::string_view> upright_evidence_names() { return kUprightNames; }
+std::span<const std::string_view> upright_evidence_names() {
+  return kUprightNames;
+}
 
-std::span<const std::string_view> front_evidence_names() { return kFrontNames; }
+std::span<const std::string_view> front_evidence_names() {
+  return kFrontNames;
+}
 
 SideLooks::SideLooks(const TriMesh& surface) : fields_(surface) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -189,6 +203,12 @@ std::vector<double> SideLooks::upright_evidence(AxisDirection up) const {
       side_back += 0.25 * look_from(side).back;
       side_depth = std::min(side_depth, look_from(side).relative_depth);
     }
+  }
+  double narrowest = 1.0;
+  double widest = 0.0;
+  for (std::size_t band = 0; band < kBands; ++band) {
+    narrowest = std::min(narrowest, width(band));
+    widest = std::max(widest, width(band));
   }
   const double height = fields_.extent[up.axis];
   return {base.touch,
@@ -243,7 +263,14 @@ std::vector<double> SideLooks::upright_evidence(AxisDirection up) const {
           side_depth,
           std::clamp(oriented(fields_.origin[up.axis], up), -kFar, 1.0 + kFar),
           std::min(kFar, std::abs(fields_.origin[a] - 0.5)) +
-              std::min(kFar, std::abs(fields_.origin[b] - 0.5))};
+              std::min(kFar, std::abs(fields_.origin[b] - 0.5)),
+          base.centre_depth,
+          base.rim_depth,
+          top.centre_depth,
+          top.rim_depth,
+          up.is_positive ? fields_.vertex_low[up.axis] : fields_.vertex_high[up.axis],
+          up.is_positive ? fields_.vertex_high[up.axis] : fields_.vertex_low[up.axis],
+          widest - narrowest};
 }
 
 std::vector<double> SideLooks::front_evidence(AxisDirection up, AxisDirection front) const {
@@ -265,11 +292,10 @@ std::vector<double> SideLooks::front_evidence(AxisDirection up, AxisDirection fr
       continue;
     }
     const bool row_is_up = depths.v_axis == up.axis;
-    const double place =
-        row_is_up ? (static_cast<double>(cell / depths.columns) + 0.5) /
-                        static_cast<double>(depths.rows)
-                  : (static_cast<double>(cell % depths.columns) + 0.5) /
-                        static_cast<double>(depths.columns);
+    const double place = row_is_up ? (static_cast<double>(cell / depths.columns) + 0.5) /
+                                         static_cast<double>(depths.rows)
+                                   : (static_cast<double>(cell % depths.columns) + 0.5) /
+                                         static_cast<double>(depths.columns);
     const double height = oriented(place, up);
     const double limit = 0.25 * depths.extent;
     if (depths.depth(cell, front.is_positive) <= limit) {
@@ -327,14 +353,21 @@ std::vector<double> SideLooks::front_evidence(AxisDirection up, AxisDirection fr
           ahead.margin,
           behind.margin,
           std::clamp(oriented(fields_.origin[front.axis], front), -kFar, 1.0 + kFar),
-          std::min(kFar, std::abs(fields_.origin[side] - 0.5))};
+          std::min(kFar, std::abs(fields_.origin[side] - 0.5)),
+          front.is_positive ? fields_.vertex_high[front.axis] : fields_.vertex_low[front.axis],
+          front.is_positive ? fields_.vertex_low[front.axis] : fields_.vertex_high[front.axis],
+          ahead.centre_depth,
+          behind.centre_depth,
+          ahead.rim_depth,
+          behind.rim_depth};
 }
 
-double SideLooks::turn_error(AxisDirection up, AxisDirection front, AxisDirection other) const {
+double SideLooks::difference(AxisDirection up, AxisDirection front, AxisDirection other) const {
   if (front == other) {
     return 0.0;
   }
-  return front.axis == other.axis ? half_turn_[up.axis] : quarter_turn_[up.axis];
+  return front.axis == other.axis ? std::min(half_turn_[up.axis], mirror_[front.axis])
+                                  : quarter_turn_[up.axis];
 }
 
 }  // namespace vantage

@@ -17,6 +17,7 @@ struct AxisDirection {
   bool is_positive = true;
 
   [[nodiscard]] AxisDirection opposite() const { return {axis, !is_positive}; }
+
   friend bool operator==(const AxisDirection&, const AxisDirection&) = default;
 };
 
@@ -37,8 +38,9 @@ class SideLooks {
   [[nodiscard]] std::vector<double> upright_evidence(AxisDirection up) const;
   /// Evidence for a direction being the front, if `up` is up. \pre they have different axes.
   [[nodiscard]] std::vector<double> front_evidence(AxisDirection up, AxisDirection front) const;
-  /// Mean difference of the surface turned about `up` so that `front` comes to lie on `other`.
-  [[nodiscard]] double turn_error(AxisDirection up, AxisDirection front, AxisDirection other) const;
+  /// How much the surface changes when it is turned about `up` so that `front` comes to lie on
+  /// `other`, or mirrored so; in [0, 1]. \pre both have another axis than `up`.
+  [[nodiscard]] double difference(AxisDirection up, AxisDirection front, AxisDirection other) const;
 
  private:
   [[nodiscard]] const SideLook& look_from(AxisDirection side) const {

@@ -17,6 +17,8 @@ constexpr double kCells = 64.0;
 // cos of 10 degrees, and of 80.
 constexpr double kParallel = 0.985;
 constexpr double kPerpendicular = 0.174;
+// Of a side, what its ends are.
+constexpr double kEnd = 0.1;
 // What is nearer to the border of two cells than this share of a cell belongs to both, so that a
 // mirrored surface has the mirrored field.
 constexpr double kBorder = 1e-6;
@@ -69,8 +71,8 @@ class FieldPainter {
                                static_cast<double>(field_.rows - 1));
     for (double row = std::max(0.0, std::ceil(low.y())); row <= std::min(last.y(), high.y());
          row += 1.0) {
-      for (double column = std::max(0.0, std::ceil(low.x())); column <= std::min(last.x(), high.x());
-           column += 1.0) {
+      for (double column = std::max(0.0, std::ceil(low.x()));
+           column <= std::min(last.x(), high.x()); column += 1.0) {
         const Eigen::Vector2d here(column, row);
         std::array<double, 3> share{};
         for (std::size_t i = 0; i < 3; ++i) {
@@ -187,6 +189,12 @@ HeightFields::HeightFields(const TriMesh& surface) {
     origin[k] = box.size()[i] > 0.0 ? -box.low[i] / box.size()[i] : 0.5;
     vertex_mean[k] = extent[k] > 0.0 ? mean[i] / extent[k] : 0.5;
     area_mean[k] = extent[k] > 0.0 ? centre[i] / extent[k] : 0.5;
+    for (const Vec3& p : used) {
+      const double place = (p[i] - box.low[i]) * unit;
+      vertex_low[k] += place < kEnd * extent[k] ? 1.0 / static_cast<double>(used.size()) : 0.0;
+      vertex_high[k] +=
+          place > (1.0 - kEnd) * extent[k] ? 1.0 / static_cast<double>(used.size()) : 0.0;
+    }
     parallel[k] = area > 0.0 ? parallel[k] / area : 0.0;
     net[k] = area > 0.0 ? net[k] / area : 0.0;
     perpendicular[k] = area > 0.0 ? perpendicular[k] / area : 0.0;

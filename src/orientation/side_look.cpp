@@ -2,6 +2,7 @@
 #include "orientation/side_look.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -105,6 +106,29 @@ void add_corners(const HeightField& field, const Vec2& cell_size, std::size_t ce
   }
 }
 
+/// Depths in the middle of the box, and along its border.
+struct Zones {
+  std::array<double, 2> sum{};
+  std::array<double, 2> count{};
+
+  [[nodiscard]] double mean(std::size_t zone, double extent) const {
+    return count[zone] > 0.0 && extent > 0.0 ? sum[zone] / count[zone] / extent : 1.0;
+  }
+};
+
+void add_to_zones(const HeightField& field, std::size_t cell, double depth, Zones& zones) {
+  const double u =
+      (static_cast<double>(cell % field.columns) + 0.5) / static_cast<double>(field.columns);
+  const double v =
+      (static_cast<double>(cell / field.columns) + 0.5) / static_cast<double>(field.rows);
+  const double off = std::max(std::abs(u - 0.5), std::abs(v - 0.5));
+  if (off < 1.0 / 6.0 || off > 1.0 / 3.0) {
+    const std::size_t zone = off < 1.0 / 6.0 ? 0 : 1;
+    zones.sum[zone] += depth;
+    zones.count[zone] += 1.0;
+  }
+}
+
 /// Adds up the steps between neighbouring filled cells.
 void look_at_steps(const HeightField& field, bool from_high, SideLook& look) {
   double steps = 0.0;
@@ -143,9 +167,7 @@ class Differences {
     }
   }
 
-  [[nodiscard]] double mean() const {
-    return count_ > 0.0 ? sum_ / count_ / kLargestStep : 0.0;
-  }
+  [[nodiscard]] double mean() const { return count_ > 0.0 ? sum_ / count_ / kLargestStep : 0.0; }
 
  private:
   double count_ = 0.0;
@@ -179,6 +201,7 @@ SideLook side_look(const HeightFields& fields, std::size_t axis, bool from_high)
   std::vector<Vec2> base;
   double filled = 0.0;
   double touched = 0.0;
+  Zones zones;
   for (std::size_t cell = 0; cell < touching.size(); ++cell) {
     if (!field.is_filled(cell)) {
       continue;
@@ -186,6 +209,7 @@ SideLook side_look(const HeightFields& fields, std::size_t axis, bool from_high)
     filled += 1.0;
     const double depth = field.depth(cell, from_high);
     look.depth += depth;
+    add_to_zones(field, cell, depth, zones);
     look.back += (from_high ? field.high_is_back : field.low_is_back)[cell] != 0 ? 1.0 : 0.0;
     add_corners(field, cell_size, cell, outline);
     if (depth <= reach) {
@@ -198,6 +222,8 @@ SideLook side_look(const HeightFields& fields, std::size_t axis, bool from_high)
     return look;
   }
   look.touch = touched / filled;
+  look.centre_depth = zones.mean(0, field.extent);
+  look.rim_depth = zones.mean(1, field.extent);
   look.depth /= filled;
   look.back /= filled;
   look.relative_depth = field.extent > 0.0 ? look.depth / field.extent : 0.0;
@@ -208,8 +234,8 @@ SideLook side_look(const HeightFields& fields, std::size_t axis, bool from_high)
                     fields.area_mean[field.v_axis] * fields.extent[field.v_axis]);
   look.margin =
       whole > 0.0 ? std::clamp(depth_inside(hull, centre) / std::sqrt(whole), -0.5, 0.5) : 0.0;
-  look.contacts = std::log2(
-      1.0 + static_cast<double>(patches(std::move(touching), field.columns, field.rows)));
+  look.contacts =
+      std::log2(1.0 + static_cast<double>(patches(std::move(touching), field.columns, field.rows)));
   look_at_steps(field, from_high, look);
   return look;
 }

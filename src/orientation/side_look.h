@@ -13,9 +13,11 @@ struct SideLook {
   double contacts = 0.0;    ///< log2 of 1 + the number of separate patches that touch.
   double depth = 0.0;       ///< Mean depth behind the side of the box, over the longest side.
   double relative_depth = 0.0;  ///< The same over the box's depth.
-  double detail = 0.0;      ///< Mean step of depth from cell to cell, over the longest side.
-  double back = 0.0;        ///< Share of the outline that shows the back of a face.
-  double flat = 0.0;        ///< Share of steps of next to no depth.
+  double centre_depth = 0.0;  ///< Mean in the inner third of the outline's box, over the depth …
+  double rim_depth = 0.0;     ///< … and in its border of a sixth all around.
+  double detail = 0.0;        ///< Mean step of depth from cell to cell, over the longest side.
+  double back = 0.0;          ///< Share of the outline that shows the back of a face.
+  double flat = 0.0;          ///< Share of steps of next to no depth.
 };
 
 /// \param axis 0, 1 or 2. \param from_high from the side of larger coordinates.
