@@ -67,7 +67,7 @@ def softmax(scores):
 class Boosting:
     """Trees of few leaves, each split where it gains most, fitted one after the other."""
 
-    def __init__(self, rounds, leaves, rate=0.25, ridge=3.0, fewest=12, bins=24, share=0.4, seed=1):
+    def __init__(self, rounds, leaves, rate=0.25, ridge=3.0, fewest=30, bins=24, share=0.4, seed=1):
         self.rounds, self.leaves, self.rate, self.ridge = rounds, leaves, rate, ridge
         self.fewest, self.bins, self.share, self.seed = fewest, bins, share, seed
         self.trees = []
@@ -164,6 +164,18 @@ def numbers_in(tree):
     return 1 if not isinstance(tree, tuple) else 1 + numbers_in(tree[2]) + numbers_in(tree[3])
 
 
+def without_origin(task_inputs, names, of_front):
+    """Copies as if the origin were in the middle, and as if it were far away: models come moved, too."""
+    height = names.index("origin_ahead" if of_front else "origin_height")
+    aside = names.index("origin_aside")
+    copies = []
+    for far in (0.0, 0.6 if of_front else 1.2):  # kFar of src/orientation/evidence.cpp
+        copy = task_inputs.copy()
+        copy[:, :, height], copy[:, :, aside] = 0.5, far
+        copies.append(copy)
+    return copies
+
+
 class Task:
     """Up, or the front if up is known: inputs, what is right, and which candidates look alike."""
 
@@ -189,7 +201,10 @@ class Task:
                         if b // 2 != a // 2:
                             same[a, b] = by_axis[ring[a]]["side_difference"] < ALIKE
                 alike.append(same)
-        self.inputs = widened(np.array(inputs))
+        plain = np.array(inputs)
+        names = rows[0]["features"][("front" if of_front else "up") + "_features"]
+        self.inputs = widened(plain)
+        self.moved = [widened(copy) for copy in without_origin(plain, names, of_front)]
         self.truth = np.array(truth)
         self.alike = np.array(alike)
         self.right = self.alike[np.arange(len(truth)), self.truth]  # models x candidates
@@ -203,11 +218,20 @@ class Task:
 
     def left_out_scores(self, make):
         scores = np.zeros(self.inputs.shape[:2])
+        moved = np.zeros(self.inputs.shape[:2])
         for fold in range(FOLDS):
             fit = self.fold != fold
-            model = make().fit(self.inputs[fit], self.target[fit], self.weight[fit])
+            model = self.fitted(make, fit)
             scores[~fit] = model.scores(self.inputs[~fit])
+            moved[~fit] = model.scores(self.moved[1][~fit])
+        print(f"  origin far away: {self.right[np.arange(len(moved)), moved.argmax(1)][self.catalogue].mean():.3f} "
+              "of the catalogue by the shape alone")
         return scores
+
+    def fitted(self, make, mask):
+        inputs = np.concatenate([self.inputs[mask]] + [copy[mask] for copy in self.moved])
+        return make().fit(inputs, np.tile(self.target[mask], (3, 1)),
+                          np.concatenate([self.weight[mask] / 2] + [self.weight[mask] / 4] * 2))
 
     def decided(self, scores, witness, threshold):
         """For each convention (candidate): the candidate taken, and its confidence."""
@@ -286,7 +310,7 @@ def main():
 
         scores = task.left_out_scores(make)
         witness, threshold = task.choose_rule(scores)
-        model = make().fit(task.inputs, task.target, task.weight)
+        model = task.fitted(make, np.ones(len(task.rows), bool))
         size = sum(numbers_in(tree) for tree in model.trees)
         print(f"{subject}: {len(task.rows)} models, {size} numbers, witness {witness:g}, threshold {threshold:g}")
         describe(task, scores, witness, threshold)

@@ -9,7 +9,7 @@ namespace {
 
 // A silhouette is cut into so many bands across the height.
 constexpr std::size_t kBands = 8;
-// An origin this far outside the box says nothing, over the box's side.
+// An origin this far from the box's centre says nothing, over the box's side.
 constexpr double kFar = 0.6;
 
 constexpr std::array<std::string_view, 59> kUprightNames{
@@ -171,6 +171,8 @@ std::span<const std::string_view> front_evidence_names() {
 }
 
 SideLooks::SideLooks(const TriMesh& surface) : fields_(surface) {
+  knows_origin_ = std::all_of(fields_.origin.begin(), fields_.origin.end(),
+                              [](double share) { return std::abs(share - 0.5) <= kFar; });
   for (std::size_t axis = 0; axis < 3; ++axis) {
     looks_[2 * axis] = side_look(fields_, axis, true);
     looks_[2 * axis + 1] = side_look(fields_, axis, false);
@@ -261,9 +263,9 @@ std::vector<double> SideLooks::upright_evidence(AxisDirection up) const {
           side_back,
           up.is_positive ? fields_.net[up.axis] : -fields_.net[up.axis],
           side_depth,
-          std::clamp(oriented(fields_.origin[up.axis], up), -kFar, 1.0 + kFar),
-          std::min(kFar, std::abs(fields_.origin[a] - 0.5)) +
-              std::min(kFar, std::abs(fields_.origin[b] - 0.5)),
+          knows_origin_ ? oriented(fields_.origin[up.axis], up) : 0.5,
+          knows_origin_ ? std::abs(fields_.origin[a] - 0.5) + std::abs(fields_.origin[b] - 0.5)
+                        : 2.0 * kFar,
           base.centre_depth,
           base.rim_depth,
           top.centre_depth,
@@ -352,8 +354,8 @@ std::vector<double> SideLooks::front_evidence(AxisDirection up, AxisDirection fr
           front.is_positive ? fields_.net[front.axis] : -fields_.net[front.axis],
           ahead.margin,
           behind.margin,
-          std::clamp(oriented(fields_.origin[front.axis], front), -kFar, 1.0 + kFar),
-          std::min(kFar, std::abs(fields_.origin[side] - 0.5)),
+          knows_origin_ ? oriented(fields_.origin[front.axis], front) : 0.5,
+          knows_origin_ ? std::abs(fields_.origin[side] - 0.5) : kFar,
           front.is_positive ? fields_.vertex_high[front.axis] : fields_.vertex_low[front.axis],
           front.is_positive ? fields_.vertex_low[front.axis] : fields_.vertex_high[front.axis],
           ahead.centre_depth,

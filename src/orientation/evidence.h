@@ -48,6 +48,7 @@ class SideLooks {
   }
 
   HeightFields fields_;
+  bool knows_origin_ = false;  ///< The coordinates' origin is in the box, or near it.
   std::array<SideLook, 6> looks_{};
   std::array<double, 3> mirror_{};
   std::array<double, 3> half_turn_{};
