@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
-#include <numbers>
+#include <string>
 
 #include <gtest/gtest.h>
 
+#include "vantage/core/error.h"
 #include "vantage/pipeline/find_views.h"
 
 #include "support/model_of.h"
@@ -12,54 +12,70 @@
 namespace vantage::test {
 namespace {
 
-/// A cone that stands on z = 0 and points to +z.
-TriMesh cone() {
-  TriMesh mesh = cylinder(1.0, 2.0, 32, 4);
-  for (Vec3& p : mesh.positions) {
-    p.x() *= 1.0 - 0.45 * p.z();
-    p.y() *= 1.0 - 0.45 * p.z();
+/// A table that stands on z = 0.
+TriMesh table() {
+  TriMesh mesh;
+  mesh = together(mesh, box(2.0, 1.0, 0.1, 4), {0.0, 0.0, 0.8});
+  for (const double x : {0.0, 1.9}) {
+    for (const double y : {0.0, 0.9}) {
+      mesh = together(mesh, box(0.1, 0.1, 0.8, 2), {x, y, 0.0});
+    }
   }
   return mesh;
 }
 
-UpChoice choice_for(const TriMesh& mesh, ModelFormat format, const ViewOptions& options = {}) {
+FrameChoice choice_for(const TriMesh& mesh, ModelFormat format, const ViewOptions& options = {}) {
   Model model = model_of(mesh);
   model.format = format;
-  return choose_up(model, prepare_surface(model), options);
+  return choose_frame(model, prepare_surface(model), options);
 }
 
-TEST(UpChoice, IsWhatTheModelStandsOnAndSaysSo) {
-  const UpChoice up = choice_for(cone(), ModelFormat::Ply);
-  EXPECT_EQ(up.axis, UpAxis::Z);
-  EXPECT_EQ(up.source, "stance");
-  EXPECT_NE(up.note.find("--up y"), std::string::npos);
+TEST(FrameChoice, IsTheFormatsWhereItsHabitHolds) {
+  const FrameChoice choice = choice_for(table(), ModelFormat::Stl);
+  EXPECT_EQ(choice.frame.up, UpAxis::Z);
+  EXPECT_EQ(choice.orientation.up.source, "format");
 }
 
-TEST(UpChoice, OfAnStlMayBeY) {
-  const double quarter = -0.5 * std::numbers::pi;  // turns z to y
-  const TriMesh y_up = moved(cone(), 1.0, quarter, Vec3::UnitX(), Vec3::Zero());
-  EXPECT_EQ(choice_for(y_up, ModelFormat::Stl).axis, UpAxis::Y);
-  EXPECT_EQ(choice_for(cone(), ModelFormat::Stl).source, "format");
+TEST(FrameChoice, OfABoxIsTheFormats) {
+  const FrameChoice choice = choice_for(box(1.0, 1.0, 1.0, 4), ModelFormat::Ply);
+  EXPECT_EQ(choice.frame.up, UpAxis::Y);
+  EXPECT_EQ(choice.frame.front, UpAxis::Z);
+  EXPECT_EQ(choice.orientation.up.source, "format");
+  EXPECT_TRUE(choice.notes.empty());
 }
 
-TEST(UpChoice, IsTheFormatsWhenBothWaysStand) {
-  const UpChoice up = choice_for(box(1.0, 2.0, 3.0, 4), ModelFormat::Ply);
-  EXPECT_EQ(up.axis, UpAxis::Y);
-  EXPECT_EQ(up.source, "format");
-  EXPECT_EQ(up.note, "");
+TEST(FrameChoice, IsTheFormatsUpForGltfWhateverTheShape) {
+  EXPECT_EQ(choice_for(table(), ModelFormat::Glb).frame.up, UpAxis::Y);
+  EXPECT_EQ(choice_for(table(), ModelFormat::Gltf).frame.up, UpAxis::Y);
 }
 
-TEST(UpChoice, IsTheFormatsForGltfWhateverTheStance) {
-  EXPECT_EQ(choice_for(cone(), ModelFormat::Glb).axis, UpAxis::Y);
-  EXPECT_EQ(choice_for(cone(), ModelFormat::Gltf).axis, UpAxis::Y);
-}
-
-TEST(UpChoice, IsTheUsersWhateverTheStance) {
+TEST(FrameChoice, IsTheUsersWhateverTheShape) {
   ViewOptions options;
   options.up = UpAxis::MinusX;
-  const UpChoice up = choice_for(cone(), ModelFormat::Ply, options);
-  EXPECT_EQ(up.axis, UpAxis::MinusX);
-  EXPECT_EQ(up.source, "given");
+  options.front = UpAxis::Y;
+  const FrameChoice choice = choice_for(table(), ModelFormat::Ply, options);
+  EXPECT_EQ(choice.frame.up, UpAxis::MinusX);
+  EXPECT_EQ(choice.frame.front, UpAxis::Y);
+  EXPECT_EQ(choice.orientation.up.source, "given");
+  EXPECT_EQ(frame_summary(choice), "up: -x, as given; front: y, as given");
+}
+
+TEST(FrameChoice, RefusesUpAndFrontOfOneAxis) {
+  ViewOptions options;
+  options.up = UpAxis::Y;
+  options.front = UpAxis::MinusY;
+  EXPECT_THROW((void)choice_for(table(), ModelFormat::Ply, options), InvalidInput);
+}
+
+TEST(FrameChoice, SaysWhatItIsUnsureOfAndHowToSetIt) {
+  for (const ModelFormat format : {ModelFormat::Ply, ModelFormat::Stl}) {
+    const FrameChoice choice = choice_for(table(), format);
+    const DirectionChoice& up = choice.orientation.up;
+    const bool is_plain = up.source == "format" && up.confidence >= 0.5;
+    const bool speaks_of_up =
+        !choice.notes.empty() && choice.notes.front().find("--up") != std::string::npos;
+    EXPECT_EQ(speaks_of_up, !is_plain);
+  }
 }
 
 }  // namespace
