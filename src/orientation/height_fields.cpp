@@ -42,7 +42,9 @@ class FieldPainter {
   FieldPainter(HeightField& field, const std::array<double, 3>& extent)
       : field_(field),
         u_scale_(scale(field.columns, extent[field.u_axis])),
-        v_scale_(scale(field.rows, extent[field.v_axis])) {}
+        v_scale_(scale(field.rows, extent[field.v_axis])),
+        low_face_(field.low),
+        high_face_(field.high) {}
 
   void point(const Vec3& p) {
     const CellRange u = cells_at(p[at(field_.u_axis)] * u_scale_, field_.columns);
@@ -107,15 +109,26 @@ class FieldPainter {
     const auto value = static_cast<float>(std::clamp(height, 0.0, field_.extent));
     float& low = field_.low[cell];
     float& high = field_.high[cell];
-    // Of two sides of a sheet the one that is turned to the eye is seen.
-    if (is_down && (low < 0.0F || value < low - kSheet)) {
-      field_.low_is_back[cell] = *is_down ? 0 : 1;
-    } else if (is_down && *is_down && value < low + kSheet) {
+    if (is_down) {
+      look_at_face(cell, value, *is_down);
+    }
+    low = low < 0.0F ? value : std::min(low, value);
+    high = std::max(high, value);
+  }
+
+  /// Which side of the lowest and of the highest face shows, whatever order they come in. Of the two
+  /// sides of a sheet it is the one that is turned to the eye.
+  void look_at_face(std::size_t cell, float value, bool is_down) {
+    float& low = low_face_[cell];
+    float& high = high_face_[cell];
+    if (low < 0.0F || value < low - kSheet) {
+      field_.low_is_back[cell] = is_down ? 0 : 1;
+    } else if (is_down && value < low + kSheet) {
       field_.low_is_back[cell] = 0;
     }
-    if (is_down && value > high + kSheet) {
-      field_.high_is_back[cell] = *is_down ? 1 : 0;
-    } else if (is_down && !*is_down && value > high - kSheet) {
+    if (value > high + kSheet) {
+      field_.high_is_back[cell] = is_down ? 1 : 0;
+    } else if (!is_down && value > high - kSheet) {
       field_.high_is_back[cell] = 0;
     }
     low = low < 0.0F ? value : std::min(low, value);
@@ -125,6 +138,8 @@ class FieldPainter {
   HeightField& field_;
   double u_scale_;
   double v_scale_;
+  std::vector<float> low_face_;  // of faces at cells' centres alone, without edges
+  std::vector<float> high_face_;
 };
 
 std::size_t cells_of(double extent) {

@@ -154,10 +154,15 @@ class Sidecars(ProgramTest):
 
     def test_a_manifest_may_name_the_front(self):
         self.write("a.obj", obj())
-        self.write("list.jsonl", '{"path": "a.obj", "up": "y", "front": "-z"}\n{"path": "a.obj", "key": "k", "front": "w"}\n')
-        done = self.vantage("batch", "--manifest", "list.jsonl", "-o", "out", "--write", "json", exit_code=4)
-        self.assertIn('"front" that is none of', done.err + (self.dir / "out").name + self.vantage(
-            "results", "export", "out", "--format", "jsonl").out.replace("\\", ""))
+        self.write("list.jsonl", '{"path": "a.obj", "up": "y", "front": "-z"}\n{"path": "b.obj", "front": "w"}\n')
+        self.vantage("batch", "--manifest", "list.jsonl", "-o", "out", "--write", "json", exit_code=4)
+        rows = [json.loads(line) for line in
+                self.vantage("results", "export", "out", "--format", "jsonl").out.splitlines()]
+        errors = {row["key"]: row["error"] for row in rows}
+        self.assertEqual(errors["a.obj"], "")
+        self.assertIn('has a "front" that is none of', errors["b.obj"])
+        found = json.loads((self.dir / "out" / rows[0]["folder"] / "view.json").read_text())
+        self.assertEqual((found["front"], found["front_source"]), ("-z", "given"))
 
     def test_a_sidecar_that_is_not_as_it_should_be_ends_in_one_sentence(self):
         self.write("a.obj", obj())
