@@ -52,8 +52,10 @@ struct ModelFrame {
   UpAxis front = UpAxis::Z;  ///< Toward a viewer in front; at right angles to up.
 
   ModelFrame() = default;
+
   ModelFrame(UpAxis its_up)  // NOLINT(google-explicit-constructor)
       : up(its_up), front(default_front(its_up)) {}
+
   ModelFrame(UpAxis its_up, UpAxis its_front) : up(its_up), front(its_front) {}
 };
 
