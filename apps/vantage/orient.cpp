@@ -162,10 +162,10 @@ void add_orient_command(CLI::App& program, Session& session) {
   add_command<OrientCommand>(program, session, "orient",
                              "which way is up, which side is the front; turns a model so",
                              "Examples:\n"
-                             "  vantage orient scan.stl\n"
-                             "  vantage orient chair.obj -o upright.obj\n"
-                             "  vantage orient chair.glb -o upright.glb --front -z\n"
-                             "  vantage orient chair.glb --print");
+                             "  vantage orient part.stl\n"
+                             "  vantage orient scene.obj -o upright.obj\n"
+                             "  vantage orient scene.obj -o turned.obj --up y --front=-z\n"
+                             "  vantage orient part.stl --print");
 }
 
 }  // namespace vantage::cli
