@@ -84,6 +84,7 @@ def best_view(
     distance: Optional[float] = None,
     fov: Optional[float] = None,
     up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
+    front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
     search: Optional[Literal["rapid", "exhaustive", "global", "dense", "gradient"]] = None,
     base: Optional[Literal["cube", "icosahedron"]] = None,
     subdivisions: Optional[int] = None,
@@ -182,6 +183,7 @@ def vertex_map(
     distance: Optional[float] = None,
     fov: Optional[float] = None,
     up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
+    front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
 ) -> Floats: ...
 def visible_vertices(
     model: _Subject,
@@ -196,6 +198,7 @@ def visible_vertices(
     distance: Optional[float] = None,
     fov: Optional[float] = None,
     up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
+    front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
 ) -> Flags: ...
 def score(
     model: _Subject,
@@ -234,6 +237,7 @@ def score(
     distance: Optional[float] = None,
     fov: Optional[float] = None,
     up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
+    front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
 ) -> Any: ...
 def render(
     model: _Subject,
@@ -269,6 +273,7 @@ def render(
     distance: Optional[float] = None,
     fov: Optional[float] = None,
     up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
+    front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
     search: Optional[Literal["rapid", "exhaustive", "global", "dense", "gradient"]] = None,
     base: Optional[Literal["cube", "icosahedron"]] = None,
     subdivisions: Optional[int] = None,
