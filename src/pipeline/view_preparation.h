@@ -11,7 +11,6 @@
 #include "vantage/visibility/vertex_visibility.h"
 
 #include "pipeline/coarse_surface.h"
-#include "view/stance.h"
 
 /// \file
 /// What views of a surface are looked for with, whatever its map: made beside the contraction.
