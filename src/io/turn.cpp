@@ -137,8 +137,8 @@ std::string turned_binary_stl(std::string_view bytes, const AxisTurn& turn) {
 
 std::string turned_gltf_text(std::string_view text, std::string_view name, const AxisTurn& turn,
                              int indent) {
-  using Json = nlohmann::ordered_json;
-  Json root = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  using OrderedJson = nlohmann::ordered_json;
+  OrderedJson root = OrderedJson::parse(text, nullptr, /*allow_exceptions=*/false);
   const auto fail = [&](const char* problem) {
     throw FormatError(std::string(name), "JSON", problem);
   };
@@ -149,16 +149,16 @@ std::string turned_gltf_text(std::string_view text, std::string_view name, const
       !root["nodes"].is_array()) {
     fail("has no scene to turn");
   }
-  for (Json& scene : root["scenes"]) {
+  for (OrderedJson& scene : root["scenes"]) {
     if (!scene.is_object() || !scene.contains("nodes") || !scene["nodes"].is_array() ||
         scene["nodes"].empty()) {
       continue;
     }
     root["nodes"].push_back(
         {{"name", "upright"}, {"rotation", turn.quaternion()}, {"children", scene["nodes"]}});
-    scene["nodes"] = Json::array({root["nodes"].size() - 1});
+    scene["nodes"] = OrderedJson::array({root["nodes"].size() - 1});
   }
-  return root.dump(indent, ' ', false, Json::error_handler_t::replace);
+  return root.dump(indent, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 std::string turned_glb(std::string_view bytes, std::string_view name, const AxisTurn& turn) {
