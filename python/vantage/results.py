@@ -92,7 +92,7 @@ class View(_Record):
     score_fraction: float
     """score / total, in [0, 1]; NaN for measures without a total."""
     objective: float
-    """What the search compared: the score times the prior."""
+    """What the search compared: the score, or how likely people take this view."""
     visible_area_fraction: float
     """Of the surface, in [0, 1]."""
     camera: Camera
@@ -132,7 +132,7 @@ class BestView(_Record):
     best: View
     """Of the largest objective."""
     worst: View
-    """Of the least score; no prior applies."""
+    """Of the least score."""
     views: Tuple[View, ...]
     """The set, in order of choice, if views= or coverage= asked for one; else empty."""
     tour: Optional[Integers]

@@ -59,7 +59,10 @@ std::vector<AxisDirection> around(AxisDirection up) {
   return ring;
 }
 
-std::vector<double> softmax(std::vector<double> scores) {
+/// Probabilities of candidates, the convention's favoured by the witness.
+std::vector<double> odds_of(std::vector<double> scores, std::size_t usual,
+                            const CandidateModel& model) {
+  scores[usual] += model.witness;
   const double most = *std::max_element(scores.begin(), scores.end());
   double sum = 0.0;
   for (double& score : scores) {
@@ -73,12 +76,12 @@ std::vector<double> softmax(std::vector<double> scores) {
 }
 
 /// Chooses among candidates.
-/// \param usual index of the convention's. \param alike whether two of them cannot be told apart.
+/// \param odds of each. \param usual index of the convention's.
+/// \param alike whether two of them cannot be told apart.
 template <class Alike>
-DirectionChoice choose(const std::vector<AxisDirection>& candidates, std::vector<double> scores,
-                       std::size_t usual, const CandidateModel& model, Alike&& alike) {
-  scores[usual] += model.witness;
-  const std::vector<double> odds = softmax(std::move(scores));
+DirectionChoice choose(const std::vector<AxisDirection>& candidates,
+                       const std::vector<double>& odds, std::size_t usual,
+                       const CandidateModel& model, Alike&& alike) {
   std::vector<double> confidence(odds.size(), 0.0);  // of the candidate or one that looks like it
   for (std::size_t a = 0; a < odds.size(); ++a) {
     for (std::size_t b = 0; b < odds.size(); ++b) {
@@ -189,8 +192,9 @@ DirectionChoice find_up(const SideLooks& looks, const OrientationRequest& reques
   if (found == candidates.end()) {  // the front given is the convention's up
     throw InvalidInput("the front is along the up axis: give the up axis, too");
   }
+  const auto usual_index = static_cast<std::size_t>(found - candidates.begin());
   DirectionChoice choice = choose(
-      candidates, up_model().scores(values), static_cast<std::size_t>(found - candidates.begin()),
+      candidates, odds_of(up_model().scores(values), usual_index, up_model()), usual_index,
       up_model(), [&](AxisDirection a, AxisDirection b) {
         const AxisDirection about{a.axis == b.axis ? (a.axis + 1) % 3 : 3 - a.axis - b.axis, true};
         return looks.difference(about, a, b) < kAlike;
@@ -199,11 +203,13 @@ DirectionChoice find_up(const SideLooks& looks, const OrientationRequest& reques
   return choice;
 }
 
-DirectionChoice find_front(const SideLooks& looks, const Vec3& up_vector,
-                           const OrientationRequest& request) {
+/// Sets the front and the odds of all sides. \pre result.up
+void find_front(const SideLooks& looks, const OrientationRequest& request, Orientation& result) {
   if (request.front) {
-    return known(*request.front, "given");
+    result.front = known(*request.front, "given");
+    return;
   }
+  const Vec3& up_vector = result.up.direction;
   const AxisDirection up = axis_of(up_vector);
   const AxisDirection usual = axis_of(upright_frame(up_vector).front);
   const std::vector<AxisDirection> candidates = around(up);
@@ -213,12 +219,19 @@ DirectionChoice find_front(const SideLooks& looks, const Vec3& up_vector,
     values.push_back(looks.front_evidence(up, front));
   }
   const auto found = std::find(candidates.begin(), candidates.end(), usual);
-  DirectionChoice choice =
-      choose(candidates, front_model().scores(values),
-             static_cast<std::size_t>(found - candidates.begin()), front_model(),
+  const auto usual_index = static_cast<std::size_t>(found - candidates.begin());
+  const std::vector<double> odds =
+      odds_of(front_model().scores(values), usual_index, front_model());
+  result.front =
+      choose(candidates, odds, usual_index, front_model(),
              [&](AxisDirection a, AxisDirection b) { return looks.difference(up, a, b) < kAlike; });
-  choice.reasons = reasons_for_front(looks, up, axis_of(choice.likeliest));
-  return choice;
+  result.front.reasons = reasons_for_front(looks, up, axis_of(result.front.likeliest));
+  Vec3 side = result.front.direction;
+  for (double& of_side : result.front_odds) {
+    const auto at = std::find(candidates.begin(), candidates.end(), axis_of(side));
+    of_side = odds[static_cast<std::size_t>(at - candidates.begin())];
+    side = up_vector.cross(side);
+  }
 }
 
 }  // namespace
@@ -237,7 +250,7 @@ Orientation OrientationEvidence::find(const OrientationRequest& request) const {
   }
   Orientation result;
   result.up = find_up(*looks_, request);
-  result.front = find_front(*looks_, result.up.direction, request);
+  find_front(*looks_, request, result);
   return result;
 }
 

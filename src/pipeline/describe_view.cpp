@@ -81,7 +81,7 @@ ReportedView describe_scored_view(const ShapeAnalysis& shape, const VertexVisibi
     view.score = scorer.score(direction);
     view.score_fraction = scorer.total() > 0.0 ? view.score / scorer.total() : 0.0;
   }
-  view.objective = view.score * options.prior.factor(upright_frame(frame), direction);
+  view.objective = view.score;
   return view;
 }
 

@@ -9,8 +9,8 @@ namespace vantage {
 Camera framed(const ShapeAnalysis& shape, const Vec3& direction, UpAxis up,
               const ViewOptions& options);
 
-/// describe_view() with the score that the scorer gives, and the objective that options.prior makes
-/// of it. \pre the scorer adds up options.weight.
+/// describe_view() with the score that the scorer gives, which is also its objective.
+/// \pre the scorer adds up options.weight.
 ReportedView describe_scored_view(const ShapeAnalysis& shape, const VertexVisibility& visibility,
                                   const ViewScorer& scorer, const Vec3& direction,
                                   const ModelFrame& frame, const ViewOptions& options);

@@ -11,6 +11,7 @@
 #include "pipeline/coarse_surface.h"
 #include "pipeline/describe_view.h"
 #include "pipeline/map_objective.h"
+#include "pipeline/preference.h"
 #include "pipeline/twins.h"
 #include "pipeline/view_preparation.h"
 
@@ -46,18 +47,13 @@ void settle_on_the_front(FoundView& best, std::vector<TwinView>& twins, const Up
   best.preference = first.objective;
 }
 
-}  // namespace
-
-ViewReport find_views(const ShapeAnalysis& shape, const ModelFrame& model_frame,
-                      const ViewOptions& options, const RunContext& run) {
-  check_fields(options, kViewFields);
-  if (!sums_a_map(options.method)) {
-    return find_views_by_measure(shape, model_frame, options, run);
-  }
+/// find_views() by a map that is summed.
+ViewReport find_views_by_map(const ShapeAnalysis& shape, const FrameChoice& choice,
+                             const ViewOptions& options, const RunContext& run) {
   ViewReport report;
   report.camera = scoring_camera(shape, options);
-  report.up = model_frame.up;
-  report.front = model_frame.front;
+  report.up = choice.frame.up;
+  report.front = choice.frame.front;
   const MapObjective map(shape, options, run);
   const ViewScorer& scorer = map.scorer();
   report.total = scorer.total();
@@ -65,62 +61,81 @@ ViewReport find_views(const ShapeAnalysis& shape, const ModelFrame& model_frame,
     report.warnings.emplace_back(
         "the significance map is zero everywhere, so every view is as good as any other");
   }
-  const UprightFrame frame = upright_frame(model_frame);
-  const ViewObjective objective = map.objective(frame);
+  const Preference preference(shape, choice, options, report.total);
+  const ViewObjective objective = map.objective(preference);
   const double search_share = options.view_set || options.certify ? 0.25 : 1.0;  // of the bar
   FoundViews found = search_best_and_worst(objective, options.search, run.part(0.0, search_share));
-  auto& [best, worst] = found;
-  report.twins = twins_of(best.direction, shape, scorer, options.prior, frame);
-  if (!options.prior.is_uniform) {
-    settle_on_the_front(best, report.twins, frame);
+  auto& [best, worst, highest] = found;
+  report.twins = twins_of(best.direction, shape, scorer, preference);
+  if (!preference.is_score()) {
+    settle_on_the_front(best, report.twins, upright_frame(choice.frame));
   }
   if (options.certify) {  // what is reported, and so not before near-ties are settled
     report.dense_gap =
         gap_to_dense(found, objective, run.part(search_share, options.view_set ? 0.6 : 1.0));
   }
   const auto described = [&](const FoundView& view) {
-    return describe_scored_view(shape, map.visibility(), scorer, view.direction, model_frame,
+    return describe_scored_view(shape, map.visibility(), scorer, view.direction, choice.frame,
                                 options);
   };
   report.best = described(best);
+  report.best.objective = preference(best.direction, report.best.score);
   report.worst = described(worst);
-  report.worst.objective = report.worst.score;  // no prior has a say in it
+  report.highest_direction = highest.score > best.score ? highest.direction : best.direction;
+  report.highest_score = std::max(highest.score, best.score);
   if (options.view_set) {
     report.set =
-        find_view_set(shape, map.visibility(), scorer, best.direction, model_frame, options,
+        find_view_set(shape, map.visibility(), scorer, best.direction, choice.frame, options,
                       report.warnings, run.part(options.certify ? 0.6 : search_share, 1.0));
+    for (ReportedView& view : report.set->views) {
+      view.objective = preference(view.direction, view.score);
+    }
   }
   report.best_search = std::move(best);
   report.worst_search = std::move(worst);
   return report;
 }
 
+}  // namespace
+
 ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
                       const ViewOptions& options, const RunContext& run) {
-  ViewReport report = find_views(shape, choice.frame, options, run);
+  check_fields(options, kViewFields);
+  ViewReport report = sums_a_map(options.method)
+                          ? find_views_by_map(shape, choice, options, run)
+                          : find_views_by_measure(shape, choice, options, run);
   report.orientation = choice.orientation;
+  report.proportions = proportions_of(shape.surface, shape.sphere.diameter / 2.0, planes_of(shape),
+                                      upright_frame(choice.frame));
   report.warnings.insert(report.warnings.end(), choice.notes.begin(), choice.notes.end());
   return report;
+}
+
+ViewReport find_views(const ShapeAnalysis& shape, const ModelFrame& frame,
+                      const ViewOptions& options, const RunContext& run) {
+  FrameChoice given{.frame = frame};
+  given.orientation.up.direction = up_vector(frame.up);
+  given.orientation.front.direction = up_vector(frame.front);
+  return find_views(shape, given, options, run);
 }
 
 ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const FrameChoice& choice,
                        const ViewOptions& options, const RunContext& run) {
   check_fields(options, kViewFields);
   if (!sums_a_map(options.method)) {
-    const ViewReport both = find_views_by_measure(shape, choice.frame, options, run);
+    const ViewReport both = find_views_by_measure(shape, choice, options, run);
     return goal == Goal::Best ? both.best : both.worst;
   }
   const MapObjective map(shape, options, run);
-  const UprightFrame frame = upright_frame(choice.frame);
-  FoundView found = search_view(map.objective(frame), goal, options.search, run);
-  if (goal == Goal::Best && !options.prior.is_uniform) {
-    std::vector<TwinView> twins =
-        twins_of(found.direction, shape, map.scorer(), options.prior, frame);
-    settle_on_the_front(found, twins, frame);
+  const Preference preference(shape, choice, options, map.scorer().total());
+  FoundView found = search_view(map.objective(preference), goal, options.search, run);
+  if (goal == Goal::Best && !preference.is_score()) {
+    std::vector<TwinView> twins = twins_of(found.direction, shape, map.scorer(), preference);
+    settle_on_the_front(found, twins, upright_frame(choice.frame));
   }
   ReportedView view = describe_scored_view(shape, map.visibility(), map.scorer(), found.direction,
                                            choice.frame, options);
-  view.objective = goal == Goal::Best ? view.objective : view.score;
+  view.objective = goal == Goal::Best ? preference(view.direction, view.score) : view.score;
   return view;
 }
 

@@ -69,7 +69,8 @@ FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,
   }
   FrameChoice choice;
   choice.orientation = evidence_of(shape).find(request);
-  const auto& [up, front] = choice.orientation;
+  const DirectionChoice& up = choice.orientation.up;
+  const DirectionChoice& front = choice.orientation.front;
   choice.frame = {axis_nearest(up.direction), axis_nearest(front.direction)};
   for (const std::string& note :
        {note_on(up, "up", usual_up),

@@ -29,7 +29,6 @@ MapObjective::MapObjective(const ShapeAnalysis& shape, const ViewOptions& option
                            const RunContext& run)
     : prepared_(preparation_of(shape)),
       quiet_{.stop = run.stop, .max_threads = run.max_threads},
-      prior_(options.prior),
       faces_(faces_to_score(shape, options)),
       scorer_(faces_ ? ViewScorer(*faces_, shape.map.of_vertex, scoring_camera(shape, options))
                      : ViewScorer(prepared_->visibility, shape.map.of_vertex,
@@ -38,7 +37,7 @@ MapObjective::MapObjective(const ShapeAnalysis& shape, const ViewOptions& option
       coarse_scorer_(prepared_->coarse_visibility, coarse_shares_, scoring_camera(shape, options)) {
 }
 
-ViewObjective MapObjective::objective(const UprightFrame& frame) const {
+ViewObjective MapObjective::objective(const Preference& preference) const {
   ViewObjective objective;
   objective.total = scorer_.total();
   objective.score = [this](const std::vector<Vec3>& directions) {
@@ -51,9 +50,9 @@ ViewObjective MapObjective::objective(const UprightFrame& frame) const {
       return estimates(directions);
     };
   }
-  if (!prior_.is_uniform) {
-    objective.preference = [this, frame](const Vec3& direction, double score) {
-      return score * prior_.factor(frame, direction);
+  if (!preference.is_score()) {
+    objective.preference = [&preference](const Vec3& direction, double score) {
+      return preference(direction, score);
     };
   }
   return objective;

@@ -8,6 +8,7 @@
 #include "vantage/pipeline/shape_analysis.h"
 #include "vantage/view/search.h"
 
+#include "pipeline/preference.h"
 #include "pipeline/view_preparation.h"
 
 namespace vantage {
@@ -30,13 +31,12 @@ class MapObjective {
     return coarse_scorer_.score_all(directions, quiet_);
   }
 
-  /// Refers to this. \param frame what the prior of the options speaks in.
-  [[nodiscard]] ViewObjective objective(const UprightFrame& frame) const;
+  /// Refers to this and to `preference`.
+  [[nodiscard]] ViewObjective objective(const Preference& preference) const;
 
  private:
   std::shared_ptr<const ViewPreparation> prepared_;
   RunContext quiet_;
-  ViewPrior prior_;
   std::optional<FaceVisibility> faces_;
   ViewScorer scorer_;
   std::vector<double> coarse_shares_;

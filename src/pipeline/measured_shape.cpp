@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "vantage/significance/mesh_saliency.h"
 
 #include "pipeline/measure_objective.h"
+#include "pipeline/preference.h"
 #include "pipeline/view_preparation.h"
 
 namespace vantage {
@@ -105,7 +107,7 @@ void require_gradient(const Measure& measure) {
   }
 }
 
-ViewReport find_views_by_measure(const ShapeAnalysis& shape, const ModelFrame& model_frame,
+ViewReport find_views_by_measure(const ShapeAnalysis& shape, const FrameChoice& choice,
                                  const ViewOptions& options, const RunContext& run) {
   if (options.view_set) {
     throw InvalidInput(
@@ -120,23 +122,22 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, const ModelFrame& m
   ViewMeasurer measurer(measure_subject(shape, options), {find_measure(options.method)}, kSetLevel,
                         run.part(0.0, 0.6));
   const MeasureObjective by(measurer, 0, run.part(0.0, 0.6));
-  const UprightFrame frame = upright_frame(model_frame);
   ViewObjective objective = by.objective();
-  if (!options.prior.is_uniform) {
-    objective.preference = [&](const Vec3& direction, double score) {
-      return score * options.prior.factor(frame, direction);
-    };
+  const Preference preference(shape, choice, options, objective.total);
+  if (!preference.is_score()) {
+    objective.preference = std::cref(preference);
   }
-  auto [best, worst] = search_best_and_worst(objective, options.search, run.part(0.6, 1.0));
+  auto [best, worst, highest] =
+      search_best_and_worst(objective, options.search, run.part(0.6, 1.0));
   ViewReport report;
   report.camera = scoring_camera(shape, options);
-  report.up = model_frame.up;
-  report.front = model_frame.front;
+  report.up = choice.frame.up;
+  report.front = choice.frame.front;
   report.total = kNone;
   const std::shared_ptr<const VertexVisibility> visibility = visibility_of(shape, 2);
   const auto described = [&](const FoundView& found) {
     ReportedView view =
-        describe_view(shape, *visibility, report.camera, found.direction, model_frame.up, options);
+        describe_view(shape, *visibility, report.camera, found.direction, choice.frame.up, options);
     view.score = measurer.values(std::vector<Vec3>{found.direction}).front().front();
     view.score_fraction = kNone;
     return view;
@@ -145,6 +146,8 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, const ModelFrame& m
   report.best.objective = best.preference;
   report.worst = described(worst);
   report.worst.objective = report.worst.score;
+  report.highest_direction = highest.direction;
+  report.highest_score = by.value(highest.score);
   for (FoundView* found : {&best, &worst}) {
     for (SearchStep& step : found->trace) {
       step.score = by.value(step.score);

@@ -31,6 +31,9 @@ int side_of(std::string_view number, std::string_view size) {
   return side;
 }
 
+// The objective as --prior names it, so that options that are echoed can be set again.
+constexpr std::string_view kPeople = "people";
+
 /// Everything of a prior that shapes the result; its name does not.
 nlohmann::ordered_json prior_echo(const ViewPrior& prior) {
   nlohmann::ordered_json json;
@@ -100,7 +103,7 @@ ViewOptions preset_options(Preset preset) {
     options.contraction.scaling = ContractionScaling::Box;
     options.contraction.sheet_limit = 1.0;  // never above the other: nothing is thinned
     options.skeleton.scaling = ContractionScaling::Box;
-    options.prior = no_prior();
+    options.objective = Objective::Significance;
     options.kssm.flat_level = 0.0;
     options.search = {.strategy = SearchStrategy::Rapid,
                       .base = ViewSphereBase::Cube,
@@ -131,6 +134,12 @@ std::string options_hash(const ViewOptions& options) {
   return text;
 }
 
+Objective objective_of(const ViewOptions& options) {
+  const bool is_of_a_paper = options.search.strategy == SearchStrategy::Rapid ||
+                             options.search.strategy == SearchStrategy::Gradient;
+  return is_of_a_paper ? Objective::Significance : options.objective;
+}
+
 std::string_view selection_name(ViewSelection selection) {
   return word_at(kSelectionWords, static_cast<std::size_t>(selection));
 }
@@ -149,13 +158,14 @@ std::string size_text(const ViewOptions& options) {
 
 void set_prior(ViewOptions& options, std::string_view text) {
   const std::string name(text);
-  options.prior = name == "none"      ? no_prior()
-                  : name == "upright" ? upright_prior()
-                                      : parse_prior(read_file(name), name);
+  options.objective = name == kPeople ? Objective::People : Objective::Significance;
+  options.prior = name == kPeople || name == "none" ? no_prior()
+                  : name == "upright"               ? upright_prior()
+                                                    : parse_prior(read_file(name), name);
 }
 
 std::string prior_text(const ViewOptions& options) {
-  return options.prior.name;
+  return options.objective == Objective::People ? std::string(kPeople) : options.prior.name;
 }
 
 }  // namespace vantage

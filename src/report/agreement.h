@@ -19,7 +19,7 @@ namespace vantage {
 /// whose scores were multiplied by the prior, and what `vantage view` finds.
 inline constexpr std::string_view kPriorAlone = "prior alone";
 inline constexpr std::string_view kUnderPrior = " × prior";
-inline constexpr std::string_view kDefaultView = "vantage view (searches kssm × prior)";
+inline constexpr std::string_view kDefaultView = "vantage view";
 
 /// Mean; NaN of nothing.
 double mean_of(std::span<const double> values);

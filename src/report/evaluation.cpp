@@ -21,7 +21,8 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 Vec3 default_view(const Model& model, const ShapeAnalysis& shape, ViewOptions options,
                   const RunContext& run) {
   options.method = "kssm";
-  options.prior = upright_prior();
+  options.objective = Objective::People;
+  options.prior = no_prior();
   options.view_set.reset();
   const FrameChoice choice = choose_frame(model, shape, options);
   return find_views(shape, choice, options, run).best.direction;

@@ -139,15 +139,26 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
   json["method"] = options.method;
   json["preset"] = echo["preset"];
   json["weight"] = echo["weight"];
-  json["prior"] = options.prior.name;
+  json["objective"] = objective_of(options) == Objective::People ? "people" : "significance";
+  json["prior"] = prior_text(options);
   json["up"] = up_name(report.up);
   json["up_source"] = report.orientation.up.source;
   json["up_confidence"] = in_thousandths(report.orientation.up.confidence);
   json["front"] = up_name(report.front);
   json["front_source"] = report.orientation.front.source;
   json["front_confidence"] = in_thousandths(report.orientation.front.confidence);
+  const ShapeProportions& shape_of_box = report.proportions;
+  json["proportions"] = {{"height", in_thousandths(shape_of_box.height)},
+                         {"width", in_thousandths(shape_of_box.width)},
+                         {"mirrors_side", shape_of_box.mirrors_side},
+                         {"mirrors_front", shape_of_box.mirrors_front},
+                         {"mirrors_up", shape_of_box.mirrors_up}};
   json["camera"] = camera_of(report.camera, echo["projection"]);
   json["best"] = view_of(report.best, options.pictures ? Json("best.png") : Json(nullptr));
+  json["best"]["score_of_attainable"] =
+      report.highest_score > 0.0 ? Json(report.best.score / report.highest_score) : Json(nullptr);
+  json["highest_score"] = {{"direction", point(report.highest_direction)},
+                           {"score", report.highest_score}};
   json["worst"] = view_of(report.worst, options.pictures ? Json("worst.png") : Json(nullptr));
   if (report.set && options.view_set) {
     json["views"] = views_of(*report.set, options.pictures);

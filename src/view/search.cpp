@@ -118,8 +118,10 @@ FoundViews search_best_and_worst(const ViewObjective& objective, const SearchOpt
                                  const RunContext& run) {
   Searches searches(objective, options);
   FoundViews views;
-  views.best = searches.find(Goal::Best, run.part(0.0, 0.6));
-  views.worst = searches.find(Goal::Worst, run.part(0.6, 1.0));
+  const bool is_preference = static_cast<bool>(objective.preference);
+  views.best = searches.find(Goal::Best, run.part(0.0, 0.5));
+  views.highest = is_preference ? searches.find(Goal::Highest, run.part(0.5, 0.75)) : views.best;
+  views.worst = searches.find(Goal::Worst, run.part(is_preference ? 0.75 : 0.5, 1.0));
   return views;
 }
 

@@ -46,7 +46,7 @@ class SearchTarget {
     for (std::size_t i = 0; i < scores.size(); ++i) {
       if (goal_ == Goal::Worst) {
         scores[i] = -scores[i];
-      } else if (objective_->preference) {
+      } else if (goal_ == Goal::Best && objective_->preference) {
         scores[i] = objective_->preference(directions[i], scores[i]);
       }
     }

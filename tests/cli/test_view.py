@@ -51,7 +51,8 @@ class View(ProgramTest):
                             ("even.json", ["--prior", "even.json"]), ("paper", ["--preset", "paper"])):
             self.vantage("view", MODELS / "deer.ply", "-o", "of-" + name, "--no-images", *flags)
             reports[name] = json.loads((self.dir / ("of-" + name) / "view.json").read_text())
-        self.assertEqual([r["prior"] for r in reports.values()], ["upright", "none", "even.json", "none"])
+        self.assertEqual([r["prior"] for r in reports.values()], ["people", "none", "even.json", "none"])
+        self.assertEqual([r["objective"] for r in reports.values()], ["people"] + 3 * ["significance"])
         self.assertLess(reports["default"]["best"]["objective"], reports["default"]["best"]["score"])
         self.assertEqual(reports["none"]["best"]["objective"], reports["none"]["best"]["score"])
         # Under a prior, even one that is 1 everywhere, near-ties between mirror views go to the front.
@@ -62,6 +63,10 @@ class View(ProgramTest):
         # A mirror image may be off by the search's last ring, 0.01°.
         self.assertGreater(even["direction"][2], max(v["direction"][2] for v in equals) - 2e-4)
         self.assertLessEqual(reports["default"]["best"]["score"], reports["none"]["best"]["score"])
+        for name in ("default", "none"):  # what the score alone would take is said in both
+            self.assertAlmostEqual(reports[name]["highest_score"]["score"], reports["none"]["best"]["score"], places=9)
+            self.assertAlmostEqual(reports[name]["best"]["score_of_attainable"],
+                                   reports[name]["best"]["score"] / reports[name]["highest_score"]["score"], places=12)
         self.assertEqual(reports["default"]["worst"], reports["none"]["worst"])
         self.assertEqual(reports["default"]["total"], reports["none"]["total"])
         self.assertGreater(reports["default"]["best"]["direction"][1], 0.0)  # not from below

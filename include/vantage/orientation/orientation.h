@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,6 +42,8 @@ struct DirectionChoice {
 struct Orientation {
   DirectionChoice up{};     ///< Against gravity.
   DirectionChoice front{};  ///< Toward a viewer in front; at right angles to up.
+  /// Probabilities that the front is front.direction, up × that, its opposite, or the last side.
+  std::array<double, 4> front_odds{1.0, 0.0, 0.0, 0.0};
 };
 
 /// One direction's features.

@@ -31,7 +31,7 @@ struct ReportedView {
   Vec3 up = Vec3::UnitY();             ///< Unit, upright in the picture.
   double score = 0.0;                  ///< Pure sum of the visible significance.
   double score_fraction = 0.0;         ///< score / total; 0 if total is 0.
-  double objective = 0.0;              ///< What the search compared: score times the prior.
+  double objective = 0.0;              ///< What the search compared; the score, or see Objective.
   double visible_area_fraction = 0.0;  ///< Of the surface; each visible vertex counts its third.
   Camera picture{};                    ///< Same eye, framed tightly.
 };
@@ -63,7 +63,7 @@ std::string frame_summary(const FrameChoice& choice);
 struct TwinView {
   Vec3 direction = Vec3::UnitZ();  ///< From the centre to the eye.
   double score = 0.0;              ///< Pure sum of the visible significance.
-  double objective = 0.0;          ///< Times the prior.
+  double objective = 0.0;          ///< As the best view's.
 };
 
 /// How far a search stayed behind the dense one, which is slow. [ours]
@@ -75,18 +75,21 @@ struct DenseGap {
 
 /// The result of the search.
 struct ViewReport {
-  ScoringCamera camera{};               ///< What scored.
-  UpAxis up = UpAxis::Y;                ///< As used.
-  UpAxis front = UpAxis::Z;             ///< As used.
-  Orientation orientation{};            ///< Sources and confidences of both.
-  std::vector<TwinView> twins{};        ///< Of the best view.
-  ReportedView best{};                  ///< Of the largest score.
-  ReportedView worst{};                 ///< Of the least score.
-  double total = 0.0;                   ///< The score if everything were visible.
-  FoundView best_search{};              ///< How it was found.
-  FoundView worst_search{};             ///< Evaluations beyond the best view's.
-  std::optional<DenseGap> dense_gap{};  ///< If options.certify.
-  std::vector<std::string> warnings{};  ///< One sentence each.
+  ScoringCamera camera{};                  ///< What scored.
+  UpAxis up = UpAxis::Y;                   ///< As used.
+  UpAxis front = UpAxis::Z;                ///< As used.
+  Orientation orientation{};               ///< Sources and confidences of both.
+  ShapeProportions proportions{};          ///< In that frame.
+  std::vector<TwinView> twins{};           ///< Of the best view.
+  ReportedView best{};                     ///< Of the largest objective.
+  ReportedView worst{};                    ///< Of the least score.
+  double total = 0.0;                      ///< The score if everything were visible.
+  Vec3 highest_direction = Vec3::UnitZ();  ///< The view that the score alone would take.
+  double highest_score = 0.0;              ///< The best that any view attains; NaN for measures.
+  FoundView best_search{};                 ///< How it was found.
+  FoundView worst_search{};                ///< Evaluations beyond the best view's.
+  std::optional<DenseGap> dense_gap{};     ///< If options.certify.
+  std::vector<std::string> warnings{};     ///< One sentence each.
   /// If several views were asked for.
   std::optional<ReportedViewSet> set{};
 };

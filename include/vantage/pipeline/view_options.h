@@ -30,6 +30,12 @@ enum class Preset {
   Paper,    ///< The paper's: box scaling, cube of 8, rapid search, ε = 0.1 as a raw sum.
 };
 
+/// What the best view maximises.
+enum class Objective {
+  Significance,  ///< The score alone [paper].
+  People,        ///< How likely a person would show this shape from there; docs/people.md.
+};
+
 /// The model's up axis.
 enum class UpAxis { X, Y, Z, MinusX, MinusY, MinusZ };
 
@@ -103,7 +109,8 @@ struct ViewOptions {
   bool kssm_to_finished_graph = false;  ///< Measure to the centred, pruned graph (not the raw one).
   SearchOptions search{};               ///< Of the view sphere.
   bool certify = false;                 ///< Also search densely and report the gap to that.
-  ViewPrior prior = upright_prior();    ///< Multiplies the best view's score in the search.
+  Objective objective = Objective::People;  ///< Of the best view; see objective_of().
+  ViewPrior prior = no_prior();             ///< Multiplies the score if the objective is that.
   Projection projection = Projection::Perspective;  ///< Of the scoring camera.
   double fov_y_deg = 30.0;                          ///< Of the scoring camera, in (0, 180).
   std::optional<double> distance_factor{};          ///< Eye distance over D/2, > 1.
@@ -123,9 +130,13 @@ struct ViewOptions {
 void set_size(ViewOptions& options, std::string_view text);
 /// "800x600".
 std::string size_text(const ViewOptions& options);
-/// Sets the prior from "none", "upright" or the name of a file. \throw IoError, FormatError
+/// options.objective, but for the paper's and Lee's searches, which know only the score.
+Objective objective_of(const ViewOptions& options);
+
+/// Sets the prior, and Objective::Significance, from "none", "upright" or the name of a file; from
+/// "people" Objective::People. \throw IoError, FormatError
 void set_prior(ViewOptions& options, std::string_view text);
-/// The name of the prior.
+/// The name of the prior, or "people".
 std::string prior_text(const ViewOptions& options);
 
 /// The table of ViewOptions. Presets come first: they set what the others then change.
@@ -164,9 +175,12 @@ inline constexpr auto kViewFields = std::tuple{
            "that is unsure z, where z is up -y"},
     Group{"search", "Search"},
     Part{&ViewOptions::search, kSearchFields},
+    Choice{"objective", &ViewOptions::objective, "significance|people",
+           "what the best view maximises: the score alone, or how likely people would show a thing "
+           "of this shape from there, given what is seen"},
     Text{"prior", set_prior, prior_text,
-         "what the best view's score is multiplied by: none (as preset paper has it), upright (how "
-         "people look at things), or a JSON file",
+         "former name of an objective, for one more version: none (significance), upright (the "
+         "score times a fixed function of the direction), or a JSON file with such a function",
          TextForm::File},
     Switch{"certify", &ViewOptions::certify,
            "search densely as well, and report how far the views found are behind; slow"},

@@ -29,6 +29,17 @@ UprightFrame upright_frame(const Vec3& up);
 /// The frame of a model whose up and front are known: orthogonal unit vectors.
 UprightFrame upright_frame(const Vec3& up, const Vec3& front);
 
+/// What of a shape the views that people choose hang on most: the proportions of its box along
+/// side, up and front, and its mirror planes. Lengths are over the radius of the enclosing sphere,
+/// each + 0.02, so that thin things differ in no more than that.
+struct ShapeProportions {
+  double height = 0.0;         ///< log(up / √(side · front))
+  double width = 0.0;          ///< log(side / front)
+  bool mirrors_side = false;   ///< Left and right look alike.
+  bool mirrors_front = false;  ///< Front and back look alike.
+  bool mirrors_up = false;     ///< Top and bottom look alike.
+};
+
 /// The upright prior: a smooth function of direction, in (0, 1].
 /// With s, u, f the direction's components along side, up and front:
 ///     exp(−elevation_strength (u − elevation_sine)² − corner_strength (1 − 4 s² f²)

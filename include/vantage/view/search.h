@@ -28,8 +28,12 @@ enum class SearchStrategy {
   Gradient,    ///< Lee 2005: along the gradient from seeded random directions.
 };
 
-/// Whether the largest or the smallest score is wanted.
-enum class Goal { Best, Worst };
+/// What is looked for.
+enum class Goal {
+  Best,     ///< The largest preference.
+  Worst,    ///< The least score.
+  Highest,  ///< The largest score, whatever is preferred.
+};
 
 /// Options of search_view() and search_best_and_worst().
 struct SearchOptions {
@@ -89,7 +93,9 @@ struct FoundView {
 /// Result of search_best_and_worst().
 struct FoundViews {
   FoundView best{};   ///< Of the largest preference.
-  FoundView worst{};  ///< Of the least score; its trace holds only what the best had not scored.
+  FoundView worst{};  ///< Of the least score; its trace holds only what the others had not scored.
+  /// Of the largest score: the best itself unless something else is preferred; the same of its trace.
+  FoundView highest{};
 };
 
 /// Scores a batch of directions; a pure function of each direction.
@@ -116,7 +122,7 @@ struct ViewObjective {
 FoundView search_view(const ViewObjective& objective, Goal goal, const SearchOptions& options = {},
                       const RunContext& run = {});
 
-/// Both searches, sharing what they score. 	hrow InvalidInput, Cancelled
+/// All of these searches, sharing what they score. 	hrow InvalidInput, Cancelled
 FoundViews search_best_and_worst(const ViewObjective& objective, const SearchOptions& options = {},
                                  const RunContext& run = {});
 

@@ -9,6 +9,7 @@
 #include "vantage/report/pictures.h"
 #include "vantage/report/view_report.h"
 
+#include "pipeline/preference.h"
 #include "support/model_of.h"
 #include "support/shapes.h"
 
@@ -19,7 +20,7 @@ ViewOptions quick_search() {
   ViewOptions options;
   options.search.strategy = SearchStrategy::Exhaustive;
   options.search.subdivisions = 2;
-  options.prior = no_prior();
+  options.objective = Objective::Significance;
   return options;
 }
 
@@ -61,6 +62,31 @@ TEST_F(ReportOfAY, UnderAPriorTheObjectiveIsScoreTimesPriorAndTheRestIsPure) {
   EXPECT_EQ(found.worst.direction, report_.worst.direction);
   EXPECT_EQ(found.worst.score, report_.worst.score);
   EXPECT_EQ(found.worst.objective, report_.worst.score);
+}
+
+TEST_F(ReportOfAY, WhatPeopleTakeIsComparedOnlyForTheBestView) {
+  options_.objective = Objective::People;
+  const ViewReport found = find_views(shape_, UpAxis::Y, options_);
+  const Preference preference(shape_, {}, options_, found.total);
+  EXPECT_EQ(found.best.objective, preference(found.best.direction, found.best.score));
+  for (const SearchStep& step : found.best_search.trace) {
+    EXPECT_LE(preference(step.direction, step.score), found.best.objective);
+  }
+  EXPECT_EQ(found.worst.direction, report_.worst.direction);
+  EXPECT_EQ(found.worst.objective, report_.worst.score);
+  // The view of the largest score stays known.
+  EXPECT_EQ(found.highest_score, report_.best.score);
+  EXPECT_EQ(found.highest_direction, report_.best.direction);
+  EXPECT_LT(found.best.score, found.highest_score);
+}
+
+TEST_F(ReportOfAY, SearchesOfPapersKnowNothingButTheScore) {
+  options_.objective = Objective::People;
+  for (const SearchStrategy strategy : {SearchStrategy::Rapid, SearchStrategy::Gradient}) {
+    options_.search.strategy = strategy;
+    const ViewReport found = find_views(shape_, UpAxis::Y, options_);
+    EXPECT_EQ(found.best.objective, found.best.score);
+  }
 }
 
 TEST_F(ReportOfAY, TotalIsTheSumOfTheMap) {

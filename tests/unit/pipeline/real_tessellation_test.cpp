@@ -106,7 +106,7 @@ class SplitModel : public DataPackTest<testing::TestWithParam<const char*>> {
       return;
     }
     options.weight = Weight::Area;
-    options.prior = no_prior();
+    options.objective = Objective::Significance;
     const Model model = load_model((root() / GetParam()).string());
     const ShapeAnalysis shape = analyse_shape(model, options);
     const Splitter splitter(shape);

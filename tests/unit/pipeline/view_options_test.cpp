@@ -53,7 +53,7 @@ OptionValue another(const Option& option) {
       break;
   }
   const std::map<std::string, std::string> texts{{"method", "vmi"},   {"focus", "lamp"},
-                                                 {"epsilon", "0.5"},  {"prior", "none"},
+                                                 {"epsilon", "0.5"},  {"prior", "upright"},
                                                  {"size", "801x600"}, {"background", "#102030"}};
   return texts.at(option.name);
 }
@@ -131,15 +131,16 @@ TEST(OptionsHash, ChangesWithEveryOptionOfAView) {
 }
 
 TEST(OptionsHash, ChangesWithWhatAPriorSaysAndNotWithItsName) {
-  ViewOptions stronger;
+  const ViewOptions upright{.prior = upright_prior()};
+  ViewOptions stronger = upright;
   stronger.prior.upright.front_strength = 0.1;
-  ViewOptions lobed;
+  ViewOptions lobed = upright;
   lobed.prior.lobes.emplace_back();
-  ViewOptions renamed;
+  ViewOptions renamed = upright;
   renamed.prior.name = "copy.json";
-  EXPECT_NE(options_hash(stronger), options_hash({}));
-  EXPECT_NE(options_hash(lobed), options_hash({}));
-  EXPECT_EQ(options_hash(renamed), options_hash({}));
+  EXPECT_NE(options_hash(stronger), options_hash(upright));
+  EXPECT_NE(options_hash(lobed), options_hash(upright));
+  EXPECT_EQ(options_hash(renamed), options_hash(upright));
 }
 
 TEST(OptionsHash, ChangesIfASetOfViewsIsAskedForByItsDefaults) {

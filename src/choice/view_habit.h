@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "vantage/mesh/tri_mesh.h"
+#include "vantage/spatial/mirror_symmetry.h"
+#include "vantage/view/prior.h"
+
+#include "choice/choice_table.h"
+
+namespace vantage {
+
+/// Proportions of a surface in a frame. \param radius of its enclosing sphere, > 0.
+ShapeProportions proportions_of(const TriMesh& surface, double radius,
+                                std::span<const MirrorPlane> planes, const UprightFrame& frame);
+
+/// From where people show things of such proportions: a kernel regression (Nadaraya 1964, Watson
+/// 1964) over recorded choices.
+class ViewHabit {
+ public:
+  /// \param table must outlive this.
+  ViewHabit(const ChoiceTable& table, const ShapeProportions& shape);
+
+  /// Mean angle in radians from a direction to the views recorded, weighted by how like their
+  /// shapes are to this one. Left and right count as one, and so do front and back of what mirrors
+  /// them. \param direction unit, along side, up and front.
+  [[nodiscard]] double distance(const Vec3& direction) const;
+
+ private:
+  const ChoiceTable* table_;
+  std::vector<double> weights_;  // of each choice; they add up to 1
+};
+
+}  // namespace vantage

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/preference.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/view_preparation.h"
+
+namespace vantage {
+namespace {
+
+// Fronts less likely than this have no say. [ours]
+constexpr double kLeastOdds = 0.01;
+// Shares of the score below this count as this: their logarithm is taken. [ours]
+constexpr double kLeastShare = 1e-3;
+
+Vec3 along(const UprightFrame& frame, const Vec3& direction) {
+  return {frame.side.dot(direction), frame.up.dot(direction), frame.front.dot(direction)};
+}
+
+}  // namespace
+
+Preference::Preference(const ShapeAnalysis& shape, const FrameChoice& choice,
+                       const ViewOptions& options, double total)
+    : options_(&options), total_(total), frame_(upright_frame(choice.frame)) {
+  if (objective_of(options) != Objective::People) {
+    return;
+  }
+  const std::vector<MirrorPlane> planes = planes_of(shape);
+  Vec3 front = frame_.front;
+  for (const double odds : choice.orientation.front_odds) {
+    if (odds >= kLeastOdds) {
+      const UprightFrame frame = upright_frame(frame_.up, front);
+      const ShapeProportions proportions =
+          proportions_of(shape.surface, shape.sphere.diameter / 2.0, planes, frame);
+      fronts_.push_back({odds, frame, ViewHabit(choice_table(), proportions)});
+    }
+    front = frame_.up.cross(front);
+  }
+}
+
+bool Preference::is_score() const {
+  return fronts_.empty() && options_->prior.is_uniform;
+}
+
+double Preference::operator()(const Vec3& direction, double score) const {
+  if (fronts_.empty()) {
+    return score * options_->prior.factor(frame_, direction);
+  }
+  const ChoiceTable& table = choice_table();
+  double habit = 0.0;
+  for (const Hypothesis& front : fronts_) {
+    habit += front.probability *
+             std::exp(-table.habit_weight * front.habit.distance(along(front.frame, direction)));
+  }
+  const double share = total_ > 0.0 ? score / total_ : 0.0;
+  return habit * std::pow(std::max(share, kLeastShare), table.significance_weight);
+}
+
+}  // namespace vantage
