@@ -189,7 +189,7 @@ void add_view_command(CLI::App& program, Session& session) {
       "  vantage view horse.ply\n"
       "  vantage view horse.ply --preview\n"
       "  vantage view part.stl -o out --size 1024 --up z\n"
-      "  vantage view horse.ply --method viewpoint-entropy --prior none\n"
+      "  vantage view horse.ply --method viewpoint-entropy --objective significance\n"
       "  vantage view horse.ply --views 6 --tour horse.webp\n"
       "  vantage view scene.obj --focus lamp --coverage 0.95\n"
       "  vantage view horse.ply --preset paper --epsilon 1 --trace search.csv\n"

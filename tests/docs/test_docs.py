@@ -182,14 +182,14 @@ class Pages(unittest.TestCase):
             head = (ROOT / "docs/lab" / name).read_text(encoding="utf-8").split("\n")[2]
             self.assertRegex(head, r"^Laboratory page of [A-Z]\w+ \d{4}, commit [0-9a-f]{7,}\. ", name)
 
-    def test_the_page_of_the_prior_has_the_constants_of_the_program(self):
-        header = (ROOT / "include/vantage/view/prior.h").read_text(encoding="utf-8")
-        of_program = re.findall(r"^  double (\w+_(?:sine|strength)) = ([\d.]+);", header, re.MULTILINE)
-        of_page = re.findall(r"^\| `(\w+)` \| ([\d.]+) \|", (ROOT / "docs/prior.md").read_text(encoding="utf-8"),
-                             re.MULTILINE)
-        self.assertEqual(len(of_program), 5)
-        self.assertEqual([(name, float(value)) for name, value in of_page],
-                         [(name, float(value)) for name, value in of_program])
+    def test_the_page_of_what_people_take_names_what_its_table_holds(self):
+        table = (ROOT / "src/choice/choice_table.txt").read_text(encoding="utf-8")
+        page = (ROOT / "docs/people.md").read_text(encoding="utf-8")
+        views = len(re.findall(r"^view ", table, re.MULTILINE))
+        self.assertIn(f"{views} models ", page)
+        for constant in ("habit", "significance", "bandwidth", "mirror"):
+            value = re.search(rf"^{constant} (\S+)$", table, re.MULTILINE)[1]
+            self.assertIn(f" = {value}", page, constant)
 
 
 if __name__ == "__main__":
