@@ -68,6 +68,13 @@ void EyeGrid::project(const FloatPoints& points, std::vector<Spot>& spots,
   });
 }
 
+/// Chooses cells for so many points, and puts the corners that project() has placed into them.
+void EyeGrid::lay_out(const Surface& surface, std::size_t active, const RunContext& run) {
+  choose_cells(active);
+  to_cells(corners_, run);
+  outline_blocks(surface.blocks, run);
+}
+
 void EyeGrid::choose_cells(std::size_t active) {
   const float width = spanned_.high[0] - spanned_.low[0];
   const float height = spanned_.high[1] - spanned_.low[1];
