@@ -34,8 +34,9 @@ constexpr std::size_t kPatience = 64;
 constexpr std::size_t kMostPatience = 1024;
 // The patience is spent evenly over the faces, but for this share of it.
 constexpr std::size_t kAhead = 16;
-// Faces that are nearest to the eye, struck first; then as many again, and so on.
+// Faces that are nearest to the eye, struck first; then so many times as many, and so on.
 constexpr std::size_t kNearestFaces = 64;
+constexpr std::size_t kThenTimes = 3;
 constexpr std::size_t kGrain = 4096;  // faces or points per chunk: some tenths of a millisecond
 // Points tested at a time: what vector registers hold, those of every machine and wide ones.
 constexpr unsigned kLanes = 4;
@@ -495,11 +496,18 @@ bool EyeGrid::walk_sorted(const Surface& surface, const SurfacePoints& points,
   Walk both{surface, points, 0, kMostPatience * (point_of_.size() + count)};
   sort_faces(surface);
   std::size_t left = mark_hidden(seen);
+  project(surface.rounded, corners_, run);
+  const std::vector<Spot> projected = corners_;
+  std::size_t laid_out = left;
+  lay_out(surface, left, run);
   std::size_t done = 0;
   for (std::size_t next = std::min(kNearestFaces, count); next > 0;
-       next = std::min(done, count - done)) {
-    project(surface.rounded, corners_, run);
-    lay_out(surface, left, run);
+       next = std::min(kThenTimes * done, count - done)) {
+    if (2 * left < laid_out) {
+      corners_ = projected;
+      laid_out = left;
+      lay_out(surface, left, run);
+    }
     place_points(points, seen, run);
     sort_points(points);
     find_deepest();
