@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -234,20 +235,54 @@ class Unpacker {
         places.push_back(&accessor);
       }
     }
-    DracoMesh mesh = unpack(bytes, wanted);
-    if (!mesh.problem.empty()) {
-      fail(who, mesh.problem);
-    }
+    const Unpacked& mesh = unpacked(index, bytes, wanted, who);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       const tinygltf::Accessor declared = gltf_.accessors[static_cast<std::size_t>(*places[i])];
-      *places[i] = append(std::move(mesh.attributes[i]), declared, mesh.points, who);
+      *places[i] = append(mesh.attributes[i], declared, mesh.points);
     }
     tinygltf::Accessor corners;
     corners.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
     corners.type = TINYGLTF_TYPE_SCALAR;
-    const std::size_t corner_count = mesh.corners.size() / sizeof(std::uint32_t);
-    primitive.indices = append(std::move(mesh.corners), corners, corner_count, who);
+    primitive.indices = append(mesh.corners, corners, mesh.corner_count);
     primitive.mode = TINYGLTF_MODE_TRIANGLES;  // whatever it was before it was packed
+  }
+
+  /// What a stream holds, in buffers of the document.
+  struct Unpacked {
+    std::vector<std::size_t> attributes{};
+    std::size_t points = 0;
+    std::size_t corners = 0;
+    std::size_t corner_count = 0;
+  };
+
+  /// Primitives may share a stream: it is unpacked once for each choice of what it holds.
+  const Unpacked& unpacked(std::size_t view, std::string_view bytes,
+                           const std::vector<DracoAttribute>& wanted, const std::string& who) {
+    std::vector<std::size_t> key{view};
+    for (const DracoAttribute& wish : wanted) {
+      key.insert(key.end(), {wish.id, static_cast<std::size_t>(wish.component_type),
+                             static_cast<std::size_t>(wish.components)});
+    }
+    const auto [place, is_new] = unpacked_.try_emplace(std::move(key));
+    Unpacked& result = place->second;
+    if (is_new) {
+      // Many choices take their time, however little each gives.
+      if (bytes.size() > bytes_left_) {
+        fail(who, "would unpack to more than the size of the file allows");
+      }
+      bytes_left_ -= bytes.size();
+      DracoMesh mesh = unpack(bytes, wanted);
+      if (!mesh.problem.empty()) {
+        fail(who, mesh.problem);
+      }
+      for (std::string& attribute : mesh.attributes) {
+        result.attributes.push_back(keep(std::move(attribute), who));
+      }
+      result.points = mesh.points;
+      result.corner_count = mesh.corners.size() / sizeof(std::uint32_t);
+      result.corners = keep(std::move(mesh.corners), who);
+    }
+    return result;
   }
 
   /// Draco never asks whether to go on, so it works on a copy that it may be left behind with.
@@ -274,20 +309,24 @@ class Unpacker {
     return {id, declared.componentType, gltf_component_count(declared.type)};
   }
 
-  /// Appends numbers with a buffer, a view and an accessor of their own. \return the accessor
-  int append(std::string bytes, tinygltf::Accessor accessor, std::size_t elements,
-             const std::string& who) {
+  /// \return the number of the buffer that the bytes become
+  std::size_t keep(std::string bytes, const std::string& who) {
     spend(bytes.size(), who);
+    document_.buffers.push_back(std::make_shared<const std::string>(std::move(bytes)));
+    return document_.buffers.size() - 1;
+  }
+
+  /// Appends a view and an accessor of all numbers in a buffer. \return the accessor
+  int append(std::size_t buffer, tinygltf::Accessor accessor, std::size_t elements) {
     tinygltf::BufferView view;
-    view.buffer = static_cast<int>(document_.buffers.size());
+    view.buffer = static_cast<int>(buffer);
     view.byteOffset = 0;
-    view.byteLength = bytes.size();
+    view.byteLength = document_.buffers[buffer]->size();
     view.byteStride = 0;
     accessor.bufferView = static_cast<int>(gltf_.bufferViews.size());
     accessor.byteOffset = 0;
     accessor.count = elements;
     accessor.sparse.isSparse = false;
-    document_.buffers.push_back(std::make_shared<const std::string>(std::move(bytes)));
     gltf_.bufferViews.push_back(view);
     gltf_.accessors.push_back(std::move(accessor));
     return static_cast<int>(gltf_.accessors.size()) - 1;
@@ -298,6 +337,7 @@ class Unpacker {
   tinygltf::Model& gltf_;
   const ModelBuilder& builder_;
   std::size_t bytes_left_;
+  std::map<std::vector<std::size_t>, Unpacked> unpacked_{};  ///< By view and attributes.
 };
 
 }  // namespace

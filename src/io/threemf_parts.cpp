@@ -5,6 +5,7 @@
 #include <array>
 #include <exception>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 
 #include <expat.h>
@@ -24,8 +25,7 @@ namespace {
 constexpr XML_Char kBetween = '|';
 
 /// The name without its namespace: no two that matter have the same one.
-std::string_view local(const XML_Char* name) {
-  const std::string_view whole = name;
+std::string_view local(std::string_view whole) {
   return whole.substr(whole.rfind(kBetween) + 1);
 }
 
@@ -54,6 +54,15 @@ class Attributes {
  private:
   const XML_Char** list_;
 };
+
+/// Of the elements and attributes that files hold in thousands.
+constexpr std::array<std::string_view, 18> kUsualNames{
+    "vertex", "x",    "y",     "z",        "triangle",  "v1",     "v2",   "v3",        "pid",
+    "p1",     "item", "color", "objectid", "transform", "object", "base", "component", "id"};
+
+bool is_usual(std::string_view name) {
+  return std::find(kUsualNames.begin(), kUsualNames.end(), name) != kUsualNames.end();
+}
 
 /// Half a byte, or 16.
 unsigned hexadecimal(char c) {
@@ -99,6 +108,7 @@ class ThreemfPartReader::State {
         parser_(XML_ParserCreateNS(nullptr, kBetween)) {
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(parser_.get(), &on_start, &on_end);
+    XML_SetStartNamespaceDeclHandler(parser_.get(), &on_namespace);
     XML_SetStartDoctypeDeclHandler(parser_.get(), &on_document_type);
   }
 
@@ -127,8 +137,21 @@ class ThreemfPartReader::State {
 
  private:
   static void on_start(void* state, const XML_Char* name, const XML_Char** attributes) {
-    static_cast<State*>(state)->guarded(
-        [&](State& self) { self.start(local(name), Attributes(attributes)); });
+    static_cast<State*>(state)->guarded([&](State& self) {
+      self.count_name(name);
+      for (const XML_Char** at = attributes; *at != nullptr; at += 2) {
+        self.count_name(at[0]);
+      }
+      self.start(local(name), Attributes(attributes));
+    });
+  }
+
+  static void on_namespace(void* state, const XML_Char* prefix, const XML_Char* uri) {
+    static_cast<State*>(state)->guarded([&](State& self) {
+      for (const XML_Char* name : {prefix, uri}) {
+        self.count_name(name == nullptr ? "" : name);
+      }
+    });
   }
 
   static void on_end(void* state, const XML_Char* name) {
@@ -167,6 +190,14 @@ class ThreemfPartReader::State {
       fail("more objects, items and colours than the size of the file allows");
     }
     --records_left_;
+  }
+
+  /// expat keeps all that it meets.
+  void count_name(std::string_view name) {
+    if (!is_usual(local(name)) && names_.emplace(name).second &&
+        names_.size() > kMostThreemfNames) {
+      fail("has more kinds of elements and attributes than any 3D model");
+    }
   }
 
   void start(std::string_view element, const Attributes& attributes) {
@@ -312,6 +343,7 @@ class ThreemfPartReader::State {
   Parser parser_;
   XML_Index added_ = 0;  ///< Bytes of the part.
   int depth_ = 0;
+  std::unordered_set<std::string> names_{};  ///< But for the usual ones.
   std::exception_ptr failure_{};
   ThreemfPart part_{};
   ThreemfObject* object_ = nullptr;  ///< Being read; a map keeps its place.

@@ -53,6 +53,8 @@ struct ThreemfPart {
   bool needs_double = false;          ///< Coordinates say more than a float holds.
 };
 
+/// Names of elements, attributes and namespaces that are not those of 3MF; each is kept. [ours]
+inline constexpr std::size_t kMostThreemfNames = 10'000;
 /// Elements may be nested this deep: the format needs six levels. [ours]
 inline constexpr int kDeepestThreemfElement = 64;
 /// Bytes that an element with its attributes, or a comment, may have: names are the longest. [ours]

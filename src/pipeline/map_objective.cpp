@@ -20,8 +20,34 @@ std::vector<double> vertex_shares(const ShapeAnalysis& shape, Weight weight) {
   return shares;
 }
 
-// A surface that cannot be decimated to this share of its vertices gains nothing by estimates.
+// A surface that cannot be decimated to this share of its vertices gains nothing by a coarse copy,
+// and if it is large, its own is looked at for some vertices: so many, that stand for those after
+// them. [ours]
 constexpr std::size_t kWorthwhile = 2;
+constexpr std::size_t kLarge = 16'000;
+constexpr std::size_t kSampled = 1000;
+
+bool is_worthwhile(const CoarseSurface& coarse) {
+  return kWorthwhile * coarse.mesh.positions.size() <= coarse.of_vertex.size();
+}
+
+bool is_sampled(const CoarseSurface& coarse) {
+  return !is_worthwhile(coarse) && coarse.of_vertex.size() >= kLarge;
+}
+
+/// What the vertices that are looked at for an estimate add to it.
+std::vector<double> estimated_shares(const CoarseSurface& coarse,
+                                     const std::vector<double>& shares) {
+  if (!is_sampled(coarse)) {
+    return coarse.sums(shares);
+  }
+  std::vector<double> sampled(shares.size(), 0.0);
+  const std::size_t step = shares.size() / kSampled;
+  for (std::size_t v = 0; v < shares.size(); ++v) {
+    sampled[v - v % step] += shares[v];
+  }
+  return sampled;
+}
 
 }  // namespace
 
@@ -33,9 +59,10 @@ MapObjective::MapObjective(const ShapeAnalysis& shape, const ViewOptions& option
       scorer_(faces_ ? ViewScorer(*faces_, shape.map.of_vertex, scoring_camera(shape, options))
                      : ViewScorer(prepared_->visibility, shape.map.of_vertex,
                                   scoring_camera(shape, options))),
-      coarse_shares_(prepared_->coarse.sums(vertex_shares(shape, options.weight))),
-      coarse_scorer_(prepared_->coarse_visibility, coarse_shares_, scoring_camera(shape, options)) {
-}
+      coarse_shares_(estimated_shares(prepared_->coarse, vertex_shares(shape, options.weight))),
+      coarse_scorer_(
+          is_sampled(prepared_->coarse) ? prepared_->visibility : prepared_->coarse_visibility,
+          coarse_shares_, scoring_camera(shape, options)) {}
 
 ViewObjective MapObjective::objective(const Preference& preference) const {
   ViewObjective objective;
@@ -43,9 +70,7 @@ ViewObjective MapObjective::objective(const Preference& preference) const {
   objective.score = [this](const std::vector<Vec3>& directions) {
     return scorer_.score_all(directions, quiet_);
   };
-  const std::size_t size = prepared_->coarse.of_vertex.size();
-  const std::size_t coarse = prepared_->coarse.mesh.positions.size();
-  if (kWorthwhile * coarse <= size || faces_) {
+  if (is_worthwhile(prepared_->coarse) || is_sampled(prepared_->coarse) || faces_) {
     objective.surrogate = [this](const std::vector<Vec3>& directions) {
       return estimates(directions);
     };

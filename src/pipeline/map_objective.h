@@ -14,7 +14,7 @@
 namespace vantage {
 
 /// The score of a view by the shape's map, KSSM or saliency, as a search takes it: exact on the
-/// surface, estimated on its coarse copy.
+/// surface, estimated on its coarse copy, or at some vertices where it cannot be made coarser.
 class MapObjective {
  public:
   /// \param shape must outlive this. \pre its map is there.
@@ -26,7 +26,7 @@ class MapObjective {
 
   [[nodiscard]] const VertexVisibility& visibility() const { return prepared_->visibility; }
 
-  /// Scores on the coarse copy, by vertices. \throw Cancelled
+  /// Estimates of the scores, by vertices. \throw Cancelled
   [[nodiscard]] std::vector<double> estimates(const std::vector<Vec3>& directions) const {
     return coarse_scorer_.score_all(directions, quiet_);
   }

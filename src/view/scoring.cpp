@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/view/scoring.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -55,6 +56,12 @@ ViewScorer::ViewScorer(const VertexVisibility& visibility, std::span<const doubl
     : ViewScorer(significance, camera) {
   visibility_ = &visibility;
   total_ = std::accumulate(significance.begin(), significance.end(), 0.0);
+  const auto none = std::count(significance.begin(), significance.end(), 0.0);
+  if (2 * static_cast<std::size_t>(none) > significance.size()) {
+    for (const double s : significance) {
+      asked_.push_back(s > 0.0 ? 1 : 0);
+    }
+  }
 }
 
 ViewScorer::ViewScorer(const FaceVisibility& faces, std::span<const double> significance,
@@ -71,7 +78,9 @@ ViewScorer::ViewScorer(const FaceVisibility& faces, std::span<const double> sign
 
 double ViewScorer::score_from(const Viewpoint& eye, const RunContext& run) const {
   if (faces_ == nullptr) {
-    return visible_sum(significance_, visibility_->visible_vertices(eye, run));
+    return visible_sum(significance_, asked_.empty()
+                                          ? visibility_->visible_vertices(eye, run)
+                                          : visibility_->visible_among(asked_, eye, run));
   }
   const double area = faces_->total_area();
   const double sum = faces_->visible_integral(significance_, faces_->seen_faces(eye, run));

@@ -26,8 +26,16 @@ constexpr unsigned kTileShift = 2;
 // A point's height over a face's plane, both of them rounded to float in a UnitFrame, is wrong by
 // less than this: a dozen roundings of numbers below 1. It is also far more than a touch.
 constexpr float kHeightError = 0x1p-19F;
-// Point tests per point and face that are worth more than a hierarchy in space. [ours]
+// Point tests per point and face after which faces are sorted by depth, and after which a hierarchy
+// in space is worth more: a test takes a nanosecond, a ray a microsecond and, where large faces lie
+// in a heap, a hundred. Models of one skin take about ten. [ours]
 constexpr std::size_t kPatience = 64;
+constexpr std::size_t kMostPatience = 1024;
+// The patience is spent evenly over the faces, but for this share of it.
+constexpr std::size_t kAhead = 16;
+// Faces that are nearest to the eye, struck first; then so many times as many, and so on.
+constexpr std::size_t kNearestFaces = 64;
+constexpr std::size_t kThenTimes = 3;
 constexpr std::size_t kGrain = 4096;  // faces or points per chunk: some tenths of a millisecond
 // Points tested at a time: what vector registers hold, those of every machine and wide ones.
 constexpr unsigned kLanes = 4;
@@ -101,29 +109,6 @@ struct EyeGrid::FacePacket {
   Floats error_bound;  // error of these values
   Floats least;        // points with less than this are outside
 };
-
-/// Lists the points asked about and where they are.
-void EyeGrid::place_points(const SurfacePoints& points, const std::vector<std::uint8_t>& seen,
-                           const RunContext& run) {
-  asked_.resize(seen.size());
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    asked_[count] = static_cast<std::uint32_t>(i);
-    count += seen[i] != 0 ? 1 : 0;
-  }
-  asked_.resize(count);
-  spots_.resize(count);
-  cell_.resize(count);
-  const std::size_t sites = points.sites.size();
-  parallel_for(run, count, kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::size_t i = asked_[k];
-      spots_[k] = i < sites ? corners_[i] : in_cells(in_picture(*points.rounded, i - sites));
-      const CellRange at = cells_of({spots_[k], spots_[k]});
-      cell_[k] = at.top * columns_ + at.left;
-    }
-  });
-}
 
 void EyeGrid::sort_points(const SurfacePoints& points) {
   const std::size_t sites = points.sites.size();
@@ -348,13 +333,20 @@ VANTAGE_INLINE std::size_t EyeGrid::strike(const Surface& surface, const Surface
   return work;
 }
 
-/// Of some of the faces those of one side.
+/// Of some of the faces those of one side, or of both where it is 0.
 struct EyeGrid::Walk {
   const Surface& surface;
   const SurfacePoints& points;
   std::uint8_t side;
   std::size_t limit;  // of work, for all faces
   std::atomic<std::size_t> spent{0};
+
+  /// Whether it is too much work for so many faces.
+  [[nodiscard]] bool is_too_much(std::size_t work, std::size_t faces) const {
+    const std::size_t all = surface.faces.size();
+    return work / (faces + all / kAhead + 1) > limit / all ||
+           spent.load(std::memory_order_relaxed) > limit;
+  }
 };
 
 template <unsigned Lanes>
@@ -378,25 +370,29 @@ VANTAGE_INLINE std::size_t EyeGrid::strike_all(Walk& walk, FacePacket<Lanes>& h)
 template <unsigned Lanes>
 VANTAGE_INLINE void EyeGrid::walk_some(Walk& walk, std::size_t begin, std::size_t end) {
   const std::uint8_t side = walk.side;
+  const bool is_sorted = side == 0;
   FacePacket<Lanes> some;
   std::size_t work = 0;
-  for (std::size_t f = begin; f < end; ++f) {
-    if (f % FaceBlocks::kFaces == 0) {
+  for (std::size_t k = begin; k < end; ++k) {
+    const std::size_t f = is_sorted ? order_[k] : k;
+    if (!is_sorted && f % FaceBlocks::kFaces == 0) {
       const Extent& block = blocks_[f / FaceBlocks::kFaces];
       const std::uint8_t all = block_side_[f / FaceBlocks::kFaces];
       if ((all != 0 && all != side) || behind_all(block.low[2], cells_of(block))) {
-        f += FaceBlocks::kFaces - 1;
+        k += FaceBlocks::kFaces - 1;
         continue;
       }
     }
-    if ((turned_[f] == 2) != (side == 2) || (side == 2 && !backs_.empty() && backs_[f] == 0)) {
+    const bool is_back = turned_[f] == 2;
+    if ((!is_sorted && is_back != (side == 2)) || (is_back && !backs_.empty() && backs_[f] == 0)) {
       continue;
     }
     some.face[some.count++] = static_cast<std::uint32_t>(f);
     if (some.count == Lanes) {
       work += strike_all<Lanes>(walk, some);
     }
-    if (work > walk.limit || walk.spent.load(std::memory_order_relaxed) > walk.limit) {
+    if (is_sorted ? work > walk.limit : walk.is_too_much(work, k - begin)) {
+      work += walk.limit;
       break;
     }
   }
@@ -410,18 +406,70 @@ VANTAGE_INLINE void EyeGrid::walk_some(Walk& walk, std::size_t begin, std::size_
 }
 #endif
 
-bool EyeGrid::walk(const Surface& surface, const SurfacePoints& points, std::uint8_t side,
-                   const RunContext& run) {
-  Walk walk{surface, points, side, kPatience * (point_of_.size() + surface.faces.size())};
-  parallel_for(run, surface.faces.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+/// \return false if that was too much work.
+bool EyeGrid::walk(Walk& walk, std::size_t first, std::size_t count, const RunContext& run) {
+  parallel_for(run, count, kGrain, [&](std::size_t begin, std::size_t end) {
 #if defined(__x86_64__)
     if (has_wide_registers()) {
-      return walk_wide(walk, begin, end);
+      return walk_wide(walk, first + begin, first + end);
     }
 #endif
-    walk_some<kLanes>(walk, begin, end);
+    walk_some<kLanes>(walk, first + begin, first + end);
   });
   return walk.spent.load() <= walk.limit;
+}
+
+/// Fronts first, and what is seen edge on: most of what is hidden lies behind one. The backs then have
+/// little left to do, or nothing: the eye is outside of every shell, because all sites are ahead of it
+/// where cells were chosen. \return false if the patience was not enough.
+bool EyeGrid::walk_sides(const Surface& surface, const SurfacePoints& points,
+                         const RunContext& run) {
+  const std::size_t count = surface.faces.size();
+  const std::size_t limit = kPatience * (point_of_.size() + count);
+  find_deepest();
+  Walk fronts{surface, points, 1, limit};
+  if (!walk(fronts, 0, count, run)) {
+    return false;
+  }
+  if (!backs_.empty() && std::find(backs_.begin(), backs_.end(), 1) == backs_.end()) {
+    return true;
+  }
+  find_deepest();
+  Walk backs{surface, points, 2, limit};
+  return walk(backs, 0, count, run);
+}
+
+/// For large faces that lie in a heap: the nearest of them hide most points, and all others are soon
+/// asked about the few that are left. \return false if even this patience was not enough.
+bool EyeGrid::walk_sorted(const Surface& surface, const SurfacePoints& points,
+                          std::vector<std::uint8_t>& seen, const RunContext& run) {
+  const std::size_t count = surface.faces.size();
+  Walk both{surface, points, 0, kMostPatience * (point_of_.size() + count)};
+  sort_faces(surface);
+  std::size_t left = mark_hidden(seen);
+  project(surface.rounded, corners_, run);
+  const std::vector<Spot> projected = corners_;
+  std::size_t laid_out = left;
+  lay_out(surface, left, run);
+  std::size_t done = 0;
+  for (std::size_t next = std::min(kNearestFaces, count); next > 0;
+       next = std::min(kThenTimes * done, count - done)) {
+    if (2 * left < laid_out) {
+      corners_ = projected;
+      laid_out = left;
+      lay_out(surface, left, run);
+    }
+    place_points(points, seen, run);
+    sort_points(points);
+    find_deepest();
+    const bool complete = walk(both, done, next, run);
+    left = mark_hidden(seen);
+    if (!complete) {
+      return false;
+    }
+    done += next;
+  }
+  return true;
 }
 
 bool EyeGrid::hide(const Surface& surface, const SurfacePoints& points,
@@ -429,9 +477,7 @@ bool EyeGrid::hide(const Surface& surface, const SurfacePoints& points,
   if (aim_ == Aim::None) {
     aim_ = aim(surface, run) ? Aim::Taken : Aim::Failed;
     if (aim_ == Aim::Taken) {
-      choose_cells(static_cast<std::size_t>(std::count(seen.begin(), seen.end(), 1)));
-      to_cells(corners_, run);
-      outline_blocks(surface.blocks, run);
+      lay_out(surface, static_cast<std::size_t>(std::count(seen.begin(), seen.end(), 1)), run);
     }
   }
   if (aim_ == Aim::Failed) {
@@ -439,21 +485,11 @@ bool EyeGrid::hide(const Surface& surface, const SurfacePoints& points,
   }
   place_points(points, seen, run);
   sort_points(points);
-  // Fronts first, and what is seen edge on: most of what is hidden lies behind one. The backs then
-  // have little left to do, or nothing: the eye is outside of every shell, because all sites are
-  // ahead of it where cells were chosen.
-  find_deepest();
-  bool complete = walk(surface, points, 1, run);
-  if (complete && (backs_.empty() || std::find(backs_.begin(), backs_.end(), 1) != backs_.end())) {
-    find_deepest();
-    complete = walk(surface, points, 2, run);
+  if (walk_sides(surface, points, run)) {
+    mark_hidden(seen);
+    return true;
   }
-  for (std::size_t slot = 0; slot < point_of_.size(); ++slot) {
-    if (hidden_[slot] != 0) {
-      seen[point_of_[slot]] = 0;
-    }
-  }
-  return complete;
+  return walk_sorted(surface, points, seen, run);
 }
 
 }  // namespace vantage

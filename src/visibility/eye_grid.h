@@ -102,6 +102,7 @@ class EyeGrid {
   bool aim(const Surface& surface, const RunContext& run);
   bool set_axes();
   void project(const FloatPoints& points, std::vector<Spot>& spots, const RunContext& run) const;
+  void lay_out(const Surface& surface, std::size_t active, const RunContext& run);
   void choose_cells(std::size_t active);
   void to_cells(std::vector<Spot>& spots, const RunContext& run) const;
   void place_points(const SurfacePoints& points, const std::vector<std::uint8_t>& seen,
@@ -134,8 +135,12 @@ class EyeGrid {
   template <unsigned Lanes>
   void walk_some(Walk& walk, std::size_t begin, std::size_t end);
   void walk_wide(Walk& walk, std::size_t begin, std::size_t end);
-  bool walk(const Surface& surface, const SurfacePoints& points, std::uint8_t side,
-            const RunContext& run);
+  bool walk(Walk& walk, std::size_t first, std::size_t count, const RunContext& run);
+  bool walk_sides(const Surface& surface, const SurfacePoints& points, const RunContext& run);
+  void sort_faces(const Surface& surface);
+  std::size_t mark_hidden(std::vector<std::uint8_t>& seen) const;
+  bool walk_sorted(const Surface& surface, const SurfacePoints& points,
+                   std::vector<std::uint8_t>& seen, const RunContext& run);
   template <unsigned Lanes>
   std::size_t strike_all(Walk& walk, FacePacket<Lanes>& h);
   template <unsigned Lanes>
@@ -186,6 +191,7 @@ class EyeGrid {
   std::vector<float> depth_{};              // of each of them; minus infinity if known hidden
   std::vector<std::uint32_t> key_{};        // of each: the site, or past them the face it lies on
   std::vector<std::uint8_t> hidden_{};      // of each
+  std::vector<std::uint32_t> order_{};      // of the faces, nearest first
   std::vector<float> deepest_{};            // of the points left in each tile of cells
 };
 

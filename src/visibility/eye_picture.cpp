@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -68,6 +69,13 @@ void EyeGrid::project(const FloatPoints& points, std::vector<Spot>& spots,
   });
 }
 
+/// Chooses cells for so many points, and puts the corners that project() has placed into them.
+void EyeGrid::lay_out(const Surface& surface, std::size_t active, const RunContext& run) {
+  choose_cells(active);
+  to_cells(corners_, run);
+  outline_blocks(surface.blocks, run);
+}
+
 void EyeGrid::choose_cells(std::size_t active) {
   const float width = spanned_.high[0] - spanned_.low[0];
   const float height = spanned_.high[1] - spanned_.low[1];
@@ -130,6 +138,54 @@ void EyeGrid::outline_blocks(const FaceBlocks& blocks, const RunContext& run) {
         whole ? Extent{Spot{x_low, y_low, nearest, 0.0F}, Spot{x_high, y_high, farthest, 0.0F}}
               : Extent{Spot{0.0F, 0.0F, nearest, 0.0F}, Spot{columns, rows, farthest, 0.0F}};
   }
+}
+
+/// Lists the points asked about and where they are.
+void EyeGrid::place_points(const SurfacePoints& points, const std::vector<std::uint8_t>& seen,
+                           const RunContext& run) {
+  asked_.resize(seen.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    asked_[count] = static_cast<std::uint32_t>(i);
+    count += seen[i] != 0 ? 1 : 0;
+  }
+  asked_.resize(count);
+  spots_.resize(count);
+  cell_.resize(count);
+  const std::size_t sites = points.sites.size();
+  parallel_for(run, count, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t i = asked_[k];
+      spots_[k] = i < sites ? corners_[i] : in_cells(in_picture(*points.rounded, i - sites));
+      const CellRange at = cells_of({spots_[k], spots_[k]});
+      cell_[k] = at.top * columns_ + at.left;
+    }
+  });
+}
+
+/// Puts what is nearest to the eye first.
+void EyeGrid::sort_faces(const Surface& surface) {
+  std::vector<float> nearest;
+  nearest.reserve(surface.faces.size());
+  for (const auto& [a, b, c] : surface.faces) {
+    nearest.push_back(std::min({corners_[a][2], corners_[b][2], corners_[c][2]}));
+  }
+  order_.resize(nearest.size());
+  std::iota(order_.begin(), order_.end(), 0U);
+  std::sort(order_.begin(), order_.end(),
+            [&](std::uint32_t f, std::uint32_t g) { return nearest[f] < nearest[g]; });
+}
+
+/// \return the number of points left.
+std::size_t EyeGrid::mark_hidden(std::vector<std::uint8_t>& seen) const {
+  std::size_t left = point_of_.size();
+  for (std::size_t slot = 0; slot < point_of_.size(); ++slot) {
+    if (hidden_[slot] != 0) {
+      seen[point_of_[slot]] = 0;
+      --left;
+    }
+  }
+  return left;
 }
 
 }  // namespace vantage

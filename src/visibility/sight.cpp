@@ -52,6 +52,19 @@ std::vector<std::uint8_t> Look::seen_sites() {
   return not_hidden(std::move(asked));
 }
 
+std::vector<std::uint8_t> Look::seen_among(std::span<const std::uint8_t> sites) {
+  const Surface& surface = sight_.surface_;
+  std::vector<std::uint8_t> asked(surface.sites.size(), 0);
+  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    for (const std::uint32_t site : surface.faces[f]) {
+      if (sites[site] != 0 && is_turned(f)) {
+        asked[site] = 1;
+      }
+    }
+  }
+  return not_hidden(std::move(asked));
+}
+
 std::vector<std::uint8_t> Look::not_hidden(std::vector<std::uint8_t> asked) {
   const Surface& surface = sight_.surface_;
   const SurfacePoints points{.sites = surface.sites};

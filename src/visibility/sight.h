@@ -102,6 +102,9 @@ class Look {
   /// 1 for each site at which a face is turned to the eye and that no face hides.
   [[nodiscard]] std::vector<std::uint8_t> seen_sites();
 
+  /// The same of those sites that have a 1.
+  [[nodiscard]] std::vector<std::uint8_t> seen_among(std::span<const std::uint8_t> sites);
+
   /// 1 for each site asked about that no face hides. \param asked 1 for each such site, else 0.
   [[nodiscard]] std::vector<std::uint8_t> not_hidden(std::vector<std::uint8_t> asked);
 

@@ -46,6 +46,25 @@ std::vector<std::uint8_t> VertexVisibility::visible_vertices(const Viewpoint& ey
   return vertices_of_sites(sight.surface(), look.seen_sites());
 }
 
+std::vector<std::uint8_t> VertexVisibility::visible_among(std::span<const std::uint8_t> asked,
+                                                          const Viewpoint& eye,
+                                                          const RunContext& run) const {
+  Sight& sight = scene_->sight;
+  const Surface& surface = sight.surface();
+  std::vector<std::uint8_t> sites(surface.sites.size(), 0);
+  for (std::size_t v = 0; v < asked.size(); ++v) {
+    if (asked[v] != 0 && surface.site_of_vertex[v] != Surface::kNoSite) {
+      sites[surface.site_of_vertex[v]] = 1;
+    }
+  }
+  Look look(sight, eye_in_frame(eye, surface.frame), run);
+  std::vector<std::uint8_t> seen = vertices_of_sites(surface, look.seen_among(sites));
+  for (std::size_t v = 0; v < seen.size(); ++v) {
+    seen[v] = asked[v] != 0 ? seen[v] : 0;
+  }
+  return seen;
+}
+
 std::vector<std::uint8_t> visible_vertices(const TriMesh& mesh, const Vec3& eye) {
   OrientedMesh oriented = orient_shells(mesh);
   return VertexVisibility(oriented.mesh, std::move(oriented.sides))

@@ -92,11 +92,11 @@ std::optional<Entry> ArchiveReader::next(const EntryFilter& filter) {
       continue;
     }
     // No normal path holds "//", so no file beside the archive can have this key.
-    // No key_of_path() holds a single backslash before an e, so no entry can be called so.
+    // No key_of_path() holds a single backslash before an e or an r, so no entry can be called so.
     entry.key =
         key_of_path(path_) + "//" + (member.empty() ? "\\entry " + std::to_string(at_) : member);
     if (const auto repeat = json.value("repeat", 0); repeat > 0) {
-      entry.key += "//" + std::to_string(repeat + 1);
+      entry.key += "\\repeat " + std::to_string(repeat + 1);
     }
     return entry;
   }

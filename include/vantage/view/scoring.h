@@ -81,7 +81,8 @@ class ViewScorer {
   const VertexVisibility* visibility_ = nullptr;  // of a score by vertices
   const FaceVisibility* faces_ = nullptr;         // of a score by area
   std::span<const double> significance_;
-  std::vector<double> of_face_{};  // share of each face of `faces_`
+  std::vector<std::uint8_t> asked_{};  // 1 for each vertex of significance; none if most are
+  std::vector<double> of_face_{};      // share of each face of `faces_`
   ScoringCamera camera_;
   double total_ = 0.0;
 };

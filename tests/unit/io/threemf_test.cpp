@@ -234,6 +234,21 @@ TEST(ThreemfError, RefusesAnElementThatIsLongerThanAnyOfAModel) {
   EXPECT_THAT(plate.error(), HasSubstr("longer than any"));
 }
 
+TEST(ThreemfError, RefusesMoreNamesThanAnyModelHas) {
+  for (const std::string before : {"<", "<a ", "<a xmlns:"}) {
+    const std::string after = before == "<" ? "/>" : "=\"b\"/>";
+    Plate plate;
+    for (int i = 0; i < 9'000; ++i) {
+      plate.resources += before + "n" + std::to_string(i) + after;
+    }
+    EXPECT_EQ(plate.parsed().mesh.positions.size(), 4U) << before;
+    for (int i = 9'000; i < 11'000; ++i) {
+      plate.resources += before + "n" + std::to_string(i) + after;
+    }
+    EXPECT_THAT(plate.error(), HasSubstr("more kinds of elements")) << before;
+  }
+}
+
 TEST(ThreemfError, RefusesMoreItemsObjectsAndColoursThanBytes) {
   const std::string item = R"(<item objectid="1"/>)";
   const std::string colour = "<base/>";

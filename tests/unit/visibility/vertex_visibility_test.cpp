@@ -192,6 +192,19 @@ TEST(VertexVisibility, HidesFromAnEyeInsideWhatAScreenHides) {
   }
 }
 
+TEST(VertexVisibility, OfSomeVerticesIsThatOfAll) {
+  const TriMesh ball = test::sphere(4);
+  const VertexVisibility visibility(ball, {FaceSides::Front});
+  const Bytes all = visibility.visible_vertices(at(0.0, 1.0, 2.0));
+  Bytes asked(all.size(), 0);
+  Bytes expected(all.size(), 0);
+  for (std::size_t v = 0; v < all.size(); v += 5) {
+    asked[v] = 1;
+    expected[v] = all[v];
+  }
+  EXPECT_EQ(visibility.visible_among(asked, at(0.0, 1.0, 2.0)), expected);
+}
+
 TEST(VertexVisibility, OfAnEmptyMeshIsEmpty) {
   EXPECT_TRUE(seen(TriMesh{}, FaceSides::Both, at(0.0, 0.0, 1.0)).empty());
 }

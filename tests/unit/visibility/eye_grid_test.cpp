@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "visibility/eye_grid.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "vantage/visibility/vertex_visibility.h"
+
+#include "core/random.h"
+#include "visibility/sight.h"
+#include "visibility/surface.h"
+
+namespace vantage {
+namespace {
+
+/// Triangles with corners drawn by lot from a cube, each apart.
+TriMesh heap(std::uint32_t faces) {
+  Pcg32 random(7);
+  TriMesh mesh;
+  for (std::uint32_t f = 0; f < faces; ++f) {
+    for (int c = 0; c < 3; ++c) {
+      const double x = random.uniform();
+      const double y = random.uniform();
+      mesh.positions.emplace_back(x, y, random.uniform());
+    }
+    mesh.triangles.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+  }
+  return mesh;
+}
+
+TEST(EyeGrid, IsEnoughForAHeapOfLargeFaces) {
+  const std::array sides{FaceSides::Both};
+  Sight sight(prepare_surface(heap(4000), sides));
+  const Surface& surface = sight.surface();
+  const Viewpoint eye{Projection::Perspective, Vec3(2.0, 3.0, 4.0)};
+  const SurfacePoints points{.sites = surface.sites};
+  EyeGrid grid;
+  grid.begin(surface, eye, {}, {});
+  std::vector<std::uint8_t> seen(surface.sites.size(), 1);
+  EXPECT_TRUE(grid.hide(surface, points, seen, {}));
+  for (std::uint32_t i = 0; i < seen.size(); i += 7) {
+    EXPECT_EQ(seen[i] == 0, sight.hidden(points, i, eye)) << i;
+  }
+}
+
+}  // namespace
+}  // namespace vantage
