@@ -76,6 +76,7 @@ ViewObjective MapObjective::objective(const Preference& preference) const {
     };
   }
   if (!preference.is_score()) {
+    objective.finest_preferred_deg = preference.finest_deg();
     objective.preference = [&preference](const Vec3& direction, double score) {
       return preference(direction, score);
     };

@@ -126,6 +126,7 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, const FrameChoice& 
   const Preference preference(shape, choice, options, objective.total);
   if (!preference.is_score()) {
     objective.preference = std::cref(preference);
+    objective.finest_preferred_deg = std::max(objective.finest_deg, preference.finest_deg());
   }
   auto [best, worst, highest] =
       search_best_and_worst(objective, options.search, run.part(0.6, 1.0));

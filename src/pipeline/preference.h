@@ -16,6 +16,9 @@ class Preference {
   Preference(const ShapeAnalysis& shape, const FrameChoice& choice, const ViewOptions& options,
              double total);
 
+  /// How finely it is worth being searched, degrees.
+  [[nodiscard]] double finest_deg() const;
+
   /// Whether it is nothing but the score.
   [[nodiscard]] bool is_score() const;
 

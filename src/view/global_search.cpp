@@ -144,7 +144,7 @@ Candidate search_globally(const SearchTarget& target, const RunContext& run) {
     survey.score_promising(kBatch, kBatch / 4);
   }
   AscentRules rules{.first_rad = first_rad,
-                    .last_rad = target.objective().finest_deg * kRadPerDeg,
+                    .last_rad = target.finest_deg() * kRadPerDeg,
                     .flat = kFlat * survey.range(),
                     .drops_losers = true};
   const RunContext ascent = run.part(kSurveyShare, 1.0);

@@ -38,6 +38,12 @@ class SearchTarget {
   /// Whether every view is as good as any other.
   [[nodiscard]] bool is_flat() const { return objective_->total == 0.0; }
 
+  /// Of the global search's rings.
+  [[nodiscard]] double finest_deg() const {
+    return goal_ == Goal::Best && objective_->preference ? objective_->finest_preferred_deg
+                                                         : objective_->finest_deg;
+  }
+
   [[nodiscard]] const ViewObjective& objective() const { return *objective_; }
 
  private:
