@@ -17,17 +17,21 @@ struct ComponentHistory {
   std::vector<Vec3>
       thinned{};  ///< What ContractionHistory::thinned has of it; empty: the last level.
   ComponentContraction summary{};
+  bool is_stuck = false;  ///< Ended far from a curve because no way to take a step was sound.
 };
 
-/// What the vertices of a coarse surface stand for on the fine one, so that its steps are those of
-/// the fine one (docs/contraction.md). Empty: each vertex stands for itself.
-struct FineShares {
-  std::vector<double> count{};  ///< Fine vertices that each vertex stands for; > 0.
-  std::vector<double> area{};   ///< Coarse over fine area around each vertex; > 0.
-  double mean_face_area = 0.0;  ///< Of the fine surface.
+/// What makes the steps those of the surface, however it is cut into triangles: vertices count by
+/// the area around them, as if there were a given number of even ones [ours: docs/contraction.md].
+/// Empty: each vertex counts alike, as Cao has it.
+struct EvenShares {
+  std::vector<double> count{};  ///< Even vertices that each vertex stands for; > 0.
+  double mean_face_area = 0.0;  ///< Of the faces of so many even vertices.
 
   [[nodiscard]] bool empty() const { return count.empty(); }
 };
+
+/// The shares of a surface; empty if it has no area.
+EvenShares even_shares(const TriMesh& mesh);
 
 /// Whether a surface that shrank to this share of its area [a_t] is not yet a curve [ours: 51 of 57
 /// closed models are curves where Cao's rule stops; docs/contraction.md].
@@ -38,6 +42,6 @@ inline bool is_sheet(double shrinkage) {
 /// Contracts one component already scaled as options.scaling says (docs/contraction.md).
 /// \pre every vertex belongs to a face, no face names a vertex twice. \throw Cancelled
 ComponentHistory contract_component(const TriMesh& scaled, const ContractionOptions& options,
-                                    const RunContext& run, const FineShares& shares = {});
+                                    const RunContext& run, const EvenShares& shares = {});
 
 }  // namespace vantage

@@ -14,12 +14,12 @@
 namespace vantage {
 namespace {
 
-/// A face is huge if an edge of it is longer than this, over D [ours].
-constexpr double kHuge = 0.25;
-/// A component is refined if huge faces hold more than this share of its area [ours].
-constexpr double kHugeShare = 0.5;
-/// Edges are split down to this length, over D [ours: two skeleton samples].
-constexpr double kFineEdge = 0.04;
+/// A face is coarse if an edge of it is longer than this, over D [ours: two skeleton samples].
+constexpr double kCoarse = 0.04;
+/// A component is refined if coarse faces hold more than this share of its area [ours].
+constexpr double kCoarseShare = 0.5;
+/// Edges are split down to this length, over D [ours: trials in docs/lab].
+constexpr double kFineEdge = 0.03;
 /// Vertices that refinement may make about, of all components together [ours]; edges stay longer
 /// where that is not enough.
 constexpr double kMostVertices = 20'000.0;
@@ -36,18 +36,18 @@ std::vector<bool> faces_to_refine(const TriMesh& mesh) {
   const Components components = connected_components(mesh);
   const std::vector<double> areas = face_areas(mesh);
   std::vector<double> area(components.count, 0.0);
-  std::vector<double> huge(components.count, 0.0);
+  std::vector<double> coarse(components.count, 0.0);
   for (std::size_t f = 0; f < areas.size(); ++f) {
     const std::uint32_t component = components.of_vertex[mesh.triangles[f][0]];
     area[component] += areas[f];
-    if (longest_edge(mesh, mesh.triangles[f]) > kHuge) {
-      huge[component] += areas[f];
+    if (longest_edge(mesh, mesh.triangles[f]) > kCoarse) {
+      coarse[component] += areas[f];
     }
   }
   std::vector<bool> chosen(areas.size(), false);
   for (std::size_t f = 0; f < areas.size(); ++f) {
     const std::uint32_t component = components.of_vertex[mesh.triangles[f][0]];
-    chosen[f] = huge[component] > kHugeShare * area[component];
+    chosen[f] = coarse[component] > kCoarseShare * area[component];
   }
   return chosen;
 }
@@ -65,6 +65,15 @@ double estimated_vertices(const TriMesh& mesh, const std::vector<bool>& chosen, 
   return count;
 }
 
+/// The length down to which edges of a mesh of diameter 1 are split.
+double affordable_edge(const TriMesh& unit, const std::vector<bool>& chosen) {
+  double edge = kFineEdge;
+  while (edge < 1.0 && estimated_vertices(unit, chosen, edge) > kMostVertices) {
+    edge *= kCoarser;
+  }
+  return edge;
+}
+
 }  // namespace
 
 std::optional<TriMesh> refine_coarse_components(const TriMesh& mesh, const RunContext& run) {
@@ -80,11 +89,18 @@ std::optional<TriMesh> refine_coarse_components(const TriMesh& mesh, const RunCo
   if (std::find(chosen.begin(), chosen.end(), true) == chosen.end()) {
     return std::nullopt;
   }
-  double edge = kFineEdge;
-  while (edge < 1.0 && estimated_vertices(unit, chosen, edge) > kMostVertices) {
-    edge *= kCoarser;
-  }
+  const double edge = affordable_edge(unit, chosen);
   return split_long_edges(mesh, std::move(chosen), edge * sphere.diameter, run);
+}
+
+TriMesh refine_whole(const TriMesh& scaled, const RunContext& run) {
+  TriMesh unit = scaled;
+  for (Vec3& p : unit.positions) {
+    p *= 0.5;
+  }
+  std::vector<bool> all(scaled.triangles.size(), true);
+  const double edge = 2.0 * affordable_edge(unit, all);
+  return split_long_edges(scaled, std::move(all), edge, run);
 }
 
 }  // namespace vantage

@@ -13,4 +13,7 @@ namespace vantage {
 /// \throw Cancelled
 std::optional<TriMesh> refine_coarse_components(const TriMesh& mesh, const RunContext& run);
 
+/// One component, of diameter about 2, split so too, whatever its faces. \throw Cancelled
+TriMesh refine_whole(const TriMesh& scaled, const RunContext& run);
+
 }  // namespace vantage
