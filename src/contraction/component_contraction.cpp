@@ -100,12 +100,13 @@ struct State {
 class Contraction {
  public:
   Contraction(const TriMesh& scaled, const ContractionOptions& options, const EvenShares& shares,
-              const RunContext& run)
+              const RunContext& run, bool is_careful)
       : options_(options),
         run_(run),
         soundness_(scaled),
         ratios_(scaled, shares),
-        solver_(scaled, shares) {
+        solver_(scaled, shares),
+        manner_(is_careful ? kSafer : 0) {
     const double area = shares.empty() ? ratios_.mean_area() : shares.mean_face_area;
     state_ = {scaled, 1.0 / (10.0 * std::sqrt(area)),
               std::vector<double>(scaled.positions.size(), 1.0)};
@@ -226,7 +227,7 @@ class Contraction {
   StepSolver solver_;
   State state_{};
   std::optional<State> limited_{};  // before the first step whose W_L a limit kept low
-  std::size_t manner_ = 0;          // of kManners, where the next step begins
+  std::size_t manner_;              // of kManners, where the next step begins
   std::vector<std::string> remedies_{};
   bool is_stuck_ = false;
 };
@@ -257,12 +258,13 @@ std::vector<Vec3> thin_further(Contraction& surface, const ContractionOptions& o
 }  // namespace
 
 ComponentHistory contract_component(const TriMesh& scaled, const ContractionOptions& options,
-                                    const RunContext& run, const EvenShares& shares) {
+                                    const RunContext& run, const EvenShares& shares,
+                                    bool is_careful) {
   ComponentHistory history;
   history.summary.vertices = scaled.positions.size();
   history.levels.push_back(scaled.positions);
   history.shrinkage.push_back(1.0);
-  Contraction surface(scaled, options, shares, run);
+  Contraction surface(scaled, options, shares, run, is_careful);
   if (!surface.has_area()) {
     return history;
   }

@@ -40,8 +40,10 @@ inline bool is_sheet(double shrinkage) {
 }
 
 /// Contracts one component already scaled as options.scaling says (docs/contraction.md).
+/// \param is_careful whether all steps are taken with the weights that are meant for slivers.
 /// \pre every vertex belongs to a face, no face names a vertex twice. \throw Cancelled
 ComponentHistory contract_component(const TriMesh& scaled, const ContractionOptions& options,
-                                    const RunContext& run, const EvenShares& shares = {});
+                                    const RunContext& run, const EvenShares& shares = {},
+                                    bool is_careful = false);
 
 }  // namespace vantage

@@ -125,6 +125,25 @@ ComponentHistory contract_exactly(const TriMesh& scaled, const ContractionOption
   return history;
 }
 
+/// Takes all steps with weights that slivers do not upset where `history` is stuck, if that leads
+/// farther.
+void contract_carefully(const TriMesh& scaled, const ContractionOptions& options,
+                        const RunContext& run, ComponentHistory& history) {
+  ContractionOptions no_thinning = options;
+  no_thinning.sheet_limit = options.contraction_limit;
+  const bool is_exact = options.method == ContractionMethod::Exact;
+  ComponentHistory careful = contract_component(
+      scaled, no_thinning, run, is_exact ? EvenShares{} : even_shares(scaled), true);
+  if (careful.is_stuck && careful.shrinkage.back() >= history.shrinkage.back()) {
+    return;
+  }
+  careful.summary.strategy = history.summary.strategy;
+  careful.summary.remedies = history.summary.remedies;
+  careful.summary.remedies.push_back(
+      "so all steps were taken with weights that thin triangles do not upset");
+  history = std::move(careful);
+}
+
 /// Contracts a finer copy of a surface on which `history` is stuck: coarse meshes have too few
 /// vertices to move. The steps are those of the copy, of the surface's own vertices.
 void contract_finer_copy(const TriMesh& scaled, const ContractionOptions& options,
@@ -167,6 +186,9 @@ ComponentHistory contract_scaled(const TriMesh& scaled, const std::optional<Prox
     no_thinning.sheet_limit = options.contraction_limit;
     history = contract_component(scaled, no_thinning, run, even_shares(scaled));
     history.summary.strategy = "direct";
+  }
+  if (history.is_stuck) {
+    contract_carefully(scaled, options, run, history);
   }
   if (history.is_stuck && scaled.positions.size() <= kProxyFrom) {
     contract_finer_copy(scaled, options, run, history);
