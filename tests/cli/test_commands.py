@@ -132,7 +132,7 @@ class Map(ProgramTest):
     def test_every_choice_of_method_gives_another_map(self):
         maps = set()
         choices = ((), ("--suppression", "local-maxima"), ("--kinematics", "velocity"), ("--graph", "finished"),
-                   ("--flat-level", "0"))
+                   ("--no-fit",), ("--flat-level", "0.06"))
         for flags in choices:
             self.vantage("map", MODELS / "deer.ply", "-o", "map.ply", *flags)
             maps.add((self.dir / "map.ply").read_bytes())
