@@ -17,7 +17,7 @@ namespace vantage {
 /// \param node_of_vertex node of each point; others than nodes of the graph are left out.
 /// \param piece longest piece of an edge, > 0.
 CurveGraph fit_curve(const CurveGraph& graph, std::span<const Vec3> contracted,
-                     std::span<const double> weights,
-                     std::span<const std::uint32_t> node_of_vertex, double piece);
+                     std::span<const double> weights, std::span<const std::uint32_t> node_of_vertex,
+                     double piece);
 
 }  // namespace vantage
