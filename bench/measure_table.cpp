@@ -14,7 +14,7 @@
 #include <sys/resource.h>
 
 #include "vantage/io/model.h"
-#include "vantage/report/measured_shape.h"
+#include "vantage/pipeline/measured_shape.h"
 #include "vantage/view/measurer.h"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <exception>
 
 #include "vantage/io/model.h"
-#include "vantage/report/view_report.h"
+#include "vantage/pipeline/shape_analysis.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) {

@@ -265,7 +265,7 @@ void BM_VisibleArea(benchmark::State& state) {
   for (auto _ : state) {
     benchmark::DoNotOptimize(visibility.seen_faces(eyes[next++ % eyes.size()], alone));
   }
-  state.counters["samples"] = static_cast<double>(visibility.sample_count());
+  state.counters["faces"] = static_cast<double>(visibility.face_count());
 }
 
 BENCHMARK(BM_PrepareVisibility)->Arg(170000)->Unit(benchmark::kMillisecond);

@@ -10,7 +10,7 @@
 #include "vantage/io/model.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/weld.h"
-#include "vantage/report/view_report.h"
+#include "vantage/pipeline/shape_analysis.h"
 #include "vantage/spatial/directions.h"
 #include "vantage/visibility/vertex_visibility.h"
 

@@ -5,7 +5,8 @@
 
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
-#include "vantage/report/view_report.h"
+#include "vantage/pipeline/find_views.h"
+#include "vantage/report/pictures.h"
 
 int main(int argc, char** argv) {
   using namespace vantage;

@@ -5,7 +5,7 @@
 #include <exception>
 
 #include "vantage/io/model.h"
-#include "vantage/report/measured_shape.h"
+#include "vantage/pipeline/measured_shape.h"
 
 int main(int argc, char** argv) {
   using namespace vantage;

@@ -3,10 +3,10 @@
 // (I + t LᵀL) x' = x, solved with Eigen.
 #include <cmath>
 #include <cstdio>
+#include <random>
 
 #include <Eigen/SparseCholesky>
 
-#include "vantage/core/random.h"
 #include "vantage/operators/cotangent_laplacian.h"
 #include "vantage/spatial/directions.h"
 
@@ -27,9 +27,9 @@ int main() {
   using namespace vantage;
   const DirectionSet sphere = direction_set(ViewSphereBase::Icosahedron, 4);
   std::vector<Vec3> points = sphere.directions;
-  Pcg32 random(7);
+  std::mt19937 random(7);  // the same numbers on every platform
   for (Vec3& p : points) {
-    p *= 1.0 + 0.02 * (random.uniform() - 0.5);
+    p *= 1.0 + 0.02 * (static_cast<double>(random()) / 4294967296.0 - 0.5);
   }
   const double before = roughness(points);
 

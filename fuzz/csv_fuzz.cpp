@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "vantage/core/error.h"
-#include "vantage/io/csv.h"
+#include "vantage/io/model.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

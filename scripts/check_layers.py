@@ -18,7 +18,8 @@ ALLOWED = {
     "significance": "core mesh spatial operators contraction skeleton visibility",
     "view": "core mesh spatial significance visibility",
     "render": "core mesh spatial",
-    "report": "core mesh io spatial operators contraction skeleton visibility significance view render",
+    "pipeline": "core mesh io spatial operators contraction skeleton visibility significance view render",
+    "report": "core mesh io spatial operators contraction skeleton visibility significance view render pipeline",
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 

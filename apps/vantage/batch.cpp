@@ -10,7 +10,7 @@
 
 #include "vantage/core/error.h"
 #include "vantage/core/version.h"
-#include "vantage/report/view_report.h"
+#include "vantage/pipeline/view_options.h"
 
 #include "batch/confined_folder.h"
 #include "batch/content_hash.h"

@@ -14,6 +14,7 @@
 
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
+#include "vantage/report/pictures.h"
 #include "vantage/report/view_report.h"
 
 #include "batch/archive_reader.h"

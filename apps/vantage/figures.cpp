@@ -12,7 +12,6 @@
 
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
-#include "vantage/report/view_report.h"
 
 #include "commands.h"
 #include "method_flags.h"

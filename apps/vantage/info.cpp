@@ -6,8 +6,7 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/mesh_check.h"
 #include "vantage/mesh/weld.h"
-#include "vantage/report/focus.h"
-#include "vantage/report/view_report.h"
+#include "vantage/pipeline/shape_analysis.h"
 
 #include "commands.h"
 #include "method_flags.h"

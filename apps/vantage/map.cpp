@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/io/write.h"
-#include "vantage/render/colour_map.h"
-#include "vantage/report/measured_shape.h"
+#include "vantage/pipeline/measured_shape.h"
+#include "vantage/render/render.h"
 
 #include "commands.h"
 #include "method_flags.h"

@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "vantage/report/view_report.h"
+#include "vantage/pipeline/view_options.h"
 #include "vantage/view/measure.h"
 
 namespace vantage::cli {

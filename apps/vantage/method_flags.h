@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "vantage/report/view_report.h"
+#include "vantage/pipeline/view_options.h"
 
 #include "option_flags.h"
 

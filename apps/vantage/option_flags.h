@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "vantage/core/error.h"
-#include "vantage/report/option_table.h"
+#include "vantage/pipeline/option_table.h"
 
 /// \file
 /// Flags made from the table of options.

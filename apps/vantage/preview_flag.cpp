@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "vantage/report/pictures.h"
+
 #include "terminal_picture.h"
 
 namespace vantage::cli {

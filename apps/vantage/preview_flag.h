@@ -5,7 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "vantage/report/view_report.h"
+#include "vantage/pipeline/shape_analysis.h"
+#include "vantage/render/render.h"
 
 #include "session.h"
 

@@ -7,8 +7,9 @@
 #include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
 #include "vantage/mesh/measures.h"
+#include "vantage/pipeline/find_views.h"
 #include "vantage/render/framing.h"
-#include "vantage/report/view_report.h"
+#include "vantage/report/pictures.h"
 
 #include "commands.h"
 #include "input_text.h"

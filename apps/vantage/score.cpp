@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/error.h"
-#include "vantage/io/csv.h"
+#include "vantage/io/model.h"
 #include "vantage/io/write.h"
-#include "vantage/report/measured_shape.h"
+#include "vantage/pipeline/measured_shape.h"
 #include "vantage/spatial/directions.h"
 
 #include "commands.h"

@@ -9,7 +9,7 @@
 
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
-#include "vantage/report/view_report.h"
+#include "vantage/pipeline/shape_analysis.h"
 #include "vantage/skeleton/quality.h"
 
 #include "commands.h"

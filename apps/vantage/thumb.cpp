@@ -3,7 +3,8 @@
 
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
-#include "vantage/report/view_report.h"
+#include "vantage/pipeline/find_views.h"
+#include "vantage/report/pictures.h"
 
 #include "commands.h"
 #include "look_flags.h"

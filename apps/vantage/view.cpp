@@ -4,8 +4,7 @@
 #include <filesystem>
 
 #include "vantage/io/write.h"
-#include "vantage/report/html_report.h"
-#include "vantage/report/measured_shape.h"
+#include "vantage/pipeline/measured_shape.h"
 #include "vantage/report/view_report.h"
 
 #include "commands.h"

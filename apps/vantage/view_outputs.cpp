@@ -10,8 +10,8 @@
 
 #include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
-#include "vantage/render/colour_map.h"
-#include "vantage/report/html_report.h"
+#include "vantage/render/render.h"
+#include "vantage/report/view_report.h"
 
 namespace vantage::cli {
 namespace {

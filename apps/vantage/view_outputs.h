@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "vantage/io/model.h"
-#include "vantage/report/shape_pictures.h"
-#include "vantage/report/view_report.h"
+#include "vantage/pipeline/find_views.h"
+#include "vantage/report/pictures.h"
 
 #include "output_folder.h"
 

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "vantage/core/error.h"
-#include "vantage/io/animation.h"
+#include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
 #include "vantage/render/render.h"
 #include "vantage/report/figures.h"

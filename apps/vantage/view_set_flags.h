@@ -6,7 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "vantage/report/view_report.h"
+#include "vantage/pipeline/find_views.h"
+#include "vantage/report/pictures.h"
 
 #include "method_flags.h"
 #include "option_flags.h"

@@ -2,7 +2,8 @@
 #include <numbers>
 #include <utility>
 
-#include "vantage/report/measured_shape.h"
+#include "vantage/pipeline/measured_shape.h"
+#include "vantage/report/view_report.h"
 #include "vantage/view/measure.h"
 
 #include "arrays.h"

@@ -3,7 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "vantage/report/option_table.h"
+#include "vantage/pipeline/option_table.h"
 
 /// \file
 /// The keywords of the method: the library's table of options, as Python writes it. Signatures,

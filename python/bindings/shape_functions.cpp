@@ -4,7 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "vantage/mesh/curve_graph.h"
-#include "vantage/report/measured_shape.h"
+#include "vantage/pipeline/measured_shape.h"
 #include "vantage/skeleton/quality.h"
 
 #include "arrays.h"

@@ -9,7 +9,7 @@
 
 #include "vantage/core/run_context.h"
 #include "vantage/io/model.h"
-#include "vantage/report/view_report.h"
+#include "vantage/pipeline/shape_analysis.h"
 
 #include "options.h"
 

@@ -5,7 +5,7 @@
 #include <pybind11/stl.h>
 
 #include "vantage/core/error.h"
-#include "vantage/report/measured_shape.h"
+#include "vantage/pipeline/measured_shape.h"
 #include "vantage/spatial/directions.h"
 
 #include "arrays.h"

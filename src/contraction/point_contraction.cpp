@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/contraction/point_contraction.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "vantage/contraction/contraction.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
-#include "vantage/spatial/point_rings.h"
 
 #include "contraction/point_steps.h"
 #include "core/parallel.h"
+#include "spatial/point_rings.h"
 
 namespace vantage {
 namespace {

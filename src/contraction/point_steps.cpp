@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "vantage/mesh/measures.h"
-#include "vantage/operators/point_laplacian.h"
 
 #include "contraction/step_limits.h"
+#include "operators/point_laplacian.h"
 #include "operators/position_solver.h"
 
 namespace vantage {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "vantage/spatial/point_rings.h"
-
 #include "contraction/component_contraction.h"
+#include "spatial/point_rings.h"
 
 namespace vantage {
 

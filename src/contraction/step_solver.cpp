@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "vantage/operators/cotangent_laplacian.h"
 
@@ -86,8 +87,14 @@ std::optional<std::vector<Vec3>> refined(const std::vector<Vec3>& start, const P
 /// Factorises the normal equations of L and solves them.
 std::optional<std::vector<Vec3>> solved(const Eigen::SparseMatrix<double>& L, NormalMatrix& normal,
                                         PositionSolver& system, const std::vector<Vec3>& start,
-                                        const Eigen::VectorXd& rows, Eigen::VectorXd held,
-                                        int harshness, const RunContext& run) {
+                                        Eigen::VectorXd rows, Eigen::VectorXd held, int harshness,
+                                        const RunContext& run) {
+  for (Eigen::Index i = 0; i < rows.size(); ++i) {
+    // L has a symmetric pattern, so that columns are as wide as rows.
+    if (L.outerIndexPtr()[i + 1] - L.outerIndexPtr()[i] > NormalMatrix::kWidestRow) {
+      rows[i] = 0.0;
+    }
+  }
   Eigen::SparseMatrix<double>& A = normal.assemble(L, rows, held);
   const double shift = shift_of(A.diagonal().maxCoeff(), harshness);
   if (shift > 0.0) {
@@ -126,13 +133,15 @@ std::optional<std::vector<Vec3>> StepSolver::solve(const TriMesh& now, double W_
     const Eigen::SparseMatrix<double> L = intrinsic_laplacian(now.positions, now.triangles, limits);
     NormalMatrix normal(L);
     PositionSolver system;
-    return solved(L, normal, system, now.positions, rows, std::move(held), manner.harshness, run);
+    return solved(L, normal, system, now.positions, std::move(rows), std::move(held),
+                  manner.harshness, run);
   }
   const Eigen::SparseMatrix<double>& L = laplacian_.assemble(now.positions, limits);
   if (!normal_) {
     normal_.emplace(L);
   }
-  return solved(L, *normal_, system_, now.positions, rows, std::move(held), manner.harshness, run);
+  return solved(L, *normal_, system_, now.positions, std::move(rows), std::move(held),
+                manner.harshness, run);
 }
 
 }  // namespace vantage

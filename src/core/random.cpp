@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/core/random.h"
+#include "core/random.h"
 
 #include <bit>
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/io/animation.h"
-
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -10,6 +8,7 @@
 #include <zlib.h>
 
 #include "vantage/core/error.h"
+#include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
 
 namespace vantage {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/error.h"
-#include "vantage/io/animation.h"
+#include "vantage/io/camera_files.h"
 
 #include "io/base64.h"
 #include "io/byte_cursor.h"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/io/csv.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 
 #include "vantage/core/error.h"
+#include "vantage/io/model.h"
 
 #include "io/number_parsing.h"
 #include "io/text_cursor.h"

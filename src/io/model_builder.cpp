@@ -8,8 +8,9 @@
 #include <utility>
 
 #include "vantage/core/error.h"
-#include "vantage/mesh/extent.h"
-#include "vantage/mesh/polygon.h"
+
+#include "mesh/extent.h"
+#include "mesh/polygon.h"
 
 namespace vantage {
 namespace {

@@ -10,12 +10,12 @@
 #include <expat.h>
 
 #include "vantage/core/error.h"
-#include "vantage/mesh/extent.h"
 
 #include "core/srgb.h"
 #include "io/number_parsing.h"
 #include "io/text_cursor.h"
 #include "io/threemf_package.h"
+#include "mesh/extent.h"
 
 namespace vantage {
 namespace {

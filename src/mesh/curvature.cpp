@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/mesh/curvature.h"
+#include "mesh/curvature.h"
 
 #include <algorithm>
 #include <cmath>

@@ -183,11 +183,15 @@ class Decimator {
     --live_;
   }
 
-  /// Counts for each neighbour of `v` now the faces at the edge to it, and lists the neighbours.
+  /// Counts for each neighbour of `v` now the faces at the edge to it, and lists the neighbours; stops
+  /// at more than a vertex may have for an edge at it to go.
   void count_ring(std::uint32_t v, std::vector<std::uint8_t>& count,
                   std::vector<std::uint32_t>& ring) const {
     ring.clear();
     for (const Fans::Corners& corners : fans_[v]) {
+      if (is_too_large(ring)) {
+        break;
+      }
       const std::array c{now(corners[0]), now(corners[1])};
       if (c[0] == c[1]) {
         continue;  // collapsed in this pass
@@ -199,6 +203,11 @@ class Decimator {
         count[u] = static_cast<std::uint8_t>(std::min(count[u] + 1, 255));
       }
     }
+  }
+
+  /// All neighbours but the edge's other end are left by a collapse.
+  static bool is_too_large(const std::vector<std::uint32_t>& ring) {
+    return ring.size() > Policy::kLargestRing + 1;
   }
 
   /// The link condition: Dey, Edelsbrunner, Guha, Nekhayev, "Topology Preserving Edge Contraction",
@@ -225,8 +234,8 @@ class Decimator {
     for (const std::uint32_t v : ring_a_) {
       faces_a_[v] = 0;
     }
-    if (edge_faces == 0 || common != edge_faces || lone ||
-        (border_a && border_b && edge_faces != 1)) {
+    if (is_too_large(ring_a_) || is_too_large(ring_b_) || edge_faces == 0 || common != edge_faces ||
+        lone || (border_a && border_b && edge_faces != 1)) {
       return false;
     }
     // A tetrahedron, or faces back to back: the common neighbours themselves make an edge of both.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/mesh/extent.h"
+#include "mesh/extent.h"
 
 #include <cmath>
 #include <limits>

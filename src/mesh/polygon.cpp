@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/mesh/polygon.h"
+#include "mesh/polygon.h"
 
 #include <algorithm>
 #include <array>

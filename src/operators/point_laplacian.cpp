@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/operators/point_laplacian.h"
+#include "operators/point_laplacian.h"
 
 #include <algorithm>
 #include <cmath>

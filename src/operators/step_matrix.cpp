@@ -14,6 +14,10 @@ int place_of(const Eigen::SparseMatrix<double>& M, int row, int column) {
   return static_cast<int>(std::lower_bound(first, last, row) - rows);
 }
 
+bool is_wide(int entries) {
+  return entries > NormalMatrix::kWidestRow;
+}
+
 }  // namespace
 
 NormalMatrix::NormalMatrix(const Eigen::SparseMatrix<double>& L)
@@ -33,13 +37,16 @@ NormalMatrix::NormalMatrix(const Eigen::SparseMatrix<double>& L)
     const std::size_t first = inner.size();
     for (int e = start[j]; e < start[j + 1]; ++e) {
       const int k = rows[e];
-      for (int g = start[k]; g < start[k + 1]; ++g) {
+      for (int g = start[k]; g < start[k + 1] && !is_wide(start[k + 1] - start[k]); ++g) {
         const int i = rows[g];
         if (i >= j && seen[static_cast<std::size_t>(i)] != j) {
           seen[static_cast<std::size_t>(i)] = j;
           inner.push_back(i);
         }
       }
+    }
+    if (seen[static_cast<std::size_t>(j)] != j) {
+      inner.push_back(j);  // all rows that name it are wide
     }
     std::sort(inner.begin() + static_cast<std::ptrdiff_t>(first), inner.end());
     starts.push_back(static_cast<int>(inner.size()));
@@ -62,7 +69,7 @@ Eigen::SparseMatrix<double>& NormalMatrix::assemble(const Eigen::SparseMatrix<do
     for (int e = start[j]; e < start[j + 1]; ++e) {
       const int k = rows[e];
       const double factor = row_weights[k] * values[e];
-      for (int g = start[k]; g < start[k + 1]; ++g) {
+      for (int g = start[k]; g < start[k + 1] && !is_wide(start[k + 1] - start[k]); ++g) {
         if (rows[g] >= j) {
           column[static_cast<std::size_t>(rows[g])] +=
               factor * values[transposed_[static_cast<std::size_t>(g)]];

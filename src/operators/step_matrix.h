@@ -32,6 +32,10 @@ class LaplacianAssembler {
 /// Lower triangle of Lᵀ R L + diag(d) for matrices L of one symmetric pattern and diagonal R.
 class NormalMatrix {
  public:
+  /// Rows of more entries are left out, as if R were zero there: the square of a row fills the matrix
+  /// with the square of its entries, which one vertex with thousands of neighbours makes gigabytes.
+  static constexpr int kWidestRow = 1000;
+
   /// Finds the pattern. \param L its pattern is symmetric and has a full diagonal.
   explicit NormalMatrix(const Eigen::SparseMatrix<double>& L);
 

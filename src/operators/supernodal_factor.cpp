@@ -66,6 +66,7 @@ void SupernodalFactor::plan_tasks() {
       work[at(nodes_.parent[at(s)])] += work[at(s)];
     }
   }
+  work_ = all;
   const double least = std::max(kLeastWork, kTaskShare * all);
   for (int s = 0; s < nodes_.count(); ++s) {
     const int parent = nodes_.parent[at(s)];

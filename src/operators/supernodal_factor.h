@@ -21,6 +21,9 @@ class SupernodalFactor {
  public:
   explicit SupernodalFactor(Supernodes nodes);
 
+  /// Multiplications that factorize() takes.
+  [[nodiscard]] double work() const { return work_; }
+
   /// Factorises the matrix; false if it is not positive definite in double precision.
   /// \param A the pattern that `nodes` was found for. \throw Cancelled; unusable then.
   bool factorize(const Eigen::SparseMatrix<double>& A, const RunContext& run);
@@ -37,6 +40,7 @@ class SupernodalFactor {
 
   Supernodes nodes_;
   std::vector<std::vector<int>> children_{};
+  double work_ = 0.0;
   std::vector<int> subtrees_{};           ///< Roots of subtrees that are done side by side.
   std::vector<int> top_{};                ///< Supernodes above them, children first.
   std::vector<double> values_{};          ///< All panels.

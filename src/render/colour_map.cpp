@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/render/colour_map.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
 #include <Eigen/LU>
+
+#include "vantage/render/render.h"
 
 #include "core/srgb.h"
 

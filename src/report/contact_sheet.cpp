@@ -6,6 +6,7 @@
 
 #include "vantage/render/framing.h"
 #include "vantage/report/comparison.h"
+#include "vantage/report/pictures.h"
 
 #include "report/lettering.h"
 #include "report/line_drawing.h"

@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "vantage/core/error.h"
-#include "vantage/core/random.h"
-#include "vantage/mesh/curvature.h"
 #include "vantage/mesh/measures.h"
 
+#include "core/random.h"
+#include "mesh/curvature.h"
 #include "report/agreement.h"
 
 namespace vantage {

@@ -13,14 +13,14 @@
 
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
-#include "vantage/render/colour_map.h"
+#include "vantage/pipeline/measured_shape.h"
 #include "vantage/render/render.h"
-#include "vantage/report/measured_shape.h"
+#include "vantage/report/pictures.h"
 
+#include "pipeline/view_preparation.h"
 #include "report/panels.h"
 #include "report/search_figure.h"
 #include "report/sphere_figure.h"
-#include "report/view_preparation.h"
 
 namespace vantage {
 namespace {

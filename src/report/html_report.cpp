@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/report/html_report.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,12 +12,13 @@
 #include "vantage/core/error.h"
 #include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
-#include "vantage/render/colour_map.h"
+#include "vantage/render/render.h"
+#include "vantage/report/view_report.h"
 #include "vantage/spatial/directions.h"
 
 #include "io/base64.h"
+#include "pipeline/map_objective.h"
 #include "report/display_mesh.h"
-#include "report/map_objective.h"
 #include "report/report_page.h"
 
 namespace vantage {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include "vantage/report/pictures.h"
+
 #include <cstddef>
 #include <string>
 #include <utility>
 
 #include "vantage/io/write.h"
-#include "vantage/render/colour_map.h"
 #include "vantage/render/render.h"
-#include "vantage/report/shape_pictures.h"
-#include "vantage/report/view_report.h"
 
 #include "core/parallel.h"
 

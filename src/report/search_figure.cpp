@@ -13,7 +13,7 @@
 
 #include <Eigen/Geometry>
 
-#include "vantage/render/colour_map.h"
+#include "vantage/render/render.h"
 
 namespace vantage {
 namespace {

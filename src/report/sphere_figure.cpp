@@ -11,12 +11,12 @@
 
 #include <Eigen/Geometry>
 
-#include "vantage/render/colour_map.h"
+#include "vantage/pipeline/find_views.h"
 #include "vantage/render/framing.h"
 #include "vantage/render/render.h"
 #include "vantage/spatial/directions.h"
 
-#include "report/view_preparation.h"
+#include "pipeline/view_preparation.h"
 
 namespace vantage {
 namespace {

@@ -5,7 +5,8 @@
 
 #include "vantage/core/image.h"
 #include "vantage/core/run_context.h"
-#include "vantage/report/view_report.h"
+#include "vantage/pipeline/shape_analysis.h"
+#include "vantage/render/render.h"
 
 namespace vantage {
 

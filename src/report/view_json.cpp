@@ -10,7 +10,7 @@
 #include "vantage/io/write.h"
 #include "vantage/report/view_report.h"
 
-#include "report/option_echo.h"
+#include "pipeline/option_echo.h"
 
 namespace vantage {
 namespace {

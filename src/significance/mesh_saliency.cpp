@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 
-#include "vantage/mesh/curvature.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 
+#include "mesh/curvature.h"
 #include "significance/feature_map.h"
 #include "significance/gaussian_means.h"
 

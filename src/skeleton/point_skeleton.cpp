@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/skeleton/point_skeleton.h"
+#include "skeleton/point_skeleton.h"
 
 #include <algorithm>
 #include <array>

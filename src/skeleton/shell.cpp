@@ -16,6 +16,9 @@ namespace {
 /// Faces a cell of the grid, on average, if all were the same size.
 constexpr double kFacesPerCell = 2.0;
 constexpr int kMostCells = 2048;  // along one side
+/// Entries of the grid for each face, beyond which its cells are made larger: large faces that lie
+/// over one another touch every cell, and thousands of them fill gigabytes [ours].
+constexpr std::size_t kMostEntries = 64;
 /// A ray from a vertex passes over the faces at that vertex: a ten-thousandth of the model.
 constexpr double kSkip = 1e-4;
 /// Parts of a segment shorter than this share of it are rounding errors of where it is cut.
@@ -88,12 +91,20 @@ void Shell::sort_into_cells() {
   const double width = size[(up_ + 1) % 3];
   const double height = size[(up_ + 2) % 3];
   const double wanted = std::max(1.0, static_cast<double>(mesh_.triangles.size()) / kFacesPerCell);
-  cell_size_ = std::max(std::sqrt(width * height / wanted), std::max(width, height) / kMostCells);
-  if (!(cell_size_ > 0.0)) {
-    cell_size_ = 1.0;
+  double cell_size =
+      std::max(std::sqrt(width * height / wanted), std::max(width, height) / kMostCells);
+  if (!(cell_size > 0.0)) {
+    cell_size = 1.0;
   }
-  cells_ = {static_cast<int>(width / cell_size_) + 1, static_cast<int>(height / cell_size_) + 1};
+  while (!fill_cells(width, height, cell_size)) {
+    cell_size *= 2.0;
+  }
+}
 
+/// Sorts the faces into cells of this size; false if they had more than kMostEntries for each face.
+bool Shell::fill_cells(double width, double height, double cell_size) {
+  cell_size_ = cell_size;
+  cells_ = {static_cast<int>(width / cell_size_) + 1, static_cast<int>(height / cell_size_) + 1};
   // Cells grow with coordinates, so those of a face's box are between those of its corners.
   std::vector<std::array<int, 2>> cell_of_vertex;
   cell_of_vertex.reserve(mesh_.positions.size());
@@ -116,8 +127,16 @@ void Shell::sort_into_cells() {
     }
   };
   offsets_.assign(static_cast<std::size_t>(cells_[0]) * static_cast<std::size_t>(cells_[1]) + 1, 0);
+  const std::size_t most = kMostEntries * mesh_.triangles.size();
+  std::size_t entries = 0;
   for (const Triangle& t : mesh_.triangles) {
-    for_each_cell(t, [&](std::size_t cell) { ++offsets_[cell + 1]; });
+    for_each_cell(t, [&](std::size_t cell) {
+      ++offsets_[cell + 1];
+      ++entries;
+    });
+    if (entries > most) {
+      return false;
+    }
   }
   for (std::size_t cell = 1; cell < offsets_.size(); ++cell) {
     offsets_[cell] += offsets_[cell - 1];
@@ -127,6 +146,7 @@ void Shell::sort_into_cells() {
   for (std::uint32_t f = 0; f < mesh_.triangles.size(); ++f) {
     for_each_cell(mesh_.triangles[f], [&](std::size_t cell) { faces_[cursor[cell]++] = f; });
   }
+  return true;
 }
 
 /// The first and the last cell of a row that the face's projection touches; a needle that lies askew

@@ -49,6 +49,9 @@ class Shell {
   /// The vertices that share an edge with each vertex.
   [[nodiscard]] const IndexLists& neighbours() const { return neighbours_; }
 
+  /// Faces in cells of the grid, each counted in every cell that it touches.
+  [[nodiscard]] std::size_t grid_entries() const { return faces_.size(); }
+
   /// Whether the component has an edge with an odd number of faces: nothing is inside or outside.
   [[nodiscard]] bool is_open(std::uint32_t component) const {
     return component >= is_open_.size() || is_open_[component] != 0;
@@ -64,6 +67,7 @@ class Shell {
 
   void look_at_edges();
   void sort_into_cells();
+  bool fill_cells(double width, double height, double cell_size);
   [[nodiscard]] std::array<int, 2> cell_of(const Vec3& p) const;
   [[nodiscard]] std::array<int, 2> cells_in_row(const Triangle& t, int row) const;
   [[nodiscard]] int crossing(std::uint32_t from, std::uint32_t to, const Vec3& p) const;

@@ -2,7 +2,6 @@
 #include "skeleton/surgery.h"
 
 #include <algorithm>
-#include <queue>
 #include <tuple>
 #include <vector>
 
@@ -11,6 +10,8 @@ namespace {
 
 /// Collapses between two looks at the stop token.
 constexpr std::size_t kPoll = 4096;
+/// Entries of the queue for each edge; of more, those that newer ones replaced are dropped.
+constexpr std::size_t kMostQueued = 8;
 /// Where this many local refinements do not free the way, more will not (on real models a handful
 /// does, or none).
 constexpr std::size_t kMostRefinements = 256;
@@ -49,7 +50,7 @@ class CollapseQueue {
   }
 
   void refill() {
-    heap_ = {};
+    heap_.clear();
     version_.resize(complex_.edge_count(), 0);
     for (std::uint32_t e = 0; e < complex_.edge_count(); ++e) {
       push(e);
@@ -59,15 +60,16 @@ class CollapseQueue {
   /// Cheapest edge to collapse; false if none is left.
   bool pop(std::uint32_t& edge) {
     while (!heap_.empty()) {
-      const Candidate top = heap_.top();
-      heap_.pop();
+      const Candidate top = heap_.front();
+      std::pop_heap(heap_.begin(), heap_.end());
+      heap_.pop_back();
       if (top.version != version_[top.edge] || !collapsible(top.edge)) {
         continue;
       }
       // Collapses next door may have created a loop to pinch since this was queued.
       const std::uint32_t cost = complex_.order().steps(collapse_cost(complex_, top.edge));
       if (cost > top.cost) {
-        heap_.push({cost, top.place, top.edge, top.version});
+        add({cost, top.place, top.edge, top.version});
         continue;
       }
       edge = top.edge;
@@ -93,15 +95,25 @@ class CollapseQueue {
   void push(std::uint32_t edge) {
     if (collapsible(edge)) {
       const auto [a, b] = complex_.ends(edge);
-      heap_.push({complex_.order().steps(collapse_cost(complex_, edge)),
-                  complex_.order().place(complex_.position(a), complex_.position(b)), edge,
-                  version_[edge]});
+      add({complex_.order().steps(collapse_cost(complex_, edge)),
+           complex_.order().place(complex_.position(a), complex_.position(b)), edge,
+           version_[edge]});
+    }
+  }
+
+  void add(const Candidate& candidate) {
+    heap_.push_back(candidate);
+    std::push_heap(heap_.begin(), heap_.end());
+    // A cluster of thousands of neighbours queues them all anew whenever it takes one in.
+    if (heap_.size() > kMostQueued * version_.size()) {
+      std::erase_if(heap_, [this](const Candidate& c) { return c.version != version_[c.edge]; });
+      std::make_heap(heap_.begin(), heap_.end());
     }
   }
 
   ClusterComplex& complex_;
   std::vector<std::uint32_t> version_;
-  std::priority_queue<Candidate> heap_{};
+  std::vector<Candidate> heap_{};
 };
 
 }  // namespace

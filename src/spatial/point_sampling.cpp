@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "vantage/mesh/measures.h"
-#include "vantage/spatial/point_rings.h"
 
 #include "core/parallel.h"
+#include "spatial/point_rings.h"
 #include "spatial/point_tree.h"
 
 namespace vantage {

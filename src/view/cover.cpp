@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/view/cover.h"
+#include "view/cover.h"
 
 #include <algorithm>
 #include <bit>

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "vantage/core/random.h"
-
+#include "core/random.h"
 #include "view/sphere_angles.h"
 
 namespace vantage {

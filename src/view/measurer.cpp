@@ -13,13 +13,13 @@
 #include <Eigen/Geometry>
 
 #include "vantage/core/error.h"
-#include "vantage/mesh/curvature.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 #include "vantage/significance/mesh_saliency.h"
 
 #include "core/parallel.h"
 #include "core/shannon.h"
+#include "mesh/curvature.h"
 #include "view/shared_logs.h"
 #include "view/skeleton_sight.h"
 

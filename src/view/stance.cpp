@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/view/stance.h"
+#include "view/stance.h"
 
 #include <algorithm>
 #include <cmath>

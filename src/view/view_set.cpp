@@ -12,9 +12,9 @@
 
 #include "vantage/core/error.h"
 #include "vantage/spatial/directions.h"
-#include "vantage/view/cover.h"
 #include "vantage/view/visible_sets.h"
 
+#include "view/cover.h"
 #include "view/sphere_angles.h"
 
 namespace vantage {

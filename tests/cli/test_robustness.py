@@ -54,6 +54,23 @@ class Extremes(ProgramTest):
         self.assertFalse((self.dir / "out").exists())
         return done.err
 
+    def test_measures_and_figures_hold_at_the_limits(self):
+        for size in (1e59, 1e-59):
+            corners = [(0, 0, 0), (size, 0, 0), (0, size, 0), (0, 0, size)]
+            self.write("limit.obj", written("obj", corners))
+            with self.subTest(size=size):
+                self.vantage("compare", "limit.obj", "-o", "compared", "--force")
+                table = (self.dir / "compared/compare.csv").read_text(encoding="utf-8").lower()
+                self.assertNotRegex(table, r"\b(nan|inf)\b")
+                self.vantage("figures", "limit.obj", "-o", "figures", "--force")
+        for command in ("compare", "figures"):
+            for size in (1e80, 1e-300):
+                self.write("beyond.obj", written("obj", [(0, 0, 0), (size, 0, 0), (0, size, 0), (0, 0, size)]))
+                with self.subTest(command=command, size=size):
+                    done = self.vantage(command, "beyond.obj", "-o", "refused", exit_code=3)
+                    self.assertEqual(len(done.err.strip().splitlines()), 1, done.err)
+                    self.assertFalse((self.dir / "refused").exists())
+
     def test_coordinates_that_vanish_are_refused_in_a_sentence(self):
         tiny = "5e-324"
         for form in ("obj", "off", "ply", "stl"):

@@ -205,3 +205,18 @@ def test_a_cameras_matrices_put_its_target_in_the_middle_of_the_picture():
 def test_colour_map_goes_from_cool_to_warm_and_nan_is_grey():
     cool, warm, none = vantage.colour_map([0.0, 1.0, np.nan]).astype(int)
     assert cool[2] > cool[0] and warm[0] > warm[2] and none.max() - none.min() <= 8
+
+
+@pytest.mark.parametrize("size", [1e-320, 1e-300, 1e80, 1e300, np.nan, np.inf])
+@pytest.mark.parametrize("function", [vantage.best_view, vantage.render, vantage.skeleton])
+def test_sizes_beyond_what_can_be_computed_are_refused(function, size):
+    tetrahedron = np.array([[size, 0, 0], [0, size, 0], [0, 0, size], [0, 0, 0]])
+    with pytest.raises(vantage.InvalidInput):
+        function(tetrahedron, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+
+
+@pytest.mark.parametrize("size", [1e-59, 1e59])
+def test_sizes_at_the_limits_give_finite_views(size):
+    tetrahedron = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 0]]) * size
+    best = vantage.best_view(tetrahedron, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]).best
+    assert np.isfinite(best.score) and abs(np.linalg.norm(best.direction) - 1) < 1e-12

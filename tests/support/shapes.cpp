@@ -10,8 +10,9 @@
 
 #include <Eigen/Geometry>
 
-#include "vantage/core/random.h"
 #include "vantage/mesh/weld.h"
+
+#include "core/random.h"
 
 namespace vantage::test {
 namespace {

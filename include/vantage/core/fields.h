@@ -13,7 +13,7 @@
 /// \file
 /// One table per options struct, beside its declaration. Range checks, command line flags and their
 /// help, completions, settings, Python's keywords, the echo of the options in results and their hash
-/// are all made by walking it (vantage/report/option_table.h). To add an option, add a member and a
+/// are all made by walking it (vantage/pipeline/option_table.h). To add an option, add a member and a
 /// line of the table. Its default is what its member begins as.
 
 namespace vantage {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "vantage/core/camera.h"
 
 /// \file
-/// One camera in the formats other tools read.
+/// Cameras in the formats other tools read.
 
 namespace vantage {
 
@@ -30,5 +31,22 @@ std::string camera_f3d(const Camera& camera, std::string_view model);
 /// Reads a camera back: a glTF with a camera node, a transforms.json, or our view.json.
 /// \throw FormatError
 Camera parse_camera(std::string_view bytes, std::string_view name);
+
+/// A camera and the picture it belongs to.
+struct NamedCamera {
+  Camera camera{};           ///< Where the picture was taken.
+  std::string image_name{};  ///< File name, beside the transforms.json.
+};
+
+/// NeRF-style transforms.json for all cameras: each frame with its own intrinsics, as Nerfstudio
+/// reads them (camera-to-world row by row, OpenGL axes).
+std::string views_transforms_json(std::span<const NamedCamera> cameras, PictureSize size);
+
+/// glTF 2.0 (JSON, buffer inside) with one perspective or orthographic camera that passes all poses
+/// in `seconds` at equal intervals and returns to the first, interpolated linearly.
+/// \param cameras at least two, alike in all but eye, target and up. \param seconds > 0.
+/// \param near_far_scale size of the scene for znear, zfar. \throw InvalidInput
+std::string camera_animation_gltf(std::span<const Camera> cameras, double seconds, PictureSize size,
+                                  double near_far_scale);
 
 }  // namespace vantage

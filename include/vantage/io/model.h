@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "vantage/core/image.h"
 #include "vantage/core/run_context.h"
+#include "vantage/core/vec3.h"
 #include "vantage/mesh/appearance.h"
 #include "vantage/mesh/tri_mesh.h"
 
@@ -73,5 +75,14 @@ Model parse_model(std::string_view bytes, std::string_view name, const RunContex
 /// \throw IoError, FormatError, Cancelled
 Model load_model(const std::string& path, const RunContext& run = {},
                  const ReadOptions& options = {});
+
+/// Reads points or directions from CSV text: one a line, numbers with a decimal point, separated
+/// by commas (blanks around them do not matter). Empty lines and lines that start with # are
+/// passed over. If the first line is a header, `columns` are looked up in it and other columns
+/// are ignored; without a header the first three columns count.
+/// \param name shown in messages. \param columns e.g. {"dx", "dy", "dz"}.
+/// \throw FormatError naming the line.
+std::vector<Vec3> parse_points_csv(std::string_view bytes, std::string_view name,
+                                   std::array<std::string_view, 3> columns);
 
 }  // namespace vantage

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -58,6 +59,35 @@ std::string png_bytes(const DeepImage& image);
 /// WebP: colour at quality 90 of 100, alpha without loss; a third of the size of the PNG.
 /// \throw InvalidInput for a side that the format cannot hold (16383 px). \throw IoError
 std::string webp_bytes(const Image& image);
+
+/// Formats of moving pictures.
+enum class AnimationFormat {
+  Apng,  ///< Lossless, 8 bit RGBA; programs that know no APNG show the first frame.
+  WebP,  ///< Lossy colour, lossless alpha, a tenth of the size.
+};
+
+/// Encodes the frames of an endless loop one by one, so that only one need be kept.
+class AnimationEncoder {
+ public:
+  /// \param frame_count of frames that will follow, ≥ 1. \param fps frames a second, 1–60.
+  /// \throw InvalidInput also for sides that the format cannot hold (WebP: 16383 px).
+  AnimationEncoder(AnimationFormat format, int width, int height, int frame_count, int fps);
+  ~AnimationEncoder();
+  AnimationEncoder(AnimationEncoder&&) noexcept;             ///< Leaves the other unusable.
+  AnimationEncoder& operator=(AnimationEncoder&&) noexcept;  ///< The same.
+
+  /// Adds the next frame. \throw InvalidInput if its size differs. \throw IoError
+  void add(const Image& frame);
+
+  /// The whole file. \pre all frames were added. \throw InvalidInput, IoError
+  std::string finish();
+
+  /// What an encoder of one format does; private to the library.
+  class Implementation;
+
+ private:
+  std::unique_ptr<Implementation> implementation_;
+};
 
 /// Shortest decimal text that reads back as the same double; "null" if not finite (JSON).
 std::string number_text(double value);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "vantage/core/image.h"
-#include "vantage/report/measured_shape.h"
+#include "vantage/pipeline/measured_shape.h"
 #include "vantage/spatial/mirror_symmetry.h"
 
 /// \file

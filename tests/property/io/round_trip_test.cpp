@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "vantage/core/error.h"
-#include "vantage/core/random.h"
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
 
+#include "core/random.h"
 #include "support/shapes.h"
 
 namespace vantage::test {

@@ -7,8 +7,9 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "vantage/core/random.h"
 #include "vantage/mesh/measures.h"
+
+#include "core/random.h"
 
 namespace vantage {
 namespace {

@@ -7,10 +7,10 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "vantage/core/random.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/render/framing.h"
 
+#include "core/random.h"
 #include "support/shapes.h"
 
 namespace vantage {

@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
-#include "vantage/core/random.h"
 #include "vantage/significance/kssm.h"
 #include "vantage/skeleton/skeleton.h"
 
+#include "core/random.h"
 #include "support/dense_oracles.h"
 #include "support/named_mesh.h"
 #include "support/shapes.h"

@@ -10,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include "vantage/core/random.h"
 #include "vantage/skeleton/skeleton.h"
 
+#include "core/random.h"
 #include "skeleton/cluster_complex.h"
 #include "skeleton/resampling.h"
 #include "skeleton/surgery.h"

@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
-#include "vantage/core/random.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/spatial/directions.h"
 #include "vantage/visibility/vertex_visibility.h"
 
+#include "core/random.h"
 #include "support/shapes.h"
 #include "support/visibility_oracle.h"
 

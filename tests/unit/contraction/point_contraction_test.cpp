@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/contraction/point_contraction.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,9 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include "vantage/contraction/contraction.h"
 #include "vantage/mesh/measures.h"
-#include "vantage/skeleton/point_skeleton.h"
 
+#include "skeleton/point_skeleton.h"
 #include "support/shapes.h"
 
 namespace vantage::test {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/io/animation.h"
-
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -11,6 +9,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include "vantage/io/camera_files.h"
 
 // As src/io/gltf_document.cpp, which has the loader's code.
 #define TINYGLTF_NO_STB_IMAGE

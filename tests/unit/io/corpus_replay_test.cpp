@@ -10,7 +10,6 @@
 
 #include "vantage/core/error.h"
 #include "vantage/io/camera_files.h"
-#include "vantage/io/csv.h"
 #include "vantage/io/model.h"
 #include "vantage/mesh/mesh_check.h"
 

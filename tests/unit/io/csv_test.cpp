@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/io/csv.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "vantage/core/error.h"
+#include "vantage/io/model.h"
 
 namespace vantage::test {
 namespace {

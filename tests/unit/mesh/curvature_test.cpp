@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/mesh/curvature.h"
+#include "mesh/curvature.h"
 
 #include <cmath>
 #include <numbers>
@@ -7,8 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "vantage/core/random.h"
-
+#include "core/random.h"
 #include "support/shapes.h"
 
 namespace vantage {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/mesh/polygon.h"
+#include "mesh/polygon.h"
 
 #include <cmath>
 #include <numbers>
@@ -9,8 +9,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "vantage/core/random.h"
 #include "vantage/mesh/measures.h"
+
+#include "core/random.h"
 
 namespace vantage::test {
 namespace {

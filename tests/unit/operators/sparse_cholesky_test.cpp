@@ -10,6 +10,8 @@
 
 #include "vantage/operators/cotangent_laplacian.h"
 
+#include "core/random.h"
+#include "operators/step_matrix.h"
 #include "support/shapes.h"
 
 namespace vantage {
@@ -81,6 +83,49 @@ TEST(SparseCholeskyFactorize, SaysWhenTheMatrixIsNotPositiveDefinite) {
   const Sparse A = system_of_torus(-1.0);  // L² has the eigenvalue 0
   solver.analyze(A);
   EXPECT_FALSE(solver.factorize(A));
+}
+
+TEST(SparseCholeskyFactorize, RefusesWhatFillsUpLikeNoSurface) {
+  // A soup of faces with shared corners: each unknown is joined to eight that were drawn by lot.
+  constexpr int kUnknowns = 3000;
+  Pcg32 random(5);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < kUnknowns; ++i) {
+    entries.emplace_back(i, i, 100.0);
+    for (int k = 0; k < 8; ++k) {
+      const int j = static_cast<int>(random.uniform() * kUnknowns);
+      entries.emplace_back(i, j, -1.0);
+      entries.emplace_back(j, i, -1.0);
+    }
+  }
+  Sparse A(kUnknowns, kUnknowns);
+  A.setFromTriplets(entries.begin(), entries.end());
+  SparseCholesky cholesky;
+  cholesky.analyze(A);
+  EXPECT_FALSE(cholesky.factorize(A));
+}
+
+TEST(NormalMatrix, StaysSparseAtAVertexOfThousandsOfNeighbours) {
+  // A book: pages that share one edge. The squares of its ends' rows alone have two million entries.
+  constexpr std::uint32_t kPages = 2000;
+  TriMesh book{.positions = {{0, 0, 0}, {0, 0, 1}}, .triangles = {}};
+  for (std::uint32_t page = 0; page < kPages; ++page) {
+    book.positions.emplace_back(std::cos(0.003 * page), std::sin(0.003 * page), 0.5);
+    book.triangles.push_back({0, 1, page + 2});
+  }
+  const Sparse L = cotangent_laplacian(book.positions, book.triangles);
+  NormalMatrix normal(L);
+  const auto n = static_cast<Eigen::Index>(book.positions.size());
+  Eigen::VectorXd rows = Eigen::VectorXd::Ones(n);
+  const Sparse A = normal.assemble(L, rows, Eigen::VectorXd::Ones(n));
+  EXPECT_LT(A.nonZeros(), 10 * n);
+  rows.head(2).setZero();  // the wide rows count as nothing, the others as ever
+  Sparse expected = Sparse(L.transpose()) * rows.asDiagonal() * L;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    expected.coeffRef(i, i) += 1.0;
+  }
+  const Eigen::MatrixXd lower = Eigen::MatrixXd(expected).triangularView<Eigen::Lower>();
+  EXPECT_LT((Eigen::MatrixXd(A) - lower).norm(), 1e-9 * lower.norm());
 }
 
 TEST(SparseCholeskyFactorize, WorksAgainAfterAFailure) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/render/colour_map.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "vantage/render/render.h"
 
 #include "core/srgb.h"
 

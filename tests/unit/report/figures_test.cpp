@@ -7,8 +7,8 @@
 
 #include "vantage/core/error.h"
 
+#include "support/model_of.h"
 #include "support/shapes.h"
-#include "unit/report/model_of.h"
 
 namespace vantage::test {
 namespace {

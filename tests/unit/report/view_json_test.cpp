@@ -4,8 +4,8 @@
 
 #include "vantage/report/view_report.h"
 
+#include "support/model_of.h"
 #include "support/shapes.h"
-#include "unit/report/model_of.h"
 
 namespace vantage::test {
 namespace {

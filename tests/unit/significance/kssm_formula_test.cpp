@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "vantage/core/error.h"
-#include "vantage/core/random.h"
 #include "vantage/significance/kssm.h"
 
+#include "core/random.h"
 #include "support/dense_oracles.h"
 #include "support/shapes.h"
 

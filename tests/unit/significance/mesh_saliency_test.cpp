@@ -8,10 +8,10 @@
 #include <gtest/gtest.h>
 
 #include "vantage/core/error.h"
-#include "vantage/mesh/curvature.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 
+#include "mesh/curvature.h"
 #include "support/shapes.h"
 
 namespace vantage {

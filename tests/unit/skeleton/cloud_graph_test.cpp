@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "vantage/contraction/point_contraction.h"
-#include "vantage/core/random.h"
-#include "vantage/skeleton/point_skeleton.h"
-#include "vantage/spatial/point_rings.h"
+#include "vantage/contraction/contraction.h"
 
+#include "core/random.h"
+#include "skeleton/point_skeleton.h"
+#include "spatial/point_rings.h"
 #include "support/shapes.h"
 
 namespace vantage::test {

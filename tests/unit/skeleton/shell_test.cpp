@@ -8,9 +8,9 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "vantage/core/random.h"
 #include "vantage/mesh/measures.h"
 
+#include "core/random.h"
 #include "support/dense_oracles.h"
 #include "support/shapes.h"
 #include "support/skeletons.h"
@@ -44,6 +44,28 @@ TEST(ShellInside, AgreesWithSolidAnglesAtRandomPoints) {
       EXPECT_EQ(shell.inside(0, p), std::abs(test::winding_number(mesh, p)) > 0.5);
     }
   }
+}
+
+TEST(ShellInside, TakesLittleMemoryWhereThousandsOfFacesLieOverOneAnother) {
+  // 20 000 tetrahedra in one place: each face reaches over half the grid, 1.6e9 entries of cells.
+  TriMesh mesh;
+  for (std::uint32_t copy = 0; copy < 20'000; ++copy) {
+    const double lift = 1e-6 * copy;
+    for (const Vec3& p :
+         {Vec3(0, 0, lift), Vec3(1, 0, lift), Vec3(0, 1, lift), Vec3(0, 0, 1 + lift)}) {
+      mesh.positions.push_back(p);
+    }
+    const std::uint32_t a = 4 * copy;
+    for (const Triangle& t : {Triangle{a, a + 2, a + 1}, Triangle{a, a + 1, a + 3},
+                              Triangle{a, a + 3, a + 2}, Triangle{a + 1, a + 2, a + 3}}) {
+      mesh.triangles.push_back(t);
+    }
+  }
+  const auto components = one_component(mesh);
+  const Shell shell(mesh, components);
+  EXPECT_LE(shell.grid_entries(), 64 * mesh.triangles.size());
+  EXPECT_TRUE(shell.inside(0, Vec3(0.2, 0.2, 0.3)));
+  EXPECT_FALSE(shell.inside(0, Vec3(0.9, 0.9, 0.3)));
 }
 
 TEST(ShellInside, HasNoGapsAboveEdgesAndCorners) {

@@ -8,8 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "vantage/core/random.h"
-
+#include "core/random.h"
 #include "support/dense_oracles.h"
 
 namespace vantage {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/spatial/point_rings.h"
+#include "spatial/point_rings.h"
 
 #include <algorithm>
 

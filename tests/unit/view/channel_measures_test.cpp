@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "vantage/core/error.h"
-#include "vantage/core/random.h"
 #include "vantage/mesh/measures.h"
 
+#include "core/random.h"
 #include "support/shapes.h"
 
 namespace vantage {

@@ -9,8 +9,8 @@
 #include <oneapi/tbb/global_control.h>
 
 #include "vantage/core/error.h"
-#include "vantage/core/random.h"
 
+#include "core/random.h"
 #include "support/shapes.h"
 
 namespace vantage {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/view/cover.h"
+#include "view/cover.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "vantage/core/error.h"
-#include "vantage/core/random.h"
+
+#include "core/random.h"
 
 namespace vantage {
 namespace {

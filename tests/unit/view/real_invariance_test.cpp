@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "vantage/io/model.h"
-#include "vantage/report/measured_shape.h"
+#include "vantage/pipeline/measured_shape.h"
 #include "vantage/significance/mesh_saliency.h"
 #include "vantage/view/measurer.h"
 

@@ -10,8 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "vantage/core/error.h"
-#include "vantage/core/random.h"
 #include "vantage/spatial/directions.h"
+
+#include "core/random.h"
 
 namespace vantage {
 namespace {

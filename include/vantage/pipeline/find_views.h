@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/core/camera.h"
+#include "vantage/core/run_context.h"
+#include "vantage/core/vec3.h"
+#include "vantage/io/model.h"
+#include "vantage/pipeline/shape_analysis.h"
+#include "vantage/view/scoring.h"
+#include "vantage/view/search.h"
+#include "vantage/view/tour.h"
+#include "vantage/view/view_set.h"
+#include "vantage/visibility/face_visibility.h"
+#include "vantage/visibility/vertex_visibility.h"
+
+/// \file
+/// From an analysed shape to its best and worst view, and to sets of views.
+
+namespace vantage {
+
+/// One view and the picture's camera.
+struct ReportedView {
+  Vec3 direction = Vec3::UnitZ();      ///< From the centre to the eye.
+  Vec3 eye = Vec3::UnitZ();            ///< Model units.
+  Vec3 up = Vec3::UnitY();             ///< Unit, upright in the picture.
+  double score = 0.0;                  ///< Pure sum of the visible significance.
+  double score_fraction = 0.0;         ///< score / total; 0 if total is 0.
+  double objective = 0.0;              ///< What the search compared: score times the prior.
+  double visible_area_fraction = 0.0;  ///< Of the surface; each visible vertex counts its third.
+  Camera picture{};                    ///< Same eye, framed tightly.
+};
+
+/// Several views that together tell most, and the round over them.
+struct ReportedViewSet {
+  std::vector<ReportedView> views{};  ///< Of choice.views, in the same order.
+  ViewSet choice{};                   ///< Gains, coverage and bounds.
+  Tour tour{};                        ///< The shortest round over the views.
+};
+
+/// The up axis that a run uses, and why.
+struct UpChoice {
+  UpAxis axis = UpAxis::Y;        ///< As used.
+  std::string source = "format";  ///< "given", "format", or "stance": how the model stands.
+  std::string note{};             ///< One sentence if it is a guess, else empty.
+};
+
+/// options.up if set; else default_up(), unless the model clearly stands with the other of y and z
+/// up and not with that one (never for glTF, whose up axis is a part of the format).
+UpChoice choose_up(const Model& model, const ShapeAnalysis& shape, const ViewOptions& options);
+
+/// A view that a mirror plane of the model makes as good as the best.
+struct TwinView {
+  Vec3 direction = Vec3::UnitZ();  ///< From the centre to the eye.
+  double score = 0.0;              ///< Pure sum of the visible significance.
+  double objective = 0.0;          ///< Times the prior.
+};
+
+/// How far a search stayed behind the dense one, which is slow. [ours]
+struct DenseGap {
+  double best_ratio = 1.0;      ///< Objective of the best view found over the dense search's.
+  double worst_above = 0.0;     ///< Worst score found above the dense search's, share of the range.
+  std::size_t evaluations = 0;  ///< Directions that the dense search scored.
+};
+
+/// The result of the search.
+struct ViewReport {
+  ScoringCamera camera{};               ///< What scored.
+  UpAxis up = UpAxis::Y;                ///< As used.
+  std::string up_source = "given";      ///< As in UpChoice.
+  std::vector<TwinView> twins{};        ///< Of the best view.
+  ReportedView best{};                  ///< Of the largest score.
+  ReportedView worst{};                 ///< Of the least score.
+  double total = 0.0;                   ///< The score if everything were visible.
+  FoundView best_search{};              ///< How it was found.
+  FoundView worst_search{};             ///< Evaluations beyond the best view's.
+  std::optional<DenseGap> dense_gap{};  ///< If options.certify.
+  std::vector<std::string> warnings{};  ///< One sentence each.
+  /// If several views were asked for.
+  std::optional<ReportedViewSet> set{};
+};
+
+/// The scoring camera of a model.
+ScoringCamera scoring_camera(const ShapeAnalysis& shape, const ViewOptions& options);
+
+/// The samples that scores by area need; nothing for other weights.
+std::optional<FaceVisibility> faces_to_score(const ShapeAnalysis& shape,
+                                             const ViewOptions& options);
+
+/// Finds the best and the worst view, and a set of views if options.view_set asks for one.
+/// \pre the map is there. \throw Cancelled
+ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& options,
+                      const RunContext& run = {});
+
+/// The same with an up axis that was chosen; its note joins the warnings.
+ViewReport find_views(const ShapeAnalysis& shape, const UpChoice& up, const ViewOptions& options,
+                      const RunContext& run = {});
+
+/// One of these two alone, for less work. \throw Cancelled
+ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const UpChoice& up,
+                       const ViewOptions& options, const RunContext& run = {});
+
+/// A view that is found for its picture.
+struct PictureView {
+  ReportedView view{};       ///< Framed on the whole surface.
+  UpChoice up{};             ///< As used.
+  std::size_t vertices = 0;  ///< Of the surface that was analysed.
+};
+
+/// The best view of a prepared surface, for a picture of it. A surface of more than 200 000 vertices
+/// is decimated to half as many before it is analysed, so that the view may differ a little from
+/// find_views(). \throw Cancelled
+PictureView find_picture_view(const Model& model, const ShapeAnalysis& prepared,
+                              const ViewOptions& options, const RunContext& run = {});
+
+/// Describes the view from a given direction. \pre the map is there.
+ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& visibility,
+                           const ScoringCamera& camera, const Vec3& direction, UpAxis up,
+                           const ViewOptions& options);
+
+/// Chooses several views as options.view_set asks. \pre the map is there, and options.view_set.
+/// \param best the best view, where the choice by significance begins.
+/// \param warnings receives what did not go as asked for. \throw InvalidInput, Cancelled
+ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility& visibility,
+                              const ScoringCamera& camera, const Vec3& best, UpAxis up,
+                              const ViewOptions& options, std::vector<std::string>& warnings,
+                              const RunContext& run = {});
+
+/// The same with a scorer that is there already. \pre it adds up options.weight.
+ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility& visibility,
+                              const ViewScorer& scorer, const Vec3& best, UpAxis up,
+                              const ViewOptions& options, std::vector<std::string>& warnings,
+                              const RunContext& run = {});
+
+/// Cameras along the tour of a set, `count` at equal distances, all with the field of view that
+/// shows the whole surface from every one of them. \pre at least two different views.
+/// \param aspect width over height.
+std::vector<Camera> tour_cameras(const ShapeAnalysis& shape, const ReportedViewSet& set,
+                                 const ScoringCamera& camera, UpAxis up, double aspect,
+                                 std::size_t count);
+
+}  // namespace vantage

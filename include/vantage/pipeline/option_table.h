@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "vantage/core/fields.h"
+#include "vantage/pipeline/view_options.h"
+#include "vantage/render/render.h"
+
+/// \file
+/// Every option of the method and of its pictures as one list, made from the tables beside the
+/// options structs. The program's flags, its help, completions and settings, Python's keywords, the
+/// options in view.json and their hash are this list, walked.
+
+namespace vantage {
+
+/// All that may be asked for.
+struct AllOptions {
+  ViewOptions view{};    ///< What shapes a view.
+  RenderOptions look{};  ///< What its pictures look like.
+};
+
+/// What an option is given as; nothing where an optional one is unset. Choices are their words.
+using OptionValue = std::variant<std::monostate, bool, std::uint64_t, double, std::string>;
+
+/// What values of an option are.
+enum class OptionKind {
+  Number,   ///< double
+  Integer,  ///< std::uint64_t
+  Switch,   ///< bool
+  Choice,   ///< std::string, one of its words
+  Text,     ///< std::string
+};
+
+/// One option.
+struct Option {
+  std::string name{};                  ///< As flags and results have it, e.g. "max-steps".
+  std::string group{};                 ///< Which commands and functions offer it, e.g. "camera".
+  std::string heading{};               ///< That the help lists it under.
+  std::string help{};                  ///< One line; empty: neither a flag nor a keyword.
+  std::string off_help{};              ///< Of a switch that is on unless `--no-NAME` is given.
+  OptionKind kind = OptionKind::Text;  ///< What its values are.
+  TextForm form = TextForm::Plain;     ///< Of a text.
+  std::vector<std::string> words{};    ///< Of a choice.
+  double low = 0.0;                    ///< Of a number.
+  double high = 0.0;                   ///< Of a number.
+  bool is_of_pictures = false;         ///< Of RenderOptions: no part of view.json.
+  std::function<OptionValue(const AllOptions&)> value{};  ///< What it is.
+  /// Sets it, and what follows from it. \throw InvalidInput that begins with "option NAME"
+  std::function<void(AllOptions&, const OptionValue&)> set{};
+
+  [[nodiscard]] bool is_listed() const { return !help.empty(); }  ///< Has a flag and a keyword.
+};
+
+/// All options in the order in which they are to be set.
+const std::vector<Option>& option_table();
+
+/// The option of that name. \throw InvalidInput if there is none.
+const Option& find_option(std::string_view name);
+
+/// What a preset stands for. \param quality of pictures.
+AllOptions all_options(Preset preset, Quality quality = Quality::Normal);
+
+/// The request that view_set of `options` holds, if it says how many views are wanted; nothing if it
+/// asks for none. \throw InvalidInput if it asks for some and does not say how many, or by what does
+/// not go together.
+std::optional<ViewSetRequest> checked_view_set(const ViewOptions& options);
+
+/// {"NAME": VALUE, …}: all options, as they are.
+std::string options_json(const AllOptions& options);
+
+}  // namespace vantage

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vantage/contraction/contraction.h"
+#include "vantage/core/run_context.h"
+#include "vantage/io/model.h"
+#include "vantage/mesh/mesh_check.h"
+#include "vantage/mesh/tri_mesh.h"
+#include "vantage/pipeline/view_options.h"
+#include "vantage/significance/kssm.h"
+#include "vantage/skeleton/skeleton.h"
+#include "vantage/visibility/vertex_visibility.h"
+
+/// \file
+/// From a model to its significance map, in the order of the paper's steps: repair, contract,
+/// extract the skeleton, add up the distances. Each step is also a function of its own module.
+
+namespace vantage {
+
+/// Wall-clock seconds of each stage.
+struct StageSeconds {
+  double load = 0.0;      ///< Reading the file.
+  double contract = 0.0;  ///< Repairs and contraction.
+  double skeleton = 0.0;  ///< Surgery, centring, pruning; and what views still wait for then.
+  double map = 0.0;       ///< Distances and their sum.
+  double search = 0.0;    ///< Both views.
+  double render = 0.0;    ///< Pictures.
+  double total = 0.0;     ///< Of everything.
+};
+
+/// What a point cloud needs besides a surface.
+struct CloudAnalysis {
+  std::vector<std::uint8_t> outlier{};  ///< One entry per vertex of the surface.
+  PointContraction contraction{};       ///< Its history of all points moves to the analysis.
+};
+
+/// What views of a surface are looked for with, whatever its map; not for callers to look into.
+struct ViewPreparation;
+
+/// The surface as the method works on it, and what it found out about its shape.
+struct ShapeAnalysis {
+  TriMesh surface{};                            ///< Welded, closed shells turned outwards.
+  std::vector<FaceSides> sides{};               ///< One per component of `surface`.
+  std::vector<std::uint32_t> surface_vertex{};  ///< For each input vertex its one in `surface`.
+  MeshReport check{};                           ///< Of the welded surface.
+  Sphere sphere{};                              ///< Smallest around all referenced vertices.
+  ContractionHistory history{};                 ///< Filled by add_history().
+  Skeleton skeleton{};                          ///< Filled by add_skeleton().
+  KssmMap map{};                                ///< Filled by add_map().
+  std::vector<std::string> warnings{};   ///< Every repair and uncertainty, one sentence each.
+  std::optional<CloudAnalysis> cloud{};  ///< Set if the model has no faces.
+  /// Of `surface`, filled by analyse_shape() for views. Where it is missing, what looks for views
+  /// makes it; whoever changes `surface` resets it.
+  std::shared_ptr<const ViewPreparation> views{};
+};
+
+/// Welds and orients the model's surface; the only place that repairs, and it lists every repair.
+/// Leaves history, skeleton and map empty.
+/// The points of a model without faces are joined by their local Delaunay rings.
+/// \throw InvalidInput if the model has no extent; Cancelled
+ShapeAnalysis prepare_surface(const Model& model, const RunContext& run = {});
+
+/// Adds the contraction history to a prepared surface. \throw Cancelled
+void add_history(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
+/// Adds the skeleton. \pre history is there. \throw Cancelled
+void add_skeleton(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
+/// Adds the significance map. \pre skeleton is there. \throw Cancelled
+void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
+
+/// What an analysis is made for.
+enum class AnalysisUse {
+  Views,  ///< Views will be looked for: what that needs is made beside the contraction.
+  Map,    ///< The map and the skeleton are all that is wanted.
+};
+
+/// All of the above; `seconds` receives the stage times if not null.
+ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options,
+                            const RunContext& run = {}, StageSeconds* seconds = nullptr,
+                            AnalysisUse use = AnalysisUse::Views);
+
+/// All of it but prepare_surface(), whose result it takes.
+ShapeAnalysis analyse_surface(ShapeAnalysis prepared, const ViewOptions& options,
+                              const RunContext& run = {}, StageSeconds* seconds = nullptr,
+                              AnalysisUse use = AnalysisUse::Views);
+
+/// A per-vertex field of the surface carried to the input's vertices; isolated ones get 0.
+std::vector<double> on_input_vertices(const ShapeAnalysis& shape, std::span<const double> field);
+
+/// Skeleton node of each input vertex; −1 for vertices without faces.
+std::vector<std::int64_t> nodes_of_input_vertices(const ShapeAnalysis& shape);
+
+/// An object of a scene.
+struct SceneObject {
+  std::string name{};                     ///< As in the file; empty for an unnamed component.
+  std::size_t faces = 0;                  ///< Triangles of it in the file.
+  std::vector<std::uint32_t> vertices{};  ///< Of the surface, ascending.
+};
+
+/// The objects of a scene, numbered from 0: where the file names at least two (OBJ groups and
+/// objects, glTF nodes, solids of STL) these, those of one name together and faces before the first
+/// name as an object without one; else the components of the surface, by lowest vertex.
+/// \pre shape is prepare_surface(model) or more.
+std::vector<SceneObject> list_objects(const Model& model, const ShapeAnalysis& shape);
+
+/// The object of this name, or else of this number.
+/// \throw InvalidInput that says what there is if there is none such.
+const SceneObject& find_object(const std::vector<SceneObject>& objects, std::string_view focus);
+
+/// Sets the significance of everything but the object to 0, and thereby what `total` refers to. A
+/// vertex that two objects share belongs to both. \pre the map is there.
+void focus_on(ShapeAnalysis& shape, const SceneObject& object);
+
+}  // namespace vantage

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+
+#include "vantage/contraction/contraction.h"
+#include "vantage/core/camera.h"
+#include "vantage/core/fields.h"
+#include "vantage/core/vec3.h"
+#include "vantage/io/model.h"
+#include "vantage/significance/kssm.h"
+#include "vantage/significance/mesh_saliency.h"
+#include "vantage/skeleton/skeleton.h"
+#include "vantage/view/prior.h"
+#include "vantage/view/scoring.h"
+#include "vantage/view/search.h"
+#include "vantage/view/view_set.h"
+
+/// \file
+/// Everything that shapes the result of a view, and its table.
+
+namespace vantage {
+
+/// A named set of choices.
+enum class Preset {
+  Default,  ///< Ours wherever the specification gives two.
+  Paper,    ///< The paper's: box scaling, cube of 8, rapid search, ε = 0.1 as a raw sum.
+};
+
+/// The model's up axis.
+enum class UpAxis { X, Y, Z, MinusX, MinusY, MinusZ };
+
+/// Unit vector of an axis.
+Vec3 up_vector(UpAxis axis);
+/// Names of UpAxis, and of none.
+inline constexpr const char* kUpWords = "x|y|z|-x|-y|-z|auto";
+/// "x", "-y", …
+std::string_view up_name(UpAxis axis);
+/// The axis a format implies when nothing is said: z for STL and 3MF, y otherwise.
+UpAxis default_up(ModelFormat format);
+
+/// How several views are chosen.
+enum class ViewSelection {
+  Kssm,     ///< The best view, then greedy by newly seen significance.
+  Vazquez,  ///< Greedy by the entropy of faces not yet seen.
+  Feixas,   ///< Greedy merge by viewpoint mutual information.
+};
+
+/// Names of ViewSelection.
+inline constexpr const char* kSelectionWords = "kssm|vazquez|feixas";
+/// "kssm", "vazquez" or "feixas".
+std::string_view selection_name(ViewSelection selection);
+
+/// Several views: how many, and chosen how.
+struct ViewSetRequest {
+  ViewSetOptions set{};                           ///< Number, coverage, separation.
+  ViewSelection selection = ViewSelection::Kssm;  ///< The others look at `set.views` alone.
+  double information = 0.0;  ///< Feixas: stop at this share of I(V;Z); 0: by number alone.
+};
+
+/// The table of ViewSetRequest.
+inline constexpr auto kViewSetRequestFields = std::tuple{
+    Part{&ViewSetRequest::set, kViewSetFields},
+    Choice{"select", &ViewSetRequest::selection, kSelectionWords,
+           "kssm: newly seen significance; vazquez: entropy of unseen faces; feixas: merging by "
+           "mutual information"},
+    Field{"information", &ViewSetRequest::information, 0.0, 1.0,
+          "feixas: stop when the merged view's information falls to this share of the channel's"},
+};
+
+/// Everything that shapes the result of a view.
+struct ViewOptions {
+  Preset preset = Preset::Default;      ///< What the options began as.
+  ContractionOptions contraction{};     ///< Of the surface.
+  SkeletonOptions skeleton{};           ///< Of the graph.
+  KssmOptions kssm{};                   ///< Of the map.
+  MeshSaliencyOptions saliency{};       ///< Of the map, if `method` is mesh-saliency.
+  std::string method = "kssm";          ///< The measure of a view: see find_measure().
+  Weight weight = Weight::Vertex;       ///< What scores add up; Area also sets kssm's mean.
+  bool kssm_to_finished_graph = false;  ///< Measure to the centred, pruned graph (not the raw one).
+  SearchOptions search{};               ///< Of the view sphere.
+  bool certify = false;                 ///< Also search densely and report the gap to that.
+  ViewPrior prior = upright_prior();    ///< Multiplies the best view's score in the search.
+  Projection projection = Projection::Perspective;  ///< Of the scoring camera.
+  double fov_y_deg = 30.0;                          ///< Of the scoring camera, in (0, 180).
+  std::optional<double> distance_factor{};          ///< Eye distance over D/2, > 1.
+  std::optional<UpAxis> up{};                       ///< Unset: choose_up().
+  int width = 800;                                  ///< Of pictures, px.
+  int height = 600;                                 ///< Of pictures, px.
+  double margin_percent = 4.0;                      ///< Of pictures, of the shorter side, [0, 50).
+  bool pictures = true;                             ///< Whether view.json names pictures.
+  /// Several views besides best and worst.
+  std::optional<ViewSetRequest> view_set{};
+  /// Object whose significance alone counts, see find_object(); empty: all.
+  std::string focus{};
+};
+
+/// Sets both sides of pictures from "800x600" or "600". \throw InvalidInput
+void set_size(ViewOptions& options, std::string_view text);
+/// "800x600".
+std::string size_text(const ViewOptions& options);
+/// Sets the prior from "none", "upright" or the name of a file. \throw IoError, FormatError
+void set_prior(ViewOptions& options, std::string_view text);
+/// The name of the prior.
+std::string prior_text(const ViewOptions& options);
+
+/// The table of ViewOptions. Presets come first: they set what the others then change.
+inline constexpr auto kViewFields = std::tuple{
+    Group{"method", "Method"},
+    Choice{"preset", &ViewOptions::preset, "default|paper",
+           "default: our choices; paper: the paper's"},
+    Word{"method", &ViewOptions::method, kNoFlag},
+    Group{"method", "Details of contraction and skeleton"},
+    Part{&ViewOptions::contraction, kContractionFields},
+    Part{&ViewOptions::skeleton, kSkeletonFields},
+    Group{"map", "Method"},
+    Word{"focus", &ViewOptions::focus,
+         "only this object's significance counts, the others still hide it: name or number as "
+         "listed by info",
+         TextForm::Name},
+    Choice{"weight", &ViewOptions::weight, "vertex|area",
+           "what counts: vertices, or the surface they stand for, however it is cut into faces"},
+    Part{&ViewOptions::kssm, kKssmFields},
+    Choice{"graph", &ViewOptions::kssm_to_finished_graph, "raw|finished",
+           "skeleton that distances are taken to: before or after centring and pruning"},
+    Group{"saliency", "Mesh saliency"},
+    Part{&ViewOptions::saliency, kMeshSaliencyFields},
+    Group{"camera", "Camera"},
+    Choice{"projection", &ViewOptions::projection, "perspective|orthographic",
+           "of the scoring camera"},
+    Field{"distance", &ViewOptions::distance_factor, 1.001, 1e6,
+          "eye to centre, in radii of the enclosing sphere; unset: the sphere fills the view"},
+    Field{"fov", &ViewOptions::fov_y_deg, 1.0, 170.0,
+          "vertical field of view of the scoring camera", "degrees"},
+    Choice{"up", &ViewOptions::up, kUpWords,
+           "up axis of the model; auto: z for STL, y otherwise, unless the model clearly stands on "
+           "the other"},
+    Group{"search", "Search"},
+    Part{&ViewOptions::search, kSearchFields},
+    Text{"prior", set_prior, prior_text,
+         "what the best view's score is multiplied by: none (as preset paper has it), upright (how "
+         "people look at things), or a JSON file",
+         TextForm::File},
+    Switch{"certify", &ViewOptions::certify,
+           "search densely as well, and report how far the views found are behind; slow"},
+    Group{"size", "Pictures"},
+    Text{"size", set_size, size_text,
+         "size of pictures in pixels: WIDTHxHEIGHT, or one number for a square", TextForm::Size},
+    Switch{"pictures", &ViewOptions::pictures, kNoFlag},
+    Group{"look", "Pictures"},
+    Field{"margin", &ViewOptions::margin_percent, 0.0, 45.0, "empty border around the model",
+          "per cent of the picture's shorter side"},
+    Group{"set", "Several views"},
+    Part{&ViewOptions::view_set, kViewSetRequestFields},
+};
+
+/// The options a preset stands for.
+ViewOptions preset_options(Preset preset);
+
+/// Sixteen hex digits that change when an option that shapes the result does.
+std::string options_hash(const ViewOptions& options);
+
+}  // namespace vantage

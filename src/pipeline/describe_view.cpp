@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/describe_view.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "vantage/mesh/measures.h"
+#include "vantage/render/framing.h"
+
+#include "pipeline/view_preparation.h"
+
+namespace vantage {
+namespace {
+
+/// \param areas of the vertices.
+double visible_area_fraction(std::span<const double> areas, std::span<const std::uint8_t> visible) {
+  double seen = 0.0;
+  double all = 0.0;
+  for (std::size_t v = 0; v < areas.size(); ++v) {
+    all += areas[v];
+    seen += visible[v] != 0 ? areas[v] : 0.0;
+  }
+  return all > 0.0 ? seen / all : 0.0;
+}
+
+}  // namespace
+
+Camera framed(const ShapeAnalysis& shape, const Vec3& direction, UpAxis up,
+              const ViewOptions& options) {
+  const ScoringCamera camera = scoring_camera(shape, options);
+  return frame_points(referenced_points(shape.surface), camera.viewpoint(direction),
+                      camera.sphere.centre, up_vector(up),
+                      static_cast<double>(options.width) / options.height,
+                      options.margin_percent / 100.0);
+}
+
+std::optional<FaceVisibility> faces_to_score(const ShapeAnalysis& shape,
+                                             const ViewOptions& options) {
+  std::optional<FaceVisibility> faces;
+  if (options.weight == Weight::Area) {
+    faces.emplace(shape.surface, shape.sides);
+  }
+  return faces;
+}
+
+ScoringCamera scoring_camera(const ShapeAnalysis& shape, const ViewOptions& options) {
+  return {.sphere = shape.sphere,
+          .projection = options.projection,
+          .fov_y_deg = options.fov_y_deg,
+          .distance_factor = options.distance_factor};
+}
+
+ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& visibility,
+                           const ScoringCamera& camera, const Vec3& direction, UpAxis up,
+                           const ViewOptions& options) {
+  const auto visible = visibility.visible_vertices(camera.viewpoint(direction));
+  double total = 0.0;
+  for (const double value : shape.map.of_vertex) {
+    total += value;
+  }
+  ReportedView view;
+  view.direction = direction;
+  view.eye = camera.eye(direction);
+  view.up = upright(direction, up_vector(up));
+  view.score = visible_sum(shape.map.of_vertex, visible);
+  view.score_fraction = total > 0.0 ? view.score / total : 0.0;
+  view.objective = view.score;
+  view.visible_area_fraction = visible_area_fraction(
+      shape.views ? shape.views->vertex_areas : vertex_areas(shape.surface), visible);
+  view.picture = framed(shape, direction, up, options);
+  return view;
+}
+
+ReportedView describe_scored_view(const ShapeAnalysis& shape, const VertexVisibility& visibility,
+                                  const ViewScorer& scorer, const Vec3& direction, UpAxis up,
+                                  const ViewOptions& options) {
+  ReportedView view = describe_view(shape, visibility, scorer.camera(), direction, up, options);
+  if (options.weight == Weight::Area) {
+    view.score = scorer.score(direction);
+    view.score_fraction = scorer.total() > 0.0 ? view.score / scorer.total() : 0.0;
+  }
+  view.objective = view.score * options.prior.factor(upright_frame(up_vector(up)), direction);
+  return view;
+}
+
+}  // namespace vantage

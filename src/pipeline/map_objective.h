@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "vantage/pipeline/shape_analysis.h"
+#include "vantage/view/search.h"
+
+#include "pipeline/view_preparation.h"
+
+namespace vantage {
+
+/// The score of a view by the shape's map, KSSM or saliency, as a search takes it: exact on the
+/// surface, estimated on its coarse copy.
+class MapObjective {
+ public:
+  /// \param shape must outlive this. \pre its map is there.
+  MapObjective(const ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
+  MapObjective(const MapObjective&) = delete;
+  MapObjective& operator=(const MapObjective&) = delete;
+
+  [[nodiscard]] const ViewScorer& scorer() const { return scorer_; }
+
+  [[nodiscard]] const VertexVisibility& visibility() const { return prepared_->visibility; }
+
+  /// Scores on the coarse copy, by vertices. \throw Cancelled
+  [[nodiscard]] std::vector<double> estimates(const std::vector<Vec3>& directions) const {
+    return coarse_scorer_.score_all(directions, quiet_);
+  }
+
+  /// Refers to this. \param frame what the prior of the options speaks in.
+  [[nodiscard]] ViewObjective objective(const UprightFrame& frame) const;
+
+ private:
+  std::shared_ptr<const ViewPreparation> prepared_;
+  RunContext quiet_;
+  ViewPrior prior_;
+  std::optional<FaceVisibility> faces_;
+  ViewScorer scorer_;
+  std::vector<double> coarse_shares_;
+  ViewScorer coarse_scorer_;
+};
+
+}  // namespace vantage

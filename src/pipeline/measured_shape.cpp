@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/pipeline/measured_shape.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "vantage/core/error.h"
+#include "vantage/mesh/measures.h"
+#include "vantage/significance/mesh_saliency.h"
+
+#include "pipeline/measure_objective.h"
+#include "pipeline/view_preparation.h"
+
+namespace vantage {
+namespace {
+
+constexpr int kSetLevel = 3;  // 642 views: a part of the definition of measures built on the set
+
+MeasuredView measured(const FoundView& found, const MeasureObjective& by) {
+  return {found.direction, by.value(found.score)};
+}
+
+}  // namespace
+
+bool sums_a_map(std::string_view method) {
+  return method == "kssm" || method == "mesh-saliency";
+}
+
+ShapeAnalysis analyse_for(const Model& model, const ViewOptions& options,
+                          std::span<const Measure> measures, const RunContext& run) {
+  const bool deep = std::any_of(measures.begin(), measures.end(),
+                                [](const Measure& m) { return m.needs.kssm || m.needs.skeleton; });
+  return deep || !options.focus.empty()
+             ? analyse_shape(model, options, run, nullptr, AnalysisUse::Map)
+             : prepare_surface(model, run);
+}
+
+void require_area(const ShapeAnalysis& shape, const std::string& name) {
+  if (!(surface_area(shape.surface) > 0.0)) {
+    throw InvalidInput(name +
+                       ": its surface has no area, so no view of it can be measured; kssm alone "
+                       "takes points");
+  }
+}
+
+MeasureSubject measure_subject(const ShapeAnalysis& shape, const ViewOptions& options) {
+  MeasureSubject subject;
+  subject.surface = &shape.surface;
+  subject.sides = shape.sides;
+  subject.camera = scoring_camera(shape, options);
+  subject.weight = options.weight;
+  subject.kssm = shape.map.of_vertex;
+  if (!shape.skeleton.graph.nodes.empty()) {
+    subject.skeleton = &shape.skeleton.graph;
+    subject.node_of_vertex = shape.skeleton.node_of_vertex;
+  }
+  return subject;
+}
+
+std::vector<double> vertex_map(const ShapeAnalysis& shape, const ViewOptions& options,
+                               std::string_view name, const RunContext& run) {
+  if (name == "kssm") {
+    return shape.map.of_vertex;
+  }
+  if (name == "mesh-saliency") {
+    return compute_mesh_saliency(shape.surface, options.saliency, run).of_vertex;
+  }
+  if (name != "pmi-saliency") {
+    throw InvalidInput("there is no map '" + std::string(name) +
+                       "'; there are kssm, mesh-saliency, pmi-saliency");
+  }
+  const ViewMeasurer measurer(measure_subject(shape, options), {find_measure("pmi-saliency")},
+                              kSetLevel, run);
+  return saliency_on_vertices(shape.surface, measurer.model().terms.saliency_of_face);
+}
+
+MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m, const SearchOptions& options,
+                            const RunContext& run) {
+  if (options.strategy == SearchStrategy::Gradient) {
+    require_gradient(measurer.measures()[m]);
+  }
+  const RunContext quiet{.stop = run.stop, .max_threads = run.max_threads};
+  const MeasureObjective by(measurer, m, quiet);
+  const FoundViews found = search_best_and_worst(by.objective(), options, quiet);
+  return {measured(found.best, by), measured(found.worst, by),
+          found.best.evaluations + found.worst.evaluations};
+}
+
+MeasuredView best_view(ViewMeasurer& measurer, std::size_t m, const RunContext& run) {
+  const RunContext quiet{.stop = run.stop, .max_threads = run.max_threads};
+  const MeasureObjective by(measurer, m, quiet);
+  return measured(search_view(by.objective(), Goal::Best, {}, quiet), by);
+}
+
+void require_gradient(const Measure& measure) {
+  if (measure.is_count) {
+    throw InvalidInput(measure.name +
+                       " counts things, so it goes in steps and has no gradient to follow; use "
+                       "another search, or another method");
+  }
+}
+
+ViewReport find_views_by_measure(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& options,
+                                 const RunContext& run) {
+  if (options.view_set) {
+    throw InvalidInput(
+        "several views are chosen by kssm or mesh-saliency only; leave out --views and "
+        "--coverage, or --method " +
+        options.method);
+  }
+  if (options.search.strategy == SearchStrategy::Gradient) {
+    require_gradient(find_measure(options.method));
+  }
+  const double kNone = std::numeric_limits<double>::quiet_NaN();
+  ViewMeasurer measurer(measure_subject(shape, options), {find_measure(options.method)}, kSetLevel,
+                        run.part(0.0, 0.6));
+  const MeasureObjective by(measurer, 0, run.part(0.0, 0.6));
+  const UprightFrame frame = upright_frame(up_vector(up));
+  ViewObjective objective = by.objective();
+  if (!options.prior.is_uniform) {
+    objective.preference = [&](const Vec3& direction, double score) {
+      return score * options.prior.factor(frame, direction);
+    };
+  }
+  auto [best, worst] = search_best_and_worst(objective, options.search, run.part(0.6, 1.0));
+  ViewReport report;
+  report.camera = scoring_camera(shape, options);
+  report.up = up;
+  report.total = kNone;
+  const std::shared_ptr<const VertexVisibility> visibility = visibility_of(shape, 2);
+  const auto described = [&](const FoundView& found) {
+    ReportedView view =
+        describe_view(shape, *visibility, report.camera, found.direction, up, options);
+    view.score = measurer.values(std::vector<Vec3>{found.direction}).front().front();
+    view.score_fraction = kNone;
+    return view;
+  };
+  report.best = described(best);
+  report.best.objective = best.preference;
+  report.worst = described(worst);
+  report.worst.objective = report.worst.score;
+  for (FoundView* found : {&best, &worst}) {
+    for (SearchStep& step : found->trace) {
+      step.score = by.value(step.score);
+    }
+  }
+  report.best_search = std::move(best);
+  report.worst_search = std::move(worst);
+  return report;
+}
+
+}  // namespace vantage

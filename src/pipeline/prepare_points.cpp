@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/prepare_points.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/topology.h"
+#include "vantage/mesh/weld.h"
+
+#include "mesh/extent.h"
+#include "skeleton/point_skeleton.h"
+#include "spatial/point_rings.h"
+
+namespace vantage {
+namespace {
+
+/// Stars that must hold a triangle before it hides what is behind it (docs/visibility.md).
+constexpr int kVotes = 1;
+
+/// The triangles among the points that are not left out.
+std::vector<Triangle> join(const std::vector<Vec3>& points,
+                           const std::vector<std::uint8_t>& outlier, const RunContext& run) {
+  std::vector<std::uint32_t> kept;
+  std::vector<Vec3> places;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (outlier[i] == 0) {
+      kept.push_back(i);
+      places.push_back(points[i]);
+    }
+  }
+  std::vector<Triangle> triangles =
+      agreed_triangles(point_rings(places, neighbourhood_size(places.size()), run), kVotes);
+  for (Triangle& t : triangles) {
+    t = {kept[t[0]], kept[t[1]], kept[t[2]]};
+  }
+  return triangles;
+}
+
+}  // namespace
+
+ShapeAnalysis prepare_points(const Model& model, const RunContext& run) {
+  WeldedMesh welded = weld(model.mesh, run);
+  check_extent(welded.mesh.positions, model.name);
+  ShapeAnalysis shape;
+  shape.cloud.emplace();
+  std::vector<std::uint8_t>& outlier = shape.cloud->outlier;
+  outlier = find_outliers(welded.mesh.positions, run);
+  shape.surface.positions = std::move(welded.mesh.positions);
+  shape.surface.triangles = join(shape.surface.positions, outlier, run);
+  shape.surface_vertex = std::move(welded.welded_of_vertex);
+  const std::size_t n = shape.surface.positions.size();
+  if (shape.surface.triangles.empty()) {
+    throw InvalidInput(model.name +
+                       ": the points lie on one line or are fewer than three, so there is no shape "
+                       "to look at");
+  }
+  shape.sphere = enclosing_sphere(referenced_points(shape.surface));
+  shape.sides = {FaceSides::Both};
+  shape.check.vertices = n;
+  shape.check.components = connected_components(shape.surface).count;
+  list_coarse_coordinates(shape.surface.positions, shape.warnings);
+  if (welded.merged_vertices > 0) {
+    shape.warnings.push_back(std::to_string(welded.merged_vertices) +
+                             " point(s) welded to an earlier one at the same position");
+  }
+  const auto outliers =
+      static_cast<std::size_t>(std::count(outlier.begin(), outlier.end(), std::uint8_t{1}));
+  if (outliers > 0) {
+    shape.check.components -= outliers;
+    shape.warnings.push_back(std::to_string(outliers) +
+                             " outlier(s) of the cloud left out of the skeleton and the map");
+  }
+  return shape;
+}
+
+void add_point_history(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
+  PointContraction& contraction = shape.cloud->contraction;
+  contraction =
+      contract_points(shape.surface.positions, shape.cloud->outlier, options.contraction, run);
+  shape.history = std::move(contraction.history);
+}
+
+void add_point_skeleton(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
+  const PointContraction& cloud = shape.cloud->contraction;
+  Skeleton& skeleton = shape.skeleton;
+  skeleton = extract_point_skeleton(cloud.samples, cloud.sample_history, options.skeleton, run);
+  for (auto* nodes : {&skeleton.node_of_vertex, &skeleton.raw_node_of_vertex}) {
+    std::vector<std::uint32_t> of_point;
+    of_point.reserve(cloud.sample_of_point.size());
+    for (const std::uint32_t sample : cloud.sample_of_point) {
+      of_point.push_back(sample == ContractionHistory::kIsolated ? Skeleton::kNone
+                                                                 : (*nodes)[sample]);
+    }
+    *nodes = std::move(of_point);
+  }
+}
+
+}  // namespace vantage

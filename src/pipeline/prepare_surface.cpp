@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "vantage/core/error.h"
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/weld.h"
+#include "vantage/pipeline/shape_analysis.h"
+
+#include "core/parallel.h"
+#include "mesh/extent.h"
+#include "pipeline/prepare_points.h"
+
+namespace vantage {
+namespace {
+
+std::string counted(std::size_t count, std::string_view one, std::string_view many,
+                    std::string_view rest) {
+  std::string text = std::to_string(count);
+  text += ' ';
+  text += count == 1 ? one : many;
+  text += rest;
+  return text;
+}
+
+void list_repairs(const WeldedMesh& welded, const OrientedMesh& oriented, const MeshReport& check,
+                  std::vector<std::string>& warnings) {
+  const auto add = [&](std::size_t count, std::string_view one, std::string_view many,
+                       std::string_view rest) {
+    if (count > 0) {
+      warnings.push_back(counted(count, one, many, rest));
+    }
+  };
+  add(welded.merged_vertices, "vertex", "vertices",
+      " welded to an earlier one at the same position");
+  add(welded.dropped_faces, "face", "faces", " left out for naming one position twice");
+  add(check.isolated_vertices, "vertex", "vertices", " belonging to no face left out");
+  add(check.zero_area_faces, "face", "faces", " without area");
+  add(check.duplicate_faces, "face", "faces", " standing there twice");
+  add(check.non_manifold_edges, "edge", "edges", " with three or more faces");
+  add(check.inconsistent_edges, "edge", "edges", " whose faces are wound against each other");
+  add(oriented.turned_shells, "closed shell", "closed shells", " wound inside out and turned");
+  std::size_t both = 0;
+  for (const FaceSides sides : oriented.sides) {
+    both += sides == FaceSides::Both ? 1 : 0;
+  }
+  if (both > 0) {
+    warnings.push_back(
+        "the surface is open or wound inconsistently: both sides of its faces count as visible");
+  }
+}
+
+}  // namespace
+
+void check_extent(std::span<const Vec3> points, const std::string& name) {
+  if (const std::string problem = extent_problem(points); !problem.empty()) {
+    throw InvalidInput(name + ": the model " + problem);
+  }
+}
+
+void list_coarse_coordinates(std::span<const Vec3> points, std::vector<std::string>& warnings) {
+  constexpr double kManySteps = 1e6;  // as single precision has across a model at the origin [ours]
+  if (steps_across(points) < kManySteps) {
+    warnings.emplace_back(
+        "the model is so far from the origin that its coordinates are coarse: move it nearer and "
+        "write it again");
+  }
+}
+
+ShapeAnalysis prepare_surface(const Model& model, const RunContext& run) {
+  if (model.mesh.triangles.empty()) {
+    return prepare_points(model, run);
+  }
+  WeldedMesh welded = weld(model.mesh, run);
+  const std::vector<Vec3> points = referenced_points(welded.mesh);
+  check_extent(points, model.name);
+  ShapeAnalysis shape;
+  OrientedMesh oriented;
+  run_both(
+      run, [&] { oriented = orient_shells(welded.mesh, run); },
+      [&] { shape.check = check_mesh(welded.mesh, run); });
+  list_repairs(welded, oriented, shape.check, shape.warnings);
+  list_coarse_coordinates(points, shape.warnings);
+  run.check();
+  shape.sphere = enclosing_sphere(points);
+  if (welded.mesh.triangles.empty() || !(shape.sphere.diameter > 0.0)) {
+    throw InvalidInput(
+        model.name +
+        ": all faces have collapsed to points or lines, so there is no shape to look at");
+  }
+  shape.surface = std::move(oriented.mesh);
+  shape.sides = std::move(oriented.sides);
+  shape.surface_vertex = std::move(welded.welded_of_vertex);
+  return shape;
+}
+
+}  // namespace vantage

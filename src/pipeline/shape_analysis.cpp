@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/pipeline/shape_analysis.h"
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/weld.h"
+#include "vantage/pipeline/measured_shape.h"
+
+#include "core/parallel.h"
+#include "mesh/extent.h"
+#include "pipeline/prepare_points.h"
+#include "pipeline/view_preparation.h"
+
+namespace vantage {
+namespace {
+
+/// Seconds since `mark`, which is set to now.
+double lap(std::chrono::steady_clock::time_point& mark) {
+  const auto now = std::chrono::steady_clock::now();
+  const double seconds = std::chrono::duration<double>(now - mark).count();
+  mark = now;
+  return seconds;
+}
+
+}  // namespace
+
+void add_history(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
+  if (shape.cloud) {
+    add_point_history(shape, options, run);
+  } else {
+    shape.history = contract(shape.surface, options.contraction, run);
+  }
+  shape.warnings.insert(shape.warnings.end(), shape.history.warnings.begin(),
+                        shape.history.warnings.end());
+}
+
+void add_skeleton(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
+  if (shape.cloud) {
+    add_point_skeleton(shape, options, run);
+  } else {
+    shape.skeleton = extract_skeleton(shape.surface, shape.history, options.skeleton, run);
+  }
+  shape.warnings.insert(shape.warnings.end(), shape.skeleton.warnings.begin(),
+                        shape.skeleton.warnings.end());
+}
+
+void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
+  const Skeleton& skeleton = shape.skeleton;
+  shape.map = options.kssm_to_finished_graph
+                  ? compute_kssm(shape.surface, shape.history, skeleton.graph, options.kssm, run)
+                  : compute_kssm(shape.surface, shape.history, skeleton.curve, options.kssm, run,
+                                 skeleton.other_curve);
+  if (options.method == "mesh-saliency") {
+    shape.map.of_vertex = compute_mesh_saliency(shape.surface, options.saliency, run).of_vertex;
+  } else if (options.method == "pmi-saliency" && surface_area(shape.surface) > 0.0) {
+    shape.map.of_vertex = vertex_map(shape, options, options.method, run);
+  }
+}
+
+ShapeAnalysis analyse_surface(ShapeAnalysis shape, const ViewOptions& options,
+                              const RunContext& run, StageSeconds* seconds, AnalysisUse use) {
+  auto mark = std::chrono::steady_clock::now();
+  StageSeconds ignored;
+  StageSeconds& took = seconds != nullptr ? *seconds : ignored;
+  // The contraction leaves most of a second core idle.
+  std::shared_ptr<const ViewPreparation> views;
+  run_both(
+      run,
+      [&] {
+        add_history(shape, options, run.part(0.0, 0.8));
+        took.contract = lap(mark);
+        add_skeleton(shape, options, run.part(0.8, 0.95));
+        took.skeleton = lap(mark);
+      },
+      [&] {
+        if (use == AnalysisUse::Views) {
+          views = std::make_shared<ViewPreparation>(shape, run);
+        }
+      });
+  shape.views = std::move(views);
+  took.skeleton += lap(mark);
+  add_map(shape, options, run.part(0.95, 1.0));
+  took.map = lap(mark);
+  return shape;
+}
+
+ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options, const RunContext& run,
+                            StageSeconds* seconds, AnalysisUse use) {
+  auto mark = std::chrono::steady_clock::now();
+  ShapeAnalysis prepared = prepare_surface(model, run);
+  std::optional<SceneObject> focus;  // found before the work, lest a wrong name costs minutes
+  if (!options.focus.empty()) {
+    focus = find_object(list_objects(model, prepared), options.focus);
+  }
+  if (seconds != nullptr) {
+    seconds->load += lap(mark);
+  }
+  ShapeAnalysis shape = analyse_surface(std::move(prepared), options, run, seconds, use);
+  if (focus) {
+    focus_on(shape, *focus);
+  }
+  run.advance("map", 1.0);
+  return shape;
+}
+
+std::vector<double> on_input_vertices(const ShapeAnalysis& shape, std::span<const double> field) {
+  std::vector<double> values;
+  values.reserve(shape.surface_vertex.size());
+  for (const std::uint32_t v : shape.surface_vertex) {
+    values.push_back(field[v]);
+  }
+  return values;
+}
+
+std::vector<std::int64_t> nodes_of_input_vertices(const ShapeAnalysis& shape) {
+  std::vector<std::int64_t> nodes;
+  nodes.reserve(shape.surface_vertex.size());
+  for (const std::uint32_t v : shape.surface_vertex) {
+    const std::uint32_t node = shape.skeleton.node_of_vertex[v];
+    nodes.push_back(node == Skeleton::kNone ? -1 : static_cast<std::int64_t>(node));
+  }
+  return nodes;
+}
+
+}  // namespace vantage

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/pipeline/view_options.h"
+
+#include <charconv>
+#include <cstdint>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/version.h"
+
+#include "io/files.h"
+#include "pipeline/option_echo.h"
+
+namespace vantage {
+namespace {
+
+constexpr int kLargestSide = 16384;
+
+/// One side of a picture. \throw InvalidInput
+int side_of(std::string_view number, std::string_view size) {
+  int side = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), side);
+  if (error != std::errc{} || end != number.data() + number.size()) {
+    throw InvalidInput("option size must be WIDTHxHEIGHT like 800x600, not '" + std::string(size) +
+                       "'");
+  }
+  if (side < 1 || side > kLargestSide) {
+    throw InvalidInput("option size must be between 1 and 16384 pixels a side");
+  }
+  return side;
+}
+
+/// Everything of a prior that shapes the result; its name does not.
+nlohmann::ordered_json prior_echo(const ViewPrior& prior) {
+  nlohmann::ordered_json json;
+  if (prior.is_uniform) {
+    return json;
+  }
+  for_each_field(kUprightPriorFields, [&](const auto& field) {
+    json[std::string(field.name)] = prior.upright.*(field.member);
+  });
+  for (const PriorLobe& lobe : prior.lobes) {
+    json["lobes"].push_back(
+        {lobe.direction.x(), lobe.direction.y(), lobe.direction.z(), lobe.weight, lobe.width_rad});
+  }
+  return json;
+}
+
+}  // namespace
+
+Vec3 up_vector(UpAxis axis) {
+  switch (axis) {
+    case UpAxis::X:
+      return Vec3::UnitX();
+    case UpAxis::Y:
+      return Vec3::UnitY();
+    case UpAxis::Z:
+      return Vec3::UnitZ();
+    case UpAxis::MinusX:
+      return -Vec3::UnitX();
+    case UpAxis::MinusY:
+      return -Vec3::UnitY();
+    case UpAxis::MinusZ:
+      return -Vec3::UnitZ();
+  }
+  return Vec3::UnitY();
+}
+
+std::string_view up_name(UpAxis axis) {
+  return word_at(kUpWords, static_cast<std::size_t>(axis));
+}
+
+UpAxis default_up(ModelFormat format) {
+  // A printer's plate lies in x and y.
+  return format == ModelFormat::Stl || format == ModelFormat::Threemf ? UpAxis::Z : UpAxis::Y;
+}
+
+ViewOptions preset_options(Preset preset) {
+  ViewOptions options;
+  options.preset = preset;
+  if (preset == Preset::Paper) {
+    options.contraction.method = ContractionMethod::Exact;
+    options.contraction.scaling = ContractionScaling::Box;
+    options.contraction.sheet_limit = 1.0;  // never above the other: nothing is thinned
+    options.skeleton.scaling = ContractionScaling::Box;
+    options.prior = no_prior();
+    options.kssm.level_agreement = 0.0;
+    options.skeleton.fit = false;
+    options.search = {.strategy = SearchStrategy::Rapid,
+                      .base = ViewSphereBase::Cube,
+                      .subdivisions = 0,
+                      .epsilon = 0.1,
+                      .epsilon_is_fraction = false,
+                      .require_narrow_ring = false};
+  }
+  return options;
+}
+
+std::string options_hash(const ViewOptions& options) {
+  nlohmann::ordered_json json = option_echo(options);
+  json["version"] = version();
+  json["prior"] = prior_echo(options.prior);
+  json["view-set"] = options.view_set.has_value();
+
+  // FNV-1a, 64 bit: a fingerprint to compare runs by, not a seal.
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char c : json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  }
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text(16, '0');
+  for (std::size_t i = 0; i < 16; ++i) {
+    text[15 - i] = kDigits[(hash >> (4 * i)) & 15U];
+  }
+  return text;
+}
+
+std::string_view selection_name(ViewSelection selection) {
+  return word_at(kSelectionWords, static_cast<std::size_t>(selection));
+}
+
+void set_size(ViewOptions& options, std::string_view text) {
+  const std::size_t x = text.find('x');
+  const int width = side_of(text.substr(0, x), text);
+  const int height = x == std::string_view::npos ? width : side_of(text.substr(x + 1), text);
+  options.width = width;
+  options.height = height;
+}
+
+std::string size_text(const ViewOptions& options) {
+  return std::to_string(options.width) + "x" + std::to_string(options.height);
+}
+
+void set_prior(ViewOptions& options, std::string_view text) {
+  const std::string name(text);
+  options.prior = name == "none"      ? no_prior()
+                  : name == "upright" ? upright_prior()
+                                      : parse_prior(read_file(name), name);
+}
+
+std::string prior_text(const ViewOptions& options) {
+  return options.prior.name;
+}
+
+}  // namespace vantage

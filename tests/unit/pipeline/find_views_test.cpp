@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "vantage/mesh/measures.h"
+#include "vantage/report/pictures.h"
+#include "vantage/report/view_report.h"
+
+#include "support/model_of.h"
+#include "support/shapes.h"
+
+namespace vantage::test {
+namespace {
+
+ViewOptions quick_search() {
+  ViewOptions options;
+  options.search.strategy = SearchStrategy::Exhaustive;
+  options.search.subdivisions = 2;
+  options.prior = no_prior();
+  return options;
+}
+
+class ReportOfAY : public testing::Test {
+ protected:
+  ReportOfAY()
+      : options_(quick_search()),
+        shape_(analyse_shape(model_of(y_of_tubes(0.2, 24)), options_)),
+        report_(find_views(shape_, UpAxis::Y, options_)) {}
+
+  ViewOptions options_;
+  ShapeAnalysis shape_;
+  ViewReport report_;
+};
+
+TEST_F(ReportOfAY, ScoresAreSumsOverTheVisibleVertices) {
+  const VertexVisibility visibility(shape_.surface, shape_.sides);
+  for (const ReportedView* view : {&report_.best, &report_.worst}) {
+    const auto visible = visibility.visible_vertices(report_.camera.viewpoint(view->direction));
+    double sum = 0.0;
+    for (std::size_t v = 0; v < visible.size(); ++v) {
+      sum += visible[v] != 0 ? shape_.map.of_vertex[v] : 0.0;
+    }
+    EXPECT_EQ(view->score, sum);
+    EXPECT_EQ(view->objective, sum);
+    EXPECT_DOUBLE_EQ(view->score_fraction, sum / report_.total);
+  }
+}
+
+TEST_F(ReportOfAY, UnderAPriorTheObjectiveIsScoreTimesPriorAndTheRestIsPure) {
+  options_.prior = upright_prior();
+  const ViewReport found = find_views(shape_, UpAxis::Y, options_);
+  const UprightFrame frame = upright_frame(Vec3::UnitY());
+  EXPECT_EQ(found.best.objective,
+            found.best.score * upright_prior().factor(frame, found.best.direction));
+  for (const SearchStep& step : found.best_search.trace) {
+    EXPECT_LE(step.score * upright_prior().factor(frame, step.direction), found.best.objective);
+  }
+  EXPECT_EQ(found.worst.direction, report_.worst.direction);
+  EXPECT_EQ(found.worst.score, report_.worst.score);
+  EXPECT_EQ(found.worst.objective, report_.worst.score);
+}
+
+TEST_F(ReportOfAY, TotalIsTheSumOfTheMap) {
+  EXPECT_EQ(report_.total,
+            std::accumulate(shape_.map.of_vertex.begin(), shape_.map.of_vertex.end(), 0.0));
+}
+
+TEST_F(ReportOfAY, NoDirectionOfTheSetBeatsTheBestOrUndercutsTheWorst) {
+  for (const SearchStep& step : report_.best_search.trace) {
+    EXPECT_LE(step.score, report_.best.score);
+    EXPECT_GE(step.score, report_.worst.score);
+  }
+  EXPECT_EQ(report_.best_search.trace.size(), 162U);
+}
+
+TEST_F(ReportOfAY, TheEyeStandsWhereTheEnclosingSphereFillsTheView) {
+  const double R = 0.5 * shape_.sphere.diameter / std::sin(15.0 * M_PI / 180.0);
+  EXPECT_NEAR((report_.best.eye - shape_.sphere.centre).norm(), R, 1e-9 * R);
+}
+
+TEST_F(ReportOfAY, ThePictureKeepsTheEyeAndAnUprightUp) {
+  EXPECT_EQ(report_.best.picture.eye, report_.best.eye);
+  EXPECT_NEAR(report_.best.up.dot(report_.best.direction), 0.0, 1e-12);
+  EXPECT_GT(report_.best.up.y(), 0.0);
+}
+
+TEST_F(ReportOfAY, APictureShowsTheModelOnTransparentGround) {
+  options_.width = 64;
+  options_.height = 48;
+  const Image image = take_picture(shape_, report_.best.picture, Picture::Map, options_);
+  ASSERT_EQ(image.rgba.size(), 4U * 64U * 48U);
+  std::size_t covered = 0;
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
+    covered += image.rgba[i] > 0 ? 1 : 0;
+  }
+  EXPECT_GT(covered, 64U * 48U / 20U);
+  EXPECT_LT(covered, 64U * 48U);
+}
+
+TEST(FindViews, CertifiesTheViewThatIsReportedWhereTiesWereSettled) {
+  // Mirror images see as much; the prior is larger at the back by less than a tie, so that the front
+  // is shown, and what is certified must be the front's objective.
+  ViewOptions options = quick_search();
+  options.certify = true;
+  options.prior = parse_prior(
+      R"({"vantage_prior": 1, "lobes": [{"direction": [0, 0, -1], "weight": 0.006, "width_deg": 60}]})",
+      "back.json");
+  const ShapeAnalysis shape = analyse_shape(model_of(box(1.0, 2.0, 3.0, 12)), options);
+  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  const UprightFrame frame = upright_frame(Vec3::UnitY());
+  ASSERT_GT(frame.front.dot(report.best.direction), 0.1);
+  options.search.strategy = SearchStrategy::Dense;
+  double highest = 0.0;
+  for (const SearchStep& step : find_views(shape, UpAxis::Y, options).best_search.trace) {
+    highest = std::max(highest, step.score * options.prior.factor(frame, step.direction));
+  }
+  ASSERT_TRUE(report.dense_gap.has_value());
+  EXPECT_NEAR(report.dense_gap->best_ratio, report.best.objective / highest, 1e-12);
+  EXPECT_TRUE(std::any_of(report.twins.begin(), report.twins.end(), [&](const TwinView& twin) {
+    return twin.objective > 1.004 * report.best.objective;
+  }));
+}
+
+TEST(FindViews, OfAMapThatIsZeroGivesTheFirstDirectionAndAWarning) {
+  const ViewOptions options = quick_search();
+  ShapeAnalysis shape = analyse_shape(model_of(sphere(2)), options);
+  shape.map.of_vertex.assign(shape.map.of_vertex.size(), 0.0);
+  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  const Vec3 first =
+      direction_set(ViewSphereBase::Icosahedron, options.search.subdivisions).directions.front();
+  EXPECT_EQ(report.best.direction, first);
+  EXPECT_EQ(report.worst.direction, first);
+  EXPECT_EQ(report.best.score_fraction, 0.0);
+  EXPECT_EQ(report.warnings.size(), 1U);
+}
+
+TEST(FindViews, FindsTheSameWhereNothingWasPrepared) {
+  const ViewOptions options;
+  const Model model = model_of(y_of_tubes(0.2, 24));
+  const ShapeAnalysis shape = analyse_shape(model, options);
+  ASSERT_NE(shape.views, nullptr);
+  ShapeAnalysis bare = shape;
+  bare.views.reset();
+  const UpChoice up = choose_up(model, shape, options);
+  EXPECT_EQ(choose_up(model, bare, options).axis, up.axis);
+  EXPECT_EQ(view_json(model, bare, find_views(bare, up, options), options),
+            view_json(model, shape, find_views(shape, up, options), options));
+}
+
+TEST(FindView, IsTheOneThatBothAreFoundWith) {
+  const ViewOptions options;
+  const Model model = model_of(y_of_tubes(0.2, 24));
+  const ShapeAnalysis shape = analyse_shape(model, options);
+  const UpChoice up = choose_up(model, shape, options);
+  const ViewReport both = find_views(shape, up, options);
+  for (const Goal goal : {Goal::Best, Goal::Worst}) {
+    const ReportedView& expected = goal == Goal::Best ? both.best : both.worst;
+    const ReportedView found = find_view(shape, goal, up, options);
+    EXPECT_EQ(found.direction, expected.direction);
+    EXPECT_EQ(found.score, expected.score);
+    EXPECT_EQ(found.objective, expected.objective);
+    EXPECT_EQ(found.picture.fov_y_deg, expected.picture.fov_y_deg);
+  }
+}
+
+TEST(FindPictureView, IsTheBestView) {
+  const ViewOptions options;
+  const Model model = model_of(y_of_tubes(0.2, 24));
+  const ShapeAnalysis shape = analyse_shape(model, options);
+  const PictureView found = find_picture_view(model, prepare_surface(model), options);
+  EXPECT_EQ(found.view.direction,
+            find_views(shape, choose_up(model, shape, options), options).best.direction);
+  EXPECT_EQ(found.vertices, shape.surface.positions.size());
+}
+
+TEST(FindPictureView, OfALargeSurfaceLooksAtADecimatedCopyAndFramesTheWhole) {
+  const Model model = model_of(torus(1.0, 0.4, 640, 320));
+  ASSERT_GT(model.mesh.positions.size(), 200'000U);
+  const ShapeAnalysis prepared = prepare_surface(model);
+  const PictureView found = find_picture_view(model, prepared, {});
+  EXPECT_LE(found.vertices, 100'000U);
+  EXPECT_GT(found.vertices, 90'000U);
+  const ReportedView framed =
+      describe_view(prepared, VertexVisibility(prepared.surface, prepared.sides),
+                    scoring_camera(prepared, {}), found.view.direction, found.up.axis, {});
+  EXPECT_EQ(found.view.picture.fov_y_deg, framed.picture.fov_y_deg);
+}
+
+TEST(FindViews, SeesAsMuchOfAnInsideOutModel) {
+  const ViewOptions options = quick_search();
+  const TriMesh mesh = y_of_tubes(0.25, 20);
+  const ShapeAnalysis right = analyse_shape(model_of(mesh), options);
+  const ShapeAnalysis turned = analyse_shape(model_of(inside_out(mesh)), options);
+  EXPECT_NEAR(find_views(right, UpAxis::Y, options).best.score_fraction,
+              find_views(turned, UpAxis::Y, options).best.score_fraction, 1e-9);
+}
+
+}  // namespace
+}  // namespace vantage::test

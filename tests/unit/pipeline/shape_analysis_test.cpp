@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/pipeline/shape_analysis.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "vantage/mesh/weld.h"
+
+#include "support/model_of.h"
+#include "support/shapes.h"
+
+namespace vantage::test {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+TEST(PrepareSurface, WeldsASoupAndSaysSo) {
+  const TriMesh ball = sphere(1);
+  const ShapeAnalysis shape = prepare_surface(model_of(soup(ball)));
+  EXPECT_EQ(shape.surface.positions.size(), ball.positions.size());
+  EXPECT_TRUE(shape.check.closed);
+  EXPECT_THAT(shape.warnings, Contains(HasSubstr("welded")));
+}
+
+TEST(PrepareSurface, TurnsAnInsideOutShellAndSaysSo) {
+  const ShapeAnalysis shape = prepare_surface(model_of(inside_out(sphere(1))));
+  EXPECT_EQ(shape.surface.triangles.size(), sphere(1).triangles.size());
+  EXPECT_THAT(shape.warnings, Contains(HasSubstr("inside out")));
+}
+
+TEST(PrepareSurface, HasNothingToSayOfACleanModel) {
+  EXPECT_TRUE(prepare_surface(model_of(torus(1.0, 0.3, 24, 12))).warnings.empty());
+}
+
+TEST(PrepareSurface, LeavesIsolatedVerticesOutOfTheSphere) {
+  TriMesh mesh = sphere(2);
+  mesh.positions.emplace_back(100.0, 0.0, 0.0);
+  EXPECT_NEAR(prepare_surface(model_of(mesh)).sphere.diameter, 2.0, 1e-9);
+}
+
+TEST(PrepareSurface, JoinsPointsWithoutFacesByTheirNeighbourhoods) {
+  const TriMesh points{.positions = sphere(3).positions, .triangles = {}};
+  const ShapeAnalysis shape = prepare_surface(model_of(points));
+  ASSERT_TRUE(shape.cloud.has_value());
+  EXPECT_EQ(shape.surface.positions.size(), points.positions.size());
+  EXPECT_FALSE(shape.surface.triangles.empty());
+}
+
+TEST(PrepareSurface, RefusesPointsOnALine) {
+  TriMesh points;
+  for (int i = 0; i < 20; ++i) {
+    points.positions.emplace_back(i, 0.0, 0.0);
+  }
+  EXPECT_THROW(prepare_surface(model_of(points)), InvalidInput);
+}
+
+TEST(PrepareSurface, RefusesWhatNothingCanBeComputedWith) {
+  for (const auto& [factor, shift] :
+       std::vector<std::array<double, 2>>{{1e61, 0.0}, {1e-62, 0.0}, {1.0, 1e15}}) {
+    Model model = model_of(test::box(1, 1, 1, 1));
+    Model cloud = model_of({model.mesh.positions, {}});
+    for (Model* m : {&model, &cloud}) {
+      for (Vec3& p : m->mesh.positions) {
+        p = factor * p + Vec3::Constant(shift);
+      }
+      EXPECT_THROW(prepare_surface(*m), InvalidInput) << factor;
+    }
+  }
+}
+
+TEST(PrepareSurface, WarnsOfCoarseCoordinates) {
+  Model model = model_of(test::box(1, 1, 1, 1));
+  for (Vec3& p : model.mesh.positions) {
+    p += Vec3::Constant(1e11);
+  }
+  EXPECT_THAT(prepare_surface(model).warnings, testing::Contains(testing::HasSubstr("coarse")));
+}
+
+TEST(PrepareSurface, RefusesAModelWithoutExtent) {
+  TriMesh dot;
+  dot.positions.assign(3, Vec3(1.0, 2.0, 3.0));
+  dot.triangles = {{0, 1, 2}};
+  EXPECT_THROW(prepare_surface(model_of(dot)), InvalidInput);
+}
+
+TEST(AnalyseShape, GivesEveryInputVertexItsValueAndNode) {
+  TriMesh mesh = soup(torus(1.0, 0.3, 24, 12));
+  mesh.positions.emplace_back(0.0, 0.0, 0.0);  // belongs to no face
+  const ShapeAnalysis shape = analyse_shape(model_of(mesh), {});
+  const std::vector<double> map = on_input_vertices(shape, shape.map.of_vertex);
+  const std::vector<std::int64_t> nodes = nodes_of_input_vertices(shape);
+  ASSERT_EQ(map.size(), mesh.positions.size());
+  ASSERT_EQ(nodes.size(), mesh.positions.size());
+  EXPECT_EQ(map.back(), 0.0);
+  EXPECT_EQ(nodes.back(), -1);
+  // Corners of a soup at one position share value and node.
+  for (std::size_t i = 0; i + 1 < mesh.positions.size(); ++i) {
+    for (std::size_t j = i + 1; j + 1 < std::min(mesh.positions.size(), i + 60); ++j) {
+      if (mesh.positions[i] == mesh.positions[j]) {
+        EXPECT_EQ(map[i], map[j]);
+        EXPECT_EQ(nodes[i], nodes[j]);
+      }
+    }
+  }
+}
+
+TEST(AnalyseShape, FindsTheLoopOfATorus) {
+  const ShapeAnalysis shape = analyse_shape(model_of(torus(1.0, 0.3, 48, 20)), {});
+  EXPECT_EQ(cycle_count(shape.skeleton.graph), 1U);
+  EXPECT_EQ(*shape.check.genus, 1U);
+}
+
+TEST(PrepareSurface, StopsWhenAskedWithAndWithoutFaces) {
+  std::stop_source stop;
+  stop.request_stop();
+  const RunContext run{.report = {}, .stop = stop.get_token()};
+  Model model = model_of(torus(1.0, 0.3, 24, 12));
+  EXPECT_THROW(prepare_surface(model, run), Cancelled);
+  model.mesh.triangles.clear();
+  EXPECT_THROW(prepare_surface(model, run), Cancelled);
+}
+
+TEST(PrepareSurface, EachOfItsPartsStopsWhenAsked) {
+  std::stop_source stop;
+  stop.request_stop();
+  const RunContext run{.report = {}, .stop = stop.get_token()};
+  const TriMesh mesh = torus(1.0, 0.3, 24, 12);
+  EXPECT_THROW(weld(mesh, run), Cancelled);
+  EXPECT_THROW(check_mesh(mesh, run), Cancelled);
+  EXPECT_THROW(orient_shells(mesh, run), Cancelled);
+}
+
+TEST(AnalyseShape, StopsWhenAsked) {
+  std::stop_source stop;
+  RunContext run;
+  run.stop = stop.get_token();
+  run.report = [&](std::string_view, double fraction) {
+    if (fraction > 0.1) {
+      stop.request_stop();
+    }
+  };
+  EXPECT_THROW(analyse_shape(model_of(torus(1.0, 0.3, 48, 20)), {}, run), Cancelled);
+}
+
+TEST(AnalyseShape, ReportsProgressThatNeverGoesBack) {
+  double last = 0.0;
+  RunContext run;
+  run.report = [&](std::string_view, double fraction) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+  };
+  analyse_shape(model_of(torus(1.0, 0.3, 48, 20)), {}, run);
+  EXPECT_EQ(last, 1.0);
+}
+
+}  // namespace
+}  // namespace vantage::test

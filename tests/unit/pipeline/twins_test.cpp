@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/twins.h"
+
+#include <gtest/gtest.h>
+
+#include "support/model_of.h"
+#include "support/shapes.h"
+
+namespace vantage::test {
+namespace {
+
+TEST(Twins, OfAViewOfABoxAreItsMirrorImages) {
+  const Model model = model_of(box(1.0, 2.0, 3.0, 8));
+  ShapeAnalysis shape = prepare_surface(model);
+  const std::vector<double> even(shape.surface.positions.size(), 1.0);
+  const VertexVisibility visibility(shape.surface, shape.sides);
+  const ViewScorer scorer(visibility, even, scoring_camera(shape, {}));
+  const Vec3 best = Vec3(1.0, 2.0, 3.0).normalized();
+  const auto twins = twins_of(best, shape, scorer, no_prior(), {});
+  // Three planes make 2³ images, the view itself among them; on an even map all see as much.
+  ASSERT_EQ(twins.size(), 7U);
+  for (const TwinView& twin : twins) {
+    EXPECT_EQ(twin.score, scorer.score(twin.direction));
+    EXPECT_GE(twin.score, 0.98 * scorer.score(best));
+    EXPECT_EQ(twin.objective, twin.score);
+    // The planes are those of samples, whose principal axes are not exact.
+    EXPECT_NEAR((twin.direction.cwiseAbs() - best).norm(), 0.0, 1e-4);
+  }
+}
+
+TEST(NearTies, GoToTheFrontAndThenToTheSide) {
+  const UprightFrame frame;
+  TwinView best{Vec3(-0.6, 0.0, -0.8), 10.0, 10.0};
+  std::vector<TwinView> twins{{Vec3(-0.6, 0.0, 0.8), 10.0, 9.95},
+                              {Vec3(0.6, 0.0, 0.8), 10.0, 9.96},
+                              {Vec3(0.6, 0.0, -0.8), 10.0, 10.0}};
+  settle_near_ties(best, twins, frame);
+  EXPECT_EQ(best.direction, Vec3(0.6, 0.0, 0.8));
+  ASSERT_EQ(twins.size(), 3U);
+  for (const TwinView& twin : twins) {
+    EXPECT_NE(twin.direction, best.direction);
+  }
+}
+
+TEST(NearTies, LeaveABestThatIsClearlyBetter) {
+  TwinView best{Vec3(-0.6, 0.0, -0.8), 10.0, 10.0};
+  std::vector<TwinView> twins{{Vec3(0.6, 0.0, 0.8), 9.85, 9.85}};
+  settle_near_ties(best, twins, {});
+  EXPECT_EQ(best.direction, Vec3(-0.6, 0.0, -0.8));
+}
+
+}  // namespace
+}  // namespace vantage::test
