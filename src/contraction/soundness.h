@@ -22,6 +22,12 @@ enum class StepFlaw {
 /// outgrow the box].
 class Soundness {
  public:
+  /// A vertex that a tree through the surface goes through.
+  struct Landmark {
+    std::size_t vertex = 0;
+    double spacing = 0.0;  ///< From those before it, at the start.
+  };
+
   /// \param start a component of diameter about 2.
   explicit Soundness(const TriMesh& start);
 
@@ -37,7 +43,7 @@ class Soundness {
 
   Sphere sphere_;
   Vec3 largest_;
-  std::vector<std::size_t> landmarks_;  ///< Vertices spread over the start.
+  std::vector<Landmark> landmarks_;  ///< Vertices spread over the start.
 };
 
 }  // namespace vantage

@@ -27,6 +27,19 @@ TEST(Soundness, KeepsAStepThatThinsATube) {
   EXPECT_EQ(Soundness(tube).flaw(tube, thin.positions, 1.0, 0.1, true), StepFlaw::None);
 }
 
+TEST(Soundness, KeepsAStepThatThinsATubeWiderThanItsLandmarksAreApart) {
+  const TriMesh tube = test::cylinder(0.25, 4.0, 24, 48);
+  const TriMesh wide = scaled(tube, {0.6, 0.6, 1.0});
+  const TriMesh thin = scaled(tube, {0.02, 0.02, 0.95});
+  EXPECT_EQ(Soundness(tube).flaw(wide, thin.positions, 0.6, 0.02, true), StepFlaw::None);
+}
+
+TEST(Soundness, RefusesToFlattenARingToALine) {
+  const TriMesh ring = test::torus(1.0, 0.01, 60, 6);
+  const TriMesh line = scaled(ring, {1.0, 0.01, 1.0});
+  EXPECT_EQ(Soundness(ring).flaw(ring, line.positions, 1.0, 0.5, true), StepFlaw::Collapsed);
+}
+
 TEST(Soundness, RefusesAStepThatEnlarges) {
   const TriMesh tube = test::cylinder(0.2, 2.0, 12, 20);
   EXPECT_EQ(Soundness(tube).flaw(tube, tube.positions, 0.5, 0.51, true), StepFlaw::Rose);
