@@ -70,7 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       }
     }
     const vantage::ViewReport report =
-        vantage::find_views(shape, vantage::choose_up(model, shape, options), options, run);
+        vantage::find_views(shape, vantage::choose_frame(model, shape, options), options, run);
     for (const vantage::ReportedView* view : {&report.best, &report.worst}) {
       if (!std::isfinite(view->score) || std::abs(view->direction.norm() - 1.0) > 1e-9 ||
           !view->picture.eye.allFinite()) {

@@ -17,9 +17,10 @@ ALLOWED = {
     "visibility": "core mesh spatial",
     "significance": "core mesh spatial operators contraction skeleton visibility",
     "view": "core mesh spatial significance visibility",
+    "orientation": "core mesh spatial view",
     "render": "core mesh spatial",
-    "pipeline": "core mesh io spatial operators contraction skeleton visibility significance view render",
-    "report": "core mesh io spatial operators contraction skeleton visibility significance view render pipeline",
+    "pipeline": "core mesh io spatial operators contraction skeleton visibility significance view orientation render",
+    "report": "core mesh io spatial operators contraction skeleton visibility significance view orientation render pipeline",
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 

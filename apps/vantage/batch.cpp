@@ -10,6 +10,7 @@
 
 #include "vantage/core/error.h"
 #include "vantage/core/version.h"
+#include "vantage/pipeline/sidecar.h"
 #include "vantage/pipeline/view_options.h"
 
 #include "batch/confined_folder.h"
@@ -256,9 +257,16 @@ struct BatchCommand {
           "shard-" + std::to_string(part->index) + "-of-" + std::to_string(part->count);
     }
     const ViewOptions options = view_options_of(method, several, kinds);
-    runner.options_hash = [options, kinds](const std::string& up) {
+    runner.options_hash = [options, kinds](const batch::Entry& entry) {
       ViewOptions own = options;
-      own.up = up.empty() ? options.up : up_axis(up);
+      own.up = entry.up.empty() ? options.up : up_axis(entry.up);
+      own.front = entry.front.empty() ? options.front : up_axis(entry.front);
+      if (entry.member.empty() && entry.problem.empty()) {
+        try {
+          sidecar_of(entry.path).apply(own);
+        } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the worker says what is wrong
+        }
+      }
       return batch::text_hash(options_hash(own) + ' ' + kinds.text()).substr(0, 16);
     };
     runner.worker_arguments = {"batch-worker",
@@ -306,7 +314,7 @@ struct BatchCommand {
         .attempts = runner.attempts,
         .is_current = [this](const batch::Entry& entry, const batch::ModelRecord& record) {
           return record.version == version() &&
-                 (record.options == runner.options_hash(entry.up) || record.options.empty()) &&
+                 (record.options == runner.options_hash(entry) || record.options.empty()) &&
                  !(runner.retry_failed && record.status == "failed");
         }};
     run_on_slurm(session, source, store, root, slurm, plan);

@@ -14,6 +14,7 @@
 
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
+#include "vantage/pipeline/sidecar.h"
 #include "vantage/report/pictures.h"
 #include "vantage/report/view_report.h"
 
@@ -147,12 +148,13 @@ struct BatchWorkerCommand {
       session.flags.threads = order.at("threads").get<int>();
       const RunContext run = session.run();
       Model model = load_model(path, run);
+      const Sidecar sidecar = sidecar_of(path);
       if (batch::content_hash(path) != content) {
         return failed("changed", path + ": was changed while it was read; --retry failed");
       }
       reading = false;
       model.name = batch::path_of_key(order.at("name").get<std::string>());
-      return result_of(order, model, run);
+      return result_of(order, model, sidecar, run);
     } catch (const Cancelled&) {
       throw;
     } catch (const IoError& error) {
@@ -175,22 +177,28 @@ struct BatchWorkerCommand {
     }
   }
 
-  [[nodiscard]] Json result_of(const Json& order, const Model& model, const RunContext& run) const {
+  [[nodiscard]] Json result_of(const Json& order, const Model& model, const Sidecar& sidecar,
+                               const RunContext& run) const {
     ViewOptions own = options_;
     const auto own_up = order.at("up").get<std::string>();
     if (!own_up.empty()) {
       own.up = up_axis(own_up);
     }
+    const auto own_front = order.at("front").get<std::string>();
+    if (!own_front.empty()) {
+      own.front = up_axis(own_front);
+    }
+    sidecar.apply(own);
     const ShapeAnalysis shape = analyse_shape(model, own, run);
-    const UpChoice up = choose_up(model, shape, own);
-    const ViewReport report = find_views(shape, up, own, run);
+    const FrameChoice choice = choose_frame(model, shape, own);
+    const ViewReport report = find_views(shape, choice, own, run);
     OutputFolder output(batch::path_of_key(order.at("staging").get<std::string>()));
     ShapePictures pictures(shape);
     if (const auto best = add_pictures(output, kinds_, pictures, report, own, run)) {
       output.add(batch::kThumbnailFile, png_bytes(batch::thumbnail_of(*best)));
     }
     if (kinds_.has("views")) {
-      several.write(output, shape, pictures, report, up.axis, own, run);
+      several.write(output, shape, pictures, report, choice.frame.up, own, run);
     }
     add_report(output, kinds_, model, shape, pictures, report, own, run);
     add_data(output, kinds_, model, shape, report, own,
@@ -203,7 +211,7 @@ struct BatchWorkerCommand {
     for (const char* part : {"format", "vertices", "faces", "components", "closed", "genus"}) {
       result[part] = view["model"][part];
     }
-    for (const char* part : {"total", "up", "camera", "best", "worst"}) {
+    for (const char* part : {"total", "up", "front", "camera", "best", "worst"}) {
       result[part] = view[part];
     }
     return {{"result", result.dump()}, {"peak_bytes", peak_bytes()}};

@@ -23,6 +23,7 @@ void add_measures_command(CLI::App& program, Session& session);
 void add_render_command(CLI::App& program, Session& session);
 void add_thumb_command(CLI::App& program, Session& session);
 void add_info_command(CLI::App& program, Session& session);
+void add_orient_command(CLI::App& program, Session& session);
 void add_batch_command(CLI::App& program, Session& session);
 void add_batch_worker_commands(CLI::App& program, Session& session);
 void add_results_command(CLI::App& program, Session& session);

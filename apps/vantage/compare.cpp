@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "vantage/io/write.h"
+#include "vantage/pipeline/sidecar.h"
 #include "vantage/report/comparison.h"
 
 #include "commands.h"
@@ -43,6 +44,7 @@ struct CompareCommand {
 
   void run(Session& session) const {
     ViewOptions options = method.resolve();
+    session.read([&] { return sidecar_of(model); }).apply(options);
     const std::vector<Measure> measures = chosen_measures(session, options);
     const RunContext run = session.run();
     const Model loaded = session.load(model);
@@ -51,24 +53,24 @@ struct CompareCommand {
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_for(loaded, options, measures, run.part(0.0, 0.2)); });
     require_area(shape, model);
-    const UpChoice up = choose_up(loaded, shape, options);
+    const FrameChoice choice = choose_frame(loaded, shape, options);
     const Comparison comparison = session.computing(
         [&] { return compare_methods(shape, options, measures, run.part(0.2, 0.9)); });
-    const std::string json = comparison_json(loaded, comparison, up.axis, options);
+    const std::string json = comparison_json(loaded, comparison, choice.frame.up, options);
     output.add("compare.json", json);
     output.add("compare.csv", comparison_csv(comparison));
     output.add("agreement.csv", agreement_csv(comparison));
     output.add("sphere.csv", sphere_csv(comparison));
     output.add("timings.csv", comparison_timings_csv(comparison));
     if (!no_images) {
-      output.add("sheet.png", png_bytes(comparison_sheet(shape, comparison, up.axis, options,
-                                                         run.part(0.9, 1.0))));
+      output.add("sheet.png", png_bytes(comparison_sheet(shape, comparison, choice.frame.up,
+                                                         options, run.part(0.9, 1.0))));
       output.add("index.html", comparison_html(loaded, comparison));
     }
     output.write();
     session.end_progress();
     if (session.flags.json) {
-      write_output("-", comparison_json(loaded, comparison, up.axis, options, true));
+      write_output("-", comparison_json(loaded, comparison, choice.frame.up, options, true));
       return;
     }
     summarise(session, comparison, output.path());

@@ -77,17 +77,17 @@ struct FiguresCommand {
     times.seconds.load = seconds_since(start);
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_shape(loaded, options, run.part(0.0, 0.4), &times.seconds); });
-    const UpChoice up = choose_up(loaded, shape, options);
+    const FrameChoice choice = choose_frame(loaded, shape, options);
     // The times are those of the best and the worst view, as the paper's are.
     ViewOptions alone = options;
     alone.view_set.reset();
     const auto search = Clock::now();
     ViewReport report =
-        session.computing([&] { return find_views(shape, up, alone, run.part(0.4, 0.5)); });
+        session.computing([&] { return find_views(shape, choice, alone, run.part(0.4, 0.5)); });
     times.seconds.search = seconds_since(search);
-    report.set =
-        find_view_set(shape, VertexVisibility(shape.surface, shape.sides, 1000), report.camera,
-                      report.best.direction, up.axis, options, report.warnings, run.part(0.5, 0.6));
+    report.set = find_view_set(shape, VertexVisibility(shape.surface, shape.sides, 1000),
+                               report.camera, report.best.direction, choice.frame, options,
+                               report.warnings, run.part(0.5, 0.6));
     const std::vector<Figure> figures = paper_figures(shape, report, options, run.part(0.6, 1.0));
     const std::filesystem::path place = models.size() == 1
                                             ? std::filesystem::path(folder)

@@ -24,6 +24,9 @@ class LookFlags {
   /// colours are used unless said otherwise.
   void add_to(CLI::App& app, Quality quality, bool asset);
 
+  /// A style to use unless a flag names another.
+  void suggest(Style style) { start_.look.style = style; }
+
   /// The look that was asked for; the size is left alone.
   [[nodiscard]] RenderOptions look() const { return resolved().look; }
 

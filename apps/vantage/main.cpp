@@ -63,6 +63,7 @@ int main(int argc, char** argv) {
     add_render_command(program, session);
     add_thumb_command(program, session);
     add_info_command(program, session);
+    add_orient_command(program, session);
     add_batch_command(program, session);
     add_batch_worker_commands(program, session);
     add_results_command(program, session);

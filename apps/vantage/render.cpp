@@ -8,6 +8,7 @@
 #include "vantage/io/write.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/find_views.h"
+#include "vantage/pipeline/sidecar.h"
 #include "vantage/render/framing.h"
 #include "vantage/report/pictures.h"
 
@@ -61,27 +62,34 @@ struct RenderCommand {
     ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
     options.margin_percent = look.margin_percent();
     const RunContext run = session.run();
-    const Vec3 direction =
-        direction_text.empty() ? Vec3::UnitZ() : unit(parse_vector(direction_text, "--direction"));
+    const Sidecar sidecar = session.read([&] { return sidecar_of(model); });
+    sidecar.apply(options);
+    if (sidecar.style) {
+      look.suggest(*sidecar.style);
+    }
+    const Vec3 direction = direction_text.empty()
+                               ? sidecar.view.value_or(Vec3::UnitZ())
+                               : unit(parse_vector(direction_text, "--direction"));
+    const bool is_sought = !view.empty() && !(view == "best" && sidecar.view);
     std::optional<Camera> camera;
     if (!camera_file.empty()) {
       camera = session.read([&] { return parse_camera(read_text(camera_file), camera_file); });
     }
     const Model loaded = session.load(model, look.reading(options.width, options.height));
-    const bool needs_map = !view.empty() || show != "plain";
+    const bool needs_map = is_sought || show != "plain";
     const ShapeAnalysis shape = session.computing([&] {
-      const AnalysisUse use = view.empty() ? AnalysisUse::Map : AnalysisUse::Views;
+      const AnalysisUse use = is_sought ? AnalysisUse::Views : AnalysisUse::Map;
       return needs_map ? analyse_shape(loaded, options, run.part(0.0, 0.5), nullptr, use)
                        : prepare_surface(loaded, run);
     });
     if (!camera) {
       camera = session.computing([&] {
-        return view.empty() ? framed(shape, loaded, direction, options)
-                            : found(shape, loaded, options, run.part(0.5, 0.9));
+        return !is_sought ? framed(shape, loaded, direction, options)
+                          : found(shape, loaded, options, run.part(0.5, 0.9));
       });
     }
-    const Vec3 up =
-        look.look().ground ? up_vector(choose_up(loaded, shape, options).axis) : RenderOptions{}.up;
+    const Vec3 up = look.look().ground ? up_vector(choose_frame(loaded, shape, options).frame.up)
+                                       : RenderOptions{}.up;
     const std::map<std::string, Picture> pictures{
         {"plain", Picture::Plain}, {"kssm", Picture::Map}, {"skeleton", Picture::Skeleton}};
     look.write(file, loaded, shape, *camera, pictures.at(show), options, up, run.part(0.9, 1.0));
@@ -105,16 +113,16 @@ struct RenderCommand {
   static Camera framed(const ShapeAnalysis& shape, const Model& loaded, const Vec3& direction,
                        const ViewOptions& options) {
     const ScoringCamera scoring = scoring_camera(shape, options);
-    return frame_points(referenced_points(shape.surface), scoring.viewpoint(direction),
-                        shape.sphere.centre, up_vector(choose_up(loaded, shape, options).axis),
-                        static_cast<double>(options.width) / options.height,
-                        options.margin_percent / 100.0);
+    return frame_points(
+        referenced_points(shape.surface), scoring.viewpoint(direction), shape.sphere.centre,
+        up_vector(choose_frame(loaded, shape, options).frame.up),
+        static_cast<double>(options.width) / options.height, options.margin_percent / 100.0);
   }
 
   [[nodiscard]] Camera found(const ShapeAnalysis& shape, const Model& loaded,
                              const ViewOptions& options, const RunContext& run) const {
     const Goal goal = view == "best" ? Goal::Best : Goal::Worst;
-    return find_view(shape, goal, choose_up(loaded, shape, options), options, run).picture;
+    return find_view(shape, goal, choose_frame(loaded, shape, options), options, run).picture;
   }
 
   void report(Session& session, const Camera& camera, const ViewOptions& options) const {

@@ -3,7 +3,10 @@
 
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
+#include "vantage/mesh/measures.h"
 #include "vantage/pipeline/find_views.h"
+#include "vantage/pipeline/sidecar.h"
+#include "vantage/render/framing.h"
 #include "vantage/report/pictures.h"
 
 #include "commands.h"
@@ -23,7 +26,7 @@ struct ThumbCommand {
   std::string model{};
   std::string file{};
   int size = 256;
-  OptionFlags up{};
+  OptionFlags frame{};
   LookFlags look{};
   PreviewFlag preview{};
 
@@ -39,7 +42,8 @@ struct ThumbCommand {
     app.add_option("-s,--size", size, "width and height, pixels")
         ->check(CLI::Range(1, kLargestThumbnail))
         ->capture_default_str();
-    up.add(app, find_option("up"));
+    frame.add(app, find_option("up"));
+    frame.add(app, find_option("front"));
     look.add_to(app, Quality::Draft, /*asset=*/true);
     preview.add_to(app);
     add_force_flag(app, session.flags);
@@ -53,17 +57,24 @@ struct ThumbCommand {
     look.check(file);
     check_output(file, OutputKind::Picture, session.flags);
     AllOptions given;
-    up.apply(given);
+    frame.apply(given);
     ViewOptions& options = given.view;
     options.width = options.height = size;
     options.margin_percent = look.margin_percent();
     const RunContext run = session.run();
+    const Sidecar sidecar = session.read([&] { return sidecar_of(model); });
+    sidecar.apply(options);
+    if (sidecar.style) {
+      look.suggest(*sidecar.style);
+    }
     const Model loaded = session.load(model, look.reading(size, size));
     const ShapeAnalysis shape = session.computing([&] { return prepare_surface(loaded, run); });
-    const PictureView found = session.computing(
-        [&] { return find_picture_view(loaded, shape, options, run.part(0.1, 0.7)); });
+    const PictureView found = session.computing([&] {
+      return sidecar.view ? framed(loaded, shape, *sidecar.view, options)
+                          : find_picture_view(loaded, shape, options, run.part(0.1, 0.7));
+    });
     const Camera& camera = found.view.picture;
-    const Vec3 above = up_vector(found.up.axis);
+    const Vec3 above = up_vector(found.choice.frame.up);
     look.write(file, loaded, shape, camera, Picture::Plain, options, above, run.part(0.7, 1.0));
     if (file != "-") {
       preview.show(session, shape, camera, options, look.look(above), run);
@@ -77,6 +88,19 @@ struct ThumbCommand {
   }
 
  private:
+  /// The view that a sidecar names.
+  static PictureView framed(const Model& loaded, const ShapeAnalysis& shape, const Vec3& direction,
+                            const ViewOptions& options) {
+    PictureView found;
+    found.choice = choose_frame(loaded, shape, options);
+    found.vertices = shape.surface.positions.size();
+    found.view.direction = direction;
+    found.view.picture = frame_points(
+        referenced_points(shape.surface), scoring_camera(shape, options).viewpoint(direction),
+        shape.sphere.centre, up_vector(found.choice.frame.up), 1.0, options.margin_percent / 100.0);
+    return found;
+  }
+
   void report(Session& session, const PictureView& found) const {
     session.end_progress();
     if (session.flags.json && file != "-") {
@@ -84,7 +108,8 @@ struct ThumbCommand {
       const nlohmann::ordered_json json = {{"file", file},
                                            {"size", size},
                                            {"direction", {d.x(), d.y(), d.z()}},
-                                           {"up", up_name(found.up.axis)},
+                                           {"up", up_name(found.choice.frame.up)},
+                                           {"front", up_name(found.choice.frame.front)},
                                            {"vertices", found.vertices}};
       write_output("-", json.dump(2) + "\n");
     }

@@ -5,6 +5,7 @@
 
 #include "vantage/io/write.h"
 #include "vantage/pipeline/measured_shape.h"
+#include "vantage/pipeline/sidecar.h"
 #include "vantage/report/view_report.h"
 
 #include "commands.h"
@@ -83,6 +84,7 @@ struct ViewCommand {
     StageSeconds seconds;
     check_output(trace, OutputKind::Table, session.flags);
     const Model loaded = session.load(model);
+    session.read([&] { return sidecar_of(model); }).apply(options);
     seconds.load = seconds_since(start);
     OutputFolder output(folder.empty() ? folder_named(loaded.name, ".vantage") : folder);
     output.check(session.flags.force);
@@ -91,10 +93,10 @@ struct ViewCommand {
     if (!sums_a_map(options.method)) {
       require_area(shape, model);
     }
-    const UpChoice up = choose_up(loaded, shape, options);
+    const FrameChoice choice = choose_frame(loaded, shape, options);
     const auto search_start = Clock::now();
     const ViewReport report =
-        session.computing([&] { return find_views(shape, up, options, run.part(0.5, 0.9)); });
+        session.computing([&] { return find_views(shape, choice, options, run.part(0.5, 0.9)); });
     seconds.search = seconds_since(search_start);
 
     const auto render_start = Clock::now();
@@ -107,7 +109,7 @@ struct ViewCommand {
                    run.part(0.94, 0.98));
       }
     }
-    several.write(output, shape, pictures, report, up.axis, options, run.part(0.98, 1.0));
+    several.write(output, shape, pictures, report, choice.frame.up, options, run.part(0.98, 1.0));
     seconds.render = seconds_since(render_start);
     add_data(output, OutputKinds::all(), loaded, shape, report, options,
              std::filesystem::path(model).filename().string());
@@ -125,7 +127,7 @@ struct ViewCommand {
       write_output("-", view_json(loaded, shape, report, options, &seconds));
     } else {
       preview.show(session, shape, report.best.picture, options, {}, session.run());
-      summarise(session, loaded, shape, report, output, seconds);
+      summarise(session, loaded, shape, choice, report, output, seconds);
     }
   }
 
@@ -136,8 +138,8 @@ struct ViewCommand {
   }
 
   static void summarise(Session& session, const Model& loaded, const ShapeAnalysis& shape,
-                        const ViewReport& report, const OutputFolder& output,
-                        const StageSeconds& seconds) {
+                        const FrameChoice& choice, const ViewReport& report,
+                        const OutputFolder& output, const StageSeconds& seconds) {
     const MeshReport& check = shape.check;
     std::string kind = check.closed ? "closed" : "open";
     if (check.genus) {
@@ -149,6 +151,7 @@ struct ViewCommand {
     session.tell("  skeleton    " + plural(shape.skeleton.graph.nodes.size(), "node") + ", " +
                  plural(cycle_count(shape.skeleton.graph), "cycle") + ", from " +
                  plural(shape.history.level_count(), "contraction level"));
+    session.tell("  " + frame_summary(choice));
     session.tell("  best view   " + view_line(report.best));
     session.tell("  worst view  " + view_line(report.worst));
     if (report.set) {

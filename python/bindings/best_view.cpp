@@ -73,7 +73,11 @@ py::dict report_dict(const Outcome& outcome) {
   result["worst"] = view_dict(report.worst);
   result["total"] = report.total;
   result["up"] = std::string(up_name(report.up));
-  result["up_source"] = report.up_source;
+  result["up_source"] = report.orientation.up.source;
+  result["up_confidence"] = report.orientation.up.confidence;
+  result["front"] = std::string(up_name(report.front));
+  result["front_source"] = report.orientation.front.source;
+  result["front_confidence"] = report.orientation.front.confidence;
   result["centre"] = array_of(report.camera.sphere.centre);
   result["distance"] = report.camera.distance();
   result["evaluations"] = report.best_search.evaluations + report.worst_search.evaluations;
@@ -102,7 +106,7 @@ py::dict best_view(const py::object& model, const py::object& F, const std::stri
     outcome.analysis = subject.analysed(settings, with_map, run.part(0.0, 0.5));
     const Model& loaded = *outcome.analysis->model;
     const ShapeAnalysis& shape = outcome.analysis->shape;
-    outcome.report = find_views(shape, choose_up(loaded, shape, settings.view), settings.view,
+    outcome.report = find_views(shape, choose_frame(loaded, shape, settings.view), settings.view,
                                 run.part(0.5, 1.0));
     outcome.json = view_json(loaded, shape, outcome.report, settings.view);
     return outcome;

@@ -71,14 +71,14 @@ Camera camera_from(const Standpoint& from, const Analysis& analysis, const ViewO
     return *from.camera;
   }
   const ShapeAnalysis& shape = analysis.shape;
-  const UpChoice up = choose_up(*analysis.model, shape, options);
+  const FrameChoice choice = choose_frame(*analysis.model, shape, options);
   if (from.best) {
-    const ViewReport report = find_views(shape, up, options, run);
+    const ViewReport report = find_views(shape, choice, options, run);
     return *from.best ? report.best.picture : report.worst.picture;
   }
   const ScoringCamera scoring = scoring_camera(shape, options);
   return frame_points(referenced_points(shape.surface), scoring.viewpoint(*from.direction),
-                      shape.sphere.centre, up_vector(up.axis),
+                      shape.sphere.centre, up_vector(choice.frame.up),
                       static_cast<double>(options.width) / options.height,
                       options.margin_percent / 100.0);
 }
@@ -127,7 +127,7 @@ py::array render_picture(const py::object& model, const py::object& F, const py:
     const Camera taken = camera_from(from, *analysis, settings.view, run.part(0.5, 0.9));
     RenderOptions look = settings.look;
     if (look.ground) {
-      look.up = up_vector(choose_up(*analysis->model, shape, settings.view).axis);
+      look.up = up_vector(choose_frame(*analysis->model, shape, settings.view).frame.up);
     }
     return drawn(*analysis, taken, picture, settings, look, given, run.part(0.9, 1.0));
   });

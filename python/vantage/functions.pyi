@@ -88,6 +88,7 @@ def best_view(
     distance: Optional[float] = None,
     fov: Optional[float] = None,
     up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
+    front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
     search: Optional[Literal["rapid", "exhaustive", "global", "dense", "gradient"]] = None,
     base: Optional[Literal["cube", "icosahedron"]] = None,
     subdivisions: Optional[int] = None,
@@ -191,6 +192,7 @@ def vertex_map(
     distance: Optional[float] = None,
     fov: Optional[float] = None,
     up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
+    front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
 ) -> Floats: ...
 def visible_vertices(
     model: _Subject,
@@ -205,6 +207,7 @@ def visible_vertices(
     distance: Optional[float] = None,
     fov: Optional[float] = None,
     up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
+    front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
 ) -> Flags: ...
 def score(
     model: _Subject,
@@ -245,6 +248,7 @@ def score(
     distance: Optional[float] = None,
     fov: Optional[float] = None,
     up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
+    front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
 ) -> Any: ...
 def render(
     model: _Subject,
@@ -282,6 +286,7 @@ def render(
     distance: Optional[float] = None,
     fov: Optional[float] = None,
     up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
+    front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
     search: Optional[Literal["rapid", "exhaustive", "global", "dense", "gradient"]] = None,
     base: Optional[Literal["cube", "icosahedron"]] = None,
     subdivisions: Optional[int] = None,

@@ -144,7 +144,15 @@ class BestView(_Record):
     up: str
     """The up axis used: "x", "y", "z", "-x", "-y" or "-z"."""
     up_source: str
-    """"given", "format", or "stance": how the model stands."""
+    """"given", "format", or "shape": what the shape says."""
+    up_confidence: float
+    """Probability that `up` is right, 0 to 1."""
+    front: str
+    """The axis that points from the model to a viewer in front."""
+    front_source: str
+    """As `up_source`."""
+    front_confidence: float
+    """Probability that `front` is right, 0 to 1."""
     centre: Floats
     """(3,) centre of the enclosing sphere, which directions start from."""
     distance: float

@@ -73,14 +73,15 @@ ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& v
 }
 
 ReportedView describe_scored_view(const ShapeAnalysis& shape, const VertexVisibility& visibility,
-                                  const ViewScorer& scorer, const Vec3& direction, UpAxis up,
-                                  const ViewOptions& options) {
-  ReportedView view = describe_view(shape, visibility, scorer.camera(), direction, up, options);
+                                  const ViewScorer& scorer, const Vec3& direction,
+                                  const ModelFrame& frame, const ViewOptions& options) {
+  ReportedView view =
+      describe_view(shape, visibility, scorer.camera(), direction, frame.up, options);
   if (options.weight == Weight::Area) {
     view.score = scorer.score(direction);
     view.score_fraction = scorer.total() > 0.0 ? view.score / scorer.total() : 0.0;
   }
-  view.objective = view.score * options.prior.factor(upright_frame(up_vector(up)), direction);
+  view.objective = view.score * options.prior.factor(upright_frame(frame), direction);
   return view;
 }
 

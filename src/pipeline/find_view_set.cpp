@@ -82,17 +82,17 @@ void warn_of(const ViewSet& set, const ViewSetRequest& request,
 }  // namespace
 
 ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility& visibility,
-                              const ScoringCamera& camera, const Vec3& best, UpAxis up,
-                              const ViewOptions& options, std::vector<std::string>& warnings,
-                              const RunContext& run) {
+                              const ScoringCamera& camera, const Vec3& best,
+                              const ModelFrame& frame, const ViewOptions& options,
+                              std::vector<std::string>& warnings, const RunContext& run) {
   const std::optional<FaceVisibility> faces = faces_to_score(shape, options);
   const ViewScorer scorer = faces ? ViewScorer(*faces, shape.map.of_vertex, camera)
                                   : ViewScorer(visibility, shape.map.of_vertex, camera);
-  return find_view_set(shape, visibility, scorer, best, up, options, warnings, run);
+  return find_view_set(shape, visibility, scorer, best, frame, options, warnings, run);
 }
 
 ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility& visibility,
-                              const ViewScorer& scorer, const Vec3& best, UpAxis up,
+                              const ViewScorer& scorer, const Vec3& best, const ModelFrame& frame,
                               const ViewOptions& options, std::vector<std::string>& warnings,
                               const RunContext& run) {
   const ScoringCamera& camera = scorer.camera();
@@ -118,7 +118,7 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
   for (const ChosenView& view : result.choice.views) {
     directions.push_back(view.direction);
     result.views.push_back(
-        describe_scored_view(shape, visibility, scorer, view.direction, up, options));
+        describe_scored_view(shape, visibility, scorer, view.direction, frame, options));
   }
   if (faces != nullptr) {  // sets know what is seen of a face to an eighth; nothing was seen before
     result.choice.views.front().gain = result.views.front().score;

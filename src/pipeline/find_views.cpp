@@ -48,15 +48,16 @@ void settle_on_the_front(FoundView& best, std::vector<TwinView>& twins, const Up
 
 }  // namespace
 
-ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& options,
-                      const RunContext& run) {
+ViewReport find_views(const ShapeAnalysis& shape, const ModelFrame& model_frame,
+                      const ViewOptions& options, const RunContext& run) {
   check_fields(options, kViewFields);
   if (!sums_a_map(options.method)) {
-    return find_views_by_measure(shape, up, options, run);
+    return find_views_by_measure(shape, model_frame, options, run);
   }
   ViewReport report;
   report.camera = scoring_camera(shape, options);
-  report.up = up;
+  report.up = model_frame.up;
+  report.front = model_frame.front;
   const MapObjective map(shape, options, run);
   const ViewScorer& scorer = map.scorer();
   report.total = scorer.total();
@@ -64,7 +65,7 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
     report.warnings.emplace_back(
         "the significance map is zero everywhere, so every view is as good as any other");
   }
-  const UprightFrame frame = upright_frame(up_vector(up));
+  const UprightFrame frame = upright_frame(model_frame);
   const ViewObjective objective = map.objective(frame);
   const double search_share = options.view_set || options.certify ? 0.25 : 1.0;  // of the bar
   FoundViews found = search_best_and_worst(objective, options.search, run.part(0.0, search_share));
@@ -78,40 +79,39 @@ ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& 
         gap_to_dense(found, objective, run.part(search_share, options.view_set ? 0.6 : 1.0));
   }
   const auto described = [&](const FoundView& view) {
-    return describe_scored_view(shape, map.visibility(), scorer, view.direction, up, options);
+    return describe_scored_view(shape, map.visibility(), scorer, view.direction, model_frame,
+                                options);
   };
   report.best = described(best);
   report.worst = described(worst);
   report.worst.objective = report.worst.score;  // no prior has a say in it
   if (options.view_set) {
     report.set =
-        find_view_set(shape, map.visibility(), scorer, best.direction, up, options, report.warnings,
-                      run.part(options.certify ? 0.6 : search_share, 1.0));
+        find_view_set(shape, map.visibility(), scorer, best.direction, model_frame, options,
+                      report.warnings, run.part(options.certify ? 0.6 : search_share, 1.0));
   }
   report.best_search = std::move(best);
   report.worst_search = std::move(worst);
   return report;
 }
 
-ViewReport find_views(const ShapeAnalysis& shape, const UpChoice& up, const ViewOptions& options,
-                      const RunContext& run) {
-  ViewReport report = find_views(shape, up.axis, options, run);
-  report.up_source = up.source;
-  if (!up.note.empty()) {
-    report.warnings.push_back(up.note);
-  }
+ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
+                      const ViewOptions& options, const RunContext& run) {
+  ViewReport report = find_views(shape, choice.frame, options, run);
+  report.orientation = choice.orientation;
+  report.warnings.insert(report.warnings.end(), choice.notes.begin(), choice.notes.end());
   return report;
 }
 
-ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const UpChoice& up,
+ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const FrameChoice& choice,
                        const ViewOptions& options, const RunContext& run) {
   check_fields(options, kViewFields);
   if (!sums_a_map(options.method)) {
-    const ViewReport both = find_views_by_measure(shape, up.axis, options, run);
+    const ViewReport both = find_views_by_measure(shape, choice.frame, options, run);
     return goal == Goal::Best ? both.best : both.worst;
   }
   const MapObjective map(shape, options, run);
-  const UprightFrame frame = upright_frame(up_vector(up.axis));
+  const UprightFrame frame = upright_frame(choice.frame);
   FoundView found = search_view(map.objective(frame), goal, options.search, run);
   if (goal == Goal::Best && !options.prior.is_uniform) {
     std::vector<TwinView> twins =
@@ -119,7 +119,7 @@ ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const UpChoice& up
     settle_on_the_front(found, twins, frame);
   }
   ReportedView view = describe_scored_view(shape, map.visibility(), map.scorer(), found.direction,
-                                           up.axis, options);
+                                           choice.frame, options);
   view.objective = goal == Goal::Best ? view.objective : view.score;
   return view;
 }
@@ -137,11 +137,12 @@ PictureView find_picture_view(const Model& model, const ShapeAnalysis& prepared,
   }
   const ShapeAnalysis shape = analyse_surface(std::move(surface), options, run.part(0.3, 0.8));
   PictureView found;
-  found.up = choose_up(model, shape, options);
-  found.view = find_view(shape, Goal::Best, found.up, options, run.part(0.8, 1.0));
+  // By the surface as it is: all commands answer alike.
+  found.choice = choose_frame(model, is_large ? prepared : shape, options);
+  found.view = find_view(shape, Goal::Best, found.choice, options, run.part(0.8, 1.0));
   found.vertices = shape.surface.positions.size();
   if (is_large) {
-    found.view.picture = framed(prepared, found.view.direction, found.up.axis, options);
+    found.view.picture = framed(prepared, found.view.direction, found.choice.frame.up, options);
   }
   return found;
 }

@@ -17,13 +17,23 @@ MeasureObjective::MeasureObjective(ViewMeasurer& measurer, std::size_t m, const 
       measure_(m),
       quiet_{.stop = run.stop, .max_threads = run.max_threads},
       is_falling_(measurer.measures()[m].better == Better::Less) {
-  const std::vector<double>& values = measurer.set_values(run)[m];
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const Vec3& d = measurer.set().directions[i];
-    of_set_[{d.x(), d.y(), d.z()}] = values[i];
-    highest_ = std::isfinite(values[i]) ? std::max(highest_, values[i]) : highest_;
+  if (!measurer.has_set_values() && measurer.has_estimates(m)) {
+    has_estimates_ = true;
+    take(measurer.estimates_of(m, measurer.set().directions, quiet_));
   }
-  highest_ = std::max(highest_, 0.0);
+  if (!(highest_ > 0.0)) {
+    has_estimates_ = false;
+    take(measurer.set_values(run)[m]);
+  }
+}
+
+void MeasureObjective::take(const std::vector<double>& of_set) {
+  highest_ = 0.0;
+  for (std::size_t i = 0; i < of_set.size(); ++i) {
+    const Vec3& d = measurer_->set().directions[i];
+    of_set_[{d.x(), d.y(), d.z()}] = of_set[i];
+    highest_ = std::isfinite(of_set[i]) ? std::max(highest_, of_set[i]) : highest_;
+  }
 }
 
 double MeasureObjective::score(double value) const {
@@ -41,7 +51,7 @@ std::vector<double> MeasureObjective::scores(const std::vector<Vec3>& directions
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const Vec3& d = directions[i];
     const auto known = of_set_.find({d.x(), d.y(), d.z()});
-    if (known != of_set_.end()) {
+    if (!has_estimates_ && known != of_set_.end()) {
       scores[i] = score(known->second);
     } else {
       fresh.push_back(d);
@@ -58,6 +68,15 @@ std::vector<double> MeasureObjective::scores(const std::vector<Vec3>& directions
 ViewObjective MeasureObjective::objective() const {
   ViewObjective objective;
   objective.score = [this](const std::vector<Vec3>& directions) { return scores(directions); };
+  if (has_estimates_) {
+    objective.surrogate = [this](const std::vector<Vec3>& directions) {
+      std::vector<double> estimates;
+      for (const Vec3& d : directions) {
+        estimates.push_back(score(of_set_.at({d.x(), d.y(), d.z()})));
+      }
+      return estimates;
+    };
+  }
   objective.total = highest_;
   objective.survey_level = 3;  // that of the set, whose values are known
   objective.finest_deg = kFinestDeg;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <map>
 #include <vector>
 
@@ -13,10 +12,11 @@
 namespace vantage {
 
 /// A measure of a view as a search takes it: a score that grows with how good the view is. Where less
-/// is better, that is the largest finite value of the set of views less the value.
+/// is better, that is the largest finite value of the set of views less the value. The set is
+/// estimated where the measure allows it and it was not looked at before.
 class MeasureObjective {
  public:
-  /// Looks at the set of views unless the measurer has. \param measurer must outlive this.
+  /// Estimates the set of views, or looks at it unless the measurer has. \param measurer must outlive this.
   /// \param m index into measurer.measures(). \throw Cancelled
   MeasureObjective(ViewMeasurer& measurer, std::size_t m, const RunContext& run = {});
   MeasureObjective(const MeasureObjective&) = delete;
@@ -30,6 +30,7 @@ class MeasureObjective {
   [[nodiscard]] double value(double score) const;
 
  private:
+  void take(const std::vector<double>& of_set);
   [[nodiscard]] std::vector<double> scores(const std::vector<Vec3>& directions) const;
 
   ViewMeasurer* measurer_;
@@ -37,7 +38,8 @@ class MeasureObjective {
   RunContext quiet_;
   bool is_falling_;
   std::map<std::array<double, 3>, double> of_set_{};
-  double highest_ = -std::numeric_limits<double>::infinity();
+  bool has_estimates_ = false;  // of_set_ are
+  double highest_ = 0.0;
 };
 
 }  // namespace vantage

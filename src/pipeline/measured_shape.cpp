@@ -105,8 +105,8 @@ void require_gradient(const Measure& measure) {
   }
 }
 
-ViewReport find_views_by_measure(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& options,
-                                 const RunContext& run) {
+ViewReport find_views_by_measure(const ShapeAnalysis& shape, const ModelFrame& model_frame,
+                                 const ViewOptions& options, const RunContext& run) {
   if (options.view_set) {
     throw InvalidInput(
         "several views are chosen by kssm or mesh-saliency only; leave out --views and "
@@ -120,7 +120,7 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, UpAxis up, const Vi
   ViewMeasurer measurer(measure_subject(shape, options), {find_measure(options.method)}, kSetLevel,
                         run.part(0.0, 0.6));
   const MeasureObjective by(measurer, 0, run.part(0.0, 0.6));
-  const UprightFrame frame = upright_frame(up_vector(up));
+  const UprightFrame frame = upright_frame(model_frame);
   ViewObjective objective = by.objective();
   if (!options.prior.is_uniform) {
     objective.preference = [&](const Vec3& direction, double score) {
@@ -130,12 +130,13 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, UpAxis up, const Vi
   auto [best, worst] = search_best_and_worst(objective, options.search, run.part(0.6, 1.0));
   ViewReport report;
   report.camera = scoring_camera(shape, options);
-  report.up = up;
+  report.up = model_frame.up;
+  report.front = model_frame.front;
   report.total = kNone;
   const std::shared_ptr<const VertexVisibility> visibility = visibility_of(shape, 2);
   const auto described = [&](const FoundView& found) {
     ReportedView view =
-        describe_view(shape, *visibility, report.camera, found.direction, up, options);
+        describe_view(shape, *visibility, report.camera, found.direction, model_frame.up, options);
     view.score = measurer.values(std::vector<Vec3>{found.direction}).front().front();
     view.score_fraction = kNone;
     return view;

@@ -36,7 +36,7 @@ bool ahead(const Vec3& a, const Vec3& b, const UprightFrame& frame) {
 std::vector<TwinView> twins_of(const Vec3& best, const ShapeAnalysis& shape,
                                const ViewScorer& scorer, const ViewPrior& prior,
                                const UprightFrame& frame) {
-  const std::vector<Vec3> images = mirror_images(best, posture_of(shape).planes, kApartRad);
+  const std::vector<Vec3> images = mirror_images(best, planes_of(shape), kApartRad);
   const std::vector<double> scores = scorer.score_all(images);
   std::vector<TwinView> twins;
   for (std::size_t i = 1; i < images.size(); ++i) {

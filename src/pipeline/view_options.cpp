@@ -76,6 +76,22 @@ UpAxis default_up(ModelFormat format) {
   return format == ModelFormat::Stl || format == ModelFormat::Threemf ? UpAxis::Z : UpAxis::Y;
 }
 
+UpAxis default_front(UpAxis up) {
+  return axis_nearest(upright_frame(up_vector(up)).front);
+}
+
+UpAxis axis_nearest(const Vec3& direction) {
+  UpAxis nearest = UpAxis::X;
+  for (const UpAxis axis : {UpAxis::Y, UpAxis::Z, UpAxis::MinusX, UpAxis::MinusY, UpAxis::MinusZ}) {
+    nearest = up_vector(axis).dot(direction) > up_vector(nearest).dot(direction) ? axis : nearest;
+  }
+  return nearest;
+}
+
+UprightFrame upright_frame(const ModelFrame& frame) {
+  return upright_frame(up_vector(frame.up), up_vector(frame.front));
+}
+
 ViewOptions preset_options(Preset preset) {
   ViewOptions options;
   options.preset = preset;

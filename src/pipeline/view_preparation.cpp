@@ -14,14 +14,10 @@ constexpr std::size_t kCoarseVertices = 1000;
 
 }  // namespace
 
-Posture::Posture(const TriMesh& surface)
-    : planes(mirror_planes(surface)),
-      with_y_up(stance(surface, up_vector(UpAxis::Y), planes)),
-      with_z_up(stance(surface, up_vector(UpAxis::Z), planes)) {}
-
 ViewPreparation::ViewPreparation(const ShapeAnalysis& shape, const RunContext& run)
     : visibility(shape.surface, shape.sides, kEyes),
-      posture((run.check(), shape.surface)),
+      planes((run.check(), mirror_planes(shape.surface))),
+      evidence((run.check(), shape.surface)),
       vertex_areas(vantage::vertex_areas(shape.surface)),
       coarse((run.check(),
               coarse_surface(shape.surface, shape.sides, kCoarseVertices, {.stop = run.stop}))),
@@ -39,8 +35,12 @@ std::shared_ptr<const VertexVisibility> visibility_of(const ShapeAnalysis& shape
   return std::make_shared<VertexVisibility>(shape.surface, shape.sides, eyes);
 }
 
-Posture posture_of(const ShapeAnalysis& shape) {
-  return shape.views ? shape.views->posture : Posture(shape.surface);
+std::vector<MirrorPlane> planes_of(const ShapeAnalysis& shape) {
+  return shape.views ? shape.views->planes : mirror_planes(shape.surface);
+}
+
+OrientationEvidence evidence_of(const ShapeAnalysis& shape) {
+  return shape.views ? shape.views->evidence : OrientationEvidence(shape.surface);
 }
 
 }  // namespace vantage

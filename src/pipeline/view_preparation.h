@@ -5,26 +5,17 @@
 #include <memory>
 #include <vector>
 
+#include "vantage/orientation/orientation.h"
 #include "vantage/pipeline/shape_analysis.h"
 #include "vantage/spatial/mirror_symmetry.h"
 #include "vantage/visibility/vertex_visibility.h"
 
 #include "pipeline/coarse_surface.h"
-#include "view/stance.h"
 
 /// \file
 /// What views of a surface are looked for with, whatever its map: made beside the contraction.
 
 namespace vantage {
-
-/// How a surface mirrors itself and stands.
-struct Posture {
-  explicit Posture(const TriMesh& surface);
-
-  std::vector<MirrorPlane> planes;
-  Stance with_y_up;
-  Stance with_z_up;
-};
 
 /// Immutable; copies of an analysis share it.
 struct ViewPreparation {
@@ -32,7 +23,8 @@ struct ViewPreparation {
   explicit ViewPreparation(const ShapeAnalysis& shape, const RunContext& run = {});
 
   VertexVisibility visibility;
-  Posture posture;
+  std::vector<MirrorPlane> planes;     ///< mirror_planes().
+  OrientationEvidence evidence;        ///< For up and front.
   std::vector<double> vertex_areas;    ///< vertex_areas().
   CoarseSurface coarse;                ///< What estimates of scores look at.
   VertexVisibility coarse_visibility;  ///< Of its mesh.
@@ -44,7 +36,10 @@ std::shared_ptr<const ViewPreparation> preparation_of(const ShapeAnalysis& shape
 /// The visibility of the shape's, or one made now for about so many eyes.
 std::shared_ptr<const VertexVisibility> visibility_of(const ShapeAnalysis& shape, std::size_t eyes);
 
-/// The posture of the shape's, or one found now.
-Posture posture_of(const ShapeAnalysis& shape);
+/// The mirror planes of the shape's, or found now.
+std::vector<MirrorPlane> planes_of(const ShapeAnalysis& shape);
+
+/// The evidence of the shape's, or gathered now.
+OrientationEvidence evidence_of(const ShapeAnalysis& shape);
 
 }  // namespace vantage

@@ -23,8 +23,8 @@ Vec3 default_view(const Model& model, const ShapeAnalysis& shape, ViewOptions op
   options.method = "kssm";
   options.prior = upright_prior();
   options.view_set.reset();
-  const UpChoice up = choose_up(model, shape, options);
-  return find_views(shape, up, options, run).best.direction;
+  const FrameChoice choice = choose_frame(model, shape, options);
+  return find_views(shape, choice, options, run).best.direction;
 }
 
 /// Mean and standard deviation over the surface.

@@ -157,7 +157,7 @@ SaliencyView saliency_view(const ShapeAnalysis& shape, const ViewReport& report,
   other.view_set.reset();
   SaliencyView result{vertex_map(shape, options, method, run.part(0.0, 0.3)), {}, {}};
   result.shape = with_map(shape, result.map);
-  result.report = find_views(result.shape, report.up, other, run.part(0.3, 1.0));
+  result.report = find_views(result.shape, {report.up, report.front}, other, run.part(0.3, 1.0));
   clip_for_colours(result.shape.map.of_vertex);
   return result;
 }

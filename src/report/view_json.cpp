@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -21,6 +22,11 @@ constexpr int kSchema = 1;
 
 Json point(const Vec3& p) {
   return Json::array({p.x(), p.y(), p.z()});
+}
+
+/// Confidences are no better than that.
+double in_thousandths(double share) {
+  return std::round(1000.0 * share) / 1000.0;
 }
 
 Json frame_of(const Camera& picture) {
@@ -136,7 +142,11 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
   json["weight"] = echo["weight"];
   json["prior"] = options.prior.name;
   json["up"] = up_name(report.up);
-  json["up_source"] = report.up_source;
+  json["up_source"] = report.orientation.up.source;
+  json["up_confidence"] = in_thousandths(report.orientation.up.confidence);
+  json["front"] = up_name(report.front);
+  json["front_source"] = report.orientation.front.source;
+  json["front_confidence"] = in_thousandths(report.orientation.front.confidence);
   json["camera"] = camera_of(report.camera, echo["projection"]);
   json["best"] = view_of(report.best, options.pictures ? Json("best.png") : Json(nullptr));
   json["worst"] = view_of(report.worst, options.pictures ? Json("worst.png") : Json(nullptr));

@@ -2,6 +2,7 @@
 #include "view/global_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -12,9 +13,14 @@ namespace vantage {
 namespace {
 
 // All ours; docs/search.md has what each trades, measured.
-constexpr std::size_t kExactValues = 96;  // directions scored exactly; half of them peaks
-constexpr std::size_t kStarts = 6;        // directions that the ascent starts from, …
+constexpr std::size_t kFirstScores = 32;  // directions scored first; half of them peaks
+constexpr std::size_t kBatch = 16;        // then so many at a time, a quarter of them peaks, …
+constexpr std::size_t kBatches = 2;       // … so often, by what was learnt of the estimates
+constexpr double kLikeRad = 12.0 * kRadPerDeg;  // estimates so far apart are off by like amounts
+constexpr double kTrust = 0.3;      // weight of the mean error where nothing near was scored
+constexpr std::size_t kStarts = 4;  // directions that the ascent starts from, …
 constexpr double kStartsApartRad = 5.0 * kRadPerDeg;  // … so far apart: not all on one hill
+constexpr double kFlat = 3e-4;  // share of the range that is not worth a finer ring
 
 constexpr double kSurveyShare = 0.5;  // of the progress bar
 
@@ -23,54 +29,137 @@ double half_spacing_rad(int level) {
   return 34.0 * kRadPerDeg / static_cast<double>(1 << level);
 }
 
-/// The directions to be scored exactly: the highest peaks of the estimates, then the highest
-/// estimates, apart from each other.
-std::vector<Vec3> promising(const DirectionSet& set, const std::vector<double>& estimates,
-                            double apart_rad) {
-  std::vector<Candidate> peaks;
-  for (const std::size_t i : local_maxima(set, estimates)) {
-    peaks.push_back({set.directions[i], estimates[i]});
+/// What is known of the sphere, and what to score next.
+class Survey {
+ public:
+  Survey(const SearchTarget& target, double apart_rad, const RunContext& run)
+      : target_(target),
+        apart_rad_(apart_rad),
+        set_(direction_set(ViewSphereBase::Icosahedron, target.objective().survey_level)),
+        estimates_(target.estimates(set_.directions, run)),
+        corrected_(estimates_) {}
+
+  /// Of the estimates that are finite: a view of nothing may be infinitely bad.
+  [[nodiscard]] double range() const {
+    double least = std::numeric_limits<double>::infinity();
+    double largest = -least;
+    for (const double estimate : estimates_) {
+      if (std::isfinite(estimate)) {
+        least = std::min(least, estimate);
+        largest = std::max(largest, estimate);
+      }
+    }
+    return std::max(0.0, largest - least);
   }
-  peaks.resize(std::min(peaks.size(), kExactValues / 2));
-  std::vector<Candidate> all = peaks;
-  for (Candidate& peak : all) {
-    peak.value = std::numeric_limits<double>::infinity();  // stays, whatever lies near it
+
+  /// All that was scored.
+  [[nodiscard]] const std::vector<Candidate>& scored() const { return scored_; }
+
+  /// Scores both ways along the axes: things with flat sides have peaks and pits there.
+  void score_axes() {
+    std::vector<Vec3> axes;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      axes.emplace_back(Vec3::Unit(k));
+      axes.emplace_back(-Vec3::Unit(k));
+    }
+    score(axes);
   }
-  for (std::size_t i = 0; i < set.directions.size(); ++i) {
-    all.push_back({set.directions[i], estimates[i]});
+
+  /// Scores the highest peaks of the corrected estimates, then the highest of them, apart from each
+  /// other and from all that was scored; corrects the estimates.
+  void score_promising(std::size_t count, std::size_t peaks) {
+    constexpr double kStays = std::numeric_limits<double>::infinity();
+    std::vector<Candidate> all;
+    for (const Candidate& one : scored_) {
+      all.push_back({one.direction, kStays});
+    }
+    const std::vector<std::size_t> maxima = local_maxima(set_, corrected_);
+    for (std::size_t i = 0; i < std::min(peaks, maxima.size()); ++i) {
+      all.push_back({set_.directions[maxima[i]], std::numeric_limits<double>::max()});
+    }
+    for (std::size_t i = 0; i < corrected_.size(); ++i) {
+      all.push_back({set_.directions[i], corrected_[i]});
+    }
+    std::vector<Vec3> directions;
+    for (const Candidate& one : largest_apart(std::move(all), scored_.size() + count, apart_rad_)) {
+      if (one.value < kStays) {
+        directions.push_back(one.direction);
+      }
+    }
+    score(directions);
+    correct();
   }
-  std::vector<Vec3> directions;
-  for (const Candidate& one : largest_apart(std::move(all), kExactValues, apart_rad)) {
-    directions.push_back(one.direction);
+
+ private:
+  void score(const std::vector<Vec3>& directions) {
+    const std::vector<double> values = target_.values(directions, 0);
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      scored_.push_back({directions[i], values[i]});
+    }
   }
-  return directions;
-}
+
+  /// Adds to each estimate what those near it that were scored are off by, in the mean.
+  void correct() {
+    std::vector<std::size_t> places;
+    std::vector<double> errors;
+    double mean = 0.0;
+    for (const Candidate& one : scored_) {
+      const auto at = std::find(set_.directions.begin(), set_.directions.end(), one.direction);
+      const std::size_t place = static_cast<std::size_t>(at - set_.directions.begin());
+      if (at != set_.directions.end() && std::isfinite(one.value - estimates_[place])) {
+        places.push_back(place);
+        errors.push_back(one.value - estimates_[place]);
+        mean += errors.back();
+      }
+    }
+    mean /= std::max(1.0, static_cast<double>(errors.size()));
+    for (std::size_t i = 0; i < corrected_.size(); ++i) {
+      double weights = kTrust;
+      double sum = kTrust * mean;
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        const double apart = (set_.directions[i] - set_.directions[places[k]]).norm() / kLikeRad;
+        const double weight = std::exp(-0.5 * apart * apart);
+        weights += weight;
+        sum += weight * errors[k];
+      }
+      corrected_[i] = estimates_[i] + sum / weights;
+    }
+  }
+
+  const SearchTarget& target_;
+  double apart_rad_;
+  DirectionSet set_;
+  std::vector<double> estimates_, corrected_;
+  std::vector<Candidate> scored_{};
+};
 
 }  // namespace
 
 Candidate search_globally(const SearchTarget& target, const RunContext& run) {
-  const int level = target.objective().survey_level;
-  const double first_rad = half_spacing_rad(level);
-  const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, level);
-  const std::vector<Vec3> directions = promising(
-      set, target.estimates(set.directions, run.part(0.0, kSurveyShare)), 1.5 * first_rad);
-  const std::vector<double> values = target.values(directions, 0);
-  std::vector<Candidate> candidates;
-  for (std::size_t i = 0; i < directions.size(); ++i) {
-    candidates.push_back({directions[i], values[i]});
+  const double first_rad = half_spacing_rad(target.objective().survey_level);
+  Survey survey(target, 1.5 * first_rad, run.part(0.0, kSurveyShare));
+  survey.score_axes();
+  survey.score_promising(kFirstScores, kFirstScores / 2);
+  for (std::size_t batch = 0; batch < kBatches; ++batch) {
+    survey.score_promising(kBatch, kBatch / 4);
   }
-  // Each halving of the ring leaves one candidate fewer: a summit may be narrow.
+  AscentRules rules{.first_rad = first_rad,
+                    .last_rad = target.objective().finest_deg * kRadPerDeg,
+                    .flat = kFlat * survey.range(),
+                    .drops_losers = true};
   const RunContext ascent = run.part(kSurveyShare, 1.0);
-  std::size_t count = kStarts;
-  double ring_rad = first_rad;
-  candidates = largest_apart(std::move(candidates), count, kStartsApartRad);
-  for (int round = 1; ring_rad >= target.objective().finest_deg * kRadPerDeg; ++round) {
-    candidates = largest_apart(std::move(candidates), count, ring_rad);
-    ascend(candidates, {ring_rad, ring_rad}, target, round, ascent);
-    count = std::max<std::size_t>(1, count - 1);
-    ring_rad *= 0.5;
+  std::vector<Candidate> candidates = largest_apart(survey.scored(), kStarts, kStartsApartRad);
+  ascend(candidates, rules, target, 1, ascent);
+  candidates = largest_apart(std::move(candidates), 1, 0.0);
+  // Where it is rough to the finest ring a second ascent, on another lattice, may gain.
+  rules.first_rad *= 0.5;
+  for (double before = -std::numeric_limits<double>::infinity();
+       candidates[0].value > before && candidates[0].spread >= rules.flat;) {
+    before = candidates[0].value;
+    candidates[0].place = {};
+    ascend(candidates, rules, target, 1, ascent);
   }
-  return largest_apart(std::move(candidates), 1, 0.0).front();
+  return candidates[0];
 }
 
 }  // namespace vantage

@@ -5,11 +5,14 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include <Eigen/Geometry>
 
 #include "vantage/mesh/topology.h"
+
+#include "view/sphere_angles.h"
 
 namespace vantage {
 namespace {
@@ -42,6 +45,52 @@ std::vector<Candidate> ring_around(Candidate& candidate, double width_rad) {
     ring.push_back({is_start ? at.start : direction.normalized(), 0.0, next});
   }
   return ring;
+}
+
+/// One candidate on its way.
+struct Climb {
+  Candidate* at;
+  double width_rad;  // of the next ring
+  bool is_over = false;
+};
+
+/// Moves to the largest of the ring, or halves it.
+void step(Climb& climb, std::span<const Candidate> ring, double flat) {
+  const auto [least, largest] =
+      std::minmax_element(ring.begin(), ring.end(),
+                          [](const Candidate& a, const Candidate& b) { return a.value < b.value; });
+  const double here = climb.at->value;
+  const double spread = std::max(here, largest->value) - std::min(here, least->value);
+  if (largest->value > here) {
+    *climb.at = *std::find_if(ring.begin(), ring.end(), [top = largest->value](const Candidate& c) {
+      return c.value == top;
+    });
+  } else {
+    climb.width_rad *= 0.5;
+    climb.is_over = spread < flat;
+  }
+  climb.at->spread = spread;
+}
+
+/// Ends what the rules end.
+void end_some(std::vector<Climb>& climbs, const AscentRules& rules) {
+  const Candidate& best = *std::max_element(climbs.begin(), climbs.end(), [](auto& a, auto& b) {
+                             return a.at->value < b.at->value;
+                           })->at;
+  for (Climb& climb : climbs) {
+    climb.is_over |= climb.width_rad < rules.last_rad;
+    if (!rules.drops_losers || climb.at == &best) {
+      continue;
+    }
+    climb.is_over |= climb.at->value + climb.at->spread < best.value;
+    for (const Climb& other : climbs) {
+      const bool is_lesser =
+          &other < &climb ? climb.at->value <= other.at->value : climb.at->value < other.at->value;
+      climb.is_over |= &other != &climb && is_lesser &&
+                       angle_between(climb.at->direction, other.at->direction) <
+                           std::min(climb.width_rad, other.width_rad);
+    }
+  }
 }
 
 }  // namespace
@@ -83,18 +132,24 @@ std::vector<Candidate> largest_apart(std::vector<Candidate> candidates, std::siz
   return chosen;
 }
 
-void ascend(std::vector<Candidate>& candidates, const RingWidths& rings, const SearchTarget& target,
-            int level, const RunContext& run) {
-  std::vector<double> width(candidates.size(), rings.first_rad);
+void ascend(std::vector<Candidate>& candidates, const AscentRules& rules,
+            const SearchTarget& target, int level, const RunContext& run) {
+  std::vector<Climb> climbs;
+  for (Candidate& one : candidates) {
+    climbs.push_back({&one, rules.first_rad});
+  }
   double done = 0.0;
   for (;; ++level) {
+    end_some(climbs, rules);
+    std::vector<Climb*> active;
     std::vector<Candidate> around;
     std::vector<Vec3> directions;
-    std::vector<std::size_t> active;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (width[i] >= rings.last_rad) {
-        active.push_back(i);
-        for (Candidate& one : ring_around(candidates[i], width[i])) {
+    double widest = 0.0;
+    for (Climb& climb : climbs) {
+      if (!climb.is_over) {
+        active.push_back(&climb);
+        widest = std::max(widest, climb.width_rad);
+        for (Candidate& one : ring_around(*climb.at, climb.width_rad)) {
           directions.push_back(one.direction);
           around.push_back(std::move(one));
         }
@@ -103,25 +158,17 @@ void ascend(std::vector<Candidate>& candidates, const RingWidths& rings, const S
     if (active.empty()) {
       return;
     }
-    const double widest = *std::max_element(width.begin(), width.end());
     // Each round halves a ring or moves it: progress follows the logarithm of the widest.
-    done = std::max(done, std::log(rings.first_rad / widest) /
-                              std::log(2.0 * rings.first_rad / rings.last_rad));
+    done = std::max(done, std::log(rules.first_rad / widest) /
+                              std::log(2.0 * rules.first_rad / rules.last_rad));
     run.advance("search", done);
     const std::vector<double> values = target.values(directions, level);
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      around[i].value = values[i];
+    }
     const std::size_t ring_size = around.size() / active.size();
     for (std::size_t k = 0; k < active.size(); ++k) {
-      std::size_t largest = k * ring_size;
-      for (std::size_t i = k * ring_size; i < (k + 1) * ring_size; ++i) {
-        around[i].value = values[i];
-        largest = values[i] > values[largest] ? i : largest;
-      }
-      Candidate& here = candidates[active[k]];
-      if (around[largest].value > here.value) {
-        here = around[largest];
-      } else {
-        width[active[k]] *= 0.5;
-      }
+      step(*active[k], std::span(around).subspan(k * ring_size, ring_size), rules.flat);
     }
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "vantage/spatial/directions.h"
@@ -28,12 +29,19 @@ struct Candidate {
   Vec3 direction = Vec3::UnitZ();
   double value = 0.0;
   LatticePlace place{};
+  /// By how much the values of the last ring around it and its own differ.
+  double spread = std::numeric_limits<double>::infinity();
 };
 
-/// Rings of an ascent, radians.
-struct RingWidths {
-  double first_rad = 0.0;
-  double last_rad = 0.0;  ///< No ring is narrower.
+/// How an ascent goes on and ends.
+struct AscentRules {
+  double first_rad = 0.0;  ///< Radius of the first rings.
+  double last_rad = 0.0;   ///< No ring is narrower.
+  /// A ring on which the values differ by less ends the ascent: nothing is left to be gained.
+  double flat = 0.0;
+  /// Gives those up that the best cannot lose to: a finer ring seldom gains more than the values of
+  /// the last one differ by. Of two that met the lesser goes.
+  bool drops_losers = false;
 };
 
 /// Index of the largest value; the lowest of equals. \pre not empty.
@@ -48,9 +56,9 @@ std::vector<Candidate> largest_apart(std::vector<Candidate> candidates, std::siz
                                      double apart_rad);
 
 /// Moves each candidate to the largest of the ring of six around it if that is strictly larger, and
-/// halves the ring if not, until a ring would be narrower than the last. All candidates advance
-/// together, one batch a round; rounds are recorded as levels from `level` on. \throw Cancelled
-void ascend(std::vector<Candidate>& candidates, const RingWidths& rings, const SearchTarget& target,
-            int level, const RunContext& run);
+/// halves the ring if not, until the rules end it. All candidates advance together, one batch a
+/// round; rounds are recorded as levels from `level` on. \throw Cancelled
+void ascend(std::vector<Candidate>& candidates, const AscentRules& rules,
+            const SearchTarget& target, int level, const RunContext& run);
 
 }  // namespace vantage

@@ -91,8 +91,11 @@ struct ViewMeasurer::State {
   std::vector<FaceArea> measure_early(std::size_t i);
   void measure_late(std::size_t i);
   [[nodiscard]] SightTable look(const Viewpoint& eye, const MeasureNeeds& wanted,
-                                std::size_t set_index) const;
-  void look_at_faces(const MeasureNeeds& wanted, SightTable& sight) const;
+                                std::size_t set_index, FaceDetail detail = FaceDetail::Exact) const;
+  void look_at_faces(const MeasureNeeds& wanted, FaceDetail detail, SightTable& sight) const;
+  [[nodiscard]] std::vector<double> values_of(std::size_t m, std::span<const Vec3> directions,
+                                              FaceDetail detail, const RunContext& run) const;
+  [[nodiscard]] MeasureNeeds needs_of(std::size_t m) const;
   [[nodiscard]] std::vector<std::uint32_t> neighbours(const Vec3& towards) const;
   [[nodiscard]] double value(std::size_t m, const SightTable& sight) const;
 };
@@ -158,9 +161,10 @@ void ViewMeasurer::State::prepare_maps(const RunContext& run) {
 }
 
 /// Fills in what one look at the surface tells. \param sight has the eye.
-void ViewMeasurer::State::look_at_faces(const MeasureNeeds& wanted, SightTable& sight) const {
+void ViewMeasurer::State::look_at_faces(const MeasureNeeds& wanted, FaceDetail detail,
+                                        SightTable& sight) const {
   const RunContext alone{.max_threads = 1};
-  SeenSurface seen = faces->seen_surface(sight.eye, alone);
+  SeenSurface seen = faces->seen_surface(sight.eye, alone, detail);
   if (wanted.vertices) {
     sight.vertices = std::move(seen.vertices);
   }
@@ -184,7 +188,7 @@ void ViewMeasurer::State::look_at_faces(const MeasureNeeds& wanted, SightTable& 
 }
 
 SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& wanted,
-                                     std::size_t set_index) const {
+                                     std::size_t set_index, FaceDetail detail) const {
   const RunContext alone{.max_threads = 1};
   const SilhouetteDisc disc = silhouette_disc(model.given.camera.sphere, eye);
   SightTable sight;
@@ -192,7 +196,7 @@ SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& w
   sight.towards = disc.towards;
   sight.disc_area = 0.25 * std::numbers::pi * disc.diameter * disc.diameter;
   if (wanted.faces) {
-    look_at_faces(wanted, sight);
+    look_at_faces(wanted, detail, sight);
   } else if (wanted.vertices) {
     sight.vertices =
         faces ? faces->visible_vertices(eye, alone) : vertices->visible_vertices(eye, alone);
@@ -254,6 +258,25 @@ double ViewMeasurer::State::value(std::size_t m, const SightTable& sight) const 
   }
   const double value = measures[m].value(model, sight);
   return std::isnan(value) ? measures[m].worst() : value;
+}
+
+MeasureNeeds ViewMeasurer::State::needs_of(std::size_t m) const {
+  MeasureNeeds own = measures[m].needs;
+  own.faces |= model.given.weight == Weight::Area && (own.kssm || own.saliency);
+  return own;
+}
+
+std::vector<double> ViewMeasurer::State::values_of(std::size_t m, std::span<const Vec3> directions,
+                                                   FaceDetail detail, const RunContext& run) const {
+  const MeasureNeeds own = needs_of(m);
+  std::vector<double> values(directions.size(), 0.0);
+  parallel_for(run, directions.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Viewpoint eye = model.given.camera.viewpoint(directions[i]);
+      values[i] = value(m, look(eye, own, kNotOfSet, detail));
+    }
+  });
+  return values;
 }
 
 /// Whether a measure has to wait until all views of the set were looked at.
@@ -394,16 +417,21 @@ MeasureValues ViewMeasurer::values(std::span<const Vec3> directions, const RunCo
 
 std::vector<double> ViewMeasurer::values_of(std::size_t m, std::span<const Vec3> directions,
                                             const RunContext& run) const {
-  MeasureNeeds needs = state_->measures[m].needs;
-  needs.faces |= state_->model.given.weight == Weight::Area && (needs.kssm || needs.saliency);
-  std::vector<double> values(directions.size(), 0.0);
-  parallel_for(run, directions.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Viewpoint eye = state_->model.given.camera.viewpoint(directions[i]);
-      values[i] = state_->value(m, state_->look(eye, needs, kNotOfSet));
-    }
-  });
-  return values;
+  return state_->values_of(m, directions, FaceDetail::Exact, run);
+}
+
+bool ViewMeasurer::has_estimates(std::size_t m) const {
+  const MeasureNeeds needs = state_->needs_of(m);
+  return needs.faces && !needs.outline && !state_->is_late(m);
+}
+
+std::vector<double> ViewMeasurer::estimates_of(std::size_t m, std::span<const Vec3> directions,
+                                               const RunContext& run) const {
+  return state_->values_of(m, directions, FaceDetail::ByCorners, run);
+}
+
+bool ViewMeasurer::has_set_values() const {
+  return !state_->of_set.empty();
 }
 
 }  // namespace vantage

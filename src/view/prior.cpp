@@ -17,6 +17,10 @@ UprightFrame upright_frame(const Vec3& up) {
   return frame;
 }
 
+UprightFrame upright_frame(const Vec3& up, const Vec3& front) {
+  return {up.cross(front), up, front};
+}
+
 double ViewPrior::factor(const UprightFrame& frame, const Vec3& direction) const {
   if (is_uniform) {
     return 1.0;

@@ -15,8 +15,8 @@ constexpr std::size_t kBatch = 32;
 }  // namespace
 
 ScoreMemo::Key ScoreMemo::key_of(const Vec3& direction) {
-  return {std::bit_cast<std::uint64_t>(direction.x()), std::bit_cast<std::uint64_t>(direction.y()),
-          std::bit_cast<std::uint64_t>(direction.z())};
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };  // not of −0
+  return {bits(direction.x()), bits(direction.y()), bits(direction.z())};
 }
 
 std::vector<double> ScoreMemo::scores(const std::vector<Vec3>& directions, int level) {

@@ -18,7 +18,7 @@ namespace {
 // Dense search. [ours]
 constexpr int kDenseLevel = 5;
 constexpr std::size_t kDenseStarts = 3;
-constexpr RingWidths kDenseRings{4.0 * kRadPerDeg, 0.01 * kRadPerDeg};
+constexpr AscentRules kDenseRules{.first_rad = 4.0 * kRadPerDeg, .last_rad = 0.01 * kRadPerDeg};
 // Share of the progress bar that a start set takes.
 constexpr double kStartShare = 0.7;
 
@@ -31,7 +31,7 @@ Candidate search_densely(const SearchTarget& target, const DirectionSet& set,
       peaks.push_back({set.directions[i], values[i]});
     }
   }
-  ascend(peaks, kDenseRings, target, 1, run);
+  ascend(peaks, kDenseRules, target, 1, run);
   return largest_apart(std::move(peaks), 1, 0.0).front();
 }
 

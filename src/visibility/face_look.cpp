@@ -34,8 +34,7 @@ class FaceLook {
         run_(run),
         look_(scene.sight, local, run, scene.meetings.hiding_backs) {}
 
-  SeenSurface seen() {
-    memory_.clip.begin(surface_, local_);
+  SeenSurface seen(FaceDetail detail) {
     seen_ = look_.seen_sites();
     SeenSurface result;
     result.vertices = vertices_of_sites(surface_, seen_);
@@ -45,12 +44,17 @@ class FaceLook {
         result.deepest = std::max(result.deepest, sums.depth(site));
       }
     }
-    list_hiding();
-    list_contours();
     result.faces.reserve(surface_.faces.size() / 2);
-    for (std::uint32_t face = 0; face < surface_.faces.size(); ++face) {
-      if (look_.is_turned(face)) {
-        add(face, sums);
+    if (detail == FaceDetail::ByCorners) {
+      add_by_corners(sums);
+    } else {
+      memory_.clip.begin(surface_, local_);
+      list_hiding();
+      list_contours();
+      for (std::uint32_t face = 0; face < surface_.faces.size(); ++face) {
+        if (look_.is_turned(face)) {
+          add(face, sums);
+        }
       }
     }
     result.faces = in_order(result.faces);
@@ -214,6 +218,17 @@ class FaceLook {
   /// Whether no more than points can be looked at.
   [[nodiscard]] bool is_spent() const { return steps_ > kMostSteps; }
 
+  /// Adds each face that is turned to the eye and of which two corners are seen, whole.
+  void add_by_corners(FaceSums& sums) {
+    for (std::uint32_t face = 0; face < surface_.faces.size(); ++face) {
+      const auto& [a, b, c] = surface_.faces[face];
+      if (seen_[a] + seen_[b] + seen_[c] >= 2 && look_.is_turned(face)) {
+        sums.begin(face);
+        sums.add_whole();
+      }
+    }
+  }
+
   void add(std::uint32_t face, FaceSums& sums) {
     const auto& [a, b, c] = surface_.faces[face];
     const int seen = seen_[a] + seen_[b] + seen_[c];
@@ -356,9 +371,10 @@ FaceScene::FaceScene(const TriMesh& mesh, std::span<const FaceSides> sides)
   }
 }
 
-SeenSurface look_at_faces(FaceScene& scene, const Viewpoint& local, const RunContext& run) {
+SeenSurface look_at_faces(FaceScene& scene, const Viewpoint& local, FaceDetail detail,
+                          const RunContext& run) {
   const LentMemory<FaceLookMemory>::Loan memory(scene.memory);
-  return FaceLook(scene, *memory, local, run).seen();
+  return FaceLook(scene, *memory, local, run).seen(detail);
 }
 
 }  // namespace vantage

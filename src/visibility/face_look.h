@@ -59,6 +59,7 @@ class FaceScene {
 };
 
 /// All that an eye sees. \param local the eye in the surface's frame. \throw Cancelled
-SeenSurface look_at_faces(FaceScene& scene, const Viewpoint& local, const RunContext& run);
+SeenSurface look_at_faces(FaceScene& scene, const Viewpoint& local, FaceDetail detail,
+                          const RunContext& run);
 
 }  // namespace vantage

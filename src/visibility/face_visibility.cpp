@@ -32,8 +32,9 @@ std::vector<SeenFace> FaceVisibility::seen_faces(const Viewpoint& eye,
   return seen_surface(eye, run).faces;
 }
 
-SeenSurface FaceVisibility::seen_surface(const Viewpoint& eye, const RunContext& run) const {
-  return look_at_faces(*scene_, eye_in_frame(eye, scene_->sight.surface().frame), run);
+SeenSurface FaceVisibility::seen_surface(const Viewpoint& eye, const RunContext& run,
+                                         FaceDetail detail) const {
+  return look_at_faces(*scene_, eye_in_frame(eye, scene_->sight.surface().frame), detail, run);
 }
 
 std::vector<std::uint8_t> FaceVisibility::visible_vertices(const Viewpoint& eye,

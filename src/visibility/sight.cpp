@@ -39,18 +39,6 @@ Look::Look(Sight& sight, const Viewpoint& eye, const RunContext& run,
   grid_->begin(sight.surface_, eye, backs.empty() ? sight.surface_.backs : backs, run);
 }
 
-std::vector<std::uint8_t> Look::faces_at_sites() const {
-  const Surface& surface = sight_.surface_;
-  std::vector<std::uint8_t> at(surface.sites.size(), 0);
-  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-    const std::uint8_t turned = is_turned(f) ? kTurned : kNotTurned;
-    for (const std::uint32_t site : surface.faces[f]) {
-      at[site] |= turned;
-    }
-  }
-  return at;
-}
-
 std::vector<std::uint8_t> Look::seen_sites() {
   const Surface& surface = sight_.surface_;
   std::vector<std::uint8_t> asked(surface.sites.size(), 0);

@@ -99,11 +99,6 @@ class Look {
   /// Which side each face turns to the eye: 1 its front, 2 its back, 0 neither.
   [[nodiscard]] const std::vector<std::uint8_t>& turned() const { return grid_->turned(); }
 
-  /// For each site which faces it has: kTurned, kNotTurned or both.
-  [[nodiscard]] std::vector<std::uint8_t> faces_at_sites() const;
-  static constexpr std::uint8_t kTurned = 1;
-  static constexpr std::uint8_t kNotTurned = 2;
-
   /// 1 for each site at which a face is turned to the eye and that no face hides.
   [[nodiscard]] std::vector<std::uint8_t> seen_sites();
 

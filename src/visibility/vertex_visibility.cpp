@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/visibility/vertex_visibility.h"
 
+#include <utility>
+
 #include "visibility/hiding_backs.h"
+#include "visibility/sight.h"
 #include "visibility/surface_edges.h"
-#include "visibility/vertex_scene.h"
 
 namespace vantage {
+
+struct VertexVisibility::Scene {
+  explicit Scene(Surface surface) : sight(std::move(surface)) {}
+
+  Sight sight;
+};
 
 namespace {
 

@@ -230,7 +230,7 @@ class Help(ProgramTest):
         listed = out[out.index("Subcommands:"):].split("\n\n")[0].splitlines()[1:]
         commands = [line.split()[0] for line in listed]
         self.assertEqual(commands, ["view", "skeleton", "map", "score", "compare", "eval", "measures", "render", "thumb",
-                                    "info", "batch", "results", "serve", "figures", "completion"])
+                                    "info", "orient", "batch", "results", "serve", "figures", "completion"])
         commands.remove("results")
         for command in (*commands, *(f"results {verb}" for verb in ("query", "export", "diff", "merge"))):
             page = self.vantage(*command.split(), "--help").out

@@ -73,6 +73,7 @@ void Crew::start(Job& job, bool last) {
                       {"file", key_of_path(fs::path(job.entry.shown_path()).filename().string())},
                       {"name", job.record.name},
                       {"up", job.entry.up},
+                      {"front", job.entry.front},
                       {"staging", key_of_path(root_.path_of(seat->staging))},
                       {"threads", std::max(options_.threads, shared)}};
   seat->process->send(order.dump());

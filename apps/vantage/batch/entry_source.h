@@ -20,6 +20,7 @@ struct Entry {
   std::string member{};          ///< Entry inside the archive `path`; empty for plain files.
   std::string name{};            ///< From the manifest; empty: the file's stem.
   std::string up{};              ///< From the manifest; empty: as the command line says.
+  std::string front{};           ///< The same.
   std::int64_t position = 0;     ///< Place among all entries, before any is left out.
   std::string problem{};         ///< Not empty: cannot be done; one sentence.
   std::string reason = "input";  ///< Of a problem, as in ModelRecord; "disk": there is no room.

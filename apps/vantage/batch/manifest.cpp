@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t kLongestLine = 1U << 20U;
 
 constexpr const char* kNoAxis = " has an \"up\" that is none of x y z -x -y -z";
+constexpr const char* kNoFront = " has a \"front\" that is none of x y z -x -y -z";
 
 enum class Kind { Unknown, JsonLines, Csv, Paths };
 
@@ -127,6 +128,7 @@ class ManifestSource : public EntrySource {
     entry.key = text("key");
     entry.name = text("name");
     entry.up = text("up");
+    entry.front = text("front");
     entry.problem = text("problem");
     if (entry.key.empty() || (entry.path.empty() && entry.problem.empty())) {
       return std::nullopt;
@@ -164,7 +166,8 @@ class ManifestSource : public EntrySource {
       for (const auto& [key, value] : json.items()) {
         if (value.is_string()) {
           fields[key] = value.get<std::string>();
-        } else if (key == "path" || key == "key" || key == "name" || key == "up") {
+        } else if (key == "path" || key == "key" || key == "name" || key == "up" ||
+                   key == "front") {
           problem = " has a \"" + key + "\" that is no text";
         }
       }
@@ -179,6 +182,10 @@ class ManifestSource : public EntrySource {
           planned->problem = place() + kNoAxis;
           planned->up.clear();
         }
+        if (!is_axis(planned->front)) {
+          planned->problem = place() + kNoFront;
+          planned->front.clear();
+        }
         return *planned;
       }
     }
@@ -191,6 +198,10 @@ class ManifestSource : public EntrySource {
     if (problem.empty() && !is_axis(up)) {
       problem = kNoAxis;
     }
+    const std::string& front = fields["front"];
+    if (problem.empty() && !is_axis(front)) {
+      problem = kNoFront;
+    }
     Entry entry;
     if (!problem.empty()) {
       entry.problem = place() + problem;
@@ -202,6 +213,7 @@ class ManifestSource : public EntrySource {
     entry.key = key_of_path(fields["key"].empty() ? fields["path"] : fields["key"]);
     entry.name = fields["name"];
     entry.up = up;
+    entry.front = front;
     return entry;
   }
 

@@ -148,7 +148,7 @@ class Runner {
     record.key = entry.key;
     record.position = entry.position;
     record.stamp = stamp_of(entry.path);
-    record.options = options_.options_hash(entry.up);
+    record.options = options_.options_hash(entry);
     record.version = version();
     record.name =
         key_of_path(entry.name.empty() ? fs::path(entry.shown_path()).stem().string() : entry.name);

@@ -29,7 +29,7 @@ struct RunnerOptions {
   bool verify = false;                           ///< Read every input again, whatever its stamp.
   bool quiet_workers = true;                     ///< Their messages go nowhere.
   /// Options hash of a model with the given up axis ("" if it has none of its own).
-  std::function<std::string(const std::string& up)> options_hash{};
+  std::function<std::string(const Entry& entry)> options_hash{};
 };
 
 /// What has happened so far.

@@ -63,7 +63,7 @@ void write_entry(WholeFile& file, const Entry& entry, std::optional<std::uint32_
                                  {"path", key_of_path(fs::absolute(entry.path).string())},
                                  {"key", entry.key}};
   const std::pair<const char*, const std::string&> rest[] = {
-      {"name", entry.name}, {"up", entry.up}, {"problem", entry.problem}};
+      {"name", entry.name}, {"up", entry.up}, {"front", entry.front}, {"problem", entry.problem}};
   for (const auto& [name, value] : rest) {
     if (!value.empty()) {
       json[name] = value;

@@ -10,6 +10,7 @@
 #include "vantage/core/run_context.h"
 #include "vantage/core/vec3.h"
 #include "vantage/io/model.h"
+#include "vantage/orientation/orientation.h"
 #include "vantage/pipeline/shape_analysis.h"
 #include "vantage/view/scoring.h"
 #include "vantage/view/search.h"
@@ -42,16 +43,21 @@ struct ReportedViewSet {
   Tour tour{};                        ///< The shortest round over the views.
 };
 
-/// The up axis that a run uses, and why.
-struct UpChoice {
-  UpAxis axis = UpAxis::Y;        ///< As used.
-  std::string source = "format";  ///< "given", "format", or "stance": how the model stands.
-  std::string note{};             ///< One sentence if it is a guess, else empty.
+/// The model's frame that a run uses, and why.
+struct FrameChoice {
+  ModelFrame frame{};                ///< As used.
+  Orientation orientation{};         ///< The same with sources, confidences and reasons.
+  std::vector<std::string> notes{};  ///< One sentence for each guess, and for each doubt.
 };
 
-/// options.up if set; else default_up(), unless the model clearly stands with the other of y and z
-/// up and not with that one (never for glTF, whose up axis is a part of the format).
-UpChoice choose_up(const Model& model, const ShapeAnalysis& shape, const ViewOptions& options);
+/// options.up and options.front where they are set; else what the shape says, or the format's
+/// convention where that is unsure (glTF's up axis is a part of the format, and always holds).
+/// \throw InvalidInput if those given are along one axis.
+FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,
+                         const ViewOptions& options);
+
+/// "up: z, 97 % sure, by its flat base and its upright mirror plane; front: -y, the format's".
+std::string frame_summary(const FrameChoice& choice);
 
 /// A view that a mirror plane of the model makes as good as the best.
 struct TwinView {
@@ -71,7 +77,8 @@ struct DenseGap {
 struct ViewReport {
   ScoringCamera camera{};               ///< What scored.
   UpAxis up = UpAxis::Y;                ///< As used.
-  std::string up_source = "given";      ///< As in UpChoice.
+  UpAxis front = UpAxis::Z;             ///< As used.
+  Orientation orientation{};            ///< Sources and confidences of both.
   std::vector<TwinView> twins{};        ///< Of the best view.
   ReportedView best{};                  ///< Of the largest score.
   ReportedView worst{};                 ///< Of the least score.
@@ -93,21 +100,21 @@ std::optional<FaceVisibility> faces_to_score(const ShapeAnalysis& shape,
 
 /// Finds the best and the worst view, and a set of views if options.view_set asks for one.
 /// \pre the map is there. \throw Cancelled
-ViewReport find_views(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& options,
-                      const RunContext& run = {});
+ViewReport find_views(const ShapeAnalysis& shape, const ModelFrame& frame,
+                      const ViewOptions& options, const RunContext& run = {});
 
-/// The same with an up axis that was chosen; its note joins the warnings.
-ViewReport find_views(const ShapeAnalysis& shape, const UpChoice& up, const ViewOptions& options,
-                      const RunContext& run = {});
+/// The same with a frame that was chosen; its notes join the warnings.
+ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
+                      const ViewOptions& options, const RunContext& run = {});
 
 /// One of these two alone, for less work. \throw Cancelled
-ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const UpChoice& up,
+ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const FrameChoice& choice,
                        const ViewOptions& options, const RunContext& run = {});
 
 /// A view that is found for its picture.
 struct PictureView {
   ReportedView view{};       ///< Framed on the whole surface.
-  UpChoice up{};             ///< As used.
+  FrameChoice choice{};      ///< As used.
   std::size_t vertices = 0;  ///< Of the surface that was analysed.
 };
 
@@ -126,13 +133,13 @@ ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& v
 /// \param best the best view, where the choice by significance begins.
 /// \param warnings receives what did not go as asked for. \throw InvalidInput, Cancelled
 ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility& visibility,
-                              const ScoringCamera& camera, const Vec3& best, UpAxis up,
-                              const ViewOptions& options, std::vector<std::string>& warnings,
-                              const RunContext& run = {});
+                              const ScoringCamera& camera, const Vec3& best,
+                              const ModelFrame& frame, const ViewOptions& options,
+                              std::vector<std::string>& warnings, const RunContext& run = {});
 
 /// The same with a scorer that is there already. \pre it adds up options.weight.
 ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility& visibility,
-                              const ViewScorer& scorer, const Vec3& best, UpAxis up,
+                              const ViewScorer& scorer, const Vec3& best, const ModelFrame& frame,
                               const ViewOptions& options, std::vector<std::string>& warnings,
                               const RunContext& run = {});
 

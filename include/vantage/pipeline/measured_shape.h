@@ -59,7 +59,7 @@ void require_gradient(const Measure& measure);
 /// find_views() for options.method among the measures that sum no map: `score` is the measure's
 /// value, `total` and `score_fraction` are NaN. The prior multiplies the value, or, where less is
 /// better, what is left of it to the largest of the set. \throw InvalidInput, Cancelled
-ViewReport find_views_by_measure(const ShapeAnalysis& shape, UpAxis up, const ViewOptions& options,
-                                 const RunContext& run = {});
+ViewReport find_views_by_measure(const ShapeAnalysis& shape, const ModelFrame& model_frame,
+                                 const ViewOptions& options, const RunContext& run = {});
 
 }  // namespace vantage

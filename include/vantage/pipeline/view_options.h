@@ -41,6 +41,26 @@ inline constexpr const char* kUpWords = "x|y|z|-x|-y|-z|auto";
 std::string_view up_name(UpAxis axis);
 /// The axis a format implies when nothing is said: z for STL and 3MF, y otherwise.
 UpAxis default_up(ModelFormat format);
+/// What most files of that up axis mean by the front: upright_frame()'s.
+UpAxis default_front(UpAxis up);
+/// The axis nearest to a direction.
+UpAxis axis_nearest(const Vec3& direction);
+
+/// Two axes of a model's own frame; the third is to the right of a viewer in front.
+struct ModelFrame {
+  UpAxis up = UpAxis::Y;     ///< Against gravity.
+  UpAxis front = UpAxis::Z;  ///< Toward a viewer in front; at right angles to up.
+
+  ModelFrame() = default;
+
+  ModelFrame(UpAxis its_up)  // NOLINT(google-explicit-constructor)
+      : up(its_up), front(default_front(its_up)) {}
+
+  ModelFrame(UpAxis its_up, UpAxis its_front) : up(its_up), front(its_front) {}
+};
+
+/// The same as unit vectors.
+UprightFrame upright_frame(const ModelFrame& frame);
 
 /// How several views are chosen.
 enum class ViewSelection {
@@ -87,7 +107,8 @@ struct ViewOptions {
   Projection projection = Projection::Perspective;  ///< Of the scoring camera.
   double fov_y_deg = 30.0;                          ///< Of the scoring camera, in (0, 180).
   std::optional<double> distance_factor{};          ///< Eye distance over D/2, > 1.
-  std::optional<UpAxis> up{};                       ///< Unset: choose_up().
+  std::optional<UpAxis> up{};                       ///< Unset: choose_frame().
+  std::optional<UpAxis> front{};                    ///< Unset: choose_frame().
   int width = 800;                                  ///< Of pictures, px.
   int height = 600;                                 ///< Of pictures, px.
   double margin_percent = 4.0;                      ///< Of pictures, of the shorter side, [0, 50).
@@ -136,8 +157,11 @@ inline constexpr auto kViewFields = std::tuple{
     Field{"fov", &ViewOptions::fov_y_deg, 1.0, 170.0,
           "vertical field of view of the scoring camera", "degrees"},
     Choice{"up", &ViewOptions::up, kUpWords,
-           "up axis of the model; auto: z for STL, y otherwise, unless the model clearly stands on "
-           "the other"},
+           "up axis of the model; auto: what its shape says, or if that is unsure its format's: z "
+           "for STL and 3MF, y otherwise"},
+    Choice{"front", &ViewOptions::front, kUpWords,
+           "axis that points from the model to a viewer in front; auto: what its shape says, or if "
+           "that is unsure z, where z is up -y"},
     Group{"search", "Search"},
     Part{&ViewOptions::search, kSearchFields},
     Text{"prior", set_prior, prior_text,

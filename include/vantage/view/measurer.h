@@ -48,6 +48,16 @@ class ViewMeasurer {
   [[nodiscard]] std::vector<double> values_of(std::size_t m, std::span<const Vec3> directions,
                                               const RunContext& run = {}) const;
 
+  /// Whether the measure looks at faces and can be estimated by FaceDetail::ByCorners.
+  [[nodiscard]] bool has_estimates(std::size_t m) const;
+
+  /// These estimates. \pre has_estimates(m). \throw Cancelled
+  [[nodiscard]] std::vector<double> estimates_of(std::size_t m, std::span<const Vec3> directions,
+                                                 const RunContext& run = {}) const;
+
+  /// Whether set_values() are there.
+  [[nodiscard]] bool has_set_values() const;
+
  private:
   struct State;
   std::unique_ptr<State> state_;

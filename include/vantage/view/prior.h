@@ -26,6 +26,8 @@ struct UprightFrame {
 /// that up axis mean by it: +z when y is up (glTF, OBJ) or x is, −y when z is up (CAD, Blender).
 /// \param up a unit vector, nearest axis decides.
 UprightFrame upright_frame(const Vec3& up);
+/// The frame of a model whose up and front are known: orthogonal unit vectors.
+UprightFrame upright_frame(const Vec3& up, const Vec3& front);
 
 /// The upright prior: a smooth function of direction, in (0, 1].
 /// With s, u, f the direction's components along side, up and front:

@@ -31,6 +31,13 @@ struct SeenFace {
   std::array<double, 3> of_corners{};
 };
 
+/// How a look tells what is seen of a face.
+enum class FaceDetail {
+  Exact,
+  ByCorners,  ///< All of a face of which the eye sees two corners, else nothing: an estimate, which
+              ///< takes a quarter of the time.
+};
+
 /// Everything that one look at a surface tells.
 struct SeenSurface {
   /// Bins of `depths`, over the diameter of the enclosing sphere. [Secord 2011 leaves them open]
@@ -72,7 +79,8 @@ class FaceVisibility {
                                                  const RunContext& run = {}) const;
 
   /// The same faces with all else that one look tells. \throw Cancelled
-  [[nodiscard]] SeenSurface seen_surface(const Viewpoint& eye, const RunContext& run = {}) const;
+  [[nodiscard]] SeenSurface seen_surface(const Viewpoint& eye, const RunContext& run = {},
+                                         FaceDetail detail = FaceDetail::Exact) const;
 
   /// 1 for each vertex that the eye sees: what VertexVisibility answers. \throw Cancelled
   [[nodiscard]] std::vector<std::uint8_t> visible_vertices(const Viewpoint& eye,

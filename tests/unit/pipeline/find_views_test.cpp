@@ -144,8 +144,9 @@ TEST(FindViews, FindsTheSameWhereNothingWasPrepared) {
   ASSERT_NE(shape.views, nullptr);
   ShapeAnalysis bare = shape;
   bare.views.reset();
-  const UpChoice up = choose_up(model, shape, options);
-  EXPECT_EQ(choose_up(model, bare, options).axis, up.axis);
+  const FrameChoice up = choose_frame(model, shape, options);
+  EXPECT_EQ(choose_frame(model, bare, options).frame.up, up.frame.up);
+  EXPECT_EQ(choose_frame(model, bare, options).frame.front, up.frame.front);
   EXPECT_EQ(view_json(model, bare, find_views(bare, up, options), options),
             view_json(model, shape, find_views(shape, up, options), options));
 }
@@ -154,7 +155,7 @@ TEST(FindView, IsTheOneThatBothAreFoundWith) {
   const ViewOptions options;
   const Model model = model_of(y_of_tubes(0.2, 24));
   const ShapeAnalysis shape = analyse_shape(model, options);
-  const UpChoice up = choose_up(model, shape, options);
+  const FrameChoice up = choose_frame(model, shape, options);
   const ViewReport both = find_views(shape, up, options);
   for (const Goal goal : {Goal::Best, Goal::Worst}) {
     const ReportedView& expected = goal == Goal::Best ? both.best : both.worst;
@@ -172,7 +173,7 @@ TEST(FindPictureView, IsTheBestView) {
   const ShapeAnalysis shape = analyse_shape(model, options);
   const PictureView found = find_picture_view(model, prepare_surface(model), options);
   EXPECT_EQ(found.view.direction,
-            find_views(shape, choose_up(model, shape, options), options).best.direction);
+            find_views(shape, choose_frame(model, shape, options), options).best.direction);
   EXPECT_EQ(found.vertices, shape.surface.positions.size());
 }
 
@@ -185,7 +186,7 @@ TEST(FindPictureView, OfALargeSurfaceLooksAtADecimatedCopyAndFramesTheWhole) {
   EXPECT_GT(found.vertices, 90'000U);
   const ReportedView framed =
       describe_view(prepared, VertexVisibility(prepared.surface, prepared.sides),
-                    scoring_camera(prepared, {}), found.view.direction, found.up.axis, {});
+                    scoring_camera(prepared, {}), found.view.direction, found.choice.frame.up, {});
   EXPECT_EQ(found.view.picture.fov_y_deg, framed.picture.fov_y_deg);
 }
 

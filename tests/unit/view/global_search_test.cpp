@@ -90,6 +90,33 @@ TEST(GlobalSearchBySurrogate, FindsAMaximumThatTheSurrogateRanksBelowMany) {
   EXPECT_LT(angle_between(best.direction, kHigh), kFoundRad);
 }
 
+TEST(GlobalSearchBySurrogate, LearnsWhereTheSurrogateIsTooHigh) {
+  // Over a third of the sphere the surrogate promises more than the highest maximum holds, by one
+  // broad bump with ripples that are peaks each.
+  const auto flattered = [](const Vec3& d) {
+    return hills(d) + 6.0 * bump(d, -Vec3::UnitY(), 0.6) +
+           0.3 * std::sin(31.0 * d.x()) * std::sin(31.0 * d.z());
+  };
+  const FoundView best = search_view(objective(flattered), Goal::Best);
+  EXPECT_LT(angle_between(best.direction, kHigh), kFoundRad);
+}
+
+TEST(GlobalSearchBySurrogate, ScoresAlongTheAxesWhateverTheSurrogateSays) {
+  const auto spiked = [](const Vec3& d) { return hills(d) + 9.0 * bump(d, -Vec3::UnitY(), 1e-3); };
+  const FoundView best = search_view(
+      {.score = batch_of(spiked), .total = kTotal, .surrogate = batch_of(hills)}, Goal::Best);
+  EXPECT_EQ(best.direction, Vec3(-Vec3::UnitY()));
+}
+
+TEST(GlobalSearchBySurrogate, StandsInfinitelyBadViews) {
+  const auto half = [](const Field& field) -> Field {
+    return [field](const Vec3& d) { return d.z() < -0.2 ? -HUGE_VAL : field(d); };
+  };
+  const ViewObjective blind{
+      .score = batch_of(half(hills)), .total = kTotal, .surrogate = batch_of(half(wrong_by(0.05)))};
+  EXPECT_LT(angle_between(search_view(blind, Goal::Best).direction, kHigh), kFoundRad);
+}
+
 TEST(GlobalSearchBySurrogate, ReportsExactScoresAndNoDirectionTwice) {
   const FoundView best = search_view(objective(wrong_by(0.3)), Goal::Best);
   EXPECT_EQ(best.score, hills(best.direction));

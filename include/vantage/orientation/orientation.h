@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/core/vec3.h"
+#include "vantage/mesh/tri_mesh.h"
+
+/// \file
+/// Which axis of a model is up and which side is its front, from its shape: features after Fu,
+/// Cohen-Or, Dror, Sheffer, "Upright orientation of man-made objects", SIGGRAPH 2008 (static
+/// stability, symmetry, parallelism), and more, combined by a fitted model. docs/orientation.md.
+
+namespace vantage {
+
+/// What is known before the shape is looked at. All directions are ± coordinate axes.
+struct OrientationRequest {
+  std::optional<Vec3> up{};          ///< Given: not sought.
+  std::optional<Vec3> front{};       ///< Given: not sought; at right angles to `up` if both are.
+  Vec3 usual_up = Vec3::UnitY();     ///< What the file's format makes one expect.
+  bool usual_up_is_certain = false;  ///< The format's specification says so, as glTF's does.
+};
+
+/// One direction of the model's own frame.
+struct DirectionChoice {
+  Vec3 direction = Vec3::UnitY();  ///< As chosen, ± a coordinate axis.
+  /// "given", "format" (its convention), or "shape" (the shape speaks against the convention).
+  std::string source = "given";
+  /// Calibrated probability that `direction` is right, or looks just like what is right; in [0, 1].
+  /// 1 if it was given or is certain.
+  double confidence = 1.0;
+  Vec3 likeliest = Vec3::UnitY();     ///< What the shape and the convention together favour.
+  double likeliest_confidence = 1.0;  ///< Its probability, in [0, 1].
+  std::string reasons{};  ///< "its flat base and a mirror plane": what speaks for it; may be empty.
+};
+
+/// A model's own frame.
+struct Orientation {
+  DirectionChoice up{};     ///< Against gravity.
+  DirectionChoice front{};  ///< Toward a viewer in front; at right angles to up.
+};
+
+/// One direction's features.
+struct OrientationFeatures {
+  Vec3 up = Vec3::UnitY();       ///< The candidate for up.
+  std::optional<Vec3> front{};   ///< If they speak of the front: the candidate, `up` being up.
+  std::vector<double> values{};  ///< One a name of orientation_feature_names().
+  double back_difference = 0.0;  ///< Of the front: how unlike its back it is, in [0, 1].
+  double side_difference = 0.0;  ///< Of the front: how unlike its sides it is, in [0, 1].
+};
+
+/// Names of the features of up (or of the front), in their order.
+std::vector<std::string> orientation_feature_names(bool of_front);
+
+/// What a shape says about its orientation. Depends on neither its unit nor the order of vertices
+/// and faces. Copies share it.
+class OrientationEvidence {
+ public:
+  /// \complexity O(|F| + area over that of a cell), twice the box's longest side in 64 cells.
+  explicit OrientationEvidence(const TriMesh& surface);
+
+  /// Finds what is not given. A direction other than the convention's is taken only above the
+  /// confidence stated in the table of the fitted model. \throw InvalidInput if the directions are
+  /// not ± axes, or not at right angles.
+  [[nodiscard]] Orientation find(const OrientationRequest& request) const;
+
+  /// All candidates' features: 6 of up, 24 of the front.
+  [[nodiscard]] std::vector<OrientationFeatures> features() const;
+
+ private:
+  std::shared_ptr<const class SideLooks> looks_;
+};
+
+}  // namespace vantage

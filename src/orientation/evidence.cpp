@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: MIT
+#include "orientation/evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vantage {
+namespace {
+
+// A silhouette is cut into so many bands across the height.
+constexpr std::size_t kBands = 8;
+// An origin this far from the box's centre says nothing, over the box's side.
+constexpr double kFar = 0.6;
+
+constexpr std::array<std::string_view, 59> kUprightNames{
+    "base_touch",    "top_touch",       "base_hull",      "top_hull",      "base_margin",
+    "top_margin",    "base_contacts",   "top_contacts",   "base_depth",    "top_depth",
+    "base_relative", "top_relative",    "base_detail",    "top_detail",    "base_flat",
+    "top_flat",      "height_least",    "height_most",    "area_height",   "vertex_height",
+    "mass_height",   "outline_height",  "mirror_level",   "mirror_least",  "mirror_most",
+    "half_turn",     "quarter_turn",    "parallel",       "perpendicular", "parallel_rank",
+    "filled",        "side_touch_most", "side_flat_most", "side_detail",   "band_bottom",
+    "band_low",      "band_high",       "band_top",       "runs_bottom",   "runs_low",
+    "runs_high",     "runs_top",        "half_turn_side", "foot_spread",   "head_spread",
+    "base_back",     "top_back",        "side_back",      "net",           "waist_depth",
+    "origin_height", "origin_aside",    "base_centre",    "base_rim",      "top_centre",
+    "top_rim",       "base_vertices",   "top_vertices",   "band_spread"};
+
+constexpr std::array<std::string_view, 47> kFrontNames{
+    "front_touch",      "back_touch",        "front_hull",
+    "back_hull",        "front_contacts",    "back_contacts",
+    "front_depth",      "back_depth",        "front_detail",
+    "back_detail",      "front_flat",        "back_flat",
+    "mirror_side",      "mirror_front",      "half_turn",
+    "width_over_depth", "height_over_depth", "area_ahead",
+    "vertex_ahead",     "mass_ahead",        "outline_ahead",
+    "top_ahead",        "foot_ahead",        "middle_ahead",
+    "parallel_front",   "parallel_side",     "perpendicular_front",
+    "foot_to_top",      "high_ahead",        "front_height",
+    "back_height",      "foot_width_ahead",  "top_width_ahead",
+    "floor_touch",      "front_back",        "back_back",
+    "net_ahead",        "front_margin",      "back_margin",
+    "origin_ahead",     "origin_aside",      "front_vertices",
+    "back_vertices",    "front_centre",      "back_centre",
+    "front_rim",        "back_rim"};
+
+/// A silhouette from the side, by bands of height from the ground.
+struct Bands {
+  std::array<double, kBands> width{};   ///< Filled share of the band.
+  std::array<double, kBands> runs{};    ///< Mean number of separate runs in its rows.
+  std::array<double, kBands> middle{};  ///< Mean place along the row, share of the row.
+  double mean_height = 0.0;             ///< Of the silhouette, share of the height.
+};
+
+/// \param field whose cells have `up` as one coordinate.
+Bands bands_of(const HeightField& field, AxisDirection up) {
+  const bool up_is_row = field.v_axis == up.axis;
+  const std::size_t heights = up_is_row ? field.rows : field.columns;
+  const std::size_t places = up_is_row ? field.columns : field.rows;
+  Bands bands;
+  std::array<double, kBands> filled{};
+  std::array<double, kBands> cells{};
+  std::array<double, kBands> lines{};
+  double all = 0.0;
+  for (std::size_t h = 0; h < heights; ++h) {
+    const std::size_t line = up.is_positive ? h : heights - 1 - h;
+    const std::size_t band = h * kBands / heights;
+    bool was_filled = false;
+    lines[band] += 1.0;
+    for (std::size_t p = 0; p < places; ++p) {
+      const bool is_filled =
+          field.is_filled(up_is_row ? line * field.columns + p : p * field.columns + line);
+      cells[band] += 1.0;
+      if (is_filled) {
+        filled[band] += 1.0;
+        bands.runs[band] += was_filled ? 0.0 : 1.0;
+        bands.middle[band] += (static_cast<double>(p) + 0.5) / static_cast<double>(places);
+        bands.mean_height += (static_cast<double>(h) + 0.5) / static_cast<double>(heights);
+        all += 1.0;
+      }
+      was_filled = is_filled;
+    }
+  }
+  for (std::size_t b = 0; b < kBands; ++b) {
+    bands.width[b] = cells[b] > 0.0 ? filled[b] / cells[b] : 0.0;
+    bands.runs[b] = lines[b] > 0.0 ? bands.runs[b] / lines[b] : 0.0;
+    bands.middle[b] = filled[b] > 0.0 ? bands.middle[b] / filled[b] : 0.5;
+  }
+  bands.mean_height = all > 0.0 ? bands.mean_height / all : 0.5;
+  return bands;
+}
+
+double oriented(double share, AxisDirection direction) {
+  return direction.is_positive ? share : 1.0 - share;
+}
+
+/// Mean of what is between the lowest and the highest surface of each cell of a field, and of its
+/// cells, along one of the field's own coordinates or its heights; shares of the box's side.
+struct Columns {
+  double mass_along = 0.5;  ///< Mean height of the columns' mass.
+  double mass_u = 0.5;      ///< Mean place of their mass.
+  double mass_v = 0.5;
+  double outline_u = 0.5;  ///< Mean place of the filled cells.
+  double outline_v = 0.5;
+  double high_u = 0.5;  ///< Of those cells that reach the upper half from the given side.
+  double high_v = 0.5;
+  double filled = 0.0;  ///< Share of the cells.
+};
+
+Columns columns_of(const HeightField& field, bool up_is_positive) {
+  Columns result;
+  double mass = 0.0;
+  double along = 0.0;
+  double cells = 0.0;
+  double tall = 0.0;
+  Columns sum;
+  sum.mass_u = sum.mass_v = sum.outline_u = sum.outline_v = sum.high_u = sum.high_v = 0.0;
+  for (std::size_t cell = 0; cell < field.low.size(); ++cell) {
+    if (!field.is_filled(cell)) {
+      continue;
+    }
+    const double u =
+        (static_cast<double>(cell % field.columns) + 0.5) / static_cast<double>(field.columns);
+    const double v =
+        (static_cast<double>(cell / field.columns) + 0.5) / static_cast<double>(field.rows);
+    const double low = field.low[cell];
+    const double high = field.high[cell];
+    const double here = high - low + 1e-3;  // sheets have mass, too
+    mass += here;
+    along += here * 0.5 * (low + high);
+    sum.mass_u += here * u;
+    sum.mass_v += here * v;
+    sum.outline_u += u;
+    sum.outline_v += v;
+    cells += 1.0;
+    if (field.depth(cell, up_is_positive) < 0.4 * field.extent) {
+      sum.high_u += u;
+      sum.high_v += v;
+      tall += 1.0;
+    }
+  }
+  if (cells > 0.0) {
+    result.mass_along = field.extent > 0.0 ? along / mass / field.extent : 0.5;
+    result.mass_u = sum.mass_u / mass;
+    result.mass_v = sum.mass_v / mass;
+    result.outline_u = sum.outline_u / cells;
+    result.outline_v = sum.outline_v / cells;
+    result.high_u = tall > 0.0 ? sum.high_u / tall : 0.5;
+    result.high_v = tall > 0.0 ? sum.high_v / tall : 0.5;
+    result.filled = cells / static_cast<double>(field.low.size());
+  }
+  return result;
+}
+
+double log_ratio(double a, double b) {
+  return std::log2((a + 0.01) / (b + 0.01));
+}
+
+}  // namespace
+
+std::array<AxisDirection, 6> axis_directions() {
+  return {{{0, true}, {0, false}, {1, true}, {1, false}, {2, true}, {2, false}}};
+}
+
+std::span<const std::string_view> upright_evidence_names() {
+  return kUprightNames;
+}
+
+std::span<const std::string_view> front_evidence_names() {
+  return kFrontNames;
+}
+
+SideLooks::SideLooks(const TriMesh& surface) : fields_(surface) {
+  knows_origin_ = std::all_of(fields_.origin.begin(), fields_.origin.end(),
+                              [](double share) { return std::abs(share - 0.5) <= kFar; });
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    looks_[2 * axis] = side_look(fields_, axis, true);
+    looks_[2 * axis + 1] = side_look(fields_, axis, false);
+    mirror_[axis] = mirror_error(fields_, axis);
+    half_turn_[axis] = half_turn_error(fields_, axis);
+    quarter_turn_[axis] = quarter_turn_error(fields_, axis);
+  }
+}
+
+std::vector<double> SideLooks::upright_evidence(AxisDirection up) const {
+  const std::size_t a = (up.axis + 1) % 3;
+  const std::size_t b = (up.axis + 2) % 3;
+  const SideLook& base = look_from(up.opposite());
+  const SideLook& top = look_from(up);
+  const Columns columns = columns_of(fields_.along[up.axis], up.is_positive);
+  const Bands one = bands_of(fields_.along[a], up);
+  const Bands two = bands_of(fields_.along[b], up);
+  const auto width = [&](std::size_t band) { return 0.5 * (one.width[band] + two.width[band]); };
+  const auto runs = [&](std::size_t band) { return 0.5 * (one.runs[band] + two.runs[band]); };
+  double side_touch = 0.0;
+  double side_flat = 0.0;
+  double side_detail = 0.0;
+  double side_back = 0.0;
+  double side_depth = 1.0;
+  for (const AxisDirection side : axis_directions()) {
+    if (side.axis != up.axis) {
+      side_touch = std::max(side_touch, look_from(side).touch);
+      side_flat = std::max(side_flat, look_from(side).flat);
+      side_detail += 0.25 * look_from(side).detail;
+      side_back += 0.25 * look_from(side).back;
+      side_depth = std::min(side_depth, look_from(side).relative_depth);
+    }
+  }
+  double narrowest = 1.0;
+  double widest = 0.0;
+  for (std::size_t band = 0; band < kBands; ++band) {
+    narrowest = std::min(narrowest, width(band));
+    widest = std::max(widest, width(band));
+  }
+  const double height = fields_.extent[up.axis];
+  return {base.touch,
+          top.touch,
+          base.touch_hull,
+          top.touch_hull,
+          base.margin,
+          top.margin,
+          base.contacts,
+          top.contacts,
+          base.depth,
+          top.depth,
+          base.relative_depth,
+          top.relative_depth,
+          base.detail,
+          top.detail,
+          base.flat,
+          top.flat,
+          log_ratio(height, std::min(fields_.extent[a], fields_.extent[b])),
+          log_ratio(height, std::max(fields_.extent[a], fields_.extent[b])),
+          oriented(fields_.area_mean[up.axis], up),
+          oriented(fields_.vertex_mean[up.axis], up),
+          oriented(columns.mass_along, up),
+          0.5 * (one.mean_height + two.mean_height),
+          mirror_[up.axis],
+          std::min(mirror_[a], mirror_[b]),
+          std::max(mirror_[a], mirror_[b]),
+          half_turn_[up.axis],
+          quarter_turn_[up.axis],
+          fields_.parallel[up.axis],
+          fields_.perpendicular[up.axis],
+          fields_.parallel[up.axis] - std::max(fields_.parallel[a], fields_.parallel[b]),
+          columns.filled,
+          side_touch,
+          side_flat,
+          side_detail,
+          width(0),
+          0.5 * (width(1) + width(2)),
+          0.5 * (width(kBands - 3) + width(kBands - 2)),
+          width(kBands - 1),
+          runs(0),
+          0.5 * (runs(1) + runs(2)),
+          0.5 * (runs(kBands - 3) + runs(kBands - 2)),
+          runs(kBands - 1),
+          std::min(half_turn_[a], half_turn_[b]),
+          log_ratio(width(0), width(kBands / 2)),
+          log_ratio(width(kBands - 1), width(kBands / 2)),
+          base.back,
+          top.back,
+          side_back,
+          up.is_positive ? fields_.net[up.axis] : -fields_.net[up.axis],
+          side_depth,
+          knows_origin_ ? oriented(fields_.origin[up.axis], up) : 0.5,
+          knows_origin_ ? std::abs(fields_.origin[a] - 0.5) + std::abs(fields_.origin[b] - 0.5)
+                        : 2.0 * kFar,
+          base.centre_depth,
+          base.rim_depth,
+          top.centre_depth,
+          top.rim_depth,
+          up.is_positive ? fields_.vertex_low[up.axis] : fields_.vertex_high[up.axis],
+          up.is_positive ? fields_.vertex_high[up.axis] : fields_.vertex_low[up.axis],
+          widest - narrowest};
+}
+
+std::vector<double> SideLooks::front_evidence(AxisDirection up, AxisDirection front) const {
+  const std::size_t side = 3 - up.axis - front.axis;
+  const SideLook& ahead = look_from(front);
+  const SideLook& behind = look_from(front.opposite());
+  const HeightField& plan = fields_.along[up.axis];
+  const Columns columns = columns_of(plan, up.is_positive);
+  const bool is_u = plan.u_axis == front.axis;
+  const Bands profile = bands_of(fields_.along[side], up);  // places along the front's axis
+  // Heights seen from the front, and from behind.
+  const HeightField& depths = fields_.along[front.axis];
+  double ahead_height = 0.0;
+  double behind_height = 0.0;
+  double near_ahead = 0.0;
+  double near_behind = 0.0;
+  for (std::size_t cell = 0; cell < depths.low.size(); ++cell) {
+    if (!depths.is_filled(cell)) {
+      continue;
+    }
+    const bool row_is_up = depths.v_axis == up.axis;
+    const double place = row_is_up ? (static_cast<double>(cell / depths.columns) + 0.5) /
+                                         static_cast<double>(depths.rows)
+                                   : (static_cast<double>(cell % depths.columns) + 0.5) /
+                                         static_cast<double>(depths.columns);
+    const double height = oriented(place, up);
+    const double limit = 0.25 * depths.extent;
+    if (depths.depth(cell, front.is_positive) <= limit) {
+      ahead_height += height;
+      near_ahead += 1.0;
+    }
+    if (depths.depth(cell, !front.is_positive) <= limit) {
+      behind_height += height;
+      near_behind += 1.0;
+    }
+  }
+  const double extent = fields_.extent[front.axis];
+  const auto place = [&](double u, double v) { return oriented(is_u ? u : v, front) - 0.5; };
+  const auto middle = [&](std::size_t band) { return oriented(profile.middle[band], front) - 0.5; };
+  const double low_middle = (middle(0) + middle(1) + middle(2)) / 3.0;
+  const double high_middle = (middle(kBands - 3) + middle(kBands - 2) + middle(kBands - 1)) / 3.0;
+  return {ahead.touch,
+          behind.touch,
+          ahead.touch_hull,
+          behind.touch_hull,
+          ahead.contacts,
+          behind.contacts,
+          ahead.relative_depth,
+          behind.relative_depth,
+          ahead.detail,
+          behind.detail,
+          ahead.flat,
+          behind.flat,
+          mirror_[side],
+          mirror_[front.axis],
+          half_turn_[up.axis],
+          log_ratio(fields_.extent[side], extent),
+          log_ratio(fields_.extent[up.axis], extent),
+          oriented(fields_.area_mean[front.axis], front) - 0.5,
+          oriented(fields_.vertex_mean[front.axis], front) -
+              oriented(fields_.area_mean[front.axis], front),
+          place(columns.mass_u, columns.mass_v),
+          place(columns.outline_u, columns.outline_v),
+          high_middle,
+          low_middle,
+          middle(kBands / 2),
+          fields_.parallel[front.axis],
+          fields_.parallel[side],
+          fields_.perpendicular[front.axis],
+          high_middle - low_middle,
+          place(columns.high_u, columns.high_v),
+          near_ahead > 0.0 ? ahead_height / near_ahead : 0.5,
+          near_behind > 0.0 ? behind_height / near_behind : 0.5,
+          middle(0),
+          middle(kBands - 1),
+          look_from(up.opposite()).touch,
+          ahead.back,
+          behind.back,
+          front.is_positive ? fields_.net[front.axis] : -fields_.net[front.axis],
+          ahead.margin,
+          behind.margin,
+          knows_origin_ ? oriented(fields_.origin[front.axis], front) : 0.5,
+          knows_origin_ ? std::abs(fields_.origin[side] - 0.5) : kFar,
+          front.is_positive ? fields_.vertex_high[front.axis] : fields_.vertex_low[front.axis],
+          front.is_positive ? fields_.vertex_low[front.axis] : fields_.vertex_high[front.axis],
+          ahead.centre_depth,
+          behind.centre_depth,
+          ahead.rim_depth,
+          behind.rim_depth};
+}
+
+double SideLooks::difference(AxisDirection up, AxisDirection front, AxisDirection other) const {
+  if (front == other) {
+    return 0.0;
+  }
+  return front.axis == other.axis ? std::min(half_turn_[up.axis], mirror_[front.axis])
+                                  : quarter_turn_[up.axis];
+}
+
+}  // namespace vantage

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "orientation/height_fields.h"
+#include "orientation/side_look.h"
+
+namespace vantage {
+
+/// One of the six directions along the box's axes.
+struct AxisDirection {
+  std::size_t axis = 2;
+  bool is_positive = true;
+
+  [[nodiscard]] AxisDirection opposite() const { return {axis, !is_positive}; }
+
+  friend bool operator==(const AxisDirection&, const AxisDirection&) = default;
+};
+
+/// +x, −x, +y, −y, +z, −z.
+std::array<AxisDirection, 6> axis_directions();
+
+/// Names of what upright_evidence() gives, in its order.
+std::span<const std::string_view> upright_evidence_names();
+/// Names of what front_evidence() gives, in its order.
+std::span<const std::string_view> front_evidence_names();
+
+/// Everything that evidence is made of, measured once.
+class SideLooks {
+ public:
+  explicit SideLooks(const TriMesh& surface);
+
+  /// Evidence for a direction being up.
+  [[nodiscard]] std::vector<double> upright_evidence(AxisDirection up) const;
+  /// Evidence for a direction being the front, if `up` is up. \pre they have different axes.
+  [[nodiscard]] std::vector<double> front_evidence(AxisDirection up, AxisDirection front) const;
+  /// How much the surface changes when it is turned about `up` so that `front` comes to lie on
+  /// `other`, or mirrored so; in [0, 1]. \pre both have another axis than `up`.
+  [[nodiscard]] double difference(AxisDirection up, AxisDirection front, AxisDirection other) const;
+
+ private:
+  [[nodiscard]] const SideLook& look_from(AxisDirection side) const {
+    return looks_[2 * side.axis + (side.is_positive ? 0 : 1)];
+  }
+
+  HeightFields fields_;
+  bool knows_origin_ = false;  ///< The coordinates' origin is in the box, or near it.
+  std::array<SideLook, 6> looks_{};
+  std::array<double, 3> mirror_{};
+  std::array<double, 3> half_turn_{};
+  std::array<double, 3> quarter_turn_{};
+};
+
+}  // namespace vantage

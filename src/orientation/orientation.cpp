@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/orientation/orientation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+#include "vantage/core/error.h"
+#include "vantage/view/prior.h"
+
+#include "orientation/candidate_model.h"
+#include "orientation/evidence.h"
+#include "orientation/orientation_table.h"
+
+namespace vantage {
+namespace {
+
+// Directions that the shape looks the same from, but for this mean difference of its height fields
+// over the largest one that counts, are equally right. [ours]
+constexpr double kAlike = 0.1;
+// Mirror planes of things as they are built and scanned. [ours]
+constexpr double kMirror = 0.15;
+
+const CandidateModel& up_model() {
+  static const CandidateModel model(kOrientationTable, "up", upright_evidence_names());
+  return model;
+}
+
+const CandidateModel& front_model() {
+  static const CandidateModel model(kOrientationTable, "front", front_evidence_names());
+  return model;
+}
+
+Vec3 vector_of(AxisDirection direction) {
+  return Vec3::Unit(static_cast<Eigen::Index>(direction.axis)) *
+         (direction.is_positive ? 1.0 : -1.0);
+}
+
+/// \throw InvalidInput
+AxisDirection axis_of(const Vec3& direction) {
+  for (const AxisDirection axis : axis_directions()) {
+    if (vector_of(axis).dot(direction) > 1.0 - 1e-9 && direction.norm() < 1.0 + 1e-9) {
+      return axis;
+    }
+  }
+  throw InvalidInput("up and front must be directions of the coordinate axes");
+}
+
+/// The four directions at right angles to `up`, opposite ones in pairs.
+std::vector<AxisDirection> around(AxisDirection up) {
+  std::vector<AxisDirection> ring;
+  for (const AxisDirection direction : axis_directions()) {
+    if (direction.axis != up.axis) {
+      ring.push_back(direction);
+    }
+  }
+  return ring;
+}
+
+std::vector<double> softmax(std::vector<double> scores) {
+  const double most = *std::max_element(scores.begin(), scores.end());
+  double sum = 0.0;
+  for (double& score : scores) {
+    score = std::exp(score - most);
+    sum += score;
+  }
+  for (double& score : scores) {
+    score /= sum;
+  }
+  return scores;
+}
+
+/// Chooses among candidates.
+/// \param usual index of the convention's. \param alike whether two of them cannot be told apart.
+template <class Alike>
+DirectionChoice choose(const std::vector<AxisDirection>& candidates, std::vector<double> scores,
+                       std::size_t usual, const CandidateModel& model, Alike&& alike) {
+  scores[usual] += model.witness;
+  const std::vector<double> odds = softmax(std::move(scores));
+  std::vector<double> confidence(odds.size(), 0.0);  // of the candidate or one that looks like it
+  for (std::size_t a = 0; a < odds.size(); ++a) {
+    for (std::size_t b = 0; b < odds.size(); ++b) {
+      confidence[a] += a == b || alike(candidates[a], candidates[b]) ? odds[b] : 0.0;
+    }
+    confidence[a] = std::min(confidence[a], 1.0);
+  }
+  std::size_t best = usual;  // wins ties
+  for (std::size_t c = 0; c < odds.size(); ++c) {
+    best = confidence[c] > confidence[best] + 1e-9 ? c : best;
+  }
+  const std::size_t chosen = confidence[best] >= model.threshold ? best : usual;
+  return {.direction = vector_of(candidates[chosen]),
+          .source = chosen == usual ? "format" : "shape",
+          .confidence = confidence[chosen],
+          .likeliest = vector_of(candidates[best]),
+          .likeliest_confidence = confidence[best]};
+}
+
+double value_of(std::string_view name, std::span<const std::string_view> names,
+                const std::vector<double>& values) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return values[static_cast<std::size_t>(found - names.begin())];
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(parts.size(), 2); ++i) {
+    text += (i == 0 ? "its " : " and its ") + parts[i];
+  }
+  return text;
+}
+
+/// The two plainest things that speak for a direction being up, in words.
+std::string reasons_for_up(const SideLooks& looks, AxisDirection up) {
+  const std::vector<double> values = looks.upright_evidence(up);
+  const auto value = [&](std::string_view name) {
+    return value_of(name, upright_evidence_names(), values);
+  };
+  std::vector<std::string> parts;
+  const bool stands = value("base_margin") > 0.05;
+  if (stands && value("base_touch") > 0.5) {
+    parts.emplace_back("flat base");
+  } else if (stands && value("base_contacts") >= 2.0) {  // log2(1 + 3)
+    parts.emplace_back("feet");
+  } else if (stands) {
+    parts.emplace_back("stable stand");
+  }
+  if (value("mirror_most") < kMirror) {
+    parts.emplace_back("two upright mirror planes");
+  } else if (value("mirror_least") < kMirror) {
+    parts.emplace_back("upright mirror plane");
+  }
+  if (std::abs(value("origin_height")) < 0.01) {
+    parts.emplace_back("origin on the ground");
+  }
+  if (value("area_height") < 0.45) {
+    parts.emplace_back("low centre");
+  }
+  return joined(parts);
+}
+
+/// The same of a direction being the front.
+std::string reasons_for_front(const SideLooks& looks, AxisDirection up, AxisDirection front) {
+  const std::vector<double> values = looks.front_evidence(up, front);
+  const auto value = [&](std::string_view name) {
+    return value_of(name, front_evidence_names(), values);
+  };
+  std::vector<std::string> parts;
+  if (value("mirror_side") < kMirror) {
+    parts.emplace_back("mirror plane");
+  }
+  if (value("back_touch") > 0.5 && value("back_touch") > value("front_touch")) {
+    parts.emplace_back("flat back");
+  }
+  if (value("front_detail") > 1.2 * value("back_detail")) {
+    parts.emplace_back("detailed front");
+  }
+  if (value("high_ahead") < -0.1) {
+    parts.emplace_back("high back");
+  }
+  return joined(parts);
+}
+
+DirectionChoice known(const Vec3& direction, const char* source) {
+  return {.direction = direction, .source = source, .likeliest = direction};
+}
+
+DirectionChoice find_up(const SideLooks& looks, const OrientationRequest& request) {
+  if (request.up) {
+    return known(*request.up, "given");
+  }
+  const AxisDirection usual = axis_of(request.usual_up);
+  if (request.usual_up_is_certain) {
+    return known(request.usual_up, "format");
+  }
+  std::vector<AxisDirection> candidates;
+  std::vector<std::vector<double>> values;
+  const std::optional<AxisDirection> front =
+      request.front ? std::optional(axis_of(*request.front)) : std::nullopt;
+  for (const AxisDirection up : axis_directions()) {
+    if (!front || front->axis != up.axis) {
+      candidates.push_back(up);
+      values.push_back(looks.upright_evidence(up));
+    }
+  }
+  const auto found = std::find(candidates.begin(), candidates.end(), usual);
+  if (found == candidates.end()) {  // the front given is the convention's up
+    throw InvalidInput("the front is along the up axis: give the up axis, too");
+  }
+  DirectionChoice choice = choose(
+      candidates, up_model().scores(values), static_cast<std::size_t>(found - candidates.begin()),
+      up_model(), [&](AxisDirection a, AxisDirection b) {
+        const AxisDirection about{a.axis == b.axis ? (a.axis + 1) % 3 : 3 - a.axis - b.axis, true};
+        return looks.difference(about, a, b) < kAlike;
+      });
+  choice.reasons = reasons_for_up(looks, axis_of(choice.likeliest));
+  return choice;
+}
+
+DirectionChoice find_front(const SideLooks& looks, const Vec3& up_vector,
+                           const OrientationRequest& request) {
+  if (request.front) {
+    return known(*request.front, "given");
+  }
+  const AxisDirection up = axis_of(up_vector);
+  const AxisDirection usual = axis_of(upright_frame(up_vector).front);
+  const std::vector<AxisDirection> candidates = around(up);
+  std::vector<std::vector<double>> values;
+  values.reserve(candidates.size());
+  for (const AxisDirection front : candidates) {
+    values.push_back(looks.front_evidence(up, front));
+  }
+  const auto found = std::find(candidates.begin(), candidates.end(), usual);
+  DirectionChoice choice =
+      choose(candidates, front_model().scores(values),
+             static_cast<std::size_t>(found - candidates.begin()), front_model(),
+             [&](AxisDirection a, AxisDirection b) { return looks.difference(up, a, b) < kAlike; });
+  choice.reasons = reasons_for_front(looks, up, axis_of(choice.likeliest));
+  return choice;
+}
+
+}  // namespace
+
+std::vector<std::string> orientation_feature_names(bool of_front) {
+  const auto names = of_front ? front_evidence_names() : upright_evidence_names();
+  return {names.begin(), names.end()};
+}
+
+OrientationEvidence::OrientationEvidence(const TriMesh& surface)
+    : looks_(std::make_shared<const SideLooks>(surface)) {}
+
+Orientation OrientationEvidence::find(const OrientationRequest& request) const {
+  if (request.up && request.front && axis_of(*request.up).axis == axis_of(*request.front).axis) {
+    throw InvalidInput("up and front are along the same axis");
+  }
+  Orientation result;
+  result.up = find_up(*looks_, request);
+  result.front = find_front(*looks_, result.up.direction, request);
+  return result;
+}
+
+std::vector<OrientationFeatures> OrientationEvidence::features() const {
+  std::vector<OrientationFeatures> rows;
+  for (const AxisDirection up : axis_directions()) {
+    rows.push_back({.up = vector_of(up), .values = looks_->upright_evidence(up)});
+  }
+  for (const AxisDirection up : axis_directions()) {
+    for (const AxisDirection front : around(up)) {
+      const AxisDirection side{3 - up.axis - front.axis, true};
+      rows.push_back({.up = vector_of(up),
+                      .front = vector_of(front),
+                      .values = looks_->front_evidence(up, front),
+                      .back_difference = looks_->difference(up, front, front.opposite()),
+                      .side_difference = looks_->difference(up, front, side)});
+    }
+  }
+  return rows;
+}
+
+}  // namespace vantage

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <string>
+
+#include "vantage/pipeline/find_views.h"
+
+#include "pipeline/view_preparation.h"
+
+namespace vantage {
+namespace {
+
+// Below this a choice is a doubt that is worth a sentence. [ours]
+constexpr double kUnsure = 0.5;
+
+std::string percent(double share) {
+  return std::to_string(static_cast<int>(std::floor(100.0 * share + 0.5))) + " %";
+}
+
+std::string name_of(const Vec3& direction) {
+  return std::string(up_name(axis_nearest(direction)));
+}
+
+std::string by(const DirectionChoice& choice) {
+  return choice.reasons.empty() ? "" : ", by " + choice.reasons;
+}
+
+/// What a user should know of a choice that is no plain case; empty if it is one.
+/// \param word "up" or "front". \param usual the convention's direction.
+std::string note_on(const DirectionChoice& choice, const std::string& word, const Vec3& usual) {
+  const std::string chosen = name_of(choice.direction);
+  if (choice.source == "shape") {
+    return word + " is taken to be " + chosen + " (" + percent(choice.confidence) + " sure" +
+           by(choice) + "), not " + name_of(usual) + ", the usual one of its format; --" + word +
+           " " + name_of(usual) + " overrules this";
+  }
+  if (choice.source == "format" && choice.confidence < kUnsure) {
+    const bool favours_other = choice.likeliest.dot(choice.direction) < 0.5;
+    return word + " is unsure: " + chosen + " is taken, the usual one of its format (" +
+           percent(choice.confidence) + " sure)" +
+           (favours_other ? ", the shape suggests " + name_of(choice.likeliest) : "") + "; --" +
+           word + " sets it";
+  }
+  return {};
+}
+
+std::string summary_of(const DirectionChoice& choice, const std::string& word) {
+  const std::string text = word + ": " + name_of(choice.direction);
+  if (choice.source == "given") {
+    return text + ", as given";
+  }
+  const bool is_likeliest = choice.likeliest.dot(choice.direction) > 0.5;
+  return text + ", " + percent(choice.confidence) + " sure" +
+         (is_likeliest && !choice.reasons.empty() ? by(choice) : ", its format's");
+}
+
+}  // namespace
+
+FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,
+                         const ViewOptions& options) {
+  const Vec3 usual_up = up_vector(default_up(model.format));
+  OrientationRequest request{
+      .usual_up = usual_up,
+      .usual_up_is_certain = model.format == ModelFormat::Gltf || model.format == ModelFormat::Glb};
+  if (options.up) {
+    request.up = up_vector(*options.up);
+  }
+  if (options.front) {
+    request.front = up_vector(*options.front);
+  }
+  FrameChoice choice;
+  choice.orientation = evidence_of(shape).find(request);
+  const auto& [up, front] = choice.orientation;
+  choice.frame = {axis_nearest(up.direction), axis_nearest(front.direction)};
+  for (const std::string& note :
+       {note_on(up, "up", usual_up),
+        note_on(front, "front", up_vector(default_front(choice.frame.up)))}) {
+    if (!note.empty()) {
+      choice.notes.push_back(note);
+    }
+  }
+  return choice;
+}
+
+std::string frame_summary(const FrameChoice& choice) {
+  return summary_of(choice.orientation.up, "up") + "; " +
+         summary_of(choice.orientation.front, "front");
+}
+
+}  // namespace vantage

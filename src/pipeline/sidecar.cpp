@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/pipeline/sidecar.h"
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "vantage/core/error.h"
+
+#include "core/json_reader.h"
+#include "io/files.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t kLargest = 64 * 1024;  // bytes
+
+std::string_view checked_size(std::string_view bytes, std::string_view name) {
+  if (bytes.size() > kLargest) {
+    throw FormatError(name, "", "is longer than 64 KiB, too long for a sidecar");
+  }
+  return bytes;
+}
+
+class SidecarReader : JsonReader {
+ public:
+  SidecarReader(std::string_view bytes, std::string_view name)
+      : JsonReader(checked_size(bytes, name), name) {}
+
+  [[nodiscard]] Sidecar sidecar() const {
+    if (!root().is_object()) {
+      fail("must be an object like {\"up\": \"z\", \"front\": \"-y\"}");
+    }
+    Sidecar result;
+    result.file = name();
+    for (const auto& [member, value] : root().items()) {
+      if (member == "up") {
+        result.up = axis(value, member);
+      } else if (member == "front") {
+        result.front = axis(value, member);
+      } else if (member == "view") {
+        result.view = direction(value);
+      } else if (member == "style") {
+        result.style = style(value);
+      } else {
+        fail("has the member \"" + member + "\"; known are up, front, view and style");
+      }
+    }
+    if (result.up && result.front &&
+        std::abs(up_vector(*result.up).dot(up_vector(*result.front))) > 0.5) {
+      fail("has up and front along the same axis");
+    }
+    return result;
+  }
+
+ private:
+  /// Index of a word in "first|second|…".
+  [[nodiscard]] std::optional<std::size_t> word(const Json& value, const char* words) const {
+    return value.is_string() ? index_of_word(words, value.get<std::string>()) : std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<UpAxis> axis(const Json& value, const std::string& member) const {
+    constexpr std::size_t kAxes = 6;
+    const std::optional<std::size_t> index = word(value, kUpWords);
+    if (!index) {
+      fail("\"" + member + "\" must be one of x, y, z, -x, -y, -z, auto");
+    }
+    return *index < kAxes ? std::optional(static_cast<UpAxis>(*index)) : std::nullopt;
+  }
+
+  [[nodiscard]] Vec3 direction(const Json& value) const {
+    require_list_of_3(value, "\"view\"");
+    Vec3 result;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!value[i].is_number()) {
+        fail("\"view\" is not a list of 3 numbers");
+      }
+      result[static_cast<Eigen::Index>(i)] = value[i].get<double>();
+    }
+    const double length = result.stableNorm();
+    if (!(length > 0.0) || !std::isfinite(length)) {
+      fail("\"view\" must be three finite numbers, not all zero");
+    }
+    return result / length;
+  }
+
+  [[nodiscard]] Style style(const Json& value) const {
+    const std::optional<std::size_t> index = word(value, "clay|asset|technical");
+    if (!index) {
+      fail("\"style\" must be one of clay, asset, technical");
+    }
+    return std::array{Style::Clay, Style::Asset, Style::Technical}[*index];
+  }
+};
+
+}  // namespace
+
+void Sidecar::apply(ViewOptions& options) const {
+  options.up = options.up ? options.up : up;
+  options.front = options.front ? options.front : front;
+}
+
+Sidecar parse_sidecar(std::string_view bytes, std::string_view name) {
+  return SidecarReader(bytes, name).sidecar();
+}
+
+Sidecar sidecar_of(const std::string& model) {
+  if (model == "-") {
+    return {};
+  }
+  const std::filesystem::path path(model);
+  const std::filesystem::path folder = path.parent_path();
+  for (const std::filesystem::path& candidate :
+       {std::filesystem::path(model + ".vantage.json"),
+        folder / (path.stem().string() + ".vantage.json"), folder / "vantage.json"}) {
+    std::error_code error;
+    if (std::filesystem::exists(candidate, error)) {
+      const std::uintmax_t size = std::filesystem::file_size(candidate, error);
+      if (!error && size > kLargest) {
+        throw FormatError(candidate.string(), "", "is longer than 64 KiB, too long for a sidecar");
+      }
+      return parse_sidecar(read_file(candidate.string()), candidate.string());
+    }
+  }
+  return {};
+}
+
+}  // namespace vantage

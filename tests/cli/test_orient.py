@@ -1,0 +1,180 @@
+"""vantage orient, --front, and sidecars."""
+
+import json
+import struct
+import unittest
+
+from program import MODELS, ProgramTest
+
+# A chair that stands on y = 0 and faces +z: boxes as low and high corners.
+CHAIR = [((0, .9, 0), (1, 1, 1)), ((0, 1, 0), (1, 2, .1)), ((0, 0, 0), (.1, .9, .1)), ((.9, 0, 0), (1, .9, .1)),
+         ((0, 0, .9), (.1, .9, 1)), ((.9, 0, .9), (1, .9, 1))]
+FACES = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4),
+         (1, 5, 7), (1, 7, 3)]
+
+
+def obj(turn=lambda p: p):
+    lines = ["# a chair"]
+    for low, high in CHAIR:
+        for i in range(8):
+            corner = [(low, high)[i >> (2 - k) & 1][k] for k in range(3)]
+            lines.append("v " + " ".join(f"{x:g}" for x in turn(corner)))
+    for n in range(len(CHAIR)):
+        lines += ["f " + " ".join(str(8 * n + i + 1) for i in face) for face in FACES]
+    return "\n".join(lines) + "\n"
+
+
+def vertices(text):
+    return [[float(x) for x in line.split()[1:4]] for line in text.splitlines() if line.startswith("v ")]
+
+
+class Orient(ProgramTest):
+    def said(self, *arguments):
+        return json.loads(self.vantage("orient", *arguments, "--json").out)
+
+    def test_what_is_given_is_turned_to_the_formats_habit_and_all_else_stays(self):
+        self.write("z.obj", obj(lambda p: (p[0], -p[2], p[1])) + "# the end\n")
+        self.vantage("orient", "z.obj", "-o", "up.obj", "--up", "z", "--front=-y")
+        text = (self.dir / "up.obj").read_text()
+        self.assertEqual(vertices(text), vertices(obj()))
+        self.assertTrue(text.startswith("# a chair\n") and text.endswith("# the end\n"))
+        self.assertEqual(text.count("\nf "), 72)
+
+    def test_a_turned_file_needs_no_turning(self):
+        self.write("x.obj", obj(lambda p: (p[1], p[2], p[0])))
+        self.vantage("orient", "x.obj", "-o", "up.obj", "--up", "x", "--front", "y")
+        self.assertFalse(self.said("up.obj", "--up", "y", "--front", "z")["turned"])
+
+    def test_the_rotation_is_a_quaternion(self):
+        self.write("a.obj", obj())
+        self.assertEqual(self.said("a.obj", "--up", "y", "--front", "z")["rotation"], [0, 0, 0, 1])
+        q = self.vantage("orient", "a.obj", "--up", "z", "--front=-y", "--print").out.split()
+        self.assertEqual(len(q), 4)
+        self.assertAlmostEqual(abs(float(q[0])), 0.5 ** 0.5)  # a quarter turn about x
+        self.assertAlmostEqual(sum(float(x) ** 2 for x in q), 1.0)
+
+    def test_a_gltf_gets_a_node_that_turns_it(self):
+        data = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 2, 0)
+        gltf = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0],
+                               "max": [1, 2, 0]}],
+                "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36}]}
+        text = json.dumps(gltf).encode()
+        text += b" " * (-len(text) % 4)
+        glb = struct.pack("<III", 0x46546C67, 2, 12 + 8 + len(text) + 8 + 36)
+        glb += struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", 36, 0x004E4942) + data
+        (self.dir / "t.glb").write_bytes(glb)
+        self.vantage("orient", "t.glb", "-o", "u.glb", "--up", "x", "--front", "z")
+        before = json.loads(self.vantage("info", "t.glb", "--json").out)["box"]
+        after = json.loads(self.vantage("info", "u.glb", "--json").out)["box"]
+        self.assertEqual(before["high"], [1, 2, 0])
+        # x becomes y, so that y becomes -x.
+        for found, wanted in zip(after["low"] + after["high"], [-2, 0, 0, 0, 1, 0]):
+            self.assertAlmostEqual(found, wanted, 6)
+
+    def test_binary_stl_is_turned_with_its_normals(self):
+        facet = struct.pack("<12fH", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 2, 0, 7)
+        (self.dir / "t.stl").write_bytes(b"made by hand".ljust(80) + struct.pack("<I", 1) + facet)
+        self.vantage("orient", "t.stl", "-o", "u.stl", "--up", "y", "--front", "z")
+        found = struct.unpack("<12fH", (self.dir / "u.stl").read_bytes()[84:])
+        self.assertEqual(found[:3], (0, -1, 0))  # the front, z, becomes -y
+        self.assertEqual(found[9:12], (0, 0, 2))
+        self.assertEqual(found[12], 7)
+
+    def test_other_formats_are_written_as_ply(self):
+        self.vantage("orient", MODELS / "fan.ply", "-o", "up.ply", "--up", "z", "--front=-y")
+        self.assertTrue((self.dir / "up.ply").read_bytes().startswith(b"ply"))
+        done = self.vantage("orient", MODELS / "fan.ply", "-o", "up.obj", exit_code=1)
+        self.assertIn(".ply", done.err)
+
+    def test_features_are_json_of_six_ups_and_twenty_four_fronts(self):
+        self.write("a.obj", obj())
+        found = json.loads(self.vantage("orient", "a.obj", "--features").out)
+        self.assertEqual((len(found["ups"]), len(found["fronts"])), (6, 24))
+        self.assertEqual(len(found["ups"][0]["values"]), len(found["up_features"]))
+        self.assertEqual(len(found["fronts"][0]["values"]), len(found["front_features"]))
+
+    def test_up_and_front_along_one_axis_are_refused(self):
+        self.write("a.obj", obj())
+        done = self.vantage("orient", "a.obj", "--up", "y", "--front=-y", exit_code=1)
+        self.assertIn("same axis", done.err)
+
+
+class Front(ProgramTest):
+    def report(self, *arguments):
+        self.vantage("view", "a.obj", "-o", "r", "--no-images", *arguments)
+        return json.loads((self.dir / "r" / "view.json").read_text())
+
+    def test_the_best_view_is_from_the_front_that_is_given(self):
+        self.write("a.obj", obj())
+        for front, sign in (("z", 1), ("-z", -1)):
+            found = self.report("--up", "y", f"--front={front}")
+            self.assertEqual((found["front"], found["front_source"], found["front_confidence"]), (front, "given", 1.0))
+            self.assertEqual((found["up"], found["up_source"], found["up_confidence"]), ("y", "given", 1.0))
+            self.assertGreater(sign * found["best"]["direction"][2], 0)
+
+    def test_what_is_sought_has_a_source_and_a_confidence(self):
+        self.write("a.obj", obj())
+        found = self.report()
+        self.assertIn(found["up_source"], ("format", "shape"))
+        for part in ("up", "front"):
+            self.assertGreaterEqual(found[part + "_confidence"], 0)
+            self.assertLessEqual(found[part + "_confidence"], 1)
+
+
+class Sidecars(ProgramTest):
+    def up_and_front(self, *arguments):
+        found = json.loads(self.vantage("orient", "a.obj", "--json", *arguments).out)
+        return found["up"]["axis"], found["front"]["axis"]
+
+    def test_the_models_own_comes_before_the_folders_and_flags_before_both(self):
+        self.write("a.obj", obj())
+        self.write("vantage.json", '{"up": "x", "front": "y"}')
+        self.assertEqual(self.up_and_front(), ("x", "y"))
+        self.write("a.vantage.json", '{"up": "-z", "front": "x"}')
+        self.assertEqual(self.up_and_front(), ("-z", "x"))
+        self.write("a.obj.vantage.json", '{"up": "-y", "front": "x"}')
+        self.assertEqual(self.up_and_front(), ("-y", "x"))
+        self.assertEqual(self.up_and_front("--up", "z", "--front", "y"), ("z", "y"))
+
+    def test_view_thumb_render_and_batch_obey_it(self):
+        self.write("a.obj", obj())
+        self.write("vantage.json", '{"up": "-x", "front": "y", "view": [0, 0, -2]}')
+        self.vantage("view", "a.obj", "-o", "r", "--no-images")
+        self.assertEqual(json.loads((self.dir / "r" / "view.json").read_text())["up"], "-x")
+        said = json.loads(self.vantage("thumb", "a.obj", "t.png", "-s", 32, "--json").out)
+        self.assertEqual((said["up"], said["front"], said["direction"]), ("-x", "y", [0, 0, -1]))
+        self.vantage("render", "a.obj", "-o", "b.png", "--view", "best", "--size", 32)
+        self.vantage("render", "a.obj", "-o", "d.png", "--direction", "0,0,-1", "--size", 32)
+        self.assertEqual((self.dir / "b.png").read_bytes(), (self.dir / "d.png").read_bytes())
+        self.vantage("batch", "a.obj", "-o", "out", "--write", "json")
+        row = json.loads(self.vantage("results", "export", "out", "--format", "jsonl").out.splitlines()[0])
+        self.assertEqual(row["up"], "-x")
+
+    def test_a_manifest_may_name_the_front(self):
+        self.write("a.obj", obj())
+        self.write("list.jsonl", '{"path": "a.obj", "up": "y", "front": "-z"}\n{"path": "b.obj", "front": "w"}\n')
+        self.vantage("batch", "--manifest", "list.jsonl", "-o", "out", "--write", "json", exit_code=4)
+        rows = [json.loads(line) for line in
+                self.vantage("results", "export", "out", "--format", "jsonl").out.splitlines()]
+        errors = {row["key"]: row["error"] for row in rows}
+        self.assertEqual(errors["a.obj"], "")
+        self.assertIn('has a "front" that is none of', errors["b.obj"])
+        found = json.loads(next((self.dir / "out").rglob("view.json")).read_text())
+        self.assertEqual((found["front"], found["front_source"]), ("-z", "given"))
+
+    def test_a_sidecar_that_is_not_as_it_should_be_ends_in_one_sentence(self):
+        self.write("a.obj", obj())
+        for text, words in (("{", "a.vantage.json"), ("[]", "object"), ('{"up": "w"}', '"up" must be one of'),
+                            ('{"up": "x", "front": "-x"}', "same axis"), ('{"turn": 1}', '"turn"'),
+                            ('{"view": [0, 0, 0]}', '"view"'), ('{"view": [0, "1", 0]}', '"view"'),
+                            ('{"style": "oil"}', '"style"'), (" " * 70000 + "{}", "64 KiB")):
+            self.write("a.vantage.json", text)
+            done = self.vantage("orient", "a.obj", exit_code=3)
+            self.assertIn(words, done.err)
+            self.assertEqual(done.err.count("\n"), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/orientation/orientation.h"
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "vantage/core/error.h"
+
+#include "support/shapes.h"
+
+namespace vantage::test {
+namespace {
+
+/// A chair: a seat on four legs, a back at −y; it stands on z = 0 and faces +y.
+TriMesh chair() {
+  TriMesh mesh;
+  mesh = together(mesh, box(1.0, 1.0, 0.1, 4), {0.0, 0.0, 0.9});
+  mesh = together(mesh, box(1.0, 0.1, 1.0, 4), {0.0, 0.0, 1.0});
+  for (const double x : {0.0, 0.9}) {
+    for (const double y : {0.0, 0.9}) {
+      mesh = together(mesh, box(0.1, 0.1, 0.9, 1), {x, y, 0.0});
+    }
+  }
+  return mesh;
+}
+
+/// The 24 rotations that take axes to axes.
+std::vector<Eigen::Matrix3d> axis_rotations() {
+  std::vector<Eigen::Matrix3d> rotations;
+  for (int first = 0; first < 6; ++first) {
+    for (int second = 0; second < 6; ++second) {
+      if (first % 3 != second % 3) {
+        const Vec3 x = Vec3::Unit(first % 3) * (first < 3 ? 1.0 : -1.0);
+        const Vec3 y = Vec3::Unit(second % 3) * (second < 3 ? 1.0 : -1.0);
+        Eigen::Matrix3d matrix;
+        matrix << x, y, x.cross(y);
+        rotations.push_back(matrix);
+      }
+    }
+  }
+  return rotations;
+}
+
+TriMesh turned(TriMesh mesh, const Eigen::Matrix3d& rotation) {
+  for (Vec3& p : mesh.positions) {
+    p = rotation * p;
+  }
+  return mesh;
+}
+
+TEST(Orientation, OfAChairTurnsWithIt) {
+  const TriMesh mesh = chair();
+  const OrientationRequest request{.usual_up = Vec3::UnitZ()};
+  const Orientation plain = OrientationEvidence(mesh).find(request);
+  EXPECT_EQ(plain.up.direction, Vec3::UnitZ());
+  EXPECT_EQ(axis_rotations().size(), 24U);
+  for (const Eigen::Matrix3d& rotation : axis_rotations()) {
+    // The convention turns along, so that nothing but the shape could tell the difference.
+    const Orientation found =
+        OrientationEvidence(turned(mesh, rotation)).find({.usual_up = rotation * Vec3::UnitZ()});
+    EXPECT_EQ(found.up.direction, rotation * plain.up.direction);
+    // A feature that lies at the limit of a tree may fall to either side of it by rounding.
+    EXPECT_NEAR(found.up.confidence, plain.up.confidence, 1e-3);
+  }
+}
+
+TEST(Orientation, DoesNotDependOnUnitAndOrder) {
+  const TriMesh mesh = chair();
+  const OrientationRequest request{.usual_up = Vec3::UnitY()};
+  const Orientation plain = OrientationEvidence(mesh).find(request);
+  const Orientation other =
+      OrientationEvidence(moved(renumbered(mesh, 3), 256.0, 0.0, Vec3::UnitX(), Vec3::Zero()))
+          .find(request);
+  EXPECT_EQ(other.up.direction, plain.up.direction);
+  EXPECT_EQ(other.front.direction, plain.front.direction);
+  EXPECT_NEAR(other.up.confidence, plain.up.confidence, 1e-9);
+}
+
+TEST(Orientation, OfWhatLooksTheSameFromAllSidesIsTheFormats) {
+  const Orientation of_cube =
+      OrientationEvidence(box(1.0, 1.0, 1.0, 4)).find({.usual_up = Vec3::UnitY()});
+  EXPECT_EQ(of_cube.up.direction, Vec3::UnitY());
+  EXPECT_EQ(of_cube.up.source, "format");
+  EXPECT_NEAR(of_cube.up.confidence, 1.0, 1e-12);
+  EXPECT_EQ(of_cube.front.direction, Vec3::UnitZ());
+  EXPECT_EQ(of_cube.front.source, "format");
+}
+
+TEST(Orientation, IsWhatIsGivenOrCertainWhateverTheShape) {
+  const OrientationEvidence evidence(chair());
+  const Orientation given = evidence.find({.up = -Vec3::UnitX(), .front = Vec3::UnitZ()});
+  EXPECT_EQ(given.up.direction, -Vec3::UnitX());
+  EXPECT_EQ(given.front.direction, Vec3::UnitZ());
+  EXPECT_EQ(given.up.source, "given");
+  EXPECT_EQ(given.up.confidence, 1.0);
+  const Orientation certain =
+      evidence.find({.usual_up = Vec3::UnitY(), .usual_up_is_certain = true});
+  EXPECT_EQ(certain.up.direction, Vec3::UnitY());
+  EXPECT_EQ(certain.up.source, "format");
+  // The front is at right angles to up, and up to a front that is given.
+  EXPECT_EQ(certain.front.direction.dot(certain.up.direction), 0.0);
+  EXPECT_EQ(evidence.find({.front = Vec3::UnitX()}).up.direction.dot(Vec3::UnitX()), 0.0);
+}
+
+TEST(Orientation, RefusesDirectionsThatMakeNoFrame) {
+  const OrientationEvidence evidence(chair());
+  EXPECT_THROW((void)evidence.find({.up = Vec3::UnitX(), .front = -Vec3::UnitX()}), InvalidInput);
+  EXPECT_THROW((void)evidence.find({.up = Vec3(1.0, 1.0, 0.0)}), InvalidInput);
+}
+
+TEST(Orientation, HasFeaturesOfSixUpsAndTwentyFourFronts) {
+  const std::vector<OrientationFeatures> rows = OrientationEvidence(chair()).features();
+  ASSERT_EQ(rows.size(), 30U);
+  for (const OrientationFeatures& row : rows) {
+    EXPECT_EQ(row.values.size(), orientation_feature_names(row.front.has_value()).size());
+    for (const double value : row.values) {
+      EXPECT_TRUE(std::isfinite(value));
+    }
+  }
+}
+
+TEST(Orientation, OfFlatAndTinyShapesIsFinite) {
+  TriMesh line;
+  line.positions = {Vec3::Zero(), Vec3::UnitX(), Vec3(2.0, 0.0, 0.0)};
+  line.triangles = {{0, 1, 2}};
+  for (const TriMesh& mesh : {sheet(1.0, 2.0, 3), line}) {
+    const Orientation found = OrientationEvidence(mesh).find({});
+    EXPECT_TRUE(std::isfinite(found.up.confidence));
+    EXPECT_GE(found.front.confidence, 0.0);
+    EXPECT_LE(found.front.confidence, 1.0);
+  }
+}
+
+}  // namespace
+}  // namespace vantage::test

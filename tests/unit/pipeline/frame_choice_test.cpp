@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "vantage/core/error.h"
+#include "vantage/pipeline/find_views.h"
+
+#include "support/model_of.h"
+#include "support/shapes.h"
+
+namespace vantage::test {
+namespace {
+
+/// A table that stands on z = 0.
+TriMesh table() {
+  TriMesh mesh;
+  mesh = together(mesh, box(2.0, 1.0, 0.1, 4), {0.0, 0.0, 0.8});
+  for (const double x : {0.0, 1.9}) {
+    for (const double y : {0.0, 0.9}) {
+      mesh = together(mesh, box(0.1, 0.1, 0.8, 2), {x, y, 0.0});
+    }
+  }
+  return mesh;
+}
+
+FrameChoice choice_for(const TriMesh& mesh, ModelFormat format, const ViewOptions& options = {}) {
+  Model model = model_of(mesh);
+  model.format = format;
+  return choose_frame(model, prepare_surface(model), options);
+}
+
+TEST(FrameChoice, IsTheFormatsWhereItsHabitHolds) {
+  const FrameChoice choice = choice_for(table(), ModelFormat::Stl);
+  EXPECT_EQ(choice.frame.up, UpAxis::Z);
+  EXPECT_EQ(choice.orientation.up.source, "format");
+}
+
+TEST(FrameChoice, OfABoxIsTheFormats) {
+  const FrameChoice choice = choice_for(box(1.0, 1.0, 1.0, 4), ModelFormat::Ply);
+  EXPECT_EQ(choice.frame.up, UpAxis::Y);
+  EXPECT_EQ(choice.frame.front, UpAxis::Z);
+  EXPECT_EQ(choice.orientation.up.source, "format");
+  EXPECT_TRUE(choice.notes.empty());
+}
+
+TEST(FrameChoice, IsTheFormatsUpForGltfWhateverTheShape) {
+  EXPECT_EQ(choice_for(table(), ModelFormat::Glb).frame.up, UpAxis::Y);
+  EXPECT_EQ(choice_for(table(), ModelFormat::Gltf).frame.up, UpAxis::Y);
+}
+
+TEST(FrameChoice, IsTheUsersWhateverTheShape) {
+  ViewOptions options;
+  options.up = UpAxis::MinusX;
+  options.front = UpAxis::Y;
+  const FrameChoice choice = choice_for(table(), ModelFormat::Ply, options);
+  EXPECT_EQ(choice.frame.up, UpAxis::MinusX);
+  EXPECT_EQ(choice.frame.front, UpAxis::Y);
+  EXPECT_EQ(choice.orientation.up.source, "given");
+  EXPECT_EQ(frame_summary(choice), "up: -x, as given; front: y, as given");
+}
+
+TEST(FrameChoice, RefusesUpAndFrontOfOneAxis) {
+  ViewOptions options;
+  options.up = UpAxis::Y;
+  options.front = UpAxis::MinusY;
+  EXPECT_THROW((void)choice_for(table(), ModelFormat::Ply, options), InvalidInput);
+}
+
+TEST(FrameChoice, SaysWhatItIsUnsureOfAndHowToSetIt) {
+  for (const ModelFormat format : {ModelFormat::Ply, ModelFormat::Stl}) {
+    const FrameChoice choice = choice_for(table(), format);
+    const DirectionChoice& up = choice.orientation.up;
+    const bool is_plain = up.source == "format" && up.confidence >= 0.5;
+    const bool speaks_of_up =
+        !choice.notes.empty() && choice.notes.front().find("--up") != std::string::npos;
+    EXPECT_EQ(speaks_of_up, !is_plain);
+  }
+}
+
+}  // namespace
+}  // namespace vantage::test
