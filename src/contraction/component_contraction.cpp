@@ -33,6 +33,8 @@ constexpr std::array<StepManner, 9> kManners{{{false, kGentlest, 1.0},
                                               {false, kHarshest, 1.0}}};
 /// Where the next step begins after one that could not be taken as defined.
 constexpr std::size_t kSafer = 1;
+/// A surface that has lost less than this has hardly begun to shrink [a_t].
+constexpr double kBegun = 0.9;
 /// A first step that is too gentle to shrink anything is made stronger this often at most.
 constexpr int kMostStronger = 6;
 
@@ -103,12 +105,13 @@ class Contraction {
               const RunContext& run, bool is_careful)
       : options_(options),
         run_(run),
+        shares_(shares),
         soundness_(scaled),
         ratios_(scaled, shares),
         solver_(scaled, shares),
         manner_(is_careful ? kSafer : 0) {
-    const double area = shares.empty() ? ratios_.mean_area() : shares.mean_face_area;
-    state_ = {scaled, 1.0 / (10.0 * std::sqrt(area)),
+    state_ = {scaled,
+              shares.empty() ? first_contraction(ratios_.mean_area()) : shares.first_contraction(),
               std::vector<double>(scaled.positions.size(), 1.0)};
   }
 
@@ -135,7 +138,7 @@ class Contraction {
     // The rule needs a surface that has begun to shrink: on fine smooth meshes the first steps
     // move less than the tolerance, and stopping there would leave level 0 alone.
     const bool begun = attempt.shrinkage <= 1.0 - options_.shrinkage_tolerance;
-    if (begun && state_.shrinkage - attempt.shrinkage < options_.shrinkage_tolerance &&
+    if (begun && state_.shrinkage - attempt.shrinkage < least_progress(attempt.shrinkage) &&
         !is_first()) {
       return ContractionStop::Shrunk;
     }
@@ -169,6 +172,14 @@ class Contraction {
   [[nodiscard]] double grown(double limit) const {
     return std::min(state_.contraction * options_.contraction_growth,
                     std::max(state_.contraction, limit));
+  }
+
+  /// What a step to `shrinkage` must have taken off.
+  [[nodiscard]] double least_progress(double shrinkage) const {
+    const bool is_round = state_.shrinkage > kBegun;  // the first steps only round edges off
+    return is_plate(shrinkage) && !is_round
+               ? std::max(options_.shrinkage_tolerance, shares_.least_progress * state_.shrinkage)
+               : options_.shrinkage_tolerance;
   }
 
   [[nodiscard]] bool is_first() const { return state_.steps == 0; }
@@ -222,6 +233,7 @@ class Contraction {
 
   const ContractionOptions& options_;
   const RunContext& run_;
+  const EvenShares& shares_;
   Soundness soundness_;
   AreaRatios ratios_;
   StepSolver solver_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -20,14 +21,25 @@ struct ComponentHistory {
   bool is_stuck = false;  ///< Ended far from a curve because no way to take a step was sound.
 };
 
+/// W_L of the first step for faces of this mean area (Cao 2010).
+inline double first_contraction(double mean_face_area) {
+  return 1.0 / (10.0 * std::sqrt(mean_face_area));
+}
+
 /// What makes the steps those of the surface, however it is cut into triangles: vertices count by
 /// the area around them, as if there were a given number of even ones [ours: docs/contraction.md].
 /// Empty: each vertex counts alike, as Cao has it.
 struct EvenShares {
   std::vector<double> count{};  ///< Even vertices that each vertex stands for; > 0.
   double mean_face_area = 0.0;  ///< Of the faces of so many even vertices.
+  double first_pull = 1.0;      ///< Factor on the first W_L.
+  double least_progress = 0.0;  ///< A step that takes off a smaller share of a plate ends it.
 
   [[nodiscard]] bool empty() const { return count.empty(); }
+
+  [[nodiscard]] double first_contraction() const {
+    return first_pull * vantage::first_contraction(mean_face_area);
+  }
 };
 
 /// The shares of a surface; empty if it has no area.
@@ -37,6 +49,12 @@ EvenShares even_shares(const TriMesh& mesh);
 /// closed models are curves where Cao's rule stops; docs/contraction.md].
 inline bool is_sheet(double shrinkage) {
   return shrinkage > 0.04;
+}
+
+/// Whether a surface that shrank to this share of its area [a_t] is a plate if it shrinks no more:
+/// where it stands still, its rim has become a line that holds it [ours; docs/contraction.md].
+inline bool is_plate(double shrinkage) {
+  return shrinkage > 0.1;
 }
 
 /// Contracts one component already scaled as options.scaling says (docs/contraction.md).

@@ -85,6 +85,11 @@ constexpr std::size_t kMergedSize = 40'000;
 /// A proxy must be smaller than this share of its component to be worth it.
 constexpr double kProxyShare = 0.7;
 
+/// A plate stands still if a step takes off less than this share of it; it is contracted again by
+/// larger steps so often at most [ours: a square plate needs all].
+constexpr double kPlateStep = 0.05;
+constexpr int kMostStronger = 3;
+
 /// Warnings about single steps at most.
 constexpr std::size_t kMostRemedies = 5;
 
@@ -144,6 +149,30 @@ void contract_carefully(const TriMesh& scaled, const ContractionOptions& options
   history = std::move(careful);
 }
 
+/// Contracts a surface by even shares. The rim of a plate may become a line that holds the rest
+/// where it is, by steps that are too small for so wide a surface: then all is done again by larger
+/// ones.
+ComponentHistory contract_evenly(const TriMesh& scaled, const ContractionOptions& options,
+                                 const RunContext& run, EvenShares shares) {
+  ComponentHistory history;
+  for (int again = 0;; ++again) {
+    const bool may_begin_again =
+        again < kMostStronger &&
+        shares.first_contraction() * options.contraction_growth <= options.contraction_limit;
+    shares.least_progress = may_begin_again ? kPlateStep : 0.0;
+    ComponentHistory attempt = contract_component(scaled, options, run, shares);
+    if (again > 0 && (attempt.is_stuck || attempt.shrinkage.back() >= history.shrinkage.back())) {
+      return history;
+    }
+    history = std::move(attempt);
+    if (!may_begin_again || history.summary.stop != ContractionStop::Shrunk ||
+        !is_plate(history.shrinkage.back())) {
+      return history;
+    }
+    shares.first_pull *= options.contraction_growth;
+  }
+}
+
 /// Contracts a finer copy of a surface on which `history` is stuck: coarse meshes have too few
 /// vertices to move. The steps are those of the copy, of the surface's own vertices.
 void contract_finer_copy(const TriMesh& scaled, const ContractionOptions& options,
@@ -152,7 +181,7 @@ void contract_finer_copy(const TriMesh& scaled, const ContractionOptions& option
   if (finer.positions.size() == scaled.positions.size()) {
     return;
   }
-  ComponentHistory copy = contract_component(finer, options, run, even_shares(finer));
+  ComponentHistory copy = contract_evenly(finer, options, run, even_shares(finer));
   if (copy.is_stuck || copy.summary.steps <= history.summary.steps) {
     return;
   }
@@ -172,7 +201,7 @@ void contract_finer_copy(const TriMesh& scaled, const ContractionOptions& option
 ComponentHistory contract_scaled(const TriMesh& scaled, const std::optional<Proxy>& proxy,
                                  const ContractionOptions& options, const RunContext& run) {
   if (proxy) {
-    ComponentHistory history = contract_component(proxy->mesh, options, run, proxy->shares);
+    ComponentHistory history = contract_evenly(proxy->mesh, options, run, proxy->shares);
     history.summary.vertices = scaled.positions.size();
     history.summary.strategy = "proxy " + std::to_string(proxy->mesh.positions.size()) +
                                (history.thinned.empty() ? "" : ", thinned");
@@ -184,7 +213,7 @@ ComponentHistory contract_scaled(const TriMesh& scaled, const std::optional<Prox
   } else {
     ContractionOptions no_thinning = options;
     no_thinning.sheet_limit = options.contraction_limit;
-    history = contract_component(scaled, no_thinning, run, even_shares(scaled));
+    history = contract_evenly(scaled, no_thinning, run, even_shares(scaled));
     history.summary.strategy = "direct";
   }
   if (history.is_stuck) {

@@ -49,7 +49,8 @@ inline constexpr auto kSkeletonFields = std::tuple{
 /// A curve skeleton and what each node stands for.
 struct Skeleton {
   CurveGraph graph{};            ///< Finished: centred and pruned as asked.
-  std::vector<double> radius{};  ///< |N| mean distance of a node to its vertices, level 0.
+  std::vector<double> radius{};  ///< |N| mean distance of a node to its vertices (of the
+                                 ///< refined surface, if that was contracted), level 0.
   std::vector<std::uint32_t>
       node_of_vertex{};  ///< |V| nodes of `graph`; kNone for isolated vertices.
   CurveGraph raw{};      ///< Before centring and pruning.

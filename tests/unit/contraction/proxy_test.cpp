@@ -71,7 +71,7 @@ TEST(ContractByProxy, MergesLargeComponentsOnlyAndKeepsAllOthersApart) {
   TriMesh point;
   point.positions.emplace_back(0.0, 9.0, 0.0);
   const TriMesh torus = large_torus();   // 23 040 vertices
-  const TriMesh ball = test::sphere(4);  // too fine to be refined first
+  const TriMesh ball = test::sphere(5);  // too fine to be refined first
   const TriMesh mesh =
       test::together(test::together(point, torus, Vec3::Zero()),
                      test::together(ball, point, Vec3::Zero()), Vec3(5.0, 0.0, 0.0));

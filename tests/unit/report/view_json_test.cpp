@@ -52,7 +52,7 @@ TEST(ViewJson, NamesAStrategyForEachComponent) {
   const json report =
       json::parse(report_text(model_of(together(sphere(1), sphere(1), Vec3(3.0, 0.0, 0.0)))));
   EXPECT_EQ(report["model"]["components"], 2);
-  EXPECT_EQ(report["contraction"]["strategy"], json({"direct", "direct"}));
+  EXPECT_EQ(report["contraction"]["strategy"], json({"exact", "exact"}));
 }
 
 }  // namespace
