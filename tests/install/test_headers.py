@@ -21,7 +21,7 @@ class Headers(unittest.TestCase):
 
     def test_every_public_header_compiles_alone(self):
         headers = sorted(str(path.relative_to(ROOT / "include")) for path in (ROOT / "include").rglob("*.h"))
-        self.assertGreater(len(headers), 50)
+        self.assertGreater(len(headers), 30)
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
             for header, done in zip(headers, pool.map(compile_alone, headers)):
                 self.assertEqual(done.returncode, 0, f"{header}\n{done.stderr}")
