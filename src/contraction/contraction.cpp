@@ -88,7 +88,7 @@ constexpr double kProxyShare = 0.7;
 /// A plate stands still if a step takes off less than this share of it; it is contracted again by
 /// larger steps so often at most [ours: a square plate needs all].
 constexpr double kPlateStep = 0.05;
-constexpr int kMostStronger = 3;
+constexpr int kMostAgain = 3;
 
 /// Warnings about single steps at most.
 constexpr std::size_t kMostRemedies = 5;
@@ -157,7 +157,7 @@ ComponentHistory contract_evenly(const TriMesh& scaled, const ContractionOptions
   ComponentHistory history;
   for (int again = 0;; ++again) {
     const bool may_begin_again =
-        again < kMostStronger &&
+        again < kMostAgain &&
         shares.first_contraction() * options.contraction_growth <= options.contraction_limit;
     shares.least_progress = may_begin_again ? kPlateStep : 0.0;
     ComponentHistory attempt = contract_component(scaled, options, run, shares);

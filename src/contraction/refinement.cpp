@@ -32,7 +32,7 @@ constexpr double kCoarser = 1.25;  // factor on the edge length while that is ex
 /// which no vertices are left stay as they are.
 constexpr double kMostOfAll = 60'000.0;
 
-constexpr double kWhole = std::numeric_limits<double>::infinity();  // an edge length of no bound
+constexpr double kNoBound = std::numeric_limits<double>::infinity();  // an edge length of no bound
 
 double longest_edge(const TriMesh& mesh, const Triangle& t) {
   const auto& x = mesh.positions;
@@ -41,21 +41,21 @@ double longest_edge(const TriMesh& mesh, const Triangle& t) {
 }
 
 /// A component's faces, and how large it is.
-struct Part {
+struct CoarsePart {
   std::vector<std::uint32_t> faces{};
   double diameter = 0.0;
   double area = 0.0;
-  double edge = kWhole;   ///< Down to which its edges are to be split.
-  double vertices = 0.0;  ///< That this makes, about.
+  double edge = kNoBound;  ///< Down to which its edges are to be split.
+  double vertices = 0.0;   ///< That this makes, about.
 };
 
-std::vector<Part> parts_of(const TriMesh& mesh) {
+std::vector<CoarsePart> parts_of(const TriMesh& mesh) {
   const Components components = connected_components(mesh);
-  std::vector<Part> parts(components.count);
+  std::vector<CoarsePart> parts(components.count);
   for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
     parts[components.of_vertex[mesh.triangles[f][0]]].faces.push_back(f);
   }
-  for (Part& part : parts) {
+  for (CoarsePart& part : parts) {
     std::vector<Vec3> corners;
     for (const std::uint32_t f : part.faces) {
       for (const std::uint32_t v : mesh.triangles[f]) {
@@ -68,7 +68,7 @@ std::vector<Part> parts_of(const TriMesh& mesh) {
   return parts;
 }
 
-bool is_coarse(const TriMesh& mesh, const Part& part) {
+bool is_coarse(const TriMesh& mesh, const CoarsePart& part) {
   double coarse = 0.0;
   for (const std::uint32_t f : part.faces) {
     if (longest_edge(mesh, mesh.triangles[f]) > kCoarse * part.diameter) {
@@ -80,7 +80,7 @@ bool is_coarse(const TriMesh& mesh, const Part& part) {
 
 /// About the number of vertices that splitting the part down to `edge` makes: those of its area, and
 /// those along its sides, which long thin faces have more of.
-double estimated_vertices(const TriMesh& mesh, const Part& part, double edge) {
+double estimated_vertices(const TriMesh& mesh, const CoarsePart& part, double edge) {
   double count = 4.0 * part.area / (edge * edge);
   for (const std::uint32_t f : part.faces) {
     count += 2.0 * longest_edge(mesh, mesh.triangles[f]) / edge;
@@ -89,7 +89,7 @@ double estimated_vertices(const TriMesh& mesh, const Part& part, double edge) {
 }
 
 /// Chooses the length down to which the part's edges are split.
-void choose_edge(const TriMesh& mesh, Part& part) {
+void choose_edge(const TriMesh& mesh, CoarsePart& part) {
   part.edge = kFineEdge * part.diameter;
   part.vertices = estimated_vertices(mesh, part, part.edge);
   while (part.edge < part.diameter && part.vertices > kMostVertices) {
@@ -100,7 +100,7 @@ void choose_edge(const TriMesh& mesh, Part& part) {
 
 /// Parts in the order in which they may be refined: the largest first; those whose areas differ by
 /// rounding only in the order of the file.
-std::vector<std::size_t> largest_first(const std::vector<Part>& parts) {
+std::vector<std::size_t> largest_first(const std::vector<CoarsePart>& parts) {
   std::vector<std::size_t> order(parts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -126,11 +126,11 @@ std::optional<TriMesh> refine_coarse_components(const TriMesh& mesh, const RunCo
     return std::nullopt;
   }
   const TriMesh unit = unit_size(mesh, sphere);
-  std::vector<Part> parts = parts_of(unit);
-  std::vector<double> longest(mesh.triangles.size(), kWhole);
+  std::vector<CoarsePart> parts = parts_of(unit);
+  std::vector<double> longest(mesh.triangles.size(), kNoBound);
   double vertices = 0.0;
   for (const std::size_t p : largest_first(parts)) {
-    Part& part = parts[p];
+    CoarsePart& part = parts[p];
     if (!is_coarse(unit, part)) {
       continue;
     }
@@ -147,9 +147,9 @@ std::optional<TriMesh> refine_coarse_components(const TriMesh& mesh, const RunCo
 }
 
 TriMesh refine_whole(const TriMesh& scaled, const RunContext& run) {
-  std::vector<Part> parts = parts_of(scaled);
-  std::vector<double> longest(scaled.triangles.size(), kWhole);
-  for (Part& part : parts) {
+  std::vector<CoarsePart> parts = parts_of(scaled);
+  std::vector<double> longest(scaled.triangles.size(), kNoBound);
+  for (CoarsePart& part : parts) {
     choose_edge(scaled, part);
     for (const std::uint32_t f : part.faces) {
       longest[f] = part.edge;
