@@ -95,13 +95,13 @@ class IntrinsicTriangulation {
 
   /// Finds the other side of every edge of two faces that run along it in opposite directions.
   void glue() {
-    struct Entry {
+    struct SideEntry {
       std::uint32_t low, high;
       bool ascends;
       Side side;
     };
 
-    std::vector<Entry> entries;
+    std::vector<SideEntry> entries;
     entries.reserve(3 * size());
     for (std::uint32_t f = 0; f < size(); ++f) {
       for (std::uint32_t c = 0; c < 3; ++c) {
@@ -110,7 +110,7 @@ class IntrinsicTriangulation {
         entries.push_back({std::min(a, b), std::max(a, b), a < b, {f, c}});
       }
     }
-    std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    std::stable_sort(entries.begin(), entries.end(), [](const SideEntry& a, const SideEntry& b) {
       return a.low != b.low ? a.low < b.low : a.high < b.high;
     });
     for (std::size_t i = 0; i < entries.size();) {
