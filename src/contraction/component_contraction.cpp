@@ -2,234 +2,92 @@
 #include "contraction/component_contraction.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
+#include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
-#include <Eigen/SparseCore>
-
-#include "vantage/mesh/measures.h"
-#include "vantage/mesh/topology.h"
-#include "vantage/operators/cotangent_laplacian.h"
-
+#include "contraction/area_ratios.h"
+#include "contraction/soundness.h"
 #include "contraction/step_limits.h"
-#include "operators/position_solver.h"
-#include "operators/step_matrix.h"
+#include "contraction/step_solver.h"
 
 namespace vantage {
 namespace {
 
-/// Faces that begin smaller than this fraction of the mean area say nothing by their ratio.
-constexpr double kTinyFace = 1e-6;
-/// A vertex may get this far from the first enclosing sphere's centre, in radii. The box does not
-/// see one vertex that flies off while the others shrink, and what it sees depends on the axes.
-constexpr double kFarthest = 1.2;
-
-/// A correction of more than this share of the solution says that neither is worth much: at the
-/// gentlest limits the step counts as not solved, and harsher ones are tried; under those the
-/// solution stands as it is, as there may be none better [ours].
-constexpr double kTrusted = 1e-2;
-
-/// Rows are read as wholes.
-using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-
-/// Area ratios of faces, then of vertices, against the start.
-class AreaRatios {
- public:
-  AreaRatios(const TriMesh& start, const FineShares& shares)
-      : start_(face_areas(start)), faces_of_vertex_(vertex_faces(start)), shares_(shares) {
-    double mean = 0.0;
-    for (const double area : start_) {
-      mean += area;
-    }
-    mean /= static_cast<double>(start_.size());
-    smallest_ = kTinyFace * mean;
-    mean_area_ = mean;
-  }
-
-  [[nodiscard]] double mean_area() const { return mean_area_; }
-
-  /// Mean over the faces at each vertex of area now over area at the start; vertices without a
-  /// face that counts take the mean of the others. Returns that mean [a_t] too.
-  [[nodiscard]] std::pair<std::vector<double>, double> of_vertices(const TriMesh& now) const {
-    const std::vector<double> areas = face_areas(now);
-    std::vector<double> ratio(faces_of_vertex_.size(), -1.0);
-    double sum = 0.0;
-    double counted = 0.0;
-    for (std::size_t v = 0; v < ratio.size(); ++v) {
-      double total = 0.0;
-      int faces = 0;
-      for (const std::uint32_t f : faces_of_vertex_[v]) {
-        if (start_[f] >= smallest_) {
-          total += areas[f] / start_[f];
-          ++faces;
-        }
-      }
-      if (faces > 0) {
-        const double count = shares_.empty() ? 1.0 : shares_.count[v];
-        ratio[v] = total / faces * (shares_.empty() ? 1.0 : shares_.area[v]);
-        sum += count * ratio[v];
-        counted += count;
-      }
-    }
-    const double mean = counted > 0.0 ? sum / counted : 0.0;
-    for (double& r : ratio) {
-      r = r < 0.0 ? mean : r;
-    }
-    return {std::move(ratio), mean};
-  }
-
- private:
-  std::vector<double> start_;
-  IndexLists faces_of_vertex_;
-  const FineShares& shares_;
-  double smallest_ = 0.0;
-  double mean_area_ = 0.0;
-};
-
-/// −½ the gradient of |W_L L (x + d)|² + Σ W_H,i² |d_i|² at the displacement d.
-class Pull {
- public:
-  /// \param L a Laplacian: its rows add up to zero. \param rows W_L² of each row.
-  /// \param held W_H² of each vertex. All must outlive this.
-  Pull(const Eigen::SparseMatrix<double>& L, const Eigen::VectorXd& rows,
-       const Eigen::VectorXd& held)
-      : L_(L), rows_(rows), held_(held) {}
-
-  /// \param moved x + d.
-  [[nodiscard]] Eigen::MatrixX3d at(const Positions& moved, const Eigen::MatrixX3d& d) const {
-    // By differences of positions: rounding then is relative to edges, not to the model.
-    Positions bent = Positions::Zero(moved.rows(), 3);
-    for (int j = 0; j < L_.outerSize(); ++j) {
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(L_, j); entry; ++entry) {
-        bent.row(entry.row()) += entry.value() * (moved.row(j) - moved.row(entry.row()));
-      }
-    }
-    bent.array().colwise() *= rows_.array();
-    Eigen::MatrixX3d pull(moved.rows(), 3);
-    for (int j = 0; j < L_.outerSize(); ++j) {
-      Eigen::RowVector3d sum = held_[j] * d.row(j);
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(L_, j); entry; ++entry) {
-        sum += entry.value() * bent.row(entry.row());
-      }
-      pull.row(j) = -sum;
-    }
-    return pull;
-  }
-
- private:
-  const Eigen::SparseMatrix<double>& L_;
-  const Eigen::VectorXd& rows_;
-  const Eigen::VectorXd& held_;
-};
-
-/// One step of the iteration: minimise |W_L L X'|² + Σ W_H,i² |x'_i − x_i|² by its normal equations.
-class StepSolver {
- public:
-  StepSolver(const TriMesh& start, const FineShares& shares)
-      : shares_(shares), laplacian_(start.positions.size(), start.triangles) {}
-
-  /// Positions after the step, or nothing if the system is not positive definite or the result is
-  /// not finite.
-  std::optional<std::vector<Vec3>> solve(const TriMesh& now, double W_L,
-                                         const std::vector<double>& W_H,
-                                         const ContractionOptions& options, int harshness,
-                                         const RunContext& run) {
-    const Eigen::SparseMatrix<double>& L =
-        laplacian_.assemble(now.positions, limits_of(options, harshness));
-    if (!normal_) {
-      normal_.emplace(L);
-    }
-    const auto n = static_cast<Eigen::Index>(now.positions.size());
-    Eigen::VectorXd rows(n);
-    Eigen::VectorXd held(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const auto v = static_cast<std::size_t>(i);
-      const double count = shares_.empty() ? 1.0 : shares_.count[v];
-      // L has a symmetric pattern, so that columns are as wide as rows.
-      const bool is_wide =
-          L.outerIndexPtr()[i + 1] - L.outerIndexPtr()[i] > NormalMatrix::kWidestRow;
-      rows[i] = is_wide ? 0.0 : W_L * W_L / count;
-      held[i] = count * W_H[v] * W_H[v];
-    }
-    Eigen::SparseMatrix<double>& A = normal_->assemble(L, rows, held);
-    const double shift = shift_of(A.diagonal().maxCoeff(), harshness);
-    if (shift > 0.0) {
-      for (Eigen::Index i = 0; i < n; ++i) {
-        A.coeffRef(i, i) += shift;
-      }
-      held.array() += shift;
-    }
-    if (!system_.factorize(A, run)) {
-      return std::nullopt;
-    }
-    return refined(now.positions, Pull(L, rows, held), harshness);
-  }
-
- private:
-  /// Corrected semi-normal equations (Björck, "Stability analysis of the method of seminormal
-  /// equations", 1987): the factor is that of the normal equations, the residual that of the
-  /// least-squares problem, which they would square away.
-  [[nodiscard]] std::optional<std::vector<Vec3>> refined(const std::vector<Vec3>& start,
-                                                         const Pull& pull, int harshness) const {
-    const auto n = static_cast<Eigen::Index>(start.size());
-    Positions x(n, 3);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      x.row(i) = start[static_cast<std::size_t>(i)].transpose();
-    }
-    Eigen::MatrixX3d d = system_.solve(pull.at(x, Eigen::MatrixX3d::Zero(n, 3)));
-    const Eigen::MatrixX3d correction = system_.solve(pull.at(x + d, d));
-    if (correction.norm() <= kTrusted * d.norm()) {
-      d += correction;
-    } else if (harshness == kGentlest) {
-      return std::nullopt;
-    }
-    if (!d.allFinite()) {
-      return std::nullopt;
-    }
-    std::vector<Vec3> moved(start);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      moved[static_cast<std::size_t>(i)] += d.row(i).transpose();
-    }
-    return moved;
-  }
-
-  const FineShares& shares_;
-  LaplacianAssembler laplacian_;
-  std::optional<NormalMatrix> normal_{};
-  PositionSolver system_{};
-};
-
-/// What a step must not outgrow.
-class Bounds {
- public:
-  explicit Bounds(const std::vector<Vec3>& start)
-      : sphere_(enclosing_sphere(start)), largest_(largest_box(start, sphere_.diameter)) {}
-
-  /// True if a step of this harshness that ends at `now` has diverged.
-  [[nodiscard]] bool exceeded_by(const std::vector<Vec3>& now, int harshness) const {
-    return (bounding_box(now).size().array() > largest_.array()).any() ||
-           (harshness == kGentlest && strayed(now));
-  }
-
- private:
-  [[nodiscard]] bool strayed(const std::vector<Vec3>& now) const {
-    const double farthest = kFarthest * 0.5 * sphere_.diameter;
-    return std::any_of(now.begin(), now.end(), [&](const Vec3& p) {
-      return (p - sphere_.centre).squaredNorm() > farthest * farthest;
-    });
-  }
-
-  Sphere sphere_;
-  Vec3 largest_;
-};
+/// Ways to take a step, tried in order until one is sound: as defined; with weights that do not
+/// depend on how the surface is cut into triangles; with less of a pull; and with clamped weights,
+/// at last with a shifted diagonal.
+constexpr std::array<StepManner, 9> kManners{{{false, kGentlest, 1.0},
+                                              {true, 1, 1.0},
+                                              {true, 1, 1.0 / 3.0},
+                                              {true, 1, 1.0 / 9.0},
+                                              {false, 1, 1.0},
+                                              {false, 2, 1.0},
+                                              {false, 3, 1.0},
+                                              {false, 4, 1.0},
+                                              {false, kHarshest, 1.0}}};
+/// Where the next step begins after one that could not be taken as defined.
+constexpr std::size_t kSafer = 1;
+/// A surface that has lost less than this has hardly begun to shrink [a_t].
+constexpr double kBegun = 0.9;
+/// A first step that is too gentle to shrink anything is made stronger this often at most.
+constexpr int kMostStronger = 6;
 
 /// What one attempt at a step gave.
 struct Attempt {
-  std::vector<Vec3> positions{};
-  ContractionStop failure = ContractionStop::SolverFailed;
-  bool accepted = false;
+  StepFlaw flaw = StepFlaw::Unsolved;
+  TriMesh mesh{};
+  std::vector<double> vertex_ratio{};
+  double shrinkage = 0.0;
 };
+
+/// Why a contraction ends at a step of which none of the ways was sound. One that enlarges the
+/// surface shrinks it by less than the tolerance.
+ContractionStop stop_for(StepFlaw flaw) {
+  switch (flaw) {
+    case StepFlaw::Unsolved:
+      return ContractionStop::SolverFailed;
+    case StepFlaw::Grew:
+      return ContractionStop::Grew;
+    case StepFlaw::Collapsed:
+      return ContractionStop::Collapsed;
+    case StepFlaw::Rose:
+    case StepFlaw::None:
+      break;
+  }
+  return ContractionStop::Shrunk;
+}
+
+/// What a step would have done, for a user.
+std::string told(StepFlaw flaw) {
+  switch (flaw) {
+    case StepFlaw::Unsolved:
+      return "could not be solved";
+    case StepFlaw::Grew:
+      return "would have thrown part of the surface outwards";
+    case StepFlaw::Rose:
+      return "would have enlarged the surface";
+    case StepFlaw::Collapsed:
+      return "would have run part of the surface to a point";
+    case StepFlaw::None:
+      break;
+  }
+  return "";
+}
+
+/// How it was taken instead.
+std::string told(const StepManner& manner) {
+  if (manner.intrinsic) {
+    return std::string("taken with weights that thin triangles do not upset") +
+           (manner.share < 1.0 ? " and a weaker pull" : "");
+  }
+  return "taken with bounded weights";
+}
 
 /// What a step starts from.
 struct State {
@@ -243,15 +101,17 @@ struct State {
 /// The surface on its way.
 class Contraction {
  public:
-  Contraction(const TriMesh& scaled, const ContractionOptions& options, const FineShares& shares,
-              const RunContext& run)
+  Contraction(const TriMesh& scaled, const ContractionOptions& options, const EvenShares& shares,
+              const RunContext& run, bool is_careful)
       : options_(options),
         run_(run),
-        bounds_(scaled.positions),
+        shares_(shares),
+        soundness_(scaled),
         ratios_(scaled, shares),
-        solver_(scaled, shares) {
-    const double area = shares.empty() ? ratios_.mean_area() : shares.mean_face_area;
-    state_ = {scaled, 1.0 / (10.0 * std::sqrt(area)),
+        solver_(scaled, shares),
+        manner_(is_careful ? kSafer : 0) {
+    state_ = {scaled,
+              shares.empty() ? first_contraction(ratios_.mean_area()) : shares.first_contraction(),
               std::vector<double>(scaled.positions.size(), 1.0)};
   }
 
@@ -260,26 +120,32 @@ class Contraction {
 
   [[nodiscard]] const State& state() const { return state_; }
 
-  [[nodiscard]] bool is_regularised() const { return harshness_ > kGentlest; }
+  [[nodiscard]] bool is_regularised() const { return manner_ > 0; }
 
-  /// Takes the next step, unless it fails or shrinks the surface by less than the tolerance: then
-  /// says why it ends. \param limit largest W_L from the next step on.
+  /// Whether it ended because no way to take a step was sound, far from a curve.
+  [[nodiscard]] bool is_stuck() const { return is_stuck_; }
+
+  /// What was done about steps that could not be taken as defined, a phrase each.
+  [[nodiscard]] const std::vector<std::string>& remedies() const { return remedies_; }
+
+  /// Takes the next step, unless no way to take it is sound or it shrinks the surface by less than
+  /// the tolerance: then says why it ends. \param limit largest W_L from the next step on.
   std::optional<ContractionStop> step(double limit) {
     Attempt attempt = attempt_step();
-    if (!attempt.accepted) {
-      return attempt.failure;
+    if (attempt.flaw != StepFlaw::None) {
+      return stop_for(attempt.flaw);
     }
-    std::swap(state_.now.positions, attempt.positions);
-    const auto [vertex_ratio, mean] = ratios_.of_vertices(state_.now);
     // The rule needs a surface that has begun to shrink: on fine smooth meshes the first steps
     // move less than the tolerance, and stopping there would leave level 0 alone.
-    const bool begun = mean <= 1.0 - options_.shrinkage_tolerance;
-    if (begun && state_.shrinkage - mean < options_.shrinkage_tolerance && !is_first()) {
-      std::swap(state_.now.positions, attempt.positions);
+    const bool begun = attempt.shrinkage <= 1.0 - options_.shrinkage_tolerance;
+    if (begun && state_.shrinkage - attempt.shrinkage < least_progress(attempt.shrinkage) &&
+        !is_first()) {
       return ContractionStop::Shrunk;
     }
-    state_.shrinkage = mean;
+    state_.now = std::move(attempt.mesh);
+    state_.shrinkage = attempt.shrinkage;
     ++state_.steps;
+    const std::vector<double>& vertex_ratio = attempt.vertex_ratio;
     for (std::size_t v = 0; v < state_.attraction.size(); ++v) {
       state_.attraction[v] = std::min(1.0 / std::sqrt(vertex_ratio[v]), options_.attraction_limit);
     }
@@ -308,37 +174,74 @@ class Contraction {
                     std::max(state_.contraction, limit));
   }
 
+  /// What a step to `shrinkage` must have taken off.
+  [[nodiscard]] double least_progress(double shrinkage) const {
+    const bool is_round = state_.shrinkage > kBegun;  // the first steps only round edges off
+    return is_plate(shrinkage) && !is_round
+               ? std::max(options_.shrinkage_tolerance, shares_.least_progress * state_.shrinkage)
+               : options_.shrinkage_tolerance;
+  }
+
   [[nodiscard]] bool is_first() const { return state_.steps == 0; }
 
-  /// Ill-conditioned steps are repeated more gently, and so is one that diverges, because obtuse
-  /// slivers push apart what they join. If it diverges all the same the contraction ends, except at
-  /// the first step: a surface that can be contracted must not be left at level 0.
+  /// A step that is not sound is repeated more safely. A curve is done where the first way fails:
+  /// what a safer one could still gain is not worth the risk.
   Attempt attempt_step() {
-    Attempt attempt;
-    for (; harshness_ <= kHarshest; ++harshness_) {
-      run_.check();
-      std::optional<std::vector<Vec3>> solved = solver_.solve(
-          state_.now, state_.contraction, state_.attraction, options_, harshness_, run_);
-      attempt.failure = solved ? ContractionStop::Grew : ContractionStop::SolverFailed;
-      if (solved) {
-        attempt.positions = std::move(*solved);
-        attempt.accepted = !bounds_.exceeded_by(attempt.positions, harshness_);
-        if (attempt.accepted || (!is_first() && is_regularised())) {
-          break;
+    StepFlaw first = StepFlaw::None;
+    for (std::size_t manner = manner_;; ++manner) {
+      Attempt attempt = attempt_in(kManners[manner]);
+      first = first == StepFlaw::None ? attempt.flaw : first;
+      const bool is_done = !is_sheet(state_.shrinkage) && attempt.flaw != StepFlaw::Unsolved;
+      if (attempt.flaw == StepFlaw::None || is_done || manner + 1 == kManners.size()) {
+        if (attempt.flaw == StepFlaw::None && first != StepFlaw::None) {
+          remedies_.push_back("step " + std::to_string(state_.steps + 1) + " " + told(first) +
+                              " and was " + told(kManners[manner]));
+          state_.contraction *= kManners[manner].share;
+          manner_ = kSafer;
+        } else if (attempt.flaw != StepFlaw::None && is_sheet(state_.shrinkage)) {
+          is_stuck_ = true;
+          remedies_.push_back("ended at step " + std::to_string(state_.steps + 1) + ", which " +
+                              told(attempt.flaw) + " however it was taken");
         }
+        return attempt;
       }
     }
-    return attempt;
+  }
+
+  Attempt attempt_in(const StepManner& manner) {
+    for (int stronger = 0;; ++stronger) {
+      run_.check();
+      std::optional<std::vector<Vec3>> solved = solver_.solve(
+          state_.now, state_.contraction * manner.share, state_.attraction, options_, manner, run_);
+      if (!solved) {
+        return {};
+      }
+      Attempt attempt{.mesh = {std::move(*solved), state_.now.triangles}};
+      std::tie(attempt.vertex_ratio, attempt.shrinkage) = ratios_.of_vertices(attempt.mesh);
+      attempt.flaw = soundness_.flaw(state_.now, attempt.mesh.positions, state_.shrinkage,
+                                     attempt.shrinkage, manner.harshness == kGentlest);
+      // On fine smooth meshes the first steps round the shape off and shrink nothing.
+      const bool too_gentle = attempt.flaw == StepFlaw::Rose &&
+                              attempt.shrinkage < 1.0 + options_.shrinkage_tolerance &&
+                              state_.shrinkage > 1.0 - options_.shrinkage_tolerance;
+      if (!too_gentle || stronger == kMostStronger) {
+        return attempt;
+      }
+      state_.contraction *= options_.contraction_growth;
+    }
   }
 
   const ContractionOptions& options_;
   const RunContext& run_;
-  Bounds bounds_;
+  const EvenShares& shares_;
+  Soundness soundness_;
   AreaRatios ratios_;
   StepSolver solver_;
   State state_{};
   std::optional<State> limited_{};  // before the first step whose W_L a limit kept low
-  int harshness_ = kGentlest;
+  std::size_t manner_;              // of kManners, where the next step begins
+  std::vector<std::string> remedies_{};
+  bool is_stuck_ = false;
 };
 
 /// Contracts a surface that stopped shrinking as a sheet again, with a larger W_L from where the
@@ -367,12 +270,13 @@ std::vector<Vec3> thin_further(Contraction& surface, const ContractionOptions& o
 }  // namespace
 
 ComponentHistory contract_component(const TriMesh& scaled, const ContractionOptions& options,
-                                    const RunContext& run, const FineShares& shares) {
+                                    const RunContext& run, const EvenShares& shares,
+                                    bool is_careful) {
   ComponentHistory history;
   history.summary.vertices = scaled.positions.size();
   history.levels.push_back(scaled.positions);
   history.shrinkage.push_back(1.0);
-  Contraction surface(scaled, options, shares, run);
+  Contraction surface(scaled, options, shares, run, is_careful);
   if (!surface.has_area()) {
     return history;
   }
@@ -388,6 +292,8 @@ ComponentHistory contract_component(const TriMesh& scaled, const ContractionOpti
     ++history.summary.steps;
     history.summary.regularised_steps += surface.is_regularised() ? 1 : 0;
   }
+  history.summary.remedies = surface.remedies();
+  history.is_stuck = surface.is_stuck();
   if (history.summary.stop == ContractionStop::Shrunk) {
     history.thinned = thin_further(surface, options, run);
     history.summary.strategy += history.thinned.empty() ? "" : ", thinned";

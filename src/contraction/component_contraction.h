@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -17,17 +18,32 @@ struct ComponentHistory {
   std::vector<Vec3>
       thinned{};  ///< What ContractionHistory::thinned has of it; empty: the last level.
   ComponentContraction summary{};
+  bool is_stuck = false;  ///< Ended far from a curve because no way to take a step was sound.
 };
 
-/// What the vertices of a coarse surface stand for on the fine one, so that its steps are those of
-/// the fine one (docs/contraction.md). Empty: each vertex stands for itself.
-struct FineShares {
-  std::vector<double> count{};  ///< Fine vertices that each vertex stands for; > 0.
-  std::vector<double> area{};   ///< Coarse over fine area around each vertex; > 0.
-  double mean_face_area = 0.0;  ///< Of the fine surface.
+/// W_L of the first step for faces of this mean area (Cao 2010).
+inline double first_contraction(double mean_face_area) {
+  return 1.0 / (10.0 * std::sqrt(mean_face_area));
+}
+
+/// What makes the steps those of the surface, however it is cut into triangles: vertices count by
+/// the area around them, as if there were a given number of even ones [ours: docs/contraction.md].
+/// Empty: each vertex counts alike, as Cao has it.
+struct EvenShares {
+  std::vector<double> count{};  ///< Even vertices that each vertex stands for; > 0.
+  double mean_face_area = 0.0;  ///< Of the faces of so many even vertices.
+  double first_pull = 1.0;      ///< Factor on the first W_L.
+  double least_progress = 0.0;  ///< A step that takes off a smaller share of a plate ends it.
 
   [[nodiscard]] bool empty() const { return count.empty(); }
+
+  [[nodiscard]] double first_contraction() const {
+    return first_pull * vantage::first_contraction(mean_face_area);
+  }
 };
+
+/// The shares of a surface; empty if it has no area.
+EvenShares even_shares(const TriMesh& mesh);
 
 /// Whether a surface that shrank to this share of its area [a_t] is not yet a curve [ours: 51 of 57
 /// closed models are curves where Cao's rule stops; docs/contraction.md].
@@ -35,9 +51,17 @@ inline bool is_sheet(double shrinkage) {
   return shrinkage > 0.04;
 }
 
+/// Whether a surface that shrank to this share of its area [a_t] is a plate if it shrinks no more:
+/// where it stands still, its rim has become a line that holds it [ours; docs/contraction.md].
+inline bool is_plate(double shrinkage) {
+  return shrinkage > 0.1;
+}
+
 /// Contracts one component already scaled as options.scaling says (docs/contraction.md).
+/// \param is_careful whether all steps are taken with the weights that are meant for slivers.
 /// \pre every vertex belongs to a face, no face names a vertex twice. \throw Cancelled
 ComponentHistory contract_component(const TriMesh& scaled, const ContractionOptions& options,
-                                    const RunContext& run, const FineShares& shares = {});
+                                    const RunContext& run, const EvenShares& shares = {},
+                                    bool is_careful = false);
 
 }  // namespace vantage

@@ -85,6 +85,14 @@ constexpr std::size_t kMergedSize = 40'000;
 /// A proxy must be smaller than this share of its component to be worth it.
 constexpr double kProxyShare = 0.7;
 
+/// A plate stands still if a step takes off less than this share of it; it is contracted again by
+/// larger steps so often at most [ours: a square plate needs all].
+constexpr double kPlateStep = 0.05;
+constexpr int kMostAgain = 3;
+
+/// Warnings about single steps at most.
+constexpr std::size_t kMostRemedies = 5;
+
 /// What one piece's contraction gave, in model units.
 struct PieceResult {
   ComponentHistory history{};
@@ -110,8 +118,10 @@ ComponentHistory contract_exactly(const TriMesh& scaled, const ContractionOption
   // A proxy's share of the area is not quite the same; far below the bound neither is a sheet.
   if (may_be_thinned && is_sheet(2.0 * history.shrinkage.back())) {
     const Proxy proxy = make_proxy(scaled, kMergedSize, kProxySize, run);
-    const std::vector<Vec3> curve =
-        contract_component(proxy.mesh, options, run.part(0.9, 1.0), proxy.shares).thinned;
+    const ComponentHistory coarse =
+        contract_component(proxy.mesh, options, run.part(0.9, 1.0), proxy.shares);
+    const std::vector<Vec3>& curve =
+        is_sheet(coarse.shrinkage.back()) ? coarse.thinned : coarse.levels.back();
     for (std::size_t v = 0; v < scaled.positions.size() && !curve.empty(); ++v) {
       history.thinned.push_back(position_of(proxy.place[v], proxy.mesh, curve));
     }
@@ -120,15 +130,98 @@ ComponentHistory contract_exactly(const TriMesh& scaled, const ContractionOption
   return history;
 }
 
+/// Takes all steps with weights that slivers do not upset where `history` is stuck, if that leads
+/// farther.
+void contract_carefully(const TriMesh& scaled, const ContractionOptions& options,
+                        const RunContext& run, ComponentHistory& history) {
+  ContractionOptions no_thinning = options;
+  no_thinning.sheet_limit = options.contraction_limit;
+  const bool is_exact = options.method == ContractionMethod::Exact;
+  ComponentHistory careful = contract_component(
+      scaled, no_thinning, run, is_exact ? EvenShares{} : even_shares(scaled), true);
+  if (careful.is_stuck && careful.shrinkage.back() >= history.shrinkage.back()) {
+    return;
+  }
+  careful.summary.strategy = history.summary.strategy;
+  careful.summary.remedies = history.summary.remedies;
+  careful.summary.remedies.push_back(
+      "so all steps were taken with weights that thin triangles do not upset");
+  history = std::move(careful);
+}
+
+/// Contracts a surface by even shares. The rim of a plate may become a line that holds the rest
+/// where it is, by steps that are too small for so wide a surface: then all is done again by larger
+/// ones.
+ComponentHistory contract_evenly(const TriMesh& scaled, const ContractionOptions& options,
+                                 const RunContext& run, EvenShares shares) {
+  ComponentHistory history;
+  for (int again = 0;; ++again) {
+    const bool may_begin_again =
+        again < kMostAgain &&
+        shares.first_contraction() * options.contraction_growth <= options.contraction_limit;
+    shares.least_progress = may_begin_again ? kPlateStep : 0.0;
+    ComponentHistory attempt = contract_component(scaled, options, run, shares);
+    if (again > 0 && (attempt.is_stuck || attempt.shrinkage.back() >= history.shrinkage.back())) {
+      return history;
+    }
+    history = std::move(attempt);
+    if (!may_begin_again || history.summary.stop != ContractionStop::Shrunk ||
+        !is_plate(history.shrinkage.back())) {
+      return history;
+    }
+    shares.first_pull *= options.contraction_growth;
+  }
+}
+
+/// Contracts a finer copy of a surface on which `history` is stuck: coarse meshes have too few
+/// vertices to move. The steps are those of the copy, of the surface's own vertices.
+void contract_finer_copy(const TriMesh& scaled, const ContractionOptions& options,
+                         const RunContext& run, ComponentHistory& history) {
+  const TriMesh finer = refine_whole(scaled, run);
+  if (finer.positions.size() == scaled.positions.size()) {
+    return;
+  }
+  ComponentHistory copy = contract_evenly(finer, options, run, even_shares(finer));
+  if (copy.is_stuck || copy.summary.steps <= history.summary.steps) {
+    return;
+  }
+  for (auto& level : copy.levels) {
+    level.resize(scaled.positions.size());
+  }
+  copy.thinned.clear();
+  copy.summary.vertices = scaled.positions.size();
+  copy.summary.strategy = "refined " + std::to_string(finer.positions.size());
+  copy.summary.remedies.insert(copy.summary.remedies.begin(), history.summary.remedies.begin(),
+                               history.summary.remedies.end());
+  copy.summary.remedies.push_back("so a finer copy of the surface was contracted, of " +
+                                  std::to_string(finer.positions.size()) + " vertices");
+  history = std::move(copy);
+}
+
 ComponentHistory contract_scaled(const TriMesh& scaled, const std::optional<Proxy>& proxy,
                                  const ContractionOptions& options, const RunContext& run) {
-  if (!proxy) {
-    return contract_exactly(scaled, options, run);
+  if (proxy) {
+    ComponentHistory history = contract_evenly(proxy->mesh, options, run, proxy->shares);
+    history.summary.vertices = scaled.positions.size();
+    history.summary.strategy = "proxy " + std::to_string(proxy->mesh.positions.size()) +
+                               (history.thinned.empty() ? "" : ", thinned");
+    return history;
   }
-  ComponentHistory history = contract_component(proxy->mesh, options, run, proxy->shares);
-  history.summary.vertices = scaled.positions.size();
-  history.summary.strategy = "proxy " + std::to_string(proxy->mesh.positions.size()) +
-                             (history.thinned.empty() ? "" : ", thinned");
+  ComponentHistory history;
+  if (options.method == ContractionMethod::Exact) {
+    history = contract_exactly(scaled, options, run);
+  } else {
+    ContractionOptions no_thinning = options;
+    no_thinning.sheet_limit = options.contraction_limit;
+    history = contract_evenly(scaled, no_thinning, run, even_shares(scaled));
+    history.summary.strategy = "direct";
+  }
+  if (history.is_stuck) {
+    contract_carefully(scaled, options, run, history);
+  }
+  if (history.is_stuck && scaled.positions.size() <= kProxyFrom) {
+    contract_finer_copy(scaled, options, run, history);
+  }
   return history;
 }
 
@@ -229,9 +322,30 @@ void add_isolated(const std::vector<std::uint32_t>& component_of_vertex, MergedS
   }
 }
 
+/// Steps that were not taken as defined, one sentence each; of many components only the first.
+void add_remedies(ContractionHistory& history) {
+  std::size_t told = 0;
+  std::size_t untold = 0;
+  for (std::size_t c = 0; c < history.components.size(); ++c) {
+    for (const std::string& remedy : history.components[c].remedies) {
+      if (++told > kMostRemedies) {
+        ++untold;
+        continue;
+      }
+      history.warnings.push_back(
+          "contraction" +
+          (history.components.size() > 1 ? " of component " + std::to_string(c + 1) : "") + ": " +
+          remedy);
+    }
+  }
+  if (untold > 0) {
+    history.warnings.push_back("contraction: " + std::to_string(untold) +
+                               " more steps were not taken as defined");
+  }
+}
+
 void summarise(const std::vector<PieceResult>& results, ContractionHistory& history) {
   std::size_t failed = 0;
-  std::size_t regularised = 0;
   history.shrinkage.assign(history.levels.size(), 0.0);
   double vertices = 0.0;
   for (const PieceResult& result : results) {
@@ -243,17 +357,12 @@ void summarise(const std::vector<PieceResult>& results, ContractionHistory& hist
           weight * part.shrinkage[std::min(level, part.shrinkage.size() - 1)];
     }
     failed += part.summary.stop == ContractionStop::SolverFailed ? 1 : 0;
-    regularised += part.summary.regularised_steps > 0 ? 1 : 0;
     history.components.push_back(part.summary);
   }
   for (double& a : history.shrinkage) {
     a = vertices > 0.0 ? a / vertices : 1.0;
   }
-  if (regularised > 0) {
-    history.warnings.push_back(
-        "slivers made the contraction ill-conditioned; regularised steps in " +
-        std::to_string(regularised) + " component(s)");
-  }
+  add_remedies(history);
   if (failed > 0) {
     history.warnings.push_back("the contraction of " + std::to_string(failed) +
                                " component(s) ended early because its system could not be solved");
@@ -330,6 +439,8 @@ std::string_view stop_name(ContractionStop stop) {
       return "shrunk";
     case ContractionStop::Grew:
       return "grew";
+    case ContractionStop::Collapsed:
+      return "collapsed";
     case ContractionStop::StepLimit:
       return "step-limit";
     case ContractionStop::NothingToMove:

@@ -17,11 +17,6 @@ namespace {
 constexpr std::size_t kGrain = 2048;  // fine vertices a task
 /// Stars visited at most on the way from the vertex a point was merged in to its nearest face.
 constexpr int kLongestWalk = 6;
-/// Fewest fine vertices that a coarse one may stand for: keeps its row in the system.
-constexpr double kSmallestShare = 0.25;
-/// Bounds on coarse over fine area around a vertex.
-constexpr double kSmallestAreaShare = 0.1;
-constexpr double kLargestAreaShare = 1.5;
 
 /// Barycentric coordinates of the point of triangle abc nearest to p: Ericson, "Real-Time Collision
 /// Detection", 2005, section 5.1.5.
@@ -106,32 +101,6 @@ class Walker {
   IndexLists faces_;
 };
 
-FineShares shares_of(const TriMesh& fine, const Proxy& proxy) {
-  FineShares shares;
-  const std::vector<double> fine_area = vertex_areas(fine);
-  const std::vector<double> coarse_area = vertex_areas(proxy.mesh);
-  shares.count.assign(proxy.mesh.positions.size(), 0.0);
-  shares.area.assign(proxy.mesh.positions.size(), 0.0);
-  double total = 0.0;
-  for (std::size_t v = 0; v < proxy.place.size(); ++v) {
-    const CoarsePlace& place = proxy.place[v];
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const std::uint32_t u = proxy.mesh.triangles[place.face][corner];
-      shares.count[u] += place.weight[corner];
-      shares.area[u] += place.weight[corner] * fine_area[v];
-    }
-    total += fine_area[v];
-  }
-  for (std::size_t u = 0; u < shares.count.size(); ++u) {
-    shares.count[u] = std::max(shares.count[u], kSmallestShare);
-    shares.area[u] = shares.area[u] > 0.0 ? std::clamp(coarse_area[u] / shares.area[u],
-                                                       kSmallestAreaShare, kLargestAreaShare)
-                                          : 1.0;
-  }
-  shares.mean_face_area = total / static_cast<double>(fine.triangles.size());
-  return shares;
-}
-
 }  // namespace
 
 Vec3 position_of(const CoarsePlace& place, const TriMesh& coarse,
@@ -157,7 +126,7 @@ Proxy make_proxy(const TriMesh& fine, std::size_t between, std::size_t target,
       proxy.place[v] = walker.nearest(fine.positions[v], proxy.of_vertex[v]);
     }
   });
-  proxy.shares = shares_of(fine, proxy);
+  proxy.shares = even_shares(proxy.mesh);
   return proxy;
 }
 

@@ -24,7 +24,7 @@ struct Proxy {
   TriMesh mesh{};
   std::vector<std::uint32_t> of_vertex{};  ///< |V| coarse vertex that each fine one was merged in.
   std::vector<CoarsePlace> place{};        ///< |V| nearest place around that vertex.
-  FineShares shares{};
+  EvenShares shares{};
   MergedSurface merged{};  ///< Between `fine` and `mesh`.
 };
 

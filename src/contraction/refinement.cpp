@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -14,16 +17,22 @@
 namespace vantage {
 namespace {
 
-/// A face is huge if an edge of it is longer than this, over D [ours].
-constexpr double kHuge = 0.25;
-/// A component is refined if huge faces hold more than this share of its area [ours].
-constexpr double kHugeShare = 0.5;
-/// Edges are split down to this length, over D [ours: two skeleton samples].
-constexpr double kFineEdge = 0.04;
-/// Vertices that refinement may make about, of all components together [ours]; edges stay longer
-/// where that is not enough.
+/// A face is coarse if an edge of it is longer than this, over the component's diameter [ours: two
+/// skeleton samples].
+constexpr double kCoarse = 0.04;
+/// A component is refined if coarse faces hold more than this share of its area [ours].
+constexpr double kCoarseShare = 0.5;
+/// Edges are split down to this length, over the component's diameter [ours: trials in docs/lab].
+constexpr double kFineEdge = 0.03;
+/// Vertices that refinement may make of a component, about [ours]; its edges stay longer where that
+/// is not enough.
 constexpr double kMostVertices = 20'000.0;
 constexpr double kCoarser = 1.25;  // factor on the edge length while that is exceeded
+/// Vertices that it may make of all components, about [ours]: the largest come first, and those for
+/// which no vertices are left stay as they are.
+constexpr double kMostOfAll = 60'000.0;
+
+constexpr double kNoBound = std::numeric_limits<double>::infinity();  // an edge length of no bound
 
 double longest_edge(const TriMesh& mesh, const Triangle& t) {
   const auto& x = mesh.positions;
@@ -31,38 +40,82 @@ double longest_edge(const TriMesh& mesh, const Triangle& t) {
       {(x[t[0]] - x[t[1]]).norm(), (x[t[1]] - x[t[2]]).norm(), (x[t[2]] - x[t[0]]).norm()});
 }
 
-/// The faces of the components to refine, one entry per face of a mesh of diameter 1.
-std::vector<bool> faces_to_refine(const TriMesh& mesh) {
+/// A component's faces, and how large it is.
+struct CoarsePart {
+  std::vector<std::uint32_t> faces{};
+  double diameter = 0.0;
+  double area = 0.0;
+  double edge = kNoBound;  ///< Down to which its edges are to be split.
+  double vertices = 0.0;   ///< That this makes, about.
+};
+
+std::vector<CoarsePart> parts_of(const TriMesh& mesh) {
   const Components components = connected_components(mesh);
-  const std::vector<double> areas = face_areas(mesh);
-  std::vector<double> area(components.count, 0.0);
-  std::vector<double> huge(components.count, 0.0);
-  for (std::size_t f = 0; f < areas.size(); ++f) {
-    const std::uint32_t component = components.of_vertex[mesh.triangles[f][0]];
-    area[component] += areas[f];
-    if (longest_edge(mesh, mesh.triangles[f]) > kHuge) {
-      huge[component] += areas[f];
+  std::vector<CoarsePart> parts(components.count);
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    parts[components.of_vertex[mesh.triangles[f][0]]].faces.push_back(f);
+  }
+  for (CoarsePart& part : parts) {
+    std::vector<Vec3> corners;
+    for (const std::uint32_t f : part.faces) {
+      for (const std::uint32_t v : mesh.triangles[f]) {
+        corners.push_back(mesh.positions[v]);
+      }
+      part.area += 0.5 * area_vector(mesh, mesh.triangles[f]).norm();
     }
+    part.diameter = corners.empty() ? 0.0 : enclosing_sphere(corners).diameter;
   }
-  std::vector<bool> chosen(areas.size(), false);
-  for (std::size_t f = 0; f < areas.size(); ++f) {
-    const std::uint32_t component = components.of_vertex[mesh.triangles[f][0]];
-    chosen[f] = huge[component] > kHugeShare * area[component];
-  }
-  return chosen;
+  return parts;
 }
 
-/// About the number of vertices that splitting the chosen faces down to `edge` makes: those of its
-/// area, and those along its sides, which long thin faces have more of.
-double estimated_vertices(const TriMesh& mesh, const std::vector<bool>& chosen, double edge) {
-  double count = 0.0;
-  for (std::size_t f = 0; f < chosen.size(); ++f) {
-    if (chosen[f]) {
-      const double twice = area_vector(mesh, mesh.triangles[f]).norm();
-      count += 2.0 * twice / (edge * edge) + 2.0 * longest_edge(mesh, mesh.triangles[f]) / edge;
+bool is_coarse(const TriMesh& mesh, const CoarsePart& part) {
+  double coarse = 0.0;
+  for (const std::uint32_t f : part.faces) {
+    if (longest_edge(mesh, mesh.triangles[f]) > kCoarse * part.diameter) {
+      coarse += 0.5 * area_vector(mesh, mesh.triangles[f]).norm();
     }
   }
+  return coarse > kCoarseShare * part.area;
+}
+
+/// About the number of vertices that splitting the part down to `edge` makes: those of its area, and
+/// those along its sides, which long thin faces have more of.
+double estimated_vertices(const TriMesh& mesh, const CoarsePart& part, double edge) {
+  double count = 4.0 * part.area / (edge * edge);
+  for (const std::uint32_t f : part.faces) {
+    count += 2.0 * longest_edge(mesh, mesh.triangles[f]) / edge;
+  }
   return count;
+}
+
+/// Chooses the length down to which the part's edges are split.
+void choose_edge(const TriMesh& mesh, CoarsePart& part) {
+  part.edge = kFineEdge * part.diameter;
+  part.vertices = estimated_vertices(mesh, part, part.edge);
+  while (part.edge < part.diameter && part.vertices > kMostVertices) {
+    part.edge *= kCoarser;
+    part.vertices = estimated_vertices(mesh, part, part.edge);
+  }
+}
+
+/// Parts in the order in which they may be refined: the largest first; those whose areas differ by
+/// rounding only in the order of the file.
+std::vector<std::size_t> largest_first(const std::vector<CoarsePart>& parts) {
+  std::vector<std::size_t> order(parts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return static_cast<float>(parts[a].area) > static_cast<float>(parts[b].area);
+  });
+  return order;
+}
+
+/// The mesh around the origin, of diameter 1: areas of very large or small models have no double.
+TriMesh unit_size(const TriMesh& mesh, const Sphere& sphere) {
+  TriMesh unit = mesh;
+  for (Vec3& p : unit.positions) {
+    p = (p - sphere.centre) / sphere.diameter;
+  }
+  return unit;
 }
 
 }  // namespace
@@ -72,19 +125,37 @@ std::optional<TriMesh> refine_coarse_components(const TriMesh& mesh, const RunCo
   if (mesh.triangles.empty() || !(sphere.diameter > 0.0)) {
     return std::nullopt;
   }
-  TriMesh unit = mesh;  // areas of very large or small models have no double
-  for (Vec3& p : unit.positions) {
-    p = (p - sphere.centre) / sphere.diameter;
+  const TriMesh unit = unit_size(mesh, sphere);
+  std::vector<CoarsePart> parts = parts_of(unit);
+  std::vector<double> longest(mesh.triangles.size(), kNoBound);
+  double vertices = 0.0;
+  for (const std::size_t p : largest_first(parts)) {
+    CoarsePart& part = parts[p];
+    if (!is_coarse(unit, part)) {
+      continue;
+    }
+    choose_edge(unit, part);
+    if (vertices + part.vertices <= kMostOfAll) {
+      vertices += part.vertices;
+      for (const std::uint32_t f : part.faces) {
+        longest[f] = part.edge * sphere.diameter;
+      }
+    }
   }
-  std::vector<bool> chosen = faces_to_refine(unit);
-  if (std::find(chosen.begin(), chosen.end(), true) == chosen.end()) {
-    return std::nullopt;
+  return vertices > 0.0 ? std::optional(split_long_edges(mesh, std::move(longest), run))
+                        : std::nullopt;
+}
+
+TriMesh refine_whole(const TriMesh& scaled, const RunContext& run) {
+  std::vector<CoarsePart> parts = parts_of(scaled);
+  std::vector<double> longest(scaled.triangles.size(), kNoBound);
+  for (CoarsePart& part : parts) {
+    choose_edge(scaled, part);
+    for (const std::uint32_t f : part.faces) {
+      longest[f] = part.edge;
+    }
   }
-  double edge = kFineEdge;
-  while (edge < 1.0 && estimated_vertices(unit, chosen, edge) > kMostVertices) {
-    edge *= kCoarser;
-  }
-  return split_long_edges(mesh, std::move(chosen), edge * sphere.diameter, run);
+  return split_long_edges(scaled, std::move(longest), run);
 }
 
 }  // namespace vantage

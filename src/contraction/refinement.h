@@ -8,9 +8,13 @@
 
 namespace vantage {
 
-/// The surface with the components that are made of few huge faces split finer, or nothing if there
-/// is none: on those, contraction has too few vertices to move. The vertices of `mesh` come first.
-/// \throw Cancelled
+/// The surface with the components that are made of large faces for their size split finer, or
+/// nothing if there is none: on those, contraction has too few vertices to move. The vertices of
+/// `mesh` come first. How a component is split does not depend on the others, unless there are too
+/// many vertices to make in all. \throw Cancelled
 std::optional<TriMesh> refine_coarse_components(const TriMesh& mesh, const RunContext& run);
+
+/// One component, of a size near 1, split so too, whatever its faces. \throw Cancelled
+TriMesh refine_whole(const TriMesh& scaled, const RunContext& run);
 
 }  // namespace vantage

@@ -26,16 +26,17 @@ bool shortens(const Vec3& a, const Vec3& middle, const Vec3& b) {
 
 /// Middle vertex of each edge that is too long, or kWhole; appends the middles to `mesh`.
 std::vector<std::uint32_t> add_middles(TriMesh& mesh, const EdgeTable& table,
-                                       const std::vector<bool>& chosen, double longest) {
+                                       const std::vector<double>& longest) {
   std::vector<std::uint32_t> middle(table.edges.size(), kWhole);
   for (std::size_t e = 0; e < table.edges.size(); ++e) {
     const Vec3 a = mesh.positions[table.edges[e][0]];
     const Vec3 b = mesh.positions[table.edges[e][1]];
     const auto faces = table.faces_of_edge[e];
-    const bool wanted =
-        std::any_of(faces.begin(), faces.end(), [&](std::uint32_t f) { return chosen[f]; });
+    const bool is_long = std::any_of(faces.begin(), faces.end(), [&](std::uint32_t f) {
+      return (a - b).norm() > (1.0 + kTie) * longest[f];
+    });
     const Vec3 m = 0.5 * (a + b);
-    if (wanted && (a - b).norm() > (1.0 + kTie) * longest && shortens(a, m, b)) {
+    if (is_long && shortens(a, m, b)) {
       middle[e] = static_cast<std::uint32_t>(mesh.positions.size());
       mesh.positions.push_back(m);
     }
@@ -83,14 +84,13 @@ void cut(const TriMesh& mesh, Triangle t, std::array<std::uint32_t, 3> m,
 
 }  // namespace
 
-TriMesh split_long_edges(const TriMesh& mesh, std::vector<bool> chosen, double longest,
-                         const RunContext& run) {
+TriMesh split_long_edges(const TriMesh& mesh, std::vector<double> longest, const RunContext& run) {
   TriMesh fine = mesh;
   for (int round = 0; round < kMostRounds; ++round) {
     run.check();
     const EdgeTable table = build_edge_table(fine);
     const std::size_t before = fine.positions.size();
-    const std::vector<std::uint32_t> middle = add_middles(fine, table, chosen, longest);
+    const std::vector<std::uint32_t> middle = add_middles(fine, table, longest);
     if (fine.positions.size() == before) {
       break;
     }
@@ -108,13 +108,13 @@ TriMesh split_long_edges(const TriMesh& mesh, std::vector<bool> chosen, double l
       }
     }
     std::vector<Triangle> triangles;
-    std::vector<bool> chosen_now;
+    std::vector<double> longest_now;
     for (std::size_t f = 0; f < fine.triangles.size(); ++f) {
       cut(fine, fine.triangles[f], middles[f], triangles);
-      chosen_now.resize(triangles.size(), chosen[f]);
+      longest_now.resize(triangles.size(), longest[f]);
     }
     fine.triangles = std::move(triangles);
-    chosen = std::move(chosen_now);
+    longest = std::move(longest_now);
   }
   return fine;
 }

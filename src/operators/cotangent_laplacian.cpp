@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "operators/cotangent.h"
+#include "operators/row_scaling.h"
 #include "operators/step_matrix.h"
 
 namespace vantage {
@@ -34,6 +35,25 @@ void scale_down_rows(Eigen::SparseMatrix<double>& L, double limit) {
 
 }  // namespace
 
+void finish_rows(Eigen::SparseMatrix<double>& L, const LaplacianLimits& limits) {
+  // The diagonal last, from the summed weights, so that rows sum to zero to the last bit possible.
+  Eigen::VectorXd row_sum = Eigen::VectorXd::Zero(L.rows());
+  for (int column = 0; column < L.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(L, column); entry; ++entry) {
+      if (entry.row() != entry.col()) {
+        if (limits.non_negative) {
+          entry.valueRef() = std::max(0.0, entry.value());
+        }
+        row_sum(entry.row()) += entry.value();
+      }
+    }
+  }
+  for (int i = 0; i < L.outerSize(); ++i) {
+    L.coeffRef(i, i) = -row_sum(i);
+  }
+  scale_down_rows(L, limits.diagonal);
+}
+
 LaplacianAssembler::LaplacianAssembler(std::size_t vertices, std::span<const Triangle> triangles)
     : triangles_(triangles),
       L_(static_cast<Eigen::Index>(vertices), static_cast<Eigen::Index>(vertices)) {
@@ -61,9 +81,6 @@ LaplacianAssembler::LaplacianAssembler(std::size_t vertices, std::span<const Tri
     slots_.push_back({place(t[1], t[2]), place(t[2], t[1]), place(t[2], t[0]), place(t[0], t[2]),
                       place(t[0], t[1]), place(t[1], t[0])});
   }
-  for (std::uint32_t i = 0; i < vertices; ++i) {
-    diagonal_.push_back(place(i, i));
-  }
 }
 
 const Eigen::SparseMatrix<double>& LaplacianAssembler::assemble(std::span<const Vec3> positions,
@@ -79,22 +96,7 @@ const Eigen::SparseMatrix<double>& LaplacianAssembler::assemble(std::span<const 
       value[slots_[f][2 * corner + 1]] += w;
     }
   }
-  // The diagonal last, from the summed weights, so that rows sum to zero to the last bit possible.
-  Eigen::VectorXd row_sum = Eigen::VectorXd::Zero(L_.rows());
-  for (int column = 0; column < L_.outerSize(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(L_, column); entry; ++entry) {
-      if (entry.row() != entry.col()) {
-        if (limits.non_negative) {
-          entry.valueRef() = std::max(0.0, entry.value());
-        }
-        row_sum(entry.row()) += entry.value();
-      }
-    }
-  }
-  for (std::size_t i = 0; i < diagonal_.size(); ++i) {
-    value[diagonal_[i]] = -row_sum(static_cast<Eigen::Index>(i));
-  }
-  scale_down_rows(L_, limits.diagonal);
+  finish_rows(L_, limits);
   return L_;
 }
 

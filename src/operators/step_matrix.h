@@ -27,7 +27,6 @@ class LaplacianAssembler {
   std::span<const Triangle> triangles_;
   Eigen::SparseMatrix<double> L_;
   std::vector<std::array<int, 6>> slots_;  ///< Per face: entries (i, j) and (j, i) by corner.
-  std::vector<int> diagonal_;              ///< Entry (i, i).
 };
 
 /// Lower triangle of Lᵀ R L + diag(d) for matrices L of one symmetric pattern and diagonal R.

@@ -49,9 +49,11 @@ void add_skeleton(ShapeAnalysis& shape, const ViewOptions& options, const RunCon
 }
 
 void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
-  const CurveGraph& graph =
-      options.kssm_to_finished_graph ? shape.skeleton.graph : shape.skeleton.raw;
-  shape.map = compute_kssm(shape.surface, shape.history, graph, options.kssm, run);
+  const Skeleton& skeleton = shape.skeleton;
+  shape.map = options.kssm_to_finished_graph
+                  ? compute_kssm(shape.surface, shape.history, skeleton.graph, options.kssm, run)
+                  : compute_kssm(shape.surface, shape.history, skeleton.curve, options.kssm, run,
+                                 skeleton.other_curve);
   if (options.method == "mesh-saliency") {
     shape.map.of_vertex = compute_mesh_saliency(shape.surface, options.saliency, run).of_vertex;
   } else if (options.method == "pmi-saliency" && surface_area(shape.surface) > 0.0) {

@@ -104,7 +104,8 @@ ViewOptions preset_options(Preset preset) {
     options.contraction.sheet_limit = 1.0;  // never above the other: nothing is thinned
     options.skeleton.scaling = ContractionScaling::Box;
     options.objective = Objective::Significance;
-    options.kssm.flat_level = 0.0;
+    options.kssm.level_agreement = 0.0;
+    options.skeleton.fit = false;
     options.search = {.strategy = SearchStrategy::Rapid,
                       .base = ViewSphereBase::Cube,
                       .subdivisions = 0,

@@ -56,13 +56,14 @@ Json camera_of(const ScoringCamera& camera, const Json& projection) {
           {"distance", camera.distance()}};
 }
 
-Json contraction_of(const ContractionHistory& history) {
+Json contraction_of(const ContractionHistory& history, const KssmMap& map) {
   Json strategies = Json::array();
   for (const ComponentContraction& component : history.components) {
     strategies.push_back(component.strategy);
   }
   return {{"strategy", strategies},
           {"levels", history.level_count()},
+          {"levels_used", map.levels_used},
           {"shrinkage", history.shrinkage},
           {"warnings", history.warnings}};
 }
@@ -195,7 +196,7 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
                       {"edges", shape.skeleton.graph.edges.size()},
                       {"components", component_count(shape.skeleton.graph)},
                       {"cycles", cycle_count(shape.skeleton.graph)}};
-  json["contraction"] = contraction_of(shape.history);
+  json["contraction"] = contraction_of(shape.history, shape.map);
   std::vector<std::string> warnings = model.notes;
   warnings.insert(warnings.end(), shape.warnings.begin(), shape.warnings.end());
   warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());

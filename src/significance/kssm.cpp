@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
@@ -20,6 +21,7 @@ namespace {
 /// A level whose displacement spans less than this fraction of D is flat: rounding, not shape.
 constexpr double kFlat = 1e-6;
 constexpr std::size_t kGrain = 2048;  // vertices a task
+constexpr std::size_t kAsked = 4096;  // vertices that say whether a level counts, about
 
 /// Difference of the largest and the smallest value of the referenced vertices.
 double span_of(const std::vector<double>& d, const std::vector<bool>& referenced) {
@@ -51,6 +53,50 @@ std::vector<std::vector<double>> displacements(const ContractionHistory& history
   return d;
 }
 
+/// Correlation of two fields over the marked vertices; 1 where neither varies.
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto n = static_cast<double>(a.size());
+  const double mean_a = std::accumulate(a.begin(), a.end(), 0.0) / n;
+  const double mean_b = std::accumulate(b.begin(), b.end(), 0.0) / n;
+  double aa = 0.0;
+  double bb = 0.0;
+  double ab = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    aa += (a[i] - mean_a) * (a[i] - mean_a);
+    bb += (b[i] - mean_b) * (b[i] - mean_b);
+    ab += (a[i] - mean_a) * (b[i] - mean_b);
+  }
+  return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 1.0;
+}
+
+/// Which levels say the same of distances to another curve. The input always counts.
+std::vector<bool> agreeing_levels(const ContractionHistory& history, const KssmMap& map,
+                                  const std::vector<bool>& referenced, const CurveGraph& other,
+                                  double least) {
+  std::vector<bool> agrees(history.levels.size(), true);
+  if (other.nodes.empty() || !(least > 0.0)) {
+    return agrees;
+  }
+  std::vector<std::size_t> asked;
+  for (std::size_t v = 0; v < referenced.size(); ++v) {
+    if (referenced[v]) {
+      asked.push_back(v);
+    }
+  }
+  const std::size_t stride = 1 + asked.size() / kAsked;
+  const GraphDistance distance(other);
+  for (std::size_t level = 1; level < agrees.size(); ++level) {
+    std::vector<double> here;
+    std::vector<double> there;
+    for (std::size_t i = 0; i < asked.size(); i += stride) {
+      here.push_back(map.displacement[level][asked[i]]);
+      there.push_back(distance(history.levels[level][asked[i]]));
+    }
+    agrees[level] = here.empty() || correlation(here, there) >= least;
+  }
+  return agrees;
+}
+
 void check_input(const TriMesh& mesh, const ContractionHistory& history, const CurveGraph& skeleton,
                  const KssmOptions& options) {
   check_fields(options, kKssmFields);
@@ -79,8 +125,8 @@ std::vector<bool> vertices_with_edges(const TriMesh& mesh) {
 }  // namespace
 
 KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
-                     const CurveGraph& skeleton, const KssmOptions& options,
-                     const RunContext& run) {
+                     const CurveGraph& skeleton, const KssmOptions& options, const RunContext& run,
+                     const CurveGraph& other) {
   check_input(mesh, history, skeleton, options);
   const std::size_t vertex_count = mesh.positions.size();
   const bool by_rings = options.suppression == Suppression::LocalMaxima;
@@ -94,6 +140,8 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
   map.displacement = displacements(history, skeleton, run);
   map.of_vertex.assign(vertex_count, 0.0);
   const bool velocity = options.kinematics == Kinematics::Velocity;
+  const std::vector<bool> agrees =
+      agreeing_levels(history, map, referenced, other, options.level_agreement);
   std::vector<double> moved(vertex_count);
   for (std::size_t j = velocity ? 1 : 0; j < map.displacement.size(); ++j) {
     if (velocity) {
@@ -103,8 +151,8 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
     }
     // A velocity is as good as the displacement that it starts from. The input is always resolved.
     const std::size_t source = velocity ? j - 1 : j;
-    if (source > 0 &&
-        !(span_of(map.displacement[source], referenced) > options.flat_level * diameter)) {
+    if (source > 0 && (!agrees[source] || !(span_of(map.displacement[source], referenced) >
+                                            options.flat_level * diameter))) {
       map.level_factor.push_back(0.0);
       continue;
     }
@@ -118,6 +166,7 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
                                  : mean_without_maximum(level, referenced, weight);
     const double factor = (1.0 - mean) * (1.0 - mean);  // Φ of the paper, on normalised values
     map.level_factor.push_back(factor);
+    map.levels_used.push_back(j);
     for (std::size_t v = 0; v < vertex_count; ++v) {
       map.of_vertex[v] += factor * level.values[v];
     }

@@ -187,6 +187,7 @@ Skeleton extract_point_skeleton(const TriMesh& samples, const ContractionHistory
       finish_skeleton(samples, history, thin_cloud(samples, history, spacing, run.part(0.0, 0.9)),
                       shell_to_finish(samples, history, options).get(), options);
   close_short_loops(skeleton.raw, samples, skeleton.raw_node_of_vertex, run);
+  skeleton.curve = skeleton.raw;
   close_short_loops(skeleton.graph, samples, skeleton.node_of_vertex, run);
   if (options.prune) {  // folding leaves stubs
     std::vector<double> radius = node_radii(skeleton.graph, samples, skeleton.node_of_vertex);

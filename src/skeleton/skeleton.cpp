@@ -12,6 +12,7 @@
 #include "mesh/decimation.h"
 #include "skeleton/cluster_complex.h"
 #include "skeleton/collapsed.h"
+#include "skeleton/curve_fitting.h"
 #include "skeleton/embedding.h"
 #include "skeleton/resampling.h"
 #include "skeleton/routing.h"
@@ -26,6 +27,10 @@ constexpr std::size_t kMergeFrom = 10'000;
 /// Longest edge that goes in passes, relative to the spacing [ours: well below what resampling
 /// keeps].
 constexpr double kMergedLength = 0.125;
+/// The same for the other curve, which is to be as good but not the same [ours].
+constexpr double kOtherMergedLength = 0.5;
+/// Pieces of the curve that the map measures to, relative to the spacing [ours: trials in docs/lab].
+constexpr double kPiece = 0.5;
 
 /// Share of each vertex in its cluster: its area, or the mean area where it has none.
 std::vector<double> cluster_weights(const TriMesh& mesh) {
@@ -94,17 +99,17 @@ std::vector<std::uint32_t> nodes_of_merged(const std::vector<std::uint32_t>& of_
 /// Collapses the surface with its vertices at `positions`. Large surfaces lose their shortest edges
 /// first, in passes; the graph is as fine as before, because spacing is much longer than they are.
 Collapsed collapse_level(const TriMesh& mesh, const std::vector<Vec3>& positions,
-                         const std::vector<double>& weights, double spacing,
-                         const RunContext& run) {
+                         const std::vector<double>& weights, double merged_length,
+                         std::size_t merge_from, const RunContext& run) {
   Collapsed collapsed;
-  if (positions.size() < kMergeFrom) {
+  if (positions.size() < merge_from) {
     ClusterComplex complex(mesh, positions, weights);
     collapsed.lost_handles = collapse_to_graph(complex, run);
     collapsed.graph = complex.graph(collapsed.node_of_vertex);
     return collapsed;
   }
   const Decimation merged =
-      merge_short_edges({positions, mesh.triangles}, weights, kMergedLength * spacing, run);
+      merge_short_edges({positions, mesh.triangles}, weights, merged_length, run);
   ClusterComplex complex(merged.mesh, merged.mesh.positions,
                          sums_of_merged(weights, merged.of_vertex, merged.mesh.positions.size()));
   collapsed.lost_handles = collapse_to_graph(complex, run);
@@ -116,8 +121,8 @@ Collapsed collapse_level(const TriMesh& mesh, const std::vector<Vec3>& positions
 
 /// collapse_level() of the surface with vertices merged, each at the weighted mean of what was merged in it.
 Collapsed collapse_merged(const MergedSurface& merged, const std::vector<Vec3>& positions,
-                          const std::vector<double>& weights, double spacing,
-                          const RunContext& run) {
+                          const std::vector<double>& weights, double merged_length,
+                          std::size_t merge_from, const RunContext& run) {
   const std::vector<double> sums = sums_of_merged(weights, merged.of_vertex, merged.vertex_count);
   TriMesh mesh{.positions = std::vector<Vec3>(merged.vertex_count, Vec3::Zero()),
                .triangles = merged.triangles};
@@ -125,9 +130,18 @@ Collapsed collapse_merged(const MergedSurface& merged, const std::vector<Vec3>& 
     const std::uint32_t to = merged.of_vertex[v];
     mesh.positions[to] += (weights[v] / sums[to]) * positions[v];
   }
-  Collapsed collapsed = collapse_level(mesh, mesh.positions, sums, spacing, run);
+  Collapsed collapsed = collapse_level(mesh, mesh.positions, sums, merged_length, merge_from, run);
   collapsed.node_of_vertex = nodes_of_merged(merged.of_vertex, collapsed.node_of_vertex);
   return collapsed;
+}
+
+/// Collapses the surface, or what it was merged to, with its vertices at `positions`.
+Collapsed collapse_at(const TriMesh& mesh, const ContractionHistory& history,
+                      const std::vector<Vec3>& positions, const std::vector<double>& weights,
+                      double merged_length, std::size_t merge_from, const RunContext& run) {
+  return history.merged
+             ? collapse_merged(*history.merged, positions, weights, merged_length, merge_from, run)
+             : collapse_level(mesh, positions, weights, merged_length, merge_from, run);
 }
 
 /// Collapses the surface where it is thinnest. Where several handles have shrunk into one another
@@ -143,9 +157,8 @@ Collapsed collapse_history(const TriMesh& mesh, const ContractionHistory& histor
     const std::vector<Vec3>& positions =
         level < history.levels.size() ? history.levels[level] : history.thinned;
     const RunContext part = run.part(share, 0.5 * (1.0 + share));
-    Collapsed trial = history.merged
-                          ? collapse_merged(*history.merged, positions, weights, spacing, part)
-                          : collapse_level(mesh, positions, weights, spacing, part);
+    Collapsed trial =
+        collapse_at(mesh, history, positions, weights, kMergedLength * spacing, kMergeFrom, part);
     share = 0.5 * (1.0 + share);
     if (best.graph.nodes.empty() || trial.lost_handles < best.lost_handles) {
       best = std::move(trial);
@@ -216,6 +229,29 @@ void finish(const TriMesh& mesh, const ContractionHistory& history, const Shell*
   skeleton.radius = node_radii(skeleton.graph, mesh, skeleton.node_of_vertex);
 }
 
+/// Leads a raw graph through the contracted surface.
+CurveGraph fitted(const CurveGraph& raw, const TriMesh& mesh, const ContractionHistory& history,
+                  const std::vector<std::uint32_t>& node_of_vertex,
+                  const SkeletonOptions& options) {
+  return fit_curve(raw, history.thinnest(), cluster_weights(mesh), node_of_vertex,
+                   kPiece * sample_spacing(mesh, options));
+}
+
+/// What fitted() makes of the surface when short edges are merged first, which are longer than those
+/// of the skeleton: another graph as good as that.
+CurveGraph other_curve(const TriMesh& mesh, const ContractionHistory& history,
+                       const SkeletonOptions& options, const RunContext& run) {
+  const std::vector<double> weights = cluster_weights(mesh);
+  const double spacing = sample_spacing(mesh, options);
+  Collapsed other =
+      collapse_at(mesh, history, history.thinnest(), weights, kOtherMergedLength * spacing, 0, run);
+  place_nodes(other.graph, history.thinnest(), weights, other.node_of_vertex);
+  const CurveGraph fine = without_isolated(other.graph, history, other.node_of_vertex);
+  std::vector<double> weight(fine.nodes.size(), 1.0);
+  const CurveGraph raw = merge_close_nodes(fine, spacing, std::move(weight), other.node_of_vertex);
+  return fitted(raw, mesh, history, other.node_of_vertex, options);
+}
+
 /// The skeleton of the finer surface that was contracted, with what its first vertices belong to.
 Skeleton of_refinement(const TriMesh& mesh, const ContractedRefinement& refinement,
                        const SkeletonOptions& options, const RunContext& run) {
@@ -263,6 +299,7 @@ Skeleton finish_skeleton(const TriMesh& mesh, const ContractionHistory& history,
   }
   skeleton.raw = merge_close_nodes(fine, sample_spacing(mesh, options), std::move(weight),
                                    skeleton.raw_node_of_vertex);
+  skeleton.curve = skeleton.raw;
   finish(mesh, history, shell, options, skeleton);
   return skeleton;
 }
@@ -284,6 +321,10 @@ Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history
       run, [&] { collapsed = collapse_history(mesh, history, spacing, run.part(0.0, 0.9)); },
       [&] { shell = shell_to_finish(mesh, history, options); });
   Skeleton skeleton = finish_skeleton(mesh, history, std::move(collapsed), shell.get(), options);
+  if (options.fit) {
+    skeleton.curve = fitted(skeleton.raw, mesh, history, skeleton.raw_node_of_vertex, options);
+    skeleton.other_curve = other_curve(mesh, history, options, run.part(0.9, 1.0));
+  }
   run.advance("skeleton", 1.0);
   return skeleton;
 }

@@ -25,6 +25,16 @@ class View(ProgramTest):
         self.assertTrue((folder / "best.png").read_bytes().startswith(PNG))
         self.assertIn("cat_lowpoly.vantage/", done.out)
 
+    def test_no_level_has_more_area_than_the_one_before(self):
+        for model, flags in (("cat_lowpoly.ply", ()), ("cat_lowpoly.ply", ("--preset", "paper")), ("fan.ply", ())):
+            self.vantage("view", MODELS / model, "-o", "out", "--no-images", *flags)
+            contraction = json.loads((self.dir / "out" / "view.json").read_text())["contraction"]
+            areas = contraction["shrinkage"]
+            self.assertEqual(areas, sorted(areas, reverse=True), (model, flags))
+            self.assertLess(areas[-1], 0.2, (model, flags))
+            self.assertEqual(contraction["levels_used"][0], 0)
+            self.assertLessEqual(contraction["levels_used"][-1], contraction["levels"])
+
     def test_report_holds_what_the_specification_lists(self):
         self.vantage("view", MODELS / "fan.ply", "-o", "out", "--no-images")
         report = json.loads((self.dir / "out" / "view.json").read_text())

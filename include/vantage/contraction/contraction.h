@@ -72,6 +72,7 @@ inline constexpr auto kContractionFields = std::tuple{
 enum class ContractionStop {
   Shrunk,         ///< A step shrank the surface by less than the tolerance.
   Grew,           ///< A side of the bounding box grew past its bound; that step was discarded.
+  Collapsed,      ///< A step would have run a curve to a point; that step was discarded.
   StepLimit,      ///< `max_steps` were taken.
   NothingToMove,  ///< No face with area: a point or a needle.
   SolverFailed,   ///< No regularisation gave a finite solution; that step was discarded.
@@ -85,8 +86,9 @@ struct ComponentContraction {
   std::size_t vertices = 0;  ///< Of the component.
   int steps = 0;             ///< Accepted steps; later levels repeat the last one.
   ContractionStop stop = ContractionStop::NothingToMove;  ///< Why it ended.
-  int regularised_steps = 0;      ///< Steps whose system had to be regularised.
-  std::string strategy{"exact"};  ///< Which method contracted it.
+  int regularised_steps = 0;            ///< Steps that could not be taken as defined.
+  std::vector<std::string> remedies{};  ///< What was done about them, a phrase each.
+  std::string strategy{"exact"};        ///< Which method contracted it.
 };
 
 /// A finer surface that was contracted in place of the input; the input's vertices come first.

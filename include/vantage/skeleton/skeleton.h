@@ -25,6 +25,7 @@ struct SkeletonOptions {
   double prune_ratio = 1.0;  ///< Ends shorter than this times the radius at their root are cut.
   bool centre = true;        ///< Move nodes to the middle of the surface they stand for.
   bool prune = true;         ///< Cut spurious ends.
+  bool fit = true;           ///< Lead Skeleton::curve through the contracted surface (ours).
 };
 
 /// The table of SkeletonOptions.
@@ -40,15 +41,25 @@ inline constexpr auto kSkeletonFields = std::tuple{
     Switch{"centre", &SkeletonOptions::centre,
            "move skeleton nodes to the middle of what they stand for",
            "leave skeleton nodes where the contraction put them"},
+    Switch{"fit", &SkeletonOptions::fit,
+           "the map measures to a curve through the middle of the contracted surface",
+           "the map measures to the skeleton's raw samples (the paper)"},
 };
 
 /// A curve skeleton and what each node stands for.
 struct Skeleton {
   CurveGraph graph{};            ///< Finished: centred and pruned as asked.
-  std::vector<double> radius{};  ///< |N| mean distance of a node to its vertices, level 0.
+  std::vector<double> radius{};  ///< |N| mean distance of a node to its vertices (of the
+                                 ///< refined surface, if that was contracted), level 0.
   std::vector<std::uint32_t>
       node_of_vertex{};  ///< |V| nodes of `graph`; kNone for isolated vertices.
-  CurveGraph raw{};      ///< Before centring and pruning: what KSSM measures to.
+  CurveGraph raw{};      ///< Before centring and pruning.
+  /// What KSSM measures to: `raw`, in pieces of half the spacing that follow the contracted surface,
+  /// as fine as what is left of that; or `raw` itself. Its first nodes are those of `raw`.
+  CurveGraph curve{};
+  /// The same made from the contracted surface merged more coarsely, or empty: where distances to
+  /// the two differ, they are those of sampling.
+  CurveGraph other_curve{};
   std::vector<std::uint32_t> raw_node_of_vertex{};  ///< |V| nodes of `raw`; kNone if isolated.
   std::vector<std::string> warnings{};              ///< One sentence each.
 

@@ -28,7 +28,7 @@ std::vector<Shape> shapes() {
           {"Box", test::box(1.0, 2.0, 3.0, 8)},
           {"Cylinder", test::cylinder(0.3, 3.0, 16, 32)},
           {"OpenCylinder", test::open_cylinder(0.3, 3.0, 16, 32)},
-          {"YOfTubes", test::y_of_tubes(0.25, 20)},
+          {"YOfTubes", test::y_of_tubes(0.25, 32)},  // too fine to be refined first
           {"SphereAndTorus",
            test::together(test::sphere(2), test::torus(1.0, 0.3, 30, 12), Vec3(0, 0, 5))},
           {"Sheet", test::sheet(2.0, 1.0, 24), 1e-5},  // seven steps, each amplifies about tenfold

@@ -26,7 +26,9 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-constexpr double kLow = 20.0;  // a limit at which the shapes below stop as sheets
+// A limit and a tolerance at which the shapes below stop as sheets.
+constexpr double kLow = 7.0;
+constexpr double kTolerance = 0.03;
 constexpr double kHigh = 2048.0;
 constexpr double kThin = 0.04;  // what a curve has left of its area, docs/contraction.md
 
@@ -40,7 +42,9 @@ TriMesh egg() {
 }
 
 ContractionHistory contract_to(const TriMesh& mesh, double limit, double sheet_limit) {
-  return contract(mesh, {.contraction_limit = limit, .sheet_limit = sheet_limit});
+  return contract(
+      mesh,
+      {.contraction_limit = limit, .sheet_limit = sheet_limit, .shrinkage_tolerance = kTolerance});
 }
 
 /// Flattened, and each vertex moved by up to 10^-4 along each axis.
@@ -116,8 +120,10 @@ TEST(Thinning, LeavesSmallComponentsAlone) {
 TEST(Thinning, IsTheSameByBothMethods) {
   const TriMesh mesh = egg();
   const ContractionHistory fast = contract_to(mesh, kLow, kHigh);
-  const ContractionHistory exact = contract(
-      mesh, {.method = ContractionMethod::Exact, .contraction_limit = kLow, .sheet_limit = kHigh});
+  const ContractionHistory exact = contract(mesh, {.method = ContractionMethod::Exact,
+                                                   .contraction_limit = kLow,
+                                                   .sheet_limit = kHigh,
+                                                   .shrinkage_tolerance = kTolerance});
   EXPECT_THAT(exact.components.front().strategy, testing::StrEq("exact, thinned"));
   EXPECT_EQ(exact.thinned, fast.thinned);
   EXPECT_NE(exact.levels.back(), fast.levels.back());
@@ -126,10 +132,14 @@ TEST(Thinning, IsTheSameByBothMethods) {
 TEST(Thinning, ObeysTheStepLimit) {
   int thinned = 0;
   for (const int steps : {2, 4, 6, 8}) {
-    const ContractionHistory low =
-        contract(egg(), {.contraction_limit = kLow, .sheet_limit = kHigh, .max_steps = steps});
-    const ContractionHistory high =
-        contract(egg(), {.contraction_limit = kHigh, .sheet_limit = kHigh, .max_steps = steps});
+    const ContractionHistory low = contract(egg(), {.contraction_limit = kLow,
+                                                    .sheet_limit = kHigh,
+                                                    .shrinkage_tolerance = kTolerance,
+                                                    .max_steps = steps});
+    const ContractionHistory high = contract(egg(), {.contraction_limit = kHigh,
+                                                     .sheet_limit = kHigh,
+                                                     .shrinkage_tolerance = kTolerance,
+                                                     .max_steps = steps});
     if (!low.thinned.empty()) {
       EXPECT_EQ(low.thinned, high.levels.back()) << steps;
       ++thinned;
@@ -150,7 +160,8 @@ std::vector<double> reports_until_stopped_late() {
     }
   };
   try {
-    contract(egg(), {.contraction_limit = kLow, .sheet_limit = kHigh},
+    contract(egg(),
+             {.contraction_limit = kLow, .sheet_limit = kHigh, .shrinkage_tolerance = kTolerance},
              {.report = stop_late, .stop = source.get_token()});
   } catch (const Cancelled&) {
     return seen;

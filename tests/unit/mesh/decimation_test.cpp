@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <stop_token>
 #include <vector>
@@ -97,8 +98,7 @@ TEST(MergeShortEdges, LeavesLongEdgesAlone) {
 
 TEST(SplitLongEdges, KeepsTheVerticesInFrontAndTheTopology) {
   const TriMesh box = test::box(1, 2, 3, 1);
-  const TriMesh fine =
-      split_long_edges(box, std::vector<bool>(box.triangles.size(), true), 0.3, {});
+  const TriMesh fine = split_long_edges(box, std::vector<double>(box.triangles.size(), 0.3), {});
   EXPECT_EQ(euler_characteristic(fine), 2);
   EXPECT_EQ(border_edges(fine), 0U);
   EXPECT_TRUE(std::equal(box.positions.begin(), box.positions.end(), fine.positions.begin()));
@@ -107,11 +107,13 @@ TEST(SplitLongEdges, KeepsTheVerticesInFrontAndTheTopology) {
   }
 }
 
-TEST(SplitLongEdges, KeepsNeighboursOfChosenFacesFitting) {
+TEST(SplitLongEdges, KeepsNeighboursOfBoundedFacesFitting) {
   const TriMesh box = test::box(1, 1, 1, 1);
-  std::vector<bool> chosen(box.triangles.size(), false);
-  chosen[0] = true;
-  EXPECT_EQ(border_edges(split_long_edges(box, chosen, 0.4, {})), 0U);
+  std::vector<double> longest(box.triangles.size(), std::numeric_limits<double>::infinity());
+  longest[0] = 0.4;
+  const TriMesh fine = split_long_edges(box, longest, {});
+  EXPECT_GT(fine.triangles.size(), box.triangles.size());
+  EXPECT_EQ(border_edges(fine), 0U);
 }
 
 TEST(SplitLongEdges, EndsWhereMiddlesAreNoPlacesOfTheirOwn) {
@@ -119,8 +121,7 @@ TEST(SplitLongEdges, EndsWhereMiddlesAreNoPlacesOfTheirOwn) {
   for (Vec3& p : box.positions) {
     p += Vec3::Constant(1e15);  // 8 steps from one double to the next
   }
-  const TriMesh fine =
-      split_long_edges(box, std::vector<bool>(box.triangles.size(), true), 0.04, {});
+  const TriMesh fine = split_long_edges(box, std::vector<double>(box.triangles.size(), 0.04), {});
   constexpr std::size_t kPlacesOnTheSides = 6 * 9 * 9;
   EXPECT_LT(fine.positions.size(), 4 * kPlacesOnTheSides);
 }

@@ -81,6 +81,45 @@ TEST(ComputeKssm, TakesNothingFromAFlatLevel) {
   EXPECT_EQ(two.level_factor.back(), 0.0);
 }
 
+/// The strip contracted to a tenth, then to what is nearer to the graph than another graph of the
+/// same surface is.
+HandMade contracted_twice() {
+  HandMade made;
+  for (const double factor : {0.1, 0.01}) {
+    made.history.levels.push_back(made.mesh.positions);
+    for (Vec3& p : made.history.levels.back()) {
+      p *= factor;
+    }
+  }
+  return made;
+}
+
+TEST(ComputeKssm, LeavesOutLevelsThatAreTheSamplingOfTheCurve) {
+  const HandMade made = contracted_twice();
+  const CurveGraph other{.nodes = {{0.03, 0, 0}}, .edges = {}};
+  const KssmMap map = compute_kssm(made.mesh, made.history, made.graph, {}, {}, other);
+  EXPECT_EQ(map.levels_used, (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(map.level_factor[2], 0.0);
+  EXPECT_DOUBLE_EQ(map.of_vertex[3], 2 * 0.75 * 0.75);
+}
+
+TEST(ComputeKssm, CountsAllLevelsWhereNoOtherCurveIsGivenOrNoneIsAskedFor) {
+  const HandMade made = contracted_twice();
+  const CurveGraph other{.nodes = {{0.03, 0, 0}}, .edges = {}};
+  const std::vector<std::size_t> all{0, 1, 2};
+  EXPECT_EQ(compute_kssm(made.mesh, made.history, made.graph).levels_used, all);
+  EXPECT_EQ(compute_kssm(made.mesh, made.history, made.graph, {.level_agreement = 0.0}, {}, other)
+                .levels_used,
+            all);
+}
+
+TEST(ComputeKssm, AlwaysCountsTheInput) {
+  const HandMade made;
+  const CurveGraph far{.nodes = {{50, 0, 0}}, .edges = {}};
+  EXPECT_EQ(compute_kssm(made.mesh, made.history, made.graph, {}, {}, far).levels_used,
+            std::vector<std::size_t>{0});
+}
+
 TEST(ComputeKssm, OfASphereAroundItsCentreIsZero) {
   TriMesh mesh = test::sphere(3);
   ContractionHistory history{.levels = {mesh.positions}};

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "contraction/soundness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "contraction/step_limits.h"
+
+namespace vantage {
+namespace {
+
+using Landmark = Soundness::Landmark;
+
+/// A vertex may get this far from the first enclosing sphere's centre, in radii. The box does not
+/// see one vertex that flies off while the others shrink, and what it sees depends on the axes.
+constexpr double kFarthest = 1.2;
+/// Rounding of a_t.
+constexpr double kRise = 1e-9;
+/// A surface is a curve if it has less area than this, over its squared extent [ours: a disc has
+/// 1.57, a ball 3.14].
+constexpr double kThin = 0.3;
+/// A step must leave a curve this share of its length [ours: trials in docs/lab].
+constexpr double kKept = 0.7;
+constexpr std::size_t kLandmarks = 32;
+
+/// Vertices each of which is as far as can be from those before it, beginning far from `centre`.
+std::vector<Landmark> farthest_points(const std::vector<Vec3>& points, const Vec3& centre) {
+  std::vector<double> distance(points.size());
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    distance[v] = (points[v] - centre).squaredNorm();
+  }
+  std::vector<Landmark> chosen;
+  while (chosen.size() < std::min(kLandmarks, points.size())) {
+    const auto far = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) -
+                                              distance.begin());
+    const bool first = chosen.empty();
+    chosen.push_back(
+        {far, first ? std::numeric_limits<double>::infinity() : std::sqrt(distance[far])});
+    for (std::size_t v = 0; v < points.size(); ++v) {
+      const double d = (points[v] - points[far]).squaredNorm();
+      distance[v] = first ? d : std::min(distance[v], d);
+    }
+  }
+  return chosen;
+}
+
+/// Length of the minimum spanning tree of the landmarks (Prim 1957): that of a curve through them.
+double tree_length(const std::vector<Vec3>& points, std::span<const Landmark> landmarks) {
+  std::vector<double> distance(landmarks.size(), std::numeric_limits<double>::infinity());
+  std::vector<bool> is_in(landmarks.size(), false);
+  double length = 0.0;
+  std::size_t last = 0;
+  for (std::size_t step = 1; step < landmarks.size(); ++step) {
+    is_in[last] = true;
+    std::size_t next = last;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < landmarks.size(); ++i) {
+      if (!is_in[i]) {
+        distance[i] = std::min(
+            distance[i], (points[landmarks[i].vertex] - points[landmarks[last].vertex]).norm());
+        if (distance[i] < least) {
+          least = distance[i];
+          next = i;
+        }
+      }
+    }
+    length += least;
+    last = next;
+  }
+  return length;
+}
+
+}  // namespace
+
+Soundness::Soundness(const TriMesh& start)
+    : sphere_(enclosing_sphere(start.positions)),
+      largest_(largest_box(start.positions, sphere_.diameter)),
+      landmarks_(farthest_points(start.positions, sphere_.centre)) {}
+
+StepFlaw Soundness::flaw(const TriMesh& before, const std::vector<Vec3>& after,
+                         double shrinkage_before, double shrinkage_after, bool is_gentlest) const {
+  if (outgrown(after, is_gentlest)) {
+    return StepFlaw::Grew;
+  }
+  if (!(shrinkage_after <= shrinkage_before + kRise)) {
+    return StepFlaw::Rose;
+  }
+  return collapsed(before, after) ? StepFlaw::Collapsed : StepFlaw::None;
+}
+
+bool Soundness::outgrown(const std::vector<Vec3>& now, bool is_gentlest) const {
+  const double farthest = kFarthest * 0.5 * sphere_.diameter;
+  return (bounding_box(now).size().array() > largest_.array()).any() ||
+         (is_gentlest && std::any_of(now.begin(), now.end(), [&](const Vec3& p) {
+            return (p - sphere_.centre).squaredNorm() > farthest * farthest;
+          }));
+}
+
+bool Soundness::collapsed(const TriMesh& before, const std::vector<Vec3>& after) const {
+  const double extent = enclosing_sphere(before.positions).diameter;
+  const double area = surface_area(before);
+  if (area >= kThin * extent * extent) {
+    return false;
+  }
+  // A tree through nearer ones would measure how wide the surface is: a tube along the extent has
+  // the area of three of its diameters times that.
+  const auto far_apart = std::find_if(landmarks_.begin(), landmarks_.end(),
+                                      [&](const Landmark& l) { return l.spacing * extent < area; });
+  const std::span<const Landmark> landmarks(landmarks_.begin(), far_apart);
+  return enclosing_sphere(after).diameter < kKept * extent ||
+         tree_length(after, landmarks) < kKept * tree_length(before.positions, landmarks);
+}
+
+}  // namespace vantage

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "vantage/mesh/measures.h"
+#include "vantage/mesh/tri_mesh.h"
+
+namespace vantage {
+
+/// What is wrong with a step.
+enum class StepFlaw {
+  None,
+  Unsolved,   ///< No finite solution.
+  Grew,       ///< A side of the box, or a vertex's way from the middle, outgrew its bound.
+  Rose,       ///< The surface has more area than before [a_t].
+  Collapsed,  ///< A curve, or a part of it, ran to a point.
+};
+
+/// Tells sound steps from others, which are not to be kept [ours; the paper discards only steps that
+/// outgrow the box].
+class Soundness {
+ public:
+  /// A vertex that a tree through the surface goes through.
+  struct Landmark {
+    std::size_t vertex = 0;
+    double spacing = 0.0;  ///< From those before it, at the start.
+  };
+
+  /// \param start a component of diameter about 2.
+  explicit Soundness(const TriMesh& start);
+
+  /// \param before, after what the step leads from and to. \param shrinkage_before,
+  /// shrinkage_after their a_t. \param is_gentlest false: only the box bounds how far it may reach.
+  [[nodiscard]] StepFlaw flaw(const TriMesh& before, const std::vector<Vec3>& after,
+                              double shrinkage_before, double shrinkage_after,
+                              bool is_gentlest) const;
+
+ private:
+  [[nodiscard]] bool outgrown(const std::vector<Vec3>& now, bool is_gentlest) const;
+  [[nodiscard]] bool collapsed(const TriMesh& before, const std::vector<Vec3>& after) const;
+
+  Sphere sphere_;
+  Vec3 largest_;
+  std::vector<Landmark> landmarks_;  ///< Vertices spread over the start.
+};
+
+}  // namespace vantage

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include "vantage/contraction/contraction.h"
+#include "vantage/core/run_context.h"
+#include "vantage/mesh/tri_mesh.h"
+
+#include "contraction/component_contraction.h"
+#include "operators/position_solver.h"
+#include "operators/step_matrix.h"
+
+namespace vantage {
+
+/// How a step is taken: as defined, or more safely.
+struct StepManner {
+  bool intrinsic = false;  ///< Weights of the intrinsic Delaunay triangulation.
+  int harshness = 0;       ///< Of step_limits.h.
+  double share = 1.0;      ///< Of W_L.
+};
+
+/// One step of the iteration: minimise |W_L L X'|² + Σ W_H,i² |x'_i − x_i|² by its normal equations.
+class StepSolver {
+ public:
+  /// \param start, shares must outlive this.
+  StepSolver(const TriMesh& start, const EvenShares& shares);
+
+  /// Positions after the step, or nothing if the system is not positive definite or the result is
+  /// not finite. \throw Cancelled
+  std::optional<std::vector<Vec3>> solve(const TriMesh& now, double W_L,
+                                         const std::vector<double>& W_H,
+                                         const ContractionOptions& options,
+                                         const StepManner& manner, const RunContext& run);
+
+ private:
+  const EvenShares& shares_;
+  LaplacianAssembler laplacian_;
+  std::optional<NormalMatrix> normal_{};
+  PositionSolver system_{};
+};
+
+}  // namespace vantage

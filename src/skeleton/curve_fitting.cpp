@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "skeleton/curve_fitting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace vantage {
+namespace {
+
+/// Rounds of assigning points to nodes and moving nodes [ours: more move nothing].
+constexpr int kRounds = 6;
+/// An end is led on by so many pieces at most.
+constexpr double kFarthestEnd = 4.0;
+constexpr std::size_t kMostPieces = 1000;  // of an edge
+
+/// A graph cut into pieces, and which of its nodes may stand for a point of a node of the first.
+class FinerCurve {
+ public:
+  FinerCurve(const CurveGraph& graph, double piece)
+      : curve_{graph.nodes, {}}, near_(graph.nodes.size()) {
+    for (std::uint32_t i = 0; i < near_.size(); ++i) {
+      near_[i].push_back(i);
+    }
+    for (const auto& [a, b] : graph.edges) {
+      const double length = (graph.nodes[b] - graph.nodes[a]).norm();
+      const auto pieces =
+          static_cast<std::size_t>(std::clamp(std::ceil(length / piece), 1.0, double{kMostPieces}));
+      std::uint32_t previous = a;
+      for (std::size_t k = 1; k < pieces; ++k) {
+        const double share = static_cast<double>(k) / static_cast<double>(pieces);
+        const auto node = static_cast<std::uint32_t>(curve_.nodes.size());
+        curve_.nodes.emplace_back(graph.nodes[a] + share * (graph.nodes[b] - graph.nodes[a]));
+        near_[a].push_back(node);
+        near_[b].push_back(node);
+        curve_.edges.push_back({previous, node});
+        previous = node;
+      }
+      curve_.edges.push_back({std::min(previous, b), std::max(previous, b)});
+    }
+    std::sort(curve_.edges.begin(), curve_.edges.end());
+    neighbours_.resize(curve_.nodes.size());
+    for (const auto& [a, b] : curve_.edges) {
+      neighbours_[a].push_back(b);
+      neighbours_[b].push_back(a);
+    }
+  }
+
+  /// The node nearest to a point that belongs to `node` of the first graph.
+  [[nodiscard]] std::uint32_t nearest(const Vec3& point, std::uint32_t node) const {
+    std::uint32_t best = node;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t candidate : near_[node]) {
+      const double distance = (curve_.nodes[candidate] - point).squaredNorm();
+      if (distance < least) {
+        least = distance;
+        best = candidate;
+      }
+    }
+    return best;
+  }
+
+  /// Nodes go to the means of their points; those inside a chain are smoothed along it.
+  void move(const std::vector<Vec3>& sum, const std::vector<double>& total) {
+    std::vector<Vec3> mean = curve_.nodes;
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+      if (total[i] > 0.0) {
+        mean[i] += sum[i] / total[i];
+      }
+    }
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+      const auto& around = neighbours_[i];
+      curve_.nodes[i] =
+          around.size() == 2 ? 0.5 * mean[i] + 0.25 * (mean[around[0]] + mean[around[1]]) : mean[i];
+    }
+  }
+
+  /// Unit vector out of an end of the curve; zero at other nodes.
+  [[nodiscard]] Vec3 outward(std::uint32_t node) const {
+    if (neighbours_[node].size() != 1) {
+      return Vec3::Zero();
+    }
+    const Vec3 along = curve_.nodes[node] - curve_.nodes[neighbours_[node].front()];
+    return along.norm() > 0.0 ? Vec3(along / along.norm()) : Vec3::Zero();
+  }
+
+  [[nodiscard]] CurveGraph& curve() { return curve_; }
+
+ private:
+  CurveGraph curve_;
+  std::vector<std::vector<std::uint32_t>> near_;  // of nodes of the first graph
+  std::vector<std::vector<std::uint32_t>> neighbours_{};
+};
+
+}  // namespace
+
+CurveGraph fit_curve(const CurveGraph& graph, std::span<const Vec3> contracted,
+                     std::span<const double> weights, std::span<const std::uint32_t> node_of_vertex,
+                     double piece) {
+  FinerCurve finer(graph, piece);
+  std::vector<Vec3>& nodes = finer.curve().nodes;
+  const auto each_point = [&](const auto& visit) {
+    for (std::size_t v = 0; v < contracted.size(); ++v) {
+      if (node_of_vertex[v] < graph.nodes.size()) {
+        visit(v, finer.nearest(contracted[v], node_of_vertex[v]));
+      }
+    }
+  };
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<Vec3> sum(nodes.size(), Vec3::Zero());
+    std::vector<double> total(nodes.size(), 0.0);
+    each_point([&](std::size_t v, std::uint32_t node) {
+      sum[node] += weights[v] * (contracted[v] - nodes[node]);
+      total[node] += weights[v];
+    });
+    finer.move(sum, total);
+  }
+  std::vector<Vec3> outward;
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+    outward.push_back(finer.outward(i));
+  }
+  std::vector<double> reach(nodes.size(), 0.0);
+  each_point([&](std::size_t v, std::uint32_t node) {
+    reach[node] = std::max(reach[node], (contracted[v] - nodes[node]).dot(outward[node]));
+  });
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    nodes[i] += std::min(reach[i], kFarthestEnd * piece) * outward[i];
+  }
+  return finer.curve();
+}
+
+}  // namespace vantage
