@@ -40,6 +40,18 @@ std::string view_line(const ReportedView& view) {
          rounded(100.0 * view.visible_area_fraction, 3) + " % of the surface";
 }
 
+/// What the best view maximises, and what it gives up for that.
+std::string objective_line(const ViewReport& report, const ViewOptions& options) {
+  if (objective_of(options) == Objective::Significance) {
+    return options.prior.is_uniform ? "significance" : "significance, by the prior";
+  }
+  const double attained =
+      report.highest_score > 0.0 ? 100.0 * report.best.score / report.highest_score : 100.0;
+  return "people, with " + rounded(attained, 3) +
+         " % of the score of any view; the score alone takes " +
+         direction_text(report.highest_direction);
+}
+
 std::string timing_line(const StageSeconds& s) {
   return rounded(s.total, 3) + " s (load " + rounded(s.load, 2) + ", contract " +
          rounded(s.contract, 2) + ", skeleton " + rounded(s.skeleton, 2) + ", map " +
@@ -127,7 +139,7 @@ struct ViewCommand {
       write_output("-", view_json(loaded, shape, report, options, &seconds));
     } else {
       preview.show(session, shape, report.best.picture, options, {}, session.run());
-      summarise(session, loaded, shape, choice, report, output, seconds);
+      summarise(session, loaded, shape, choice, report, options, output, seconds);
     }
   }
 
@@ -139,7 +151,8 @@ struct ViewCommand {
 
   static void summarise(Session& session, const Model& loaded, const ShapeAnalysis& shape,
                         const FrameChoice& choice, const ViewReport& report,
-                        const OutputFolder& output, const StageSeconds& seconds) {
+                        const ViewOptions& options, const OutputFolder& output,
+                        const StageSeconds& seconds) {
     const MeshReport& check = shape.check;
     std::string kind = check.closed ? "closed" : "open";
     if (check.genus) {
@@ -153,6 +166,7 @@ struct ViewCommand {
                  plural(shape.history.level_count(), "contraction level"));
     session.tell("  " + frame_summary(choice));
     session.tell("  best view   " + view_line(report.best));
+    session.tell("  objective   " + objective_line(report, options));
     session.tell("  worst view  " + view_line(report.worst));
     if (report.set) {
       session.tell(view_set_table(*report.set));

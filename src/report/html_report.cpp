@@ -222,15 +222,15 @@ std::string script_safe(const Json& json) {
   return safe;
 }
 
-/// Scores estimated on a coarse surface, shifted and stretched so that they meet those of the best
-/// and the worst view. Exact ones of a large model would take most of the time of a result.
+/// Scores estimated on a coarse surface, shifted and stretched so that they meet the largest and the
+/// least. Exact ones of a large model would take most of the time of a result.
 ScoreBatch estimated_scores(const ShapeAnalysis& shape, const ViewReport& report,
                             const ViewOptions& options, const RunContext& run) {
   const auto map = std::make_shared<const MapObjective>(shape, options, run);
-  const std::vector<Vec3> ends{report.worst.direction, report.best.direction};
+  const std::vector<Vec3> ends{report.worst.direction, report.highest_direction};
   const std::vector<double> known = map->estimates(ends);
   const double range = known[1] - known[0];
-  const double exact = report.best.score - report.worst.score;
+  const double exact = report.highest_score - report.worst.score;
   constexpr double kLeastRange = 1e-3;  // of all: less is the estimates' own error
   const double stretch = std::min(range, exact) > kLeastRange * report.total ? exact / range : 1.0;
   const double shift = report.worst.score - stretch * known[0];
