@@ -110,7 +110,7 @@ struct FiguresCommand {
   /// The folder of one model of several. \throw InvalidInput if another model has it.
   std::string own_folder(const Model& loaded) {
     const bool climbs = loaded.name == "." || loaded.name == "..";  // of a file "...ply"
-    const std::string name = folder_named(loaded.name, climbs ? "_" : "");
+    std::string name = folder_named(loaded.name, climbs ? "_" : "");
     if (!folders.insert(name).second) {
       throw InvalidInput("two models are called '" + name +
                          "'; give each a folder of its own with -o");

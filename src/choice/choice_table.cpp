@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "choice/choice_table.h"
 
+#include <locale>
 #include <sstream>
 #include <string>
 
@@ -31,32 +32,32 @@ RecordedChoice read_choice(std::istream& words, const std::string& line) {
   return choice;
 }
 
+void read_constant(ChoiceTable& table, const std::string& kind, std::istream& words,
+                   const std::string& line) {
+  double* const constant = kind == "habit"          ? &table.habit_weight
+                           : kind == "significance" ? &table.significance_weight
+                           : kind == "bandwidth"    ? &table.bandwidth
+                           : kind == "mirror"       ? &table.mirror_weight
+                                                    : nullptr;
+  if (constant == nullptr || !(words >> *constant)) {
+    refuse_choice_line(line);
+  }
+}
+
 }  // namespace
 
 ChoiceTable parse_choice_table(std::string_view text) {
   ChoiceTable table;
   std::istringstream lines{std::string(text)};
-  lines.imbue(std::locale::classic());
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     words.imbue(std::locale::classic());
     std::string kind;
-    if (!(words >> kind) || kind.starts_with('#')) {
-      continue;
-    }
-    double* const constant = kind == "habit"          ? &table.habit_weight
-                             : kind == "significance" ? &table.significance_weight
-                             : kind == "bandwidth"    ? &table.bandwidth
-                             : kind == "mirror"       ? &table.mirror_weight
-                                                      : nullptr;
-    if (constant != nullptr && !(words >> *constant)) {
-      refuse_choice_line(line);
-    }
-    if (constant == nullptr) {
-      if (kind != "view") {
-        refuse_choice_line(line);
-      }
+    words >> kind;
+    if (kind == "view") {
       table.choices.push_back(read_choice(words, line));
+    } else if (!kind.empty() && !kind.starts_with('#')) {
+      read_constant(table, kind, words, line);
     }
   }
   if (table.choices.empty() || !(table.bandwidth > 0.0)) {

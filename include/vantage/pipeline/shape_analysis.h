@@ -88,7 +88,7 @@ ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options,
                             AnalysisUse use = AnalysisUse::Views);
 
 /// All of it but prepare_surface(), whose result it takes.
-ShapeAnalysis analyse_surface(ShapeAnalysis prepared, const ViewOptions& options,
+ShapeAnalysis analyse_surface(ShapeAnalysis shape, const ViewOptions& options,
                               const RunContext& run = {}, StageSeconds* seconds = nullptr,
                               AnalysisUse use = AnalysisUse::Views);
 
