@@ -28,7 +28,8 @@ constexpr std::size_t kLarge = 16'000;
 constexpr std::size_t kSampled = 1000;
 
 bool is_worthwhile(const CoarseSurface& coarse) {
-  return kWorthwhile * coarse.mesh.positions.size() <= coarse.of_vertex.size();
+  const std::size_t vertices = coarse.of_vertex.size();
+  return vertices > 0 && kWorthwhile * coarse.mesh.positions.size() <= vertices;
 }
 
 bool is_sampled(const CoarseSurface& coarse) {
@@ -59,6 +60,8 @@ MapObjective::MapObjective(const ShapeAnalysis& shape, const ViewOptions& option
       scorer_(faces_ ? ViewScorer(*faces_, shape.map.of_vertex, scoring_camera(shape, options))
                      : ViewScorer(prepared_->visibility, shape.map.of_vertex,
                                   scoring_camera(shape, options))),
+      proxy_shares_(prepared_->proxy.sums(vertex_shares(shape, options.weight))),
+      proxy_scorer_(prepared_->proxy_visibility, proxy_shares_, scoring_camera(shape, options)),
       coarse_shares_(estimated_shares(prepared_->coarse, vertex_shares(shape, options.weight))),
       coarse_scorer_(
           is_sampled(prepared_->coarse) ? prepared_->visibility : prepared_->coarse_visibility,
@@ -73,6 +76,11 @@ ViewObjective MapObjective::objective(const Preference& preference) const {
   if (is_worthwhile(prepared_->coarse) || is_sampled(prepared_->coarse) || faces_) {
     objective.surrogate = [this](const std::vector<Vec3>& directions) {
       return estimates(directions);
+    };
+  }
+  if (is_worthwhile(prepared_->proxy)) {
+    objective.proxy = [this](const std::vector<Vec3>& directions) {
+      return proxy_scorer_.score_all(directions, quiet_);
     };
   }
   if (!preference.is_score()) {

@@ -39,6 +39,8 @@ class MapObjective {
   RunContext quiet_;
   std::optional<FaceVisibility> faces_;
   ViewScorer scorer_;
+  std::vector<double> proxy_shares_;
+  ViewScorer proxy_scorer_;
   std::vector<double> coarse_shares_;
   ViewScorer coarse_scorer_;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/view_preparation.h"
 
+#include <utility>
+
 #include "vantage/mesh/measures.h"
 
 namespace vantage {
@@ -11,6 +13,33 @@ constexpr std::size_t kEyes = 300;
 constexpr std::size_t kCoarseEyes = 2562;
 // Vertices of the coarse copy; fewer lose fingers and tails. [ours, docs/search.md]
 constexpr std::size_t kCoarseVertices = 1000;
+// Vertices of the proxy, and of surfaces that have one. [ours, docs/search.md]
+constexpr std::size_t kProxyVertices = 8000;
+constexpr std::size_t kLargeSurface = 2 * kProxyVertices;
+
+CoarseSurface proxy_of(const ShapeAnalysis& shape, const RunContext& run) {
+  if (shape.surface.positions.size() <= kLargeSurface) {
+    return {};
+  }
+  return coarse_surface(shape.surface, shape.sides, kProxyVertices, {.stop = run.stop});
+}
+
+/// The coarse copy, made from the proxy if there is one.
+CoarseSurface coarse_of(const ShapeAnalysis& shape, const CoarseSurface& proxy,
+                        const RunContext& run) {
+  if (proxy.of_vertex.empty()) {
+    return coarse_surface(shape.surface, shape.sides, kCoarseVertices, {.stop = run.stop});
+  }
+  CoarseSurface coarse =
+      coarse_surface(proxy.mesh, proxy.sides, kCoarseVertices, {.stop = run.stop});
+  std::vector<std::uint32_t> of_vertex;
+  of_vertex.reserve(proxy.of_vertex.size());
+  for (const std::uint32_t v : proxy.of_vertex) {
+    of_vertex.push_back(v == CoarseSurface::kNone ? v : coarse.of_vertex[v]);
+  }
+  coarse.of_vertex = std::move(of_vertex);
+  return coarse;
+}
 
 }  // namespace
 
@@ -19,8 +48,9 @@ ViewPreparation::ViewPreparation(const ShapeAnalysis& shape, const RunContext& r
       planes((run.check(), mirror_planes(shape.surface))),
       evidence((run.check(), shape.surface)),
       vertex_areas(vantage::vertex_areas(shape.surface)),
-      coarse((run.check(),
-              coarse_surface(shape.surface, shape.sides, kCoarseVertices, {.stop = run.stop}))),
+      proxy((run.check(), proxy_of(shape, run))),
+      proxy_visibility(proxy.mesh, proxy.sides, kEyes),
+      coarse((run.check(), coarse_of(shape, proxy, run))),
       coarse_visibility(coarse.mesh, coarse.sides, kCoarseEyes) {}
 
 std::shared_ptr<const ViewPreparation> preparation_of(const ShapeAnalysis& shape) {

@@ -23,9 +23,12 @@ struct ViewPreparation {
   explicit ViewPreparation(const ShapeAnalysis& shape, const RunContext& run = {});
 
   VertexVisibility visibility;
-  std::vector<MirrorPlane> planes;     ///< mirror_planes().
-  OrientationEvidence evidence;        ///< For up and front.
-  std::vector<double> vertex_areas;    ///< vertex_areas().
+  std::vector<MirrorPlane> planes;   ///< mirror_planes().
+  OrientationEvidence evidence;      ///< For up and front.
+  std::vector<double> vertex_areas;  ///< vertex_areas().
+  /// What a search climbs on where the surface is large; empty where it is not.
+  CoarseSurface proxy;
+  VertexVisibility proxy_visibility;   ///< Of its mesh.
   CoarseSurface coarse;                ///< What estimates of scores look at.
   VertexVisibility coarse_visibility;  ///< Of its mesh.
 };

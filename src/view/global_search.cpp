@@ -20,7 +20,8 @@ constexpr double kLikeRad = 12.0 * kRadPerDeg;  // estimates so far apart are of
 constexpr double kTrust = 0.3;      // weight of the mean error where nothing near was scored
 constexpr std::size_t kStarts = 4;  // directions that the ascent starts from, …
 constexpr double kStartsApartRad = 5.0 * kRadPerDeg;  // … so far apart: not all on one hill
-constexpr double kFlat = 3e-4;  // share of the range that is not worth a finer ring
+constexpr double kFlat = 3e-4;         // share of the range that is not worth a finer ring
+constexpr std::size_t kProxyEnds = 2;  // of the ends by a proxy, ascend once more by the score
 
 constexpr double kSurveyShare = 0.5;  // of the progress bar
 
@@ -133,11 +134,34 @@ class Survey {
   std::vector<Candidate> scored_{};
 };
 
+/// The best of the ends of ascents by the proxy, by their scores.
+std::vector<Candidate> best_by_score(const std::vector<Candidate>& ends,
+                                     const SearchTarget& target) {
+  std::vector<Vec3> directions;
+  for (const Candidate& end : ends) {
+    directions.push_back(end.direction);
+  }
+  const std::vector<double> values = target.values(directions, 0);
+  std::vector<Candidate> scored;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    scored.push_back({directions[i], values[i]});
+  }
+  return largest_apart(std::move(scored), kProxyEnds, 0.0);
+}
+
+/// Moves the candidates to where they end, the highest first.
+std::vector<Candidate> ascended(std::vector<Candidate> candidates, const AscentRules& rules,
+                                const SearchTarget& target, const RunContext& run) {
+  ascend(candidates, rules, target, 1, run);
+  return largest_apart(std::move(candidates), candidates.size(), 0.0);
+}
+
 }  // namespace
 
 Candidate search_globally(const SearchTarget& target, const RunContext& run) {
+  const SearchTarget cheapest = target.has_proxy() ? target.by_proxy() : target;
   const double first_rad = half_spacing_rad(target.objective().survey_level);
-  Survey survey(target, 1.5 * first_rad, run.part(0.0, kSurveyShare));
+  Survey survey(cheapest, 1.5 * first_rad, run.part(0.0, kSurveyShare));
   survey.score_axes();
   survey.score_promising(kFirstScores, kFirstScores / 2);
   for (std::size_t batch = 0; batch < kBatches; ++batch) {
@@ -148,9 +172,12 @@ Candidate search_globally(const SearchTarget& target, const RunContext& run) {
                     .flat = kFlat * survey.range(),
                     .drops_losers = true};
   const RunContext ascent = run.part(kSurveyShare, 1.0);
-  std::vector<Candidate> candidates = largest_apart(survey.scored(), kStarts, kStartsApartRad);
-  ascend(candidates, rules, target, 1, ascent);
-  candidates = largest_apart(std::move(candidates), 1, 0.0);
+  std::vector<Candidate> candidates =
+      ascended(largest_apart(survey.scored(), kStarts, kStartsApartRad), rules, cheapest, ascent);
+  if (target.has_proxy()) {
+    candidates = ascended(best_by_score(candidates, target), rules, target, ascent);
+  }
+  candidates.resize(1);
   // Where it is rough to the finest ring a second ascent, on another lattice, may gain.
   rules.first_rad *= 0.5;
   for (double before = -std::numeric_limits<double>::infinity();

@@ -84,7 +84,9 @@ class Searches {
   FoundView find(Goal goal, const RunContext& run) {
     const std::size_t scored = exact_.trace().size();
     const std::size_t estimated = surrogate_.trace().size();
-    const SearchTarget target(*objective_, goal, exact_, has_surrogate() ? surrogate_ : exact_);
+    const SearchTarget target(*objective_, goal, exact_,
+                              objective_->surrogate ? surrogate_ : exact_,
+                              objective_->proxy ? &proxy_ : nullptr);
     const Candidate found = search_for(target, *options_, run);
     run.advance("search", 1.0);
     FoundView view;
@@ -99,12 +101,11 @@ class Searches {
   }
 
  private:
-  [[nodiscard]] bool has_surrogate() const { return static_cast<bool>(objective_->surrogate); }
-
   const ViewObjective* objective_;
   const SearchOptions* options_;
   ScoreMemo exact_{objective_->score};
   ScoreMemo surrogate_{objective_->surrogate};
+  ScoreMemo proxy_{objective_->proxy};
 };
 
 }  // namespace

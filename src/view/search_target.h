@@ -15,8 +15,21 @@ namespace vantage {
 class SearchTarget {
  public:
   /// \param surrogate of the objective's surrogate; the same as `exact` if it has none.
-  SearchTarget(const ViewObjective& objective, Goal goal, ScoreMemo& exact, ScoreMemo& surrogate)
-      : objective_(&objective), goal_(goal), exact_(&exact), surrogate_(&surrogate) {}
+  /// \param proxy of the objective's proxy; null if it has none.
+  SearchTarget(const ViewObjective& objective, Goal goal, ScoreMemo& exact, ScoreMemo& surrogate,
+               ScoreMemo* proxy = nullptr)
+      : objective_(&objective),
+        goal_(goal),
+        exact_(&exact),
+        surrogate_(&surrogate),
+        proxy_(proxy) {}
+
+  [[nodiscard]] bool has_proxy() const { return proxy_ != nullptr; }
+
+  /// The same goal with the proxy's scores for the exact ones. \pre has_proxy()
+  [[nodiscard]] SearchTarget by_proxy() const {
+    return {*objective_, goal_, *proxy_, *surrogate_, nullptr};
+  }
 
   /// Values of directions; new scores are recorded at `level`.
   [[nodiscard]] std::vector<double> values(const std::vector<Vec3>& directions, int level) const {
@@ -40,8 +53,8 @@ class SearchTarget {
 
   /// Of the global search's rings.
   [[nodiscard]] double finest_deg() const {
-    return goal_ == Goal::Best && objective_->preference ? objective_->finest_preferred_deg
-                                                         : objective_->finest_deg;
+    return goal_ != Goal::Worst && objective_->preference ? objective_->finest_preferred_deg
+                                                          : objective_->finest_deg;
   }
 
   [[nodiscard]] const ViewObjective& objective() const { return *objective_; }
@@ -63,6 +76,7 @@ class SearchTarget {
   Goal goal_;
   ScoreMemo* exact_;
   ScoreMemo* surrogate_;
+  ScoreMemo* proxy_;
 };
 
 }  // namespace vantage

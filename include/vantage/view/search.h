@@ -111,6 +111,9 @@ struct ViewObjective {
   /// Nearly the score at a fraction of its cost: tells SearchStrategy::Global where to score.
   /// Unset: the score does.
   ScoreBatch surrogate{};
+  /// Nearer to the score than the surrogate and cheaper than the score: SearchStrategy::Global climbs
+  /// by it, and scores what it climbed to. Unset: it climbs by the score.
+  ScoreBatch proxy{};
   /// What the best view maximises, of a direction and its score. Unset: the score.
   std::function<double(const Vec3& direction, double score)> preference{};
   int survey_level = 4;  ///< Icosahedron level that SearchStrategy::Global surveys first, 0–6.

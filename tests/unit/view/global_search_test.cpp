@@ -139,6 +139,34 @@ TEST(GlobalSearchBySurrogate, IsNotAskedByOtherStrategies) {
   EXPECT_EQ(estimated, 0U);
 }
 
+/// With a proxy that is the score but for one more bump.
+ViewObjective objective_with_proxy(double height, const Vec3& centre, std::size_t* exact) {
+  const auto nearly = [=](const Vec3& d) { return hills(d) + height * bump(d, centre, 0.4); };
+  return {.score = batch_of(hills, exact),
+          .total = kTotal,
+          .surrogate = batch_of(wrong_by(0.05)),
+          .proxy = batch_of(nearly)};
+}
+
+TEST(GlobalSearchByProxy, ClimbsByTheProxyAndEndsByTheScore) {
+  std::size_t exact = 0;
+  const Vec3 beside = (kHigh + 0.05 * Vec3::UnitX()).normalized();  // moves the maximum by 0.7°
+  const FoundViews views = search_best_and_worst(objective_with_proxy(1.0, beside, &exact));
+  EXPECT_LT(angle_between(views.best.direction, kHigh), kFoundRad);
+  EXPECT_LT(angle_between(views.worst.direction, kLow), kFoundRad);
+  EXPECT_EQ(views.best.score, hills(views.best.direction));
+  EXPECT_EQ(views.best.evaluations + views.worst.evaluations, exact);
+  EXPECT_LT(exact, 120U);
+}
+
+TEST(GlobalSearchByProxy, ChoosesAmongItsEndsByTheScore) {
+  std::size_t exact = 0;
+  // By the proxy the second maximum is higher by 0.1.
+  const FoundView best = search_view(objective_with_proxy(0.4, Vec3::UnitX(), &exact), Goal::Best);
+  EXPECT_LT(angle_between(best.direction, kHigh), kFoundRad);
+  EXPECT_GT(exact, 0U);
+}
+
 TEST(GlobalSearch, SurveysByTheScoreWhereThereIsNoSurrogate) {
   const FoundView best = search_view({batch_of(hills), kTotal}, Goal::Best);
   EXPECT_LT(angle_between(best.direction, kHigh), kFoundRad);
