@@ -3,6 +3,7 @@
 #include "vantage/io/import_stream.h"
 
 #include <bit>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -104,9 +105,9 @@ TEST(ImportStream, GivesColoursAndMaterials) {
                                        .text()},
                                   2));
   ASSERT_EQ(model.vertex_colours.size(), 6U);
-  EXPECT_EQ(model.vertex_colours[0].r, 255);  // white, for want of a colour
-  EXPECT_EQ(model.vertex_colours[4].r, 0);
-  EXPECT_EQ(model.vertex_colours[4].g, 255);
+  EXPECT_EQ(model.vertex_colours[0][0], 255);  // white, for want of a colour
+  EXPECT_EQ(model.vertex_colours[4][0], 0);
+  EXPECT_EQ(model.vertex_colours[4][1], 255);
   ASSERT_EQ(model.appearance.materials.size(), 1U);
   EXPECT_EQ(model.appearance.materials[0].colour[1], 0.5);
   EXPECT_EQ(model.appearance.materials[0].alpha, AlphaMode::Blend);
@@ -158,6 +159,24 @@ TEST(ImportStream, RefusesCoordinatesThatAreNoNumbers) {
   const std::string body = bytes(std::bit_cast<double>(~std::uint64_t{0}), 0.0, 0.0) +
                            kCorners.substr(24) + bytes(3U, 0U, 1U, 2U);
   EXPECT_THAT(error_of(stream({Mesh{.body = body}.text()}, 1)), HasSubstr("not a finite number"));
+}
+
+TEST(ImportStream, LeavesOutPicturesThatAreNotBesideTheModel) {
+  const auto picture = [](const std::string& path) { return record("pict", bytes(0U) + path); };
+  const auto material = [](std::uint32_t of) {
+    return record("matl", bytes(1.0, 1.0, 1.0, 1.0, of, 0U, 0U));
+  };
+  const std::string sent =
+      stream({picture("../../etc/passwd"), picture("http://a/b.png"), material(0), material(1),
+              material(7), Mesh{.material = 0}.text()},
+             1);
+  std::ofstream(testing::TempDir() + "picture_test.fbx") << "; FBX";
+  const Model model =
+      load_model(testing::TempDir() + "picture_test.fbx", {},
+                 {.appearance = true, .importer = [&](const auto&, const auto&) { return sent; }});
+  EXPECT_TRUE(model.appearance.textures.empty());
+  EXPECT_EQ(model.appearance.materials.size(), 3U);
+  EXPECT_THAT(model.notes, ElementsAre(HasSubstr("'passwd'"), HasSubstr("'b.png'")));
 }
 
 /// What a file would be imported as; empty: it is not asked for.
