@@ -34,8 +34,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kName = "vantage-import";
-/// Address space where --max-memory says nothing, bytes, and so much may be sent. [ours]
+/// Data of the process where --max-memory says nothing, bytes, and so much may be sent. [ours]
 constexpr std::uint64_t kUsualMemory = 8'000'000'000;
+/// Address space beyond that for the libraries themselves, bytes. [ours]
+constexpr std::uint64_t kLibraries = 1'000'000'000;
 /// Seconds of processor time where --timeout says nothing. [ours]
 constexpr double kUsualSeconds = 600.0;
 constexpr double kWallFactor = 1.5;  ///< Wall time allowed, of processor time. [ours]
@@ -71,7 +73,8 @@ void become_importer(const char* program, const char* extension, int input, int 
   ::syscall(SYS_close_range, 3U, ~0U, 0U);
   static_cast<void>(::chdir("/") == 0);
 #if !defined(__SANITIZE_ADDRESS__)  // its shadow memory alone is terabytes of address space
-  limit(RLIMIT_AS, limits.memory_bytes, limits.memory_bytes);
+  limit(RLIMIT_DATA, limits.memory_bytes, limits.memory_bytes);
+  limit(RLIMIT_AS, limits.memory_bytes + kLibraries, limits.memory_bytes + kLibraries);
 #endif
   const auto seconds = static_cast<rlim_t>(std::ceil(limits.seconds));
   limit(RLIMIT_CPU, seconds, seconds + 1);
@@ -203,7 +206,8 @@ class ImportProcess {
       fail_for_time();
     }
     if (WIFEXITED(status) && WEXITSTATUS(status) == kCannotStart) {
-      fail("cannot be read as " + title() + ": vantage-import does not start; install it anew");
+      fail("cannot be read as " + title() +
+           ": vantage-import does not start; allow more memory, or install it anew");
     }
     fail("cannot be read as " + title() + ": the reader broke down on it (" +
          batch::how_it_ended(status) +

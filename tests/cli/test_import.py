@@ -71,8 +71,8 @@ class Import(ProgramTest):
 
     def test_colours_reach_the_picture(self):
         for name in ("stand.step", "stool.dae", "lamp.fbx"):
-            self.vantage("thumb", DATA / name, "with.png", "-s", "64", "-f")
-            self.vantage("thumb", DATA / name, "without.png", "-s", "64", "-f", "--style", "clay")
+            self.vantage("thumb", DATA / name, "with.png", "-s", "64", "--force")
+            self.vantage("thumb", DATA / name, "without.png", "-s", "64", "--force", "--style", "clay")
             self.assertNotEqual((self.dir / "with.png").read_bytes(), (self.dir / "without.png").read_bytes(), name)
 
     def test_results_are_the_same_bytes_again(self):
@@ -132,7 +132,7 @@ class Broken(ProgramTest):
 
     def test_more_memory_than_allowed_is_one_sentence(self):
         copy = self.stand_in("exec head -c 200000000 /dev/zero")
-        self.fails(DATA / "lamp.fbx", "--max-memory", "100MB", program_path=copy, says="grows beyond 100 MB")
+        self.fails(DATA / "lamp.fbx", "--max-memory", "100MB", program_path=copy, says="--max-memory")
 
     def test_a_reader_that_never_ends_is_ended(self):
         copy = self.stand_in("while :; do :; done")
