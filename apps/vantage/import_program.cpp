@@ -39,7 +39,7 @@ constexpr std::uint64_t kUsualMemory = 8'000'000'000;
 /// Address space beyond that for the libraries themselves, bytes. [ours]
 constexpr std::uint64_t kLibraries = 1'000'000'000;
 /// Seconds of processor time where --timeout says nothing. [ours]
-constexpr double kUsualSeconds = 600.0;
+constexpr double kUsualSeconds = 300.0;
 constexpr double kWallFactor = 1.5;  ///< Wall time allowed, of processor time. [ours]
 constexpr rlim_t kMostDescriptors = 32;
 constexpr int kPollMs = 50;

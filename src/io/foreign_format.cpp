@@ -127,6 +127,13 @@ const ImportFormat* import_of(const ForeignMagic& foreign, std::string_view byte
   if (foreign.magic == "<?xml") {
     return import_of_xml(bytes, extension);
   }
+  // Some formats may be packed whole, and their readers take text of either width.
+  const ImportFormat* const named = import_format(extension);
+  if (named != nullptr &&
+      ((foreign.magic == "\x1F\x8B" && (named->name == "blend" || named->name == "xgl")) ||
+       foreign.magic == "\xFF\xFE" || foreign.magic == "\xFE\xFF")) {
+    return named;
+  }
   if (foreign.magic == "ISO-10303-21" && (says(bytes, "'IFC") || says(bytes, "( 'IFC"))) {
     return import_format("ifc");
   }

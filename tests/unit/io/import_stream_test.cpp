@@ -201,6 +201,9 @@ TEST(ImportStream, IsAskedForByContentAndElseByName) {
   EXPECT_EQ(asked_for("<?xml version='1.0'?><COLLADA>", "a"), "dae");
   EXPECT_EQ(asked_for("<?xml version='1.0'?><html>", "a"), "");
   EXPECT_EQ(asked_for("MM....", "a.3DS"), "3ds");
+  EXPECT_EQ(asked_for("\x1F\x8B\x08", "a.blend"), "blend");
+  EXPECT_EQ(asked_for("\x1F\x8B\x08", "a.step"), "");
+  EXPECT_EQ(asked_for("\xFF\xFE<", "a.dae"), "dae");
   EXPECT_EQ(asked_for("v 1 2 3\nv 2 3 4\nv 3 4 6\nf 1 2 3\n", "a.obj"), "");
   EXPECT_EQ(asked_for("LASF", "a.las"), "");
   const std::string line = std::string(72, ' ') + "S      1\n";
