@@ -61,4 +61,13 @@ if(TARGET vantage_program)
   install(FILES ${words}/vantage.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
     COMPONENT program)
 endif()
+if(TARGET vantage_import)  # a package of its own: `cmake --install` without a component leaves it out
+  install(TARGETS vantage_import DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/vantage COMPONENT import EXCLUDE_FROM_ALL)
+  install(FILES apps/import/desktop/vantage-import.thumbnailer DESTINATION ${CMAKE_INSTALL_DATADIR}/thumbnailers
+    COMPONENT import EXCLUDE_FROM_ALL)
+  install(FILES apps/import/desktop/vantage-import-mime.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages
+    RENAME vantage-import.xml COMPONENT import EXCLUDE_FROM_ALL)
+  install(FILES LICENSE DESTINATION ${VANTAGE_DOC_DIR}/vantage-import RENAME copyright COMPONENT import EXCLUDE_FROM_ALL)
+  install(FILES THIRD_PARTY.md DESTINATION ${VANTAGE_DOC_DIR}/vantage-import COMPONENT import EXCLUDE_FROM_ALL)
+endif()
 include(cmake/package.cmake)

@@ -8,6 +8,9 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_COMPONENTS_ALL program development)
 set(CPACK_GENERATOR DEB TGZ)
+if(TARGET vantage_import)
+  list(APPEND CPACK_COMPONENTS_ALL import)
+endif()
 
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -20,6 +23,9 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libvantage-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libeigen3-dev, libtbb-dev, libembree-dev, libpng-dev, libjpeg-dev, zlib1g-dev, libwebp-dev, libdraco-dev, libarchive-dev, libexpat1-dev, libmeshoptimizer-dev, libmetis-dev")
+set(CPACK_DEBIAN_IMPORT_PACKAGE_NAME vantage-import)
+set(CPACK_DEBIAN_IMPORT_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_IMPORT_PACKAGE_DEPENDS "vantage (= ${PROJECT_VERSION})")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
   "Contracts the surface of a 3D model to a curve skeleton, turns the history
 of the contraction into a map of significance, and searches the view sphere
@@ -28,5 +34,8 @@ thumbnails; headless, deterministic, for one model or a whole collection.")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
   "Headers and static library of vantage, with its CMake package and
 pkg-config file.")
+set(CPACK_COMPONENT_IMPORT_DESCRIPTION
+  "Lets vantage read STEP, IGES, BREP, FBX, COLLADA, 3DS, X, BLEND and other
+formats by Open CASCADE and Assimp, in a confined process of its own.")
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/package_permissions.cmake)
 include(CPack)

@@ -3,8 +3,9 @@
 """Runs the program over every file of a folder and checks how it ends: by itself, in time, within memory, in one sentence.
 
     check_hostile.py FOLDER [--program build/release/apps/vantage/vantage] [--command info|view] [--seconds 60]
-                     [--max-memory 4GB] [--stride N] [--most-bytes N]
+                     [--max-memory 4GB] [--timeout SECONDS] [--stride N] [--most-bytes N] [--table]
 
+--timeout is the program's own, --seconds this script's; --table counts by ending, and how often vantage-import broke down.
 Prints a table of exit codes, the slowest files and those with the largest peak of memory for each byte; exit code 1 if a
 run crashed, hung, failed without one clear sentence, or took more than --most-bytes of memory for each byte of its file
 (and 100 MB for itself). Works with a sanitizer's build too (without --max-memory).
@@ -18,8 +19,10 @@ import sys
 import tempfile
 import time
 
+import break_models
+
 MODELS = {".obj", ".off", ".ply", ".stl", ".gltf", ".glb", ".3mf", ".xyz", ".pcd", ".pts", ".pwn", ".gz", ".drc", ".txt",
-          ".dae", ".fbx", ".3ds", ".x3d", ".wrl", ".step", ".stp", ".zip"}
+          ".wrl", ".zip", *("." + ending for ending in break_models.FORMATS.split(","))}
 ITSELF = 100e6  # bytes that the program takes for a file of a few
 SMALL = 1 << 20  # bytes: below, the program itself is most of the memory
 
@@ -55,6 +58,23 @@ def problem_of(code, words):
     return None
 
 
+OUTCOMES = ("read", "refused", "reader broke down", "limit", "other")
+
+
+def outcome_of(code, words):
+    if code == 0:
+        return "read"
+    if "--timeout" in words or "memory" in words and "broke down" not in words:
+        return "limit"
+    return "reader broke down" if "broke down" in words else "refused" if code == 3 else "other"
+
+
+def print_table(kinds):
+    print("| ending | files |", " | ".join(OUTCOMES), "|\n|" + " --- |" * (2 + len(OUTCOMES)))
+    for ending, counts in [*sorted(kinds.items()), ("all", sum(kinds.values(), collections.Counter()))]:
+        print(f"| {ending} | {sum(counts.values())} |", " | ".join(str(counts[o]) for o in OUTCOMES), "|")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=pathlib.Path)
@@ -62,6 +82,8 @@ def main():
     parser.add_argument("--command", choices=("info", "view"), default="info")
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--max-memory", default="")
+    parser.add_argument("--timeout", default="")
+    parser.add_argument("--table", action="store_true")
     parser.add_argument("--stride", type=int, default=1)
     parser.add_argument("--most-bytes", type=float, default=0.0)
     options = parser.parse_args()
@@ -69,13 +91,17 @@ def main():
     files = sorted(p for p in options.folder.resolve().rglob("*") if p.is_file() and p.suffix.lower() in MODELS)
     files = files[::options.stride]
     codes, problems, slowest, hungriest = collections.Counter(), [], [], []
+    kinds = collections.defaultdict(collections.Counter)
     with tempfile.TemporaryDirectory() as scratch:
         for file in files:
             flags = ["-o", "out", "--no-images", "--search", "rapid", "-q"] if options.command == "view" else ["-q"]
             if options.max_memory:
                 flags += ["--max-memory", options.max_memory]
+            if options.timeout:
+                flags += ["--timeout", options.timeout]
             code, took, peak, words = run([program, options.command, str(file), *flags], scratch, options.seconds)
             codes[code] += 1
+            kinds[file.suffix.lower()][outcome_of(code, words)] += 1
             name = str(file.relative_to(options.folder.resolve()))
             problem = problem_of(code, words)
             size = file.stat().st_size
@@ -88,6 +114,8 @@ def main():
                 hungriest.append((peak / size, name, peak))
     print(f"{len(files)} files, {options.command}; exit codes: " +
           ", ".join(f"{code}: {count}" for code, count in sorted(codes.items(), key=str)))
+    if options.table:
+        print_table(kinds)
     for took, name in sorted(slowest)[-3:]:
         print(f"  {took:8.2f} s  {name}")
     for ratio, name, peak in sorted(hungriest)[-3:]:

@@ -10,7 +10,7 @@ build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libembree-dev libpng-dev l
        libcpp-httplib-dev libssl-dev libbrotli-dev)
 test=(libgtest-dev libgmock-dev python3 chromium slurm-wlm munge parallel pkgconf groff-base zsh fish
       pybind11-dev python3-dev python3-numpy python3-pytest python3-pip python3-matplotlib python3-tqdm
-      mypy)
+      mypy libassimp-dev libocct-data-exchange-dev)
 check=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev libbenchmark-dev doxygen debootstrap patchelf)
 
 case "${1:-build}" in

@@ -26,6 +26,7 @@
 #include "batch_progress.h"
 #include "batch_slurm.h"
 #include "commands.h"
+#include "import_program.h"
 #include "method_flags.h"
 #include "standard_output.h"
 #include "terminal.h"
@@ -332,7 +333,9 @@ struct BatchCommand {
 
   std::unique_ptr<batch::EntrySource> open_source(Session& session) const {
     return session.reading([&] {
-      return manifest.empty() ? batch::entries_of_paths(inputs, filter, folder,
+      batch::EntryFilter counted = filter;
+      counted.imports = !import_program().empty();
+      return manifest.empty() ? batch::entries_of_paths(inputs, counted, folder,
                                                         {.entry_bytes = runner.limits.memory_bytes,
                                                          .timeout_s = runner.timeout_s,
                                                          .attempts = runner.attempts,

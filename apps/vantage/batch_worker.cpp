@@ -23,6 +23,7 @@
 #include "batch/naming.h"
 #include "batch/thumbnail.h"
 #include "commands.h"
+#include "import_program.h"
 #include "method_flags.h"
 #include "output_folder.h"
 #include "view_outputs.h"
@@ -147,7 +148,7 @@ struct BatchWorkerCommand {
       suffer_test_fault(key);
       session.flags.threads = order.at("threads").get<int>();
       const RunContext run = session.run();
-      Model model = load_model(path, run);
+      Model model = load_model(path, run, {.importer = model_importer(session.flags.limits)});
       const Sidecar sidecar = sidecar_of(path);
       if (batch::content_hash(path) != content) {
         return failed("changed", path + ": was changed while it was read; --retry failed");

@@ -70,7 +70,7 @@ struct InfoCommand {
     }
     const Json json = {
         {"name", loaded.name},
-        {"format", format_name(loaded.format)},
+        {"format", format_name(loaded)},
         {"vertices", as_read.vertices},
         {"polygons", loaded.polygons},
         {"quads", loaded.quads},
@@ -89,7 +89,8 @@ struct InfoCommand {
         {"duplicate_vertices", as_read.duplicate_vertices},
         {"isolated_vertices", as_read.isolated_vertices},
         {"repeated_index_faces", as_read.repeated_index_faces},
-        {"up", up_name(default_up(loaded.format))},
+        {"up", up_name(default_up(loaded))},
+        {"unit_m", loaded.unit_m > 0.0 ? Json(loaded.unit_m) : Json(nullptr)},
         {"welded",
          {{"vertices", check.vertices},
           {"faces", check.faces},
@@ -117,7 +118,7 @@ struct InfoCommand {
       session.tell("  " + padded + text);
     };
     const Vec3 size = bounding_box(loaded.mesh.positions).size();
-    session.tell(printable(loaded.name) + " (" + std::string(format_name(loaded.format)) + ")");
+    session.tell(printable(loaded.name) + " (" + std::string(format_name(loaded)) + ")");
     line("vertices", grouped(as_read.vertices) +
                          (loaded.vertex_colours.empty() ? "" : ", with colours") +
                          (loaded.double_precision ? ", double precision" : ""));
@@ -126,6 +127,9 @@ struct InfoCommand {
       line("parts", grouped(loaded.parts.size()));
     }
     line("size", rounded(size.x()) + " × " + rounded(size.y()) + " × " + rounded(size.z()));
+    if (loaded.unit_m > 0.0) {
+      line("unit", rounded(loaded.unit_m) + " m");
+    }
     if (as_read.faces > 0) {
       std::string shape = plural(check.components, "component") + ", ";
       shape += check.closed ? "closed" : "open";

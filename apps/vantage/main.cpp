@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "finite_numbers.h"
+#include "import_program.h"
 #include "option_text.h"
 #include "session.h"
 #include "terminal.h"
@@ -20,7 +21,8 @@ constexpr const char* kAbout =
 
 constexpr const char* kFooter =
     "Reads OBJ, OFF, PLY, STL, glTF, GLB and 3MF, and point clouds (XYZ, PTS, PWN, PCD); - reads\n"
-    "standard input.\n"
+    "standard input. With the package vantage-import also STEP, IGES, FBX, COLLADA, 3DS, X, BLEND "
+    "and more.\n"
     "\n"
     "Exit codes: 0 done; 1 failed; 2 wrong usage; 3 input unreadable; 4 some models of a batch "
     "failed; 75 try again; 130 interrupted.\n"
@@ -46,8 +48,10 @@ int main(int argc, char** argv) {
   using namespace vantage::cli;
   Session session;
   CLI::App program{kAbout, "vantage"};
-  program.set_version_flag("--version", "vantage " + std::string(vantage::version()) + "\n" +
-                                            vantage::library_versions());
+  program.set_version_flag("--version", [] {
+    return "vantage " + std::string(vantage::version()) + "\n" + vantage::library_versions() +
+           "\n" + import_program_version();
+  });
   program.set_help_flag("-h,--help", "print this help and exit");
   program.require_subcommand(1);
   program.footer(kFooter);

@@ -93,7 +93,7 @@ struct OrientCommand {
     }
     const FrameChoice choice =
         session.computing([&] { return choose_frame(loaded, shape, given.view); });
-    const UpAxis new_up = default_up(loaded.format);
+    const UpAxis new_up = default_up(loaded);
     const AxisTurn turn(up_vector(choice.frame.up), up_vector(choice.frame.front),
                         up_vector(new_up), up_vector(default_front(new_up)));
     if (!file.empty()) {
@@ -108,7 +108,7 @@ struct OrientCommand {
     std::string extension = std::filesystem::path(file).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const std::string own = "." + std::string(format_name(loaded.format));
+    const std::string own = "." + std::string(format_name(loaded));
     if (extension == ".ply") {
       TriMesh mesh = loaded.mesh;
       std::transform(mesh.positions.begin(), mesh.positions.end(), mesh.positions.begin(), turn);

@@ -16,6 +16,7 @@
 
 #include "vantage/core/error.h"
 
+#include "import_program.h"
 #include "settings.h"
 #include "terminal.h"
 
@@ -124,7 +125,11 @@ void Session::configure(CLI::App& command) {
 }
 
 Model Session::load(const std::string& path, const ReadOptions& options) {
-  return read([&] { return load_model(path, run(), options); });
+  return read([&] {
+    ReadOptions wanted = options;
+    wanted.importer = model_importer(flags.limits);
+    return load_model(path, run(), wanted);
+  });
 }
 
 void Session::say(const std::string& text) {

@@ -68,7 +68,7 @@ void define_model(py::module_& module) {
            py::arg("name") = "arrays", py::arg("colours") = py::none())
       .def_property_readonly("name", [](const ModelHandle& h) { return text_of(h.model->name); })
       .def_property_readonly("format",
-                             [](const ModelHandle& h) { return format_name(h.model->format); })
+                             [](const ModelHandle& h) { return format_name(*h.model); })
       .def_property_readonly(
           "vertices",
           [](const ModelHandle& h) {

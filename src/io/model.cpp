@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 Model parse_with(std::string_view bytes, std::string_view name, const RunContext& run,
                  const Surroundings& surroundings) {
   run.advance("read", 0.0);
-  const DetectedFormat detected = detect_format(bytes, name);
+  const DetectedFormat detected =
+      detect_format(bytes, name, static_cast<bool>(surroundings.options.importer));
   Model model = [&] {
     switch (detected.format) {
       case ModelFormat::Obj:
@@ -41,6 +42,10 @@ Model parse_with(std::string_view bytes, std::string_view name, const RunContext
         return parse_pcd(bytes, name, run);
       case ModelFormat::Threemf:
         return parse_threemf(bytes, name, run, surroundings);
+      case ModelFormat::Imported:
+        return parse_import_stream(
+            surroundings.options.importer({*detected.import_as, bytes, name}, run),
+            detected.import_as->title, name, run, surroundings);
       case ModelFormat::Gltf:
       case ModelFormat::Glb:
         break;
@@ -48,6 +53,7 @@ Model parse_with(std::string_view bytes, std::string_view name, const RunContext
     return parse_gltf(bytes, name, run, surroundings);
   }();
   model.format = detected.format;
+  model.imported_as = detected.import_as == nullptr ? "" : detected.import_as->name;
   model.name = model_name(name);
   if (!detected.note.empty()) {
     model.notes.insert(model.notes.begin(), detected.note);

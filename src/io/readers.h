@@ -67,6 +67,10 @@ Model parse_gltf(std::string_view bytes, std::string_view name, const RunContext
 Model parse_threemf(std::string_view bytes, std::string_view name, const RunContext& run,
                     const Surroundings& surroundings);
 
+/// What a ReadOptions::importer gave, see vantage/io/import_stream.h. \param title of the format.
+Model parse_import_stream(std::string_view stream, std::string_view title, std::string_view name,
+                          const RunContext& run, const Surroundings& surroundings);
+
 /// Whether the bytes are a binary STL by their size: 84 bytes and 50 for each declared triangle.
 bool has_binary_stl_size(std::string_view bytes);
 

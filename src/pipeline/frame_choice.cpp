@@ -57,10 +57,11 @@ std::string summary_of(const DirectionChoice& choice, const std::string& word) {
 
 FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,
                          const ViewOptions& options) {
-  const Vec3 usual_up = up_vector(default_up(model.format));
-  OrientationRequest request{
-      .usual_up = usual_up,
-      .usual_up_is_certain = model.format == ModelFormat::Gltf || model.format == ModelFormat::Glb};
+  const Vec3 usual_up = up_vector(default_up(model));
+  OrientationRequest request{.usual_up = usual_up,
+                             .usual_up_is_certain = model.format == ModelFormat::Gltf ||
+                                                    model.format == ModelFormat::Glb ||
+                                                    model.up_is_stated};
   if (options.up) {
     request.up = up_vector(*options.up);
   }

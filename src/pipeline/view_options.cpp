@@ -79,6 +79,10 @@ UpAxis default_up(ModelFormat format) {
   return format == ModelFormat::Stl || format == ModelFormat::Threemf ? UpAxis::Z : UpAxis::Y;
 }
 
+UpAxis default_up(const Model& model) {
+  return model.usual_up ? axis_nearest(*model.usual_up) : default_up(model.format);
+}
+
 UpAxis default_front(UpAxis up) {
   return axis_nearest(upright_frame(up_vector(up)).front);
 }

@@ -89,7 +89,7 @@ std::vector<ViewAgreement> evaluate_views(const RecordedModel& record, const Mod
                                           const RunContext& run) {
   const ShapeAnalysis shape = analyse_for(model, options, measures, run.part(0.0, 0.3));
   require_area(shape, record.name);
-  const UpAxis up = options.up.value_or(default_up(model.format));
+  const UpAxis up = options.up.value_or(default_up(model));
   const UprightFrame frame = upright_frame(up_vector(up));
   constexpr int kLevel = 3;
   ViewMeasurer measurer(measure_subject(shape, options), measures, kLevel, run.part(0.3, 0.7));
@@ -131,7 +131,7 @@ std::vector<GazeAgreement> evaluate_gaze(const RecordedModel& record, const Mode
   const auto add = [&](const char* name, const std::vector<double>& of_surface) {
     rows.push_back(gaze_agreement(name, record, on_input_vertices(shape, of_surface), areas));
   };
-  const Vec3 up = up_vector(options.up.value_or(default_up(model.format)));
+  const Vec3 up = up_vector(options.up.value_or(default_up(model)));
   std::vector<double> height;
   for (const Vec3& p : shape.surface.positions) {
     height.push_back((p - shape.sphere.centre).dot(up) / shape.sphere.diameter + 0.5);

@@ -128,7 +128,7 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
   json["schema"] = kSchema;
   json["options_hash"] = options_hash(options);
   json["model"] = {{"name", model.name},
-                   {"format", format_name(model.format)},
+                   {"format", format_name(model)},
                    {"vertices", shape.check.vertices},
                    {"faces", shape.check.faces},
                    {"components", shape.check.components},

@@ -109,8 +109,8 @@ class Input(ProgramTest):
         self.check_unreadable("empty.obj")
 
     def test_format_that_is_not_read_names_a_converter(self):
-        self.write("part.step", "ISO-10303-21;\n")
-        self.check_unreadable("part.step", "convert")
+        self.write("part.vtk", "# vtk DataFile Version 3.0\n")
+        self.check_unreadable("part.vtk", "convert")
 
     def test_points_on_a_line_have_no_shape(self):
         self.write("p.off", "OFF\n4 0 0\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n")

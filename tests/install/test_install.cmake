@@ -50,6 +50,17 @@ foreach(file IN ITEMS man/man1/vantage.1.gz man/man1/vantage-view.1.gz bash-comp
   endif()
 endforeach()
 
+# What reads CAD and game formats is a package of its own.
+file(GLOB_RECURSE extra ${SCRATCH}/prefix/*vantage-import*)
+if(extra)
+  message(FATAL_ERROR "the default install has ${extra}")
+endif()
+if(EXISTS ${BUILD}/apps/vantage/vantage-import)
+  run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/prefix --component import)
+  run(${SCRATCH}/prefix/bin/vantage info ${SOURCE}/tests/data/import/stand.step)
+  run(${SCRATCH}/prefix/bin/vantage thumb ${SOURCE}/tests/data/import/stand.step ${SCRATCH}/stand.png)
+endif()
+
 # The thumbnailer's own command line, as a file manager fills it in.
 file(STRINGS ${SCRATCH}/prefix/share/thumbnailers/vantage.thumbnailer exec REGEX "^Exec=")
 string(REGEX REPLACE "^Exec=vantage " "" exec "${exec}")

@@ -9,6 +9,8 @@
 
 #include <fnmatch.h>
 
+#include "vantage/io/import_stream.h"
+
 #include "batch/archive_reader.h"
 #include "batch/naming.h"
 
@@ -173,9 +175,15 @@ bool EntryFilter::accepts(const std::string& path_below) const {
   const auto matches_path = [&](const std::string& pattern) {
     return matches(pattern, path_below);
   };
-  const bool included = include.empty()
-                            ? std::any_of(std::begin(kReadable), std::end(kReadable), matches_path)
-                            : std::any_of(include.begin(), include.end(), matches_path);
+  const auto readable = [&] {
+    return std::any_of(std::begin(kReadable), std::end(kReadable), matches_path) ||
+           (imports && std::any_of(kImportFormats.begin(), kImportFormats.end(),
+                                   [&](const ImportFormat& format) {
+                                     return matches_path("*." + std::string(format.extension));
+                                   }));
+  };
+  const bool included =
+      include.empty() ? readable() : std::any_of(include.begin(), include.end(), matches_path);
   return included && std::none_of(exclude.begin(), exclude.end(), matches_path);
 }
 

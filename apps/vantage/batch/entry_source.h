@@ -54,6 +54,7 @@ class EntrySource {
 struct EntryFilter {
   std::vector<std::string> include{};  ///< Shell patterns; empty: every format that can be read.
   std::vector<std::string> exclude{};  ///< Shell patterns, stronger than `include`.
+  bool imports = false;                ///< Whether formats of vantage-import can be read.
 
   /// Whether a file counts. Patterns are compared with the path below the folder and with the bare
   /// name; letter case does not matter.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "vantage/core/image.h"
 #include "vantage/core/run_context.h"
 #include "vantage/core/vec3.h"
+#include "vantage/io/import_stream.h"
 #include "vantage/mesh/appearance.h"
 #include "vantage/mesh/tri_mesh.h"
 
@@ -22,8 +24,8 @@
 
 namespace vantage {
 
-/// File formats that can be read.
-enum class ModelFormat { Obj, Off, Ply, Stl, Gltf, Glb, Xyz, Pts, Pwn, Pcd, Threemf };
+/// File formats that can be read. Imported: one of kImportFormats, by ReadOptions::importer.
+enum class ModelFormat { Obj, Off, Ply, Stl, Gltf, Glb, Xyz, Pts, Pwn, Pcd, Threemf, Imported };
 
 /// Lower-case name as used in results, e.g. "obj".
 std::string_view format_name(ModelFormat format);
@@ -49,7 +51,14 @@ struct Model {
   std::size_t larger_polygons = 0;        ///< Of these, with five or more corners.
   std::size_t skipped_faces = 0;          ///< Faces with fewer than three corners, left out.
   std::vector<std::string> notes{};       ///< What was read in an unusual way, one sentence each.
+  std::string imported_as{};              ///< Of an imported one: "step", "fbx", …
+  double unit_m = 0.0;                    ///< Metres of one unit, of an imported one; 0: unknown.
+  std::optional<Vec3> usual_up{};         ///< Of this file; unset: that of its format.
+  bool up_is_stated = false;              ///< `usual_up` is what the file itself says.
 };
+
+/// Lower-case name of the format a model had.
+std::string_view format_name(const Model& model);
 
 /// What is wanted of a file besides its shape.
 struct ReadOptions {
@@ -59,6 +68,8 @@ struct ReadOptions {
   /// Textures are looked at no closer than that many pixels on their longer side, so that large JPEGs
   /// may be read at a half, a quarter or an eighth; 0: always whole.
   int texture_side = 0;
+  /// Reads formats that the library does not read itself; empty: they are refused.
+  ModelImporter importer{};
 };
 
 /// Parses the bytes of a model.

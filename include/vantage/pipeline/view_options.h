@@ -47,6 +47,8 @@ inline constexpr const char* kUpWords = "x|y|z|-x|-y|-z|auto";
 std::string_view up_name(UpAxis axis);
 /// The axis a format implies when nothing is said: z for STL and 3MF, y otherwise.
 UpAxis default_up(ModelFormat format);
+/// The same for a model, which may say it itself.
+UpAxis default_up(const Model& model);
 /// What most files of that up axis mean by the front: upright_frame()'s.
 UpAxis default_front(UpAxis up);
 /// The axis nearest to a direction.

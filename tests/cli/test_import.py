@@ -1,0 +1,179 @@
+"""CAD and game formats by vantage-import: read as they are, by every command, and a broken one harms nobody."""
+
+import json
+import os
+import pathlib
+import shutil
+import stat
+import subprocess
+import unittest
+
+import program
+from program import PROGRAM, ProgramTest
+
+DATA = pathlib.Path(__file__).resolve().parents[1] / "data/import"
+IMPORT = pathlib.Path(PROGRAM).parent / "vantage-import"
+
+
+class Import(ProgramTest):
+
+    def info(self, name):
+        return json.loads(self.vantage("info", "--json", DATA / name).out)
+
+    def test_a_step_assembly_keeps_its_parts_their_places_and_unit(self):
+        info = self.info("stand.step")
+        self.assertEqual(info["format"], "step")
+        self.assertEqual([part["name"] for part in info["parts"]], ["plate", "pin", "pin (2)"])
+        self.assertEqual(info["unit_m"], 0.001)
+        self.assertEqual(info["up"], "z")
+        self.assertEqual(info["welded"]["components"], 3)
+        self.assertTrue(info["welded"]["closed"])
+        for found, wanted in zip(info["box"]["high"], (60, 40, 25)):
+            self.assertAlmostEqual(found, wanted, delta=0.1)
+
+    def test_a_cylinder_is_as_near_as_is_said(self):
+        info = self.info("stand.step")
+        exact = 60 * 40 * 5 + 2 * 3.141592653589793 * 5 * 5 * 20
+        # Chords of 20 degrees lose at most two hundredths of a disc.
+        self.assertLess(info["volume"], exact)
+        self.assertGreater(info["volume"], exact - 0.0203 * (exact - 12000))
+
+    def test_other_formats_of_solids(self):
+        plate, block = self.info("plate.iges"), self.info("block.brep")
+        self.assertEqual((plate["format"], plate["faces"], plate["welded"]["closed"]), ("iges", 12, True))
+        self.assertEqual((block["format"], block["faces"]), ("brep", 12))
+        self.assertAlmostEqual(block["volume"], 6000)
+
+    def test_a_collada_scene_is_placed_in_metres_with_its_parts(self):
+        info = self.info("stool.dae")
+        self.assertEqual((info["format"], info["vertices"], info["quads"]), ("dae", 120, 30))
+        self.assertEqual([part["name"] for part in info["parts"]], ["seat", "leg-a", "leg-b", "leg-c", "leg-d"])
+        self.assertEqual(info["unit_m"], 1)
+        self.assertEqual(info["up"], "y")  # turned from the file's z, as Assimp does
+        self.assertAlmostEqual(info["box"]["high"][1], 0.49, places=5)
+
+    def test_an_fbx_says_its_up_axis_and_unit(self):
+        info = self.info("lamp.fbx")
+        self.assertEqual((info["format"], info["up"], info["unit_m"]), ("fbx", "z", 0.01))
+        self.assertEqual([part["name"] for part in info["parts"]], ["foot", "pole"])
+        self.assertEqual(info["box"]["high"][2], 32)
+
+    def test_vertices_come_in_the_order_of_the_file(self):
+        self.vantage("map", DATA / "wedge.x", "-o", "m.ply")
+        _, vertices, _ = program.read_ply(self.dir / "m.ply")
+        # Assimp turns X files to a right hand; their order is the faces'.
+        first = [(v["x"], v["y"], abs(v["z"])) for v in vertices[:4]]
+        self.assertEqual(first, [(0, 0, 0), (4, 0, 0), (4, 0, 2), (0, 0, 2)])
+
+    def test_focus_takes_the_name_of_a_part(self):
+        self.vantage("view", DATA / "stand.step", "-o", "v", "--focus", "pin (2)", "--no-images")
+        self.assertEqual(json.loads((self.dir / "v/view.json").read_text())["options"]["focus"], "pin (2)")
+
+    def test_colours_reach_the_picture(self):
+        for name in ("stand.step", "stool.dae", "lamp.fbx"):
+            self.vantage("thumb", DATA / name, "with.png", "-s", "64", "--force")
+            self.vantage("thumb", DATA / name, "without.png", "-s", "64", "--force", "--style", "clay")
+            self.assertNotEqual((self.dir / "with.png").read_bytes(), (self.dir / "without.png").read_bytes(), name)
+
+    def test_results_are_the_same_bytes_again(self):
+        for folder in ("a", "b"):
+            self.vantage("view", DATA / "stand.step", "-o", folder, "--size", "64x64", "--no-report")
+        for file in sorted((self.dir / "a").iterdir()):
+            if file.name != "timings.json":
+                self.assertEqual(file.read_bytes(), (self.dir / "b" / file.name).read_bytes(), file.name)
+
+    def test_a_batch_takes_them_for_models(self):
+        shutil.copytree(DATA, self.dir / "models")
+        self.vantage("batch", "models", "-o", "out", "--write", "json", "-q")
+        rows = self.vantage("results", "export", "out", "--format", "jsonl").out.splitlines()
+        self.assertEqual(sorted(json.loads(row)["key"].rpartition("/")[2] for row in rows),
+                         sorted(file.name for file in DATA.iterdir() if file.suffix != ".md"))
+        self.assertTrue(all(json.loads(row)["status"] == "done" for row in rows), rows)
+
+    def test_standard_input_is_known_by_its_bytes(self):
+        info = json.loads(self.vantage("info", "--json", "-", stdin=(DATA / "stand.step").read_bytes()).out)
+        self.assertEqual((info["format"], len(info["parts"])), ("step", 3))
+
+    def test_version_says_what_is_there_and_what_confines_it(self):
+        self.assertRegex(self.vantage("--version").out, r"vantage-import: Assimp 5\S*, Open CASCADE 7\S*; confined by \w+")
+
+
+class Broken(ProgramTest):
+
+    def fails(self, path, *more, says="cannot be read as", program_path=PROGRAM, env=None):
+        done = subprocess.run([program_path, "info", path, *more], cwd=self.dir, capture_output=True, check=False, text=True,
+                              timeout=120, env=env)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn(says, done.stderr)
+
+    def test_damaged_files_are_one_sentence(self):
+        for name in ("stand.step", "plate.iges", "block.brep", "stool.dae", "lamp.fbx", "wedge.x"):
+            content = (DATA / name).read_bytes()
+            self.write(name, content[:len(content) // 3])
+            self.fails(name, says=name)
+
+    def stand_in(self, script):
+        """A copy of the program beside a vantage-import that does what `script` says."""
+        shutil.copy(PROGRAM, self.dir / "vantage")
+        helper = self.write("vantage-import", f"#!/bin/sh\n{script}\n")
+        helper.chmod(helper.stat().st_mode | stat.S_IXUSR)
+        return self.dir / "vantage"
+
+    def test_a_crash_inside_is_one_sentence(self):
+        copy = self.stand_in("kill -SEGV $$")
+        self.fails(DATA / "lamp.fbx", program_path=copy, says="the reader broke down on it (signal 11")
+
+    def test_lies_of_the_reader_are_not_believed(self):
+        copy = self.stand_in("printf 'VNTGIMP1mesh\\377\\377\\377\\377\\377\\377\\377\\377'")
+        self.fails(DATA / "lamp.fbx", program_path=copy, says="vantage-import sent less than it announced")
+        copy = self.stand_in("exit 0")
+        self.fails(DATA / "lamp.fbx", program_path=copy, says="another version")
+
+    def test_more_memory_than_allowed_is_one_sentence(self):
+        copy = self.stand_in("exec head -c 200000000 /dev/zero")
+        self.fails(DATA / "lamp.fbx", "--max-memory", "100MB", program_path=copy, says="--max-memory")
+
+    def test_a_reader_that_never_ends_is_ended(self):
+        copy = self.stand_in("while :; do :; done")
+        done = subprocess.run([copy, "info", DATA / "lamp.fbx", "--timeout", "1"], capture_output=True, check=False,
+                              text=True, timeout=60)
+        self.assertIn(done.returncode, (1, 3))  # whose clock rings first
+        self.assertIn("--timeout", done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1)
+
+    def test_without_the_package_the_message_names_it(self):
+        shutil.copy(PROGRAM, self.dir / "vantage")
+        nowhere = {**os.environ, "PATH": "/usr/bin:/bin"}
+        if shutil.which("vantage-import", path=nowhere["PATH"]):
+            nowhere["PATH"] = "/nowhere"
+        for name, title in (("stand.step", "STEP"), ("lamp.fbx", "FBX"), ("wedge.x", "DirectX X")):
+            self.fails(DATA / name, program_path=self.dir / "vantage", env=nowhere,
+                       says=f"is a {title} file; install vantage-import to read {title}")
+        said = subprocess.run([self.dir / "vantage", "--version"], capture_output=True, check=True, text=True, env=nowhere)
+        self.assertIn("vantage-import: not installed", said.stdout)
+        shutil.copytree(DATA, self.dir / "models")
+        done = subprocess.run([self.dir / "vantage", "batch", "models", "-o", "out", "--dry-run"], cwd=self.dir,
+                              capture_output=True, check=False, text=True, env=nowhere)
+        self.assertNotIn("stand.step", done.stdout)
+
+
+class Sandbox(unittest.TestCase):
+    """What the confined process can still do, asked of the kernel."""
+
+    def test_a_file_on_standard_input_is_all_that_is_read(self):
+        # IGES is opened by its name: of a file in the file system, which Landlock forbids, and not of one without a name.
+        with open(DATA / "plate.iges", "rb") as file:
+            done = subprocess.run([IMPORT, "iges"], stdin=file, capture_output=True, check=False)
+        if b"Landlock" in subprocess.run([IMPORT, "--version"], capture_output=True, check=True).stdout:
+            self.assertEqual(done.returncode, 3)
+            self.assertIn(b"fail", done.stdout)
+
+    def test_it_refuses_what_is_no_file(self):
+        done = subprocess.run([IMPORT, "step"], input=b"ISO-10303-21;", capture_output=True, check=False)
+        self.assertEqual(done.returncode, 3)
+        self.assertEqual(subprocess.run([IMPORT], capture_output=True, check=False).returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
