@@ -17,7 +17,10 @@ namespace {
 using Matrix3 = Eigen::Matrix3d;
 
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-constexpr double kLevel = 1e-9;  // a sine of roll below this is rounding
+constexpr double kLevel = 1e-9;  // a sine below this is rounding
+// Moving the target to the middle of what is seen leaves a picture rolled by a degree or two; the
+// element shows it upright. Beyond this, a camera that someone meant so, the model is turned instead.
+constexpr double kMostRoll = 10.0 / kDegPerRad;
 
 /// Right, up and back of the camera, as rows.
 Matrix3 camera_axes(const Camera& camera) {
@@ -27,10 +30,19 @@ Matrix3 camera_axes(const Camera& camera) {
   axes.row(0) = right;
   axes.row(1) = back.cross(right);
   axes.row(2) = back;
-  if (!axes.allFinite()) {
+  // What has no direction normalises to zero, not to NaN.
+  if (!axes.allFinite() || axes.row(0).isZero()) {
     throw InvalidInput("a camera must look from one finite point at another, and not along its up");
   }
   return axes;
+}
+
+/// The angle between the camera's right and that of an upright camera; 0 where that has none.
+double roll_against(const Matrix3& axes, const Vec3& up) {
+  const Vec3 right = up.cross(axes.row(2).transpose());
+  return right.norm() > kLevel
+             ? std::atan2(right.cross(axes.row(0).transpose()).norm(), right.dot(axes.row(0)))
+             : 0.0;
 }
 
 /// The turn that makes `up` y: the shortest, and half a turn about x for −y.
@@ -103,10 +115,14 @@ std::vector<std::pair<std::string, std::string>> model_viewer_attributes(const C
     return {};
   }
   const Matrix3 axes = camera_axes(camera);
-  const bool level = std::abs(axes.row(0).dot(up)) < kLevel && axes.row(1).dot(up) > -kLevel;
-  const Matrix3 turn = level ? turn_to_y(up) : axes;
+  const Matrix3 turn = roll_against(axes, up) < kMostRoll ? turn_to_y(up) : axes;
   const Matrix3 turned = axes * turn.transpose();  // the camera's axes in the element's scene
-  const double azimuth = std::atan2(-turned(0, 2), turned(0, 0));  // right = (cos, 0, −sin)
+  // Straight above or below, right says it: (cos, 0, −sin).
+  double azimuth = turned.row(2).cross(Vec3::UnitY()).norm() > kLevel
+                       ? std::atan2(turned(2, 0), turned(2, 2))
+                       : std::atan2(-turned(0, 2), turned(0, 0));
+  // No sign in front: tables take a text that begins with one for a formula.
+  azimuth += azimuth < -kLevel ? 2.0 * std::numbers::pi : 0.0;
   const double polar = std::acos(std::clamp(turned(2, 1), -1.0, 1.0));
   const Vec3 target = turn * camera.target;
   const double distance = (camera.eye - camera.target).norm();

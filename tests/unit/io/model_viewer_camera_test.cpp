@@ -33,6 +33,8 @@ TEST(ModelViewerCamera, CountsTheAzimuthFromZTowardsXAndThePolarAngleFromY) {
   EXPECT_FALSE(front.contains("orientation"));
   EXPECT_EQ(attributes({2, 0, 0}, Vec3::UnitY(), Vec3::UnitY()).at("camera-orbit"),
             "90deg 90deg 2m");
+  EXPECT_EQ(attributes({-2, 0, 0}, Vec3::UnitY(), Vec3::UnitY()).at("camera-orbit"),
+            "270deg 90deg 2m");
   EXPECT_EQ(attributes({0, 3, 3}, Vec3(0, 1, -1).normalized(), Vec3::UnitY()).at("camera-orbit"),
             "0deg 45deg 4.2426407m");
 }
@@ -57,6 +59,12 @@ TEST(ModelViewerCamera, TurnsTheModelIfTheCameraIsRolled) {
   const Attributes rolled = attributes({0, 0, 2}, Vec3::UnitX(), Vec3::UnitY());
   EXPECT_EQ(rolled.at("camera-orbit"), "0deg 90deg 2m");
   EXPECT_EQ(rolled.at("orientation"), "90deg 0deg 0deg");
+}
+
+TEST(ModelViewerCamera, LeavesOutARollOfADegree) {
+  const Attributes rolled = attributes({0, 0, 2}, Vec3(0.017, 1, 0).normalized(), Vec3::UnitY());
+  EXPECT_EQ(rolled.at("camera-orbit"), "0deg 90deg 2m");
+  EXPECT_FALSE(rolled.contains("orientation"));
 }
 
 TEST(ModelViewerCamera, WritesLengthsOfAnyUnitWithoutExponents) {
