@@ -19,7 +19,10 @@ scripts/build_docs.sh
 scripts/check_reproducible.sh
 if [[ $(id -u) -eq 0 ]] && command -v debootstrap >/dev/null; then
   scripts/test_packages.sh
+  scripts/test_wheel.sh
+  scripts/make_container.sh build/release/packages/vantage_*.deb
+  scripts/test_container.sh build/container/vantage-oci.tar
 else
-  echo "packages are not tested: needs root and debootstrap"
+  echo "packages, wheel and container are not tested: needs root and debootstrap"
 fi
 (cd tests/docs && VANTAGE=$PWD/../../build/release/apps/vantage/vantage python3 -m unittest test_docs)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that are missing: install_dependencies.sh build|test|check
 #   build  what the program needs      test  also what the tests need
-#   check  also formatter, linter, sanitizer runtimes, Doxygen
+#   check  also formatter, linter, sanitizer runtimes, Doxygen, and what the integrations are tried with
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libembree-dev libpng-dev libjpeg-dev nlohmann-json3-dev
@@ -9,9 +9,10 @@ build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libembree-dev libpng-dev l
        libwebp-dev zlib1g-dev libdraco-dev libexpat1-dev libsqlite3-dev libarchive-dev libsodium-dev
        libcpp-httplib-dev libssl-dev libbrotli-dev)
 test=(libgtest-dev libgmock-dev python3 chromium slurm-wlm munge parallel pkgconf groff-base zsh fish
-      pybind11-dev python3-dev python3-numpy python3-pytest python3-pip python3-matplotlib python3-tqdm
-      mypy)
-check=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev libbenchmark-dev doxygen debootstrap patchelf)
+      pybind11-dev python3-dev python3-numpy python3-pytest python3-pip python3-matplotlib
+      mypy python3-venv python3-yaml patchelf git curl)
+check=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev libbenchmark-dev doxygen debootstrap patchelf
+       blender python3-open3d python3-vtk9 xvfb xauth mmdebstrap umoci uidmap runc)
 
 case "${1:-build}" in
   build) wanted=("${build[@]}") ;;
