@@ -69,6 +69,14 @@ def licence_of(library):
     raise SystemExit(f"make_wheel.py: no package owns {library}, so its licence is not known")
 
 
+def named_in(licences):
+    """The licences that copyright files only point to, because every Debian system has them."""
+    named = sorted({name.decode().rstrip(".") for text in licences.values()
+                    for name in re.findall(rb"/usr/share/common-licenses/([A-Za-z0-9.-]+)", text)})
+    files = {name: pathlib.Path("/usr/share/common-licenses", name) for name in named}
+    return {f"common-licenses/{name}": file.read_bytes() for name, file in files.items() if file.exists()}
+
+
 def carry(module, scratch):
     """Makes a copy of the module with all its libraries in the folder `scratch`.
 
@@ -92,4 +100,5 @@ def carry(module, scratch):
     files = {f"vantage/{module.name}": copy.read_bytes()}
     files.update({f"{FOLDER}/{path.name}": path.read_bytes() for path in folder.iterdir()})
     licences = dict(sorted(licence_of(path) for path in libraries.values()))
+    licences.update(named_in(licences))
     return files, licences, f"manylinux_{here[0]}_{here[1]}_{os.uname().machine}"

@@ -60,6 +60,8 @@ def test_every_library_has_its_licence(wheel):
         package, text = carried_libraries.licence_of(library)
         assert any(n.endswith(f".dist-info/licences/{package}") for n in names) and text
         assert f"License-File: licences/{package}\n" in listed
+        if b"common-licenses/LGPL-3" in text:
+            assert any(n.endswith("licences/common-licenses/LGPL-3") for n in names)
 
 
 def test_it_runs_in_a_bare_environment_by_its_own_libraries(wheel, models, tmp_path):
