@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-60}  # a fuzzer
-scripts/install_dependencies.sh check
+scripts/install_dependencies.sh all
 scripts/check_format.sh
 scripts/check_tidy.sh
 cmake --preset asan >/dev/null && cmake --build --preset asan
@@ -19,7 +19,10 @@ scripts/build_docs.sh
 scripts/check_reproducible.sh
 if [[ $(id -u) -eq 0 ]] && command -v debootstrap >/dev/null; then
   scripts/test_packages.sh
+  scripts/test_wheel.sh
+  scripts/make_container.sh build/release/packages/vantage_*.deb
+  scripts/test_container.sh build/container/vantage-oci.tar
 else
-  echo "packages are not tested: needs root and debootstrap"
+  echo "packages, wheel and container are not tested: needs root and debootstrap"
 fi
 (cd tests/docs && VANTAGE=$PWD/../../build/release/apps/vantage/vantage python3 -m unittest test_docs)

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Installs the Debian 12 packages that are missing: install_dependencies.sh build|test|check
+# Installs the Debian 12 packages that are missing: install_dependencies.sh build|test|check|all
 #   build  what the program needs      test  also what the tests need
 #   check  also formatter, linter, sanitizer runtimes, Doxygen
+#   all    also the large programs that the integrations are tried with: Blender, Open3D, VTK, tools of containers
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libembree-dev libpng-dev libjpeg-dev nlohmann-json3-dev
@@ -9,15 +10,17 @@ build=(g++ cmake ninja-build libeigen3-dev libtbb-dev libembree-dev libpng-dev l
        libwebp-dev zlib1g-dev libdraco-dev libexpat1-dev libsqlite3-dev libarchive-dev libsodium-dev
        libcpp-httplib-dev libssl-dev libbrotli-dev)
 test=(libgtest-dev libgmock-dev python3 chromium slurm-wlm munge parallel pkgconf groff-base zsh fish
-      pybind11-dev python3-dev python3-numpy python3-pytest python3-pip python3-matplotlib python3-tqdm
-      mypy libassimp-dev libocct-data-exchange-dev)
+      pybind11-dev python3-dev python3-numpy python3-pytest python3-pip python3-matplotlib
+      mypy python3-venv python3-yaml patchelf git curl libassimp-dev libocct-data-exchange-dev)
 check=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev libbenchmark-dev doxygen debootstrap patchelf)
+integrations=(blender python3-open3d python3-vtk9 xvfb xauth mmdebstrap umoci uidmap runc)
 
 case "${1:-build}" in
   build) wanted=("${build[@]}") ;;
   test)  wanted=("${build[@]}" "${test[@]}") ;;
   check) wanted=("${build[@]}" "${test[@]}" "${check[@]}") ;;
-  *) echo "usage: $0 build|test|check" >&2; exit 2 ;;
+  all)   wanted=("${build[@]}" "${test[@]}" "${check[@]}" "${integrations[@]}") ;;
+  *) echo "usage: $0 build|test|check|all" >&2; exit 2 ;;
 esac
 
 # Node.js of any origin will do: the distribution's packages conflict with others.

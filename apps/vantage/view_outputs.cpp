@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "vantage/io/camera_files.h"
+#include "vantage/io/model_viewer_camera.h"
 #include "vantage/io/write.h"
 #include "vantage/render/render.h"
 #include "vantage/report/view_report.h"
@@ -148,6 +149,10 @@ void add_data(OutputFolder& output, const OutputKinds& kinds, const Model& loade
     output.add(stem + ".transforms.json",
                camera_transforms_json(view->picture, size, std::string(name) + ".png"));
     output.add(stem + ".f3d.txt", camera_f3d(view->picture, file));
+    if (view->picture.projection == Projection::Perspective) {
+      output.add(stem + ".model-viewer.html",
+                 camera_model_viewer(view->picture, up_vector(report.up), file));
+    }
   }
 }
 

@@ -9,11 +9,13 @@ import numpy as np
 
 from . import _core
 from ._options import takes
+from ._other_meshes import subject_of
 from .results import (BestView, Bytes, DirectionSet, Flags, Floats, KssmMap, Measure, Skeleton,
                       best_view_of)
 
 Model = _core.Model
 Analysis = _core.Analysis
+_NOTEBOOK_SIZE = (480, 360)
 
 
 def load(path: Any, *, progress: Any = None, threads: int = 0) -> Model:
@@ -38,6 +40,7 @@ def analyse(model: Any, F: Any = None, *, progress: Any = None, threads: int = 0
     as they were given here. It has model, closed, components, genus, centre, diameter, warnings.
     Raises InvalidInput, IoError, FormatError, TypeError.
     """
+    model, F = subject_of(model, F)
     return _core.analyse(model, F, options, progress, threads)
 
 
@@ -46,13 +49,17 @@ def best_view(model: Any, F: Any = None, *, method: str = "kssm", progress: Any 
               threads: int = 0, **options: Any) -> BestView:
     """Finds the view that tells most about a shape, and the one that tells least.
 
-    model: a path, (n, 3) vertices, a Model, an Analysis. F: (m, 3) integers with vertices; None: a
-    point cloud. method: a measure of a view, see measures().
+    model: a path, (n, 3) vertices, a Model, an Analysis; a mesh or point cloud of trimesh, Open3D,
+    PyVista or VTK; a tuple (V, F). F: (m, 3) integers with vertices; None: a point cloud.
+    method: a measure of a view, see measures().
     progress: function of (stage, fraction in [0, 1]). threads: at most this many; 0: all cores.
     Returns a BestView; the same for any number of threads.
     Raises InvalidInput, IoError, FormatError, TypeError.
     """
-    return best_view_of(_core.best_view(model, F, method, options, progress, threads))
+    model, F = subject_of(model, F)
+    result = best_view_of(_core.best_view(model, F, method, options, progress, threads))
+    result._show_by(lambda camera: render(model, F, camera=camera, size=_NOTEBOOK_SIZE))
+    return result
 
 
 @takes("method")
@@ -65,6 +72,7 @@ def skeleton(model: Any, F: Any = None, *, levels: bool = False, measure: bool =
     the skeleton is. progress: function of (stage, fraction in [0, 1]). threads: at most this many.
     Returns a Skeleton. Raises InvalidInput, IoError, FormatError, TypeError.
     """
+    model, F = subject_of(model, F)
     return Skeleton(**_core.skeleton(model, F, levels, measure, options, progress, threads))
 
 
@@ -78,6 +86,7 @@ def kssm(model: Any, F: Any = None, *, levels: bool = False, progress: Any = Non
     progress: function of (stage, fraction in [0, 1]). threads: at most this many; 0: all cores.
     Returns a KssmMap. Raises InvalidInput, IoError, FormatError, TypeError.
     """
+    model, F = subject_of(model, F)
     return KssmMap(**_core.kssm(model, F, levels, options, progress, threads))
 
 
@@ -89,6 +98,7 @@ def vertex_map(model: Any, F: Any = None, *, method: str = "kssm", progress: Any
     method: "kssm", "thickness" (distance to the skeleton, in the model's units), "mesh-saliency"
     or "pmi-saliency". The rest as for kssm(). Raises InvalidInput, IoError, FormatError, TypeError.
     """
+    model, F = subject_of(model, F)
     return _core.vertex_map(model, F, method, options, progress, threads)
 
 
@@ -105,6 +115,7 @@ def visible_vertices(model: Any, F: Any = None, *, eyes: Any = None, directions:
     Returns (k, n) bool, or (n,) for a single (3,) eye or direction.
     Raises InvalidInput, IoError, FormatError, TypeError.
     """
+    model, F = subject_of(model, F)
     return _core.visible_vertices(model, F, eyes, directions, sphere, options, progress, threads)
 
 
@@ -127,6 +138,7 @@ def score(model: Any, F: Any = None, *, directions: Any = None, eyes: Any = None
     Returns float64: (k,) for one method, (methods, k) for a list of them, without the k for a
     single (3,) direction or eye. Raises InvalidInput, IoError, FormatError, TypeError.
     """
+    model, F = subject_of(model, F)
     names = [method] if isinstance(method, str) else list(method)
     table = _core.score(model, F, directions, eyes, sphere, names, view_set, options, progress,
                         threads)
@@ -148,6 +160,7 @@ def render(model: Any, F: Any = None, *, direction: Any = None, camera: Any = No
     progress: function of (stage, fraction in [0, 1]). threads: at most this many; 0: all cores.
     Raises InvalidInput, IoError, FormatError, TypeError.
     """
+    model, F = subject_of(model, F)
     return _core.render(model, F, direction, camera, view, show, colours, options, progress,
                         threads)
 

@@ -1,7 +1,19 @@
 # SPDX-License-Identifier: MIT
 # Written by scripts/write_python_stubs.py from the table of options; do not edit.
 import os
-from typing import Any, Callable, Dict, List, Literal, Mapping, Optional, Sequence, Tuple, Union
+from typing import (
+    Any,
+    Callable,
+    Dict,
+    List,
+    Literal,
+    Mapping,
+    Optional,
+    Protocol,
+    Sequence,
+    Tuple,
+    Union,
+)
 
 import numpy.typing as npt
 
@@ -21,7 +33,29 @@ from .results import (
 Model = _core.Model
 Analysis = _core.Analysis
 _Path = Union[str, "os.PathLike[str]"]
-_Subject = Union[_Path, _core.Model, _core.Analysis, npt.ArrayLike]
+
+class _HasVertices(Protocol):  # trimesh, Open3D's TriangleMesh
+    @property
+    def vertices(self) -> Any: ...
+
+class _HasPoints(Protocol):  # Open3D's PointCloud, PyVista, meshio
+    @property
+    def points(self) -> Any: ...
+
+class _HasPolygons(Protocol):  # vtkPolyData
+    def GetPoints(self) -> Any: ...
+    def GetPolys(self) -> Any: ...
+
+_Subject = Union[
+    _Path,
+    _core.Model,
+    _core.Analysis,
+    npt.ArrayLike,
+    Tuple[npt.ArrayLike, npt.ArrayLike],
+    _HasVertices,
+    _HasPoints,
+    _HasPolygons,
+]
 _Progress = Optional[Callable[[str, float], object]]
 
 def load(path: _Path, *, progress: _Progress = None, threads: int = 0) -> _core.Model: ...

@@ -7,9 +7,12 @@ belongs to vertex i of the input, always. Arrays own the memory that the library
 
 from __future__ import annotations
 
+import importlib
 import math
+import struct
+import zlib
 from dataclasses import dataclass, fields
-from typing import Any, Dict, Mapping, Optional, Tuple
+from typing import Any, Callable, Dict, Mapping, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -38,6 +41,27 @@ class _Record:
         parts = [f"{f.name}={_brief(getattr(self, f.name))}"
                  for f in fields(self)]  # type: ignore[arg-type]
         return f"{type(self).__name__}({', '.join(parts)})"
+
+
+def _inverse_of_rigid(pose: Floats) -> Floats:
+    """Inverse of a rotation and a shift."""
+    inverse = np.eye(4)
+    inverse[:3, :3] = pose[:3, :3].T
+    inverse[:3, 3] = -pose[:3, :3].T @ pose[:3, 3]
+    return inverse
+
+
+def _png_of(picture: Bytes) -> bytes:
+    """A PNG file of (height, width, 4) bytes, sRGB."""
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return (struct.pack(">I", len(data)) + kind + data
+                + struct.pack(">I", zlib.crc32(kind + data)))
+
+    height, width = picture.shape[:2]
+    rows = b"".join(b"\0" + row.tobytes() for row in picture)  # 0: no filter
+    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 6))
+            + chunk(b"IEND", b""))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -75,6 +99,53 @@ class Camera(_Record):
             raise ValueError("an orthographic camera has no pinhole matrix")
         focal = 0.5 * height / math.tan(math.radians(self.fov_y_deg) / 2.0)
         return np.array([[focal, 0.0, 0.5 * width], [0.0, focal, 0.5 * height], [0.0, 0.0, 1.0]])
+
+    def extrinsics(self) -> Floats:
+        """(4, 4) world to camera, x right, y down, z forward: Open3D, OpenCV (R | t)."""
+        pose = self.world_from_camera()
+        pose[:3, 1:3] *= -1.0
+        return _inverse_of_rigid(pose)
+
+    @property
+    def camera_transform(self) -> Floats:
+        """(4, 4) as trimesh's `scene.camera_transform` takes it; fov() goes with it."""
+        return self.world_from_camera()
+
+    def fov(self, width: int, height: int) -> Tuple[float, float]:
+        """Horizontal and vertical field of view in degrees: trimesh's `scene.camera.fov`."""
+        if self.projection != "perspective":
+            raise ValueError("an orthographic camera has no field of view")
+        half = math.tan(math.radians(self.fov_y_deg) / 2.0) * width / height
+        return math.degrees(2.0 * math.atan(half)), self.fov_y_deg
+
+    @property
+    def camera_position(self) -> Tuple[Tuple[float, ...], Tuple[float, ...], Tuple[float, ...]]:
+        """Eye, target and up, as PyVista's `plotter.camera_position` takes them."""
+        return tuple(self.eye.tolist()), tuple(self.target.tolist()), tuple(self.up.tolist())
+
+    def set_vtk_camera(self, camera: Any) -> None:
+        """Sets a vtkCamera, such as PyVista's `plotter.camera`; near and far are the renderer's:
+        ResetCameraClippingRange()."""
+        camera.SetPosition(*self.eye.tolist())
+        camera.SetFocalPoint(*self.target.tolist())
+        camera.SetViewUp(*self.up.tolist())
+        camera.SetUseHorizontalViewAngle(False)
+        camera.SetParallelProjection(self.projection != "perspective")
+        if self.projection == "perspective":
+            camera.SetViewAngle(self.fov_y_deg)
+        else:
+            camera.SetParallelScale(0.5 * self.height)
+
+    def open3d_parameters(self, width: int, height: int) -> Any:
+        """An open3d.camera.PinholeCameraParameters for a picture of this size, with the centre at
+        (width − 1) / 2, (height − 1) / 2, where Open3D's own window has it."""
+        open3d = importlib.import_module("open3d")  # optional: imported by those who have it
+        K = self.intrinsics(width, height)
+        parameters = open3d.camera.PinholeCameraParameters()
+        parameters.intrinsic = open3d.camera.PinholeCameraIntrinsic(
+            width, height, K[0, 0], K[1, 1], K[0, 2] - 0.5, K[1, 2] - 0.5)
+        parameters.extrinsic = self.extrinsics()
+        return parameters
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -169,6 +240,19 @@ class BestView(_Record):
     """Every repair and doubt, one sentence each."""
     json: str
     """The text of view.json, as `vantage view --no-images` writes it."""
+
+    def _show_by(self, take: Callable[[Camera], Bytes]) -> None:
+        """How a notebook gets the picture; not part of the record, and not pickled."""
+        object.__setattr__(self, "_take", take)
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return {name: value for name, value in self.__dict__.items() if name != "_take"}
+
+    def _repr_png_(self) -> Optional[bytes]:
+        """The best view, for notebooks: taken anew each time, of the model as it is now. None once
+        the result has been through pickle, which leaves the model behind."""
+        take: Optional[Callable[[Camera], Bytes]] = self.__dict__.get("_take")
+        return None if take is None else _png_of(take(self.best.camera))
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -11,6 +11,7 @@
 
 #include "vantage/core/error.h"
 #include "vantage/io/camera_files.h"
+#include "vantage/io/model_viewer_camera.h"
 #include "vantage/io/write.h"
 #include "vantage/render/render.h"
 #include "vantage/report/view_report.h"
@@ -200,6 +201,15 @@ void add_set(Json& data, const ViewReport& report, const ShapeAnalysis& shape,
   data["tour"] = {{"degrees", degrees}, {"poses", poses}};
 }
 
+/// The line for web pages beside the other cameras of a view.
+void add_web_camera(Json& view, const ReportedView& of, const ViewReport& report,
+                    const Model& model) {
+  if (of.picture.projection == Projection::Perspective) {
+    view["cameras"]["model-viewer"] =
+        camera_model_viewer(of.picture, up_vector(report.up), model.name);
+  }
+}
+
 std::string colour_table() {
   std::vector<Rgb8> table;
   table.reserve(256);
@@ -283,6 +293,12 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, ShapePic
   data["warnings"] = data["view"]["warnings"];
   if (report.set) {
     add_set(data, report, shape, pictures, model, options, frame, quiet);
+  }
+  for (std::size_t i = 0; i < data["views"].size(); ++i) {
+    const ReportedView& of = i == 0   ? report.best
+                             : i == 1 ? report.worst
+                                      : report.set->views[i - 1];  // its first is the best
+    add_web_camera(data["views"][i], of, report, model);
   }
 
   constexpr std::string_view kMark = "<!--VANTAGE-DATA-->";

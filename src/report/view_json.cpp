@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/version.h"
+#include "vantage/io/model_viewer_camera.h"
 #include "vantage/io/write.h"
 #include "vantage/report/view_report.h"
 
@@ -37,7 +38,16 @@ Json frame_of(const Camera& picture) {
   return frame;
 }
 
-Json view_of(const ReportedView& view, const Json& image) {
+/// Attributes of <model-viewer>; null for a camera that it does not have.
+Json model_viewer_of(const Camera& picture, UpAxis up) {
+  Json attributes;
+  for (const auto& [name, value] : model_viewer_attributes(picture, up_vector(up))) {
+    attributes[name] = value;
+  }
+  return attributes;
+}
+
+Json view_of(const ReportedView& view, const Json& image, UpAxis up) {
   return {{"direction", point(view.direction)},
           {"eye", point(view.eye)},
           {"up", point(view.up)},
@@ -46,7 +56,8 @@ Json view_of(const ReportedView& view, const Json& image) {
           {"objective", view.objective},
           {"visible_area_fraction", view.visible_area_fraction},
           {"image", image},
-          {"frame", frame_of(view.picture)}};
+          {"frame", frame_of(view.picture)},
+          {"model_viewer", model_viewer_of(view.picture, up)}};
 }
 
 Json camera_of(const ScoringCamera& camera, const Json& projection) {
@@ -74,11 +85,12 @@ Json seconds_of(const StageSeconds& seconds) {
           {"total", seconds.total}};
 }
 
-Json views_of(const ReportedViewSet& set, bool pictures) {
+Json views_of(const ReportedViewSet& set, bool pictures, UpAxis up) {
   Json views = Json::array();
   for (std::size_t i = 0; i < set.views.size(); ++i) {
     const std::string number = (i < 9 ? "0" : "") + std::to_string(i + 1);
-    Json view = view_of(set.views[i], pictures ? Json("view-" + number + ".png") : Json(nullptr));
+    Json view =
+        view_of(set.views[i], pictures ? Json("view-" + number + ".png") : Json(nullptr), up);
     view["gain"] = set.choice.views[i].gain;
     view["coverage"] = set.choice.views[i].coverage;
     views.push_back(view);
@@ -155,14 +167,16 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
                          {"mirrors_front", shape_of_box.mirrors_front},
                          {"mirrors_up", shape_of_box.mirrors_up}};
   json["camera"] = camera_of(report.camera, echo["projection"]);
-  json["best"] = view_of(report.best, options.pictures ? Json("best.png") : Json(nullptr));
+  json["best"] =
+      view_of(report.best, options.pictures ? Json("best.png") : Json(nullptr), report.up);
   json["best"]["score_of_attainable"] =
       report.highest_score > 0.0 ? Json(report.best.score / report.highest_score) : Json(nullptr);
   json["highest_score"] = {{"direction", point(report.highest_direction)},
                            {"score", report.highest_score}};
-  json["worst"] = view_of(report.worst, options.pictures ? Json("worst.png") : Json(nullptr));
+  json["worst"] =
+      view_of(report.worst, options.pictures ? Json("worst.png") : Json(nullptr), report.up);
   if (report.set && options.view_set) {
-    json["views"] = views_of(*report.set, options.pictures);
+    json["views"] = views_of(*report.set, options.pictures, report.up);
     json["view_set"] = set_of(*report.set, options.view_set->selection);
   }
   json["twins"] = Json::array();

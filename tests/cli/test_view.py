@@ -20,8 +20,8 @@ class View(ProgramTest):
         self.assertEqual(sorted(p.name for p in folder.iterdir()), sorted([
             "best.png", "worst.png", "best-kssm.png", "worst-kssm.png", "best-skeleton.png",
             "worst-skeleton.png", "map.ply", "skeleton.json", "report.html", "view.json", "timings.json",
-            "camera-best.gltf", "camera-best.transforms.json", "camera-best.f3d.txt",
-            "camera-worst.gltf", "camera-worst.transforms.json", "camera-worst.f3d.txt"]))
+            "camera-best.gltf", "camera-best.transforms.json", "camera-best.f3d.txt", "camera-best.model-viewer.html",
+            "camera-worst.gltf", "camera-worst.transforms.json", "camera-worst.f3d.txt", "camera-worst.model-viewer.html"]))
         self.assertTrue((folder / "best.png").read_bytes().startswith(PNG))
         self.assertIn("cat_lowpoly.vantage/", done.out)
 

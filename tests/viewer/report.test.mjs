@@ -226,7 +226,8 @@ test('the tour goes on until something else is asked for', async () => {
 
 test('every camera format of the result folder is in the box', async () => {
   const page = await open(browser, report);
-  const files = { glTF: 'gltf', 'NeRF transforms.json': 'transforms.json', f3d: 'f3d.txt' };
+  const files = { glTF: 'gltf', 'NeRF transforms.json': 'transforms.json', f3d: 'f3d.txt',
+    'model-viewer': 'model-viewer.html' };
   const formats = await page.locator('#format option').evaluateAll((all) => all.map((o) => o.value));
   assert.deepEqual(formats.sort(), Object.keys(files).sort());
   await page.context().close();

@@ -41,6 +41,9 @@ SELECT m.key AS key, m.name AS name, c.status AS status,
   json_extract(c.result, '$.best.direction[0]') AS best_dx,
   json_extract(c.result, '$.best.direction[1]') AS best_dy,
   json_extract(c.result, '$.best.direction[2]') AS best_dz,
+  json_extract(c.result, '$.best.model_viewer."camera-orbit"') AS best_camera_orbit,
+  json_extract(c.result, '$.best.model_viewer."camera-target"') AS best_camera_target,
+  json_extract(c.result, '$.best.model_viewer."field-of-view"') AS best_field_of_view,
   json_extract(c.result, '$.worst.score') AS worst_score,
   json_extract(c.result, '$.worst.score_fraction') AS worst_fraction,
   json_extract(c.result, '$.worst.direction[0]') AS worst_dx,
@@ -254,12 +257,36 @@ void ResultsStore::check_integrity() {
 }
 
 const std::vector<std::string>& result_columns() {
-  static const std::vector<std::string> kNames{
-      "key",           "name",       "status",  "duplicate_of", "reason",      "error",
-      "content",       "options",    "version", "folder",       "format",      "vertices",
-      "faces",         "components", "closed",  "genus",        "total",       "best_score",
-      "best_fraction", "best_dx",    "best_dy", "best_dz",      "worst_score", "worst_fraction",
-      "worst_dx",      "worst_dy",   "worst_dz"};
+  static const std::vector<std::string> kNames{"key",
+                                               "name",
+                                               "status",
+                                               "duplicate_of",
+                                               "reason",
+                                               "error",
+                                               "content",
+                                               "options",
+                                               "version",
+                                               "folder",
+                                               "format",
+                                               "vertices",
+                                               "faces",
+                                               "components",
+                                               "closed",
+                                               "genus",
+                                               "total",
+                                               "best_score",
+                                               "best_fraction",
+                                               "best_dx",
+                                               "best_dy",
+                                               "best_dz",
+                                               "best_camera_orbit",
+                                               "best_camera_target",
+                                               "best_field_of_view",
+                                               "worst_score",
+                                               "worst_fraction",
+                                               "worst_dx",
+                                               "worst_dy",
+                                               "worst_dz"};
   return kNames;
 }
 

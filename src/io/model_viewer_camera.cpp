@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/io/model_viewer_camera.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "vantage/core/error.h"
+
+namespace vantage {
+namespace {
+
+using Matrix3 = Eigen::Matrix3d;
+
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+constexpr double kLevel = 1e-9;  // a sine below this is rounding
+// Moving the target to the middle of what is seen leaves a picture rolled by a degree or two; the
+// element shows it upright. Beyond this, a camera that someone meant so, the model is turned instead.
+constexpr double kMostRoll = 10.0 / kDegPerRad;
+
+/// Right, up and back of the camera, as rows.
+Matrix3 camera_axes(const Camera& camera) {
+  Matrix3 axes;
+  const Vec3 back = (camera.eye - camera.target).normalized();
+  const Vec3 right = camera.up.cross(back).normalized();
+  axes.row(0) = right;
+  axes.row(1) = back.cross(right);
+  axes.row(2) = back;
+  // What has no direction normalises to zero, not to NaN.
+  if (!axes.allFinite() || axes.row(0).isZero()) {
+    throw InvalidInput("a camera must look from one finite point at another, and not along its up");
+  }
+  return axes;
+}
+
+/// The angle between the camera's right and that of an upright camera; 0 where that has none.
+double roll_against(const Matrix3& axes, const Vec3& up) {
+  const Vec3 right = up.cross(axes.row(2).transpose());
+  return right.norm() > kLevel
+             ? std::atan2(right.cross(axes.row(0).transpose()).norm(), right.dot(axes.row(0)))
+             : 0.0;
+}
+
+/// The turn that makes `up` y: the shortest, and half a turn about x for −y.
+Matrix3 turn_to_y(const Vec3& up) {
+  if (up.y() < -1.0 + kLevel) {
+    return Vec3(1.0, -1.0, -1.0).asDiagonal();
+  }
+  return Eigen::Quaterniond::FromTwoVectors(up, Vec3::UnitY()).toRotationMatrix();
+}
+
+/// Decimal places without an exponent, which the element's attributes are easiest to read with.
+std::string decimal(double value, int places) {
+  std::array<char, 512> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, places)
+          .ptr;
+  std::string result(text.data(), end);
+  if (result.find('.') != std::string::npos) {
+    result.erase(result.find_last_not_of('0') + 1);
+    result.erase(result.find_last_not_of('.') + 1);
+  }
+  return result == "-0" ? "0" : result;
+}
+
+std::string degrees(double value) {
+  constexpr int kPlaces = 4;
+  return decimal(value, kPlaces) + "deg";
+}
+
+/// Roll, pitch and yaw of a rotation Ry(yaw) Rx(pitch) Rz(roll), as the element applies them.
+std::string orientation_of(const Matrix3& turn) {
+  const double sine = std::clamp(-turn(1, 2), -1.0, 1.0);
+  double yaw = 0.0;
+  double roll = 0.0;
+  if (std::abs(sine) < 1.0 - kLevel) {
+    yaw = std::atan2(turn(0, 2), turn(2, 2));
+    roll = std::atan2(turn(1, 0), turn(1, 1));
+  } else {
+    yaw = std::atan2(-turn(2, 0), turn(0, 0));
+  }
+  return degrees(roll * kDegPerRad) + ' ' + degrees(std::asin(sine) * kDegPerRad) + ' ' +
+         degrees(yaw * kDegPerRad);
+}
+
+std::string html_text(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> model_viewer_attributes(const Camera& camera,
+                                                                         const Vec3& up) {
+  if (camera.projection != Projection::Perspective) {
+    return {};
+  }
+  const Matrix3 axes = camera_axes(camera);
+  const Matrix3 turn = roll_against(axes, up) < kMostRoll ? turn_to_y(up) : axes;
+  const Matrix3 turned = axes * turn.transpose();  // the camera's axes in the element's scene
+  // Straight above or below, right says it: (cos, 0, −sin).
+  double azimuth = turned.row(2).cross(Vec3::UnitY()).norm() > kLevel
+                       ? std::atan2(turned(2, 0), turned(2, 2))
+                       : std::atan2(-turned(0, 2), turned(0, 0));
+  // No sign in front: tables take a text that begins with one for a formula.
+  azimuth += azimuth < -kLevel ? 2.0 * std::numbers::pi : 0.0;
+  const double polar = std::acos(std::clamp(turned(2, 1), -1.0, 1.0));
+  const Vec3 target = turn * camera.target;
+  const double distance = (camera.eye - camera.target).norm();
+  constexpr double kDigits = 7.0;
+  const int places =
+      std::clamp(static_cast<int>(kDigits - std::floor(std::log10(distance))), 0, 300);
+  const auto metres = [&](double value) { return decimal(value, places) + 'm'; };
+  std::vector<std::pair<std::string, std::string>> attributes{
+      {"camera-orbit",
+       degrees(azimuth * kDegPerRad) + ' ' + degrees(polar * kDegPerRad) + ' ' + metres(distance)},
+      {"camera-target", metres(target.x()) + ' ' + metres(target.y()) + ' ' + metres(target.z())},
+      {"field-of-view", degrees(camera.fov_y_deg)},
+      // The element keeps the eye and the angle between limits of its own: wider ones, so that
+      // visitors may still come nearer.
+      {"min-camera-orbit", "auto auto " + metres(0.25 * distance)},
+      {"max-camera-orbit", "auto auto " + metres(2.0 * distance)},
+      {"min-field-of-view", degrees(0.25 * camera.fov_y_deg)},
+      {"max-field-of-view", degrees(std::max(30.0, camera.fov_y_deg))}};
+  if (!turn.isIdentity(kLevel)) {
+    attributes.emplace_back("orientation", orientation_of(turn));
+  }
+  return attributes;
+}
+
+std::string camera_model_viewer(const Camera& camera, const Vec3& up, std::string_view model) {
+  std::string line = "<model-viewer src=\"" + html_text(model) + '"';
+  for (const auto& [name, value] : model_viewer_attributes(camera, up)) {
+    line += ' ' + name + "=\"" + value + '"';
+  }
+  return line + " camera-controls></model-viewer>\n";
+}
+
+}  // namespace vantage
