@@ -136,6 +136,17 @@ void OutputFolder::write() {
   remove_former_views();
 }
 
+void OutputFolder::write_without(const std::string& name) {
+  std::error_code error;
+  fs::remove(fs::path(path_) / name, error);
+  write();
+}
+
+void OutputFolder::write_last(std::string name, std::string bytes) {
+  write_file((fs::path(path_) / name).string(), bytes);
+  add(std::move(name), std::move(bytes));
+}
+
 bool OutputFolder::writes(std::string_view name) const {
   return std::any_of(files_.begin(), files_.end(),
                      [&](const auto& file) { return file.first == name; });

@@ -30,6 +30,12 @@ class OutputFolder {
   /// Writes all files. \throw IoError
   void write();
 
+  /// The same where a further file comes by write_last(): a former one does not stand beside these.
+  void write_without(const std::string& name);
+
+  /// Writes one more file. \throw IoError
+  void write_last(std::string name, std::string bytes);
+
   [[nodiscard]] const std::string& path() const { return path_; }
 
   [[nodiscard]] std::vector<std::string> names() const;

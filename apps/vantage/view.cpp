@@ -95,7 +95,8 @@ struct ViewCommand {
 
     StageSeconds seconds;
     check_output(trace, OutputKind::Table, session.flags);
-    const Model loaded = session.load(model);
+    // The page shows the model in its own materials.
+    const Model loaded = session.load(model, {.appearance = !no_images, .texture_side = 1024});
     session.read([&] { return sidecar_of(model); }).apply(options);
     seconds.load = seconds_since(start);
     OutputFolder output(folder.empty() ? folder_named(loaded.name, ".vantage") : folder);
@@ -115,19 +116,15 @@ struct ViewCommand {
     output.add("view.json", view_json(loaded, shape, report, options));
     ShapePictures pictures(shape);
     if (!no_images) {
-      add_pictures(output, OutputKinds::all(), pictures, report, options, run.part(0.9, 0.94));
-      if (!no_report && sums_a_map(options.method)) {
-        add_report(output, OutputKinds::all(), loaded, shape, pictures, report, options,
-                   run.part(0.94, 0.98));
-      }
+      add_pictures(output, OutputKinds::all(), pictures, report, options, run.part(0.9, 0.95));
     }
-    several.write(output, shape, pictures, report, choice.frame.up, options, run.part(0.98, 1.0));
+    several.write(output, shape, pictures, report, choice.frame.up, options, run.part(0.95, 1.0));
     seconds.render = seconds_since(render_start);
     add_data(output, OutputKinds::all(), loaded, shape, report, options,
              std::filesystem::path(model).filename().string());
     seconds.total = seconds_since(start);
     output.add("timings.json", timings_json(seconds));
-    output.write();
+    output.write_without("report.html");
     if (!no_images && !no_report && !has_report_page()) {
       session.say("note: this program was built without npm, so that there is no report.html");
     }
@@ -140,6 +137,16 @@ struct ViewCommand {
     } else {
       preview.show(session, shape, report.best.picture, options, {}, session.run());
       summarise(session, loaded, shape, choice, report, options, output, seconds);
+    }
+    // Last: who waits for the pictures and the numbers has them.
+    if (!no_images && !no_report && sums_a_map(options.method) && has_report_page()) {
+      const auto report_start = Clock::now();
+      output.write_last("report.html", report_html(loaded, shape, pictures, report, options, run));
+      session.end_progress();
+      if (!session.flags.json) {
+        session.tell("  report      " + printable(output.path()) + "/report.html, " +
+                     rounded(seconds_since(report_start), 2) + " s later");
+      }
     }
   }
 

@@ -335,12 +335,12 @@ Decimation decimate(const TriMesh& fine, std::size_t target, const RunContext& r
 }
 
 TwoDecimations decimate_twice(const TriMesh& fine, std::size_t between, std::size_t target,
-                              const RunContext& run) {
+                              const RunContext& run, std::span<const double> weights) {
   constexpr double kAnyCost = std::numeric_limits<double>::infinity();
   const int exponent = unit_exponent(fine);
   TriMesh scaled = fine;
   scale_by_power(scaled, -exponent);
-  Decimator decimator(scaled, ByQuadric(scaled, {}), run);
+  Decimator decimator(scaled, ByQuadric(scaled, weights), run);
   TwoDecimations two;
   decimator.reduce_to(target, kAnyCost, between);
   two.between = decimator.result();

@@ -38,7 +38,7 @@ struct TwoDecimations {
 
 /// decimate(), and what it was when at most `between` vertices were left, ≥ target.
 TwoDecimations decimate_twice(const TriMesh& fine, std::size_t between, std::size_t target,
-                              const RunContext& run);
+                              const RunContext& run, std::span<const double> weights = {});
 
 /// Collapses edges shorter than `longest`, shortest first, under the same condition on neighbours;
 /// faces may turn over. Merged vertices stand at their weighted mean.

@@ -8,6 +8,7 @@
 
 #include "vantage/mesh/measures.h"
 
+#include "core/parallel.h"
 #include "render/corner_normals.h"
 
 namespace vantage {
@@ -18,6 +19,7 @@ constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 /// default of 40° rounded fillets of CAD parts, rarely split finer than 12 to the full turn, stay
 /// smooth and their chamfers sharp, and bends of scans do not fray into teeth.
 constexpr double kCreaseSoftnessDeg = 10.0;
+constexpr std::size_t kFaceGrain = 4096;
 /// Least cosine between a shading normal and the viewer; interpolated normals may lean away.
 constexpr float kLeastFacing = 0.02F;
 
@@ -54,6 +56,14 @@ DrawnSurface::DrawnSurface(const TriMesh& mesh, const Appearance* appearance, do
     position = frame_.to_frame(position);
   }
   reach_ = reach_of(mesh_);
+  face_normals_.resize(mesh_.triangles.size(), Vec3f::Zero());
+  parallel_for(run, face_normals_.size(), kFaceGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const Vec3 area = area_vector(mesh_, mesh_.triangles[f]);
+      const double norm = area.norm();
+      face_normals_[f] = norm > 0.0 ? Vec3f((area / norm).cast<float>()) : Vec3f(Vec3f::Zero());
+    }
+  });
   if (crease_deg > 0.0) {
     normals_ = corner_normals(mesh_, crease_of(crease_deg), run);
   }
@@ -72,11 +82,10 @@ DrawnSurface::DrawnSurface(const TriMesh& mesh, const Appearance* appearance, do
 
 SurfacePlace DrawnSurface::place(const RaySegment& ray, const RayHit& hit) const {
   const Vec3f to_viewer = -ray.direction;
-  const Vec3 area = area_vector(mesh_, mesh_.triangles[hit.face]);
-  const double area_norm = area.norm();
+  const Vec3f& face_normal = face_normals_[hit.face];
   SurfacePlace place;
   place.position = ray.origin + hit.t * ray.direction;
-  place.face_normal = area_norm > 0.0 ? Vec3f((area / area_norm).cast<float>()) : to_viewer;
+  place.face_normal = face_normal.isZero(0.0F) ? to_viewer : face_normal;
   place.normal = place.face_normal;
   if (!normals_.empty()) {
     const std::array<Vec3f, 3>& corners = normals_[hit.face];

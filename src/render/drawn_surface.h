@@ -56,6 +56,7 @@ class DrawnSurface {
   TriMesh mesh_;
   double reach_ = 1.0;
   double crease_deg_;
+  std::vector<Vec3f> face_normals_{};            // unit; zero of faces without area
   std::vector<std::array<Vec3f, 3>> normals_{};  // at corners; empty: the faces' own
   std::optional<Skin> skin_{};
   std::optional<RayScene> rays_{};

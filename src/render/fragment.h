@@ -9,21 +9,26 @@
 
 namespace vantage {
 
-/// What the first few samples of a pixel show of the surface.
+/// What the middle of a pixel shows of the surface.
 struct Fragment {
-  SurfacePlace place{};  ///< Of the first hit; the normal is the mean if all are of one patch.
-  bool hit = false;      ///< Some sample shows the surface.
-  bool full = false;     ///< All of them do.
-  bool one_patch = false;
-  float off_plane = 0.0F;  ///< How far the samples lie at most from the plane of the first hit.
-  bool line = false;       ///< Some sample shows a feature line.
+  SurfacePlace place{};
+  bool hit = false;
+  bool line = false;    ///< A feature line.
+  bool breaks = false;  ///< Something else shows beside the middle: it may be thinner than a pixel.
 };
 
-/// What they show of one coat.
+/// What it shows of one coat.
 struct CoatFragment {
-  Vec3f albedo = Vec3f::Zero();  ///< Mean, linear.
-  bool even = false;             ///< All have nearly one opaque colour, and no tube.
-  bool tube = false;             ///< Some sample shows a tube.
+  Vec3f albedo = Vec3f::Zero();  ///< Linear.
+  bool opaque = false;           ///< A lit surface that nothing shines through.
+  bool tube = false;
+};
+
+/// How many samples a pixel needs in one coat.
+enum class SampleNeed {
+  One,  ///< It and those around it show one patch of the surface in one colour, or nothing at all.
+  Few,  ///< One patch, but bent or coloured: unless a few samples differ much, their mean will do.
+  All,  ///< The surface, a line or a tube ends there or steps back.
 };
 
 /// Whether two places belong to one patch of the surface: alike in normal (up to about 26°), and
@@ -57,9 +62,17 @@ struct FragmentRows {
     return x >= 0 && x < width && y >= first_row && y < first_row + rows;
   }
 
-  /// Whether a pixel shows one patch of the surface in one colour of a coat, or nothing at all, as
-  /// those beside it do: then it need not be sampled further. \param pixel size at the surface.
-  [[nodiscard]] bool is_plain(int x, int y, std::size_t coat, float pixel) const;
+  /// By what the surface is like at a pixel and beside it. \param pixel size at the surface.
+  [[nodiscard]] SampleNeed need(int x, int y, float pixel) const;
+  /// The same for a coat. \param of_surface what need() says.
+  [[nodiscard]] SampleNeed need_of_coat(int x, int y, std::size_t coat,
+                                        SampleNeed of_surface) const;
+
+  /// Normal and albedo of a pixel that needs one sample, as the tent filter of all samples would
+  /// mix them with those around it.
+  /// \pre need() is one sample.
+  [[nodiscard]] Vec3f mixed_normal(int x, int y) const;
+  [[nodiscard]] Vec3f mixed_albedo(int x, int y, std::size_t coat) const;
 
   /// Whether the surface may end or step back in a pixel or beside it.
   /// \param tolerance distance from a plane that is no step.

@@ -38,7 +38,7 @@ struct Light {
 /// Light of a pixel in one coat.
 struct PixelLight {
   Light light{};
-  bool refined = false;  ///< From all samples of the pixel, not from its fragment.
+  SampleNeed need = SampleNeed::One;
 };
 
 /// What is known of some rows of a picture before their pixels are made.
@@ -50,8 +50,7 @@ struct SceneBand {
 };
 
 /// A surface seen by a camera, in one coat or several, with all else that is drawn: the rays of all
-/// coats are the same. A few samples of each pixel tell whether it shows one patch of the surface
-/// in one colour, as its neighbours do; then it is shaded once, and else at all its samples.
+/// coats are the same. One sample of each pixel and of those around it tells how many more it needs.
 /// Immutable after construction; pixels may be asked for from many threads at once.
 class Scene {
  public:
@@ -78,28 +77,54 @@ class Scene {
     std::size_t index = 0;  ///< In the pixel's pattern.
     const SceneBand* band = nullptr;
     RayHit hit{};
-    bool on_line = false;                   ///< A feature line lies before the surface.
-    std::optional<SurfacePoint> surface{};  ///< At the hit; its albedo is a coat's.
+    bool on_line = false;                ///< A feature line lies before the surface.
+    std::optional<std::size_t> patch{};  ///< Of its pixel, that the hit lies on.
   };
+
+  /// A patch of the surface that several samples of a pixel meet: they are lit alike.
+  struct Patch {
+    SurfacePlace place{};                         ///< Where the first of them meets it.
+    SurfacePoint point{};                         ///< There, with the albedo that was shaded last.
+    std::optional<Vec3> shown{};                  ///< What that looks like.
+    bool is_of_coat = false;                      ///< It was shaded for the coat at hand.
+    std::array<std::optional<double>, 2> veil{};  ///< Opacity around tubes: none before it, or one.
+  };
+
+  using Patches = std::vector<Patch>;
 
   using Pattern = std::vector<std::array<double, 2>>;
   using SamplePacket = std::array<Sample, 4>;
+  /// Samples that tell whether a pixel with bends or colours needs all. [ours]
+  static constexpr int kFewSamples = 4;
 
   void add_lines(const RunContext& run);
-  [[nodiscard]] SamplePacket samples(int x, int y, const Pattern& pattern, std::size_t first,
-                                     std::size_t count, double width) const;
+  /// A sample at the middle of a pixel, moved by so many pixels.
+  [[nodiscard]] Sample aimed(int x, int y, double right, double down) const;
+  /// Finds what the first `count` samples show. \param width of their rays.
+  void trace(SamplePacket& samples, std::size_t count, double width) const;
 
   [[nodiscard]] bool may_show_anything(int x, int y) const;
-  void make_fragment(int x, int y, FragmentRows& rows) const;
-  [[nodiscard]] CoatFragment coat_fragment(const Coat& coat, std::span<const Sample> samples,
-                                           bool one_patch) const;
-  [[nodiscard]] Light plain_light(int x, int y, std::size_t coat, const SceneBand& band) const;
-  void refine(int x, int y, const SceneBand& band, std::span<PixelLight> lights) const;
+  void make_fragments(int y, FragmentRows& rows) const;
+  /// Whether something that their middles do not show lies beside them.
+  void find_breaks(const SamplePacket& middles, std::size_t count, FragmentRows& rows) const;
+  [[nodiscard]] CoatFragment coat_fragment(const Coat& coat, const Sample& sample) const;
+  /// What all coats have in common at a pixel that shows the surface and needs one sample.
+  [[nodiscard]] SurfacePoint plain_point(int x, int y, const SceneBand& band) const;
+  [[nodiscard]] Light plain_light(int x, int y, std::size_t coat, const SceneBand& band,
+                                  std::optional<SurfacePoint>& point) const;
+  /// Looks at a few samples where they are enough; else the need becomes all.
+  void look_at_few(int x, int y, const SceneBand& band, std::span<PixelLight> lights) const;
+  void look_at_all(int x, int y, const SceneBand& band, std::span<PixelLight> lights) const;
 
-  [[nodiscard]] Light light_of(const Coat& coat, Sample& sample) const;
+  /// Finds the patches of all samples, whatever the coats.
+  void find_patches(SamplePacket& samples, std::size_t count, Patches& patches) const;
+  static void begin_coat(Patches& patches);
+  /// \param patches of the pixel, so far.
+  [[nodiscard]] Light light_of(const Coat& coat, Sample& sample, Patches& patches) const;
   [[nodiscard]] Light surface_light(const Coat& coat, Sample& sample, const RayHit& hit,
-                                    bool before_tube) const;
-  [[nodiscard]] SurfacePoint surface_at(const Sample& sample, const RayHit& hit) const;
+                                    bool before_tube, Patches& patches) const;
+  [[nodiscard]] std::size_t patch_at(const Sample& sample, const RayHit& hit,
+                                     Patches& patches) const;
   [[nodiscard]] SurfacePoint point_at(const SurfacePlace& place, const Vec3& ray_direction,
                                       double openness) const;
   [[nodiscard]] Vec3 shaded(const SurfacePoint& point) const;
@@ -112,7 +137,7 @@ class Scene {
   const DrawnSurface* surface_;
   RenderOptions options_;
   double pixel_ = 0.0;  // size of a pixel at the middle of the scene
-  Pattern first_;       // what fragments are made of
+  Pattern few_;
   Pattern pattern_;
   std::optional<TileMask> mask_{};
   std::optional<PictureRays> rays_{};

@@ -73,8 +73,17 @@ void Tubes::meet_ball(const Vec3& centre, double radius, const PictureRay& ray, 
 
 TubeHit Tubes::meet(const Capsule& capsule, const PictureRay& ray) {
   TubeHit hit;
-  meet_ball(capsule.begin, capsule.radius, ray, hit);
   const Vec3 span = capsule.end - capsule.begin;
+  // All of it lies within (|span| / 2 + radius)² ≤ 2 (|span|² / 4 + radius²) of its middle.
+  const Vec3 from_middle = ray.origin - capsule.begin - 0.5 * span;
+  const double nearest_squared =
+      (from_middle - from_middle.dot(ray.direction) * ray.direction).squaredNorm();
+  constexpr double kRounding = 1.0 + 1e-6;
+  if (nearest_squared >
+      kRounding * (0.5 * span.squaredNorm() + 2.0 * capsule.radius * capsule.radius)) {
+    return hit;
+  }
+  meet_ball(capsule.begin, capsule.radius, ray, hit);
   const double length = span.norm();
   if (!(length > 0.0)) {
     return hit;

@@ -33,24 +33,28 @@ std::vector<std::uint32_t> flat_indices(const TriMesh& surface) {
 
 DisplayMesh compact(const std::vector<std::uint32_t>& indices) {
   DisplayMesh result;
-  result.vertex_of_row = indices;
-  std::sort(result.vertex_of_row.begin(), result.vertex_of_row.end());
-  result.vertex_of_row.erase(std::unique(result.vertex_of_row.begin(), result.vertex_of_row.end()),
-                             result.vertex_of_row.end());
-  const auto row = [&](std::uint32_t v) {
-    const auto at = std::lower_bound(result.vertex_of_row.begin(), result.vertex_of_row.end(), v);
-    return static_cast<std::uint32_t>(at - result.vertex_of_row.begin());
-  };
+  if (indices.empty()) {
+    return result;
+  }
+  std::vector<std::uint32_t> row_of(*std::max_element(indices.begin(), indices.end()) + 1, 0);
+  for (const std::uint32_t v : indices) {
+    row_of[v] = 1;
+  }
+  for (std::uint32_t v = 0; v < row_of.size(); ++v) {
+    if (row_of[v] != 0) {
+      row_of[v] = static_cast<std::uint32_t>(result.vertex_of_row.size());
+      result.vertex_of_row.push_back(v);
+    }
+  }
   for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-    result.triangles.push_back({row(indices[i]), row(indices[i + 1]), row(indices[i + 2])});
+    result.triangles.push_back(
+        {row_of[indices[i]], row_of[indices[i + 1]], row_of[indices[i + 2]]});
   }
   return result;
 }
 
-/// Copies by edge collapse: coarse vertices become the nearest of the vertices merged in them.
-DisplayMesh collapsed(const CompactSurface& whole, std::span<const double> weights,
-                      std::size_t target, const RunContext& run) {
-  const Decimation coarse = decimate(whole.mesh, target, run, weights);
+/// A copy by edge collapse: coarse vertices become the nearest of the vertices merged in them.
+DisplayMesh collapsed(const CompactSurface& whole, const Decimation& coarse) {
   const std::vector<Vec3>& points = coarse.mesh.positions;
   std::vector<double> nearest(points.size(), std::numeric_limits<double>::infinity());
   std::vector<std::uint32_t> chosen(points.size(), 0);
@@ -122,23 +126,41 @@ DisplayMesh clustered(const TriMesh& surface, const std::vector<std::uint32_t>& 
 
 }  // namespace
 
-DisplayMesh display_mesh(const TriMesh& surface, std::span<const double> significance,
-                         const std::vector<FaceSides>& sides, std::size_t max_faces,
-                         std::size_t max_vertices, const RunContext& run) {
-  const auto fits = [&](const DisplayMesh& mesh) {
-    return mesh.triangles.size() <= max_faces && mesh.vertex_of_row.size() <= max_vertices;
+std::vector<DisplayMesh> display_meshes(const TriMesh& surface,
+                                        std::span<const double> significance,
+                                        const std::vector<FaceSides>& sides,
+                                        const std::array<DisplaySize, 2>& sizes,
+                                        const RunContext& run) {
+  const auto fits = [](const DisplayMesh& mesh, const DisplaySize& size) {
+    return mesh.triangles.size() <= size.max_faces &&
+           mesh.vertex_of_row.size() <= size.max_vertices;
+  };
+  // A closed surface has about twice as many faces as vertices.
+  const auto target = [](const DisplaySize& size) {
+    return std::min(size.max_vertices, size.max_faces / 2);
   };
   const std::vector<std::uint32_t> all = flat_indices(surface);
-  DisplayMesh result = compact(all);
-  if (fits(result)) {
-    return result;
+  const DisplayMesh whole = compact(all);
+  std::vector<DisplayMesh> results(2, whole);
+  if (fits(whole, sizes[1])) {
+    return results;
   }
-  const CompactSurface whole = compact_surface(surface, sides);
-  // A closed surface has about twice as many faces as vertices.
-  const std::size_t target = std::min(max_vertices, max_faces / 2);
-  result = collapsed(whole, collapse_weights(whole, significance), target, run);
-  // Soups and thousands of small parts have too few edges that may go.
-  return fits(result) ? result : clustered(surface, all, max_faces, max_vertices);
+  const CompactSurface parts = compact_surface(surface, sides);
+  const std::vector<double> weights = collapse_weights(parts, significance);
+  if (fits(whole, sizes[0])) {
+    results[1] = collapsed(parts, decimate(parts.mesh, target(sizes[1]), run, weights));
+  } else {
+    const TwoDecimations two =
+        decimate_twice(parts.mesh, target(sizes[0]), target(sizes[1]), run, weights);
+    results = {collapsed(parts, two.between), collapsed(parts, two.coarse)};
+  }
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (!fits(results[i],
+              sizes[i])) {  // soups and thousands of small parts have few edges to spare
+      results[i] = clustered(surface, all, sizes[i].max_faces, sizes[i].max_vertices);
+    }
+  }
+  return results;
 }
 
 }  // namespace vantage

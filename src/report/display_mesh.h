@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,12 +22,21 @@ struct DisplayMesh {
   std::vector<std::uint32_t> vertex_of_row{};  ///< Vertex of the surface, ascending.
 };
 
-/// At most about `max_faces` faces and at most `max_vertices` vertices of `surface`, chosen so that
-/// it looks alike and more of it is left where the significance is large; vertices stay where they
-/// are. The surface itself, less vertices without faces, if it is small enough.
-/// \param significance |V| finite values ≥ 0. \param sides one per component. \throw Cancelled
-DisplayMesh display_mesh(const TriMesh& surface, std::span<const double> significance,
-                         const std::vector<FaceSides>& sides, std::size_t max_faces,
-                         std::size_t max_vertices, const RunContext& run = {});
+/// How large a copy may be.
+struct DisplaySize {
+  std::size_t max_faces = 0;     ///< At most about so many.
+  std::size_t max_vertices = 0;  ///< At most so many.
+};
+
+/// A copy of `surface` of either size, chosen so that it looks alike and more of it is left where
+/// the significance is large; vertices stay where they are. The surface itself, less vertices
+/// without faces, if it is small enough.
+/// \param significance |V| finite values ≥ 0. \param sides one per component.
+/// \param sizes the second no larger than the first. \return two. \throw Cancelled
+std::vector<DisplayMesh> display_meshes(const TriMesh& surface,
+                                        std::span<const double> significance,
+                                        const std::vector<FaceSides>& sides,
+                                        const std::array<DisplaySize, 2>& sizes,
+                                        const RunContext& run = {});
 
 }  // namespace vantage

@@ -19,7 +19,10 @@
 
 #include "io/base64.h"
 #include "pipeline/map_objective.h"
+#include "pipeline/preference.h"
+#include "report/asset_part.h"
 #include "report/display_mesh.h"
+#include "report/page_data.h"
 #include "report/report_page.h"
 
 namespace vantage {
@@ -33,9 +36,6 @@ constexpr std::size_t kDisplayFaces = 300000;
 constexpr std::size_t kHistoryVertices = 30000;
 /// The heat map's set: icosahedron level 3, 642 directions.
 constexpr int kSphereLevel = 3;
-/// Coordinates, in radii of the enclosing sphere, are stored as 16 bits over [-1.25, 1.25]: a
-/// contracted surface may reach a little beyond the sphere.
-constexpr double kReach = 1.25;
 /// Most views of a set in the filmstrip: each adds a picture of about 40 KB. [ours]
 constexpr std::size_t kMostStripViews = 24;
 /// Cameras of the tour stand so far apart, degrees; between them the page mixes. [ours]
@@ -44,37 +44,8 @@ constexpr double kTourStepDeg = 4.0;
 constexpr int kStripWidth = 288;
 constexpr int kStripHeight = 216;
 
-/// The values' bytes as they are in memory.
-template <class Value>
-std::string base64_of(const std::vector<Value>& values) {
-  const auto* bytes = static_cast<const char*>(static_cast<const void*>(values.data()));
-  return base64({bytes, values.size() * sizeof(Value)});
-}
-
-/// Model coordinates to radii of the enclosing sphere around its centre, which the page works in.
-struct Frame {
-  Vec3 centre = Vec3::Zero();
-  double radius = 1.0;
-
-  [[nodiscard]] Vec3 to(const Vec3& p) const { return (p - centre) / radius; }
-};
-
 Json numbers(const Vec3& p) {
   return Json::array({p.x(), p.y(), p.z()});
-}
-
-std::string packed_positions(const std::vector<Vec3>& positions,
-                             const std::vector<std::uint32_t>& rows, const Frame& frame) {
-  std::vector<std::uint16_t> packed;
-  packed.reserve(3 * rows.size());
-  for (const std::uint32_t v : rows) {
-    const Vec3 p = frame.to(positions[v]);
-    for (int axis = 0; axis < 3; ++axis) {
-      const double share = std::clamp((p[axis] + kReach) / (2.0 * kReach), 0.0, 1.0);
-      packed.push_back(static_cast<std::uint16_t>(std::lround(65535.0 * share)));
-    }
-  }
-  return base64_of(packed);
 }
 
 std::string packed_significance(const std::vector<double>& map,
@@ -95,26 +66,23 @@ Json surface_part(const DisplayMesh& display, const ShapeAnalysis& shape) {
           {"significance", packed_significance(shape.map.of_vertex, display.vertex_of_row)}};
 }
 
-Json mesh_part(const ShapeAnalysis& shape, const Frame& frame, const RunContext& run) {
-  const DisplayMesh display = display_mesh(shape.surface, shape.map.of_vertex, shape.sides,
-                                           kDisplayFaces, 2 * kDisplayFaces, run);
-  Json part = surface_part(display, shape);
-  part["positions"] = packed_positions(shape.surface.positions, display.vertex_of_row, frame);
-  return part;
-}
-
-Json history_part(const ShapeAnalysis& shape, const Frame& frame, const RunContext& run) {
-  const DisplayMesh display = display_mesh(shape.surface, shape.map.of_vertex, shape.sides,
-                                           kDisplayFaces, kHistoryVertices, run);
-  Json part = surface_part(display, shape);
-  part["levels"] = Json::array();
+/// The surface, and what of it is contracted.
+void add_surfaces(Json& data, const ShapeAnalysis& shape, const PageFrame& frame,
+                  const RunContext& run) {
+  const std::vector<DisplayMesh> displays = display_meshes(
+      shape.surface, shape.map.of_vertex, shape.sides,
+      {{{kDisplayFaces, 2 * kDisplayFaces}, {kDisplayFaces, kHistoryVertices}}}, run);
+  data["mesh"] = surface_part(displays[0], shape);
+  data["mesh"]["positions"] =
+      packed_positions(shape.surface.positions, displays[0].vertex_of_row, frame);
+  data["history"] = surface_part(displays[1], shape);
+  data["history"]["levels"] = Json::array();
   for (const auto& level : shape.history.levels) {
-    part["levels"].push_back(packed_positions(level, display.vertex_of_row, frame));
+    data["history"]["levels"].push_back(packed_positions(level, displays[1].vertex_of_row, frame));
   }
-  return part;
 }
 
-Json skeleton_part(const CurveGraph& graph, const Frame& frame) {
+Json skeleton_part(const CurveGraph& graph, const PageFrame& frame) {
   Json nodes = Json::array();
   for (const Vec3& p : graph.nodes) {
     nodes.push_back(numbers(frame.to(p)));
@@ -122,12 +90,17 @@ Json skeleton_part(const CurveGraph& graph, const Frame& frame) {
   return {{"nodes", nodes}, {"edges", graph.edges}};
 }
 
-Json sphere_part(const DirectionSet& set, const std::vector<double>& scores) {
+/// \param objective what the best view maximises there; empty if it is the score.
+Json sphere_part(const DirectionSet& set, const std::vector<double>& scores,
+                 const std::vector<double>& objective) {
   Json directions = Json::array();
   for (const Vec3& d : set.directions) {
     directions.push_back(numbers(d));
   }
-  return {{"directions", directions}, {"triangles", set.triangles}, {"scores", scores}};
+  return {{"directions", directions},
+          {"triangles", set.triangles},
+          {"scores", scores},
+          {"objective", objective}};
 }
 
 /// The paper's search, to its end: the page stops it where a chosen ε would.
@@ -145,12 +118,9 @@ Json rapid_part(const ScoreBatch& score, double total, Goal goal, const RunConte
 
 Json view_part(const char* name, const ReportedView& view, const ShapeAnalysis& shape,
                ShapePictures& pictures, const Model& model, const ViewOptions& options,
-               const Frame& frame, const RunContext& run) {
-  ViewOptions small = options;
-  small.width = kStripWidth;
-  small.height = kStripHeight;
-  constexpr std::array kPlain{Picture::Plain};
-  const std::string png = png_bytes(pictures.take(view.picture, kPlain, small, {}, run).front());
+               const PageFrame& frame, const RunContext& run) {
+  const std::string png =
+      png_bytes(pictures.take_small(view.picture, kStripWidth, kStripHeight, options, run));
   const PictureSize size{options.width, options.height};
   return {{"name", name},
           {"direction", numbers(view.direction)},
@@ -172,7 +142,7 @@ Json view_part(const char* name, const ReportedView& view, const ShapeAnalysis& 
 /// The views of a set after the first, which is the best one, and the round over all of them.
 void add_set(Json& data, const ViewReport& report, const ShapeAnalysis& shape,
              ShapePictures& pictures, const Model& model, const ViewOptions& options,
-             const Frame& frame, const RunContext& run) {
+             const PageFrame& frame, const RunContext& run) {
   const std::vector<ReportedView>& views = report.set->views;
   const std::size_t shown = std::min(views.size(), kMostStripViews);
   for (std::size_t i = 1; i < shown; ++i) {
@@ -221,13 +191,9 @@ std::string colour_table() {
 
 /// Text that may stand inside a script element: no "<" can end it.
 std::string script_safe(const Json& json) {
-  std::string safe;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
-    if (c == '<') {
-      safe += "\\u003c";
-    } else {
-      safe += c;
-    }
+  std::string safe = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  for (std::size_t at = safe.find('<'); at != std::string::npos; at = safe.find('<', at)) {
+    safe.replace(at, 1, "\\u003c");
   }
   return safe;
 }
@@ -253,6 +219,21 @@ ScoreBatch estimated_scores(const ShapeAnalysis& shape, const ViewReport& report
   };
 }
 
+/// What the best view maximises, by estimated scores; empty if that is the score.
+std::vector<double> objectives(const ShapeAnalysis& shape, const ViewReport& report,
+                               const ViewOptions& options, const std::vector<Vec3>& directions,
+                               const std::vector<double>& scores) {
+  FrameChoice choice;
+  choice.frame = {report.up, report.front};
+  choice.orientation = report.orientation;
+  const Preference preference(shape, choice, options, report.total);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < directions.size() && !preference.is_score(); ++i) {
+    values.push_back(preference(directions[i], scores[i]));
+  }
+  return values;
+}
+
 }  // namespace
 
 bool has_report_page() {
@@ -265,7 +246,7 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, ShapePic
   if (!has_report_page()) {
     throw InvalidInput("this build has no 3D page; build it where npm is installed");
   }
-  const Frame frame{report.camera.sphere.centre, 0.5 * report.camera.sphere.diameter};
+  const PageFrame frame{report.camera.sphere.centre, 0.5 * report.camera.sphere.diameter};
   const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, kSphereLevel);
   RunContext quiet = run;
   quiet.report = nullptr;
@@ -279,11 +260,13 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, ShapePic
                  {"aspect", 1.0}}},
                {"colours", colour_table()}};
   run.advance("report", 0.0);
-  data["mesh"] = mesh_part(shape, frame, quiet);
-  data["history"] = history_part(shape, frame, quiet);
+  add_surfaces(data, shape, frame, quiet);
+  data["asset"] = asset_part(model, kDisplayFaces, frame);
   data["skeleton"] = skeleton_part(shape.skeleton.graph, frame);
   run.advance("report", 0.2);
-  data["sphere"] = sphere_part(set, score(set.directions));
+  const std::vector<double> scores = score(set.directions);
+  data["sphere"] =
+      sphere_part(set, scores, objectives(shape, report, options, set.directions, scores));
   run.advance("report", 0.7);
   data["rapid"] = {{"best", rapid_part(score, report.total, Goal::Best, quiet)},
                    {"worst", rapid_part(score, report.total, Goal::Worst, quiet)}};
@@ -291,6 +274,9 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, ShapePic
   data["views"] = {view_part("best", report.best, shape, pictures, model, options, frame, quiet),
                    view_part("worst", report.worst, shape, pictures, model, options, frame, quiet)};
   data["warnings"] = data["view"]["warnings"];
+  if (has_look(model) && data["asset"].is_null()) {
+    data["warnings"].push_back("The model's colours are left out here: it has too many faces.");
+  }
   if (report.set) {
     add_set(data, report, shape, pictures, model, options, frame, quiet);
   }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/report/pictures.h"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -9,12 +11,20 @@
 #include "vantage/render/render.h"
 
 #include "core/parallel.h"
+#include "report/smaller_picture.h"
 
 namespace vantage {
 namespace {
 
 /// Radius of the skeleton's tubes over D: thin enough for fingers, thick enough to see.
 constexpr double kTubeRadius = 0.004;
+/// Most pictures that are kept to be made smaller: those of the report's views, and some more.
+constexpr std::size_t kMostKept = 32;
+
+bool is_same(const Camera& a, const Camera& b) {
+  return a.eye == b.eye && a.target == b.target && a.up == b.up && a.projection == b.projection &&
+         a.fov_y_deg == b.fov_y_deg && a.height == b.height;
+}
 
 /// What a picture shows, and in which colours.
 class Canvas {
@@ -81,7 +91,32 @@ std::vector<Image> ShapePictures::take(const Camera& camera, std::span<const Pic
     canvases.emplace_back(*shape_, picture, options, look, nullptr);
     paints.push_back(canvases.back().paint());
   }
-  return surface(run).render(camera, paints, look, run);
+  std::vector<Image> images = surface(run).render(camera, paints, look, run);
+  for (std::size_t i = 0; i < images.size() && !background; ++i) {
+    if (pictures[i] == Picture::Plain) {
+      plain_.emplace_back(camera, images[i]);
+      if (plain_.size() > kMostKept) {
+        plain_.erase(plain_.begin());
+      }
+    }
+  }
+  return images;
+}
+
+Image ShapePictures::take_small(const Camera& camera, int width, int height,
+                                const ViewOptions& options, const RunContext& run) {
+  for (auto taken = plain_.rbegin(); taken != plain_.rend(); ++taken) {
+    const Image& image = taken->second;
+    if (is_same(taken->first, camera) && image.width >= width && image.height >= height &&
+        std::int64_t{image.width} * height == std::int64_t{image.height} * width) {
+      return smaller_picture(image, width, height);
+    }
+  }
+  ViewOptions small = options;
+  small.width = width;
+  small.height = height;
+  constexpr std::array kPlain{Picture::Plain};
+  return take(camera, kPlain, small, {}, run).front();
 }
 
 Image ShapePictures::take_plain(const Camera& camera, const RenderOptions& look,

@@ -14,7 +14,7 @@ panel.fillHeader(view);
 panel.fillNumbers(data);
 panel.fillWarnings(data.warnings);
 panel.fillLegend(asBytes(data.colours));
-const showCamera = panel.fillCameras(data.views);
+const showCamera = panel.fillCameras(data.views, view);
 
 const sphere = new ScoreSphere(element('sphere'), data, (direction) => {
   // The distance and the lens of the scoring camera: the whole model is in the picture.
@@ -25,7 +25,9 @@ const sphere = new ScoreSphere(element('sphere'), data, (direction) => {
 let model; // the first report of a direction comes from its constructor
 model = new ModelView(element('model'), data, (direction, up) => {
   sphere.turn(direction, up);
-  panel.showDirection(direction, sphere.scoreAt(direction), view.total);
+  const { scores, objective } = data.sphere;
+  panel.showDirection(direction, sphere.valueAt(direction, scores), view.total,
+    sphere.hasObjective ? sphere.valueAt(direction, objective) : undefined);
 });
 const press = panel.fillViews(data.views, (picked) => {
   press(picked.name);
@@ -35,8 +37,53 @@ const press = panel.fillViews(data.views, (picked) => {
 press(data.views[0].name);
 model.moved();
 
-element('show-map').addEventListener('change', (event) => model.showMap(event.target.checked));
-element('show-skeleton').addEventListener('change', (event) => model.showSkeleton(event.target.checked));
+// The analysis comes and goes as one: colours, their legend, and the skeleton and the contraction they come from.
+function showAnalysis(on) {
+  element('show-map').checked = on;
+  element('analysis').hidden = !on;
+  element('legend').hidden = !on;
+  model.showMap(on);
+  showSkeleton(on && element('show-skeleton').checked);
+  if (!on) {
+    setLevel(0);
+  }
+}
+function showSkeleton(on) {
+  element('show-skeleton').checked = on;
+  model.showSkeleton(on);
+}
+element('show-map').addEventListener('change', (event) => showAnalysis(event.target.checked));
+element('show-skeleton').addEventListener('change', (event) => showSkeleton(event.target.checked));
+
+// What the best view maximises, and the score, on the sphere.
+if (!sphere.hasObjective) {
+  element('sphere-of').remove();
+}
+function showOnSphere(what) {
+  document.querySelector(`input[name=sphere][value=${what}]`).checked = true;
+  sphere.show(what);
+}
+for (const input of document.querySelectorAll('input[name=sphere]')) {
+  input.addEventListener('change', () => showOnSphere(input.value));
+}
+
+/** All as it was when the page was opened. */
+function reset() {
+  if (playing) {
+    play();
+  }
+  showSkeleton(false);
+  showAnalysis(false);
+  if (sphere.hasObjective) {
+    showOnSphere('objective');
+  }
+  press(data.views[0].name);
+  showCamera(data.views[0]);
+  model.fly(data.views[0]);
+}
+element('reset').addEventListener('click', reset);
+const savePicture = () => panel.save(`${view.model.name}.png`, model.picture());
+element('save-picture').addEventListener('click', savePicture);
 
 // The contraction's history.
 const slider = element('level');
@@ -132,8 +179,23 @@ const toggleTheme = () => setTheme(document.documentElement.dataset.theme !== 'd
 element('theme').addEventListener('click', toggleTheme);
 
 const toggle = (id) => element(id).click();
+const KEYS = {
+  t: () => element('tour')?.click(),
+  d: toggleTheme,
+  k: () => toggle('show-map'),
+  s: () => { // the skeleton is a part of the analysis
+    const on = !element('show-skeleton').checked;
+    showAnalysis(true);
+    showSkeleton(on);
+  },
+  o: () => sphere.hasObjective && showOnSphere(sphere.shown === 'score' ? 'objective' : 'score'),
+  p: savePicture,
+  r: reset,
+};
 document.addEventListener('keydown', (event) => {
-  if (['INPUT', 'SELECT', 'TEXTAREA', 'BUTTON'].includes(event.target.tagName) || event.ctrlKey || event.metaKey) {
+  const typed = ['SELECT', 'TEXTAREA'].includes(event.target.tagName);
+  const pressed = event.key === ' ' && ['INPUT', 'BUTTON'].includes(event.target.tagName);
+  if (typed || pressed || event.ctrlKey || event.metaKey || event.altKey) {
     return;
   }
   const digit = Number(event.key);
@@ -141,9 +203,10 @@ document.addEventListener('keydown', (event) => {
     document.querySelectorAll('.view')[digit - 1].click();
   } else if (event.key === ' ') {
     event.preventDefault();
+    showAnalysis(true);
     play();
   } else {
-    ({ t: () => element('tour')?.click(), d: toggleTheme, k: () => toggle('show-map'), s: () => toggle('show-skeleton') })[event.key]?.();
+    KEYS[event.key]?.();
   }
 });
 

@@ -44,10 +44,15 @@ export class ModelView {
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.addLights();
     this.addSurface(data);
+    if (data.asset) {
+      this.addAsset(data.asset);
+    }
     this.addHistory(data);
     this.addSkeleton(data.skeleton);
+    this.level = 0;
     this.view = data.views[0];
     this.look(this.view);
+    this.showMap(false);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     this.resize();
     canvas.addEventListener('keydown', (event) => this.turnByKey(event));
@@ -73,6 +78,66 @@ export class ModelView {
     this.material = new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 0.75, side: THREE.DoubleSide });
     this.mesh = new THREE.Mesh(geometry, this.material);
     this.scene.add(this.mesh);
+  }
+
+  /** The file's own faces in its materials. */
+  addAsset(asset) {
+    const whole = new THREE.BufferGeometry();
+    whole.setAttribute('position', new THREE.BufferAttribute(asPositions(asset.positions), 3));
+    if (asset.uvs) {
+      whole.setAttribute('uv', new THREE.BufferAttribute(new Float32Array(asBytes(asset.uvs).buffer), 2));
+    }
+    if (asset.colours) {
+      const bytes = asBytes(asset.colours);
+      const rgb = new Float32Array(bytes.length);
+      for (let i = 0; i < bytes.length; i += 3) {
+        new THREE.Color().setRGB(bytes[i] / 255, bytes[i + 1] / 255, bytes[i + 2] / 255, THREE.SRGBColorSpace).toArray(rgb, i);
+      }
+      whole.setAttribute('color', new THREE.BufferAttribute(rgb, 3));
+    }
+    whole.setIndex(new THREE.BufferAttribute(asIndices(asset.indices), 1));
+    const coarse = whole.index.count / 3 <= CREASE_LIMIT;
+    const geometry = coarse ? toCreasedNormals(whole, CREASE_RAD) : whole;
+    if (!coarse) {
+      geometry.computeVertexNormals();
+    }
+    const textures = asset.textures.map((texture) => this.texture(texture));
+    const materials = asset.groups.map((group, i) => {
+      geometry.addGroup(group.start, group.count, i);
+      return this.assetMaterial(group, textures, Boolean(asset.colours));
+    });
+    this.asset = new THREE.Mesh(geometry, materials);
+    this.scene.add(this.asset);
+  }
+
+  texture({ picture, wrap, nearest }) {
+    const wraps = { repeat: THREE.RepeatWrapping, mirror: THREE.MirroredRepeatWrapping, clamp: THREE.ClampToEdgeWrapping };
+    this.loading = (this.loading ?? 0) + 1;
+    const done = () => {
+      this.loading -= 1;
+      this.draw();
+    };
+    const texture = new THREE.TextureLoader().load(picture, done, undefined, done);
+    texture.colorSpace = THREE.SRGBColorSpace;
+    texture.flipY = false; // (0, 0) is the top left corner
+    [texture.wrapS, texture.wrapT] = wrap.map((name) => wraps[name]);
+    texture.anisotropy = 4;
+    if (nearest) {
+      texture.magFilter = THREE.NearestFilter;
+    }
+    return texture;
+  }
+
+  assetMaterial({ colour, texture, opacity, cutoff, unlit }, textures, coloured) {
+    const options = { color: colour ? new THREE.Color().setRGB(...colour, THREE.LinearSRGBColorSpace) : coloured ? 0xffffff : PLAIN,
+      vertexColors: coloured, side: THREE.DoubleSide, map: textures[texture] ?? null };
+    if (cutoff !== undefined) {
+      options.alphaTest = Math.max(cutoff, 1e-3);
+      options.opacity = opacity;
+    } else if (opacity !== undefined) {
+      Object.assign(options, { transparent: true, opacity, depthWrite: opacity === 1 });
+    }
+    return unlit ? new THREE.MeshBasicMaterial(options) : new THREE.MeshStandardMaterial({ ...options, roughness: 0.75 });
   }
 
   addHistory(data) {
@@ -108,10 +173,11 @@ export class ModelView {
   }
 
   showMap(on) {
+    this.mapped = on;
     this.material.vertexColors = on;
     this.material.color = on ? new THREE.Color(1, 1, 1) : PLAIN;
     this.material.needsUpdate = true;
-    this.draw();
+    this.choose();
   }
 
   showSkeleton(on) {
@@ -120,6 +186,18 @@ export class ModelView {
     this.material.opacity = on ? 0.35 : 1;
     this.material.depthWrite = !on;
     this.material.needsUpdate = true;
+    this.choose();
+  }
+
+  /** Which of the surfaces is seen. */
+  choose() {
+    const { mesh } = this.history;
+    mesh.visible = this.level > 0;
+    const own = this.asset && !mesh.visible && !this.mapped && !this.skeleton.visible;
+    this.mesh.visible = !mesh.visible && !own;
+    if (this.asset) {
+      this.asset.visible = own;
+    }
     this.draw();
   }
 
@@ -127,9 +205,8 @@ export class ModelView {
   setLevel(level) {
     const { levels, normals, mesh } = this.history;
     const thickness = THICKENING * Math.min(1, level);
-    mesh.visible = level > 0;
-    this.mesh.visible = !mesh.visible;
-    if (mesh.visible) {
+    this.level = level;
+    if (level > 0) {
       const low = Math.min(Math.floor(level), levels.length - 1);
       const high = Math.min(low + 1, levels.length - 1);
       const share = level - low;
@@ -141,7 +218,7 @@ export class ModelView {
       mesh.geometry.computeVertexNormals();
       mesh.geometry.computeBoundingSphere();
     }
-    this.draw();
+    this.choose();
   }
 
   /** Stands at a view's camera at once. */
@@ -247,6 +324,12 @@ export class ModelView {
     this.camera.position.copy(this.controls.target).add(offset);
     this.controls.update();
     this.moved();
+  }
+
+  /** What the window shows, as a PNG on nothing. */
+  picture() {
+    this.renderer.render(this.scene, this.camera);
+    return this.canvas.toDataURL('image/png');
   }
 
   resize() {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The texts beside the model. Everything from the file goes in as text, never as markup.
 
+import { blenderScript, modelViewerAttributes } from './camera_texts.js';
+
 const element = (id) => document.getElementById(id);
 
 function make(tag, text, parent) {
@@ -45,6 +47,7 @@ export function fillNumbers(data) {
   const { view } = data;
   const rows = [
     ['method', `${view.method}, preset ${view.preset}`],
+    ['objective', view.objective === 'people' ? 'people: the view a maker of catalogues would take' : view.objective],
     ['best score', `${short(view.best.score)} (${percent(view.best.score_fraction)} of all)`],
     ['worst score', `${short(view.worst.score)} (${percent(view.worst.score_fraction)})`],
     ['search', `${view.search.strategy}, ${view.search.evaluations + view.search.worst_evaluations} views`],
@@ -71,11 +74,12 @@ export function fillWarnings(warnings) {
   warnings.forEach((text) => make('li', text, element('warnings')));
 }
 
-/** Where the eye is now and what that view scores. */
-export function showDirection(direction, score, total) {
+/** Where the eye is now, what that view scores and, if it is another thing, what best maximises. */
+export function showDirection(direction, score, total, objective) {
   const numbers = direction.toArray().map((x) => x.toFixed(3)).join(', ');
   const share = total > 0 ? ` (${percent(score / total)})` : '';
-  element('direction').textContent = `direction ${numbers}\nscore about ${short(score)}${share}`;
+  element('direction').textContent = `direction ${numbers}\nscore about ${short(score)}${share}`
+    + (objective === undefined ? '' : `\nobjective about ${short(objective)}`);
 }
 
 export function showReplay({ path, evaluations, levels }, dense) {
@@ -84,14 +88,35 @@ export function showReplay({ path, evaluations, levels }, dense) {
     `${evaluations} views in ${levels} rings; ends at about ${short(last.score)}, the view found: ${short(dense)}`;
 }
 
+/** Hands a file to the reader. */
+export function save(name, url) {
+  const link = document.createElement('a');
+  link.download = name;
+  link.href = url;
+  link.click();
+}
+
+const FORMATS = {
+  f3d: { name: 'f3d', ending: 'f3d.txt', hint: 'A command line that opens the model there.' },
+  Blender: { name: 'Blender', ending: 'py', hint: 'Paste into the Python console, after the import of the model.' },
+  'model-viewer': { name: 'model-viewer: camera-orbit', ending: 'html.txt', hint: 'Attributes of <model-viewer>, for a glTF with y up.' },
+  glTF: { name: 'glTF', ending: 'gltf', hint: 'A camera node.' },
+  'NeRF transforms.json': { name: 'NeRF transforms.json', ending: 'transforms.json', hint: 'For NeRF and Gaussian splatting.' },
+};
+
 /** Fills the camera box; returns a function that shows another view's camera. */
-export function fillCameras(views) {
-  const formats = Object.keys(views[0].cameras);
-  formats.forEach((name) => make('option', name, element('format')).setAttribute('value', name));
+export function fillCameras(views, json) {
+  const textOf = (view, format) => ({ Blender: blenderScript, 'model-viewer': modelViewerAttributes })[format]?.(view, json)
+    ?? view.cameras[format] ?? '';
+  for (const [value, { name }] of Object.entries(FORMATS)) {
+    make('option', name, element('format')).setAttribute('value', value);
+  }
   let current = views[0];
   const show = (view = current) => {
     current = view;
-    element('camera').value = view.cameras[element('format').value] ?? '';
+    element('camera-of').textContent = /^\d/.test(view.name) ? `view ${view.name}` : `the ${view.name} view`;
+    element('format-text').textContent = FORMATS[element('format').value].hint;
+    element('camera').value = textOf(view, element('format').value);
   };
   element('format').addEventListener('change', () => show());
   element('copy').addEventListener('click', async () => {
@@ -103,6 +128,10 @@ export function fillCameras(views) {
     }
     element('copy').textContent = 'Copied';
     setTimeout(() => { element('copy').textContent = 'Copy'; }, 1200);
+  });
+  element('save-camera').addEventListener('click', () => {
+    const file = new Blob([element('camera').value], { type: 'text/plain' });
+    save(`${json.model.name}-${current.name}.${FORMATS[element('format').value].ending}`, URL.createObjectURL(file));
   });
   show();
   return show;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The view sphere as a heat map: coloured and raised by the score of every direction.
+// The view sphere as a heat map: coloured and raised by the objective or the score of every direction.
 import * as THREE from 'three';
 import { asBytes } from './decode.js';
 
@@ -16,7 +16,9 @@ export class ScoreSphere {
     this.renderer.setSize(SIZE, SIZE, false);
     this.scene = new THREE.Scene();
     this.camera = new THREE.OrthographicCamera(-1.4, 1.4, 1.4, -1.4, 0.1, 10);
-    this.addSphere(data.sphere, asBytes(data.colours));
+    this.hasObjective = data.sphere.objective.length > 0;
+    this.table = asBytes(data.colours);
+    this.show(this.hasObjective ? 'objective' : 'score');
     for (const view of data.views) {
       this.scene.add(this.mark(view.direction, MARKS[view.name] ?? MARKS.other, 0.06));
     }
@@ -30,12 +32,16 @@ export class ScoreSphere {
     });
   }
 
-  addSphere({ directions, triangles, scores }, table) {
-    const low = Math.min(...scores);
-    const span = Math.max(...scores) - low || 1;
-    this.heights = scores.map((score) => (score - low) / span);
+  /** @param what 'objective', what the best view maximises, or 'score'. */
+  show(what) {
+    const { directions, triangles, scores, objective } = this.data.sphere;
+    const values = what === 'objective' ? objective : scores;
+    const low = Math.min(...values);
+    const span = Math.max(...values) - low || 1;
+    this.heights = values.map((value) => (value - low) / span);
     const positions = new Float32Array(3 * directions.length);
     const rgb = new Float32Array(3 * directions.length);
+    const { table } = this;
     directions.forEach((d, i) => {
       new THREE.Vector3(...d).multiplyScalar(1 + RAISE * this.heights[i]).toArray(positions, 3 * i);
       const c = 3 * Math.round(255 * this.heights[i]);
@@ -45,8 +51,14 @@ export class ScoreSphere {
     geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
     geometry.setAttribute('color', new THREE.BufferAttribute(rgb, 3));
     geometry.setIndex(triangles.flat());
+    if (this.mesh) {
+      this.scene.remove(this.mesh);
+      this.mesh.geometry.dispose();
+    }
     this.mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ vertexColors: true }));
     this.scene.add(this.mesh);
+    this.shown = what;
+    this.draw();
   }
 
   mark(direction, colour, radius) {
@@ -90,10 +102,10 @@ export class ScoreSphere {
     return ray.intersectObject(this.mesh)[0]?.point.normalize();
   }
 
-  /** Score of any direction, linear in the triangle of the set that it falls in. */
-  scoreAt(direction) {
-    const { directions, triangles, scores } = this.data.sphere;
-    let found = { inside: -Infinity, score: 0 };
+  /** Score or objective of any direction, linear in the triangle of the set that it falls in. */
+  valueAt(direction, values) {
+    const { directions, triangles } = this.data.sphere;
+    let found = { inside: -Infinity, value: 0 };
     const corner = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
     for (const triangle of triangles) {
       triangle.forEach((v, k) => corner[k].set(...directions[v]));
@@ -101,10 +113,10 @@ export class ScoreSphere {
       const inside = Math.min(...shares);
       if (inside > found.inside && corner[0].dot(direction) > 0) {
         const sum = shares[0] + shares[1] + shares[2];
-        found = { inside, score: triangle.reduce((s, v, k) => s + (shares[k] / sum) * scores[v], 0) };
+        found = { inside, value: triangle.reduce((s, v, k) => s + (shares[k] / sum) * values[v], 0) };
       }
     }
-    return found.score;
+    return found.value;
   }
 
   draw() {

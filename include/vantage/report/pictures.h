@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "vantage/core/camera.h"
@@ -52,6 +53,11 @@ class ShapePictures {
                           const ViewOptions& options, const std::optional<Rgb8>& background = {},
                           const RunContext& run = {});
 
+  /// A plain picture of another size: the one that was taken last with this camera, made smaller, if
+  /// it has that shape. \throw InvalidInput, Cancelled
+  Image take_small(const Camera& camera, int width, int height, const ViewOptions& options,
+                   const RunContext& run = {});
+
   /// A plain one with any look, of the look's size.
   Image take_plain(const Camera& camera, const RenderOptions& look, const RunContext& run = {});
 
@@ -60,6 +66,7 @@ class ShapePictures {
 
   const ShapeAnalysis* shape_;
   std::optional<PictureSurface> surface_{};
+  std::vector<std::pair<Camera, Image>> plain_{};  ///< What take() took, for take_small().
 };
 
 /// PNG files of several pictures, side by side. \throw Cancelled

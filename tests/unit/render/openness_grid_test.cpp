@@ -17,7 +17,7 @@ FragmentRows flat(int first_row = 0, int rows = kSide) {
     for (int x = 0; x < kSide; ++x) {
       Fragment& fragment = patch.fragments[patch.index(x, y)];
       fragment.place.position = Vec3f(static_cast<float>(x), static_cast<float>(-y), 0.0F);
-      fragment.hit = fragment.full = fragment.one_patch = true;
+      fragment.hit = true;
     }
   }
   return patch;

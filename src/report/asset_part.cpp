@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "report/asset_part.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "vantage/io/write.h"
+
+#include "report/smaller_picture.h"
+
+namespace vantage {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Longest side of a texture in the page, px: its window shows no more of it. [ours]
+constexpr int kTextureSide = 1024;
+
+/// Coordinates, in radii of the enclosing sphere, are stored as 16 bits over [-1.25, 1.25]: a
+/// contracted surface may reach a little beyond the sphere.
+constexpr double kReach = 1.25;
+
+/// Corners of the faces that are sent, each place with its texture coordinates once.
+struct Rows {
+  std::vector<std::uint32_t> positions{};
+  std::vector<std::array<float, 2>> uvs{};
+  std::vector<std::uint32_t> indices{};
+};
+
+std::array<float, 2> transformed(const Material& material, const std::array<float, 2>& uv) {
+  const auto& m = material.uv_transform;
+  const auto u = static_cast<double>(uv[0]);
+  const auto v = static_cast<double>(uv[1]);
+  return {static_cast<float>(m[0] * u + m[1] * v + m[2]),
+          static_cast<float>(m[3] * u + m[4] * v + m[5])};
+}
+
+/// Adds the faces of one material. \param material null for faces without one.
+void add_faces(const Model& model, const std::vector<std::uint32_t>& faces,
+               const Material* material, Rows& rows) {
+  const Appearance& appearance = model.appearance;
+  const bool is_textured =
+      material != nullptr && material->texture && !appearance.uv_of_triangle.empty();
+  std::vector<std::array<std::uint32_t, 2>> corners;
+  for (const std::uint32_t face : faces) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners.push_back({model.mesh.triangles[face][k],
+                         is_textured ? appearance.uv_of_triangle[face][k] : Appearance::kNone});
+    }
+  }
+  std::vector<std::array<std::uint32_t, 2>> own = corners;
+  std::sort(own.begin(), own.end());
+  own.erase(std::unique(own.begin(), own.end()), own.end());
+  const auto first = static_cast<std::uint32_t>(rows.positions.size());
+  for (const auto& [position, uv] : own) {
+    rows.positions.push_back(position);
+    rows.uvs.push_back(uv == Appearance::kNone ? std::array<float, 2>{}
+                                               : transformed(*material, appearance.uvs[uv]));
+  }
+  for (const auto& corner : corners) {
+    rows.indices.push_back(
+        first +
+        static_cast<std::uint32_t>(std::lower_bound(own.begin(), own.end(), corner) - own.begin()));
+  }
+}
+
+Json material_json(const Material& material) {
+  Json json = {{"colour", material.colour}, {"unlit", material.unlit}};
+  if (material.texture) {
+    json["texture"] = *material.texture;
+  }
+  if (material.alpha == AlphaMode::Mask) {
+    json["cutoff"] = material.alpha_cutoff;
+  }
+  if (material.alpha != AlphaMode::Opaque) {
+    json["opacity"] = material.opacity;
+  }
+  return json;
+}
+
+Json texture_json(const Texture& texture) {
+  constexpr std::array kWraps{"repeat", "mirror", "clamp"};
+  const int longest = std::max(texture.image.width, texture.image.height);
+  const double share = std::min(1.0, static_cast<double>(kTextureSide) / longest);
+  const auto side = [share](int size) {
+    return std::max(1, static_cast<int>(std::lround(share * size)));
+  };
+  const std::string bytes =
+      webp_bytes(share < 1.0 ? smaller_picture(texture.image, side(texture.image.width),
+                                               side(texture.image.height))
+                             : texture.image);
+  return {{"picture", "data:image/webp;base64," + base64(bytes)},
+          {"wrap",
+           {kWraps[static_cast<std::size_t>(texture.wrap_u)],
+            kWraps[static_cast<std::size_t>(texture.wrap_v)]}},
+          {"nearest", texture.nearest}};
+}
+
+}  // namespace
+
+std::string packed_positions(const std::vector<Vec3>& positions,
+                             const std::vector<std::uint32_t>& rows, const PageFrame& frame) {
+  std::vector<std::uint16_t> packed;
+  packed.reserve(3 * rows.size());
+  for (const std::uint32_t v : rows) {
+    const Vec3 p = frame.to(positions[v]);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double share = std::clamp((p[axis] + kReach) / (2.0 * kReach), 0.0, 1.0);
+      packed.push_back(static_cast<std::uint16_t>(std::lround(65535.0 * share)));
+    }
+  }
+  return base64_of(packed);
+}
+
+bool has_look(const Model& model) {
+  return !model.mesh.triangles.empty() &&
+         (!model.vertex_colours.empty() || !model.appearance.materials.empty());
+}
+
+Json asset_part(const Model& model, std::size_t max_faces, const PageFrame& frame) {
+  if (!has_look(model) || model.mesh.triangles.size() > max_faces) {
+    return nullptr;
+  }
+  const Appearance& appearance = model.appearance;
+  // Faces without a material come last.
+  std::vector<std::vector<std::uint32_t>> faces(appearance.materials.size() + 1);
+  for (std::uint32_t face = 0; face < model.mesh.triangles.size(); ++face) {
+    const std::uint32_t material =
+        appearance.materials.empty() ? Appearance::kNone : appearance.material_of_triangle[face];
+    faces[std::min<std::size_t>(material, appearance.materials.size())].push_back(face);
+  }
+  Rows rows;
+  Json groups = Json::array();
+  for (std::size_t m = 0; m < faces.size(); ++m) {
+    if (faces[m].empty()) {
+      continue;
+    }
+    const Material* material = m < appearance.materials.size() ? &appearance.materials[m] : nullptr;
+    Json group = material != nullptr ? material_json(*material) : Json::object();
+    group["start"] = rows.indices.size();
+    add_faces(model, faces[m], material, rows);
+    group["count"] = rows.indices.size() - group["start"].get<std::size_t>();
+    groups.push_back(std::move(group));
+  }
+  Json part = {{"positions", packed_positions(model.mesh.positions, rows.positions, frame)},
+               {"indices", base64_of(rows.indices)},
+               {"groups", std::move(groups)},
+               {"textures", Json::array()}};
+  for (const Texture& texture : appearance.textures) {
+    part["textures"].push_back(texture_json(texture));
+  }
+  if (!appearance.textures.empty()) {
+    part["uvs"] = base64_of(rows.uvs);
+  }
+  if (!model.vertex_colours.empty()) {
+    std::vector<Rgb8> colours;
+    for (const std::uint32_t v : rows.positions) {
+      colours.push_back(model.vertex_colours[v]);
+    }
+    part["colours"] = base64_of(colours);
+  }
+  return part;
+}
+
+}  // namespace vantage

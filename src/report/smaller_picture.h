@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vantage/core/image.h"
+
+namespace vantage {
+
+/// A smaller copy: means over areas, of light times opacity. \pre 0 < width ≤ that of the image, and
+/// the same for the height.
+Image smaller_picture(const Image& image, int width, int height);
+
+}  // namespace vantage
