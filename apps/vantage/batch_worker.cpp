@@ -192,7 +192,7 @@ struct BatchWorkerCommand {
     const ShapeAnalysis shape = analyse_shape(model, own, run);
     const FrameChoice choice = choose_frame(model, shape, own);
     const ViewReport report = find_views(shape, choice, own, run);
-    OutputFolder output(batch::path_of_key(order.at("staging").get<std::string>()));
+    OutputFolder output(batch::path_of_key(order.at("staging").get<std::string>()), kViewResults);
     ShapePictures pictures(shape);
     if (const auto best = add_pictures(output, kinds_, pictures, report, own, run)) {
       output.add(batch::kThumbnailFile, png_bytes(batch::thumbnail_of(*best)));

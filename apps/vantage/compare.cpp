@@ -48,7 +48,8 @@ struct CompareCommand {
     const std::vector<Measure> measures = chosen_measures(session, options);
     const RunContext run = session.run();
     const Model loaded = session.load(model);
-    OutputFolder output(folder.empty() ? folder_named(loaded.name, ".compare") : folder);
+    OutputFolder output(folder.empty() ? folder_named(loaded.name, ".compare") : folder,
+                        kCompareResults);
     output.check(session.flags.force);
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_for(loaded, options, measures, run.part(0.0, 0.2)); });

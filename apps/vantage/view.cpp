@@ -98,7 +98,8 @@ struct ViewCommand {
     const Model loaded = session.load(model);
     session.read([&] { return sidecar_of(model); }).apply(options);
     seconds.load = seconds_since(start);
-    OutputFolder output(folder.empty() ? folder_named(loaded.name, ".vantage") : folder);
+    OutputFolder output(folder.empty() ? folder_named(loaded.name, ".vantage") : folder,
+                        kViewResults);
     output.check(session.flags.force);
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_shape(loaded, options, run.part(0.02, 0.5), &seconds); });
@@ -127,12 +128,12 @@ struct ViewCommand {
              std::filesystem::path(model).filename().string());
     seconds.total = seconds_since(start);
     output.add("timings.json", timings_json(seconds));
+    if (!trace.empty()) {
+      output.add_named(trace, trace_csv(report));
+    }
     output.write();
     if (!no_images && !no_report && !has_report_page()) {
       session.say("note: this program was built without npm, so that there is no report.html");
-    }
-    if (!trace.empty()) {
-      write_output(trace, trace_csv(report));
     }
     session.end_progress();
     if (session.flags.json) {
