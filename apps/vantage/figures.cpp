@@ -15,6 +15,7 @@
 #include "vantage/io/write.h"
 
 #include "commands.h"
+#include "look_flags.h"
 #include "method_flags.h"
 #include "output_file.h"
 #include "output_folder.h"
@@ -38,6 +39,7 @@ struct FiguresCommand {
   std::string folder{};
   MethodFlags method{};
   ViewSetFlags several{};
+  LookFlags look{};
   std::set<std::string> folders{};
 
   void add_flags(CLI::App& app, Session& session) {
@@ -45,6 +47,7 @@ struct FiguresCommand {
     app.add_option("-o,--output", folder, "folder for the figures")->required();
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
     several.add_set_to(app);
+    look.add_to_several(app, Style::Clay);
     add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
@@ -53,6 +56,7 @@ struct FiguresCommand {
     ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
     options.objective = Objective::Significance;  // the paper's
     options.view_set = several.request_or(kSheetViews);
+    options.margin_percent = look.margin_percent();
     for (const char* const name : {"table-1-times.csv", "table-1-times.md"}) {
       check_result((std::filesystem::path(folder) / name).string(), OutputKind::Table,
                    session.flags);
@@ -86,7 +90,7 @@ struct FiguresCommand {
     const RunContext run = session.run();
     const auto start = Clock::now();
     StageTimes times;
-    const Model loaded = session.load(model);
+    const Model loaded = session.load(model, look.reading(options.width, options.height));
     times.seconds.load = seconds_since(start);
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_shape(loaded, options, run.part(0.0, 0.4), &times.seconds); });
@@ -101,7 +105,8 @@ struct FiguresCommand {
     report.set = find_view_set(shape, VertexVisibility(shape.surface, shape.sides, 1000),
                                report.camera, report.best.direction, choice.frame, options,
                                report.warnings, run.part(0.5, 0.6));
-    const std::vector<Figure> figures = paper_figures(shape, report, options, run.part(0.6, 1.0));
+    const std::vector<Figure> figures = paper_figures(shape, report, options, run.part(0.6, 1.0),
+                      look.of(loaded, up_vector(choice.frame.up)));
     const std::string place = models.size() == 1 ? "" : own_folder(loaded) + "/";
     for (const Figure& figure : figures) {
       output.add(place + figure.name + ".png", png_bytes(figure.image));

@@ -9,6 +9,7 @@
 #include "vantage/report/view_report.h"
 
 #include "commands.h"
+#include "look_flags.h"
 #include "measure_flags.h"
 #include "method_flags.h"
 #include "output_file.h"
@@ -68,6 +69,7 @@ struct ViewCommand {
   MeasureFlags measure{};
   MethodFlags method{};
   ViewSetFlags several{};
+  LookFlags look{};
   PreviewFlag preview{};
 
   void add_flags(CLI::App& app, Session& session) {
@@ -80,23 +82,29 @@ struct ViewCommand {
     method.add_to(app,
                   {.map = true, .saliency = true, .camera = true, .search = true, .picture = true});
     several.add_to(app);
+    look.add_to_several(app);
     preview.add_to(app);
     add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
 
-  void run(Session& session) const {
+  void run(Session& session) {
     const auto start = Clock::now();
     ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
     options.pictures = !no_images;
     options.view_set = several.request();
+    options.margin_percent = look.margin_percent();
     measure.apply(options);
     const RunContext run = session.run();
 
     StageSeconds seconds;
     check_output(trace, OutputKind::Table, session.flags);
-    const Model loaded = session.load(model);
-    session.read([&] { return sidecar_of(model); }).apply(options);
+    const Sidecar sidecar = session.read([&] { return sidecar_of(model); });
+    sidecar.apply(options);
+    look.suggest(sidecar.style);
+    const Model loaded = no_images && !preview.is_given()
+                             ? session.load(model)
+                             : session.load(model, look.reading(options.width, options.height));
     seconds.load = seconds_since(start);
     OutputFolder output(folder.empty() ? folder_named(loaded.name, ".vantage") : folder,
                         kViewResults);
@@ -114,7 +122,8 @@ struct ViewCommand {
 
     const auto render_start = Clock::now();
     output.add("view.json", view_json(loaded, shape, report, options));
-    ShapePictures pictures(shape);
+    const PictureLook shown = look.of(loaded, up_vector(choice.frame.up));
+    ShapePictures pictures(shape, shown);
     if (!no_images) {
       add_pictures(output, OutputKinds::all(), pictures, report, options, run.part(0.9, 0.94));
       if (!no_report && sums_a_map(options.method)) {
@@ -139,7 +148,7 @@ struct ViewCommand {
     if (session.flags.json) {
       write_output("-", view_json(loaded, shape, report, options, &seconds));
     } else {
-      preview.show(session, shape, report.best.picture, options, {}, session.run());
+      preview.show(session, shape, report.best.picture, options, shown, session.run());
       summarise(session, loaded, shape, choice, report, options, output, seconds);
     }
   }

@@ -116,11 +116,12 @@ double ViewSetFlags::seconds(const Tour& tour) const {
 namespace {
 
 /// The views on one sheet, small.
-Image contact_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, ViewOptions options) {
+Image contact_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, ViewOptions options,
+                    const PictureLook& look) {
   constexpr int kTileWidth = 320;  // px
   options.height = std::max(1, kTileWidth * options.height / options.width);
   options.width = kTileWidth;
-  return view_sheet(shape, set, options);
+  return view_sheet(shape, set, options, {}, look);
 }
 
 }  // namespace
@@ -151,7 +152,7 @@ void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, Shape
   }
   output.add("views.transforms.json", views_transforms_json(cameras, size));
   if (options.pictures) {
-    output.add("views.png", png_bytes(contact_sheet(shape, *report.set, options)));
+    output.add("views.png", png_bytes(contact_sheet(shape, *report.set, options, pictures.look())));
   }
   if (report.set->tour.length_rad > 0.0) {
     write_tour(output, shape, pictures, report, up, run.part(stills_share, 1.0));
@@ -182,7 +183,7 @@ void ViewSetFlags::write_tour(OutputFolder& output, const ShapeAnalysis& shape,
                        std::to_string(kMostFrames) + " are made; lower --fps or --tour-seconds");
   }
   const int frames = static_cast<int>(wanted);
-  RenderOptions look;
+  RenderOptions look = pictures.look().render;
   look.width = width_;
   look.height = height_;
   look.samples = kTourSamples;
@@ -200,8 +201,9 @@ void ViewSetFlags::write_tour(OutputFolder& output, const ShapeAnalysis& shape,
 }
 
 ViewOptions view_options_of(const MethodFlags& method, const ViewSetFlags& several,
-                            const OutputKinds& kinds) {
+                            const LookFlags& look, const OutputKinds& kinds) {
   ViewOptions options = method.resolve();
+  options.margin_percent = look.margin_percent();
   options.view_set = kinds.has("views") ? several.request_or(kViewsOfBatch) : several.request();
   return options;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/files.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <filesystem>
 #include <new>
@@ -90,6 +92,14 @@ std::string temporary_path(const std::string& path) {
   const std::size_t name = path.find_last_of('/') + 1;
   const std::string end = ".part." + std::to_string(::getpid());
   return path.substr(0, name) + "." + path.substr(name, kLongestName - 1 - end.size()) + end;
+}
+
+/// "https://…" and the like.
+bool is_url(std::string_view path) {
+  const std::size_t scheme = path.find("://");
+  return scheme != std::string_view::npos && scheme >= 2 &&
+         std::all_of(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(scheme),
+                     [](unsigned char c) { return std::isalnum(c) != 0 || c == '+' || c == '.'; });
 }
 
 void write_in_place(const std::string& path, std::string_view bytes) {
@@ -241,6 +251,9 @@ std::string read_file(const std::string& path) {
   // Not blocking: opening a pipe that nobody writes to would wait for ever.
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   if (file.number() < 0) {
+    if (errno == ENOENT && is_url(path)) {
+      throw IoError(path, "is a web address, and only files are read; download it first");
+    }
     throw IoError(path, "cannot be opened", errno);
   }
 
