@@ -175,7 +175,7 @@ std::vector<OptionText> describe_options(const CLI::App& command) {
   for (const CLI::App* group :
        command.get_subcommands([](const CLI::App* below) { return below->get_name().empty(); })) {
     for (OptionText& text : describe_options(*group)) {
-      if (text.names.back() != "--help") {  // each group has it once more
+      if (!text.names.back().starts_with("--help")) {  // each group has these once more
         text.group = group->get_group();
         texts.push_back(std::move(text));
       }
