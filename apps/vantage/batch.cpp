@@ -27,6 +27,7 @@
 #include "batch_slurm.h"
 #include "commands.h"
 #include "import_program.h"
+#include "look_flags.h"
 #include "method_flags.h"
 #include "standard_output.h"
 #include "terminal.h"
@@ -93,6 +94,7 @@ struct BatchCommand {
   batch::RunnerOptions runner{};
   MethodFlags method{};
   ViewSetFlags several{};
+  LookFlags look{};
   SlurmFlags slurm{};
   std::vector<CLI::Option*> method_options{};
   std::vector<CLI::Option*> shard_options{};  ///< That a shard takes over as they are.
@@ -125,6 +127,7 @@ struct BatchCommand {
     const std::vector<CLI::Option*> before = app.get_options();
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
     several.add_set_to(app);
+    look.add_to_several(app);
     for (CLI::Option* option : app.get_options()) {
       if (std::find(before.begin(), before.end(), option) == before.end()) {
         method_options.push_back(option);
@@ -257,18 +260,22 @@ struct BatchCommand {
       runner.work_name =
           "shard-" + std::to_string(part->index) + "-of-" + std::to_string(part->count);
     }
-    const ViewOptions options = view_options_of(method, several, kinds);
-    runner.options_hash = [options, kinds](const batch::Entry& entry) {
+    const ViewOptions options = view_options_of(method, several, look, kinds);
+    runner.options_hash = [options, kinds, its_look = look](const batch::Entry& entry) {
       ViewOptions own = options;
+      LookFlags own_look = its_look;
       own.up = entry.up.empty() ? options.up : up_axis(entry.up);
       own.front = entry.front.empty() ? options.front : up_axis(entry.front);
       if (entry.member.empty() && entry.problem.empty()) {
         try {
-          sidecar_of(entry.path).apply(own);
+          const Sidecar sidecar = sidecar_of(entry.path);
+          sidecar.apply(own);
+          own_look.suggest(sidecar.style);
         } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the worker says what is wrong
         }
       }
-      return batch::text_hash(options_hash(own) + ' ' + kinds.text()).substr(0, 16);
+      return batch::text_hash(options_hash(own) + ' ' + kinds.text() + ' ' +
+                              (kinds.has_pictures() ? own_look.text() : "")).substr(0, 16);
     };
     runner.worker_arguments = {"batch-worker",
                                "--write=" + (kinds.text().empty() ? "json" : kinds.text())};

@@ -24,6 +24,7 @@
 #include "batch/thumbnail.h"
 #include "commands.h"
 #include "import_program.h"
+#include "look_flags.h"
 #include "method_flags.h"
 #include "output_folder.h"
 #include "view_outputs.h"
@@ -89,18 +90,20 @@ struct BatchWorkerCommand {
   std::string write{};
   MethodFlags method{};
   ViewSetFlags several{};
+  LookFlags look{};
 
   void add_flags(CLI::App& app, Session& session) {
     app.group("");  // not for people
     app.add_option("--write", write);
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
     several.add_set_to(app);
+    look.add_to_several(app);
     add_common_flags(app, session.flags);
   }
 
   void run(Session& session) {
     kinds_ = OutputKinds::parse(write);
-    options_ = view_options_of(method, several, kinds_);
+    options_ = view_options_of(method, several, look, kinds_);
 #if defined(M_ARENA_MAX)
     // glibc reserves 64 MB of address space for every thread's heap, which counts as memory here.
     ::mallopt(M_ARENA_MAX, 1);
@@ -148,14 +151,21 @@ struct BatchWorkerCommand {
       suffer_test_fault(key);
       session.flags.threads = order.at("threads").get<int>();
       const RunContext run = session.run();
-      Model model = load_model(path, run, {.importer = model_importer(session.flags.limits)});
       const Sidecar sidecar = sidecar_of(path);
+      LookFlags own_look = look;
+      own_look.suggest(sidecar.style);
+      ReadOptions reading_options;
+      if (kinds_.has_pictures()) {
+        reading_options = own_look.reading(options_.width, options_.height);
+      }
+      reading_options.importer = model_importer(session.flags.limits);
+      Model model = load_model(path, run, reading_options);
       if (batch::content_hash(path) != content) {
         return failed("changed", path + ": was changed while it was read; --retry failed");
       }
       reading = false;
       model.name = batch::path_of_key(order.at("name").get<std::string>());
-      return result_of(order, model, sidecar, run);
+      return result_of(order, model, sidecar, own_look, run);
     } catch (const Cancelled&) {
       throw;
     } catch (const IoError& error) {
@@ -179,7 +189,7 @@ struct BatchWorkerCommand {
   }
 
   [[nodiscard]] Json result_of(const Json& order, const Model& model, const Sidecar& sidecar,
-                               const RunContext& run) const {
+                               const LookFlags& own_look, const RunContext& run) const {
     ViewOptions own = options_;
     const auto own_up = order.at("up").get<std::string>();
     if (!own_up.empty()) {
@@ -193,8 +203,8 @@ struct BatchWorkerCommand {
     const ShapeAnalysis shape = analyse_shape(model, own, run);
     const FrameChoice choice = choose_frame(model, shape, own);
     const ViewReport report = find_views(shape, choice, own, run);
-    OutputFolder output(batch::path_of_key(order.at("staging").get<std::string>()));
-    ShapePictures pictures(shape);
+    OutputFolder output(batch::path_of_key(order.at("staging").get<std::string>()), kViewResults);
+    ShapePictures pictures(shape, own_look.of(model, up_vector(choice.frame.up)));
     if (const auto best = add_pictures(output, kinds_, pictures, report, own, run)) {
       output.add(batch::kThumbnailFile, png_bytes(batch::thumbnail_of(*best)));
     }

@@ -6,6 +6,7 @@
 #include "vantage/report/comparison.h"
 
 #include "commands.h"
+#include "look_flags.h"
 #include "measure_flags.h"
 #include "method_flags.h"
 #include "output_file.h"
@@ -23,12 +24,15 @@ struct CompareCommand {
   OptionFlags gradient{};
   bool no_images = false;
   MethodFlags method{};
+  LookFlags look{};
 
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("MODEL", model, "file to read, or -")->required();
     app.add_option("-o,--output", folder, "folder for the results; default: NAME.compare");
-    app.add_option("--method", names, "methods of vantage measures, joined by commas, or all")
-        ->capture_default_str();
+    offer_measures(
+        app.add_option("--method", names, "methods of vantage measures, joined by commas, or all")
+            ->capture_default_str(),
+        {"all"});
     app.add_option("--search", search,
                    "how the extreme views are found: rings: from the best of the set of views by "
                    "smaller and smaller rings; gradient: Lee's ascent from random starts (--seed), "
@@ -38,17 +42,24 @@ struct CompareCommand {
     gradient.add(app, find_option("starts"));
     app.add_flag("--no-images", no_images, "no contact sheet and no page");
     method.add_to(app, {.map = true, .saliency = true, .camera = true});
+    look.add_to_several(app);
     add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
 
-  void run(Session& session) const {
+  void run(Session& session) {
     ViewOptions options = method.resolve();
-    session.read([&] { return sidecar_of(model); }).apply(options);
+    options.margin_percent = look.margin_percent();
+    const Sidecar sidecar = session.read([&] { return sidecar_of(model); });
+    sidecar.apply(options);
+    look.suggest(sidecar.style);
     const std::vector<Measure> measures = chosen_measures(session, options);
     const RunContext run = session.run();
-    const Model loaded = session.load(model);
-    OutputFolder output(folder.empty() ? folder_named(loaded.name, ".compare") : folder);
+    const Model loaded = no_images
+                             ? session.load(model)
+                             : session.load(model, look.reading(options.width, options.height));
+    OutputFolder output(folder.empty() ? folder_named(loaded.name, ".compare") : folder,
+                        kCompareResults);
     output.check(session.flags.force);
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_for(loaded, options, measures, run.part(0.0, 0.2)); });
@@ -63,8 +74,9 @@ struct CompareCommand {
     output.add("sphere.csv", sphere_csv(comparison));
     output.add("timings.csv", comparison_timings_csv(comparison));
     if (!no_images) {
-      output.add("sheet.png", png_bytes(comparison_sheet(shape, comparison, choice.frame.up,
-                                                         options, run.part(0.9, 1.0))));
+      output.add("sheet.png", png_bytes(comparison_sheet(
+                                  shape, comparison, choice.frame.up, options, run.part(0.9, 1.0),
+                                  look.of(loaded, up_vector(choice.frame.up)))));
       output.add("index.html", comparison_html(loaded, comparison));
     }
     output.write();
@@ -74,8 +86,10 @@ struct CompareCommand {
       return;
     }
     summarise(session, comparison, output.path());
-    for (const std::string& warning : shape.warnings) {
-      session.say("note: " + warning);
+    for (const auto* list : {&loaded.notes, &shape.warnings}) {
+      for (const std::string& warning : *list) {
+        session.say("note: " + warning);
+      }
     }
   }
 
@@ -103,33 +117,56 @@ struct CompareCommand {
     return measures;
   }
 
-  static std::string direction_text(const Vec3& d) {
-    return rounded(d.x(), 3) + " " + rounded(d.y(), 3) + " " + rounded(d.z(), 3);
-  }
-
+  /// One value a column; how far best and worst views are from the first method's, folded.
   static void summarise(Session& session, const Comparison& comparison, const std::string& path) {
-    constexpr std::size_t kName = 30;
-    constexpr std::size_t kView = 24;
-    const auto padded = [](std::string text, std::size_t width) {
-      text.resize(std::max(text.size(), width), ' ');
-      return text;
-    };
-    const std::string& first = comparison.methods.front().measure.name;
-    session.tell(padded("method", kName) + padded("best from", kView) +
-                 padded("worst from", kView) + "best and worst from " + first +
-                 "'s, folded; rank; views; seconds");
+    std::vector<std::vector<std::string>> rows{{"method", "best x", "y", "z", "worst x", "y", "z",
+                                                "best °", "worst °", "rank", "views", "s"}};
     for (std::size_t m = 0; m < comparison.methods.size(); ++m) {
       const ComparedMethod& method = comparison.methods[m];
       const Agreement& with = comparison.agreement.front()[m];
-      session.tell(padded(method.measure.name, kName) +
-                   padded(direction_text(method.views.best.direction), kView) +
-                   padded(direction_text(method.views.worst.direction), kView) +
-                   rounded(with.best_folded_deg, 3) + "°, " + rounded(with.worst_folded_deg, 3) +
-                   "°, " + rounded(with.rank_correlation, 2) + ", " +
-                   std::to_string(method.views.evaluations) + ", " + rounded(method.seconds, 2));
+      std::vector<std::string> row{method.measure.name};
+      for (const Vec3& d : {method.views.best.direction, method.views.worst.direction}) {
+        for (int axis = 0; axis < 3; ++axis) {
+          row.push_back(rounded(d[axis], 3));
+        }
+      }
+      for (const double value : {with.best_folded_deg, with.worst_folded_deg}) {
+        row.push_back(rounded(value, 3));
+      }
+      row.push_back(rounded(with.rank_correlation, 2));
+      row.push_back(std::to_string(method.views.evaluations));
+      row.push_back(rounded(method.seconds, 2));
+      rows.push_back(std::move(row));
     }
+    session.tell(columns(rows));
+    session.tell("best °, worst °, rank: angles and rank correlation with " +
+                 comparison.methods.front().measure.name + ", mirror images folded");
     session.tell("all views of the set: " + rounded(comparison.survey_seconds, 3) +
                  " s; results in " + printable(path) + "/");
+  }
+
+  /// The first column to the left, the others to the right, two blanks between them.
+  static std::string columns(const std::vector<std::vector<std::string>>& rows) {
+    const auto letters = [](const std::string& text) {  // of UTF-8
+      return static_cast<std::size_t>(
+          std::count_if(text.begin(), text.end(),
+                        [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+    };
+    std::vector<std::size_t> widths(rows.front().size());
+    for (const auto& row : rows) {
+      for (std::size_t c = 0; c < row.size(); ++c) {
+        widths[c] = std::max(widths[c], letters(row[c]));
+      }
+    }
+    std::string text;
+    for (const auto& row : rows) {
+      text += text.empty() ? "" : "\n";
+      for (std::size_t c = 0; c < row.size(); ++c) {
+        const std::string blanks(widths[c] - letters(row[c]), ' ');
+        text += c == 0 ? row[c] + blanks : "  " + blanks + row[c];
+      }
+    }
+    return text;
   }
 };
 

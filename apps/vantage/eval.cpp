@@ -38,8 +38,10 @@ struct EvalCommand {
         "-o,--output", output,
         "folder for tables.md, views.csv, gaze.csv, and the rows of each model as soon as "
         "they are there: a run that was stopped goes on where it was");
-    app.add_option("--method", names, "methods of vantage measures, joined by commas, or all")
-        ->capture_default_str();
+    offer_measures(
+        app.add_option("--method", names, "methods of vantage measures, joined by commas, or all")
+            ->capture_default_str(),
+        {"all"});
     app.add_option("--page", page, "also put the tables into this page, between its marks");
     app.add_option("--views-csv", views_file, "also write one row a method and model of views");
     app.add_option("--gaze-csv", gaze_file, "also write one row a map and model of gaze");

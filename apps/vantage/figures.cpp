@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "vantage/io/write.h"
 
 #include "commands.h"
+#include "look_flags.h"
 #include "method_flags.h"
 #include "output_file.h"
 #include "output_folder.h"
@@ -37,14 +39,15 @@ struct FiguresCommand {
   std::string folder{};
   MethodFlags method{};
   ViewSetFlags several{};
+  LookFlags look{};
   std::set<std::string> folders{};
-  nlohmann::ordered_json files = nlohmann::ordered_json::array();
 
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("MODEL", models, "files to read, or -; several get a folder each")->required();
     app.add_option("-o,--output", folder, "folder for the figures")->required();
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
     several.add_set_to(app);
+    look.add_to_several(app, Style::Clay);
     add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
@@ -53,28 +56,41 @@ struct FiguresCommand {
     ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
     options.objective = Objective::Significance;  // the paper's
     options.view_set = several.request_or(kSheetViews);
+    options.margin_percent = look.margin_percent();
     for (const char* const name : {"table-1-times.csv", "table-1-times.md"}) {
       check_result((std::filesystem::path(folder) / name).string(), OutputKind::Table,
                    session.flags);
     }
+    OutputFolder output(folder, kFigureResults);
     std::vector<StageTimes> times;
     for (const std::string& model : models) {
-      times.push_back(draw(session, model, options));
+      times.push_back(draw(session, model, options, output));
     }
-    write(session, std::filesystem::path(folder) / "table-1-times.csv", times_csv(times));
-    write(session, std::filesystem::path(folder) / "table-1-times.md", times_markdown(times));
+    for (const std::string& former : former_folders()) {
+      output.replace_below(former);
+    }
+    output.add("table-1-times.csv", times_csv(times));
+    output.add("table-1-times.md", times_markdown(times));
+    output.write();
     session.end_progress();
+    nlohmann::ordered_json files = nlohmann::ordered_json::array();
+    for (const std::string& name : output.names()) {
+      const std::string path = (std::filesystem::path(folder) / name).string();
+      files.push_back(path);
+      session.tell(printable(path));
+    }
     if (session.flags.json) {
       write_output("-", nlohmann::ordered_json{{"files", files}}.dump(2) + "\n");
     }
   }
 
  private:
-  StageTimes draw(Session& session, const std::string& model, const ViewOptions& options) {
+  StageTimes draw(Session& session, const std::string& model, const ViewOptions& options,
+                  OutputFolder& output) {
     const RunContext run = session.run();
     const auto start = Clock::now();
     StageTimes times;
-    const Model loaded = session.load(model);
+    const Model loaded = session.load(model, look.reading(options.width, options.height));
     times.seconds.load = seconds_since(start);
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_shape(loaded, options, run.part(0.0, 0.4), &times.seconds); });
@@ -89,16 +105,13 @@ struct FiguresCommand {
     report.set = find_view_set(shape, VertexVisibility(shape.surface, shape.sides, 1000),
                                report.camera, report.best.direction, choice.frame, options,
                                report.warnings, run.part(0.5, 0.6));
-    const std::vector<Figure> figures = paper_figures(shape, report, options, run.part(0.6, 1.0));
-    const std::filesystem::path place = models.size() == 1
-                                            ? std::filesystem::path(folder)
-                                            : std::filesystem::path(folder) / own_folder(loaded);
-    make_folder(folder);
-    make_folder(place.string());
+    const std::vector<Figure> figures = paper_figures(shape, report, options, run.part(0.6, 1.0),
+                      look.of(loaded, up_vector(choice.frame.up)));
+    const std::string place = models.size() == 1 ? "" : own_folder(loaded) + "/";
     for (const Figure& figure : figures) {
-      write(session, place / (figure.name + ".png"), png_bytes(figure.image));
+      output.add(place + figure.name + ".png", png_bytes(figure.image));
       if (!figure.svg.empty()) {
-        write(session, place / (figure.name + ".svg"), figure.svg);
+        output.add(place + figure.name + ".svg", figure.svg);
       }
     }
     times.model = loaded.name;
@@ -107,10 +120,14 @@ struct FiguresCommand {
     return times;
   }
 
+  static std::string folder_of(const std::string& name) {
+    const bool climbs = name == "." || name == "..";  // of a file "...ply"
+    return folder_named(name, climbs ? "_" : "");
+  }
+
   /// The folder of one model of several. \throw InvalidInput if another model has it.
   std::string own_folder(const Model& loaded) {
-    const bool climbs = loaded.name == "." || loaded.name == "..";  // of a file "...ply"
-    std::string name = folder_named(loaded.name, climbs ? "_" : "");
+    std::string name = folder_of(loaded.name);
     if (!folders.insert(name).second) {
       throw InvalidInput("two models are called '" + name +
                          "'; give each a folder of its own with -o");
@@ -118,10 +135,24 @@ struct FiguresCommand {
     return name;
   }
 
-  void write(Session& session, const std::filesystem::path& path, std::string_view bytes) {
-    write_file(path.string(), bytes);
-    files.push_back(path.string());
-    session.tell(printable(path.string()));
+  /// Folders of the models of an earlier run, as its table lists them, and those of this one.
+  [[nodiscard]] std::set<std::string> former_folders() const {
+    std::set<std::string> former = folders;
+    std::ifstream table(std::filesystem::path(folder) / "table-1-times.csv");
+    std::string line;
+    std::getline(table, line);  // the head
+    while (std::getline(table, line)) {
+      std::string name = line.substr(0, line.find(','));
+      if (line.starts_with('"') || name.empty() || name.find('/') != std::string::npos) {
+        continue;  // no row of a model whose name is plain
+      }
+      name = folder_of(name);
+      const std::filesystem::path below = std::filesystem::path(folder) / name;
+      if (std::filesystem::exists(below / "figure-1-contraction.png")) {
+        former.insert(name);
+      }
+    }
+    return former;
   }
 };
 

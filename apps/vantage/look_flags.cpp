@@ -4,19 +4,45 @@
 #include <algorithm>
 
 #include "vantage/io/write.h"
+#include "vantage/pipeline/option_table.h"
 
 #include "output_file.h"
 
 namespace vantage::cli {
 
-void LookFlags::add_to(CLI::App& app, Quality quality, bool asset) {
+void LookFlags::add_to(CLI::App& app, Quality quality) {
   set_quality(start_.look, quality);
-  start_.look.style = asset ? Style::Asset : Style::Clay;
-  flags_.add_groups(app, {"look"}, start_);
+  add_to_several(app);
   app.add_option("--depth", depth_, "bits a channel of a PNG: 8 or 16")
       ->check(CLI::IsMember({8, 16}))
       ->capture_default_str()
       ->group("Pictures");
+}
+
+void LookFlags::add_to_several(CLI::App& app, Style style) {
+  if (start_.look.ambient_rays == 0) {
+    set_quality(start_.look, Quality::Normal);
+  }
+  start_.look.style = style;
+  flags_.add_groups(app, {"look"}, start_);
+}
+
+std::string LookFlags::text() const {
+  const AllOptions all = resolved();
+  std::string text;
+  for (const Option& option : option_table()) {
+    const OptionValue value = option.is_of_pictures ? option.value(all) : OptionValue{};
+    if (const auto* word = std::get_if<std::string>(&value)) {
+      text += option.name + '=' + *word + ' ';
+    } else if (const auto* number = std::get_if<double>(&value)) {
+      text += option.name + '=' + number_text(*number) + ' ';
+    } else if (const auto* whole = std::get_if<std::uint64_t>(&value)) {
+      text += option.name + '=' + std::to_string(*whole) + ' ';
+    } else if (const auto* on = std::get_if<bool>(&value)) {
+      text += option.name + '=' + (*on ? "on " : "off ");
+    }
+  }
+  return text;
 }
 
 AllOptions LookFlags::resolved() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -20,12 +21,16 @@ namespace vantage::cli {
 /// Turns flags into RenderOptions.
 class LookFlags {
  public:
-  /// Adds the flags. \param quality what is used unless given. \param asset whether the file's own
-  /// colours are used unless said otherwise.
-  void add_to(CLI::App& app, Quality quality, bool asset);
+  /// Adds the flags of a command that makes one picture. \param quality what is used unless given.
+  void add_to(CLI::App& app, Quality quality);
+
+  /// Adds the flags of a command that makes several, all but --depth. \param style used unless given.
+  void add_to_several(CLI::App& app, Style style = Style::Asset);
 
   /// A style to use unless a flag names another.
-  void suggest(Style style) { start_.look.style = style; }
+  void suggest(const std::optional<Style>& style) {
+    start_.look.style = style.value_or(start_.look.style);
+  }
 
   /// The look that was asked for; the size is left alone.
   [[nodiscard]] RenderOptions look() const { return resolved().look; }
@@ -47,6 +52,14 @@ class LookFlags {
   void write(const std::string& path, const Model& model, const ShapeAnalysis& shape,
              const Camera& camera, Picture picture, const ViewOptions& options, const Vec3& up,
              const RunContext& run) const;
+
+  /// Of all pictures of a model, on the ground if its up axis is known. \param model must outlive it.
+  [[nodiscard]] PictureLook of(const Model& model, const Vec3& up = Vec3::UnitY()) const {
+    return PictureLook(look(up), of_asset() ? &model : nullptr);
+  }
+
+  /// The options of pictures as words say them, for a hash.
+  [[nodiscard]] std::string text() const;
 
   /// Empty border, per cent of the picture's shorter side.
   [[nodiscard]] double margin_percent() const { return resolved().view.margin_percent; }

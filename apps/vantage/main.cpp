@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -12,7 +13,9 @@
 #include "import_program.h"
 #include "option_text.h"
 #include "session.h"
+#include "standard_output.h"
 #include "terminal.h"
+#include "usage_hint.h"
 
 namespace {
 
@@ -30,8 +33,10 @@ constexpr const char* kFooter =
     "Try: vantage view horse.ply";
 
 /// One sentence on standard error for a command line that makes no sense.
-int report_usage(const CLI::ParseError& error) {
+int report_usage(const CLI::App& program, const std::vector<std::string>& words,
+                 const CLI::ParseError& error) {
   std::string problem = error.what();
+  problem = vantage::cli::unknown_word(program, words, problem).value_or(problem);
   while (!problem.empty() && (problem.back() == '\n' || problem.back() == '.')) {
     problem.pop_back();
   }
@@ -53,6 +58,7 @@ int main(int argc, char** argv) {
            "\n" + import_program_version();
   });
   program.set_help_flag("-h,--help", "print this help and exit");
+  program.set_help_all_flag("--help-all", "print help with every option and exit");
   program.require_subcommand(1);
   program.footer(kFooter);
   program.formatter(help_formatter());  // commands inherit it
@@ -78,15 +84,12 @@ int main(int argc, char** argv) {
     require_finite_numbers(program);
     program.parse(argc, argv);
     session.end_progress();
-    if (std::fflush(stdout) != 0) {
-      std::fputs("vantage: cannot write to standard output\n", stderr);
-      return kFailed;
-    }
+    finish_standard_output();
     return session.exit_code;
   } catch (const CLI::Success& request) {  // --help, --version
     return program.exit(request) == 0 ? kDone : kFailed;
   } catch (const CLI::ParseError& error) {
-    return report_usage(error);
+    return report_usage(program, {argv + std::min(1, argc), argv + argc}, error);
   } catch (...) {
     return session.report_failure();
   }

@@ -69,12 +69,11 @@ struct MapCommand {
                                           : vertex_map(shape, options, name, session.run());
     write_output(file, map_bytes(loaded, shape, field));
     if (!levels.empty()) {
-      make_folder(levels);
-      for (std::size_t j = 0; j < shape.map.displacement.size(); ++j) {
-        const std::string number = (j < 10 ? "0" : "") + std::to_string(j);
-        write_file((std::filesystem::path(levels) / ("level-" + number + ".ply")).string(),
-                   map_bytes(loaded, shape, shape.map.displacement[j]));
+      std::vector<std::string> files;
+      for (const std::vector<double>& displacement : shape.map.displacement) {
+        files.push_back(map_bytes(loaded, shape, displacement));
       }
+      write_levels(levels, std::move(files));
     }
     report(session, loaded, shape, field);
   }

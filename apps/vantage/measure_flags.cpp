@@ -5,6 +5,8 @@
 
 #include "vantage/core/error.h"
 
+#include "option_text.h"
+
 namespace vantage::cli {
 
 std::vector<Measure> parse_measures(const std::string& text, const std::string& flag) {
@@ -32,10 +34,17 @@ std::vector<Measure> parse_measures(const std::string& text, const std::string& 
   return measures;
 }
 
+void offer_measures(const CLI::Option* option, std::vector<std::string> others) {
+  for (const Measure& measure : builtin_measures()) {
+    others.push_back(measure.name);
+  }
+  offer_values(option, std::move(others));
+}
+
 void MeasureFlags::add_to(CLI::App& app) {
-  app.add_option("--method", name_, "measure of a view: see vantage measures")
-      ->capture_default_str()
-      ->group("Method");
+  offer_measures(app.add_option("--method", name_, "measure of a view: see vantage measures")
+                     ->capture_default_str()
+                     ->group("Method"));
 }
 
 void MeasureFlags::apply(ViewOptions& options) const {

@@ -2,7 +2,10 @@
 #include "option_text.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <string_view>
+#include <utility>
 
 namespace vantage::cli {
 namespace {
@@ -49,6 +52,30 @@ std::string wrapped(const std::string& text) {
   return lines;
 }
 
+std::map<const CLI::Option*, std::vector<std::string>>& offered_values() {
+  static std::map<const CLI::Option*, std::vector<std::string>> values;
+  return values;
+}
+
+/// Options of people's first hours with a command, on any command that has them.
+constexpr std::array<std::string_view, 26> kNeededFirst{
+    "--output",   "--method", "--up",        "--views",      "--size",  "--style",
+    "--no-images", "--json",  "--help",      "--help-all",   "--tour",  "--preview",
+    "--direction", "--camera", "--view",      "--show",       "--background", "--directions",
+    "--sphere",   "--eyes",   "--levels",    "--write",      "--jobs",  "--manifest",
+    "--retry",    "--engine"};
+/// A command with no more options than this shows all of them.
+constexpr std::size_t kFewOptions = 16;
+
+bool is_needed_first(const CLI::Option& option) {
+  return option.get_positional() ||
+         std::any_of(option.get_lnames().begin(), option.get_lnames().end(),
+                     [](const std::string& name) {
+                       return std::find(kNeededFirst.begin(), kNeededFirst.end(), "--" + name) !=
+                              kNeededFirst.end();
+                     });
+}
+
 class HelpFormatter final : public CLI::Formatter {
  public:
   std::string make_option_opts(const CLI::Option* option) const override {
@@ -62,13 +89,45 @@ class HelpFormatter final : public CLI::Formatter {
     return wrapped(describe(*option).meaning);
   }
 
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override {
+    const std::size_t count = describe_options(*app).size();
+    shows_all_ = mode == CLI::AppFormatMode::All || count <= kFewOptions;
+    // All of this command, and not of the commands below it.
+    return CLI::Formatter::make_help(app, std::move(name), CLI::AppFormatMode::Normal);
+  }
+
+  std::string make_group(std::string group, bool is_positional,
+                         std::vector<const CLI::Option*> options) const override {
+    if (!shows_all_) {
+      std::erase_if(options, [](const CLI::Option* option) { return !is_needed_first(*option); });
+    }
+    return options.empty() ? ""
+                           : CLI::Formatter::make_group(std::move(group), is_positional, options);
+  }
+
+  std::string make_footer(const CLI::App* app) const override {
+    const std::string more =
+        shows_all_ ? ""
+                   : "\nMore options: vantage " + call_of(*app) + " --help-all lists all " +
+                         std::to_string(describe_options(*app).size()) + ".\n";
+    return more + CLI::Formatter::make_footer(app);
+  }
+
   std::string make_usage(const CLI::App* app, std::string name) const override {
     const std::string called = call_of(*app);
     return CLI::Formatter::make_usage(app, called.empty() ? name : "vantage " + called);
   }
+
+ private:
+  mutable bool shows_all_ = true;  // while one help is made
 };
 
 }  // namespace
+
+void offer_values(const CLI::Option* option, std::vector<std::string> values) {
+  offered_values()[option] = std::move(values);
+}
 
 OptionText describe(const CLI::Option& option) {
   OptionText text;
@@ -89,9 +148,14 @@ OptionText describe(const CLI::Option& option) {
   if (option.get_type_size() == 0 || option.get_expected_max() == 0) {
     return text;  // a flag
   }
+  if (const auto offered = offered_values().find(&option); offered != offered_values().end()) {
+    text.choices = offered->second;
+  }
   ValueText value = value_text(option.get_type_name());
   text.value = std::move(value.name);
-  text.choices = std::move(value.choices);
+  if (!value.choices.empty()) {
+    text.choices = std::move(value.choices);
+  }
   std::string limits = value.range;
   if (!option.get_default_str().empty()) {
     limits += (limits.empty() ? "default: " : "; default: ") + option.get_default_str();
@@ -111,7 +175,7 @@ std::vector<OptionText> describe_options(const CLI::App& command) {
   for (const CLI::App* group :
        command.get_subcommands([](const CLI::App* below) { return below->get_name().empty(); })) {
     for (OptionText& text : describe_options(*group)) {
-      if (text.names.back() != "--help") {  // each group has it once more
+      if (!text.names.back().starts_with("--help")) {  // each group has these once more
         text.group = group->get_group();
         texts.push_back(std::move(text));
       }

@@ -25,6 +25,9 @@ struct OptionText {
   std::string group{};                 ///< Heading that it stands under.
 };
 
+/// Says what values of an option may be completed to; its help does not list them.
+void offer_values(const CLI::Option* option, std::vector<std::string> values);
+
 /// Describes one option.
 OptionText describe(const CLI::Option& option);
 
@@ -37,7 +40,8 @@ std::vector<const CLI::App*> commands_below(const CLI::App& app);
 /// "results query": the words that call a command, without the program's name.
 std::string call_of(const CLI::App& command);
 
-/// Prints help from OptionText.
+/// Prints help from OptionText: of commands with many options those that people need first, and with
+/// --help-all every one.
 std::shared_ptr<CLI::FormatterBase> help_formatter();
 
 }  // namespace vantage::cli

@@ -12,10 +12,16 @@
 #include <optional>
 #include <system_error>
 
+#include <fcntl.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include "vantage/core/error.h"
+#include "vantage/io/staged_file.h"
 #include "vantage/io/write.h"
+
+#include "output_file.h"
 
 namespace vantage::cli {
 namespace {
@@ -23,25 +29,50 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What tells a folder of ours from somebody else's.
-constexpr std::array<std::string_view, 2> kMarkers{"view.json", "compare.json"};
+constexpr std::array kMarkers{kViewResults.marker, kCompareResults.marker};
+constexpr std::string_view kUnfinishedText = "Vantage was exchanging its results here.\n";
+/// The table of figures begins with it.
+constexpr std::string_view kTableHead = "model,vertices,faces,";
+
+/// The whole of a regular file, or as much as `most`; nothing if there is none.
+std::string text_of(const fs::path& file, std::size_t most = std::string::npos) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) {  // nobody may ever write to a pipe
+    return {};
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::string text;
+  for (std::istreambuf_iterator<char> at(stream), end; at != end && text.size() < most; ++at) {
+    text += *at;
+  }
+  return text;
+}
+
+/// The file that is there while one run's files are exchanged for another's.
+std::string unfinished_name(std::string_view marker) {
+  return "." + std::string(marker) + ".unfinished";
+}
+
+bool is_unfinished(const fs::path& folder, std::string_view marker) {
+  return text_of(folder / unfinished_name(marker), kUnfinishedText.size()) == kUnfinishedText;
+}
 
 bool holds(const fs::path& folder, std::string_view marker) {
-  std::error_code error;
-  if (!fs::is_regular_file(folder / marker, error)) {  // nobody may ever write to a pipe
-    return false;
+  if (marker == kFigureResults.marker) {
+    return text_of(folder / marker, kTableHead.size()) == kTableHead;
   }
-  std::ifstream stream(folder / marker, std::ios::binary);
-  if (!stream) {
-    return false;
+  if (marker == kLevelResults.marker) {
+    constexpr std::size_t kHead = 128;
+    return text_of(folder / marker, kHead).find(" written by vantage\n") != std::string::npos;
   }
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  const auto json = nlohmann::json::parse(text, nullptr, false);
+  const auto json = nlohmann::json::parse(text_of(folder / marker), nullptr, false);
   return json.is_object() && json.contains("vantage") && json.contains("options_hash");
 }
 
 bool is_ours(const fs::path& folder) {
-  return std::any_of(kMarkers.begin(), kMarkers.end(),
-                     [&](std::string_view marker) { return holds(folder, marker); });
+  return std::any_of(kMarkers.begin(), kMarkers.end(), [&](std::string_view marker) {
+    return holds(folder, marker) || is_unfinished(folder, marker);
+  });
 }
 
 /// A file under its temporary name, ".NAME.part.PROCESS".
@@ -72,6 +103,36 @@ bool holds_leftovers_only(const fs::path& folder) {
   });
 }
 
+/// Keeps two runs from exchanging files in one folder at once; ends with the process at the latest.
+class FolderTurn {
+ public:
+  explicit FolderTurn(const std::string& folder)
+      : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
+    }  // a file system that knows no locks is no reason to fail
+  }
+
+  FolderTurn(const FolderTurn&) = delete;
+  FolderTurn& operator=(const FolderTurn&) = delete;
+
+  ~FolderTurn() {
+    if (descriptor_ >= 0) {
+      ::close(descriptor_);
+    }
+  }
+
+ private:
+  int descriptor_;
+};
+
+void remove_or_throw(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) {
+    throw IoError(file.string(), "cannot be replaced", error.value());
+  }
+}
+
 }  // namespace
 
 void make_folder(const std::string& path) {
@@ -90,6 +151,15 @@ std::string folder_named(const std::string& model, const std::string& ending) {
     --length;  // not within a letter
   }
   return model.substr(0, length) + ending;
+}
+
+void write_levels(const std::string& folder, std::vector<std::string> levels) {
+  OutputFolder output(folder, kLevelResults);
+  for (std::size_t j = 0; j < levels.size(); ++j) {
+    const std::string number = (j < 10 ? "0" : "") + std::to_string(j);
+    output.add("level-" + number + ".ply", std::move(levels[j]));
+  }
+  output.write();
 }
 
 void OutputFolder::check(bool force) const {
@@ -112,37 +182,92 @@ void OutputFolder::add(std::string name, std::string bytes) {
   files_.emplace_back(std::move(name), std::move(bytes));
 }
 
+void OutputFolder::add_named(const std::string& path, std::string bytes) {
+  std::error_code error;
+  const fs::path folder = fs::path(path).parent_path();
+  const bool is_here = path != "-" && fs::weakly_canonical(folder.empty() ? "." : folder, error) ==
+                                          fs::weakly_canonical(path_, error);
+  if (is_here) {
+    add(fs::path(path).filename().string(), std::move(bytes));
+  } else {
+    beside_.emplace_back(path, std::move(bytes));
+  }
+}
+
 void OutputFolder::write() {
   std::error_code error;
   const bool fresh = !fs::exists(path_, error);
   make_folder(path_);
-  remove_parts_of_killed_runs();
-  std::vector<fs::path> written;
   try {
-    for (const auto& [name, bytes] : files_) {
-      const fs::path file = fs::path(path_) / name;
-      write_file(file.string(), bytes);
-      written.push_back(file);
-    }
+    exchange();
   } catch (const Error&) {
-    for (const fs::path& file : written) {
-      fs::remove(file, error);
-    }
     if (fresh) {
       fs::remove(path_, error);
     }
     throw;
   }
-  remove_former_views();
+  for (const auto& [path, bytes] : beside_) {
+    const fs::path folder = fs::path(path).parent_path();
+    if (!folder.empty()) {
+      make_folder(folder.string());
+    }
+    write_output(path, bytes);
+  }
 }
 
-void OutputFolder::write_without(const std::string& name) {
+void OutputFolder::exchange() {
+  const FolderTurn turn(path_);
+  remove_parts_of_killed_runs();
+  const fs::path folder(path_);
+  std::vector<StagedFile> staged;
+  staged.reserve(files_.size());
+  for (const auto& [name, bytes] : files_) {
+    const fs::path file = folder / name;
+    std::error_code error;
+    if (fs::is_directory(fs::symlink_status(file, error))) {
+      throw IoError(file.string(), "is a folder, not a file");
+    }
+    make_folder(file.parent_path().string());
+    staged.emplace_back(file.string(), bytes);
+  }
+  std::stable_partition(staged.begin(), staged.end(), [&](const StagedFile& file) {
+    return fs::path(file.path()) != folder / kind_.marker;
+  });
+
+  const std::vector<std::string> former = former_files();
+  const fs::path unfinished = folder / unfinished_name(kind_.marker);
+  write_file(unfinished.string(), kUnfinishedText);
+  std::vector<fs::path> placed;
   std::error_code error;
-  fs::remove(fs::path(path_) / name, error);
-  write();
+  try {
+    for (const std::string& name : former) {
+      remove_or_throw(folder / name);
+    }
+    for (StagedFile& file : staged) {
+      file.place();
+      placed.emplace_back(file.path());
+    }
+  } catch (const Error&) {
+    for (const fs::path& file : placed) {
+      fs::remove(file, error);
+    }
+    fs::remove(unfinished, error);
+    throw;
+  }
+  for (const std::string& sub : below_) {
+    fs::remove(folder / sub, error);  // unless something else is in it
+  }
+  fs::remove(unfinished, error);
 }
 
 void OutputFolder::write_last(std::string name, std::string bytes) {
+  const FolderTurn turn(path_);
+  for (const auto& [own, content] : files_) {
+    if (own == kind_.marker && text_of(fs::path(path_) / own) != content) {
+      throw IoError(path_, "was written by another run meanwhile, so " + name +
+                               " does not belong there; run again");
+    }
+  }
   write_file((fs::path(path_) / name).string(), bytes);
   add(std::move(name), std::move(bytes));
 }
@@ -152,34 +277,43 @@ bool OutputFolder::writes(std::string_view name) const {
                      [&](const auto& file) { return file.first == name; });
 }
 
+std::vector<std::string> OutputFolder::former_files() const {
+  std::vector<std::string> names;
+  std::error_code error;
+  const bool ours = holds(path_, kind_.marker) || is_unfinished(path_, kind_.marker);
+  const auto look_into = [&](const std::string& sub) {
+    const fs::path folder = fs::path(path_) / sub;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+      const std::string own = entry.path().filename().string();
+      const std::string name = sub.empty() ? own : sub + "/" + own;
+      const bool is_file = fs::is_regular_file(entry.symlink_status(error));
+      if (writes(name) || (ours && is_file && kind_.named(own))) {
+        names.push_back(name);
+      }
+    }
+  };
+  look_into("");
+  for (const std::string& sub : below_) {
+    look_into(sub);
+  }
+  std::sort(names.begin(), names.end());
+  std::stable_partition(names.begin(), names.end(),
+                        [&](const std::string& name) { return name == kind_.marker; });
+  return names;
+}
+
 void OutputFolder::remove_parts_of_killed_runs() const {
   std::error_code error;
   std::vector<fs::path> leftovers;
   for (const fs::directory_entry& entry : fs::directory_iterator(path_, error)) {
     const std::optional<PartFile> part = part_file(entry.path());
-    if (part && writes(part->name) && ::kill(part->writer, 0) != 0 && errno == ESRCH) {
+    const bool ours = part && (writes(part->name) || kind_.named(part->name));
+    if (ours && ::kill(part->writer, 0) != 0 && errno == ESRCH) {
       leftovers.push_back(entry.path());
     }
   }
   for (const fs::path& file : leftovers) {
     fs::remove(file, error);
-  }
-}
-
-void OutputFolder::remove_former_views() const {
-  if (replaced_ == nullptr) {
-    return;
-  }
-  std::error_code error;
-  std::vector<fs::path> leftovers;
-  for (const fs::directory_entry& entry : fs::directory_iterator(path_, error)) {
-    const std::string name = entry.path().filename().string();
-    if (!writes(name) && replaced_(name) && entry.is_regular_file(error)) {
-      leftovers.push_back(entry.path());
-    }
-  }
-  for (const fs::path& leftover : leftovers) {
-    fs::remove(leftover, error);  // one that stays is no reason to fail
   }
 }
 

@@ -6,34 +6,50 @@
 #include <utility>
 #include <vector>
 
+#include "result_names.h"
+
 namespace vantage::cli {
 
-/// A folder of results, collected in memory and written at the end: a run that fails before leaves
-/// nothing behind, and one that fails while writing removes what it wrote.
+/// What a folder of results holds.
+struct ResultKind {
+  std::string_view marker;         ///< The file that says that they are whole; comes last.
+  bool (*named)(std::string_view);  ///< Whether files of this name belong to them.
+};
+
+inline constexpr ResultKind kViewResults{"view.json", is_view_file};
+inline constexpr ResultKind kCompareResults{"compare.json", is_compare_file};
+inline constexpr ResultKind kFigureResults{"table-1-times.csv", is_figure_file};
+inline constexpr ResultKind kLevelResults{"level-00.ply", is_level_file};
+
+/// A folder of results, collected in memory and exchanged at the end for those of a former run. All
+/// files are on the disk before the first former one goes, and all former ones have gone before the
+/// first new one gets its name: so at any moment, and after a kill at any moment, what is there is of
+/// one run. The marker goes first and comes last; a folder without it is known to be unfinished.
 class OutputFolder {
  public:
-  /// \param path the folder; made if it is missing. A folder that holds files of these names but no
-  /// view.json of ours is refused by check(), before any work is done.
-  explicit OutputFolder(std::string path) : path_(std::move(path)) {}
+  /// \param path the folder; made if it is missing. A folder that holds files but no marker of ours
+  /// is refused by check(), before any work is done.
+  OutputFolder(std::string path, const ResultKind& kind) : path_(std::move(path)), kind_(kind) {}
 
   /// \param force also takes a folder of somebody else's files.
   /// \throw IoError if writing there would replace somebody else's files, or it is not a folder.
   void check(bool force) const;
 
-  /// Takes a file to write.
+  /// Takes a file to write, by its name in the folder; "sub/name" for one in a folder below.
   void add(std::string name, std::string bytes);
 
-  /// Says that this run replaces all files of some names: what a former run left of them and this
-  /// one does not write is removed.
-  void replace_all(bool (*named)(std::string_view)) { replaced_ = named; }
+  /// Takes a file under a path that the user gave: one in this folder belongs to the results, another
+  /// is written after them, in a folder that is made if it is missing.
+  void add_named(const std::string& path, std::string bytes);
 
-  /// Writes all files. \throw IoError
+  /// Says that former results may also be in a folder below. \param sub its name.
+  void replace_below(std::string sub) { below_.push_back(std::move(sub)); }
+
+  /// Exchanges the files. If that fails, former results stay, or if they have gone already the folder
+  /// holds nothing of ours. \throw IoError
   void write();
 
-  /// The same where a further file comes by write_last(): a former one does not stand beside these.
-  void write_without(const std::string& name);
-
-  /// Writes one more file. \throw IoError
+  /// Writes one more file of the same run, after write(). \throw IoError
   void write_last(std::string name, std::string bytes);
 
   [[nodiscard]] const std::string& path() const { return path_; }
@@ -41,15 +57,24 @@ class OutputFolder {
   [[nodiscard]] std::vector<std::string> names() const;
 
  private:
+  using File = std::pair<std::string, std::string>;  // name and bytes
+
+  void exchange();
   [[nodiscard]] bool writes(std::string_view name) const;
+  /// Files of a former run that are there, relative to the folder; the marker first.
+  [[nodiscard]] std::vector<std::string> former_files() const;
   /// Removes temporary files of ours whose writers were killed.
   void remove_parts_of_killed_runs() const;
-  void remove_former_views() const;
 
   std::string path_;
-  std::vector<std::pair<std::string, std::string>> files_{};
-  bool (*replaced_)(std::string_view) = nullptr;
+  ResultKind kind_;
+  std::vector<File> files_{};
+  std::vector<File> beside_{};  // by their paths
+  std::vector<std::string> below_{};
 };
+
+/// Writes level-00.ply, level-01.ply, … in place of those of a former run. \throw IoError
+void write_levels(const std::string& folder, std::vector<std::string> levels);
 
 /// The name of a model's folder: its own, cut where the ending would make it too long.
 std::string folder_named(const std::string& model, const std::string& ending);

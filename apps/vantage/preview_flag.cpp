@@ -25,7 +25,7 @@ void PreviewFlag::add_to(CLI::App& app) {
 }
 
 void PreviewFlag::show(Session& session, const ShapeAnalysis& shape, const Camera& camera,
-                       const ViewOptions& options, RenderOptions look,
+                       const ViewOptions& options, PictureLook look,
                        const RunContext& run) const {
   if (protocol_.empty() || session.flags.json || session.flags.quiet) {
     return;
@@ -41,8 +41,8 @@ void PreviewFlag::show(Session& session, const ShapeAnalysis& shape, const Camer
   small.width = extent.width;
   small.height = extent.height;
   // Few pixels, each worth many rays.
-  set_quality(look, protocol == PictureProtocol::Blocks ? Quality::Fine : Quality::Normal);
-  const Image image = draw_picture(shape, camera, Picture::Plain, small, look, run);
+  set_quality(look.render, protocol == PictureProtocol::Blocks ? Quality::Fine : Quality::Normal);
+  const Image image = draw_picture(shape, camera, Picture::Plain, small, look.render, run, look.asset);
   std::string text = terminal_picture(image, protocol);
   text.pop_back();  // the line's end comes with the message
   session.show(text);

@@ -20,7 +20,10 @@ class PreviewFlag {
   /// Prints the model as the camera sees it, if that was asked for and `--json` and `-q` were not.
   /// \throw Cancelled
   void show(Session& session, const ShapeAnalysis& shape, const Camera& camera,
-            const ViewOptions& options, RenderOptions look, const RunContext& run) const;
+            const ViewOptions& options, PictureLook look, const RunContext& run) const;
+
+  /// Whether the picture is wanted.
+  [[nodiscard]] bool is_given() const { return !protocol_.empty(); }
 
  private:
   std::string protocol_{};  // empty: no preview

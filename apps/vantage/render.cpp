@@ -50,7 +50,7 @@ struct RenderCommand {
         ->check(CLI::IsMember({"plain", "kssm", "skeleton"}))
         ->capture_default_str()
         ->group("Pictures");
-    look.add_to(app, Quality::Normal, /*asset=*/false);
+    look.add_to(app, Quality::Normal);
     method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
     add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
@@ -64,9 +64,7 @@ struct RenderCommand {
     const RunContext run = session.run();
     const Sidecar sidecar = session.read([&] { return sidecar_of(model); });
     sidecar.apply(options);
-    if (sidecar.style) {
-      look.suggest(*sidecar.style);
-    }
+    look.suggest(sidecar.style);
     const Vec3 direction = direction_text.empty()
                                ? sidecar.view.value_or(Vec3::UnitZ())
                                : unit(parse_vector(direction_text, "--direction"));

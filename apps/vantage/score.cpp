@@ -43,10 +43,12 @@ struct ScoreCommand {
     what->add_option("--sphere", sphere, "all directions of the icosahedron split this many times")
         ->check(CLI::Range(0, 8));
     what->require_option(1);
-    app.add_option(
-           "--method", measure,
-           "what to score by: one or several, joined by commas, of vantage measures, or all")
-        ->capture_default_str();
+    offer_measures(
+        app.add_option(
+               "--method", measure,
+               "what to score by: one or several, joined by commas, of vantage measures, or all")
+            ->capture_default_str(),
+        {"all"});
     app.add_option("--view-set", view_set,
                    "views that the measures built on a set are defined over: the icosahedron split "
                    "this many times")

@@ -18,6 +18,7 @@
 
 #include "import_program.h"
 #include "settings.h"
+#include "standard_output.h"
 #include "terminal.h"
 
 namespace vantage::cli {
@@ -89,7 +90,7 @@ Session::Session() {
   // Blocked here, before any other thread exists, so that only the watcher receives them.
   const sigset_t set = watched_signals();
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a failed write, reported like any other
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a failed write; see report_failure()
   std::signal(SIGXFSZ, SIG_IGN);  // and so is a file that grows beyond what is allowed
   std::thread(watch_signals, stop_).detach();
 }
@@ -168,6 +169,9 @@ int Session::report_failure() {
     complain(words_of_signal(number));
     return code_of_signal(number);
   } catch (const IoError& error) {
+    if (std::string_view(error.what()).starts_with("standard output") && reader_has_gone()) {
+      end_by_closed_pipe();
+    }
     complain(error.error_number() == ENOMEM ? error.what() + memory_remedy()
                                             : std::string(error.what()));
     if (error.error_number() == ENOSPC || error.error_number() == EDQUOT) {

@@ -72,7 +72,7 @@ struct SkeletonCommand {
     });
     write_output(file, bytes(shape));
     if (!levels.empty()) {
-      write_levels(loaded, shape);
+      write_levels(levels, level_files(loaded, shape));
     }
     if (!meso.empty()) {
       write_output(meso, level_bytes(loaded, shape, shape.history.thinnest()));
@@ -114,13 +114,12 @@ struct SkeletonCommand {
     return ply_bytes(level, {}, {}, loaded.double_precision);
   }
 
-  void write_levels(const Model& loaded, const ShapeAnalysis& shape) const {
-    make_folder(levels);
-    for (std::size_t j = 0; j < shape.history.levels.size(); ++j) {
-      const std::string number = (j < 10 ? "0" : "") + std::to_string(j);
-      write_file((std::filesystem::path(levels) / ("level-" + number + ".ply")).string(),
-                 level_bytes(loaded, shape, shape.history.levels[j]));
+  static std::vector<std::string> level_files(const Model& loaded, const ShapeAnalysis& shape) {
+    std::vector<std::string> files;
+    for (const std::vector<Vec3>& positions : shape.history.levels) {
+      files.push_back(level_bytes(loaded, shape, positions));
     }
+    return files;
   }
 
   /// SWC holds trees only: says how many loops its file lacks.

@@ -7,4 +7,10 @@ namespace vantage::cli {
 /// far could not be written.
 void finish_standard_output();
 
+/// Whether standard output is a pipe that nobody reads any more, as after `| head`.
+bool reader_has_gone();
+
+/// Ends the process without a word, as other tools end when their reader has gone: by SIGPIPE.
+[[noreturn]] void end_by_closed_pipe();
+
 }  // namespace vantage::cli

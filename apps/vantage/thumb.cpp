@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/error.h"
+#include "vantage/io/visible_materials.h"
 #include "vantage/io/write.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/find_views.h"
@@ -44,7 +45,7 @@ struct ThumbCommand {
         ->capture_default_str();
     frame.add(app, find_option("up"));
     frame.add(app, find_option("front"));
-    look.add_to(app, Quality::Draft, /*asset=*/true);
+    look.add_to(app, Quality::Draft);
     preview.add_to(app);
     add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
@@ -64,9 +65,7 @@ struct ThumbCommand {
     const RunContext run = session.run();
     const Sidecar sidecar = session.read([&] { return sidecar_of(model); });
     sidecar.apply(options);
-    if (sidecar.style) {
-      look.suggest(*sidecar.style);
-    }
+    look.suggest(sidecar.style);
     const Model loaded = session.load(model, look.reading(size, size));
     const ShapeAnalysis shape = session.computing([&] { return prepare_surface(loaded, run); });
     const PictureView found = session.computing([&] {
@@ -77,11 +76,11 @@ struct ThumbCommand {
     const Vec3 above = up_vector(found.choice.frame.up);
     look.write(file, loaded, shape, camera, Picture::Plain, options, above, run.part(0.7, 1.0));
     if (file != "-") {
-      preview.show(session, shape, camera, options, look.look(above), run);
+      preview.show(session, shape, camera, options, look.of(loaded, above), run);
     }
     report(session, found);
     for (const std::string& note : loaded.notes) {
-      if (session.flags.verbose) {
+      if (session.flags.verbose || note == kMadeOpaque) {
         session.say("note: " + note);
       }
     }

@@ -9,6 +9,7 @@
 #include "vantage/report/view_report.h"
 
 #include "commands.h"
+#include "look_flags.h"
 #include "measure_flags.h"
 #include "method_flags.h"
 #include "output_file.h"
@@ -68,6 +69,7 @@ struct ViewCommand {
   MeasureFlags measure{};
   MethodFlags method{};
   ViewSetFlags several{};
+  LookFlags look{};
   PreviewFlag preview{};
 
   void add_flags(CLI::App& app, Session& session) {
@@ -80,26 +82,32 @@ struct ViewCommand {
     method.add_to(app,
                   {.map = true, .saliency = true, .camera = true, .search = true, .picture = true});
     several.add_to(app);
+    look.add_to_several(app);
     preview.add_to(app);
     add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
 
-  void run(Session& session) const {
+  void run(Session& session) {
     const auto start = Clock::now();
     ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
     options.pictures = !no_images;
     options.view_set = several.request();
+    options.margin_percent = look.margin_percent();
     measure.apply(options);
     const RunContext run = session.run();
 
     StageSeconds seconds;
     check_output(trace, OutputKind::Table, session.flags);
-    // The page shows the model in its own materials.
-    const Model loaded = session.load(model, {.appearance = !no_images, .texture_side = 1024});
-    session.read([&] { return sidecar_of(model); }).apply(options);
+    const Sidecar sidecar = session.read([&] { return sidecar_of(model); });
+    sidecar.apply(options);
+    look.suggest(sidecar.style);
+    const Model loaded = no_images && !preview.is_given()
+                             ? session.load(model)
+                             : session.load(model, look.reading(options.width, options.height));
     seconds.load = seconds_since(start);
-    OutputFolder output(folder.empty() ? folder_named(loaded.name, ".vantage") : folder);
+    OutputFolder output(folder.empty() ? folder_named(loaded.name, ".vantage") : folder,
+                        kViewResults);
     output.check(session.flags.force);
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_shape(loaded, options, run.part(0.02, 0.5), &seconds); });
@@ -114,7 +122,8 @@ struct ViewCommand {
 
     const auto render_start = Clock::now();
     output.add("view.json", view_json(loaded, shape, report, options));
-    ShapePictures pictures(shape);
+    const PictureLook shown = look.of(loaded, up_vector(choice.frame.up));
+    ShapePictures pictures(shape, shown);
     if (!no_images) {
       add_pictures(output, OutputKinds::all(), pictures, report, options, run.part(0.9, 0.95));
     }
@@ -124,18 +133,18 @@ struct ViewCommand {
              std::filesystem::path(model).filename().string());
     seconds.total = seconds_since(start);
     output.add("timings.json", timings_json(seconds));
-    output.write_without("report.html");
+    if (!trace.empty()) {
+      output.add_named(trace, trace_csv(report));
+    }
+    output.write();
     if (!no_images && !no_report && !has_report_page()) {
       session.say("note: this program was built without npm, so that there is no report.html");
-    }
-    if (!trace.empty()) {
-      write_output(trace, trace_csv(report));
     }
     session.end_progress();
     if (session.flags.json) {
       write_output("-", view_json(loaded, shape, report, options, &seconds));
     } else {
-      preview.show(session, shape, report.best.picture, options, {}, session.run());
+      preview.show(session, shape, report.best.picture, options, shown, session.run());
       summarise(session, loaded, shape, choice, report, options, output, seconds);
     }
     // Last: who waits for the pictures and the numbers has them.

@@ -69,6 +69,12 @@ OutputKinds OutputKinds::parse(const std::string& text) {
   return kinds;
 }
 
+bool OutputKinds::has_pictures() const {
+  return has(kReport) || has(kViews) ||
+         std::any_of(kPictures.begin(), kPictures.end(),
+                     [&](const PictureKind& picture) { return has(picture.kind); });
+}
+
 void OutputKinds::drop_pictures() {
   for (const PictureKind& picture : kPictures) {
     kinds_.erase(picture.kind);

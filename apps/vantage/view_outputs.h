@@ -28,6 +28,9 @@ class OutputKinds {
 
   [[nodiscard]] bool has(std::string_view kind) const { return kinds_.contains(kind); }
 
+  /// Whether any of them is made of pictures.
+  [[nodiscard]] bool has_pictures() const;
+
   /// Leaves the pictures out.
   void drop_pictures();
 

@@ -13,7 +13,6 @@
 #include "vantage/render/render.h"
 #include "vantage/report/figures.h"
 
-#include "output_file.h"
 #include "terminal.h"
 
 namespace vantage::cli {
@@ -37,23 +36,6 @@ constexpr const char* kGroup = "Several views";  // in the help
 
 std::string numbered(std::size_t i) {
   return (i < 9 ? "view-0" : "view-") + std::to_string(i + 1);
-}
-
-/// Whether the name is `before`, a number and `after`.
-bool is_numbered(std::string_view name, std::string_view before, std::string_view after) {
-  if (name.size() <= before.size() + after.size() || name.substr(0, before.size()) != before ||
-      name.substr(name.size() - after.size()) != after) {
-    return false;
-  }
-  const std::string_view number =
-      name.substr(before.size(), name.size() - before.size() - after.size());
-  return number.find_first_not_of("0123456789") == std::string_view::npos;
-}
-
-/// Whether a set of views writes files of this name.
-bool is_of_a_set(std::string_view name) {
-  return name == "views.png" || name == "views.transforms.json" || name == "tour.gltf" ||
-         is_numbered(name, "view-", ".png") || is_numbered(name, "camera-view-", ".gltf");
 }
 
 std::string padded(const std::string& text, std::size_t width) {
@@ -134,11 +116,12 @@ double ViewSetFlags::seconds(const Tour& tour) const {
 namespace {
 
 /// The views on one sheet, small.
-Image contact_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, ViewOptions options) {
+Image contact_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, ViewOptions options,
+                    const PictureLook& look) {
   constexpr int kTileWidth = 320;  // px
   options.height = std::max(1, kTileWidth * options.height / options.width);
   options.width = kTileWidth;
-  return view_sheet(shape, set, options);
+  return view_sheet(shape, set, options, {}, look);
 }
 
 }  // namespace
@@ -146,7 +129,6 @@ Image contact_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, View
 void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, ShapePictures& pictures,
                          const ViewReport& report, UpAxis up, const ViewOptions& options,
                          const RunContext& run) const {
-  output.replace_all(is_of_a_set);
   if (!report.set) {
     return;
   }
@@ -170,7 +152,7 @@ void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, Shape
   }
   output.add("views.transforms.json", views_transforms_json(cameras, size));
   if (options.pictures) {
-    output.add("views.png", png_bytes(contact_sheet(shape, *report.set, options)));
+    output.add("views.png", png_bytes(contact_sheet(shape, *report.set, options, pictures.look())));
   }
   if (report.set->tour.length_rad > 0.0) {
     write_tour(output, shape, pictures, report, up, run.part(stills_share, 1.0));
@@ -201,7 +183,7 @@ void ViewSetFlags::write_tour(OutputFolder& output, const ShapeAnalysis& shape,
                        std::to_string(kMostFrames) + " are made; lower --fps or --tour-seconds");
   }
   const int frames = static_cast<int>(wanted);
-  RenderOptions look;
+  RenderOptions look = pictures.look().render;
   look.width = width_;
   look.height = height_;
   look.samples = kTourSamples;
@@ -215,12 +197,13 @@ void ViewSetFlags::write_tour(OutputFolder& output, const ShapeAnalysis& shape,
     encoder.add(pictures.take_plain(camera, look, run.part(done, next)));
     done = next;
   }
-  write_output(tour_, encoder.finish());
+  output.add_named(tour_, encoder.finish());
 }
 
 ViewOptions view_options_of(const MethodFlags& method, const ViewSetFlags& several,
-                            const OutputKinds& kinds) {
+                            const LookFlags& look, const OutputKinds& kinds) {
   ViewOptions options = method.resolve();
+  options.margin_percent = look.margin_percent();
   options.view_set = kinds.has("views") ? several.request_or(kViewsOfBatch) : several.request();
   return options;
 }

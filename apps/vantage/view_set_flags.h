@@ -9,6 +9,7 @@
 #include "vantage/pipeline/find_views.h"
 #include "vantage/report/pictures.h"
 
+#include "look_flags.h"
 #include "method_flags.h"
 #include "option_flags.h"
 #include "output_folder.h"
@@ -50,7 +51,7 @@ class ViewSetFlags {
 /// The options of a model of a batch: those of the method, and a set of views if one is asked for
 /// or `kinds` has pictures of one.
 ViewOptions view_options_of(const MethodFlags& method, const ViewSetFlags& several,
-                            const OutputKinds& kinds);
+                            const LookFlags& look, const OutputKinds& kinds);
 
 /// One line a view: where from, what it adds, how much is seen by then.
 std::string view_set_table(const ReportedViewSet& set);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/files.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <filesystem>
 #include <new>
@@ -13,6 +15,7 @@
 #include <unistd.h>
 
 #include "vantage/core/error.h"
+#include "vantage/io/staged_file.h"
 #include "vantage/io/write.h"
 
 namespace vantage {
@@ -33,6 +36,9 @@ class Descriptor {
   }
 
   [[nodiscard]] int number() const { return number_; }
+
+  /// Hands the descriptor over.
+  int release() { return std::exchange(number_, -1); }
 
   /// Closes now. \return 0 or errno.
   int close() { return ::close(std::exchange(number_, -1)) == 0 ? 0 : errno; }
@@ -88,6 +94,14 @@ std::string temporary_path(const std::string& path) {
   return path.substr(0, name) + "." + path.substr(name, kLongestName - 1 - end.size()) + end;
 }
 
+/// "https://…" and the like.
+bool is_url(std::string_view path) {
+  const std::size_t scheme = path.find("://");
+  return scheme != std::string_view::npos && scheme >= 2 &&
+         std::all_of(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(scheme),
+                     [](unsigned char c) { return std::isalnum(c) != 0 || c == '+' || c == '.'; });
+}
+
 void write_in_place(const std::string& path, std::string_view bytes) {
   const Descriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
   const int error = device.number() < 0 ? errno : write_all(device.number(), bytes);
@@ -141,49 +155,94 @@ int name_file(int descriptor, const std::string& path) {
   return error;
 }
 
-/// Where the file system knows files without a name, a process that is killed leaves nothing behind.
-/// \return whether it does; `error`: 0 or errno
-bool replace_by_nameless(const std::string& path, std::string_view bytes, int& error) {
-  const std::size_t name = path.find_last_of('/') + 1;
-  const std::string folder = name == 0 ? "." : path.substr(0, name);
-  const Descriptor file(::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666));
-  if (file.number() < 0) {
-    return false;
-  }
-  error = write_whole(file.number(), bytes);
-  if (error != 0) {
-    return true;
-  }
-  error = name_file(file.number(), path);
-  return error != ENOENT;  // of a machine without /proc
-}
-
-void replace_file(const std::string& path, std::string_view bytes) {
-  int error = 0;
-  if (replace_by_nameless(path, bytes, error)) {
-    if (error != 0) {
-      throw IoError(path, "cannot be written", error);
-    }
-    return;
-  }
-  const std::string temporary = temporary_path(path);
-  Descriptor file(create_alone(temporary));
-  if (file.number() < 0) {
-    throw IoError(path, "cannot be created", errno);
-  }
-  error = write_whole(file.number(), bytes);
-  const int close_error = file.close();
-  error = error == 0 ? close_error : error;
-  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) {
-    error = errno;
-  }
-  if (error != 0) {
-    ::unlink(temporary.c_str());
-    throw IoError(path, "cannot be written", error);
-  }
+/// Whether a file without a name could be given one.
+bool can_be_named(int descriptor) {
+  return ::access(("/proc/self/fd/" + std::to_string(descriptor)).c_str(), F_OK) == 0;
 }
 
 }  // namespace
+
+StagedFile::StagedFile(std::string path, std::string_view bytes) : path_(std::move(path)) {
+  if (!write_nameless(bytes)) {
+    write_temporary(bytes);
+  }
+}
+
+StagedFile::~StagedFile() {
+  drop();
+}
+
+StagedFile::StagedFile(StagedFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+StagedFile& StagedFile::operator=(StagedFile&& other) noexcept {
+  if (this != &other) {
+    drop();
+    path_ = std::move(other.path_);
+    temporary_ = std::exchange(other.temporary_, {});
+    descriptor_ = std::exchange(other.descriptor_, -1);
+  }
+  return *this;
+}
+
+bool StagedFile::write_nameless(std::string_view bytes) {
+  const std::size_t name = path_.find_last_of('/') + 1;
+  const std::string folder = name == 0 ? "." : path_.substr(0, name);
+  Descriptor file(::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666));
+  // A set of many views would otherwise use up the process's descriptors.
+  constexpr int kMostOpen = 256;
+  if (file.number() < 0 || file.number() > kMostOpen || !can_be_named(file.number())) {
+    return false;
+  }
+  if (const int error = write_whole(file.number(), bytes); error != 0) {
+    throw IoError(path_, "cannot be written", error);
+  }
+  descriptor_ = file.release();
+  return true;
+}
+
+void StagedFile::write_temporary(std::string_view bytes) {
+  const std::string temporary = temporary_path(path_);
+  Descriptor file(create_alone(temporary));
+  if (file.number() < 0) {
+    throw IoError(path_, "cannot be created", errno);
+  }
+  temporary_ = temporary;
+  int error = write_whole(file.number(), bytes);
+  const int close_error = file.close();
+  error = error == 0 ? close_error : error;
+  if (error != 0) {
+    drop();
+    throw IoError(path_, "cannot be written", error);
+  }
+}
+
+void StagedFile::place() {
+  int error = 0;
+  if (descriptor_ >= 0) {
+    error = name_file(descriptor_, path_);
+  } else if (::rename(temporary_.c_str(), path_.c_str()) == 0) {
+    temporary_.clear();
+  } else {
+    error = errno;
+  }
+  drop();
+  if (error != 0) {
+    throw IoError(path_, "cannot be written", error);
+  }
+}
+
+void StagedFile::drop() noexcept {
+  if (descriptor_ >= 0) {
+    ::close(std::exchange(descriptor_, -1));
+  }
+  if (!temporary_.empty()) {
+    ::unlink(temporary_.c_str());
+    temporary_.clear();
+  }
+}
 
 std::string read_file(const std::string& path) {
   if (path == "-") {
@@ -192,6 +251,9 @@ std::string read_file(const std::string& path) {
   // Not blocking: opening a pipe that nobody writes to would wait for ever.
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   if (file.number() < 0) {
+    if (errno == ENOENT && is_url(path)) {
+      throw IoError(path, "is a web address, and only files are read; download it first");
+    }
     throw IoError(path, "cannot be opened", errno);
   }
 
@@ -228,7 +290,7 @@ void write_file(const std::string& path, std::string_view bytes) {
       return;
     }
   }
-  replace_file(path, bytes);
+  StagedFile(path, bytes).place();
 }
 
 void write_named_file(const std::string& path, std::string_view bytes) {

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "vantage/core/error.h"
+#include "vantage/io/visible_materials.h"
 
 #include "io/files.h"
 #include "io/model_format.h"
@@ -57,6 +58,9 @@ Model parse_with(std::string_view bytes, std::string_view name, const RunContext
   model.name = model_name(name);
   if (!detected.note.empty()) {
     model.notes.insert(model.notes.begin(), detected.note);
+  }
+  if (surroundings.options.appearance && make_visible(model.appearance)) {
+    model.notes.emplace_back(kMadeOpaque);
   }
   return model;
 }
@@ -121,7 +125,9 @@ Model load_model(const std::string& path, const RunContext& run, const ReadOptio
   try {
     const std::string bytes = read_file(path);
     if (path == "-") {
-      return parse_with(bytes, "standard input", run, {{}, {}, options});
+      Model model = parse_with(bytes, "standard input", run, {{}, {}, options});
+      model.name = "stdin";
+      return model;
     }
     KnownBuffers known;
     const Surroundings surroundings{

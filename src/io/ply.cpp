@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "vantage/core/error.h"
 
 #include "io/model_builder.h"
 #include "io/ply_header.h"
@@ -51,6 +55,9 @@ class BodyReader {
     }
   }
 
+  /// Values that the header does not declare.
+  std::size_t surplus() { return source_.surplus(); }
+
  private:
   void check_count(const PlyElement& element) {
     std::size_t least = 0;
@@ -82,6 +89,7 @@ class BodyReader {
     Vec3 point = Vec3::Zero();
     Vec3 colour = Vec3::Zero();
     const Place binary_place = source_.place();
+    source_.begin_row();
     for (const PlyProperty& property : element.properties) {
       switch (property.role) {
         case PlyRole::X:
@@ -100,6 +108,7 @@ class BodyReader {
           skip_property(property);
       }
     }
+    source_.end_row();
     builder_.add_point(point, binary_place.unit[0] == 'b' ? binary_place : source_.place());
     if (coloured) {
       builder_.add_colour(colour.x(), colour.y(), colour.z());
@@ -108,6 +117,7 @@ class BodyReader {
 
   void read_faces(const PlyElement& element) {
     for (std::uint64_t f = 0; f < element.count; ++f) {
+      source_.begin_row();
       for (const PlyProperty& property : element.properties) {
         if (property.role != PlyRole::Indices) {
           skip_property(property);
@@ -117,6 +127,7 @@ class BodyReader {
           read_strips(property);
         }
       }
+      source_.end_row();
       builder_.advance(source_.offset(), all_bytes_);
     }
   }
@@ -174,9 +185,11 @@ class BodyReader {
 
   void skip_element(const PlyElement& element) {
     for (std::uint64_t i = 0; !element.properties.empty() && i < element.count; ++i) {
+      source_.begin_row();
       for (const PlyProperty& property : element.properties) {
         skip_property(property);
       }
+      source_.end_row();
       builder_.advance(source_.offset(), all_bytes_);
     }
   }
@@ -193,16 +206,58 @@ class BodyReader {
   std::size_t all_bytes_;
 };
 
+/// Reads text, and says how many values the header does not declare. \throw FormatError
+Model read_text(std::string_view bytes, std::string_view name, const RunContext& run,
+                PlyTextSource::Rows rows, std::size_t& surplus) {
+  ModelBuilder builder(ModelFormat::Ply, name, run, 0);
+  const PlyHeader header = read_ply_header(bytes, builder);
+  BodyReader reader(PlyTextSource(bytes, header, builder, rows), builder, bytes.size());
+  reader.read(header);
+  surplus = reader.surplus();
+  return builder.finish();
+}
+
+/// A model whose rows hold more values than the header says, or nothing if that is not what is wrong.
+std::optional<Model> read_by_lines(std::string_view bytes, std::string_view name,
+                                   const RunContext& run) {
+  try {
+    std::size_t surplus = 0;
+    Model model = read_text(bytes, name, run, PlyTextSource::Rows::Lines, surplus);
+    if (surplus == 0) {
+      return std::nullopt;
+    }
+    model.notes.push_back("its rows hold " + std::to_string(surplus) +
+                          " values more than the header declares; each line was read as one row");
+    return model;
+  } catch (const FormatError&) {
+    return std::nullopt;
+  }
+}
+
+Model read_text(std::string_view bytes, std::string_view name, const RunContext& run) {
+  try {
+    std::size_t surplus = 0;
+    Model model = read_text(bytes, name, run, PlyTextSource::Rows::Counted, surplus);
+    std::optional<Model> by_lines =
+        surplus > 0 ? read_by_lines(bytes, name, run) : std::optional<Model>();
+    return by_lines ? std::move(*by_lines) : std::move(model);
+  } catch (const FormatError&) {
+    if (std::optional<Model> by_lines = read_by_lines(bytes, name, run)) {
+      return std::move(*by_lines);
+    }
+    throw;
+  }
+}
+
 }  // namespace
 
 Model parse_ply(std::string_view bytes, std::string_view name, const RunContext& run) {
   ModelBuilder builder(ModelFormat::Ply, name, run, 0);
   const PlyHeader header = read_ply_header(bytes, builder);
   if (header.encoding == PlyEncoding::Ascii) {
-    BodyReader(PlyTextSource(bytes, header, builder), builder, bytes.size()).read(header);
-  } else {
-    BodyReader(PlyBinarySource(bytes, header, builder), builder, bytes.size()).read(header);
+    return read_text(bytes, name, run);
   }
+  BodyReader(PlyBinarySource(bytes, header, builder), builder, bytes.size()).read(header);
   return builder.finish();
 }
 

@@ -19,10 +19,34 @@ namespace vantage {
 /// Body of numbers in text.
 class PlyTextSource {
  public:
-  PlyTextSource(std::string_view bytes, const PlyHeader& header, ModelBuilder& builder)
+  /// How rows end.
+  enum class Rows {
+    Counted,  ///< After as many values as the header says, wherever lines break.
+    Lines,    ///< With their line: values beyond what the header says are passed over.
+  };
+
+  PlyTextSource(std::string_view bytes, const PlyHeader& header, ModelBuilder& builder,
+                Rows rows = Rows::Counted)
       : cursor_(bytes.substr(header.body_offset), header.body_line),
         start_(header.body_offset),
-        builder_(builder) {}
+        builder_(builder),
+        rows_(rows) {}
+
+  void begin_row() { is_begun_ = false; }
+
+  void end_row() {
+    while (rows_ == Rows::Lines && !cursor_.token_on_line().empty()) {
+      ++surplus_;
+    }
+  }
+
+  /// Values that were passed over, or that stand beyond the last row.
+  std::size_t surplus() {
+    while (rows_ == Rows::Counted && surplus_ == 0 && !cursor_.next_token().empty()) {
+      ++surplus_;
+    }
+    return surplus_;
+  }
 
   double next(PlyScalar /*type*/) {
     token_ = take();
@@ -54,9 +78,11 @@ class PlyTextSource {
 
  private:
   std::string_view take() {
-    const std::string_view token = cursor_.next_token();
+    const bool within = rows_ == Rows::Lines && is_begun_;
+    const std::string_view token = within ? cursor_.token_on_line() : cursor_.next_token();
+    is_begun_ = true;
     if (token.empty()) {
-      builder_.fail(place(), "the file ends early");
+      builder_.fail(place(), within ? "a row ends early" : "the file ends early");
     }
     return token;
   }
@@ -64,6 +90,9 @@ class PlyTextSource {
   TextCursor cursor_;
   std::size_t start_;
   ModelBuilder& builder_;
+  Rows rows_;
+  bool is_begun_ = false;  // a value of the row has been read
+  std::size_t surplus_ = 0;
   std::string_view token_{};
 };
 
@@ -76,6 +105,12 @@ class PlyBinarySource {
         order_(header.encoding == PlyEncoding::BinaryBigEndian ? ByteOrder::Big
                                                                : ByteOrder::Little),
         builder_(builder) {}
+
+  static void begin_row() {}
+
+  static void end_row() {}
+
+  static std::size_t surplus() { return 0; }
 
   double next(PlyScalar type) {
     const char* here = take(ply_scalar_bytes(type));

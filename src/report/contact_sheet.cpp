@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "vantage/render/framing.h"
 #include "vantage/report/comparison.h"
@@ -65,7 +66,8 @@ class Sheet {
 }  // namespace
 
 Image comparison_sheet(const ShapeAnalysis& shape, const Comparison& comparison, UpAxis up,
-                       const ViewOptions& options, const RunContext& run) {
+                       const ViewOptions& options, const RunContext& run,
+                       const PictureLook& look) {
   const int count = static_cast<int>(comparison.methods.size());
   const int rows = std::min(count, kMethodRows);
   const int columns = (count + kMethodRows - 1) / kMethodRows;
@@ -81,11 +83,13 @@ Image comparison_sheet(const ShapeAnalysis& shape, const Comparison& comparison,
   small.height = kTileHeight;
   const ScoringCamera camera = scoring_camera(shape, options);
   const std::vector<Vec3> points = referenced_points(shape.surface);
+  ShapePictures pictures(shape, look.on(kWhite));
   const auto picture = [&](const MeasuredView& view) {
     const Camera framed =
         frame_points(points, camera.viewpoint(view.direction), camera.sphere.centre, up_vector(up),
-                     static_cast<double>(kTileWidth) / kTileHeight);
-    return take_picture(shape, framed, Picture::Plain, small, kWhite, quiet);
+                     static_cast<double>(kTileWidth) / kTileHeight, options.margin_percent / 100.0);
+    constexpr std::array kPlain{Picture::Plain};
+    return std::move(pictures.take(framed, kPlain, small, {}, quiet).front());
   };
   for (int m = 0; m < count; ++m) {
     run.advance("pictures", static_cast<double>(m) / count);

@@ -2,6 +2,7 @@
 #include "vantage/report/figures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -30,6 +31,8 @@ constexpr std::size_t kMostLevels = 6;
 /// Contracted surfaces are drawn thicker by this share of D on all sides, lest limbs that have become
 /// lines vanish between the samples. [ours]
 constexpr double kThickening = 0.004;
+constexpr Rgb8 kWhite{255, 255, 255};
+constexpr std::array kPlain{Picture::Plain};
 
 /// Level 0, the last level, and evenly between them.
 std::vector<std::size_t> chosen_levels(std::size_t last) {
@@ -61,20 +64,20 @@ std::vector<Vec3> vertex_normals(const TriMesh& mesh) {
 class Panels {
  public:
   Panels(const ShapeAnalysis& shape, const Camera& camera, const ViewOptions& options,
-         RunContext run)
+         RunContext run, const PictureLook& look)
       : shape_(&shape),
         camera_(&camera),
         run_(std::move(run)),
-        normals_(vertex_normals(shape.surface)) {
+        normals_(vertex_normals(shape.surface)),
+        look_(look.render),
+        asset_(look.asset) {
     run_.report = nullptr;
-    set_quality(look_, Quality::Normal);
     look_.width = options.width;
     look_.height = options.height;
-    look_.background = Rgb8{255, 255, 255};
   }
 
   [[nodiscard]] Image plain(Picture picture, const ViewOptions& options) const {
-    return draw_picture(*shape_, *camera_, picture, options, look_, run_);
+    return draw_picture(*shape_, *camera_, picture, options, look_, run_, asset_);
   }
 
   /// The surface at a level of its contraction, in the colours of a field if there is one.
@@ -101,7 +104,8 @@ class Panels {
   const Camera* camera_;
   RunContext run_;
   std::vector<Vec3> normals_;
-  RenderOptions look_{};
+  RenderOptions look_;
+  const Model* asset_;
 };
 
 /// What a level adds to the map: its displacement from 0 to 1, lowered by the level's factor.
@@ -199,12 +203,10 @@ std::vector<Figure> sequences(const ShapeAnalysis& shape, const Panels& best, co
 
 /// Figure 6.
 Figure sphere_figure(const ShapeAnalysis& shape, const SaliencyView& saliency,
-                     const ViewReport& report, const ViewOptions& options, const RunContext& run) {
-  RenderOptions look;
-  set_quality(look, Quality::Normal);
+                     const ViewReport& report, const ViewOptions& options, RenderOptions look,
+                     const RunContext& run) {
   look.width = options.width;
   look.height = options.height;
-  look.background = Rgb8{255, 255, 255};
   const auto panel = [&](const std::vector<double>& values, const std::vector<double>& shown,
                          const char* name) {
     return with_caption(
@@ -240,10 +242,8 @@ Image side_by_side(const std::vector<Image>& panels) {
 }
 
 Image view_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, const ViewOptions& options,
-                 const RunContext& run) {
-  RenderOptions look;
-  set_quality(look, Quality::Normal);
-  look.background = Rgb8{255, 255, 255};
+                 const RunContext& run, const PictureLook& look) {
+  ShapePictures pictures(shape, look.on(kWhite));
   std::vector<Image> panels;
   const auto count = static_cast<double>(set.views.size());
   for (std::size_t i = 0; i < set.views.size(); ++i) {
@@ -253,7 +253,7 @@ Image view_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, const V
     RunContext quiet = run;
     quiet.report = nullptr;
     panels.push_back(
-        with_caption(draw_picture(shape, view.picture, Picture::Plain, options, look, quiet),
+        with_caption(pictures.take(view.picture, kPlain, options, {}, quiet).front(),
                      std::to_string(i + 1) + ": sees " + percent_text(view.score_fraction) +
                          ", together " + percent_text(chosen.coverage)));
   }
@@ -262,12 +262,14 @@ Image view_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, const V
 }
 
 std::vector<Figure> paper_figures(const ShapeAnalysis& shape, const ViewReport& report,
-                                  const ViewOptions& options, const RunContext& run) {
+                                  const ViewOptions& options, const RunContext& run,
+                                  const PictureLook& look) {
   if (shape.cloud) {
     throw InvalidInput("the paper's figures need a surface, and the model has points only");
   }
-  const Panels best(shape, report.best.picture, options, run);
-  const Panels worst(shape, report.worst.picture, options, run);
+  const PictureLook white = look.on(kWhite);
+  const Panels best(shape, report.best.picture, options, run, white);
+  const Panels worst(shape, report.worst.picture, options, run, white);
   const Image map = best.plain(Picture::Map, options);
   std::vector<Figure> figures = sequences(shape, best, map, run.part(0.0, 0.5));
   const SaliencyView saliency = saliency_view(shape, report, options, run.part(0.5, 0.7));
@@ -281,11 +283,11 @@ std::vector<Figure> paper_figures(const ShapeAnalysis& shape, const ViewReport& 
                      with_caption(map, "KSSM"),
                      with_caption(best.plain(Picture::Skeleton, options), "skeleton")}),
        {}});
-  figures.push_back(sphere_figure(shape, saliency, report, options, quiet));
+  figures.push_back(sphere_figure(shape, saliency, report, options, white.render, quiet));
   run.advance("figures", 0.9);
   const auto add_choices = [&](const char* name, const char* kind, const Panels& kssm,
                                const ReportedView& ours, const ReportedView& theirs) {
-    const Panels other(saliency.shape, theirs.picture, options, run);
+    const Panels other(saliency.shape, theirs.picture, options, run, white);
     figures.push_back(
         {name,
          choices(kssm, other, options, kind, ours.score_fraction, theirs.score_fraction),
@@ -294,7 +296,7 @@ std::vector<Figure> paper_figures(const ShapeAnalysis& shape, const ViewReport& 
   add_choices("figure-7-best", "best", best, report.best, saliency.report.best);
   add_choices("figure-8-worst", "worst", worst, report.worst, saliency.report.worst);
   if (report.set) {
-    figures.push_back({"views", view_sheet(shape, *report.set, options, quiet), {}});
+    figures.push_back({"views", view_sheet(shape, *report.set, options, quiet, look), {}});
   }
   run.advance("figures", 1.0);
   return figures;

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "vantage/core/error.h"
+#include "vantage/report/figures.h"
 
 #include "report/lettering.h"
 #include "report/line_drawing.h"
@@ -46,6 +48,27 @@ Image with_caption(const Image& panel, std::string_view text) {
   place(panel, image, 0, 0);
   place(strip.image(), image, 0, panel.height);
   return image;
+}
+
+Image caption(std::string_view text, int width, int height) {
+  constexpr double kLetters = 0.5;  // height of capitals over the strip's
+  const double letters = kLetters * height;
+  std::string line;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte & 0xC0U) != 0x80U) {  // no further byte of a letter
+      line += byte < 0x20 || byte > 0x7E ? '?' : c;
+    }
+  }
+  const std::string whole = line;
+  const auto is_too_long = [&] { return letters * lettering_width(line) > 0.96 * width; };
+  for (std::size_t kept = whole.size(); is_too_long() && kept > 2;) {
+    --kept;
+    line = whole.substr(0, kept / 2) + "..." + whole.substr(whole.size() - (kept - kept / 2));
+  }
+  LineDrawing strip(width, height);
+  strip.text(line, {0.5 * (width - letters * lettering_width(line)), 0.75 * height}, letters, kInk);
+  return strip.image();
 }
 
 Image in_rows(const std::vector<Image>& panels, std::size_t columns) {

@@ -11,6 +11,7 @@
 #include "vantage/render/render.h"
 
 #include "core/parallel.h"
+#include "report/legend.h"
 #include "report/smaller_picture.h"
 
 namespace vantage {
@@ -70,37 +71,81 @@ Image take_picture(const ShapeAnalysis& shape, const Camera& camera, Picture pic
   return draw_picture(shape, camera, picture, options, look, run);
 }
 
+PictureLook PictureLook::on(const Rgb8& background) const {
+  PictureLook look = *this;
+  if (!look.render.background) {
+    look.render.background = background;
+  }
+  return look;
+}
+
+ShapePictures::ShapePictures(const ShapeAnalysis& shape, const PictureLook& look)
+    : shape_(&shape), look_(look) {
+  const Model* asset = look.asset;
+  const bool is_plain = asset == nullptr || asset->mesh.triangles.empty() ||
+                        (asset->vertex_colours.empty() && asset->appearance.materials.empty());
+  look_.asset = is_plain ? nullptr : asset;
+}
+
 const PictureSurface& ShapePictures::surface(const RunContext& run) {
   if (!surface_) {
-    surface_.emplace(shape_->surface, nullptr, RenderOptions{}.crease_deg, run);
+    surface_.emplace(shape_->surface, nullptr, look_.render.crease_deg, run);
   }
   return *surface_;
+}
+
+const PictureSurface& ShapePictures::asset_surface(const RunContext& run) {
+  if (!asset_surface_) {
+    asset_surface_.emplace(look_.asset->mesh, &look_.asset->appearance, look_.render.crease_deg,
+                           run);
+  }
+  return *asset_surface_;
 }
 
 std::vector<Image> ShapePictures::take(const Camera& camera, std::span<const Picture> pictures,
                                        const ViewOptions& options,
                                        const std::optional<Rgb8>& background,
                                        const RunContext& run) {
-  RenderOptions look;
-  set_quality(look, Quality::Normal);
-  look.background = background;
+  RenderOptions look = look_.render;
+  look.width = options.width;
+  look.height = options.height;
+  if (background) {
+    look.background = background;
+    look.background_bottom.reset();
+  }
   std::vector<Canvas> canvases;
   std::vector<Paint> paints;
   canvases.reserve(pictures.size());  // paints look into them
   for (const Picture picture : pictures) {
-    canvases.emplace_back(*shape_, picture, options, look, nullptr);
-    paints.push_back(canvases.back().paint());
+    if (picture != Picture::Plain || look_.asset == nullptr) {
+      canvases.emplace_back(*shape_, picture, options, look, nullptr);
+      paints.push_back(canvases.back().paint());
+    }
   }
-  std::vector<Image> images = surface(run).render(camera, paints, look, run);
-  for (std::size_t i = 0; i < images.size() && !background; ++i) {
-    if (pictures[i] == Picture::Plain) {
-      plain_.emplace_back(camera, images[i]);
-      if (plain_.size() > kMostKept) {
-        plain_.erase(plain_.begin());
-      }
+  std::vector<Image> painted;
+  if (!paints.empty()) {
+    painted = surface(run).render(camera, paints, look, run);
+  }
+  std::vector<Image> images;
+  auto next = painted.begin();
+  for (const Picture picture : pictures) {
+    const bool is_asset = picture == Picture::Plain && look_.asset != nullptr;
+    images.push_back(is_asset ? take_plain(camera, look, run) : std::move(*next++));
+    if (picture == Picture::Map) {
+      draw_legend(images.back());
+    }
+    if (picture == Picture::Plain && !background) {
+      keep_plain(camera, images.back());
     }
   }
   return images;
+}
+
+void ShapePictures::keep_plain(const Camera& camera, const Image& image) {
+  plain_.emplace_back(camera, image);
+  if (plain_.size() > kMostKept) {
+    plain_.erase(plain_.begin());
+  }
 }
 
 Image ShapePictures::take_small(const Camera& camera, int width, int height,
@@ -121,6 +166,10 @@ Image ShapePictures::take_small(const Camera& camera, int width, int height,
 
 Image ShapePictures::take_plain(const Camera& camera, const RenderOptions& look,
                                 const RunContext& run) {
+  if (look_.asset != nullptr) {
+    const Paint own{look_.asset->vertex_colours, {}, &look_.asset->appearance};
+    return std::move(asset_surface(run).render(camera, std::span(&own, 1), look, run).front());
+  }
   const Paint clay;
   return std::move(surface(run).render(camera, std::span(&clay, 1), look, run).front());
 }
@@ -139,14 +188,22 @@ Image draw_picture(const ShapeAnalysis& shape, const Camera& camera, Picture pic
                    const ViewOptions& options, RenderOptions look, const RunContext& run,
                    const Model* asset) {
   const Canvas canvas(shape, picture, options, look, asset);
-  return render_painted(canvas.mesh(), camera, canvas.paint(), look, run);
+  Image image = render_painted(canvas.mesh(), camera, canvas.paint(), look, run);
+  if (picture == Picture::Map) {
+    draw_legend(image);
+  }
+  return image;
 }
 
 DeepImage draw_picture_deep(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
                             const ViewOptions& options, RenderOptions look, const RunContext& run,
                             const Model* asset) {
   const Canvas canvas(shape, picture, options, look, asset);
-  return render_deep(canvas.mesh(), camera, canvas.paint(), look, run);
+  DeepImage image = render_deep(canvas.mesh(), camera, canvas.paint(), look, run);
+  if (picture == Picture::Map) {
+    draw_legend(image);
+  }
+  return image;
 }
 
 }  // namespace vantage

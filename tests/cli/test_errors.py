@@ -43,7 +43,7 @@ class Usage(ProgramTest):
         real = 0
         for command in ("view", "thumb", "render", "map", "skeleton", "score", "compare", "figures", "eval", "info", "serve",
                         "batch"):
-            text = self.vantage(command, "--help").out
+            text = self.vantage(command, "--help-all").out
             for option in re.findall(r"^ +(?:-\w,)?(--[a-z-]+) X\b", text, re.MULTILINE):
                 real += 1
                 for number in ("nan", "-nan", "inf", "-inf", "1e999", "infinity", "nan(1)"):

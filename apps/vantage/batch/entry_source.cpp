@@ -149,7 +149,13 @@ class PathSource : public EntrySource {
     } else if (is_archive(path)) {
       archive_ = std::make_unique<ArchiveReader>(path, archive_limits_);
     } else {
-      return Entry{.key = key_of_path(path), .path = path};
+      Entry entry{.key = key_of_path(path), .path = path};
+      if (input.find("://") != std::string::npos && !fs::exists(path, error)) {
+        entry.key = key_of_path(input);
+        entry.reason = "input";
+        entry.problem = "is a web address, and only files are read; download it first";
+      }
+      return entry;
     }
     return std::nullopt;
   }

@@ -69,6 +69,8 @@ const text = (tag, kind, words) => {
 };
 // What has no value comes last in every order.
 const last = (a, b, sign) => a === null ? (b === null ? 0 : 1) : b === null ? -1 : sign * (a - b);
+const twins = new Map();
+for (const row of rows) twins.set(row.name, (twins.get(row.name) || 0) + 1);
 const order = {
   key: () => 0,
   name: (a, b) => a.name < b.name ? -1 : a.name > b.name ? 1 : 0,
@@ -80,7 +82,7 @@ let shown = rows, at = 0;
 
 function note(row) {
   if (row.status === "failed") return row.error;
-  const parts = [];
+  const parts = twins.get(row.name) > 1 ? [row.key] : [];
   if (row.fraction !== null) parts.push((100 * row.fraction).toFixed(1) + " % of the significance");
   if (row.vertices !== null) parts.push(row.vertices.toLocaleString("en") + " vertices");
   if (row.status === "duplicate") parts.push("same content as " + row.equal);

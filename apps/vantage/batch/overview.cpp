@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <map>
+#include <set>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -12,6 +14,7 @@
 #include "vantage/core/error.h"
 #include "vantage/core/image.h"
 #include "vantage/io/write.h"
+#include "vantage/report/figures.h"
 
 #include "batch/index_page.h"
 #include "batch/runner.h"
@@ -26,6 +29,8 @@ constexpr std::size_t kRowsPerPage = 50'000;
 constexpr int kColumns = 10;
 constexpr int kRows = 8;
 constexpr int kGap = 8;               // px around a thumbnail
+constexpr int kCaption = 18;          // px, the name below it
+constexpr int kTileHeight = kThumbnailSide + kCaption + kGap;
 constexpr std::size_t kSheets = 250;  // sheets are looked at by people: more would not be
 
 std::string page_name(std::size_t page) {
@@ -60,7 +65,9 @@ bool is_sheet(const ConfinedFolder& folder, const std::string& name) {
   };
   return head.size() == kHeaderBytes && head.starts_with("\x89PNG\r\n\x1A\n") &&
          head.ends_with("\x08\x06") && number(16) == kSheetWidth &&
-         number(20) % (kThumbnailSide + kGap) == kGap && number(20) < kSheetWidth;
+         (number(20) % kTileHeight == kGap ||
+          number(20) % (kThumbnailSide + kGap) == kGap) &&  // of version 0.1: without names
+         number(20) < kSheetWidth;
 }
 
 using IsOurs = bool (*)(const ConfinedFolder&, const std::string&);
@@ -85,19 +92,22 @@ class ContactSheets {
  public:
   explicit ContactSheets(const ConfinedFolder& folder) : folder_(folder) {}
 
-  void add(const Image& thumbnail) {
+  void add(const Image& thumbnail, const std::string& name) {
     if (sheet_ >= kSheets) {
       return;
     }
     if (image_.rgba.empty()) {
       image_.width = kSheetWidth;
-      image_.height = kRows * (kThumbnailSide + kGap) + kGap;
+      image_.height = kRows * kTileHeight + kGap;
       image_.rgba.assign(
           4 * static_cast<std::size_t>(image_.width) * static_cast<std::size_t>(image_.height),
           255);
     }
-    place(thumbnail, kGap + tile_ % kColumns * (kThumbnailSide + kGap),
-          kGap + tile_ / kColumns * (kThumbnailSide + kGap));
+    const int left = kGap + tile_ % kColumns * (kThumbnailSide + kGap);
+    const int top = kGap + tile_ / kColumns * kTileHeight;
+    place(thumbnail, left + (kThumbnailSide - thumbnail.width) / 2,
+          top + (kThumbnailSide - thumbnail.height) / 2);
+    place(caption(name, kThumbnailSide, kCaption), left, top + kThumbnailSide);
     if (++tile_ == kColumns * kRows) {
       write();
     }
@@ -117,12 +127,10 @@ class ContactSheets {
   }
 
  private:
-  void place(const Image& thumbnail, int left, int top) {
-    left += (kThumbnailSide - thumbnail.width) / 2;
-    top += (kThumbnailSide - thumbnail.height) / 2;
-    for (int y = 0; y < thumbnail.height; ++y) {
-      for (int x = 0; x < thumbnail.width; ++x) {
-        const std::uint8_t* from = thumbnail.pixel(x, y);
+  void place(const Image& tile, int left, int top) {
+    for (int y = 0; y < tile.height; ++y) {
+      for (int x = 0; x < tile.width; ++x) {
+        const std::uint8_t* from = tile.pixel(x, y);
         const auto at =
             static_cast<std::size_t>(image_.pixel(left + x, top + y) - image_.rgba.data());
         for (std::size_t c = 0; c < 3; ++c) {
@@ -135,7 +143,7 @@ class ContactSheets {
 
   void write() {
     // The last sheet is as long as it is full.
-    image_.height = (tile_ + kColumns - 1) / kColumns * (kThumbnailSide + kGap) + kGap;
+    image_.height = (tile_ + kColumns - 1) / kColumns * kTileHeight + kGap;
     image_.rgba.resize(4 * static_cast<std::size_t>(image_.width) *
                        static_cast<std::size_t>(image_.height));
     write_checked(folder_, sheet_name(sheet_), png_bytes(image_), is_sheet);
@@ -149,6 +157,51 @@ class ContactSheets {
   int tile_ = 0;
   std::size_t sheet_ = 0;
 };
+
+Statement table_rows(ResultsStore& store) {
+  return store.select(
+      "key, name, status, duplicate_of, error, folder, best_fraction, best_score, vertices", "",
+      "");
+}
+
+/// The end of a path without its extension: of "a/b/cup.ply" and 2 parts "b/cup".
+std::string tail_of(const std::string& key, std::size_t parts) {
+  std::size_t begin = key.size();
+  for (std::size_t i = 0; i < parts && begin != std::string::npos && begin > 0; ++i) {
+    begin = key.rfind('/', begin - 1);
+  }
+  const std::string tail = begin == std::string::npos ? key : key.substr(begin + 1);
+  const std::size_t dot = tail.rfind('.');
+  return dot == std::string::npos || dot < tail.rfind('/') + 1 ? tail : tail.substr(0, dot);
+}
+
+/// What models are called where they stand side by side: their names, or if several have one, as much
+/// of the ends of their paths as tells them apart.
+std::map<std::string, std::string> labels_of(ResultsStore& store) {
+  std::map<std::string, std::vector<std::string>> keys_of_name;
+  Statement rows = table_rows(store);
+  for (std::size_t shown = 0; shown < kSheets * kColumns * kRows && rows.step();) {
+    if (rows.text(2) == "done" && rows.text(3).empty()) {
+      keys_of_name[rows.text(1)].push_back(rows.text(0));
+      ++shown;
+    }
+  }
+  std::map<std::string, std::string> labels;
+  for (const auto& [name, keys] : keys_of_name) {
+    constexpr std::size_t kMostParts = 8;
+    for (std::size_t parts = 2; keys.size() > 1 && parts <= kMostParts; ++parts) {
+      std::set<std::string> tails;
+      for (const std::string& key : keys) {
+        labels[key] = tail_of(key, parts);
+        tails.insert(labels[key]);
+      }
+      if (tails.size() == keys.size()) {
+        break;
+      }
+    }
+  }
+  return labels;
+}
 
 /// One row of the page's table; see kIndexScript for the order of its cells.
 std::string row_of(const Statement& row, const ConfinedFolder& root) {
@@ -177,12 +230,6 @@ std::optional<Image> thumbnail_in(const Statement& row, const ConfinedFolder& ro
              : std::nullopt;
 }
 
-Statement table_rows(ResultsStore& store) {
-  return store.select(
-      "key, name, status, duplicate_of, error, folder, best_fraction, best_score, vertices", "",
-      "");
-}
-
 std::size_t page_count(const StatusCounts& counts) {
   const auto total = static_cast<std::size_t>(counts.done + counts.failed + counts.duplicates);
   return std::max<std::size_t>(1, (total + kRowsPerPage - 1) / kRowsPerPage);
@@ -208,6 +255,7 @@ Overview write_overview(const ConfinedFolder& folder, ResultsStore& store, const
   const StatusCounts counts = store.counts();
   const auto total = static_cast<std::size_t>(counts.done + counts.failed + counts.duplicates);
   const std::size_t pages = page_count(counts);
+  const std::map<std::string, std::string> labels = labels_of(store);
   Statement rows = table_rows(store);
   std::size_t done = 0;
   for (std::size_t page = 0; page < pages; ++page) {
@@ -215,7 +263,8 @@ Overview write_overview(const ConfinedFolder& folder, ResultsStore& store, const
     for (std::size_t i = 0; i < kRowsPerPage && rows.step(); ++i) {
       run.advance("index", static_cast<double>(done++) / static_cast<double>(total + 1));
       if (const std::optional<Image> thumbnail = thumbnail_in(rows, folder)) {
-        sheets.add(*thumbnail);
+        const auto label = labels.find(rows.text(0));
+        sheets.add(*thumbnail, label == labels.end() ? rows.text(1) : label->second);
       }
       data += (data.empty() ? "" : ",\n") + row_of(rows, folder);
     }

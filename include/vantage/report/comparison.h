@@ -6,6 +6,7 @@
 
 #include "vantage/core/image.h"
 #include "vantage/pipeline/measured_shape.h"
+#include "vantage/report/pictures.h"
 #include "vantage/spatial/mirror_symmetry.h"
 
 /// \file
@@ -55,8 +56,10 @@ Comparison compare_methods(const ShapeAnalysis& shape, const ViewOptions& option
 
 /// For each method its best view, its worst, and the wireframe of all views around the model, near
 /// and cool where bad, far and warm where good, seen from a corner in front. \throw Cancelled
+/// \param look of the views; white where it has no background.
 Image comparison_sheet(const ShapeAnalysis& shape, const Comparison& comparison, UpAxis up,
-                       const ViewOptions& options, const RunContext& run = {});
+                       const ViewOptions& options, const RunContext& run = {},
+                       const PictureLook& look = {});
 
 /// compare.json: without the seconds the same bytes for the same input.
 std::string comparison_json(const Model& model, const Comparison& comparison, UpAxis up,

@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vantage/core/image.h"
 #include "vantage/core/run_context.h"
 #include "vantage/pipeline/find_views.h"
+#include "vantage/report/pictures.h"
 
 /// \file
 /// The paper's figures for any model. docs/figures.md says what each shows.
@@ -25,13 +27,16 @@ struct Figure {
 /// beside KSSM, with a search of its own. If the report has several views, they are on a sheet.
 /// \param shape of a surface, with history, skeleton and map (kssm).
 /// \throw InvalidInput for a cloud of points, which has no surface to contract. \throw Cancelled
+/// \param look of the panels that show the surface; white where it has no background.
 std::vector<Figure> paper_figures(const ShapeAnalysis& shape, const ViewReport& report,
-                                  const ViewOptions& options, const RunContext& run = {});
+                                  const ViewOptions& options, const RunContext& run = {},
+                                  const PictureLook& look = {});
 
 /// The views of a set in their order, each with what it sees and what it adds.
-/// \param size of each picture in `options`. \throw Cancelled
+/// \param size of each picture in `options`. \param look white where it has no background.
+/// \throw Cancelled
 Image view_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, const ViewOptions& options,
-                 const RunContext& run = {});
+                 const RunContext& run = {}, const PictureLook& look = {});
 
 /// One row of Table 1: what each stage took.
 struct StageTimes {
@@ -45,6 +50,10 @@ struct StageTimes {
 std::string times_csv(const std::vector<StageTimes>& rows);
 /// The same as a Markdown table.
 std::string times_markdown(const std::vector<StageTimes>& rows);
+
+/// A line of text in the middle of a white strip; of one that is too long the middle is left out.
+/// Letters beyond ASCII are shown as "?". \param width px, ≥ 1. \param height px, ≥ 1.
+Image caption(std::string_view text, int width, int height);
 
 /// The pictures side by side on white, a gap between them and around. \pre all are of one size.
 /// \throw InvalidInput if they are not, or there are none.

@@ -40,14 +40,31 @@ DeepImage draw_picture_deep(const ShapeAnalysis& shape, const Camera& camera, Pi
                             const ViewOptions& options, RenderOptions look,
                             const RunContext& run = {}, const Model* asset = nullptr);
 
-/// Pictures of a shape's surface in clay, from any number of cameras: its search tree and normals
-/// are made once, when the first picture is taken. Not for several threads at once.
+/// How all pictures of a shape look.
+struct PictureLook {
+  /// Quality::Normal. The size is not looked at.
+  PictureLook() { set_quality(render, Quality::Normal); }
+
+  explicit PictureLook(const RenderOptions& options, const Model* its_asset = nullptr)
+      : render(options), asset(its_asset) {}
+
+  /// The same on that background if it has none.
+  [[nodiscard]] PictureLook on(const Rgb8& background) const;
+
+  RenderOptions render{};
+  /// What the shape was made from: plain pictures show its own colours and materials if it has any;
+  /// null: clay.
+  const Model* asset = nullptr;
+};
+
+/// Pictures of a shape's surface, from any number of cameras: its search tree and normals are made
+/// once, when the first picture is taken. Not for several threads at once.
 class ShapePictures {
  public:
-  /// \param shape must outlive this, with its surface as it is.
-  explicit ShapePictures(const ShapeAnalysis& shape) : shape_(&shape) {}
+  /// \param shape must outlive this, with its surface as it is; so must the look's asset.
+  explicit ShapePictures(const ShapeAnalysis& shape, const PictureLook& look = {});
 
-  /// Pictures with one camera, hardly slower than one. \param background unset: transparent.
+  /// Pictures with one camera, hardly slower than one. \param background unset: the look's.
   /// \throw InvalidInput, Cancelled
   std::vector<Image> take(const Camera& camera, std::span<const Picture> pictures,
                           const ViewOptions& options, const std::optional<Rgb8>& background = {},
@@ -61,12 +78,19 @@ class ShapePictures {
   /// A plain one with any look, of the look's size.
   Image take_plain(const Camera& camera, const RenderOptions& look, const RunContext& run = {});
 
+  /// How they look.
+  [[nodiscard]] const PictureLook& look() const { return look_; }
+
  private:
   const PictureSurface& surface(const RunContext& run);
+  void keep_plain(const Camera& camera, const Image& image);
+  const PictureSurface& asset_surface(const RunContext& run);
 
   const ShapeAnalysis* shape_;
+  PictureLook look_{};  // without an asset that has no look of its own
   std::optional<PictureSurface> surface_{};
   std::vector<std::pair<Camera, Image>> plain_{};  ///< What take() took, for take_small().
+  std::optional<PictureSurface> asset_surface_{};  // the file's own faces, with their materials
 };
 
 /// PNG files of several pictures, side by side. \throw Cancelled

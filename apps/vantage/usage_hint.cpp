@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include "usage_hint.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "option_text.h"
+
+namespace vantage::cli {
+namespace {
+
+/// Letters to insert, drop, change or swap with their neighbour between two words.
+std::size_t edits_between(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> edits(a.size() + 1,
+                                              std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) {
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      if (i == 0 || j == 0) {
+        edits[i][j] = i + j;
+        continue;
+      }
+      const std::size_t changed = edits[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      edits[i][j] = std::min({changed, edits[i - 1][j] + 1, edits[i][j - 1] + 1});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        edits[i][j] = std::min(edits[i][j], edits[i - 2][j - 2] + 1);
+      }
+    }
+  }
+  return edits[a.size()][b.size()];
+}
+
+std::string meant(const std::string& nearest) {
+  return nearest.empty() ? "; see --help" : "; did you mean " + nearest + "?";
+}
+
+/// The flags of a command as they are written, those of its option groups included.
+class Flags {
+ public:
+  explicit Flags(const CLI::App& command) { collect(command); }
+
+  [[nodiscard]] const CLI::Option* find(const std::string& name) const {
+    for (const CLI::Option* option : options_) {
+      if (!option->get_positional() && option->check_name(name)) {
+        return option;
+      }
+    }
+    return nullptr;
+  }
+
+  /// How many words that are no flags the command takes.
+  [[nodiscard]] std::size_t most_arguments() const {
+    std::size_t most = 0;
+    for (const CLI::Option* option : options_) {
+      most += option->get_positional() ? static_cast<std::size_t>(option->get_items_expected_max())
+                                       : 0;
+    }
+    return most;
+  }
+
+  [[nodiscard]] std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : options_) {
+      for (const std::string& name : option->get_lnames()) {
+        names.push_back("--" + name);
+      }
+    }
+    return names;
+  }
+
+ private:
+  void collect(const CLI::App& app) {
+    for (const CLI::Option* option : app.get_options()) {
+      options_.push_back(option);
+    }
+    for (const CLI::App* group :
+         app.get_subcommands([](const CLI::App* below) { return below->get_name().empty(); })) {
+      collect(*group);
+    }
+  }
+
+  std::vector<const CLI::Option*> options_{};
+};
+
+bool takes_value(const CLI::Option& option) {
+  return option.get_type_size() != 0 && option.get_expected_max() != 0;
+}
+
+bool looks_like_flag(const std::string& word) {
+  const bool is_number = word.size() > 1 && (std::isdigit(static_cast<unsigned char>(word[1])) != 0 ||
+                                             word[1] == '.');
+  return word.size() > 1 && word[0] == '-' && !is_number;
+}
+
+/// The first word after the commands that the command does not know.
+class Reading {
+ public:
+  Reading(const CLI::App& command, const std::vector<std::string>& words, std::size_t from)
+      : command_(&command), flags_(command), words_(&words), at_(from) {}
+
+  /// \return a sentence, or nothing if all words are known; at() is then beyond them.
+  std::optional<std::string> complaint() {
+    const std::size_t most = flags_.most_arguments();
+    std::size_t arguments = 0;
+    for (bool only_arguments = false; at_ < words_->size(); ++at_) {
+      const std::string& word = (*words_)[at_];
+      if (!only_arguments && word == "--") {
+        only_arguments = true;
+      } else if (only_arguments || !looks_like_flag(word)) {
+        if (++arguments > most) {
+          return "'" + word + "' is one argument too many for vantage " + call_of(*command_) +
+                 "; see --help";
+        }
+      } else if (auto problem = flag_complaint(word)) {
+        return problem;
+      }
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::size_t at() const { return at_; }
+
+ private:
+  /// Reads a flag, with its value if that is a word of its own.
+  std::optional<std::string> flag_complaint(const std::string& word) {
+    const std::size_t equals = word.find('=');
+    const bool is_long = word.starts_with("--");
+    const std::string name = is_long ? word.substr(0, equals) : word.substr(0, 2);
+    const CLI::Option* option = flags_.find(name);
+    if (option == nullptr) {
+      const std::string whole = word.substr(0, equals);
+      const std::string flag = is_long ? whole : "-" + whole;  // "-size" for "--size"
+      const std::string nearest = nearest_word(flag, flags_.names());
+      return "vantage " + call_of(*command_) + " knows no flag " + whole + meant(nearest);
+    }
+    const bool holds_value = is_long ? equals != std::string::npos : word.size() > 2;
+    at_ += takes_value(*option) && !holds_value ? 1 : 0;
+    return std::nullopt;
+  }
+
+  const CLI::App* command_;
+  Flags flags_;
+  const std::vector<std::string>* words_;
+  std::size_t at_;
+};
+
+/// Where the flag that a parser's complaint begins with stands; beyond all words if nowhere.
+std::size_t place_of_complaint(const std::vector<std::string>& words, const std::string& complaint) {
+  const std::string flag = complaint.substr(0, complaint.find_first_of(" :="));
+  const auto at = std::find_if(words.begin(), words.end(), [&](const std::string& word) {
+    return flag.starts_with('-') && word.substr(0, word.find('=')) == flag;
+  });
+  return static_cast<std::size_t>(at - words.begin());
+}
+
+}  // namespace
+
+std::string nearest_word(const std::string& word, const std::vector<std::string>& known) {
+  std::vector<std::string> begin_so;
+  std::copy_if(known.begin(), known.end(), std::back_inserter(begin_so),
+               [&](const std::string& other) { return other.starts_with(word); });
+  if (begin_so.size() == 1) {
+    return begin_so.front();
+  }
+  std::string nearest;
+  std::size_t fewest = 1 + std::max<std::size_t>(1, word.size() / 3);
+  for (const std::string& other : known) {
+    const std::size_t edits = edits_between(word, other);
+    if (edits < fewest) {
+      fewest = edits;
+      nearest = other;
+    }
+  }
+  return nearest;
+}
+
+std::optional<std::string> unknown_word(const CLI::App& program,
+                                        const std::vector<std::string>& words,
+                                        const std::string& complaint) {
+  const CLI::App* command = &program;
+  std::size_t at = 0;
+  while (!commands_below(*command).empty()) {
+    if (at == words.size() || looks_like_flag(words[at])) {
+      return std::nullopt;
+    }
+    std::vector<std::string> names;
+    const CLI::App* below = nullptr;
+    for (const CLI::App* sub :
+         command->get_subcommands([](const CLI::App* any) { return !any->get_name().empty(); })) {
+      below = sub->get_name() == words[at] ? sub : below;
+    }
+    for (const CLI::App* sub : commands_below(*command)) {
+      names.push_back(sub->get_name());
+    }
+    if (below == nullptr) {
+      const std::string call = call_of(*command);
+      return "vantage" + (call.empty() ? "" : " " + call) + " has no command '" + words[at] + "'" +
+             meant(nearest_word(words[at], names));
+    }
+    command = below;
+    ++at;
+  }
+  Reading reading(*command, words, at);
+  const std::optional<std::string> problem = reading.complaint();
+  return problem && reading.at() <= place_of_complaint(words, complaint) ? problem : std::nullopt;
+}
+
+}  // namespace vantage::cli

@@ -1,0 +1,139 @@
+"""A command line that helps: what was meant, what is needed first, and quiet ends."""
+
+import os
+import signal
+import subprocess
+import unittest
+
+from program import MODELS, PROGRAM, ProgramTest
+from shapes import box
+
+FAN = MODELS / "fan.ply"
+
+
+class WhatWasMeant(ProgramTest):
+
+    def complaint(self, *words):
+        done = self.vantage(*words, exit_code=2)
+        self.assertEqual(len(done.err.splitlines()), 1, done.err)
+        self.assertEqual(done.out, "")
+        return done.err
+
+    def test_commands(self):
+        for word, meant in (("veiw", "view"), ("viwe", "view"), ("thum", "thumb"), ("skel", "skeleton"),
+                            ("redner", "render"), ("Batch", "batch")):
+            self.assertIn(f"did you mean {meant}?", self.complaint(word, "x.ply"))
+        self.assertNotIn("did you mean", self.complaint("make-coffee"))
+        self.assertIn("did you mean query?", self.complaint("results", "qurey"))
+
+    def test_flags(self):
+        for words, wrong, meant in (((FAN, "--sise", "30"), "--sise", "--size"),
+                                    ((FAN, "--methd=kssm"), "--methd", "--method"),
+                                    (("--objectve", "people", FAN), "--objectve", "--objective"),
+                                    ((FAN, "-size", "30"), "-size", "--size"),
+                                    ((FAN, "--no-image"), "--no-image", "--no-images")):
+            said = self.complaint("view", *words)
+            self.assertIn(f"knows no flag {wrong}", said)
+            self.assertIn(f"did you mean {meant}?", said)
+        self.assertIn("did you mean --direction?", self.complaint("render", FAN, "--directoin", "1,2,3", "-o", "b.png"))
+
+    def test_the_first_wrong_word_is_named(self):
+        self.assertIn("--sise", self.complaint("view", FAN, "--sise", "30", "--foo"))
+        self.assertIn("'b'", self.complaint("view", "a", "b", "c"))
+        self.assertIn("'abc'", self.complaint("view", FAN, "--size", "abc", "--foo"))
+        self.assertIn("--foo", self.complaint("view", FAN, "--foo", "--size", "abc"))
+
+    def test_values_that_begin_with_a_dash_are_no_flags(self):
+        self.assertIn("--foo", self.complaint("view", FAN, "--up", "-y", "--foo"))
+        self.assertIn("--foo", self.complaint("render", FAN, "--direction", "-1,0,0", "-o", "x.png", "--foo"))
+
+    def test_web_addresses_are_refused_as_such(self):
+        for command in (("view",), ("info",), ("thumb", "-o", "t.png"), ("batch", "-o", "b")):
+            done = self.vantage(command[0], "https://example.org/a.ply", *command[1:], exit_code=None)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn("download it first", done.err, command)
+
+
+class Help(ProgramTest):
+
+    def flags(self, text):
+        return {word.strip(",") for line in text.splitlines() for word in line.split()[:2]
+                if word.startswith("--") and line.startswith("  ")}
+
+    def test_it_shows_what_people_need_first_and_where_the_rest_is(self):
+        for command in ("view", "batch", "render", "score", "compare", "figures", "map", "skeleton", "thumb"):
+            brief = self.vantage(command, "--help").out
+            full = self.vantage(command, "--help-all").out
+            shown, everything = self.flags(brief), self.flags(full)
+            self.assertLess(shown, everything, command)
+            self.assertLessEqual(len(shown), 14, (command, sorted(shown)))
+            self.assertGreaterEqual(len(shown), 5, (command, sorted(shown)))
+            self.assertIn(f"vantage {command} --help-all", brief)
+            self.assertIn("Examples:", brief)
+            self.assertIn("--threads", everything)
+
+    def test_commands_with_few_options_show_all(self):
+        self.assertNotIn("lists all", self.vantage("completion", "--help").out)
+
+    def test_methods_are_completed(self):
+        for shell in ("bash", "zsh", "fish"):
+            script = self.vantage("completion", shell).out
+            for name in ("kssm", "mesh-saliency", "viewpoint-entropy"):
+                self.assertIn(name, script, shell)
+        probe = ("source <(\"$VANTAGE\" completion bash); COMP_WORDS=(vantage view x --method view); COMP_CWORD=4; "
+                 "_vantage; printf '%s\\n' \"${COMPREPLY[@]}\"")
+        done = subprocess.run(["bash", "-c", probe], capture_output=True, timeout=60, check=True)
+        self.assertIn(b"viewpoint-entropy", done.stdout.split())
+
+
+class QuietEnds(ProgramTest):
+
+    def test_a_reader_that_has_seen_enough_ends_the_program_without_a_word(self):
+        for command in (["score", FAN, "--sphere", "4"], ["completion", "bash"], ["view", FAN, "--json", "--no-images",
+                                                                                  "--search", "rapid", "-o", "v"]):
+            read, write = os.pipe()
+            process = subprocess.Popen([PROGRAM, *map(str, command)], cwd=self.dir, stdout=write, stderr=subprocess.PIPE)
+            os.close(write)
+            os.close(read)
+            error = process.communicate(timeout=300)[1]
+            self.assertEqual((process.returncode, error), (-signal.SIGPIPE, b""), command)
+
+    def test_a_head_in_a_shell(self):
+        done = subprocess.run(["bash", "-c", f"'{PROGRAM}' score '{FAN}' --sphere 5 | head -n 2; echo ${{PIPESTATUS[0]}}"],
+                              capture_output=True, timeout=300, check=True)
+        self.assertEqual(done.stderr, b"")
+        self.assertIn(done.stdout.splitlines()[-1], (b"0", b"141"))
+
+
+class Tables(ProgramTest):
+
+    def test_results_of_standard_input_are_in_stdin_vantage(self):
+        self.vantage("view", "-", "--no-images", "--search", "rapid", stdin=box(1.0).encode())
+        self.assertTrue((self.dir / "stdin.vantage/view.json").is_file())
+
+    def test_compare_has_one_value_a_column(self):
+        self.write("a.off", box(1.0))
+        out = self.vantage("compare", "a.off", "--method", "silhouette-length,kssm", "--no-images").out.splitlines()
+        columns = ["method", "best", "x", "y", "z", "worst", "x", "y", "z", "best", "°", "worst", "°", "rank", "views", "s"]
+        self.assertEqual(out[0].split(), columns)
+        for row in out[1:3]:
+            self.assertEqual(len(row.split()), 12, row)
+            self.assertEqual(len(row), len(out[0]), row)
+
+    def test_models_of_one_name_are_told_apart(self):
+        for folder in ("one", "two"):
+            os.mkdir(self.dir / folder)
+        self.write("one/cup.off", box(1.0))
+        self.write("two/cup.off", box(2.0))
+        self.write("two/bowl.off", box(3.0))
+        self.vantage("batch", "one", "two", "-o", "b", "--search", "rapid", "--size", "64", "--name", "{parent}-{stem}")
+        self.assertIn("twins.get(row.name) > 1", (self.dir / "b/index.html").read_text())
+        same = self.dir / "b/contact-sheet-0001.png"
+        before = same.read_bytes()
+        # Without a model of its name, a cup is just a cup.
+        self.vantage("batch", "one", "-o", "c", "--search", "rapid", "--size", "64")
+        self.assertNotEqual(before, (self.dir / "c/contact-sheet-0001.png").read_bytes())
+
+
+if __name__ == "__main__":
+    unittest.main()
