@@ -68,7 +68,8 @@ TEST(RayScene, TracesOfManyFacesInOnePlaceAsManyAsPicturesLookThrough) {
   const RayHit hit = scene.closest_hit({0.25F, 0.25F, 1.0F}, {0.0F, 0.0F, -1.0F});
   ASSERT_TRUE(hit);
   EXPECT_EQ(hit.face, kCopies);
-  EXPECT_EQ(scene.closest_hits({RaySegment{{0.2F, 0.2F, 1.0F}, {0, 0, -1.0F}}}, 1)[0].face, kCopies);
+  EXPECT_EQ(scene.closest_hits({RaySegment{{0.2F, 0.2F, 1.0F}, {0, 0, -1.0F}}}, 1)[0].face,
+            kCopies);
   EXPECT_LE(asked, 100U);
 }
 
