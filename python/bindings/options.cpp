@@ -9,6 +9,8 @@
 
 #include "vantage/core/error.h"
 
+#include "text.h"
+
 namespace vantage::python {
 namespace {
 
@@ -62,7 +64,7 @@ std::string type_of(const Option& option) {
 /// A text of an option, from all that Python may say it by.
 std::string text_from(const Option& option, const py::object& given) {
   if (option.form == TextForm::File) {
-    return py::module_::import("os").attr("fspath")(given).cast<std::string>();
+    return path_text(given);
   }
   if (py::isinstance<py::str>(given)) {
     return given.cast<std::string>();

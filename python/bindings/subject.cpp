@@ -16,11 +16,6 @@ bool is_path(const py::object& value) {
   return py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__");
 }
 
-std::string path_text(const py::object& path) {
-  // As the file system wants it, whatever the name's encoding.
-  return py::module_::import("os").attr("fsencode")(path).cast<std::string>();
-}
-
 ModelHandle model_of_arrays(const py::object& V, const py::object& F, const std::string& name,
                             const py::object& colours) {
   auto model = std::make_shared<Model>();

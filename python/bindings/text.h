@@ -7,6 +7,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include "vantage/core/error.h"
+
 /// \file
 /// Strings that may hold whatever a file holds: bytes that are no UTF-8 become U+FFFD.
 
@@ -22,7 +24,17 @@ inline pybind11::str text_of(std::string_view bytes) {
   return pybind11::reinterpret_steal<pybind11::str>(decoded);
 }
 
-/// The same of a list.
+/// A path as the file system wants it, whatever the name's encoding. \throw InvalidInput if it holds a null
+/// character, which would end it there.
+inline std::string path_text(const pybind11::object& path) {
+  auto text = pybind11::module_::import("os").attr("fsencode")(path).cast<std::string>();
+  if (text.find('\0') != std::string::npos) {
+    throw InvalidInput("a path must not hold a null character");
+  }
+  return text;
+}
+
+/// text_of() each of a list.
 inline pybind11::tuple texts_of(const std::vector<std::string>& list) {
   pybind11::list texts;
   for (const std::string& bytes : list) {

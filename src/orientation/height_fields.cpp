@@ -9,6 +9,8 @@
 
 #include "vantage/mesh/measures.h"
 
+#include "mesh/copied_faces.h"
+
 namespace vantage {
 namespace {
 
@@ -198,6 +200,13 @@ HeightFields::HeightFields(const TriMesh& surface) {
     }
   }
   centre = area > 0.0 ? Vec3(centre / area) : mean;
+  std::vector<Triangle> painted;
+  const std::vector<std::uint32_t> beyond = faces_beyond_copies(surface);
+  for (std::uint32_t f = 0; f < surface.triangles.size(); ++f) {
+    if (!std::binary_search(beyond.begin(), beyond.end(), f)) {
+      painted.push_back(surface.triangles[f]);
+    }
+  }
   for (std::size_t k = 0; k < 3; ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     extent[k] = box.size()[i] * unit;
@@ -226,7 +235,7 @@ HeightFields::HeightFields(const TriMesh& surface) {
     field.high.assign(field.columns * field.rows, HeightField::kNothing);
     field.low_is_back.assign(field.low.size(), 0);
     field.high_is_back.assign(field.low.size(), 0);
-    paint(places, surface.triangles, FieldPainter(field, extent));
+    paint(places, painted, FieldPainter(field, extent));
   }
 }
 

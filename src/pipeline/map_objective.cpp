@@ -70,6 +70,9 @@ MapObjective::MapObjective(const ShapeAnalysis& shape, const ViewOptions& option
 ViewObjective MapObjective::objective(const Preference& preference) const {
   ViewObjective objective;
   objective.total = scorer_.total();
+  if (is_sampled(prepared_->coarse)) {
+    objective.survey_level = 3;  // a look costs ten times as much as at surfaces of one skin
+  }
   objective.score = [this](const std::vector<Vec3>& directions) {
     return scorer_.score_all(directions, quiet_);
   };

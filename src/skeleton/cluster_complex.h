@@ -32,6 +32,8 @@ class ClusterComplex {
 
   [[nodiscard]] std::size_t edge_count() const { return ends_.size(); }
 
+  [[nodiscard]] std::size_t cluster_count() const { return position_.size(); }
+
   [[nodiscard]] std::size_t face_count() const { return live_faces_; }  ///< Triangles left.
 
   [[nodiscard]] bool is_live(std::uint32_t cluster) const { return parent_[cluster] == cluster; }

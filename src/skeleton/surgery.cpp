@@ -12,6 +12,11 @@ namespace {
 constexpr std::size_t kPoll = 4096;
 /// Entries of the queue for each edge; of more, those that newer ones replaced are dropped.
 constexpr std::size_t kMostQueued = 8;
+/// A cluster of more neighbours than any surface's queues its edges anew only once it has taken in a
+/// share of that many: until then they wait by what they cost before, which is looked at again when
+/// their turn comes. Each time, thousands of neighbours at one edge would take hours.
+constexpr std::size_t kLargestRing = 1000;
+constexpr std::size_t kRingShare = 16;
 /// Where this many local refinements do not free the way, more will not (on real models a handful
 /// does, or none).
 constexpr std::size_t kMostRefinements = 256;
@@ -45,7 +50,7 @@ double collapse_cost(const ClusterComplex& complex, std::uint32_t edge) {
 class CollapseQueue {
  public:
   explicit CollapseQueue(ClusterComplex& complex)
-      : complex_(complex), version_(complex.edge_count(), 0) {
+      : complex_(complex), version_(complex.edge_count(), 0), moves_(complex.cluster_count(), 0) {
     refill();
   }
 
@@ -81,7 +86,13 @@ class CollapseQueue {
   /// Queues the edges of a cluster anew after it moved.
   void refresh(std::uint32_t cluster) {
     version_.resize(complex_.edge_count(), 0);
-    for (const auto& link : complex_.links(cluster)) {
+    moves_.resize(complex_.cluster_count(), 0);
+    const auto& links = complex_.links(cluster);
+    if (links.size() > kLargestRing && kRingShare * ++moves_[cluster] < links.size()) {
+      return;
+    }
+    moves_[cluster] = 0;
+    for (const auto& link : links) {
       ++version_[link.edge];
       push(link.edge);
     }
@@ -113,6 +124,7 @@ class CollapseQueue {
 
   ClusterComplex& complex_;
   std::vector<std::uint32_t> version_;
+  std::vector<std::uint32_t> moves_;  ///< Of each cluster since its edges were queued.
   std::vector<Candidate> heap_{};
 };
 

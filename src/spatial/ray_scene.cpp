@@ -13,6 +13,8 @@
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 
+#include "mesh/copied_faces.h"
+
 namespace vantage {
 namespace {
 
@@ -138,6 +140,30 @@ UnitFrame unit_frame(std::span<const Vec3> points) {
 struct RayScene::Scene {
   Embree embree{};
   OpacityOfHit opacity{};
+  std::vector<std::uint32_t> face_of_primitive{};  // empty: each is its own
+
+  [[nodiscard]] std::uint32_t face(std::uint32_t primitive) const {
+    return face_of_primitive.empty() ? primitive : face_of_primitive[primitive];
+  }
+
+  /// The triangles to trace: of many in one place only some.
+  std::vector<Triangle> traced(const TriMesh& mesh) {
+    const std::vector<std::uint32_t> beyond = faces_beyond_copies(mesh);
+    if (beyond.empty()) {
+      return mesh.triangles;
+    }
+    std::vector<Triangle> triangles;
+    auto next = beyond.begin();
+    for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+      if (next != beyond.end() && *next == f) {
+        ++next;
+      } else {
+        triangles.push_back(mesh.triangles[f]);
+        face_of_primitive.push_back(f);
+      }
+    }
+    return triangles;
+  }
 
   /// Keeps the hits at places whose opacity `keep` accepts.
   template <class Keep>
@@ -147,8 +173,8 @@ struct RayScene::Scene {
     RTCHitN* hit = query->hit;
     for (unsigned i = 0; i < query->N; ++i) {
       if (query->valid[i] != 0 &&
-          !keep(scene->opacity(RTCHitN_primID(hit, query->N, i), RTCHitN_u(hit, query->N, i),
-                               RTCHitN_v(hit, query->N, i), width))) {
+          !keep(scene->opacity(scene->face(RTCHitN_primID(hit, query->N, i)),
+                               RTCHitN_u(hit, query->N, i), RTCHitN_v(hit, query->N, i), width))) {
         query->valid[i] = 0;
       }
     }
@@ -166,13 +192,13 @@ struct RayScene::Scene {
 RayScene::RayScene(const TriMesh& mesh, OpacityOfHit opacity) : scene_(std::make_unique<Scene>()) {
   scene_->opacity = std::move(opacity);
   const RTCGeometry geometry = rtcNewGeometry(scene_->embree.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  if (!mesh.triangles.empty()) {
+  if (const std::vector<Triangle> triangles = scene_->traced(mesh); !triangles.empty()) {
     auto* vertices = static_cast<float*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                 3 * sizeof(float), mesh.positions.size()));
     auto* indices = static_cast<std::uint32_t*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                3 * sizeof(std::uint32_t), mesh.triangles.size()));
+                                3 * sizeof(std::uint32_t), triangles.size()));
     if (vertices == nullptr || indices == nullptr) {
       rtcReleaseGeometry(geometry);
       throw std::bad_alloc();
@@ -180,7 +206,7 @@ RayScene::RayScene(const TriMesh& mesh, OpacityOfHit opacity) : scene_(std::make
     for (const Vec3& p : mesh.positions) {
       vertices = std::copy_n(p.cast<float>().eval().data(), 3, vertices);
     }
-    for (const Triangle& t : mesh.triangles) {
+    for (const Triangle& t : triangles) {
       indices = std::copy(t.begin(), t.end(), indices);
     }
   }
@@ -206,7 +232,7 @@ RayHit RayScene::closest_hit(const Vec3f& origin, const Vec3f& direction, float 
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
     return {};
   }
-  return {query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar};
+  return {scene_->face(query.hit.primID), query.hit.u, query.hit.v, query.ray.tfar};
 }
 
 bool RayScene::occluded(const Vec3f& origin, const Vec3f& direction, float tnear,
@@ -231,7 +257,8 @@ std::array<RayHit, 4> RayScene::closest_hits(const RayPacket& rays, std::size_t 
   std::array<RayHit, 4> hits{};
   for (std::size_t i = 0; i < count; ++i) {
     if (query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
-      hits[i] = {query.hit.primID[i], query.hit.u[i], query.hit.v[i], query.ray.tfar[i]};
+      hits[i] = {scene_->face(query.hit.primID[i]), query.hit.u[i], query.hit.v[i],
+                 query.ray.tfar[i]};
     }
   }
   return hits;

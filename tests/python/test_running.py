@@ -180,6 +180,20 @@ def test_files_that_cannot_be_read_say_so(tmp_path, name, content, kind, also):
         assert name in str(caught.value)
 
 
+def test_a_path_does_not_end_at_a_null_character(tmp_path):
+    (tmp_path / "a.off").write_bytes(b"OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+                                     b"3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
+    with pytest.raises(ValueError, match="null character"):
+        vantage.load(f"{tmp_path}/a.off\0.off")
+
+
+@pytest.mark.parametrize("scale, shift", [(1e100, 0), (1e-100, 0), (5e-324, 0), (1, 1e15)])
+def test_what_nothing_can_be_computed_with_is_refused(scale, shift):
+    for call in (vantage.best_view, vantage.skeleton, vantage.kssm):
+        with pytest.raises(vantage.InvalidInput):
+            call(np.eye(4, 3) * scale + shift, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+
+
 def test_a_missing_file_has_its_errno(tmp_path):
     with pytest.raises(OSError) as caught:
         vantage.load(tmp_path / "missing.ply")

@@ -55,6 +55,24 @@ TEST(RayScene, TracesRaysTogetherAsItDoesOneByOne) {
   EXPECT_EQ(blocked, 3U);  // the last starts beside the box
 }
 
+TEST(RayScene, TracesOfManyFacesInOnePlaceAsManyAsPicturesLookThrough) {
+  constexpr std::uint32_t kCopies = 1000;
+  TriMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, {1, 0, -1}, {0, 1, -1}}, {}};
+  mesh.triangles.assign(kCopies, {0, 1, 2});
+  mesh.triangles.push_back({3, 4, 5});
+  std::size_t asked = 0;
+  const RayScene scene(mesh, [&asked](std::uint32_t face, float, float, float) {
+    ++asked;
+    return face == kCopies ? 1.0 : 0.0;  // all holes but the one behind
+  });
+  const RayHit hit = scene.closest_hit({0.25F, 0.25F, 1.0F}, {0.0F, 0.0F, -1.0F});
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit.face, kCopies);
+  EXPECT_EQ(scene.closest_hits({RaySegment{{0.2F, 0.2F, 1.0F}, {0, 0, -1.0F}}}, 1)[0].face,
+            kCopies);
+  EXPECT_LE(asked, 100U);
+}
+
 TEST(RayScene, LeavesTheRestOfAPacketAlone) {
   const RayScene scene(test::box(1.0, 1.0, 1.0, 1));
   RayPacket packet;
