@@ -74,12 +74,12 @@ export function fillWarnings(warnings) {
   warnings.forEach((text) => make('li', text, element('warnings')));
 }
 
-/** Where the eye is now, what that view scores and, if it is another thing, what best maximises. */
+/** Where the eye is now, what that view scores and, as a share of the best view's, the objective. */
 export function showDirection(direction, score, total, objective) {
   const numbers = direction.toArray().map((x) => x.toFixed(3)).join(', ');
   const share = total > 0 ? ` (${percent(score / total)})` : '';
   element('direction').textContent = `direction ${numbers}\nscore about ${short(score)}${share}`
-    + (objective === undefined ? '' : `\nobjective about ${short(objective)}`);
+    + (objective === undefined ? '' : `\nobjective about ${percent(objective)} of the best view's`);
 }
 
 export function showReplay({ path, evaluations, levels }, dense) {
