@@ -18,8 +18,13 @@ const looks = [
   ['light', {}, async () => {}],
   ['dark', { colorScheme: 'dark' }, async () => {}],
   ['phone', { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }, async () => {}],
-  ['skeleton', {}, async (page) => { await page.click('#show-skeleton'); }],
+  ['wide', { viewport: { width: 1280, height: 800 } }, async (page) => { await page.click('#show-map'); }],
+  ['skeleton', {}, async (page) => {
+    await page.click('#show-map');
+    await page.click('#show-skeleton');
+  }],
   ['contraction', {}, async (page) => {
+    await page.click('#show-map');
     await page.locator('#level').evaluate((slider) => {
       slider.value = Number(slider.max) / 2;
       slider.dispatchEvent(new Event('input'));

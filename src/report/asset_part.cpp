@@ -21,6 +21,9 @@ using Json = nlohmann::ordered_json;
 
 /// Longest side of a texture in the page, px: its window shows no more of it. [ours]
 constexpr int kTextureSide = 1024;
+/// Textures of no more pixels are PNG: WebP shares its colours among four, which palettes and pixel
+/// art show. [ours]
+constexpr std::size_t kSmallTexture = 256 * 256;
 
 /// Coordinates, in radii of the enclosing sphere, are stored as 16 bits over [-1.25, 1.25]: a
 /// contracted surface may reach a little beyond the sphere.
@@ -91,11 +94,12 @@ Json texture_json(const Texture& texture) {
   const auto side = [share](int size) {
     return std::max(1, static_cast<int>(std::lround(share * size)));
   };
-  const std::string bytes =
-      webp_bytes(share < 1.0 ? smaller_picture(texture.image, side(texture.image.width),
-                                               side(texture.image.height))
-                             : texture.image);
-  return {{"picture", "data:image/webp;base64," + base64(bytes)},
+  const Image image = share < 1.0 ? smaller_picture(texture.image, side(texture.image.width),
+                                                    side(texture.image.height))
+                                  : texture.image;
+  const bool is_small = texture.nearest || image.rgba.size() <= 4 * kSmallTexture;
+  return {{"picture", is_small ? "data:image/png;base64," + base64(png_bytes(image))
+                               : "data:image/webp;base64," + base64(webp_bytes(image))},
           {"wrap",
            {kWraps[static_cast<std::size_t>(texture.wrap_u)],
             kWraps[static_cast<std::size_t>(texture.wrap_v)]}},

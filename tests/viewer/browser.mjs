@@ -5,7 +5,7 @@ import * as path from 'node:path';
 import { pathToFileURL } from 'node:url';
 
 // playwright-core is where the page's own packages are, in the build folder.
-const require = createRequire(path.join(process.env.VANTAGE_VIEWER_BUILD, 'package.json'));
+const require = createRequire(path.resolve(process.env.VANTAGE_VIEWER_BUILD, 'package.json'));
 const { chromium } = require('playwright-core');
 
 export async function launch() {

@@ -6,6 +6,7 @@ import * as fs from 'node:fs';
 import * as os from 'node:os';
 import * as path from 'node:path';
 import { after, before, test } from 'node:test';
+import * as zlib from 'node:zlib';
 import { launch, open } from './browser.mjs';
 
 const models = process.env.VANTAGE_MODELS;
@@ -27,6 +28,40 @@ after(async () => {
   await browser?.close();
   fs.rmSync(folder, { recursive: true, force: true });
 });
+
+/** A PNG of one row: red, blue. */
+function redAndBlue() {
+  const chunk = (type, data) => {
+    const body = Buffer.concat([Buffer.from(type), data]);
+    const [size, sum] = [Buffer.alloc(4), Buffer.alloc(4)];
+    size.writeUInt32BE(data.length);
+    let crc = 0xffffffff;
+    for (const byte of body) {
+      crc ^= byte;
+      for (let k = 0; k < 8; ++k) {
+        crc = crc & 1 ? (crc >>> 1) ^ 0xedb88320 : crc >>> 1;
+      }
+    }
+    sum.writeUInt32BE((crc ^ 0xffffffff) >>> 0);
+    return Buffer.concat([size, body, sum]);
+  };
+  return Buffer.concat([Buffer.from('89504e470d0a1a0a', 'hex'),
+    chunk('IHDR', Buffer.from([0, 0, 0, 2, 0, 0, 0, 1, 8, 2, 0, 0, 0])),
+    chunk('IDAT', zlib.deflateSync(Buffer.from([0, 255, 0, 0, 0, 0, 255]))), chunk('IEND', Buffer.alloc(0))]);
+}
+
+/** The report of a box whose sides show redAndBlue(). */
+function texturedReport() {
+  const corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]];
+  const sides = [[4, 3, 2, 1], [5, 6, 7, 8], [1, 2, 6, 5], [2, 3, 7, 6], [3, 4, 8, 7], [4, 1, 5, 8]];
+  fs.writeFileSync(path.join(folder, 'box.png'), redAndBlue());
+  fs.writeFileSync(path.join(folder, 'box.mtl'), 'newmtl two\nKd 1 1 1\nmap_Kd box.png\n');
+  fs.writeFileSync(path.join(folder, 'box.obj'), ['mtllib box.mtl', ...corners.map((p) => `v ${p.join(' ')}`),
+    'vt 0 0', 'vt 1 0', 'vt 1 1', 'vt 0 1', 'usemtl two',
+    ...sides.map((side) => `f ${side.map((v, k) => `${v}/${k + 1}`).join(' ')}`), ''].join('\n'));
+  vantage('view', 'box.obj', '-o', path.join(folder, 'box'), '--search', 'rapid');
+  return path.join(folder, 'box', 'report.html');
+}
 
 /** Position and axes of the camera, in the model's own coordinates. */
 async function camera(page) {
@@ -79,7 +114,10 @@ for (const name of ['best', 'worst']) {
 
 test('the window shows the silhouette of best.png', async () => {
   // The stage is as large as the picture: 360 px of panel beside it, the header above.
-  const page = await open(browser, report, { viewport: { width: 1160, height: 649 } });
+  const page = await open(browser, report, { viewport: { width: 1160, height: 700 } });
+  const header = (await page.locator('header').boundingBox()).height;
+  await page.setViewportSize({ width: 1160, height: 600 + Math.round(header) });
+  await page.waitForFunction(() => Math.abs(document.getElementById('model').clientHeight - 600) <= 1);
   const [width, height] = await page.evaluate(() => [
     document.getElementById('model').clientWidth, document.getElementById('model').clientHeight]);
   assert.equal(width, 800);
@@ -147,11 +185,12 @@ test('the map gives the surface its colours, and they can be switched off', asyn
     }
     return colourful;
   });
-  assert.ok(await spread() > 10000);
+  assert.equal(await spread(), 0); // the horse has no colours of its own
   await page.click('#show-map');
-  assert.equal(await spread(), 0);
-  await page.click('#show-skeleton'); // the bones are red
-  assert.ok(await spread() > 100);
+  assert.ok(await spread() > 10000);
+  await page.click('#show-skeleton');
+  await page.click('#show-map');
+  assert.equal(await spread(), 0); // the bones, which are red, went with the map
   await page.context().close();
 });
 
@@ -192,6 +231,10 @@ test('keys turn the model, pick views and toggle what is shown', async () => {
   await waitForFlight(page);
   assert.ok(distance((await camera(page)).eye, view.worst.eye) < 1e-4 * (await camera(page)).radius);
   await page.keyboard.press('k');
+  assert.equal(await page.isChecked('#show-map'), true);
+  await page.keyboard.press('o');
+  assert.equal(await page.evaluate(() => window.vantage.sphere.shown), 'score');
+  await page.keyboard.press('r');
   assert.equal(await page.isChecked('#show-map'), false);
   await page.keyboard.press('d');
   assert.equal(await page.getAttribute('html', 'data-theme'), 'dark');
@@ -226,8 +269,7 @@ test('the tour goes on until something else is asked for', async () => {
 
 test('every camera format of the result folder is in the box', async () => {
   const page = await open(browser, report);
-  const files = { glTF: 'gltf', 'NeRF transforms.json': 'transforms.json', f3d: 'f3d.txt',
-    'model-viewer': 'model-viewer.html' };
+  const files = { glTF: 'gltf', 'NeRF transforms.json': 'transforms.json', f3d: 'f3d.txt', Blender: 'py', 'model-viewer': 'html' };
   const formats = await page.locator('#format option').evaluateAll((all) => all.map((o) => o.value));
   assert.deepEqual(formats.sort(), Object.keys(files).sort());
   await page.context().close();
@@ -256,6 +298,140 @@ test('the camera box holds the file that view wrote', async () => {
     fs.readFileSync(path.join(out, 'camera-best.transforms.json'), 'utf8'));
   await page.context().close();
 });
+
+test('opens on the model as it is; colours, legend, skeleton and contraction come and go as one', async () => {
+  const page = await open(browser, report);
+  const shown = async () => [await page.isVisible('#legend'), await page.isVisible('#show-skeleton'), await page.isVisible('#level')];
+  assert.deepEqual(await shown(), [false, false, false]);
+  await page.click('#show-map');
+  assert.deepEqual(await shown(), [true, true, true]);
+  await page.click('#show-map');
+  assert.deepEqual(await shown(), [false, false, false]);
+  await page.context().close();
+});
+
+/** The report of a search that maximises what people choose; a rapid one maximises the score. */
+function peoplesReport() {
+  const result = path.join(folder, 'people');
+  if (!fs.existsSync(result)) {
+    vantage('view', path.join(models, 'horse.ply'), '-o', result);
+  }
+  return path.join(result, 'report.html');
+}
+
+test('a sphere of the score alone has no switch', async () => {
+  const page = await open(browser, report);
+  assert.equal(await page.locator('#sphere-of').count(), 0);
+  await page.context().close();
+});
+
+test('the sphere shows what best maximises until it is switched to the score', async () => {
+  const page = await open(browser, peoplesReport());
+  const { best } = JSON.parse(fs.readFileSync(path.join(folder, 'people', 'view.json'), 'utf8'));
+  const highest = () => page.evaluate(() => {
+    const { sphere, data } = window.vantage;
+    return data.sphere.directions[sphere.heights.indexOf(1)];
+  });
+  const angle = (a, b) => (Math.acos(a.reduce((s, x, i) => s + x * b[i], 0)) * 180) / Math.PI;
+  assert.ok(angle(await highest(), best.direction) < 15, 'the objective peaks at the best view');
+  assert.match(await page.textContent('#direction'), /objective about [\d.]+ % of the best view's/);
+  await page.check('input[name=sphere][value=score]');
+  assert.deepEqual(await highest(), await page.evaluate(() => {
+    const { directions, scores } = window.vantage.data.sphere;
+    return directions[scores.indexOf(Math.max(...scores))];
+  }));
+  await page.context().close();
+});
+
+test('reset brings back the page as it was opened', async () => {
+  const page = await open(browser, report);
+  const first = (await camera(page)).eye;
+  await page.click('.view[data-view=worst]');
+  await waitForFlight(page);
+  await page.click('#show-map');
+  await page.click('#show-skeleton');
+  await page.click('#reset');
+  await waitForFlight(page);
+  const seen = await camera(page);
+  assert.ok(distance(seen.eye, first) < 1e-5 * seen.radius);
+  assert.equal(await page.isChecked('#show-map'), false);
+  assert.equal(await page.evaluate(() => window.vantage.model.skeleton.visible), false);
+  assert.match(await page.textContent('#camera-of'), /best/);
+  await page.context().close();
+});
+
+test('the picture and the camera can be saved', async () => {
+  const page = await open(browser, report);
+  const saved = async (button) => {
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click(button)]);
+    return [download.suggestedFilename(), fs.readFileSync(await download.path())];
+  };
+  const [pictureName, picture] = await saved('#save-picture');
+  assert.equal(pictureName, 'horse.png');
+  assert.equal(picture.subarray(1, 4).toString(), 'PNG');
+  await page.selectOption('#format', 'NeRF transforms.json');
+  const [cameraName, text] = await saved('#save-camera');
+  assert.equal(cameraName, 'horse-best.transforms.json');
+  assert.equal(text.toString(), fs.readFileSync(path.join(out, 'camera-best.transforms.json'), 'utf8'));
+  await page.context().close();
+});
+
+test("cameras for Blender and model-viewer stand at the view's eye", async () => {
+  const page = await open(browser, report);
+  await page.selectOption('#format', 'model-viewer');
+  const text = await page.inputValue('#camera');
+  const numbers = (name) => text.match(new RegExp(`${name}="([^"]+)"`))[1].split(' ').map(parseFloat);
+  const [theta, phi, away] = numbers('camera-orbit');
+  const target = numbers('camera-target');
+  const [t, p] = [theta, phi].map((x) => (x * Math.PI) / 180);
+  const eye = [Math.sin(p) * Math.sin(t), Math.cos(p), Math.sin(p) * Math.cos(t)].map((x, i) => target[i] + away * x);
+  const size = view.camera.distance;
+  assert.equal(view.up, 'y'); // so that its axes are those of glTF
+  assert.ok(distance(eye, view.best.eye) < 1e-4 * size, eye.join(' '));
+  await page.selectOption('#format', 'Blender');
+  const location = (await page.inputValue('#camera')).match(/location = \(([^)]+)\)/)[1].split(', ').map(Number);
+  assert.ok(distance(location, view.best.eye) < 1e-4 * size, location.join(' '));
+  await page.context().close();
+});
+
+test("shows a file's own texture", async () => {
+  // A square in a texture that is red on the left and blue on the right.
+  const page = await open(browser, texturedReport());
+  await page.waitForFunction(() => window.vantage.model.loading === 0);
+  const sides = () => page.evaluate(async () => {
+    await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
+    const { renderer } = window.vantage.model;
+    const gl = renderer.getContext();
+    const [w, h] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+    const data = new Uint8Array(4 * w * h);
+    gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, data);
+    const counts = { red: 0, blue: 0 };
+    for (let i = 0; i < data.length; i += 4) {
+      counts.red += data[i] > 2 * data[i + 2] + 40 ? 1 : 0;
+      counts.blue += data[i + 2] > 2 * data[i] + 40 ? 1 : 0;
+    }
+    return counts;
+  });
+  const asItIs = await sides();
+  assert.ok(asItIs.red > 5000 && asItIs.blue > 5000, JSON.stringify(asItIs));
+  await page.click('#show-map');
+  assert.equal(await page.evaluate(() => window.vantage.model.asset.visible), false);
+  assert.deepEqual(page.complaints, []);
+  await page.context().close();
+});
+
+for (const width of [390, 1280]) {
+  test(`at ${width} px all that is pressed is at least 44 px high`, async () => {
+    const page = await open(browser, report, { viewport: { width, height: 844 }, hasTouch: width === 390, isMobile: width === 390 });
+    await page.click('#show-map');
+    const low = await page.locator('button, select, label, input[type=range]').evaluateAll((all) => all
+      .filter((one) => one.getClientRects().length > 0 && one.getBoundingClientRect().height < 44)
+      .map((one) => one.outerHTML.slice(0, 60)));
+    assert.deepEqual(low, []);
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), width);
+    await page.context().close();
+  });
+}
 
 test('on a phone nothing is wider than the screen', async () => {
   const page = await open(browser, report, { viewport: { width: 360, height: 740 }, hasTouch: true, isMobile: true });

@@ -39,25 +39,3 @@ export function blenderScript(view, json) {
     '',
   ].join('\n');
 }
-
-/** glTF's axes, y up, of a model whose up axis is another one. */
-function upright(v, up) {
-  const turns = {
-    y: (p) => p, z: ([x, y, z]) => [x, z, -y], x: ([x, y, z]) => [-y, x, z],
-    '-y': ([x, y, z]) => [x, -y, -z], '-z': ([x, y, z]) => [x, -z, y], '-x': ([x, y, z]) => [y, -x, z],
-  };
-  return (turns[up] ?? turns.y)(v);
-}
-
-export function modelViewerAttributes(view, json) {
-  const camera = worldCamera(view, json);
-  const target = upright(camera.target, json.up);
-  const offset = minus(upright(camera.eye, json.up), target);
-  const degrees = (x) => `${Number(((x * 180) / Math.PI).toFixed(3))}deg`;
-  const metres = (x) => `${Number(x.toPrecision(6))}m`;
-  const azimuth = Math.atan2(offset[0], offset[2]);
-  const polar = Math.acos(offset[1] / length(offset));
-  return `camera-orbit="${degrees(azimuth)} ${degrees(polar)} ${metres(length(offset))}"\n`
-    + `camera-target="${target.map(metres).join(' ')}"\n`
-    + `field-of-view="${degrees((camera.fov * Math.PI) / 180)}"\n`;
-}

@@ -27,7 +27,7 @@ model = new ModelView(element('model'), data, (direction, up) => {
   sphere.turn(direction, up);
   const { scores, objective } = data.sphere;
   panel.showDirection(direction, sphere.valueAt(direction, scores), view.total,
-    sphere.hasObjective ? sphere.valueAt(direction, objective) : undefined);
+    sphere.hasObjective ? sphere.valueAt(direction, objective) / view.best.objective : undefined);
 });
 const press = panel.fillViews(data.views, (picked) => {
   press(picked.name);

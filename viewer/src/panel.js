@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The texts beside the model. Everything from the file goes in as text, never as markup.
 
-import { blenderScript, modelViewerAttributes } from './camera_texts.js';
+import { blenderScript } from './camera_texts.js';
 
 const element = (id) => document.getElementById(id);
 
@@ -74,12 +74,12 @@ export function fillWarnings(warnings) {
   warnings.forEach((text) => make('li', text, element('warnings')));
 }
 
-/** Where the eye is now, what that view scores and, if it is another thing, what best maximises. */
+/** Where the eye is now, what that view scores and, as a share of the best view's, the objective. */
 export function showDirection(direction, score, total, objective) {
   const numbers = direction.toArray().map((x) => x.toFixed(3)).join(', ');
   const share = total > 0 ? ` (${percent(score / total)})` : '';
   element('direction').textContent = `direction ${numbers}\nscore about ${short(score)}${share}`
-    + (objective === undefined ? '' : `\nobjective about ${short(objective)}`);
+    + (objective === undefined ? '' : `\nobjective about ${percent(objective)} of the best view's`);
 }
 
 export function showReplay({ path, evaluations, levels }, dense) {
@@ -99,15 +99,14 @@ export function save(name, url) {
 const FORMATS = {
   f3d: { name: 'f3d', ending: 'f3d.txt', hint: 'A command line that opens the model there.' },
   Blender: { name: 'Blender', ending: 'py', hint: 'Paste into the Python console, after the import of the model.' },
-  'model-viewer': { name: 'model-viewer: camera-orbit', ending: 'html.txt', hint: 'Attributes of <model-viewer>, for a glTF with y up.' },
+  'model-viewer': { name: 'model-viewer: camera-orbit', ending: 'model-viewer.html', hint: 'An element of web pages, for a glTF.' },
   glTF: { name: 'glTF', ending: 'gltf', hint: 'A camera node.' },
   'NeRF transforms.json': { name: 'NeRF transforms.json', ending: 'transforms.json', hint: 'For NeRF and Gaussian splatting.' },
 };
 
 /** Fills the camera box; returns a function that shows another view's camera. */
 export function fillCameras(views, json) {
-  const textOf = (view, format) => ({ Blender: blenderScript, 'model-viewer': modelViewerAttributes })[format]?.(view, json)
-    ?? view.cameras[format] ?? '';
+  const textOf = (view, format) => (format === 'Blender' ? blenderScript(view, json) : view.cameras[format] ?? '');
   for (const [value, { name }] of Object.entries(FORMATS)) {
     make('option', name, element('format')).setAttribute('value', value);
   }

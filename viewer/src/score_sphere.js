@@ -6,7 +6,21 @@ import { asBytes } from './decode.js';
 const RAISE = 0.25; // of the radius, for the best score
 const SIZE = 170; // px
 const PATH_PIECES = 8;
+const LEAST_SHOWN = 1e-4; // of the largest objective
 const MARKS = { best: 0x1a9641, worst: 0xd7191c, other: 0x8a8f98 };
+
+/** Values as shares of their range. */
+function linear(values) {
+  const low = Math.min(...values);
+  const span = Math.max(...values) - low || 1;
+  return values.map((value) => (value - low) / span);
+}
+
+/** A likelihood has one peak; by its logarithm the rest can be told apart. */
+function logarithmic(values) {
+  const floor = Math.max(...values) * LEAST_SHOWN;
+  return floor > 0 ? linear(values.map((value) => Math.log(Math.max(value, floor)))) : linear(values);
+}
 
 export class ScoreSphere {
   constructor(canvas, data, onPick) {
@@ -36,9 +50,7 @@ export class ScoreSphere {
   show(what) {
     const { directions, triangles, scores, objective } = this.data.sphere;
     const values = what === 'objective' ? objective : scores;
-    const low = Math.min(...values);
-    const span = Math.max(...values) - low || 1;
-    this.heights = values.map((value) => (value - low) / span);
+    this.heights = what === 'objective' ? logarithmic(values) : linear(values);
     const positions = new Float32Array(3 * directions.length);
     const rgb = new Float32Array(3 * directions.length);
     const { table } = this;
@@ -86,7 +98,7 @@ export class ScoreSphere {
     const stops = directions.map((d) => new THREE.Vector3(...d));
     const points = stops.flatMap((d, i) => (i === 0 ? [d] : Array.from({ length: PATH_PIECES }, (_, k) =>
       stops[i - 1].clone().lerp(d, (k + 1) / PATH_PIECES)))).map((d) => d.setLength(1.01 + RAISE));
-    this.path = new THREE.Line(new THREE.BufferGeometry().setFromPoints(points), new THREE.LineBasicMaterial({ color: 0x000000 }));
+    this.path = new THREE.Line(new THREE.BufferGeometry().setFromPoints(points), new THREE.LineBasicMaterial({ color: 0x777777 }));
     this.scene.add(this.path);
     this.draw();
   }
