@@ -106,7 +106,7 @@ struct FiguresCommand {
                                report.camera, report.best.direction, choice.frame, options,
                                report.warnings, run.part(0.5, 0.6));
     const std::vector<Figure> figures = paper_figures(shape, report, options, run.part(0.6, 1.0),
-                      look.of(loaded, up_vector(choice.frame.up)));
+                                                      look.of(loaded, up_vector(choice.frame.up)));
     const std::string place = models.size() == 1 ? "" : own_folder(loaded) + "/";
     for (const Figure& figure : figures) {
       output.add(place + figure.name + ".png", png_bytes(figure.image));
