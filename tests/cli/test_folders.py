@@ -89,7 +89,7 @@ class Stale(ProgramTest):
         self.assertEqual(visible(self.dir / "v"), before)
 
     def test_tours_and_traces_make_their_folders(self):
-        self.vantage("view", "cup.off", "-o", "v", *FAST, "--no-images", "--views", "3", "--weight", "area",
+        self.vantage("view", "horse.off", "-o", "v", *FAST, "--no-images", "--views", "3", "--weight", "area",
                      "--tour", "new/deep/x.webp", "--tour-seconds", "1", "--tour-size", "32", "--trace", "traces/t.csv")
         self.assertTrue((self.dir / "new/deep/x.webp").read_bytes().startswith(b"RIFF"))
         self.assertTrue((self.dir / "traces/t.csv").read_text().startswith("goal,"))
