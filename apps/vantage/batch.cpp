@@ -275,7 +275,8 @@ struct BatchCommand {
         }
       }
       return batch::text_hash(options_hash(own) + ' ' + kinds.text() + ' ' +
-                              (kinds.has_pictures() ? own_look.text() : "")).substr(0, 16);
+                              (kinds.has_pictures() ? own_look.text() : ""))
+          .substr(0, 16);
     };
     runner.worker_arguments = {"batch-worker",
                                "--write=" + (kinds.text().empty() ? "json" : kinds.text())};

@@ -148,9 +148,9 @@ struct CompareCommand {
   /// The first column to the left, the others to the right, two blanks between them.
   static std::string columns(const std::vector<std::vector<std::string>>& rows) {
     const auto letters = [](const std::string& text) {  // of UTF-8
-      return static_cast<std::size_t>(
-          std::count_if(text.begin(), text.end(),
-                        [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+      return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+      }));
     };
     std::vector<std::size_t> widths(rows.front().size());
     for (const auto& row : rows) {

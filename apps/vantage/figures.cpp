@@ -106,7 +106,7 @@ struct FiguresCommand {
                                report.camera, report.best.direction, choice.frame, options,
                                report.warnings, run.part(0.5, 0.6));
     const std::vector<Figure> figures = paper_figures(shape, report, options, run.part(0.6, 1.0),
-                      look.of(loaded, up_vector(choice.frame.up)));
+                                                      look.of(loaded, up_vector(choice.frame.up)));
     const std::string place = models.size() == 1 ? "" : own_folder(loaded) + "/";
     for (const Figure& figure : figures) {
       output.add(place + figure.name + ".png", png_bytes(figure.image));
@@ -135,6 +135,18 @@ struct FiguresCommand {
     return name;
   }
 
+  /// The first field of a row of ours; empty if it is none.
+  static std::string quoted_field(const std::string& row) {
+    std::string field;
+    for (std::size_t i = 1; row.starts_with('"') && i < row.size(); ++i) {
+      if (row[i] == '"' && (i + 1 == row.size() || row[++i] != '"')) {
+        return field;
+      }
+      field += row[i];
+    }
+    return {};
+  }
+
   /// Folders of the models of an earlier run, as its table lists them, and those of this one.
   [[nodiscard]] std::set<std::string> former_folders() const {
     std::set<std::string> former = folders;
@@ -142,13 +154,10 @@ struct FiguresCommand {
     std::string line;
     std::getline(table, line);  // the head
     while (std::getline(table, line)) {
-      std::string name = line.substr(0, line.find(','));
-      if (line.starts_with('"') || name.empty() || name.find('/') != std::string::npos) {
-        continue;  // no row of a model whose name is plain
-      }
-      name = folder_of(name);
+      const std::string name = folder_of(quoted_field(line));
       const std::filesystem::path below = std::filesystem::path(folder) / name;
-      if (std::filesystem::exists(below / "figure-1-contraction.png")) {
+      if (!name.empty() && name.find('/') == std::string::npos &&
+          std::filesystem::exists(below / "figure-1-contraction.png")) {
         former.insert(name);
       }
     }

@@ -59,11 +59,11 @@ std::map<const CLI::Option*, std::vector<std::string>>& offered_values() {
 
 /// Options of people's first hours with a command, on any command that has them.
 constexpr std::array<std::string_view, 26> kNeededFirst{
-    "--output",   "--method", "--up",        "--views",      "--size",  "--style",
-    "--no-images", "--json",  "--help",      "--help-all",   "--tour",  "--preview",
-    "--direction", "--camera", "--view",      "--show",       "--background", "--directions",
-    "--sphere",   "--eyes",   "--levels",    "--write",      "--jobs",  "--manifest",
-    "--retry",    "--engine"};
+    "--output",    "--method", "--up",     "--views",    "--size",       "--style",
+    "--no-images", "--json",   "--help",   "--help-all", "--tour",       "--preview",
+    "--direction", "--camera", "--view",   "--show",     "--background", "--directions",
+    "--sphere",    "--eyes",   "--levels", "--write",    "--jobs",       "--manifest",
+    "--retry",     "--engine"};
 /// A command with no more options than this shows all of them.
 constexpr std::size_t kFewOptions = 16;
 
@@ -94,7 +94,13 @@ class HelpFormatter final : public CLI::Formatter {
     const std::size_t count = describe_options(*app).size();
     shows_all_ = mode == CLI::AppFormatMode::All || count <= kFewOptions;
     // All of this command, and not of the commands below it.
-    return CLI::Formatter::make_help(app, std::move(name), CLI::AppFormatMode::Normal);
+    const std::string help =
+        CLI::Formatter::make_help(app, std::move(name), CLI::AppFormatMode::Normal);
+    std::string closed;  // groups of which nothing is shown leave their blank lines
+    for (const char c : help) {
+      closed += c == '\n' && closed.ends_with("\n\n") ? "" : std::string(1, c);
+    }
+    return closed;
   }
 
   std::string make_group(std::string group, bool is_positional,
@@ -109,8 +115,8 @@ class HelpFormatter final : public CLI::Formatter {
   std::string make_footer(const CLI::App* app) const override {
     const std::string more =
         shows_all_ ? ""
-                   : "\nMore options: vantage " + call_of(*app) + " --help-all lists all " +
-                         std::to_string(describe_options(*app).size()) + ".\n";
+                   : "More options: vantage " + call_of(*app) + " --help-all lists all " +
+                         std::to_string(describe_options(*app).size()) + ".\n\n";
     return more + CLI::Formatter::make_footer(app);
   }
 

@@ -12,7 +12,7 @@ namespace vantage::cli {
 
 /// What a folder of results holds.
 struct ResultKind {
-  std::string_view marker;         ///< The file that says that they are whole; comes last.
+  std::string_view marker;          ///< The file that says that they are whole; comes last.
   bool (*named)(std::string_view);  ///< Whether files of this name belong to them.
 };
 

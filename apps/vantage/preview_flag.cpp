@@ -25,8 +25,7 @@ void PreviewFlag::add_to(CLI::App& app) {
 }
 
 void PreviewFlag::show(Session& session, const ShapeAnalysis& shape, const Camera& camera,
-                       const ViewOptions& options, PictureLook look,
-                       const RunContext& run) const {
+                       const ViewOptions& options, PictureLook look, const RunContext& run) const {
   if (protocol_.empty() || session.flags.json || session.flags.quiet) {
     return;
   }
@@ -42,7 +41,8 @@ void PreviewFlag::show(Session& session, const ShapeAnalysis& shape, const Camer
   small.height = extent.height;
   // Few pixels, each worth many rays.
   set_quality(look.render, protocol == PictureProtocol::Blocks ? Quality::Fine : Quality::Normal);
-  const Image image = draw_picture(shape, camera, Picture::Plain, small, look.render, run, look.asset);
+  const Image image =
+      draw_picture(shape, camera, Picture::Plain, small, look.render, run, look.asset);
   std::string text = terminal_picture(image, protocol);
   text.pop_back();  // the line's end comes with the message
   session.show(text);

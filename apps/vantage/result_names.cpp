@@ -29,8 +29,8 @@ constexpr std::array<std::string_view, 22> kOfView{"view.json",
                                                    "tour.gltf",
                                                    "tour.webp",
                                                    "tour.png"};
-constexpr std::array<std::string_view, 7> kOfCompare{"compare.json",  "compare.csv", "agreement.csv",
-                                                     "sphere.csv",    "timings.csv", "sheet.png",
+constexpr std::array<std::string_view, 7> kOfCompare{"compare.json", "compare.csv", "agreement.csv",
+                                                     "sphere.csv",   "timings.csv", "sheet.png",
                                                      "index.html"};
 
 template <std::size_t Size>

@@ -11,8 +11,7 @@ namespace {
 
 /// Letters to insert, drop, change or swap with their neighbour between two words.
 std::size_t edits_between(const std::string& a, const std::string& b) {
-  std::vector<std::vector<std::size_t>> edits(a.size() + 1,
-                                              std::vector<std::size_t>(b.size() + 1));
+  std::vector<std::vector<std::size_t>> edits(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) {
     for (std::size_t j = 0; j <= b.size(); ++j) {
       if (i == 0 || j == 0) {
@@ -51,8 +50,8 @@ class Flags {
   [[nodiscard]] std::size_t most_arguments() const {
     std::size_t most = 0;
     for (const CLI::Option* option : options_) {
-      most += option->get_positional() ? static_cast<std::size_t>(option->get_items_expected_max())
-                                       : 0;
+      most +=
+          option->get_positional() ? static_cast<std::size_t>(option->get_items_expected_max()) : 0;
     }
     return most;
   }
@@ -86,8 +85,8 @@ bool takes_value(const CLI::Option& option) {
 }
 
 bool looks_like_flag(const std::string& word) {
-  const bool is_number = word.size() > 1 && (std::isdigit(static_cast<unsigned char>(word[1])) != 0 ||
-                                             word[1] == '.');
+  const bool is_number =
+      word.size() > 1 && (std::isdigit(static_cast<unsigned char>(word[1])) != 0 || word[1] == '.');
   return word.size() > 1 && word[0] == '-' && !is_number;
 }
 
@@ -144,7 +143,8 @@ class Reading {
 };
 
 /// Where the flag that a parser's complaint begins with stands; beyond all words if nowhere.
-std::size_t place_of_complaint(const std::vector<std::string>& words, const std::string& complaint) {
+std::size_t place_of_complaint(const std::vector<std::string>& words,
+                               const std::string& complaint) {
   const std::string flag = complaint.substr(0, complaint.find_first_of(" :="));
   const auto at = std::find_if(words.begin(), words.end(), [&](const std::string& word) {
     return flag.starts_with('-') && word.substr(0, word.find('=')) == flag;

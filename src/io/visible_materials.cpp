@@ -65,8 +65,8 @@ double largest_alpha(const Appearance& appearance, const Material& material, std
         v += weights[c] * static_cast<double>(uv[1]);
       }
       const auto& m = material.uv_transform;
-      largest = std::max(
-          largest, alpha_at(texture, m[0] * u + m[1] * v + m[2], m[3] * u + m[4] * v + m[5]));
+      largest = std::max(largest,
+                         alpha_at(texture, m[0] * u + m[1] * v + m[2], m[3] * u + m[4] * v + m[5]));
     }
   }
   return largest;
@@ -81,8 +81,7 @@ bool is_visible(const Appearance& appearance, std::size_t face) {
   if (material.alpha == AlphaMode::Opaque) {
     return true;
   }
-  const double least =
-      material.alpha == AlphaMode::Mask ? material.alpha_cutoff : kLeastOpacity;
+  const double least = material.alpha == AlphaMode::Mask ? material.alpha_cutoff : kLeastOpacity;
   return material.opacity >= least &&
          (!material.texture ||
           material.opacity * largest_alpha(appearance, material, face) >= least);

@@ -66,8 +66,7 @@ class Sheet {
 }  // namespace
 
 Image comparison_sheet(const ShapeAnalysis& shape, const Comparison& comparison, UpAxis up,
-                       const ViewOptions& options, const RunContext& run,
-                       const PictureLook& look) {
+                       const ViewOptions& options, const RunContext& run, const PictureLook& look) {
   const int count = static_cast<int>(comparison.methods.size());
   const int rows = std::min(count, kMethodRows);
   const int columns = (count + kMethodRows - 1) / kMethodRows;

@@ -252,10 +252,10 @@ Image view_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, const V
     const ChosenView& chosen = set.choice.views[i];
     RunContext quiet = run;
     quiet.report = nullptr;
-    panels.push_back(
-        with_caption(pictures.take(view.picture, kPlain, options, {}, quiet).front(),
-                     std::to_string(i + 1) + ": sees " + percent_text(view.score_fraction) +
-                         ", together " + percent_text(chosen.coverage)));
+    panels.push_back(with_caption(pictures.take(view.picture, kPlain, options, {}, quiet).front(),
+                                  std::to_string(i + 1) + ": sees " +
+                                      percent_text(view.score_fraction) + ", together " +
+                                      percent_text(chosen.coverage)));
   }
   run.advance("pictures", 1.0);
   return in_rows(panels, static_cast<std::size_t>(std::ceil(std::sqrt(count))));

@@ -17,13 +17,13 @@ namespace vantage {
 namespace {
 
 // Smaller pictures have none: its letters could not be read, or it would cover the model. [ours]
-constexpr int kLeastWidth = 280;   // px
-constexpr int kLeastHeight = 200;  // px
+constexpr int kLeastWidth = 280;        // px
+constexpr int kLeastHeight = 200;       // px
 constexpr double kLetterShare = 0.016;  // capitals, of the picture's height [ours]
 constexpr double kLeastLetters = 7.0;   // px
 constexpr double kBarLetters = 11.0;    // length of the bar in heights of a capital [ours]
 /// Reads on white and on black pages.
-constexpr Rgb8 kInk{118, 120, 126};
+constexpr Rgb8 kLegendInk{118, 120, 126};
 
 /// A picture of ink with straight alpha.
 struct Stamp {
@@ -32,7 +32,7 @@ struct Stamp {
   std::vector<std::array<double, 4>> pixels{};  // red, green, blue, alpha, each in [0, 1]
 };
 
-std::array<double, 4> ink(const Rgb8& colour, double alpha) {
+std::array<double, 4> ink_of(const Rgb8& colour, double alpha) {
   return {colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0, alpha};
 }
 
@@ -40,15 +40,16 @@ Stamp legend_stamp(double letters) {
   constexpr std::string_view kLow = "low";
   constexpr std::string_view kHigh = "high";
   const double gap = 0.7 * letters;
-  const double low = letters * lettering_width(kLow);
+  const double edge = 0.25 * letters;  // for the width of the strokes
+  const double low = edge + letters * lettering_width(kLow);
   const double bar = std::round(kBarLetters * letters);
   const double bar_left = std::round(low + gap);
   const double high_left = bar_left + bar + gap;
   Stamp stamp;
-  stamp.width = static_cast<int>(std::ceil(high_left + letters * lettering_width(kHigh)));
+  stamp.width = static_cast<int>(std::ceil(high_left + letters * lettering_width(kHigh) + edge));
   stamp.height = static_cast<int>(std::ceil(1.6 * letters));  // with descenders
   LineDrawing text(stamp.width, stamp.height);
-  text.text(kLow, {0.0, 1.1 * letters}, letters, {0, 0, 0});
+  text.text(kLow, {edge, 1.1 * letters}, letters, {0, 0, 0});
   text.text(kHigh, {high_left, 1.1 * letters}, letters, {0, 0, 0});
   const Image letterforms = text.image();
   const int top = static_cast<int>(std::round(0.1 * letters));
@@ -58,7 +59,7 @@ Stamp legend_stamp(double letters) {
       const double along = (x + 0.5 - bar_left) / bar;
       const bool is_bar = along > 0.0 && along < 1.0 && y >= top && y <= bottom;
       const double covered = 1.0 - letterforms.pixel(x, y)[0] / 255.0;
-      stamp.pixels.push_back(is_bar ? ink(cool_warm(along), 1.0) : ink(kInk, covered));
+      stamp.pixels.push_back(is_bar ? ink_of(cool_warm(along), 1.0) : ink_of(kLegendInk, covered));
     }
   }
   return stamp;
@@ -95,9 +96,9 @@ struct Corner {
     constexpr double kFull = std::numeric_limits<Value>::max();
     for (int y = 0; y < stamp.height; ++y) {
       for (int x = 0; x < stamp.width; ++x) {
-        const auto& over = stamp.pixels[static_cast<std::size_t>(y) *
-                                            static_cast<std::size_t>(stamp.width) +
-                                        static_cast<std::size_t>(x)];
+        const auto& over =
+            stamp.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(stamp.width) +
+                         static_cast<std::size_t>(x)];
         auto* const under = pixel(left + x, top + y);
         const double below = under[3] / kFull * (1.0 - over[3]);
         const double alpha = over[3] + below;

@@ -31,8 +31,8 @@ extern "C" {
 
 int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
   count_one();
-  return real<int(int, const char*, int, const char*, int)>("linkat")(from_folder, from, to_folder, to,
-                                                                      flags);
+  return real<int(int, const char*, int, const char*, int)>("linkat")(from_folder, from, to_folder,
+                                                                      to, flags);
 }
 
 int rename(const char* from, const char* to) noexcept {
@@ -44,7 +44,7 @@ int renameat2(int from_folder, const char* from, int to_folder, const char* to,
               unsigned flags) noexcept {
   count_one();
   return real<int(int, const char*, int, const char*, unsigned)>("renameat2")(from_folder, from,
-                                                                             to_folder, to, flags);
+                                                                              to_folder, to, flags);
 }
 
 int unlink(const char* path) noexcept {

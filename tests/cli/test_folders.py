@@ -45,11 +45,11 @@ class Stale(ProgramTest):
         shutil.rmtree(self.dir / "alone")
 
     def test_a_view_without_pictures_or_report_after_one_with_all(self):
-        full = ("view", "horse.off", *FAST, "--views", "3", "--tour", "v/tour.webp", "--tour-seconds", "1",
+        full = ("view", "horse.off", *FAST, "--views", "3", "--weight", "area", "--tour", "v/tour.webp", "--tour-seconds", "1",
                 "--tour-size", "32")
         self.assert_as_alone(full, ("view", "cup.off", *FAST, "--no-report"), "v")
         self.assert_as_alone(full, ("view", "cup.off", *FAST, "--no-images"), "v")
-        self.assert_as_alone(full, ("view", "cup.off", *FAST, "--views", "2", "--no-report"), "v")
+        self.assert_as_alone(full, ("view", "cup.off", *FAST, "--views", "2", "--weight", "area", "--no-report"), "v")
 
     def test_a_comparison_without_its_page_after_one_with_it(self):
         self.assert_as_alone(("compare", "horse.off", "--method", "silhouette-length"),
@@ -89,8 +89,8 @@ class Stale(ProgramTest):
         self.assertEqual(visible(self.dir / "v"), before)
 
     def test_tours_and_traces_make_their_folders(self):
-        self.vantage("view", "cup.off", "-o", "v", *FAST, "--no-images", "--views", "3", "--tour", "new/deep/x.webp",
-                     "--tour-seconds", "1", "--tour-size", "32", "--trace", "traces/t.csv")
+        self.vantage("view", "horse.off", "-o", "v", *FAST, "--no-images", "--views", "3", "--weight", "area",
+                     "--tour", "new/deep/x.webp", "--tour-seconds", "1", "--tour-size", "32", "--trace", "traces/t.csv")
         self.assertTrue((self.dir / "new/deep/x.webp").read_bytes().startswith(b"RIFF"))
         self.assertTrue((self.dir / "traces/t.csv").read_text().startswith("goal,"))
 
@@ -111,16 +111,17 @@ class Killed(ProgramTest):
         self.assertIn(done.returncode, (0, -signal.SIGKILL), done.stderr)
         return done.returncode != 0
 
-    def assert_never_mixed(self, first, second, folder, marker, timings):
+    def assert_never_mixed(self, first, second, folder, marker, timings, every=1):
+        """Kills the second command before each `every`th call that changes the folder of the first."""
         self.vantage(*first, "-o", "a")
         self.vantage(*second, "-o", "b")
         runs = [visible(self.dir / name) for name in ("a", "b")]
         for files in runs:
             for name in timings:
                 files[name] = None  # differs from run to run
-        call = 0
+        call = 1 - every
         while True:
-            call += 1
+            call += every
             shutil.rmtree(self.dir / folder, ignore_errors=True)
             shutil.copytree(self.dir / "a", self.dir / folder)
             if not self.killed([*second, "-o", folder], call):
@@ -138,7 +139,7 @@ class Killed(ProgramTest):
         return call
 
     def test_views(self):
-        calls = self.assert_never_mixed(("view", "horse.off", *FAST, "--views", "2"),
+        calls = self.assert_never_mixed(("view", "horse.off", *FAST, "--views", "2", "--weight", "area"),
                                         ("view", "cup.off", *FAST, "--no-report"), "v", "view.json", ("timings.json",))
         # What a killed run left is known as ours, and goes with the next run.
         for call in range(calls // 3, calls, max(1, calls // 6)):
@@ -152,11 +153,11 @@ class Killed(ProgramTest):
     def test_comparisons(self):
         method = ("--method", "silhouette-length")
         self.assert_never_mixed(("compare", "horse.off", *method), ("compare", "cup.off", *method, "--no-images"), "c",
-                                "compare.json", ("timings.csv",))
+                                "compare.json", ("timings.csv",), every=2)
 
     def test_figures(self):
         self.assert_never_mixed(("figures", "horse.off", *FAST), ("figures", "cup.off", *FAST), "f",
-                                "table-1-times.csv", ("table-1-times.csv", "table-1-times.md"))
+                                "table-1-times.csv", ("table-1-times.csv", "table-1-times.md"), every=5)
 
 
 if __name__ == "__main__":

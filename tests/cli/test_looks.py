@@ -76,11 +76,11 @@ class Materials(ProgramTest):
         self.write("red.obj", obj_box("red"))
 
     def test_every_command_shows_the_files_own(self):
-        self.vantage("view", "red.obj", "-o", "v", *FAST, "--views", 2)
+        self.vantage("view", "red.obj", "-o", "v", *FAST, "--views", 2, "--weight", "area")
         self.vantage("thumb", "red.obj", "t.png", "-s", 48)
         self.vantage("render", "red.obj", "-o", "r.png", "--direction", "1,1,1", *SMALL)
         self.vantage("compare", "red.obj", "-o", "c", "--method", "silhouette-length")
-        self.vantage("batch", "red.obj", "-o", "b", *FAST)
+        self.vantage("batch", "red.obj", "-o", "b", "--name", "{stem}", *FAST)
         for name in ("v/best.png", "v/worst.png", "v/view-02.png", "t.png", "r.png", "b/models/red/best.png",
                      "b/models/red/thumb.png"):
             self.assertGreater(redness(self.dir / name), 0.8, name)
@@ -92,11 +92,11 @@ class Materials(ProgramTest):
 
     def test_every_command_that_draws_knows_the_flags_of_pictures(self):
         flags = ("--style", "clay", "--quality", "draft", "--background", "#0000ff", "--crease", "30", "--margin", "9")
-        self.vantage("view", "red.obj", "-o", "v", *FAST, *flags, "--views", 3, "--tour", "v/tour.png", "--tour-seconds", 1,
-                     "--tour-size", 32)
+        self.vantage("view", "red.obj", "-o", "v", *FAST, *flags, "--views", 3, "--weight", "area", "--tour",
+                     "v/tour.png", "--tour-seconds", 1, "--tour-size", 32)
         self.vantage("thumb", "red.obj", "t.png", "-s", 48, *flags)
         self.vantage("render", "red.obj", "-o", "r.png", "--view", "best", *FAST, *flags)
-        self.vantage("batch", "red.obj", "-o", "b", *FAST, *flags)
+        self.vantage("batch", "red.obj", "-o", "b", "--name", "{stem}", *FAST, *flags)
         self.vantage("compare", "red.obj", "-o", "c", "--method", "silhouette-length", *flags)
         self.vantage("figures", "red.obj", "-o", "f", *FAST, *flags)
         for name in ("v/best.png", "v/best-kssm.png", "v/view-02.png", "v/tour.png", "t.png", "r.png",
@@ -112,7 +112,7 @@ class Materials(ProgramTest):
     def test_a_sidecar_says_the_style_of_every_command(self):
         self.write("red.vantage.json", '{"style": "clay"}')
         self.vantage("view", "red.obj", "-o", "v", *FAST, "--no-report")
-        self.vantage("batch", "red.obj", "-o", "b", *FAST)
+        self.vantage("batch", "red.obj", "-o", "b", "--name", "{stem}", *FAST)
         for name in ("v/best.png", "b/models/red/best.png"):
             self.assertLess(redness(self.dir / name), 0.1, name)
 
@@ -164,7 +164,7 @@ class NeverBlank(ProgramTest):
             self.assert_shown(self.dir / "t.png")
 
     def test_every_other_command_too(self):
-        self.vantage("batch", *self.models, "-o", "b", *FAST)
+        self.vantage("batch", *self.models, "-o", "b", "--name", "{stem}", *FAST)
         for model in self.models:
             stem = model.split("/")[-1].split(".")[0]
             self.assert_shown(self.dir / f"b/models/{stem}/best.png")
@@ -172,7 +172,7 @@ class NeverBlank(ProgramTest):
             self.assertIn("opaque", done.err, model)
             self.assert_shown(self.dir / "r.png")
         for model in ("tr/tr.obj", "picture.gltf"):
-            done = self.vantage("view", model, "-o", "v", *FAST, "--views", 2, "--no-report")
+            done = self.vantage("view", model, "-o", "v", *FAST, "--views", 2, "--weight", "area", "--no-report")
             self.assertIn("opaque", done.err)
             self.vantage("compare", model, "-o", "c", "--method", "silhouette-length")
             self.vantage("figures", model, "-o", "f", *FAST, "--style", "asset")

@@ -1,6 +1,7 @@
 """A command line that helps: what was meant, what is needed first, and quiet ends."""
 
 import os
+import re
 import signal
 import subprocess
 import unittest
@@ -57,8 +58,7 @@ class WhatWasMeant(ProgramTest):
 class Help(ProgramTest):
 
     def flags(self, text):
-        return {word.strip(",") for line in text.splitlines() for word in line.split()[:2]
-                if word.startswith("--") and line.startswith("  ")}
+        return set(re.findall(r"^ +(?:-\w,)?(--[\w-]+)", text, re.MULTILINE))
 
     def test_it_shows_what_people_need_first_and_where_the_rest_is(self):
         for command in ("view", "batch", "render", "score", "compare", "figures", "map", "skeleton", "thumb"):

@@ -28,8 +28,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kRowsPerPage = 50'000;
 constexpr int kColumns = 10;
 constexpr int kRows = 8;
-constexpr int kGap = 8;               // px around a thumbnail
-constexpr int kCaption = 18;          // px, the name below it
+constexpr int kGap = 8;       // px around a thumbnail
+constexpr int kCaption = 18;  // px, the name below it
 constexpr int kTileHeight = kThumbnailSide + kCaption + kGap;
 constexpr std::size_t kSheets = 250;  // sheets are looked at by people: more would not be
 
