@@ -62,8 +62,7 @@ void define_model(py::module_& module) {
       .def(py::init(&model_of_arrays), py::arg("V"), py::arg("F") = py::none(), py::kw_only(),
            py::arg("name") = "arrays", py::arg("colours") = py::none())
       .def_property_readonly("name", [](const ModelHandle& h) { return text_of(h.model->name); })
-      .def_property_readonly("format",
-                             [](const ModelHandle& h) { return format_name(*h.model); })
+      .def_property_readonly("format", [](const ModelHandle& h) { return format_name(*h.model); })
       .def_property_readonly(
           "vertices",
           [](const ModelHandle& h) {
