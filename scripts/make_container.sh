@@ -24,6 +24,7 @@ cd "$place/root"
 rm -rf var etc usr/bin/[!v]* usr/sbin usr/lib/x86_64-linux-gnu/{gconv,audit} \
   usr/share/{bash-completion,fish,zsh,man,mime,thumbnailers,lintian,gdb,gcc,doc-base,locale}
 find usr/share/doc -mindepth 2 -not -type d -not -name copyright -not -path '*/vantage/*' -delete
+cp -rL /usr/share/common-licenses usr/share/  # which the files `copyright` point to
 mkdir -p etc tmp work
 chmod 1777 tmp
 echo 'vantage:x:65532:65532::/tmp:/sbin/nologin' >etc/passwd

@@ -6,8 +6,9 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${1:-build/release}
 tree=${2:-$(mktemp -d)/debian12}
+rm -f "$build"/python/vantage-*.whl
 cmake --build "$build" --target vantage_program python_wheel >/dev/null
-wheel=$(ls -t "$build"/python/vantage-*manylinux*.whl | head -1)
+wheel=$(echo "$build"/python/vantage-*manylinux*.whl)
 [[ -d $tree/usr ]] ||
   mmdebstrap --quiet --variant=minbase --include=python3-venv,python3-numpy bookworm "$tree"
 for library in libtbb12 libembree3-3 libdraco7 libmetis5 libmeshoptimizer2d libwebp7 libpng16-16; do
@@ -17,6 +18,7 @@ for library in libtbb12 libembree3-3 libdraco7 libmetis5 libmeshoptimizer2d libw
   fi
 done
 mkdir -p "$tree/opt/trial"
+rm -f "$tree"/opt/trial/vantage-*.whl
 cp "$wheel" models/fan.ply "$tree/opt/trial/"
 inside() { chroot "$tree" /usr/bin/env -i PATH=/usr/bin:/bin HOME=/opt/trial sh -euc "cd /opt/trial; $1"; }
 # NumPy is Debian's, seen from the environment: there is no index here to take another from.
