@@ -47,7 +47,8 @@ struct CompareCommand {
     session.read([&] { return sidecar_of(model); }).apply(options);
     const std::vector<Measure> measures = chosen_measures(session, options);
     const RunContext run = session.run();
-    const Model loaded = session.load(model);
+    Model loaded = session.load(model);
+    session.computing([&] { return stand_along_axes(loaded, options); });
     OutputFolder output(folder.empty() ? folder_named(loaded.name, ".compare") : folder);
     output.check(session.flags.force);
     const ShapeAnalysis shape = session.computing(

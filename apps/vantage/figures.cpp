@@ -74,7 +74,8 @@ struct FiguresCommand {
     const RunContext run = session.run();
     const auto start = Clock::now();
     StageTimes times;
-    const Model loaded = session.load(model);
+    Model loaded = session.load(model);
+    session.computing([&] { return stand_along_axes(loaded, options); });
     times.seconds.load = seconds_since(start);
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_shape(loaded, options, run.part(0.0, 0.4), &times.seconds); });

@@ -67,7 +67,8 @@ struct ThumbCommand {
     if (sidecar.style) {
       look.suggest(*sidecar.style);
     }
-    const Model loaded = session.load(model, look.reading(size, size));
+    Model loaded = session.load(model, look.reading(size, size));
+    session.computing([&] { return stand_along_axes(loaded, options); });
     const ShapeAnalysis shape = session.computing([&] { return prepare_surface(loaded, run); });
     const PictureView found = session.computing([&] {
       return sidecar.view ? framed(loaded, shape, *sidecar.view, options)

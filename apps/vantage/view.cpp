@@ -95,8 +95,9 @@ struct ViewCommand {
 
     StageSeconds seconds;
     check_output(trace, OutputKind::Table, session.flags);
-    const Model loaded = session.load(model);
+    Model loaded = session.load(model);
     session.read([&] { return sidecar_of(model); }).apply(options);
+    session.computing([&] { return stand_along_axes(loaded, options); });
     seconds.load = seconds_since(start);
     OutputFolder output(folder.empty() ? folder_named(loaded.name, ".vantage") : folder);
     output.check(session.flags.force);

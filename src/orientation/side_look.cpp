@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "orientation/planar_hull.h"
 #include "orientation/water.h"
 
 namespace vantage {
@@ -25,28 +26,6 @@ constexpr double kLargestStep = 0.1;
 
 double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
-/// Convex hull, counter-clockwise (Andrew's monotone chain).
-std::vector<Vec2> hull_of(std::vector<Vec2> points) {
-  const auto before = [](const Vec2& a, const Vec2& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  };
-  std::sort(points.begin(), points.end(), before);
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  std::vector<Vec2> hull;
-  for (int pass = 0; pass < 2 && points.size() > 2; ++pass) {
-    const std::size_t base = hull.size();
-    for (const Vec2& p : points) {
-      while (hull.size() >= base + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0.0) {
-        hull.pop_back();
-      }
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
 }
 
 double area_of(const std::vector<Vec2>& hull) {
@@ -253,8 +232,8 @@ SideLook side_look(const HeightFields& fields, std::size_t axis, bool from_high)
   look.depth /= filled;
   look.back /= filled;
   look.relative_depth = field.extent > 0.0 ? look.depth / field.extent : 0.0;
-  const std::vector<Vec2> hull = hull_of(std::move(base));
-  const double whole = area_of(hull_of(std::move(outline)));
+  const std::vector<Vec2> hull = planar_hull(std::move(base));
+  const double whole = area_of(planar_hull(std::move(outline)));
   look.touch_hull = whole > 0.0 ? area_of(hull) / whole : 0.0;
   const Vec2 centre(fields.area_mean[field.u_axis] * fields.extent[field.u_axis],
                     fields.area_mean[field.v_axis] * fields.extent[field.v_axis]);
