@@ -44,11 +44,13 @@ def load(program, label_files, cache):
     for name in label_files:
         with open(name, newline="", encoding="utf-8") as stream:
             rows += list(csv.DictReader(stream))
+    is_new = False
     for row in rows:
         if row["file"] not in cached:
             cached[row["file"]] = features_of(program, row["file"])
+            is_new = True
         row["features"] = cached[row["file"]]
-    if cache:
+    if cache and is_new:
         cache.write_text(json.dumps(cached))
     return [row for row in rows if row["features"]]
 

@@ -150,7 +150,8 @@ def creatures(packages):
     seen = {}
     for file in sorted(packages.rglob("0ad/mods/public/public.zip")):
         with zipfile.ZipFile(file) as archive:
-            for name in sorted(n for n in archive.namelist() if n.startswith("art/meshes/skeletal/")):
+            for name in sorted(n for n in archive.namelist()
+                               if n.startswith("art/meshes/skeletal/") and "/new/" not in n):
                 stem = name.split("/")[-1].split(".")[0]
                 key = stem.rstrip("0123456789_abcdefg")
                 seen[key] = seen.get(key, 0) + 1

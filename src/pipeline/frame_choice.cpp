@@ -82,9 +82,9 @@ Eigen::Matrix3d stand_along_axes(Model& model, const ViewOptions& options) {
 FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,
                          const ViewOptions& options) {
   const Vec3 usual_up = up_vector(default_up(model.format));
-  OrientationRequest request{
-      .usual_up = usual_up,
-      .usual_up_is_certain = model.format == ModelFormat::Gltf || model.format == ModelFormat::Glb};
+  const bool is_gltf = model.format == ModelFormat::Gltf || model.format == ModelFormat::Glb;
+  OrientationRequest request{.usual_up = usual_up,
+                             .usual_up_is_certain = is_gltf && options.up != UpAxis::Any};
   if (options.up && options.up != UpAxis::Any) {
     request.up = up_vector(*options.up);
   }
