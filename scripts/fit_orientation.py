@@ -44,11 +44,13 @@ def load(program, label_files, cache):
     for name in label_files:
         with open(name, newline="", encoding="utf-8") as stream:
             rows += list(csv.DictReader(stream))
+    is_new = False
     for row in rows:
         if row["file"] not in cached:
             cached[row["file"]] = features_of(program, row["file"])
+            is_new = True
         row["features"] = cached[row["file"]]
-    if cache:
+    if cache and is_new:
         cache.write_text(json.dumps(cached))
     return [row for row in rows if row["features"]]
 
@@ -67,7 +69,7 @@ def softmax(scores):
 class Boosting:
     """Trees of few leaves, each split where it gains most, fitted one after the other."""
 
-    def __init__(self, rounds, leaves, rate=0.25, ridge=3.0, fewest=30, bins=24, share=0.4, seed=1):
+    def __init__(self, rounds, leaves, rate=0.2, ridge=3.0, fewest=30, bins=24, share=0.2, seed=1):
         self.rounds, self.leaves, self.rate, self.ridge = rounds, leaves, rate, ridge
         self.fewest, self.bins, self.share, self.seed = fewest, bins, share, seed
         self.trees = []
@@ -76,8 +78,9 @@ class Boosting:
         models, candidates, width = inputs.shape
         flat = inputs.reshape(-1, width)
         quantiles = np.linspace(0, 1, self.bins + 1)[1:-1]
-        edges = [np.unique(np.round(np.quantile(flat[:, j], quantiles), 4)) for j in range(width)]
-        bins = np.stack([np.searchsorted(edges[j], flat[:, j], side="right") for j in range(width)], 1)
+        self.edges = [np.unique(np.round(np.quantile(flat[:, j], quantiles), 4)) for j in range(width)]
+        self.bin_of = np.stack([np.searchsorted(self.edges[j], flat[:, j], side="right")
+                                for j in range(width)], 1).astype(np.int32)
         scores = np.zeros(models * candidates)
         random = np.random.default_rng(self.seed)
         for _ in range(self.rounds):
@@ -85,48 +88,48 @@ class Boosting:
             self.slope = ((target - odds) * weight[:, None]).ravel()
             self.bend = (odds * (1 - odds) * weight[:, None]).ravel() + 1e-6
             columns = np.sort(random.choice(width, max(1, int(width * self.share)), replace=False))
-            tree, values = self.grow(bins, edges, columns)
+            tree, values = self.grow(columns)
             scores += values
             self.trees.append(tree)
         return self
 
-    def best_split(self, rows, bins, edges, columns):
+    def best_split(self, rows, columns):
+        """Gain, column and bin of the best split; the column is None if none gains."""
         slope, bend = self.slope[rows], self.bend[rows]
-        whole = slope.sum() ** 2 / (bend.sum() + self.ridge)
-        best = (1e-3, None, None)
-        for j in columns:
-            count = len(edges[j]) + 1
-            if count < 2:
-                continue
-            at = bins[rows, j]
-            below = np.cumsum(np.bincount(at, slope, count))[:-1]
-            bend_below = np.cumsum(np.bincount(at, bend, count))[:-1]
-            number = np.cumsum(np.bincount(at, minlength=count))[:-1]
-            gain = (below**2 / (bend_below + self.ridge)
-                    + (slope.sum() - below) ** 2 / (bend.sum() - bend_below + self.ridge) - whole)
-            gain[(number < self.fewest) | (len(rows) - number < self.fewest)] = -1
-            k = int(np.argmax(gain))
-            if gain[k] > best[0]:
-                best = (gain[k], int(j), k)
-        return best
+        shape = (len(columns), self.bins)
+        at = (self.bin_of[np.ix_(rows, columns)] + np.arange(len(columns)) * self.bins).ravel()
 
-    def grow(self, bins, edges, columns):
-        root = {"rows": np.arange(len(bins))}
+        def below(values):
+            weights = None if values is None else np.repeat(values, len(columns))
+            return np.bincount(at, weights, len(columns) * self.bins).reshape(shape).cumsum(1)[:, :-1]
+
+        low, low_bend, number = below(slope), below(bend), below(None)
+        gain = (low**2 / (low_bend + self.ridge)
+                + (slope.sum() - low) ** 2 / (bend.sum() - low_bend + self.ridge)
+                - slope.sum() ** 2 / (bend.sum() + self.ridge))
+        gain[(number < self.fewest) | (len(rows) - number < self.fewest)] = -1
+        i, k = divmod(int(gain.argmax()), self.bins - 1)
+        if gain[i, k] <= 1e-3 or k >= len(self.edges[columns[i]]):
+            return 0.0, None, None
+        return gain[i, k], int(columns[i]), k
+
+    def grow(self, columns):
+        root = {"rows": np.arange(len(self.bin_of))}
         leaves = [root]
-        root["split"] = self.best_split(root["rows"], bins, edges, columns)
+        root["split"] = self.best_split(root["rows"], columns)
         while len(leaves) < self.leaves:
             leaf = max(leaves, key=lambda one: one["split"][0])
             _, column, k = leaf["split"]
             if column is None:
                 break
-            above = bins[leaf["rows"], column] > k
-            leaf["column"], leaf["limit"] = column, float(edges[column][k])
+            above = self.bin_of[leaf["rows"], column] > k
+            leaf["column"], leaf["limit"] = column, float(self.edges[column][k])
             leaf["below"], leaf["above"] = {"rows": leaf["rows"][~above]}, {"rows": leaf["rows"][above]}
             leaves.remove(leaf)
             for part in (leaf["below"], leaf["above"]):
-                part["split"] = self.best_split(part["rows"], bins, edges, columns)
+                part["split"] = self.best_split(part["rows"], columns)
                 leaves.append(part)
-        values = np.zeros(len(bins))
+        values = np.zeros(len(self.bin_of))
         for leaf in leaves:
             rows = leaf["rows"]
             leaf["value"] = round(self.rate * self.slope[rows].sum() / (self.bend[rows].sum() + self.ridge), 3)
@@ -216,52 +219,70 @@ class Task:
         self.catalogue = np.array([r["group"].startswith("catalogue") for r in self.rows])
         self.fold = np.array([int(r["fold"]) % FOLDS for r in self.rows])
 
-    def left_out_scores(self, make):
-        scores = np.zeros(self.inputs.shape[:2])
-        moved = np.zeros(self.inputs.shape[:2])
-        for fold in range(FOLDS):
-            fit = self.fold != fold
-            model = self.fitted(make, fit)
-            scores[~fit] = model.scores(self.inputs[~fit])
-            moved[~fit] = model.scores(self.moved[1][~fit])
-        print(f"  origin far away: {self.right[np.arange(len(moved)), moved.argmax(1)][self.catalogue].mean():.3f} "
-              "of the catalogue by the shape alone")
+    def left_out_scores(self, make, parts):
+        """Scores of each model by one fitted without the part it is in (NaN: it is in none)."""
+        scores = np.full(self.inputs.shape[:2], np.nan)
+        for part in parts:
+            scores[part] = self.fitted(make, ~part).scores(self.inputs[part])
         return scores
+
+    def folds(self):
+        return [self.fold == fold for fold in range(FOLDS)]
+
+    def archives(self):
+        names = np.array([row["group"] for row in self.rows])
+        return [names == name for name in sorted(set(names[self.catalogue]))]
 
     def fitted(self, make, mask):
         inputs = np.concatenate([self.inputs[mask]] + [copy[mask] for copy in self.moved])
         return make().fit(inputs, np.tile(self.target[mask], (3, 1)),
                           np.concatenate([self.weight[mask] / 2] + [self.weight[mask] / 4] * 2))
 
-    def decided(self, scores, witness, threshold):
+    def decided(self, scores, witness, threshold, part):
         """For each convention (candidate): the candidate taken, and its confidence."""
         count = scores.shape[1]
+        alike = self.alike[part]
         for usual in range(count):
             odds = softmax(scores + witness * np.eye(count)[usual])
-            odds = np.einsum("mab,mb->ma", self.alike, odds)
+            odds = np.einsum("mab,mb->ma", alike, odds)
             best = odds.argmax(1)
             best = np.where(odds[:, usual] >= odds.max(1) - 1e-9, usual, best)
             sure = odds[np.arange(len(odds)), best] >= threshold
             taken = np.where(sure, best, usual)
             yield usual, taken, odds[np.arange(len(odds)), taken]
 
-    def rates(self, scores, witness, threshold, mask):
-        """Share right of models turned at random, and of those that the convention has right."""
+    def rates(self, scores, witness, threshold, mask, part=slice(None)):
+        """Share right of models turned at random, and of those that the convention has right.
+
+        The scores, and the mask, are of the models of the part."""
         turned, right_by_convention = [], []
-        for usual, taken, _ in self.decided(scores, witness, threshold):
-            ok = self.right[np.arange(len(taken)), taken]
+        right = self.right[part]
+        for usual, taken, _ in self.decided(scores, witness, threshold, part):
+            ok = right[np.arange(len(taken)), taken]
             turned.append(ok[mask])
-            right_by_convention.append(ok[mask & self.right[:, usual]])
+            right_by_convention.append(ok[mask & right[:, usual]])
         return np.concatenate(turned).mean(), np.concatenate(right_by_convention).mean()
 
-    def choose_rule(self, scores):
-        best = (-1.0, 1.0, 0.99)
-        for witness in np.arange(0.0, 4.01, 0.5):
-            for threshold in np.arange(0.5, 0.996, 0.02):
-                turned, kept = self.rates(scores, witness, threshold, self.catalogue)
-                if 1.0 - kept <= HARM and turned > best[0] + 1e-12:
+    def choose_rule(self, scores, mask=None, harm=HARM):
+        """Witness and threshold that get the most turned models right at no more harm, and the rate."""
+        mask = self.catalogue if mask is None else mask
+        best = (-1.0, 8.0, 0.99)
+        for witness in np.arange(0.0, 7.01, 0.25):
+            for threshold in np.arange(0.3, 0.996, 0.04):
+                turned, kept = self.rates(scores, witness, threshold, mask)
+                if 1.0 - kept <= harm and turned > best[0] + 1e-12:
                     best = (turned, float(witness), round(float(threshold), 2))
-        return best[1:]
+        return best[1:] + best[:1]
+
+    def rule_left_out(self, scores):
+        """Turned right, and harm, by rules chosen on the catalogue's other folds."""
+        turned, harmed, count = 0.0, 0.0, 0
+        for part in self.folds():
+            witness, threshold, _ = self.choose_rule(scores, self.catalogue & ~part)
+            mask = self.catalogue & part
+            right, kept = self.rates(scores, witness, threshold, mask)
+            turned, harmed, count = turned + right * mask.sum(), harmed + (1 - kept) * mask.sum(), count + mask.sum()
+        return turned / count, harmed / count
 
 
 def describe(task, scores, witness, threshold):
@@ -271,24 +292,78 @@ def describe(task, scores, witness, threshold):
     for name, mask in (("catalogue", task.catalogue), ("all", every)):
         turned, kept = task.rates(scores, witness, threshold, mask)
         print(f"  {name} ({mask.sum()}): turned {turned:.3f} right, harm {1 - kept:.4f}")
-    kinds = sorted({row["kind"] for row in task.rows})
-    for kind in kinds:
+    turned, harm = task.rule_left_out(scores)
+    print(f"  rules chosen on the other folds: turned {turned:.3f} right, harm {harm:.4f}")
+    for kind in sorted({row["kind"] for row in task.rows}):
         mask = np.array([row["kind"] == kind for row in task.rows])
         turned, kept = task.rates(scores, witness, threshold, mask)
         print(f"    {kind:20} {mask.sum():4}  shape alone {plain[mask].mean():.2f}  turned {turned:.2f}  "
               f"right by convention {kept:.2f}")
+    confusion(task, scores)
+
+
+def confusion(task, scores):
+    """Upside down (or back to front) and on its side, by kind, of what the shape alone says."""
     chosen = scores.argmax(1)
-    taken = [chosen[i] == task.truth[i] for i in range(len(chosen))]
-    flips = np.mean([c != t and c // 2 == t // 2 for c, t in zip(chosen, task.truth)])
-    print(f"  confusion of the shape alone: right {np.mean(taken):.3f}, upside down or back to front {flips:.3f}, "
-          f"on its side {1 - np.mean(taken) - flips:.3f}")
+    right = task.right[np.arange(len(chosen)), chosen]
+    print("  confusion of the shape alone: kind, models, right, opposite, aside")
+    kinds = [("all", np.ones(len(chosen), bool))]
+    kinds += [(kind, np.array([row["kind"] == kind for row in task.rows]))
+              for kind in sorted({row["kind"] for row in task.rows})]
+    for kind, mask in kinds:
+        opposite = (chosen // 2 == task.truth // 2) & ~right
+        print(f"    {kind:20} {mask.sum():4} {right[mask].mean():.2f} {opposite[mask].mean():.2f} "
+              f"{(~right & ~opposite)[mask].mean():.2f}")
+
+
+def calibration(task, scores):
+    """(stated, right, models) by what the shape alone states."""
+    chosen = scores.argmax(1)
+    right = task.right[np.arange(len(chosen)), chosen]
     odds = np.einsum("mab,mb->ma", task.alike, softmax(scores))
     sure = odds[np.arange(len(odds)), chosen]
-    print("  calibration of the shape alone: stated -> right (models)")
+    rows = []
     for low, high in ((0, .4), (.4, .6), (.6, .8), (.8, .9), (.9, .95), (.95, 1.01)):
         here = (sure >= low) & (sure < high)
         if here.any():
-            print(f"    {sure[here].mean():.2f} -> {plain[here].mean():.2f} ({here.sum()})")
+            rows.append((float(sure[here].mean()), float(right[here].mean()), int(here.sum())))
+    return rows
+
+
+def trade(task, scores):
+    """(harm allowed, turned right) of the catalogue by the best rule for each."""
+    return [(harm, task.choose_rule(scores, harm=harm)[2]) for harm in (.005, .01, .02, .03, .05, .08, .12)]
+
+
+def draw(file, curves):
+    """Calibration, and what is gained for harm, as an SVG of two diagrams."""
+    colours = {"up": "#1f5fa8", "front": "#b5532a"}
+    parts = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 620 290" font-family="sans-serif" font-size="11">',
+             '<rect width="620" height="290" fill="#fff"/>']
+
+    def axes(left, title, below, aside, most, ticks):
+        parts.append(f'<rect x="{left}" y="30" width="220" height="220" fill="none" stroke="#999"/>'
+                     f'<text x="{left + 110}" y="20" text-anchor="middle">{title}</text>'
+                     f'<text x="{left + 110}" y="282" text-anchor="middle">{below}</text>'
+                     f'<text transform="translate({left - 34} 140) rotate(-90)" text-anchor="middle">{aside}</text>')
+        for tick in ticks:
+            parts.append(f'<text x="{left + 220 * tick / most:.0f}" y="264" text-anchor="middle">{tick:g}</text>')
+        for tick in (0, .5, 1):
+            parts.append(f'<text x="{left - 6}" y="{254 - 220 * tick:.0f}" text-anchor="end">{tick:g}</text>')
+
+    axes(50, "what the shape alone states", "stated", "share right", 1, (0, .5, 1))
+    axes(370, "files turned to a random axis", "harm: files turned though right", "share right", .12, (0, .04, .08, .12))
+    parts.append('<path d="M50 250 270 30" stroke="#bbb"/>'
+                 f'<path d="M{370 + 220 * HARM / .12:.1f} 30V250" stroke="#bbb"/>')
+    for i, (subject, (stated, gained)) in enumerate(curves.items()):
+        colour = colours[subject]
+        for x, y, count in stated:
+            parts.append(f'<circle cx="{50 + 220 * x:.1f}" cy="{250 - 220 * y:.1f}" r="{1.5 + count ** .5 / 3:.1f}" '
+                         f'fill="{colour}" fill-opacity=".6"/>')
+        line = " ".join(f"{370 + 220 * x / .12:.1f},{250 - 220 * y:.1f}" for x, y in gained)
+        parts.append(f'<polyline points="{line}" fill="none" stroke="{colour}" stroke-width="2"/>'
+                     f'<text x="560" y="{226 + 14 * i}" fill="{colour}">{subject}</text>')
+    file.write_text("\n".join(parts + ["</svg>"]) + "\n", encoding="utf-8")
 
 
 def main():
@@ -296,27 +371,43 @@ def main():
     parser.add_argument("program")
     parser.add_argument("labels", nargs="+")
     parser.add_argument("-o", "--output", type=pathlib.Path)
-    parser.add_argument("--cache", type=pathlib.Path)
+    parser.add_argument("--cache", type=pathlib.Path, help="file that keeps the features")
+    parser.add_argument("--figure", type=pathlib.Path, help="SVG of calibration and harm to write")
+    parser.add_argument("--archives", action="store_true", help="also leave out whole archives, one by one")
     given = parser.parse_args()
     rows = load(given.program, given.labels, given.cache)
     lines = ["# Which direction is up, and which the front: docs/orientation.md. Written by",
              "# scripts/fit_orientation.py. tree: FEATURE LIMIT BELOW ABOVE; leaves are added up."]
-    sizes = {"up": (36, 8), "front": (24, 6)}  # trees, leaves of each
+    sizes = {"up": (72, 8), "front": (38, 6)}  # trees, leaves of each
+    curves = {}
     for subject, (rounds, leaves) in sizes.items():
         task = Task(rows, subject == "front")
 
         def make():
             return Boosting(rounds, leaves)
 
-        scores = task.left_out_scores(make)
-        witness, threshold = task.choose_rule(scores)
+        scores = task.left_out_scores(make, task.folds())
+        witness, threshold, _ = task.choose_rule(scores)
         model = task.fitted(make, np.ones(len(task.rows), bool))
         size = sum(numbers_in(tree) for tree in model.trees)
         print(f"{subject}: {len(task.rows)} models, {size} numbers, witness {witness:g}, threshold {threshold:g}")
         describe(task, scores, witness, threshold)
+        stated, gained = calibration(task, scores), trade(task, scores)
+        curves[subject] = stated, gained
+        print("  stated -> right (models): " + ", ".join(f"{x:.2f} -> {y:.2f} ({n})" for x, y, n in stated))
+        print("  harm allowed -> turned right: " + ", ".join(f"{x:.3f} -> {y:.2f}" for x, y in gained))
+        if given.archives:
+            scores = task.left_out_scores(make, task.archives())
+            for part in task.archives():
+                right = task.right[part, scores[part].argmax(1)]
+                turned, kept = task.rates(scores[part], witness, threshold, np.ones(part.sum(), bool), part)
+                print(f"  left out whole: {task.rows[int(np.argmax(part))]['group']} ({part.sum()}): "
+                      f"shape alone {right.mean():.3f}, turned {turned:.3f}, harm {1 - kept:.4f}")
         names = rows[0]["features"][f"{subject}_features"]
         lines += [f"{subject} witness {witness:g}", f"{subject} threshold {threshold:g}"]
         lines += [f"{subject} tree {text}" for text in model.text(names)]
+    if given.figure:
+        draw(given.figure, curves)
     if given.output:
         given.output.write_text("\n".join(lines) + "\n", encoding="utf-8")
 

@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: MIT
 """Makes the models and labels that fit_orientation.py reads, from unpacked Debian packages (numpy).
 
-    apt-get download sweethome3d-furniture sweethome3d flightgear-data-ai torcs-data
+    apt-get download sweethome3d-furniture sweethome3d flightgear-data-ai torcs-data 0ad-data megaglest-data
     for p in *.deb; do dpkg -x $p packages; done
     scripts/orientation_data.py packages OUT [--listed views.csv] [--scans FOLDER] > labels.csv
 
 Catalogue entries have y up and +z in front after their model_rotation; aircraft of FlightGear y up and the
-nose at -x, cars of TORCS y up and +x in front (AC3D files). --listed names the entries of the archives that
+nose at -x, cars of TORCS y up and +x in front (AC3D files);
+creatures of 0 A.D. y up and -z in front, units of MegaGlest y up. --listed names the entries of the archives that
 may be used (columns archive, model); without it all are. --scans is a folder with the files that
 scripts/orientation_labels.csv says up and front of. Nothing of these models becomes part of the project.
 """
@@ -15,6 +16,7 @@ import argparse
 import csv
 import pathlib
 import re
+import struct
 import sys
 import zipfile
 import zlib
@@ -114,6 +116,53 @@ class Ac3d:
                 return
 
 
+def read_pmd(data):
+    """Points and faces of a mesh of 0 A.D."""
+    version, _, count = struct.unpack_from("<III", data, 4)
+    at, pictures = 16, 1
+    if version >= 4:
+        pictures, at = struct.unpack_from("<I", data, 16)[0], 20
+    size = 44 + 8 * pictures
+    points = np.frombuffer(data, np.uint8, count * size, at).reshape(count, size)[:, :12].copy().view("<f4")
+    at += count * size
+    faces = np.frombuffer(data, "<u2", 3 * struct.unpack_from("<I", data, at)[0], at + 4)
+    return points.astype(float), faces.reshape(-1, 3).tolist()
+
+
+def read_g3d(data):
+    """Points and faces of the first frame of a model of MegaGlest."""
+    if data[:4] != b"G3D\x04":
+        raise ValueError("not of version 4")
+    points, faces, at, base = [], [], 7, 0
+    for _ in range(struct.unpack_from("<H", data, 4)[0]):
+        frames, corners, indices = struct.unpack_from("<III", data, at + 64)
+        pictures = struct.unpack_from("<I", data, at + 112)[0]
+        at += 116 + 64 * bin(pictures & 31).count("1")
+        points.append(np.frombuffer(data, "<f4", 3 * corners, at).reshape(-1, 3))
+        at += 24 * frames * corners + (8 * corners if pictures else 0)
+        faces += (np.frombuffer(data, "<u4", indices, at).reshape(-1, 3) + base).tolist()
+        at, base = at + 4 * indices, base + corners
+    return np.concatenate(points).astype(float), faces
+
+
+def creatures(packages):
+    """(stem, group, kind, front, points, faces) of what stands in the games, at most three of a name."""
+    seen = {}
+    for file in sorted(packages.rglob("0ad/mods/public/public.zip")):
+        with zipfile.ZipFile(file) as archive:
+            for name in sorted(n for n in archive.namelist()
+                               if n.startswith("art/meshes/skeletal/") and "/new/" not in n):
+                stem = name.split("/")[-1].split(".")[0]
+                key = stem.rstrip("0123456789_abcdefg")
+                seen[key] = seen.get(key, 0) + 1
+                if name.endswith(".pmd") and seen[key] <= 3:
+                    yield stem, "0ad", "creatures, 0 A.D.", "-z", *read_pmd(archive.read(name))
+    for file in sorted(packages.rglob("megaglest/**/units/**/*.g3d")):
+        unit = file.parent.parent.name
+        if "stand" in file.name or "idle" in file.name or file.stem == unit:
+            yield f"{unit}_{file.stem}", "megaglest", "units, MegaGlest", "", *read_g3d(file.read_bytes())
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("packages", type=pathlib.Path)
@@ -158,6 +207,12 @@ def main():
             continue
         if len(model.faces) >= 100:
             put(f"{group}__{file.stem}", group, kind, "y", front, model.points, model.faces)
+    shapes = set()  # many are there twice
+    for stem, group, kind, front, points, faces in creatures(given.packages):
+        shape = zlib.crc32(points.tobytes())
+        if len(faces) >= 60 and shape not in shapes:
+            shapes.add(shape)
+            put(f"{group}__{stem}", group, kind, "y", front, points, faces)
     if given.scans:
         table = pathlib.Path(__file__).with_name("orientation_labels.csv")
         for entry in csv.DictReader(table.open(encoding="utf-8")):

@@ -188,7 +188,7 @@ struct BatchWorkerCommand {
     }
   }
 
-  [[nodiscard]] Json result_of(const Json& order, const Model& model, const Sidecar& sidecar,
+  [[nodiscard]] Json result_of(const Json& order, Model& model, const Sidecar& sidecar,
                                const LookFlags& own_look, const RunContext& run) const {
     ViewOptions own = options_;
     const auto own_up = order.at("up").get<std::string>();
@@ -200,6 +200,7 @@ struct BatchWorkerCommand {
       own.front = up_axis(own_front);
     }
     sidecar.apply(own);
+    stand_along_axes(model, own);
     const ShapeAnalysis shape = analyse_shape(model, own, run);
     const FrameChoice choice = choose_frame(model, shape, own);
     const ViewReport report = find_views(shape, choice, own, run);

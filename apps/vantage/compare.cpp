@@ -55,9 +55,9 @@ struct CompareCommand {
     look.suggest(sidecar.style);
     const std::vector<Measure> measures = chosen_measures(session, options);
     const RunContext run = session.run();
-    const Model loaded = no_images
-                             ? session.load(model)
+    Model loaded = no_images ? session.load(model)
                              : session.load(model, look.reading(options.width, options.height));
+    session.computing([&] { return stand_along_axes(loaded, options); });
     OutputFolder output(folder.empty() ? folder_named(loaded.name, ".compare") : folder,
                         kCompareResults);
     output.check(session.flags.force);

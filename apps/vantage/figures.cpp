@@ -90,7 +90,8 @@ struct FiguresCommand {
     const RunContext run = session.run();
     const auto start = Clock::now();
     StageTimes times;
-    const Model loaded = session.load(model, look.reading(options.width, options.height));
+    Model loaded = session.load(model, look.reading(options.width, options.height));
+    session.computing([&] { return stand_along_axes(loaded, options); });
     times.seconds.load = seconds_since(start);
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_shape(loaded, options, run.part(0.0, 0.4), &times.seconds); });

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <filesystem>
 
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/error.h"
@@ -83,8 +84,10 @@ struct OrientCommand {
     if (!file.empty()) {
       check_output(file, OutputKind::Shape, session.flags);
     }
-    const Model loaded = session.load(model);
+    Model loaded = session.load(model);
     session.read([&] { return sidecar_of(model); }).apply(given.view);
+    const Eigen::Matrix3d stood =
+        session.computing([&] { return stand_along_axes(loaded, given.view); });
     const ShapeAnalysis shape =
         session.computing([&] { return prepare_surface(loaded, session.run()); });
     if (features) {
@@ -97,14 +100,14 @@ struct OrientCommand {
     const AxisTurn turn(up_vector(choice.frame.up), up_vector(choice.frame.front),
                         up_vector(new_up), up_vector(default_front(new_up)));
     if (!file.empty()) {
-      write_output(file, turned(session, loaded, turn));
+      write_output(file, turned(session, loaded, turn, stood.isIdentity(0.0)));
     }
-    report(session, loaded, choice, turn);
+    report(session, loaded, choice, turn, stood);
   }
 
  private:
-  [[nodiscard]] std::string turned(Session& session, const Model& loaded,
-                                   const AxisTurn& turn) const {
+  [[nodiscard]] std::string turned(Session& session, const Model& loaded, const AxisTurn& turn,
+                                   bool is_quarter_turn) const {
     std::string extension = std::filesystem::path(file).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -116,6 +119,9 @@ struct OrientCommand {
     }
     const bool in_place = loaded.format == ModelFormat::Obj || loaded.format == ModelFormat::Stl ||
                           loaded.format == ModelFormat::Gltf || loaded.format == ModelFormat::Glb;
+    if (!is_quarter_turn) {
+      throw IoError(file, "must end in .ply: the model is turned by other than quarter turns");
+    }
     if (!in_place || extension != own) {
       throw IoError(file, in_place ? "must end in " + own + ", as the model is, or in .ply"
                                    : "must end in .ply: a " + own + " is not written");
@@ -131,14 +137,19 @@ struct OrientCommand {
   }
 
   void report(Session& session, const Model& loaded, const FrameChoice& choice,
-              const AxisTurn& turn) const {
-    const std::array<double, 4> q = turn.quaternion();
+              const AxisTurn& turn, const Eigen::Matrix3d& stood) const {
+    const std::array<double, 4> quarter = turn.quaternion();
+    const Eigen::Quaterniond whole =
+        Eigen::Quaterniond(quarter[3], quarter[0], quarter[1], quarter[2]) *
+        Eigen::Quaterniond(stood);
+    const std::array<double, 4> q{whole.x(), whole.y(), whole.z(), whole.w()};
+    const bool is_none = turn.is_none() && stood.isIdentity(0.0);
     if (session.flags.json) {
       const Json json = {{"file", file.empty() ? Json(nullptr) : Json(file)},
                          {"up", choice_json(choice.orientation.up)},
                          {"front", choice_json(choice.orientation.front)},
                          {"rotation", q},
-                         {"turned", !turn.is_none()},
+                         {"turned", !is_none},
                          {"warnings", choice.notes}};
       write_output("-", json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
       return;
@@ -148,7 +159,10 @@ struct OrientCommand {
                    number_text(q[3]));
     } else {
       session.tell(printable(loaded.name) + ": " + frame_summary(choice) +
-                   (turn.is_none() ? "; it stands as it should" : ""));
+                   (is_none ? "; it stands as it should" : ""));
+    }
+    if (!stood.isIdentity(0.0)) {
+      session.say("note: " + loaded.notes.back());
     }
     for (const std::string& note : choice.notes) {
       session.say("note: " + note);

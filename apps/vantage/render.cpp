@@ -73,7 +73,8 @@ struct RenderCommand {
     if (!camera_file.empty()) {
       camera = session.read([&] { return parse_camera(read_text(camera_file), camera_file); });
     }
-    const Model loaded = session.load(model, look.reading(options.width, options.height));
+    Model loaded = session.load(model, look.reading(options.width, options.height));
+    session.computing([&] { return stand_along_axes(loaded, options); });
     const bool needs_map = is_sought || show != "plain";
     const ShapeAnalysis shape = session.computing([&] {
       const AnalysisUse use = is_sought ? AnalysisUse::Views : AnalysisUse::Map;

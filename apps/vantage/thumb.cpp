@@ -66,7 +66,8 @@ struct ThumbCommand {
     const Sidecar sidecar = session.read([&] { return sidecar_of(model); });
     sidecar.apply(options);
     look.suggest(sidecar.style);
-    const Model loaded = session.load(model, look.reading(size, size));
+    Model loaded = session.load(model, look.reading(size, size));
+    session.computing([&] { return stand_along_axes(loaded, options); });
     const ShapeAnalysis shape = session.computing([&] { return prepare_surface(loaded, run); });
     const PictureView found = session.computing([&] {
       return sidecar.view ? framed(loaded, shape, *sidecar.view, options)

@@ -102,9 +102,10 @@ struct ViewCommand {
     const Sidecar sidecar = session.read([&] { return sidecar_of(model); });
     sidecar.apply(options);
     look.suggest(sidecar.style);
-    const Model loaded = no_images && !preview.is_given()
-                             ? session.load(model)
-                             : session.load(model, look.reading(options.width, options.height));
+    Model loaded = no_images && !preview.is_given()
+                       ? session.load(model)
+                       : session.load(model, look.reading(options.width, options.height));
+    session.computing([&] { return stand_along_axes(loaded, options); });
     seconds.load = seconds_since(start);
     OutputFolder output(folder.empty() ? folder_named(loaded.name, ".vantage") : folder,
                         kViewResults);

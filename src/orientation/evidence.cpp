@@ -12,37 +12,154 @@ constexpr std::size_t kBands = 8;
 // An origin this far from the box's centre says nothing, over the box's side.
 constexpr double kFar = 0.6;
 
-constexpr std::array<std::string_view, 59> kUprightNames{
-    "base_touch",    "top_touch",       "base_hull",      "top_hull",      "base_margin",
-    "top_margin",    "base_contacts",   "top_contacts",   "base_depth",    "top_depth",
-    "base_relative", "top_relative",    "base_detail",    "top_detail",    "base_flat",
-    "top_flat",      "height_least",    "height_most",    "area_height",   "vertex_height",
-    "mass_height",   "outline_height",  "mirror_level",   "mirror_least",  "mirror_most",
-    "half_turn",     "quarter_turn",    "parallel",       "perpendicular", "parallel_rank",
-    "filled",        "side_touch_most", "side_flat_most", "side_detail",   "band_bottom",
-    "band_low",      "band_high",       "band_top",       "runs_bottom",   "runs_low",
-    "runs_high",     "runs_top",        "half_turn_side", "foot_spread",   "head_spread",
-    "base_back",     "top_back",        "side_back",      "net",           "waist_depth",
-    "origin_height", "origin_aside",    "base_centre",    "base_rim",      "top_centre",
-    "top_rim",       "base_vertices",   "top_vertices",   "band_spread"};
+constexpr std::array<std::string_view, 83> kUprightNames{"base_touch",
+                                                         "top_touch",
+                                                         "base_hull",
+                                                         "top_hull",
+                                                         "base_margin",
+                                                         "top_margin",
+                                                         "base_contacts",
+                                                         "top_contacts",
+                                                         "base_depth",
+                                                         "top_depth",
+                                                         "base_relative",
+                                                         "top_relative",
+                                                         "base_detail",
+                                                         "top_detail",
+                                                         "base_flat",
+                                                         "top_flat",
+                                                         "height_least",
+                                                         "height_most",
+                                                         "area_height",
+                                                         "vertex_height",
+                                                         "mass_height",
+                                                         "outline_height",
+                                                         "mirror_level",
+                                                         "mirror_least",
+                                                         "mirror_most",
+                                                         "half_turn",
+                                                         "quarter_turn",
+                                                         "parallel",
+                                                         "perpendicular",
+                                                         "parallel_rank",
+                                                         "filled",
+                                                         "side_touch_most",
+                                                         "side_flat_most",
+                                                         "side_detail",
+                                                         "band_bottom",
+                                                         "band_low",
+                                                         "band_high",
+                                                         "band_top",
+                                                         "runs_bottom",
+                                                         "runs_low",
+                                                         "runs_high",
+                                                         "runs_top",
+                                                         "half_turn_side",
+                                                         "foot_spread",
+                                                         "head_spread",
+                                                         "base_back",
+                                                         "top_back",
+                                                         "side_back",
+                                                         "net",
+                                                         "waist_depth",
+                                                         "origin_height",
+                                                         "origin_aside",
+                                                         "base_centre",
+                                                         "base_rim",
+                                                         "top_centre",
+                                                         "top_rim",
+                                                         "base_vertices",
+                                                         "top_vertices",
+                                                         "band_spread",
+                                                         "water",
+                                                         "base_water",
+                                                         "rest",
+                                                         "base_patch",
+                                                         "facing",
+                                                         "facing_down",
+                                                         "facing_height",
+                                                         "facing_down_depth",
+                                                         "base_area",
+                                                         "top_area",
+                                                         "base_open",
+                                                         "top_open",
+                                                         "base_parts",
+                                                         "top_parts",
+                                                         "base_poles",
+                                                         "top_poles",
+                                                         "edges_along",
+                                                         "parts_height",
+                                                         "area_spread",
+                                                         "open_edges",
+                                                         "parts",
+                                                         "taper",
+                                                         "runs_taper",
+                                                         "dome"};
 
-constexpr std::array<std::string_view, 47> kFrontNames{
-    "front_touch",      "back_touch",        "front_hull",
-    "back_hull",        "front_contacts",    "back_contacts",
-    "front_depth",      "back_depth",        "front_detail",
-    "back_detail",      "front_flat",        "back_flat",
-    "mirror_side",      "mirror_front",      "half_turn",
-    "width_over_depth", "height_over_depth", "area_ahead",
-    "vertex_ahead",     "mass_ahead",        "outline_ahead",
-    "top_ahead",        "foot_ahead",        "middle_ahead",
-    "parallel_front",   "parallel_side",     "perpendicular_front",
-    "foot_to_top",      "high_ahead",        "front_height",
-    "back_height",      "foot_width_ahead",  "top_width_ahead",
-    "floor_touch",      "front_back",        "back_back",
-    "net_ahead",        "front_margin",      "back_margin",
-    "origin_ahead",     "origin_aside",      "front_vertices",
-    "back_vertices",    "front_centre",      "back_centre",
-    "front_rim",        "back_rim"};
+constexpr std::array<std::string_view, 64> kFrontNames{"front_touch",
+                                                       "back_touch",
+                                                       "front_hull",
+                                                       "back_hull",
+                                                       "front_contacts",
+                                                       "back_contacts",
+                                                       "front_depth",
+                                                       "back_depth",
+                                                       "front_detail",
+                                                       "back_detail",
+                                                       "front_flat",
+                                                       "back_flat",
+                                                       "mirror_side",
+                                                       "mirror_front",
+                                                       "half_turn",
+                                                       "width_over_depth",
+                                                       "height_over_depth",
+                                                       "area_ahead",
+                                                       "vertex_ahead",
+                                                       "mass_ahead",
+                                                       "outline_ahead",
+                                                       "top_ahead",
+                                                       "foot_ahead",
+                                                       "middle_ahead",
+                                                       "parallel_front",
+                                                       "parallel_side",
+                                                       "perpendicular_front",
+                                                       "foot_to_top",
+                                                       "high_ahead",
+                                                       "front_height",
+                                                       "back_height",
+                                                       "foot_width_ahead",
+                                                       "top_width_ahead",
+                                                       "floor_touch",
+                                                       "front_back",
+                                                       "back_back",
+                                                       "net_ahead",
+                                                       "front_margin",
+                                                       "back_margin",
+                                                       "origin_ahead",
+                                                       "origin_aside",
+                                                       "front_vertices",
+                                                       "back_vertices",
+                                                       "front_centre",
+                                                       "back_centre",
+                                                       "front_rim",
+                                                       "back_rim",
+                                                       "front_area",
+                                                       "back_area",
+                                                       "front_facing",
+                                                       "back_facing",
+                                                       "front_facing_place",
+                                                       "back_facing_place",
+                                                       "front_open",
+                                                       "back_open",
+                                                       "front_parts",
+                                                       "back_parts",
+                                                       "front_poles",
+                                                       "back_poles",
+                                                       "parts_ahead",
+                                                       "edges_front",
+                                                       "edges_side",
+                                                       "open_edges",
+                                                       "parts"};
 
 /// A silhouette from the side, by bands of height from the ground.
 struct Bands {
@@ -170,7 +287,7 @@ std::span<const std::string_view> front_evidence_names() {
   return kFrontNames;
 }
 
-SideLooks::SideLooks(const TriMesh& surface) : fields_(surface) {
+SideLooks::SideLooks(const TriMesh& surface) : fields_(surface), traits_(surface) {
   knows_origin_ = std::all_of(fields_.origin.begin(), fields_.origin.end(),
                               [](double share) { return std::abs(share - 0.5) <= kFar; });
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -212,6 +329,15 @@ std::vector<double> SideLooks::upright_evidence(AxisDirection up) const {
     narrowest = std::min(narrowest, width(band));
     widest = std::max(widest, width(band));
   }
+  double taper = 0.0;
+  double runs_taper = 0.0;
+  for (std::size_t band = 0; band < kBands; ++band) {
+    const double arm = (static_cast<double>(band) + 0.5) / static_cast<double>(kBands) - 0.5;
+    taper += arm * width(band);
+    runs_taper += arm * runs(band);
+  }
+  const SideTraits& upward = traits_of(up);
+  const SideTraits& downward = traits_of(up.opposite());
   const double height = fields_.extent[up.axis];
   return {base.touch,
           top.touch,
@@ -272,13 +398,39 @@ std::vector<double> SideLooks::upright_evidence(AxisDirection up) const {
           top.rim_depth,
           up.is_positive ? fields_.vertex_low[up.axis] : fields_.vertex_high[up.axis],
           up.is_positive ? fields_.vertex_high[up.axis] : fields_.vertex_low[up.axis],
-          widest - narrowest};
+          widest - narrowest,
+          top.water,
+          base.water,
+          base.rest,
+          base.patch,
+          upward.facing,
+          downward.facing,
+          upward.facing_place,
+          downward.facing_place,
+          downward.area_end,
+          upward.area_end,
+          downward.open_end,
+          upward.open_end,
+          downward.parts_end,
+          upward.parts_end,
+          downward.poles,
+          upward.poles,
+          traits_.axis[up.axis].edges_along,
+          oriented(traits_.axis[up.axis].parts_mean, up),
+          traits_.axis[up.axis].area_spread,
+          traits_.open,
+          traits_.parts,
+          taper,
+          runs_taper,
+          top.rim_depth - top.centre_depth};
 }
 
 std::vector<double> SideLooks::front_evidence(AxisDirection up, AxisDirection front) const {
   const std::size_t side = 3 - up.axis - front.axis;
   const SideLook& ahead = look_from(front);
   const SideLook& behind = look_from(front.opposite());
+  const SideTraits& forward = traits_of(front);
+  const SideTraits& backward = traits_of(front.opposite());
   const HeightField& plan = fields_.along[up.axis];
   const Columns columns = columns_of(plan, up.is_positive);
   const bool is_u = plan.u_axis == front.axis;
@@ -361,7 +513,24 @@ std::vector<double> SideLooks::front_evidence(AxisDirection up, AxisDirection fr
           ahead.centre_depth,
           behind.centre_depth,
           ahead.rim_depth,
-          behind.rim_depth};
+          behind.rim_depth,
+          forward.area_end,
+          backward.area_end,
+          forward.facing,
+          backward.facing,
+          forward.facing_place,
+          backward.facing_place,
+          forward.open_end,
+          backward.open_end,
+          forward.parts_end,
+          backward.parts_end,
+          forward.poles,
+          backward.poles,
+          oriented(traits_.axis[front.axis].parts_mean, front) - 0.5,
+          traits_.axis[front.axis].edges_along,
+          traits_.axis[side].edges_along,
+          traits_.open,
+          traits_.parts};
 }
 
 double SideLooks::difference(AxisDirection up, AxisDirection front, AxisDirection other) const {

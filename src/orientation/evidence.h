@@ -8,6 +8,7 @@
 
 #include "orientation/height_fields.h"
 #include "orientation/side_look.h"
+#include "orientation/surface_traits.h"
 
 namespace vantage {
 
@@ -47,7 +48,12 @@ class SideLooks {
     return looks_[2 * side.axis + (side.is_positive ? 0 : 1)];
   }
 
+  [[nodiscard]] const SideTraits& traits_of(AxisDirection side) const {
+    return traits_.side[2 * side.axis + (side.is_positive ? 0 : 1)];
+  }
+
   HeightFields fields_;
+  SurfaceTraits traits_;
   bool knows_origin_ = false;  ///< The coordinates' origin is in the box, or near it.
   std::array<SideLook, 6> looks_{};
   std::array<double, 3> mirror_{};

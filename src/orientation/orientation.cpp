@@ -22,6 +22,8 @@ namespace {
 constexpr double kAlike = 0.1;
 // Mirror planes of things as they are built and scanned. [ours]
 constexpr double kMirror = 0.15;
+// Rain that a tub holds, over its height. [ours]
+constexpr double kHollow = 0.15;
 
 const CandidateModel& up_model() {
   static const CandidateModel model(kOrientationTable, "up", upright_evidence_names());
@@ -129,6 +131,9 @@ std::string reasons_for_up(const SideLooks& looks, AxisDirection up) {
     parts.emplace_back("feet");
   } else if (stands) {
     parts.emplace_back("stable stand");
+  }
+  if (value("water") > kHollow && value("base_water") < 0.2 * kHollow) {
+    parts.emplace_back("hollow above");
   }
   if (value("mirror_most") < kMirror) {
     parts.emplace_back("two upright mirror planes");

@@ -8,6 +8,9 @@
 
 #include <Eigen/Core>
 
+#include "orientation/planar_hull.h"
+#include "orientation/water.h"
+
 namespace vantage {
 namespace {
 
@@ -23,28 +26,6 @@ constexpr double kLargestStep = 0.1;
 
 double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
-/// Convex hull, counter-clockwise (Andrew's monotone chain).
-std::vector<Vec2> hull_of(std::vector<Vec2> points) {
-  const auto before = [](const Vec2& a, const Vec2& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  };
-  std::sort(points.begin(), points.end(), before);
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  std::vector<Vec2> hull;
-  for (int pass = 0; pass < 2 && points.size() > 2; ++pass) {
-    const std::size_t base = hull.size();
-    for (const Vec2& p : points) {
-      while (hull.size() >= base + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0.0) {
-        hull.pop_back();
-      }
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
 }
 
 double area_of(const std::vector<Vec2>& hull) {
@@ -66,21 +47,45 @@ double depth_inside(const std::vector<Vec2>& hull, const Vec2& point) {
   return least;
 }
 
-/// Number of patches of marked cells that share no side or corner.
-std::size_t patches(std::vector<std::uint8_t> marked, std::size_t columns, std::size_t rows) {
-  std::size_t count = 0;
+/// Share of all directions from a point at `height` above the polygon's plane that meet the polygon
+/// (van Oosterom and Strackee 1983), none if the point is not above it.
+double share_of_directions(const std::vector<Vec2>& hull, const Vec2& point, double height) {
+  if (depth_inside(hull, point) < 0.0) {
+    return 0.0;
+  }
+  double angle = 0.0;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Vec2 a = hull[i] - point;
+    const Vec2 b = hull[(i + 1) % hull.size()] - point;
+    // The triangle of both corners and the foot of the perpendicular.
+    const double one = std::sqrt(a.squaredNorm() + height * height);
+    const double two = std::sqrt(b.squaredNorm() + height * height);
+    const double triple = height * (a.x() * b.y() - a.y() * b.x());
+    const double others =
+        one * two * height + (a.dot(b) + height * height) * height + height * height * (one + two);
+    angle += triple == 0.0 && others == 0.0 ? 0.0 : 2.0 * std::atan2(triple, others);
+  }
+  constexpr double kWhole = 12.566370614359172;  // 4 pi
+  return angle / kWhole;
+}
+
+/// Sizes in cells of the patches of marked cells, which share no side or corner.
+std::vector<std::size_t> patches(std::vector<std::uint8_t> marked, std::size_t columns,
+                                 std::size_t rows) {
+  std::vector<std::size_t> sizes;
   std::vector<std::size_t> pending;
   for (std::size_t start = 0; start < marked.size(); ++start) {
     if (marked[start] == 0) {
       continue;
     }
-    ++count;
+    sizes.push_back(0);
     marked[start] = 0;
     pending.push_back(start);
     while (!pending.empty()) {
       const std::size_t row = pending.back() / columns;
       const std::size_t column = pending.back() % columns;
       pending.pop_back();
+      ++sizes.back();
       for (std::size_t r = row > 0 ? row - 1 : 0; r < std::min(rows, row + 2); ++r) {
         for (std::size_t c = column > 0 ? column - 1 : 0; c < std::min(columns, column + 2); ++c) {
           if (marked[r * columns + c] != 0) {
@@ -91,7 +96,7 @@ std::size_t patches(std::vector<std::uint8_t> marked, std::size_t columns, std::
       }
     }
   }
-  return count;
+  return sizes;
 }
 
 /// Corners of a cell, in units of the longest side.
@@ -227,15 +232,19 @@ SideLook side_look(const HeightFields& fields, std::size_t axis, bool from_high)
   look.depth /= filled;
   look.back /= filled;
   look.relative_depth = field.extent > 0.0 ? look.depth / field.extent : 0.0;
-  const std::vector<Vec2> hull = hull_of(std::move(base));
-  const double whole = area_of(hull_of(std::move(outline)));
+  const std::vector<Vec2> hull = planar_hull(std::move(base));
+  const double whole = area_of(planar_hull(std::move(outline)));
   look.touch_hull = whole > 0.0 ? area_of(hull) / whole : 0.0;
   const Vec2 centre(fields.area_mean[field.u_axis] * fields.extent[field.u_axis],
                     fields.area_mean[field.v_axis] * fields.extent[field.v_axis]);
   look.margin =
       whole > 0.0 ? std::clamp(depth_inside(hull, centre) / std::sqrt(whole), -0.5, 0.5) : 0.0;
-  look.contacts =
-      std::log2(1.0 + static_cast<double>(patches(std::move(touching), field.columns, field.rows)));
+  const std::vector<std::size_t> sizes = patches(std::move(touching), field.columns, field.rows);
+  look.contacts = std::log2(1.0 + static_cast<double>(sizes.size()));
+  look.patch = static_cast<double>(*std::max_element(sizes.begin(), sizes.end())) / touched;
+  const double height = fields.area_mean[axis] * field.extent;
+  look.rest = share_of_directions(hull, centre, from_high ? field.extent - height : height);
+  look.water = rain_held(field, from_high);
   look_at_steps(field, from_high, look);
   return look;
 }

@@ -17,7 +17,10 @@ struct SideLook {
   double rim_depth = 0.0;     ///< … and in its border of a sixth all around.
   double detail = 0.0;        ///< Mean step of depth from cell to cell, over the longest side.
   double back = 0.0;          ///< Share of the outline that shows the back of a face.
-  double flat = 0.0;          ///< Share of steps of next to no depth.
+  double rest = 0.0;   ///< Share of all directions from the centroid that meet what touches' hull.
+  double patch = 0.0;  ///< Share of what touches that is in the largest patch.
+  double water = 0.0;  ///< Depth of rain that stays on it, mean over the outline, over the depth.
+  double flat = 0.0;   ///< Share of steps of next to no depth.
 };
 
 /// \param axis 0, 1 or 2. \param from_high from the side of larger coordinates.

@@ -2,6 +2,9 @@
 #include <cmath>
 #include <string>
 
+#include <Eigen/Geometry>
+
+#include "vantage/io/write.h"
 #include "vantage/pipeline/find_views.h"
 
 #include "pipeline/view_preparation.h"
@@ -55,14 +58,35 @@ std::string summary_of(const DirectionChoice& choice, const std::string& word) {
 
 }  // namespace
 
+Eigen::Matrix3d stand_along_axes(Model& model, const ViewOptions& options) {
+  if (options.up != UpAxis::Any) {
+    return Eigen::Matrix3d::Identity();
+  }
+  const Eigen::Matrix3d rotation = standing_rotation(model.mesh);
+  if (rotation.isIdentity(0.0)) {
+    return rotation;
+  }
+  for (Vec3& p : model.mesh.positions) {
+    p = rotation * p;
+  }
+  const Eigen::Quaterniond q(rotation);
+  std::string text;
+  for (const double part : {q.x(), q.y(), q.z(), q.w()}) {
+    text += " " + number_text(std::round(part * 1e6) / 1e6);
+  }
+  model.notes.push_back("turned to stand along the axes, by the quaternion" + text +
+                        " (x y z w); directions and cameras are of the turned model");
+  return rotation;
+}
+
 FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,
                          const ViewOptions& options) {
   const Vec3 usual_up = up_vector(default_up(model));
+  const bool is_stated = model.format == ModelFormat::Gltf || model.format == ModelFormat::Glb ||
+                         model.up_is_stated;
   OrientationRequest request{.usual_up = usual_up,
-                             .usual_up_is_certain = model.format == ModelFormat::Gltf ||
-                                                    model.format == ModelFormat::Glb ||
-                                                    model.up_is_stated};
-  if (options.up) {
+                             .usual_up_is_certain = is_stated && options.up != UpAxis::Any};
+  if (options.up && options.up != UpAxis::Any) {
     request.up = up_vector(*options.up);
   }
   if (options.front) {

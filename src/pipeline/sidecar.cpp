@@ -35,9 +35,9 @@ class SidecarReader : JsonReader {
     result.file = name();
     for (const auto& [member, value] : root().items()) {
       if (member == "up") {
-        result.up = axis(value, member);
+        result.up = axis(value, member, kUpWords);
       } else if (member == "front") {
-        result.front = axis(value, member);
+        result.front = axis(value, member, kFrontWords);
       } else if (member == "view") {
         result.view = direction(value);
       } else if (member == "style") {
@@ -46,7 +46,7 @@ class SidecarReader : JsonReader {
         fail("has the member \"" + member + "\"; known are up, front, view and style");
       }
     }
-    if (result.up && result.front &&
+    if (result.up && result.up != UpAxis::Any && result.front &&
         std::abs(up_vector(*result.up).dot(up_vector(*result.front))) > 0.5) {
       fail("has up and front along the same axis");
     }
@@ -59,13 +59,16 @@ class SidecarReader : JsonReader {
     return value.is_string() ? index_of_word(words, value.get<std::string>()) : std::nullopt;
   }
 
-  [[nodiscard]] std::optional<UpAxis> axis(const Json& value, const std::string& member) const {
-    constexpr std::size_t kAxes = 6;
-    const std::optional<std::size_t> index = word(value, kUpWords);
+  /// \param words kUpWords or kFrontWords; their last is none.
+  [[nodiscard]] std::optional<UpAxis> axis(const Json& value, const std::string& member,
+                                           const char* words) const {
+    const std::optional<std::size_t> index = word(value, words);
     if (!index) {
-      fail("\"" + member + "\" must be one of x, y, z, -x, -y, -z, auto");
+      fail("\"" + member + "\" must be one of x, y, z, -x, -y, -z, auto" +
+           (member == "up" ? " and any" : ""));
     }
-    return *index < kAxes ? std::optional(static_cast<UpAxis>(*index)) : std::nullopt;
+    const bool is_last = word_at(words, *index + 1) == word_at(words, *index);
+    return is_last ? std::nullopt : std::optional(static_cast<UpAxis>(*index));
   }
 
   [[nodiscard]] Vec3 direction(const Json& value) const {

@@ -66,6 +66,8 @@ Vec3 up_vector(UpAxis axis) {
       return -Vec3::UnitY();
     case UpAxis::MinusZ:
       return -Vec3::UnitZ();
+    case UpAxis::Any:
+      break;
   }
   return Vec3::UnitY();
 }

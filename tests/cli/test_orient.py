@@ -1,6 +1,7 @@
 """vantage orient, --front, and sidecars."""
 
 import json
+import math
 import struct
 import unittest
 
@@ -121,6 +122,55 @@ class Front(ProgramTest):
         for part in ("up", "front"):
             self.assertGreaterEqual(found[part + "_confidence"], 0)
             self.assertLessEqual(found[part + "_confidence"], 1)
+
+
+def leaning(p):
+    """Turned by 25 degrees about (2, 6, 3) / 7, the quaternion's double product with the point."""
+    s, c = math.sin(math.radians(12.5)), math.cos(math.radians(12.5))
+    x, y, z = 2 / 7 * s, 6 / 7 * s, 3 / 7 * s
+
+    def cross(a, b):
+        return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+    t = [2 * v for v in cross((x, y, z), p)]
+    u = cross((x, y, z), t)
+    return [p[i] + c * t[i] + u[i] for i in range(3)]
+
+
+class OffTheAxes(ProgramTest):
+    def test_a_leaning_model_is_stood_up(self):
+        self.write("a.obj", obj(leaning))
+        said = self.vantage("orient", "a.obj", "--up", "any", "-o", "up.ply")
+        self.assertIn("quaternion", said.err)
+        q = [float(x) for x in self.vantage("orient", "a.obj", "--up", "any", "--print").out.split()]
+        self.assertAlmostEqual(math.hypot(*q), 1, 5)
+        # The chair's box has the sides 1, 1 and 2 again; before, all were longer.
+        self.vantage("orient", "up.ply", "-o", "same.ply", "--up", "y", "--front", "z")
+        data = (self.dir / "same.ply").read_bytes()
+        body = data.index(b"end_header\n") + 11
+        count = int(data[data.index(b"element vertex ") + 15:].split(b"\n")[0])
+        stride = 3 * (8 if b"property double x" in data else 4)
+        form = "<3d" if stride == 24 else "<3f"
+        points = [struct.unpack_from(form, data, body + stride * i) for i in range(count)]
+        sides = sorted(max(c) - min(c) for c in zip(*points))
+        for side, length in zip(sides, (1, 1, 2)):
+            self.assertAlmostEqual(side, length, 4)
+
+    def test_all_commands_that_look_for_up_know_it(self):
+        self.write("a.obj", obj(leaning))
+        self.vantage("view", "a.obj", "-o", "r", "--no-images", "--up", "any")
+        found = json.loads((self.dir / "r" / "view.json").read_text())
+        self.assertIn("quaternion", json.dumps(found))
+        self.vantage("thumb", "a.obj", "t.png", "-s", 32, "--up", "any")
+        self.vantage("render", "a.obj", "-o", "b.png", "--view", "best", "--size", 32, "--up", "any")
+        self.write("vantage.json", '{"up": "any"}')
+        self.vantage("thumb", "a.obj", "u.png", "-s", 32)
+        self.assertEqual((self.dir / "t.png").read_bytes(), (self.dir / "u.png").read_bytes())
+
+    def test_only_a_ply_takes_the_turned_points(self):
+        self.write("a.obj", obj(leaning))
+        done = self.vantage("orient", "a.obj", "--up", "any", "-o", "up.obj", exit_code=1)
+        self.assertIn("must end in .ply", done.err)
 
 
 class Sidecars(ProgramTest):

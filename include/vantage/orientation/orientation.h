@@ -46,6 +46,14 @@ struct Orientation {
   std::array<double, 4> front_odds{1.0, 0.0, 0.0, 0.0};
 };
 
+/// The rotation that takes a surface to the axes of the box that suits it best: faces along its sides,
+/// mirror planes across them, little volume. Considered are boxes with an axis across a mirror plane, across
+/// a large plane part or along a principal axis, and a side on an edge of the convex hull of the
+/// outline seen along that axis: what it can stand on. Of the 24 ways to lay such a box along the
+/// axes it is the smallest turn; identity unless another box suits the surface clearly better.
+/// \complexity O(100 (|V| + |F|)).
+Eigen::Matrix3d standing_rotation(const TriMesh& surface);
+
 /// One direction's features.
 struct OrientationFeatures {
   Vec3 up = Vec3::UnitY();       ///< The candidate for up.

@@ -50,6 +50,10 @@ struct FrameChoice {
   std::vector<std::string> notes{};  ///< One sentence for each guess, and for each doubt.
 };
 
+/// If options.up is Any: turns the model by standing_rotation(), adds a note with the quaternion, and
+/// returns the rotation; else identity. All that follows, cameras too, is of the turned model.
+Eigen::Matrix3d stand_along_axes(Model& model, const ViewOptions& options);
+
 /// options.up and options.front where they are set; else what the shape says, or the format's
 /// convention where that is unsure (glTF's up axis is a part of the format, and always holds).
 /// \throw InvalidInput if those given are along one axis.

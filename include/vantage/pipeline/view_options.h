@@ -36,13 +36,14 @@ enum class Objective {
   People,        ///< How likely a person would show this shape from there; docs/people.md.
 };
 
-/// The model's up axis.
-enum class UpAxis { X, Y, Z, MinusX, MinusY, MinusZ };
+/// The model's up axis. Any: it may be off the axes; stand_along_axes() turns the model, then it is sought.
+enum class UpAxis { X, Y, Z, MinusX, MinusY, MinusZ, Any };
 
-/// Unit vector of an axis.
+/// Unit vector of an axis. \pre it is not Any.
 Vec3 up_vector(UpAxis axis);
 /// Names of UpAxis, and of none.
-inline constexpr const char* kUpWords = "x|y|z|-x|-y|-z|auto";
+inline constexpr const char* kUpWords = "x|y|z|-x|-y|-z|any|auto";
+inline constexpr const char* kFrontWords = "x|y|z|-x|-y|-z|auto";  ///< The same of a front.
 /// "x", "-y", …
 std::string_view up_name(UpAxis axis);
 /// The axis a format implies when nothing is said: z for STL and 3MF, y otherwise.
@@ -171,8 +172,9 @@ inline constexpr auto kViewFields = std::tuple{
           "vertical field of view of the scoring camera", "degrees"},
     Choice{"up", &ViewOptions::up, kUpWords,
            "up axis of the model; auto: what its shape says, or if that is unsure its format's: z "
-           "for STL and 3MF, y otherwise"},
-    Choice{"front", &ViewOptions::front, kUpWords,
+           "for STL and 3MF, y otherwise; any: it may also be off the axes: the model is turned "
+           "first"},
+    Choice{"front", &ViewOptions::front, kFrontWords,
            "axis that points from the model to a viewer in front; auto: what its shape says, or if "
            "that is unsure z, where z is up -y"},
     Group{"search", "Search"},
