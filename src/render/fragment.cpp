@@ -2,6 +2,7 @@
 #include "render/fragment.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace vantage {
@@ -17,6 +18,8 @@ constexpr float kAlikeColour = 0.12F;
 /// as the tent of sample_pattern(), whose variance is 0.75² / 6.
 constexpr float kBesideShare = 0.047F;
 
+constexpr std::array<std::array<int, 2>, 4> kBeside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+
 /// Weighted mean over 3 × 3 pixels, without those that are not there.
 template <class ValueAt>
 Vec3f mixed(const FragmentRows& rows, int x, int y, const ValueAt& value_at) {
@@ -24,7 +27,7 @@ Vec3f mixed(const FragmentRows& rows, int x, int y, const ValueAt& value_at) {
   float weights = 0.0F;
   for (int j = y - 1; j <= y + 1; ++j) {
     for (int i = x - 1; i <= x + 1; ++i) {
-      if (rows.has(i, j)) {
+      if (rows.has(i, j) && rows.at(i, j).hit) {
         const float weight = (i == x ? 1.0F - 2.0F * kBesideShare : kBesideShare) *
                              (j == y ? 1.0F - 2.0F * kBesideShare : kBesideShare);
         sum += weight * value_at(i, j);
@@ -40,21 +43,23 @@ Vec3f mixed(const FragmentRows& rows, int x, int y, const ValueAt& value_at) {
 SampleNeed FragmentRows::need(int x, int y, float pixel) const {
   const Fragment& own = at(x, y);
   SampleNeed need = own.line || own.breaks ? SampleNeed::All : SampleNeed::One;
-  for (int j = y - 1; j <= y + 1; ++j) {
-    for (int i = x - 1; i <= x + 1 && need != SampleNeed::All; ++i) {
-      if (!has(i, j)) {
-        continue;
-      }
-      const Fragment& other = at(i, j);
-      if (other.line || other.breaks || other.hit != own.hit) {
-        need = SampleNeed::All;
-      } else if (own.hit) {
-        const float off = own.place.normal.dot(other.place.position - own.place.position);
-        const bool is_bent = own.place.normal.dot(other.place.normal) < kOnePatch;
-        need = std::abs(off) > kNeighbourPx * pixel ? SampleNeed::All
-               : is_bent                            ? SampleNeed::Few
-                                                    : need;
-      }
+  // Breaks are found at a pixel's lower right corner: those above and to the left share one with it.
+  if (has(x - 1, y - 1) && at(x - 1, y - 1).breaks) {
+    need = SampleNeed::All;
+  }
+  for (const auto& [right, down] : kBeside) {
+    if (need == SampleNeed::All || !has(x + right, y + down)) {
+      continue;
+    }
+    const Fragment& other = at(x + right, y + down);
+    if (other.line || other.breaks || other.hit != own.hit) {
+      need = SampleNeed::All;
+    } else if (own.hit) {
+      const float off = own.place.normal.dot(other.place.position - own.place.position);
+      const bool is_bent = own.place.normal.dot(other.place.normal) < kOnePatch;
+      need = std::abs(off) > kNeighbourPx * pixel ? SampleNeed::All
+             : is_bent                            ? SampleNeed::Few
+                                                  : need;
     }
   }
   return need;
@@ -65,19 +70,17 @@ SampleNeed FragmentRows::need_of_coat(int x, int y, std::size_t coat, SampleNeed
   const bool is_hit = at(x, y).hit;
   const float most = kAlikeColour * (own.albedo.maxCoeff() + kDarkestColour);
   SampleNeed need = own.tube || (is_hit && !own.opaque) ? SampleNeed::Few : SampleNeed::One;
-  for (int j = y - 1; j <= y + 1; ++j) {
-    for (int i = x - 1; i <= x + 1; ++i) {
-      if (!has(i, j)) {
-        continue;
-      }
-      const CoatFragment& other = at(i, j, coat);
-      if (other.tube != own.tube) {
-        return SampleNeed::All;
-      }
-      if (is_hit && (other.opaque != own.opaque ||
-                     (own.albedo - other.albedo).cwiseAbs().maxCoeff() > most)) {
-        need = SampleNeed::Few;
-      }
+  for (const auto& [right, down] : kBeside) {
+    if (!has(x + right, y + down)) {
+      continue;
+    }
+    const CoatFragment& other = at(x + right, y + down, coat);
+    if (other.tube != own.tube) {
+      return SampleNeed::All;
+    }
+    if (is_hit &&
+        (other.opaque != own.opaque || (own.albedo - other.albedo).cwiseAbs().maxCoeff() > most)) {
+      need = SampleNeed::Few;
     }
   }
   return std::max(need, of_surface);

@@ -31,7 +31,7 @@ constexpr double kOutlineFactor = 1.5;
 constexpr double kLeastJump = 0.012;
 /// Feature lines shorter in all than this, over the scene's radius, are left out. [ours]
 constexpr double kLeastFeature = 0.06;
-/// Longest piece of a feature line, px: about two tiles, so that few rays ask about it.
+/// Longest piece of a feature line, px: about four tiles, so that few rays ask about it.
 constexpr double kPiecePx = 32.0;
 /// Most samples across a pixel of outlines: enough for 16 steps of coverage.
 constexpr int kMostOutlineSamples = 4;

@@ -28,7 +28,7 @@ struct TubeHit {
 /// Tubes are listed by picture tile, so that a ray asks only those near it.
 class Tubes {
  public:
-  static constexpr int kTilePx = 16;  ///< Side of a tile.
+  static constexpr int kTilePx = 8;  ///< Side of a tile.
 
   /// \param graph in the frame of the rays. \param radius of the tubes, > 0.
   /// \param joint_thickness radius of the balls over that of the tubes.
