@@ -14,7 +14,7 @@ import random
 import re
 
 FORMATS = ("step,stp,iges,igs,brep,fbx,dae,3ds,x,blend,lwo,lxo,ac,ms3d,md2,md3,md5mesh,mdc,mdl,hmp,iqm,b3d,ase,cob,scn,nff,smd,"
-           "xgl,zgl,irrmesh,q3o,q3s,ter,dxf,ifc,x3d,amf,ogex,sib,pmx")
+           "xgl,zgl,irrmesh,q3o,q3s,dxf,ifc,x3d,amf,ogex,sib,pmx")
 EXTREMES = (b"nan", b"-1", b"4294967295", b"1e999", b"99999999999999999999", b"0", b"")
 NUMBER = re.compile(rb"(?<![\w.])-?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 

@@ -22,7 +22,7 @@ fi
 cp /etc/resolv.conf "$tree/etc/resolv.conf"
 cp /etc/hosts "$tree/etc/hosts"
 mkdir -p "$tree/opt/trial"
-cp "$build"/packages/*.deb models/fan.ply examples/best_view.cpp tests/install/consumer/CMakeLists.txt "$tree/opt/trial/"
+cp "$build"/packages/*.deb models/fan.ply tests/data/import/stand.step examples/best_view.cpp tests/install/consumer/CMakeLists.txt "$tree/opt/trial/"
 inside() { chroot "$tree" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/opt/trial \
   DEBIAN_FRONTEND=noninteractive http_proxy="${http_proxy:-}" https_proxy="${https_proxy:-}" sh -euc "cd /opt/trial; $1"; }
 
@@ -30,6 +30,13 @@ echo "== two commands from the package to the first picture"
 inside 'apt-get update -qq && apt-get install -y -qq --no-install-recommends ./vantage_*.deb >/dev/null'
 inside 'vantage view fan.ply'
 inside 'test -s fan.vantage/best.png && test -s /usr/share/man/man1/vantage-view.1.gz'
+
+if compgen -G "$build/packages/vantage-import_*.deb" >/dev/null; then
+  echo "== CAD and game formats by the optional package"
+  inside '! vantage info stand.step 2>message && grep -q "install vantage-import" message'
+  inside 'apt-get install -y -qq --no-install-recommends ./vantage-import_*.deb >/dev/null'
+  inside 'vantage info stand.step | grep -q "pin (2)"'
+fi
 
 echo "== a program against the installed library, by CMake and by pkg-config"
 inside 'apt-get install -y -qq --no-install-recommends ./libvantage-dev_*.deb g++ cmake make pkgconf >/dev/null'

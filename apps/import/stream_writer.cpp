@@ -75,9 +75,8 @@ void StreamWriter::mesh(const StreamMesh& mesh) {
   record("mesh", 3 * sizeof(std::uint32_t) + mesh.name.size() + 2 * sizeof(std::uint64_t) +
                      bytes_of(mesh.positions) + bytes_of(mesh.colours) + bytes_of(mesh.places) +
                      bytes_of(mesh.faces));
-  number((mesh.colours.empty() ? 0U : std::uint32_t{kImportColours}) |
-         (mesh.places.empty() ? 0U : std::uint32_t{kImportPlaces}) |
-         (mesh.same_part ? std::uint32_t{kImportSamePart} : 0U));
+  number((mesh.colours.empty() ? 0U : kImportColours) | (mesh.places.empty() ? 0U : kImportPlaces) |
+         (mesh.same_part ? kImportSamePart : 0U));
   number(mesh.material);
   number(static_cast<std::uint32_t>(mesh.name.size()));
   put(mesh.name);

@@ -227,7 +227,7 @@ class StreamReader {
     const std::string part = one_line(record.take(record.number<std::uint32_t>()));
     const auto vertices = record.number<std::uint64_t>();
     const auto faces = record.number<std::uint64_t>();
-    if ((flags & ~std::uint32_t{kImportKnownFlags}) != 0) {
+    if ((flags & ~kImportKnownFlags) != 0) {
       builder_.fail("vantage-import is of another version than this program; install both anew");
     }
     if ((flags & kImportSamePart) == 0 || meshes_ == 0) {

@@ -24,8 +24,8 @@
 ///     pict  u32: 0 beside the model, 1 inside it; then the path below its folder, or the file's bytes
 ///     matl  f64 red, green, blue (linear), opacity; u32 picture (0 the first, kImportNone for none);
 ///           u32 wrap in u, in v: 0 repeat, 1 mirror, 2 clamp
-///     mesh  u32 flags (ImportMeshFlag); u32 material or kImportNone; u32 size of the name, the name;
-///           u64 vertices, u64 faces; 3 f64 a vertex; if flagged 3 f32 a vertex, its colour (sRGB, 0 to 1);
+///     mesh  u32 flags (a sum of kImportColours and the like); u32 material or kImportNone;
+///           u32 size of the name, the name; u64 vertices, u64 faces; 3 f64 a vertex; if flagged 3 f32 a vertex, its colour (sRGB, 0 to 1);
 ///           if flagged 2 f32 a vertex, its place on pictures from the bottom left corner; and for each face
 ///           u32 corners and as many u32, vertices of this mesh from 0
 ///     fail  text: why nothing can be read; the last record
@@ -45,7 +45,7 @@ struct ImportFormat {
 
 /// All of them. What the library reads itself is not among them, nor are scenes that only name other
 /// files, which the program may not open.
-inline constexpr std::array<ImportFormat, 43> kImportFormats = {{
+inline constexpr std::array<ImportFormat, 42> kImportFormats = {{
     {"step", "step", "STEP", true},
     {"stp", "step", "STEP", true},
     {"p21", "step", "STEP", true},
@@ -81,7 +81,6 @@ inline constexpr std::array<ImportFormat, 43> kImportFormats = {{
     {"irrmesh", "irrmesh", "Irrlicht", false},
     {"q3o", "q3o", "Quick3D", false},
     {"q3s", "q3o", "Quick3D", false},
-    {"ter", "ter", "Terragen", false},
     {"dxf", "dxf", "DXF", false},
     {"ifc", "ifc", "IFC", false},
     {"x3d", "x3d", "X3D", false},
@@ -104,13 +103,11 @@ inline constexpr std::size_t kImportTagSize = 4;
 inline constexpr std::uint32_t kImportNone = 0xFFFFFFFFU;
 inline constexpr std::uint32_t kImportNoUp = 6;
 
-/// What a `mesh` record has, as a sum.
-enum ImportMeshFlag : std::uint32_t {
-  kImportColours = 1,   ///< A colour for each vertex.
-  kImportPlaces = 2,    ///< A place on pictures for each vertex.
-  kImportSamePart = 4,  ///< Belongs to the part of the mesh before.
-  kImportKnownFlags = 7,
-};
+// What a `mesh` record has, as a sum.
+inline constexpr std::uint32_t kImportColours = 1;   ///< A colour for each vertex.
+inline constexpr std::uint32_t kImportPlaces = 2;    ///< A place on pictures for each vertex.
+inline constexpr std::uint32_t kImportSamePart = 4;  ///< Belongs to the part of the mesh before.
+inline constexpr std::uint32_t kImportKnownFlags = 7;
 
 /// A file to be read elsewhere.
 struct ImportRequest {

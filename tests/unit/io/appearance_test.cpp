@@ -23,7 +23,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr ReadOptions kAll{.appearance = true};
+const ReadOptions kAll{.appearance = true};
 
 std::string green_png() {
   return png_bytes(Image{1, 1, {0, 255, 0, 255}});
