@@ -150,7 +150,11 @@ std::vector<std::pair<std::string, std::string>> model_viewer_attributes(const C
 std::string camera_model_viewer(const Camera& camera, const Vec3& up, std::string_view model) {
   std::string line = "<model-viewer src=\"" + html_text(model) + '"';
   for (const auto& [name, value] : model_viewer_attributes(camera, up)) {
-    line += ' ' + name + "=\"" + value + '"';
+    for (const std::string_view part :
+         {std::string_view(" "), std::string_view(name), std::string_view("=\""),
+          std::string_view(value), std::string_view("\"")}) {
+      line += part;
+    }
   }
   return line + " camera-controls></model-viewer>\n";
 }
