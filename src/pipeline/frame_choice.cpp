@@ -82,8 +82,8 @@ Eigen::Matrix3d stand_along_axes(Model& model, const ViewOptions& options) {
 FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,
                          const ViewOptions& options) {
   const Vec3 usual_up = up_vector(default_up(model));
-  const bool is_stated = model.format == ModelFormat::Gltf || model.format == ModelFormat::Glb ||
-                         model.up_is_stated;
+  const bool is_stated =
+      model.format == ModelFormat::Gltf || model.format == ModelFormat::Glb || model.up_is_stated;
   OrientationRequest request{.usual_up = usual_up,
                              .usual_up_is_certain = is_stated && options.up != UpAxis::Any};
   if (options.up && options.up != UpAxis::Any) {
