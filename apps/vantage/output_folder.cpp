@@ -285,7 +285,7 @@ std::vector<std::string> OutputFolder::former_files() const {
     const fs::path folder = fs::path(path_) / sub;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
       const std::string own = entry.path().filename().string();
-      const std::string name = sub.empty() ? own : sub + "/" + own;
+      const std::string name = (fs::path(sub) / own).string();
       const bool is_file = fs::is_regular_file(entry.symlink_status(error));
       if (writes(name) || (ours && is_file && kind_.named(own))) {
         names.push_back(name);
