@@ -32,8 +32,8 @@ namespace {
 
 /// Farthest that a triangle may be from the surface, of the diagonal of the model's box. [ours]
 constexpr double kLinearTolerance = 0.001;
-/// Largest angle between neighbouring normals, 20 degrees. [ours]
-constexpr double kAngularTolerance_rad = 20.0 * 3.14159265358979323846 / 180.0;
+/// Largest angle between neighbouring normals, in radians: 20 degrees. [ours]
+constexpr double kAngularTolerance = 20.0 * 3.14159265358979323846 / 180.0;
 /// Surfaces are bounded by their poles at first; where the triangles turn out to fill less than this of
 /// that box, they are made anew by their own. [ours]
 constexpr double kTightEnough = 0.9;
@@ -126,7 +126,7 @@ void tessellate(const TDF_LabelSequence& roots) {
   }
   const auto mesh = [&](double diagonal) {
     BRepMesh_IncrementalMesh(all, kLinearTolerance * diagonal, /*isRelative=*/false,
-                             kAngularTolerance_rad, /*isInParallel=*/false);
+                             kAngularTolerance, /*isInParallel=*/false);
   };
   const double bound = diagonal_of(all, /*of_triangles=*/false);
   check(std::isfinite(bound) && bound > 0.0, "it holds no surface of finite size");

@@ -25,6 +25,8 @@ std::vector<Entry> all_of(EntrySource& source) {
 TEST(EntryFilter, TakesReadableFormatsInAnyCaseUnlessToldOtherwise) {
   EXPECT_TRUE(EntryFilter{}.accepts("d/A.PLY"));
   EXPECT_FALSE(EntryFilter{}.accepts("d/a.txt"));
+  EXPECT_FALSE(EntryFilter{}.accepts("d/a.step"));
+  EXPECT_TRUE(EntryFilter{.imports = true}.accepts("d/A.STEP"));
   EXPECT_TRUE((EntryFilter{.include = {"*.txt"}}.accepts("d/a.txt")));
   EXPECT_FALSE((EntryFilter{.include = {}, .exclude = {"d/*"}}.accepts("d/a.ply")));
 }
