@@ -378,13 +378,13 @@ def main():
     rows = load(given.program, given.labels, given.cache)
     lines = ["# Which direction is up, and which the front: docs/orientation.md. Written by",
              "# scripts/fit_orientation.py. tree: FEATURE LIMIT BELOW ABOVE; leaves are added up."]
-    sizes = {"up": (72, 8), "front": (38, 6)}  # trees, leaves of each
+    sizes = {"up": {"rounds": 72, "leaves": 8}, "front": {"rounds": 24, "leaves": 6, "rate": 0.25, "share": 0.4}}
     curves = {}
-    for subject, (rounds, leaves) in sizes.items():
+    for subject, size_of_model in sizes.items():
         task = Task(rows, subject == "front")
 
         def make():
-            return Boosting(rounds, leaves)
+            return Boosting(**size_of_model)
 
         scores = task.left_out_scores(make, task.folds())
         witness, threshold, _ = task.choose_rule(scores)
