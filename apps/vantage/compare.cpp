@@ -86,7 +86,7 @@ struct CompareCommand {
       return;
     }
     summarise(session, comparison, output.path());
-    for (const auto* list : {&loaded.notes, &shape.warnings}) {
+    for (const auto* list : {&std::as_const(loaded.notes), &shape.warnings}) {
       for (const std::string& warning : *list) {
         session.say("note: " + warning);
       }

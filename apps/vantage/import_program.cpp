@@ -139,13 +139,12 @@ class ImportProcess {
 
   /// Everything that it sends. \throw FormatError, Cancelled
   std::string stream(const RunContext& run) {
-    using Clock = std::chrono::steady_clock;
-    const auto deadline =
-        Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                           std::chrono::duration<double>(kWallFactor * limits_.seconds));
+    const auto deadline = std::chrono::steady_clock::now() +
+                          std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                              std::chrono::duration<double>(kWallFactor * limits_.seconds));
     while (receive()) {
       run.check();
-      if (Clock::now() > deadline) {
+      if (std::chrono::steady_clock::now() > deadline) {
         fail_for_time();
       }
       if (received_.size() > limits_.memory_bytes) {

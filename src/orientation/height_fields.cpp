@@ -16,11 +16,8 @@ namespace {
 
 // Cells along the longest side: a chair's leg is one or two of them. [ours]
 constexpr double kCells = 64.0;
-// cos of 10 degrees, and of 80.
-constexpr double kParallel = 0.985;
+// cos of 80 degrees.
 constexpr double kPerpendicular = 0.174;
-// Of a side, what its ends are.
-constexpr double kEnd = 0.1;
 // What is nearer to the border of two cells than this share of a cell belongs to both, so that a
 // mirrored surface has the mirrored field.
 constexpr double kBorder = 1e-6;

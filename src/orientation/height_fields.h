@@ -10,6 +10,11 @@
 
 namespace vantage {
 
+// cos of 10 degrees: a normal is along an axis.
+inline constexpr double kParallel = 0.985;
+// Of a side of the box, what its end is.
+inline constexpr double kEnd = 0.1;
+
 /// The lowest and the highest surface over each cell of a grid, along one axis of the box. Lengths
 /// are over the box's longest side.
 struct HeightField {

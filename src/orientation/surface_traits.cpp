@@ -10,13 +10,11 @@
 
 #include "vantage/mesh/measures.h"
 
+#include "orientation/height_fields.h"
+
 namespace vantage {
 namespace {
 
-// cos of 10 degrees.
-constexpr double kParallel = 0.985;
-// Of a side, what its end is.
-constexpr double kEnd = 0.1;
 // Parts this near to the side of the box reach it, over the longest side.
 constexpr double kReach = 0.012;
 // Vertices with so many faces and more are the middles of caps, the poles of spheres.

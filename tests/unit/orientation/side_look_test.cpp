@@ -7,21 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "support/shapes.h"
+#include "unit/orientation/table.h"
 
 namespace vantage::test {
 namespace {
-
-/// A board of 2 x 1 at height 0.8 on four legs.
-TriMesh table() {
-  TriMesh mesh;
-  mesh = together(mesh, box(2.0, 1.0, 0.1, 2), {0.0, 0.0, 0.8});
-  for (const double x : {0.0, 1.9}) {
-    for (const double y : {0.0, 0.9}) {
-      mesh = together(mesh, box(0.1, 0.1, 0.8, 1), {x, y, 0.0});
-    }
-  }
-  return mesh;
-}
 
 TEST(SideLook, OfABoxTouchesEverywhereAndShowsNoDepth) {
   const HeightFields fields(box(1.0, 2.0, 4.0, 3));

@@ -5,20 +5,10 @@
 #include "vantage/orientation/orientation.h"
 
 #include "support/shapes.h"
+#include "unit/orientation/table.h"
 
 namespace vantage::test {
 namespace {
-
-/// A board on four legs, upright in z.
-TriMesh table() {
-  TriMesh mesh = together(TriMesh{}, box(2.0, 1.0, 0.1, 2), {0.0, 0.0, 0.8});
-  for (const double x : {0.0, 1.9}) {
-    for (const double y : {0.0, 0.9}) {
-      mesh = together(mesh, box(0.1, 0.1, 0.8, 1), {x, y, 0.0});
-    }
-  }
-  return mesh;
-}
 
 TEST(StandingRotation, LeavesWhatStandsAlongTheAxes) {
   EXPECT_EQ(standing_rotation(table()), Eigen::Matrix3d::Identity());
