@@ -74,7 +74,7 @@ class Kill(ProgramTest):
         for record in records:
             if record["status"] == "done" and not record["duplicate_of"]:
                 files = sorted(p.name for p in (folder / "models" / record["folder"]).iterdir())
-                self.assertEqual(len(files), 7, files)
+                self.assertEqual(len(files), 9, files)
                 json.loads((folder / "models" / record["folder"] / "view.json").read_text())
 
     def stored(self, folder):
