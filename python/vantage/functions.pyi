@@ -121,7 +121,7 @@ def best_view(
     projection: Optional[Literal["perspective", "orthographic"]] = None,
     distance: Optional[float] = None,
     fov: Optional[float] = None,
-    up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
+    up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "any", "auto"]] = None,
     front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
     search: Optional[Literal["rapid", "exhaustive", "global", "dense", "gradient"]] = None,
     base: Optional[Literal["cube", "icosahedron"]] = None,
@@ -226,7 +226,7 @@ def vertex_map(
     projection: Optional[Literal["perspective", "orthographic"]] = None,
     distance: Optional[float] = None,
     fov: Optional[float] = None,
-    up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
+    up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "any", "auto"]] = None,
     front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
 ) -> Floats: ...
 def visible_vertices(
@@ -241,7 +241,7 @@ def visible_vertices(
     projection: Optional[Literal["perspective", "orthographic"]] = None,
     distance: Optional[float] = None,
     fov: Optional[float] = None,
-    up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
+    up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "any", "auto"]] = None,
     front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
 ) -> Flags: ...
 def score(
@@ -282,7 +282,7 @@ def score(
     projection: Optional[Literal["perspective", "orthographic"]] = None,
     distance: Optional[float] = None,
     fov: Optional[float] = None,
-    up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
+    up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "any", "auto"]] = None,
     front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
 ) -> Any: ...
 def render(
@@ -320,7 +320,7 @@ def render(
     projection: Optional[Literal["perspective", "orthographic"]] = None,
     distance: Optional[float] = None,
     fov: Optional[float] = None,
-    up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
+    up: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "any", "auto"]] = None,
     front: Optional[Literal["x", "y", "z", "-x", "-y", "-z", "auto"]] = None,
     search: Optional[Literal["rapid", "exhaustive", "global", "dense", "gradient"]] = None,
     base: Optional[Literal["cube", "icosahedron"]] = None,

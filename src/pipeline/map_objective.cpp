@@ -81,7 +81,8 @@ ViewObjective MapObjective::objective(const Preference& preference) const {
       return estimates(directions);
     };
   }
-  if (is_worthwhile(prepared_->proxy)) {
+  // By area the score is an integral over faces, which the proxy's vertices are too few to follow.
+  if (!faces_ && is_worthwhile(prepared_->proxy)) {
     objective.proxy = [this](const std::vector<Vec3>& directions) {
       return proxy_scorer_.score_all(directions, quiet_);
     };

@@ -53,8 +53,8 @@ class SearchTarget {
 
   /// Of the global search's rings.
   [[nodiscard]] double finest_deg() const {
-    return goal_ != Goal::Worst && objective_->preference ? objective_->finest_preferred_deg
-                                                          : objective_->finest_deg;
+    return goal_ == Goal::Best && objective_->preference ? objective_->finest_preferred_deg
+                                                         : objective_->finest_deg;
   }
 
   [[nodiscard]] const ViewObjective& objective() const { return *objective_; }

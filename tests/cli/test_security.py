@@ -237,9 +237,11 @@ class Names(ProgramTest):
     def test_report_and_terminal_after_view(self):
         done = self.vantage("view", self.model, "-o", "out", "--size", "64x48", *FAST, "-v")
         self.assert_harmless(done)
-        pages = list((self.dir / "out").glob("*.html"))
-        self.assertEqual([p.name for p in pages], ["report.html"])
-        self.assert_no_markup(pages[0])
+        pages = sorted((self.dir / "out").glob("*.html"))
+        cameras = ["camera-best.model-viewer.html", "camera-worst.model-viewer.html"]
+        self.assertEqual([p.name for p in pages], [*cameras, "report.html"])
+        for page in pages:
+            self.assert_no_markup(page)
         json.loads((self.dir / "out/view.json").read_text())
 
     def test_terminal_and_json_of_info(self):
@@ -280,7 +282,8 @@ class Writing(ProgramTest):
         elif path.suffix in (".json", ".gltf"):
             json.loads(data)
         elif path.suffix == ".html":
-            self.assertTrue(data.rstrip().endswith(b"</html>"), path)
+            ending = b"</model-viewer>" if ".model-viewer." in path.name else b"</html>"
+            self.assertTrue(data.rstrip().endswith(ending), path)
         elif path.suffix == ".ply":
             self.assertIn(b"end_header\n", data)
         self.assertGreater(len(data), 0, path)
