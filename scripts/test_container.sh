@@ -7,12 +7,12 @@ image=$(realpath "$1")
 models=$(realpath "$(dirname "$0")/../models")
 place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
-mkdir "$place/oci" "$place/work"
+mkdir "$place/oci" "$place/folder"
 tar -C "$place/oci" -xf "$image"
 version=$(sed -n 's/.*"org.opencontainers.image.ref.name":"\([^"]*\)".*/\1/p' "$place/oci/index.json")
 umoci unpack --image "$place/oci:$version" "$place/bundle"
-cp "$models/fan.ply" "$place/work/"
-chmod 0777 "$place/work"
+cp "$models/fan.ply" "$place/folder/"
+chmod 0777 "$place/folder"
 
 python3 - "$place" <<'PYTHON'
 import json, pathlib, sys
@@ -25,7 +25,7 @@ assert process["args"] == ["/usr/bin/vantage"], process["args"]
 process["args"] += ["view", "fan.ply", "-o", "out", "-q"]
 process["terminal"] = False
 config["root"]["readonly"] = True
-config["mounts"].append({"destination": "/work", "type": "none", "source": str(place / "work"),
+config["mounts"].append({"destination": "/work", "type": "none", "source": str(place / "folder"),
                          "options": ["rbind", "rw"]})
 file.write_text(json.dumps(config))
 PYTHON
@@ -39,13 +39,13 @@ for runtime in runc crun; do  # Debian's crun does not run where both versions o
   fi
 done
 [[ -n $by ]] || { echo "test_container.sh: neither runc nor crun runs it: $(tail -1 "$place/said")" >&2; exit 1; }
-test -s "$place/work/out/best.png"
-test -s "$place/work/out/view.json"
-[[ $(stat -c %u "$place/work/out/view.json") == 65532 ]] || { echo "test_container.sh: not its own user" >&2; exit 1; }
+test -s "$place/folder/out/best.png"
+test -s "$place/folder/out/view.json"
+[[ $(stat -c %u "$place/folder/out/view.json") == 65532 ]] || { echo "test_container.sh: not its own user" >&2; exit 1; }
 if [[ -n ${VANTAGE:-} ]]; then
   "$VANTAGE" view "$models/fan.ply" -o "$place/here" -q
-  cmp "$place/here/view.json" "$place/work/out/view.json"
-  cmp "$place/here/best.png" "$place/work/out/best.png"
+  cmp "$place/here/view.json" "$place/folder/out/view.json"
+  cmp "$place/here/best.png" "$place/folder/out/best.png"
 fi
 size=$(du -sb "$place/bundle/rootfs" | cut -f1)
 ((size <= 120000000)) || { echo "test_container.sh: $size bytes unpacked" >&2; exit 1; }
