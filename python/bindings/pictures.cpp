@@ -122,7 +122,7 @@ py::array render_picture(const py::object& model, const py::object& F, const py:
   const bool needs_map = from.best || picture != Picture::Plain;
   Image image = released({progress, threads}, [&](const RunContext& run) {
     const auto analysis =
-        subject.analysed(settings, needs_map ? with_map : surface_only, run.part(0.0, 0.5));
+        subject.analysed(settings, needs_map ? with_map : surface_only, run.part(0.0, 0.5), true);
     const ShapeAnalysis& shape = analysis->shape;
     const Camera taken = camera_from(from, *analysis, settings.view, run.part(0.5, 0.9));
     RenderOptions look = settings.look;

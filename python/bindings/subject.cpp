@@ -45,7 +45,7 @@ AnalysisHandle analyse(const py::object& model, const py::object& F, const py::d
   const Subject subject(model, F);
   const Settings settings = subject.settings(options);
   return {released({progress, threads}, [&](const RunContext& run) {
-    return subject.analysed(settings, with_map, run);
+    return subject.analysed(settings, with_map, run, true);
   })};
 }
 
@@ -131,16 +131,15 @@ Settings Subject::settings(const py::dict& keywords) const {
 }
 
 std::shared_ptr<const Analysis> Subject::analysed(const Settings& settings, const Analyser& analyse,
-                                                  const RunContext& run) const {
+                                                  const RunContext& run, bool is_drawn) const {
   if (analysis_) {
     return analysis_;
   }
   auto made = std::make_shared<Analysis>();
-  made->model =
-      model_
-          ? model_
-          : std::make_shared<const Model>(load_model(
-                path_, run.part(0.0, 0.05), {.appearance = settings.look.style == Style::Asset}));
+  made->model = model_ ? model_
+                       : std::make_shared<const Model>(load_model(
+                             path_, run.part(0.0, 0.05),
+                             {.appearance = is_drawn && settings.look.style == Style::Asset}));
   made->shape = analyse(*made->model, settings.view, run.part(0.05, 1.0));
   made->settings = settings;
   return made;

@@ -50,9 +50,11 @@ class Subject {
   [[nodiscard]] Settings settings(const py::dict& keywords) const;
 
   /// The analysis, made now unless there was one. Does not touch Python. \throw Cancelled
+  /// \param is_drawn whether materials and textures are read, if the style shows them.
   [[nodiscard]] std::shared_ptr<const Analysis> analysed(const Settings& settings,
                                                          const Analyser& analyse,
-                                                         const RunContext& run) const;
+                                                         const RunContext& run,
+                                                         bool is_drawn = false) const;
 
  private:
   std::string path_{};

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <span>
-#include <vector>
+
+#include <Eigen/Core>
 
 #include "vantage/mesh/tri_mesh.h"
 #include "vantage/spatial/mirror_symmetry.h"
@@ -20,7 +21,6 @@ ShapeProportions proportions_of(const TriMesh& surface, double radius,
 /// 1964) over recorded choices.
 class ViewHabit {
  public:
-  /// \param table must outlive this.
   ViewHabit(const ChoiceTable& table, const ShapeProportions& shape);
 
   /// Mean angle in radians from a direction to the views recorded, weighted by how like their
@@ -29,8 +29,12 @@ class ViewHabit {
   [[nodiscard]] double distance(const Vec3& direction) const;
 
  private:
-  const ChoiceTable* table_;
-  std::vector<double> weights_;  // of each choice; they add up to 1
+  // Of each choice:
+  Eigen::ArrayXd side_;
+  Eigen::ArrayXd up_;
+  Eigen::ArrayXd front_;
+  Eigen::Array<bool, Eigen::Dynamic, 1> mirrors_front_;
+  Eigen::ArrayXd weights_;  // they add up to 1
 };
 
 }  // namespace vantage

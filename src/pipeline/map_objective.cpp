@@ -20,27 +20,20 @@ std::vector<double> vertex_shares(const ShapeAnalysis& shape, Weight weight) {
   return shares;
 }
 
-// A surface that cannot be decimated to this share of its vertices gains nothing by a coarse copy,
-// and if it is large, its own is looked at for some vertices: so many, that stand for those after
-// them. [ours]
-constexpr std::size_t kWorthwhile = 2;
+// A large surface without a coarse copy is looked at for so many of its vertices, that stand for
+// those after them. [ours]
 constexpr std::size_t kLarge = 16'000;
 constexpr std::size_t kSampled = 1000;
 
-bool is_worthwhile(const CoarseSurface& coarse) {
-  const std::size_t vertices = coarse.of_vertex.size();
-  return vertices > 0 && kWorthwhile * coarse.mesh.positions.size() <= vertices;
-}
-
-bool is_sampled(const CoarseSurface& coarse) {
-  return !is_worthwhile(coarse) && coarse.of_vertex.size() >= kLarge;
+bool is_sampled(const ViewPreparation& prepared) {
+  return !prepared.is_coarse() && prepared.coarse.of_vertex.size() >= kLarge;
 }
 
 /// What the vertices that are looked at for an estimate add to it.
-std::vector<double> estimated_shares(const CoarseSurface& coarse,
+std::vector<double> estimated_shares(const ViewPreparation& prepared,
                                      const std::vector<double>& shares) {
-  if (!is_sampled(coarse)) {
-    return coarse.sums(shares);
+  if (!is_sampled(prepared)) {
+    return prepared.coarse.sums(shares);
   }
   std::vector<double> sampled(shares.size(), 0.0);
   const std::size_t step = shares.size() / kSampled;
@@ -62,27 +55,49 @@ MapObjective::MapObjective(const ShapeAnalysis& shape, const ViewOptions& option
                                   scoring_camera(shape, options))),
       proxy_shares_(prepared_->proxy.sums(vertex_shares(shape, options.weight))),
       proxy_scorer_(prepared_->proxy_visibility, proxy_shares_, scoring_camera(shape, options)),
-      coarse_shares_(estimated_shares(prepared_->coarse, vertex_shares(shape, options.weight))),
-      coarse_scorer_(
-          is_sampled(prepared_->coarse) ? prepared_->visibility : prepared_->coarse_visibility,
-          coarse_shares_, scoring_camera(shape, options)) {}
+      coarse_shares_(estimated_shares(*prepared_, vertex_shares(shape, options.weight))),
+      coarse_scorer_(is_sampled(*prepared_) ? prepared_->visibility : prepared_->coarse_visibility,
+                     coarse_shares_, scoring_camera(shape, options)) {}
+
+std::vector<double> MapObjective::estimates(const std::vector<Vec3>& directions) const {
+  const std::optional<SurveySight>& survey = prepared_->survey;
+  if (!survey || !survey->is_of(coarse_scorer_.camera())) {
+    return coarse_scorer_.score_all(directions, quiet_);
+  }
+  std::vector<double> scores(directions.size(), 0.0);
+  std::vector<Vec3> others;
+  std::vector<std::size_t> index;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    if (const auto score = survey->score(directions[i], coarse_shares_)) {
+      scores[i] = *score;
+    } else {
+      others.push_back(directions[i]);
+      index.push_back(i);
+    }
+  }
+  const std::vector<double> of_others = coarse_scorer_.score_all(others, quiet_);
+  for (std::size_t k = 0; k < index.size(); ++k) {
+    scores[index[k]] = of_others[k];
+  }
+  return scores;
+}
 
 ViewObjective MapObjective::objective(const Preference& preference) const {
   ViewObjective objective;
   objective.total = scorer_.total();
-  if (is_sampled(prepared_->coarse)) {
+  if (is_sampled(*prepared_)) {
     objective.survey_level = 3;  // a look costs ten times as much as at surfaces of one skin
   }
   objective.score = [this](const std::vector<Vec3>& directions) {
     return scorer_.score_all(directions, quiet_);
   };
-  if (is_worthwhile(prepared_->coarse) || is_sampled(prepared_->coarse) || faces_) {
+  if (prepared_->is_coarse() || is_sampled(*prepared_) || faces_) {
     objective.surrogate = [this](const std::vector<Vec3>& directions) {
       return estimates(directions);
     };
   }
   // By area the score is an integral over faces, which the proxy's vertices are too few to follow.
-  if (!faces_ && is_worthwhile(prepared_->proxy)) {
+  if (!faces_ && prepared_->has_proxy()) {
     objective.proxy = [this](const std::vector<Vec3>& directions) {
       return proxy_scorer_.score_all(directions, quiet_);
     };

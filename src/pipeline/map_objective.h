@@ -27,9 +27,7 @@ class MapObjective {
   [[nodiscard]] const VertexVisibility& visibility() const { return prepared_->visibility; }
 
   /// Estimates of the scores, by vertices. \throw Cancelled
-  [[nodiscard]] std::vector<double> estimates(const std::vector<Vec3>& directions) const {
-    return coarse_scorer_.score_all(directions, quiet_);
-  }
+  [[nodiscard]] std::vector<double> estimates(const std::vector<Vec3>& directions) const;
 
   /// Refers to this and to `preference`.
   [[nodiscard]] ViewObjective objective(const Preference& preference) const;

@@ -76,6 +76,13 @@ ViewObjective MeasureObjective::objective() const {
       }
       return estimates;
     };
+    objective.proxy = [this](const std::vector<Vec3>& directions) {
+      std::vector<double> estimates = measurer_->estimates_of(measure_, directions, quiet_);
+      for (double& estimate : estimates) {
+        estimate = score(estimate);
+      }
+      return estimates;
+    };
   }
   objective.total = highest_;
   objective.survey_level = 3;  // that of the set, whose values are known

@@ -8,6 +8,7 @@
 
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/weld.h"
+#include "vantage/pipeline/find_views.h"
 #include "vantage/pipeline/measured_shape.h"
 
 #include "core/parallel.h"
@@ -61,6 +62,13 @@ void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext&
   }
 }
 
+/// The camera of the survey that a search will make of the coarse copy.
+std::optional<ScoringCamera> surveyed(const ShapeAnalysis& shape, const ViewOptions& options) {
+  const bool is_surveyed =
+      sums_a_map(options.method) && options.search.strategy == SearchStrategy::Global;
+  return is_surveyed ? std::optional(scoring_camera(shape, options)) : std::nullopt;
+}
+
 ShapeAnalysis analyse_surface(ShapeAnalysis shape, const ViewOptions& options,
                               const RunContext& run, StageSeconds* seconds, AnalysisUse use) {
   auto mark = std::chrono::steady_clock::now();
@@ -78,7 +86,7 @@ ShapeAnalysis analyse_surface(ShapeAnalysis shape, const ViewOptions& options,
       },
       [&] {
         if (use == AnalysisUse::Views) {
-          views = std::make_shared<ViewPreparation>(shape, run);
+          views = std::make_shared<ViewPreparation>(shape, run, surveyed(shape, options));
         }
       });
   shape.views = std::move(views);

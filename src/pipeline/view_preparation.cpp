@@ -13,6 +13,8 @@ constexpr std::size_t kEyes = 300;
 constexpr std::size_t kCoarseEyes = 2562;
 // Vertices of the coarse copy; fewer lose fingers and tails. [ours, docs/search.md]
 constexpr std::size_t kCoarseVertices = 1000;
+// A surface that cannot be decimated to this share of its vertices gains nothing by a copy. [ours]
+constexpr std::size_t kWorthwhile = 2;
 // Vertices of the proxy, and of surfaces that have one. [ours, docs/search.md]
 constexpr std::size_t kProxyVertices = 8000;
 constexpr std::size_t kLargeSurface = 2 * kProxyVertices;
@@ -41,9 +43,15 @@ CoarseSurface coarse_of(const ShapeAnalysis& shape, const CoarseSurface& proxy,
   return coarse;
 }
 
+bool is_worthwhile(const CoarseSurface& copy) {
+  const std::size_t vertices = copy.of_vertex.size();
+  return vertices > 0 && kWorthwhile * copy.mesh.positions.size() <= vertices;
+}
+
 }  // namespace
 
-ViewPreparation::ViewPreparation(const ShapeAnalysis& shape, const RunContext& run)
+ViewPreparation::ViewPreparation(const ShapeAnalysis& shape, const RunContext& run,
+                                 const std::optional<ScoringCamera>& surveyed)
     : visibility(shape.surface, shape.sides, kEyes),
       planes((run.check(), mirror_planes(shape.surface))),
       evidence((run.check(), shape.surface)),
@@ -51,7 +59,19 @@ ViewPreparation::ViewPreparation(const ShapeAnalysis& shape, const RunContext& r
       proxy((run.check(), proxy_of(shape, run))),
       proxy_visibility(proxy.mesh, proxy.sides, kEyes),
       coarse((run.check(), coarse_of(shape, proxy, run))),
-      coarse_visibility(coarse.mesh, coarse.sides, kCoarseEyes) {}
+      coarse_visibility(coarse.mesh, coarse.sides, kCoarseEyes) {
+  if (surveyed && is_coarse()) {
+    survey.emplace(coarse_visibility, *surveyed, run);
+  }
+}
+
+bool ViewPreparation::is_coarse() const {
+  return is_worthwhile(coarse);
+}
+
+bool ViewPreparation::has_proxy() const {
+  return is_worthwhile(proxy);
+}
 
 std::shared_ptr<const ViewPreparation> preparation_of(const ShapeAnalysis& shape) {
   return shape.views ? shape.views : std::make_shared<ViewPreparation>(shape);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "vantage/orientation/orientation.h"
@@ -11,6 +12,7 @@
 #include "vantage/visibility/vertex_visibility.h"
 
 #include "pipeline/coarse_surface.h"
+#include "pipeline/survey_sight.h"
 
 /// \file
 /// What views of a surface are looked for with, whatever its map: made beside the contraction.
@@ -19,8 +21,10 @@ namespace vantage {
 
 /// Immutable; copies of an analysis share it.
 struct ViewPreparation {
-  /// Of the shape's surface; its history, skeleton and map are not looked at. \throw Cancelled
-  explicit ViewPreparation(const ShapeAnalysis& shape, const RunContext& run = {});
+  /// Of the shape's surface; its history, skeleton and map are not looked at.
+  /// \param surveyed the camera of a survey of the coarse copy, if one will be made. \throw Cancelled
+  explicit ViewPreparation(const ShapeAnalysis& shape, const RunContext& run = {},
+                           const std::optional<ScoringCamera>& surveyed = {});
 
   VertexVisibility visibility;
   std::vector<MirrorPlane> planes;   ///< mirror_planes().
@@ -31,6 +35,13 @@ struct ViewPreparation {
   VertexVisibility proxy_visibility;   ///< Of its mesh.
   CoarseSurface coarse;                ///< What estimates of scores look at.
   VertexVisibility coarse_visibility;  ///< Of its mesh.
+  std::optional<SurveySight> survey;   ///< Of the coarse copy.
+
+  /// Whether the coarse copy is so much smaller than the surface that estimates on it gain.
+  [[nodiscard]] bool is_coarse() const;
+
+  /// Whether there is a proxy, and it is so much smaller too.
+  [[nodiscard]] bool has_proxy() const;
 };
 
 /// That of the shape, or one made now.

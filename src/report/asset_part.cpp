@@ -87,7 +87,7 @@ Json material_json(const Material& material) {
   return json;
 }
 
-Json texture_json(const Texture& texture) {
+Json texture_json(const Texture& texture, const RunContext& run) {
   constexpr std::array kWraps{"repeat", "mirror", "clamp"};
   const int longest = std::max(texture.image.width, texture.image.height);
   const double share = std::min(1.0, static_cast<double>(kTextureSide) / longest);
@@ -95,7 +95,7 @@ Json texture_json(const Texture& texture) {
     return std::max(1, static_cast<int>(std::lround(share * size)));
   };
   const Image image = share < 1.0 ? smaller_picture(texture.image, side(texture.image.width),
-                                                    side(texture.image.height))
+                                                    side(texture.image.height), run)
                                   : texture.image;
   const bool is_small = texture.nearest || image.rgba.size() <= 4 * kSmallTexture;
   return {{"picture", is_small ? "data:image/png;base64," + base64(png_bytes(image))
@@ -127,7 +127,8 @@ bool has_look(const Model& model) {
          (!model.vertex_colours.empty() || !model.appearance.materials.empty());
 }
 
-Json asset_part(const Model& model, std::size_t max_faces, const PageFrame& frame) {
+Json asset_part(const Model& model, std::size_t max_faces, const PageFrame& frame,
+                const RunContext& run) {
   if (!has_look(model) || model.mesh.triangles.size() > max_faces) {
     return nullptr;
   }
@@ -157,7 +158,7 @@ Json asset_part(const Model& model, std::size_t max_faces, const PageFrame& fram
                {"groups", std::move(groups)},
                {"textures", Json::array()}};
   for (const Texture& texture : appearance.textures) {
-    part["textures"].push_back(texture_json(texture));
+    part["textures"].push_back(texture_json(texture, run));
   }
   if (!appearance.textures.empty()) {
     part["uvs"] = base64_of(rows.uvs);

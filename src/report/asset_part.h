@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "vantage/core/run_context.h"
 #include "vantage/io/model.h"
 
 #include "report/page_data.h"
@@ -19,7 +20,7 @@ bool has_look(const Model& model);
 
 /// The file's own faces by material, with its colours and textures; null if it says nothing of them
 /// or has more than `max_faces`. viewer/README.md describes it.
-nlohmann::ordered_json asset_part(const Model& model, std::size_t max_faces,
-                                  const PageFrame& frame);
+nlohmann::ordered_json asset_part(const Model& model, std::size_t max_faces, const PageFrame& frame,
+                                  const RunContext& run);
 
 }  // namespace vantage

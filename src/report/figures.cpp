@@ -19,6 +19,7 @@
 #include "vantage/report/pictures.h"
 
 #include "pipeline/view_preparation.h"
+#include "report/legend.h"
 #include "report/panels.h"
 #include "report/search_figure.h"
 #include "report/sphere_figure.h"
@@ -87,17 +88,22 @@ class Panels {
     for (std::size_t v = 0; level > 0 && v < normals_.size(); ++v) {
       mesh.positions[v] += kThickening * shape_->sphere.diameter * normals_[v];
     }
-    return render(mesh, *camera_, colours(field), {}, look_, run_);
+    return coloured(mesh, field);
   }
 
   /// The surface in the colours of a field.
   [[nodiscard]] Image field(std::span<const double> values) const {
-    return render(shape_->surface, *camera_, colours(values), {}, look_, run_);
+    return coloured(shape_->surface, values);
   }
 
  private:
-  static std::vector<Rgb8> colours(std::span<const double> field) {
-    return field.empty() ? std::vector<Rgb8>{} : colour_map(field);
+  [[nodiscard]] Image coloured(const TriMesh& mesh, std::span<const double> field) const {
+    if (field.empty()) {
+      return render(mesh, *camera_, {}, {}, look_, run_);
+    }
+    Image picture = render(mesh, *camera_, colour_map(field), {}, look_, run_);
+    draw_legend(picture);
+    return picture;
   }
 
   const ShapeAnalysis* shape_;

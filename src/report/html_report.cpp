@@ -17,6 +17,7 @@
 #include "vantage/report/view_report.h"
 #include "vantage/spatial/directions.h"
 
+#include "core/parallel.h"
 #include "io/base64.h"
 #include "pipeline/map_objective.h"
 #include "pipeline/preference.h"
@@ -36,6 +37,8 @@ constexpr std::size_t kDisplayFaces = 300000;
 constexpr std::size_t kHistoryVertices = 30000;
 /// The heat map's set: icosahedron level 3, 642 directions.
 constexpr int kSphereLevel = 3;
+/// Directions of it whose preference one task works out.
+constexpr std::size_t kPreferenceGrain = 32;
 /// Most views of a set in the filmstrip: each adds a picture of about 40 KB. [ours]
 constexpr std::size_t kMostStripViews = 24;
 /// Cameras of the tour stand so far apart, degrees; between them the page mixes. [ours]
@@ -222,15 +225,20 @@ ScoreBatch estimated_scores(const ShapeAnalysis& shape, const ViewReport& report
 /// What the best view maximises, by estimated scores; empty if that is the score.
 std::vector<double> objectives(const ShapeAnalysis& shape, const ViewReport& report,
                                const ViewOptions& options, const std::vector<Vec3>& directions,
-                               const std::vector<double>& scores) {
+                               const std::vector<double>& scores, const RunContext& run) {
   FrameChoice choice;
   choice.frame = {report.up, report.front};
   choice.orientation = report.orientation;
   const Preference preference(shape, choice, options, report.total);
-  std::vector<double> values;
-  for (std::size_t i = 0; i < directions.size() && !preference.is_score(); ++i) {
-    values.push_back(preference(directions[i], scores[i]));
+  if (preference.is_score()) {
+    return {};
   }
+  std::vector<double> values(directions.size());
+  parallel_for(run, values.size(), kPreferenceGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      values[i] = preference(directions[i], scores[i]);
+    }
+  });
   return values;
 }
 
@@ -261,12 +269,12 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, ShapePic
                {"colours", colour_table()}};
   run.advance("report", 0.0);
   add_surfaces(data, shape, frame, quiet);
-  data["asset"] = asset_part(model, kDisplayFaces, frame);
+  data["asset"] = asset_part(model, kDisplayFaces, frame, quiet);
   data["skeleton"] = skeleton_part(shape.skeleton.graph, frame);
   run.advance("report", 0.2);
   const std::vector<double> scores = score(set.directions);
   data["sphere"] =
-      sphere_part(set, scores, objectives(shape, report, options, set.directions, scores));
+      sphere_part(set, scores, objectives(shape, report, options, set.directions, scores, quiet));
   run.advance("report", 0.7);
   data["rapid"] = {{"best", rapid_part(score, report.total, Goal::Best, quiet)},
                    {"worst", rapid_part(score, report.total, Goal::Worst, quiet)}};

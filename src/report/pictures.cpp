@@ -154,7 +154,7 @@ Image ShapePictures::take_small(const Camera& camera, int width, int height,
     const Image& image = taken->second;
     if (is_same(taken->first, camera) && image.width >= width && image.height >= height &&
         std::int64_t{image.width} * height == std::int64_t{image.height} * width) {
-      return smaller_picture(image, width, height);
+      return smaller_picture(image, width, height, run);
     }
   }
   ViewOptions small = options;

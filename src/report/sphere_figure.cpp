@@ -17,6 +17,7 @@
 #include "vantage/spatial/directions.h"
 
 #include "pipeline/view_preparation.h"
+#include "report/legend.h"
 
 namespace vantage {
 namespace {
@@ -89,7 +90,9 @@ Image sphere_panel(const ShapeAnalysis& shape, std::span<const double> map,
   const Camera framed =
       frame_points(nodes, eye, shape.sphere.centre, up_vector(up),
                    static_cast<double>(look.width) / look.height, options.margin_percent / 100.0);
-  return render(mesh, framed, colours, {}, look, run);
+  Image picture = render(mesh, framed, colours, {}, look, run);
+  draw_legend(picture);
+  return picture;
 }
 
 }  // namespace vantage

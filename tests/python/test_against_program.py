@@ -131,6 +131,20 @@ def test_pictures_are_those_of_the_program(program, tmp_path, cat, models, flags
     assert np.array_equal(vantage.render(cat, size=(40, 30), quality="draft", **keywords), written)
 
 
+def test_pictures_of_files_are_in_their_own_materials_as_the_programs(program, tmp_path):
+    (tmp_path / "flag.obj").write_text("mtllib flag.mtl\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nusemtl red\nf 1 2 3 4\n")
+    (tmp_path / "flag.mtl").write_text("newmtl red\nKd 0.9 0.05 0.05\n")
+    program("render", tmp_path / "flag.obj", "-o", "flag.png", "--size", "40x30", "--quality", "draft", "--direction", "0,0,1")
+    width, height, rows = read_png((tmp_path / "flag.png").read_bytes())
+    written = np.frombuffer(b"".join(rows), np.uint8).reshape(height, width, 4)
+    drawn = {style: vantage.render(tmp_path / "flag.obj", size=(40, 30), quality="draft", direction=(0, 0, 1), **style_of)
+             for style, style_of in (("none", {}), ("clay", {"style": "clay"}))}
+    assert np.array_equal(drawn["none"], written)
+    red, green, _, alpha = drawn["none"][15, 20]
+    assert alpha == 255 and red > 2 * int(green)
+    assert not np.array_equal(drawn["clay"], written)
+
+
 def test_measures_are_those_that_the_program_lists(program):
     listed = json.loads(program("measures", "--json"))
     rows = listed if isinstance(listed, list) else listed["measures"]

@@ -29,7 +29,7 @@ COMMANDS = {  # what offers which groups of the table
     "render": (vantage.render, {"method", "map", "camera", "search", "size", "look"}),
 }
 TEXTS = {"focus": "0", "epsilon": "2%", "prior": "none", "size": (40, 30), "background": "#102030"}
-OF_PROGRAM = {"size": "800x600", "style": "asset"}  # other defaults; arrays, which Python mostly has, are of no material
+OF_PROGRAM = {"size": "800x600"}  # another default
 WITH = {"starts": {"search": "gradient"}, "seed": {"search": "gradient"}, "refine": {"views": 2},
         "min_separation": {"views": 2}, "information": {"select": "feixas", "views": 2}, "select": {"views": 2}}
 

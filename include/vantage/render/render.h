@@ -52,7 +52,7 @@ struct RenderOptions {
   /// The background turns to this colour towards the bottom. Looked at if `background` is set.
   std::optional<Rgb8> background_bottom{};
   Rgb8 colour{{196, 192, 186}};  ///< Of the surface where no vertex colours are given.
-  Style style = Style::Clay;     ///< How it looks.
+  Style style = Style::Asset;    ///< How it looks.
   double crease_deg = 40.0;  ///< Edges that bend by more are sharp, softly over ± 10°; 0: facets.
   bool ground = false;       ///< A soft shadow on a level ground that touches the model.
   Vec3 up = Vec3::UnitY();   ///< Of the ground.

@@ -122,11 +122,11 @@ struct ViewObjective {
 };
 
 /// Searches the sphere for the view of largest preference or of least score. Ties go to the lowest
-/// index of the set, then to what was found first. 	hrow InvalidInput, Cancelled
+/// index of the set, then to what was found first. \throw InvalidInput, Cancelled
 FoundView search_view(const ViewObjective& objective, Goal goal, const SearchOptions& options = {},
                       const RunContext& run = {});
 
-/// All of these searches, sharing what they score. 	hrow InvalidInput, Cancelled
+/// All of these searches, sharing what they score. \throw InvalidInput, Cancelled
 FoundViews search_best_and_worst(const ViewObjective& objective, const SearchOptions& options = {},
                                  const RunContext& run = {});
 

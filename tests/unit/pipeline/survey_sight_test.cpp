@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/survey_sight.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "vantage/spatial/directions.h"
+
+#include "support/shapes.h"
+
+namespace vantage::test {
+namespace {
+
+struct Surveyed {
+  TriMesh mesh = box(2.0, 1.0, 0.5, 3);
+  VertexVisibility visibility{mesh, {FaceSides::Front}};
+  ScoringCamera camera{.sphere = enclosing_sphere(mesh.positions)};
+  std::vector<double> shares{};
+
+  Surveyed() {
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      shares.push_back(1.0 / static_cast<double>(v + 3));
+    }
+  }
+};
+
+TEST(SurveySight, ScoresAsTheScorerDoesToTheLastBit) {
+  const Surveyed shape;
+  const SurveySight sight(shape.visibility, shape.camera, {});
+  const ViewScorer scorer(shape.visibility, shape.shares, shape.camera);
+  for (const int level : {3, 4}) {  // the report's directions and the search's
+    const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, level);
+    const std::vector<double> scores = scorer.score_all(set.directions);
+    for (std::size_t i = 0; i < set.directions.size(); ++i) {
+      ASSERT_EQ(sight.score(set.directions[i], shape.shares), scores[i]) << level << ' ' << i;
+    }
+  }
+}
+
+TEST(SurveySight, KnowsNoOtherDirectionsAndCameras) {
+  const Surveyed shape;
+  const SurveySight sight(shape.visibility, shape.camera, {});
+  EXPECT_FALSE(sight.score(Vec3(0.6, 0.48, 0.64), shape.shares).has_value());
+  EXPECT_TRUE(sight.is_of(shape.camera));
+  ScoringCamera other = shape.camera;
+  other.distance_factor = 3.0;
+  EXPECT_FALSE(sight.is_of(other));
+  other = shape.camera;
+  other.projection = Projection::Orthographic;
+  EXPECT_FALSE(sight.is_of(other));
+  other = shape.camera;
+  other.sphere.diameter *= 1.5;
+  EXPECT_FALSE(sight.is_of(other));
+}
+
+}  // namespace
+}  // namespace vantage::test
