@@ -69,13 +69,19 @@ void warn_of(const ViewSet& set, const ViewSetRequest& request,
     warnings.push_back("the set's views were chosen from " + std::to_string(set.candidates) +
                        " directions to save memory");
   }
-  if (request.set.views && static_cast<std::size_t>(*request.set.views) > set.views.size()) {
+  const bool is_enough = request.set.coverage && set.stop == ViewSetStop::Coverage;
+  if (request.set.views && static_cast<std::size_t>(*request.set.views) > set.views.size() &&
+      !is_enough) {
     warnings.push_back(std::to_string(set.views.size()) + " of " +
                        std::to_string(*request.set.views) +
                        " views found: a further one would show nothing new" +
                        (request.set.min_separation_deg > 0.0 ? " or stand too near" : ""));
   } else if (set.stop == ViewSetStop::Exhausted) {
-    warnings.emplace_back("the coverage asked for is out of reach with views so far apart");
+    warnings.emplace_back(
+        request.selection == ViewSelection::Kssm
+            ? "the coverage asked for is out of reach with views so far apart"
+            : "the coverage asked for is out of reach: the views chosen see every "
+              "face that is seen from one of the directions");
   }
 }
 

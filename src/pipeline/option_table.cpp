@@ -101,10 +101,14 @@ std::optional<ViewSetRequest> checked_view_set(const ViewOptions& options) {
   if (request.information > 0.0 && request.selection != ViewSelection::Feixas) {
     throw InvalidInput("option information goes with select feixas only");
   }
-  if (!by_kssm && (request.set.coverage || request.set.min_separation_deg > 0.0)) {
-    throw InvalidInput("option select is " + std::string(selection_name(request.selection)) +
-                       ", which chooses a number of views; coverage and min-separation go with "
-                       "select kssm");
+  const std::string select = "option select is " + std::string(selection_name(request.selection));
+  if (request.selection == ViewSelection::Feixas && request.set.coverage) {
+    throw InvalidInput(select +
+                       ", which ends by views or information; coverage goes with select "
+                       "kssm and vazquez");
+  }
+  if (!by_kssm && request.set.min_separation_deg > 0.0) {
+    throw InvalidInput(select + "; min-separation goes with select kssm");
   }
   if (request.set.views || request.set.coverage || request.information > 0.0) {
     return request;

@@ -93,11 +93,14 @@ class Selection {
     }
     GreedyCover cover(candidates, weights, quiet_);
     bound_.add_state(0.0, cover.gains(quiet_));
-    for (std::size_t i = 0; i < given.size(); ++i) {
+    result_.stop = ViewSetStop::Count;
+    for (std::size_t i = 0; i < given.size() && !(options_.coverage && is_covered()); ++i) {
       add(cover, given[i], bits.row(i), cover.gain(bits.row(i)));
     }
     if (choose) {
       extend(cover, run);
+    } else if (options_.coverage) {
+      result_.stop = is_covered() ? ViewSetStop::Coverage : ViewSetStop::Exhausted;
     }
     bound_.add_state(seen_, cover.gains(quiet_));
     result_.least_views = bound_.least_views(seen_ * (1.0 - kRounding));
@@ -137,11 +140,17 @@ class Selection {
       result_.stop = ViewSetStop::Count;
       return true;
     }
-    if (seen_ >= options_.coverage.value_or(1.0) * result_.reachable * (1.0 - kRounding)) {
+    if (is_covered()) {
       result_.stop = ViewSetStop::Coverage;
       return true;
     }
     return false;
+  }
+
+  /// Whether there is a view, and all that is to be seen is seen.
+  [[nodiscard]] bool is_covered() const {
+    return !result_.views.empty() &&
+           seen_ >= options_.coverage.value_or(1.0) * result_.reachable * (1.0 - kRounding);
   }
 
   void add(GreedyCover& cover, const Vec3& direction, std::span<const std::uint64_t> bits,
@@ -227,10 +236,8 @@ ViewSet measured(SetsOf sets_of, std::span<const double> significance,
   if (directions.empty()) {
     throw InvalidInput("there must be at least one view to measure");
   }
-  ViewSet set = Selection(std::move(sets_of), significance.size(), options, run)
-                    .make(directions, false, significance, run);
-  set.stop = ViewSetStop::Count;
-  return set;
+  return Selection(std::move(sets_of), significance.size(), options, run)
+      .make(directions, false, significance, run);
 }
 
 }  // namespace

@@ -93,6 +93,17 @@ class ViewSets(ProgramTest):
         self.assertLessEqual(report["view_set"]["least_views"], len(covered))
         self.assertGreaterEqual(report["view_set"]["most_coverage"], covered[-1] - 1e-12)
 
+    def test_fewest_views_by_entropy_reach_the_coverage_asked_for(self):
+        self.vantage("view", FAN, "-o", "out", "--select", "vazquez", "--coverage", 0.9, "--no-images")
+        report = self.report()
+        covered = [view["coverage"] for view in report["views"]]
+        self.assertEqual(report["view_set"]["stop"], "coverage")
+        self.assertGreaterEqual(covered[-1], 0.9)
+        self.assertTrue(all(c < 0.9 for c in covered[:-1]))
+        self.vantage("view", FAN, "-o", "same", "--select", "vazquez", "--views", len(covered), "--no-images")
+        self.assertEqual([view["direction"] for view in self.report("same")["views"]],
+                         [view["direction"] for view in report["views"]])
+
     def test_no_views_are_reported_unless_asked_for(self):
         self.vantage("view", FAN, "-o", "out", "--no-images")
         self.assertNotIn("views", self.report())
@@ -134,7 +145,8 @@ class ViewSets(ProgramTest):
                 (("--coverage", 0), "coverage"),
                 (("--views", 0), "views"),
                 (("--min-separation", 30), "--views"),
-                (("--select", "vazquez", "--coverage", 0.5), "--select"),
+                (("--select", "feixas", "--coverage", 0.5), "--select"),
+                (("--select", "vazquez", "--views", 3, "--min-separation", 20), "--select"),
                 (("--views", 2, "--information", 0.5), "feixas"),
                 (("--views", 2, "--tour-size", "0x9"), "pixels")):
             done = self.vantage("view", FAN, "-o", "out", *flags, exit_code=2)

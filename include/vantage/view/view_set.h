@@ -77,8 +77,9 @@ ViewSet select_views(const VertexVisibility& visibility, std::span<const double>
                      const ScoringCamera& camera, const Vec3& first,
                      const ViewSetOptions& options = {}, const RunContext& run = {});
 
-/// Gains, coverage and bounds of views that were chosen in some other way, in their order. Uses
-/// only `options.level`. \param directions at least one unit vector. \throw InvalidInput, Cancelled
+/// Gains, coverage and bounds of views that were chosen in some other way, in their order, up to the
+/// one that reaches `options.coverage` if that is set. Of the rest uses only `options.level`.
+/// \param directions at least one unit vector. \throw InvalidInput, Cancelled
 ViewSet measure_views(const VertexVisibility& visibility, std::span<const double> significance,
                       const ScoringCamera& camera, std::span<const Vec3> directions,
                       const ViewSetOptions& options = {}, const RunContext& run = {});
