@@ -88,6 +88,7 @@ struct BatchCommand {
   std::string retry{};
   std::string engine = "local";
   bool no_overview = false;
+  bool strict = false;
   int jobs = 0;
   double memory_gb = 0.0;
   double output_limit_mb = 1024.0;
@@ -134,6 +135,7 @@ struct BatchCommand {
       }
     }
     add_common_flags(app, session.flags);
+    method_options.push_back(app.get_option("--max-faces"));
     threads = app.get_option("--threads");
     threads->default_str("1")->description("threads of each worker; 0: all cores");
     shard_options.push_back(threads);
@@ -164,6 +166,11 @@ struct BatchCommand {
         ->group(group);
     app.add_option("--retry", retry, "failed: also do again what failed before")
         ->check(CLI::IsMember({"failed"}))
+        ->group(group);
+    app.add_flag(
+           "--strict", strict,
+           "exit code 1 if an answer should not be trusted (column doubts of results); all are "
+           "stored")
         ->group(group);
     app.add_flag("--verify", runner.verify,
                  "read every input again instead of trusting size, time and inode")
@@ -220,9 +227,7 @@ struct BatchCommand {
     }
     summarise(session, counts);
     finish_standard_output();
-    if (counts.failed + counts.skipped_failed > 0) {
-      session.exit_code = kSomeFailed;
-    }
+    settle_exit_code(session, counts.failed + counts.skipped_failed, counts.doubted);
   }
 
  private:
@@ -334,8 +339,16 @@ struct BatchCommand {
     summarise(session,
               {.done = counts.done, .failed = counts.failed, .duplicates = counts.duplicates});
     finish_standard_output();
-    if (counts.failed > 0) {
+    settle_exit_code(session, counts.failed, strict ? store.count_doubted() : 0);
+  }
+
+  void settle_exit_code(Session& session, std::int64_t failed, std::int64_t doubted) const {
+    if (failed > 0) {
       session.exit_code = kSomeFailed;
+    } else if (strict && doubted > 0) {
+      throw Error(grouped(static_cast<std::size_t>(doubted)) +
+                  " of the answers should not be trusted (--strict); vantage results query " +
+                  folder + " --where 'doubts>0' lists them");
     }
   }
 
@@ -371,11 +384,10 @@ struct BatchCommand {
   }
 
   void summarise(Session& session, const batch::RunnerCounts& counts) const {
-    const nlohmann::ordered_json json = {{"done", counts.done},
-                                         {"failed", counts.failed + counts.skipped_failed},
-                                         {"skipped", counts.skipped},
-                                         {"duplicates", counts.duplicates},
-                                         {"folder", batch::key_of_path(folder)}};
+    const nlohmann::ordered_json json = {
+        {"done", counts.done},       {"failed", counts.failed + counts.skipped_failed},
+        {"skipped", counts.skipped}, {"duplicates", counts.duplicates},
+        {"doubted", counts.doubted}, {"folder", batch::key_of_path(folder)}};
     session.end_progress();
     if (session.flags.json) {
       std::printf("%s\n", json.dump().c_str());
@@ -390,6 +402,7 @@ struct BatchCommand {
                  (counts.skipped_failed > 0
                       ? " (" + count(counts.skipped_failed) + " of them failed; --retry failed)"
                       : "") +
+                 (counts.doubted > 0 ? ", " + count(counts.doubted) + " not to be trusted" : "") +
                  "; results in " + printable(folder) + "/");
   }
 };

@@ -99,6 +99,7 @@ struct BatchWorkerCommand {
     several.add_set_to(app);
     look.add_to_several(app);
     add_common_flags(app, session.flags);
+    add_face_limit_flag(app, session.flags.limits);
   }
 
   void run(Session& session) {
@@ -159,6 +160,7 @@ struct BatchWorkerCommand {
         reading_options = own_look.reading(options_.width, options_.height);
       }
       reading_options.importer = model_importer(session.flags.limits);
+      reading_options.max_faces = face_limit(session.flags.limits);
       Model model = load_model(path, run, reading_options);
       if (batch::content_hash(path) != content) {
         return failed("changed", path + ": was changed while it was read; --retry failed");
@@ -203,10 +205,11 @@ struct BatchWorkerCommand {
     stand_along_axes(model, own);
     const ShapeAnalysis shape = analyse_shape(model, own, run);
     const FrameChoice choice = choose_frame(model, shape, own);
-    const ViewReport report = find_views(shape, choice, own, run);
+    ViewReport report = find_views(shape, choice, own, run);
     OutputFolder output(batch::path_of_key(order.at("staging").get<std::string>()), kViewResults);
     ShapePictures pictures(shape, own_look.of(model, up_vector(choice.frame.up)));
     if (const auto best = add_pictures(output, kinds_, pictures, report, own, run)) {
+      doubt_empty_picture(best, report);
       output.add(batch::kThumbnailFile, png_bytes(batch::thumbnail_of(*best)));
     }
     if (kinds_.has("views")) {
@@ -223,7 +226,7 @@ struct BatchWorkerCommand {
     for (const char* part : {"format", "vertices", "faces", "components", "closed", "genus"}) {
       result[part] = view["model"][part];
     }
-    for (const char* part : {"total", "up", "front", "camera", "best", "worst"}) {
+    for (const char* part : {"total", "up", "front", "camera", "best", "worst", "doubts"}) {
       result[part] = view[part];
     }
     return {{"result", result.dump()}, {"peak_bytes", peak_bytes()}};

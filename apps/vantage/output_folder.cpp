@@ -238,10 +238,12 @@ void OutputFolder::exchange() {
   const fs::path unfinished = folder / unfinished_name(kind_.marker);
   write_file(unfinished.string(), kUnfinishedText);
   std::vector<fs::path> placed;
+  std::size_t removed = 0;
   std::error_code error;
   try {
     for (const std::string& name : former) {
       remove_or_throw(folder / name);
+      ++removed;
     }
     for (StagedFile& file : staged) {
       file.place();
@@ -251,7 +253,16 @@ void OutputFolder::exchange() {
     for (const fs::path& file : placed) {
       fs::remove(file, error);
     }
-    fs::remove(unfinished, error);
+    // Without their marker the former results are no answer any more. What cannot be removed must
+    // still be known as ours by the next run.
+    bool is_clear = true;
+    for (std::size_t i = 0; removed > 0 && i < former.size(); ++i) {
+      fs::remove(folder / former[i], error);
+      is_clear = is_clear && !fs::exists(fs::symlink_status(folder / former[i], error));
+    }
+    if (is_clear) {
+      fs::remove(unfinished, error);
+    }
     throw;
   }
   for (const std::string& sub : below_) {

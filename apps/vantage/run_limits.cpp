@@ -10,6 +10,8 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include "vantage/io/face_limit.h"
+
 namespace vantage::cli {
 namespace {
 
@@ -68,11 +70,26 @@ void add_limit_flags(CLI::App& app, RunLimits& limits) {
         ->check(CLI::Range(kLeastMemory, kMostMemory))
         ->group(group);
   }
+  add_face_limit_flag(app, limits);
   if (app.get_option_no_throw("--timeout") == nullptr) {
     app.add_option("--timeout", limits.seconds, "fail rather than run longer than so many seconds")
         ->check(CLI::Range(kLeastSeconds, kMostSeconds))
         ->group(group);
   }
+}
+
+void add_face_limit_flag(CLI::App& app, RunLimits& limits) {
+  if (app.get_option_no_throw("--max-faces") == nullptr) {
+    app.add_option("--max-faces", limits.faces,
+                   "refuse models of more faces, or points; default: as many as fit into memory, "
+                   "two for each kB")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{4'000'000'000}))
+        ->group("Common");
+  }
+}
+
+std::size_t face_limit(const RunLimits& limits) {
+  return limits.faces > 0 ? limits.faces : faces_that_fit(usable_memory_bytes());
 }
 
 void apply_limits(const RunLimits& limits) {

@@ -129,6 +129,7 @@ Model Session::load(const std::string& path, const ReadOptions& options) {
   return read([&] {
     ReadOptions wanted = options;
     wanted.importer = model_importer(flags.limits);
+    wanted.max_faces = face_limit(flags.limits);
     return load_model(path, run(), wanted);
   });
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "vantage/core/error.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/measured_shape.h"
 #include "vantage/pipeline/sidecar.h"
@@ -66,6 +67,7 @@ struct ViewCommand {
   std::string trace{};
   bool no_images = false;
   bool no_report = false;
+  bool strict = false;
   MeasureFlags measure{};
   MethodFlags method{};
   ViewSetFlags several{};
@@ -78,6 +80,8 @@ struct ViewCommand {
     app.add_option("--trace", trace, "also write each evaluated direction to this CSV file");
     app.add_flag("--no-images", no_images, "no pictures and no report");
     app.add_flag("--no-report", no_report, "no report.html, the page to explore the result in");
+    app.add_flag("--strict", strict,
+                 "exit code 1 if the answer should not be trusted; it is written all the same");
     measure.add_to(app);
     method.add_to(app,
                   {.map = true, .saliency = true, .camera = true, .search = true, .picture = true});
@@ -117,17 +121,19 @@ struct ViewCommand {
     }
     const FrameChoice choice = choose_frame(loaded, shape, options);
     const auto search_start = Clock::now();
-    const ViewReport report =
+    ViewReport report =
         session.computing([&] { return find_views(shape, choice, options, run.part(0.5, 0.9)); });
     seconds.search = seconds_since(search_start);
 
     const auto render_start = Clock::now();
-    output.add("view.json", view_json(loaded, shape, report, options));
     const PictureLook shown = look.of(loaded, up_vector(choice.frame.up));
     ShapePictures pictures(shape, shown);
     if (!no_images) {
-      add_pictures(output, OutputKinds::all(), pictures, report, options, run.part(0.9, 0.95));
+      const std::optional<Image> best =
+          add_pictures(output, OutputKinds::all(), pictures, report, options, run.part(0.9, 0.95));
+      doubt_empty_picture(best, report);
     }
+    output.add("view.json", view_json(loaded, shape, report, options));
     several.write(output, shape, pictures, report, choice.frame.up, options, run.part(0.95, 1.0));
     seconds.render = seconds_since(render_start);
     add_data(output, OutputKinds::all(), loaded, shape, report, options,
@@ -157,6 +163,9 @@ struct ViewCommand {
         session.tell("  report      " + printable(output.path()) + "/report.html, " +
                      rounded(seconds_since(report_start), 2) + " s later");
       }
+    }
+    if (strict && !report.doubts.empty()) {
+      throw Error(loaded.name + ": " + report.doubts.front() + " (--strict)");
     }
   }
 
@@ -207,6 +216,9 @@ struct ViewCommand {
       for (const std::string& warning : *list) {
         session.say("note: " + warning);
       }
+    }
+    for (const std::string& doubt : report.doubts) {
+      session.say("warning: " + doubt);
     }
   }
 };

@@ -123,6 +123,22 @@ std::optional<Image> add_pictures(OutputFolder& output, const OutputKinds& kinds
   return best;
 }
 
+void doubt_empty_picture(const std::optional<Image>& best, ViewReport& report) {
+  if (!best || best->rgba.size() < 4) {
+    return;
+  }
+  const auto first = best->rgba.begin();
+  bool is_empty = true;
+  for (auto pixel = first; is_empty && pixel != best->rgba.end(); pixel += 4) {
+    is_empty = std::equal(pixel, pixel + 4, first);
+  }
+  if (is_empty) {
+    report.doubts.emplace_back(
+        "the picture of the best view shows nothing: the model is too thin from there, or as "
+        "transparent as its materials say; try --style clay, --front or a larger --size");
+  }
+}
+
 void add_report(OutputFolder& output, const OutputKinds& kinds, const Model& loaded,
                 const ShapeAnalysis& shape, ShapePictures& pictures, const ViewReport& report,
                 const ViewOptions& options, const RunContext& run) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "vantage/core/error.h"
+#include "vantage/io/face_limit.h"
 
 #include "arrays.h"
 #include "released_run.h"
@@ -33,10 +34,17 @@ ModelHandle model_of_arrays(const py::object& V, const py::object& F, const std:
   return {std::move(model)};
 }
 
-ModelHandle load(const py::object& path, const py::object& progress, int threads) {
+/// What the program reads, by its own limit where none is given.
+ReadOptions reading(bool appearance, std::size_t max_faces) {
+  return {.appearance = appearance,
+          .max_faces = max_faces > 0 ? max_faces : faces_that_fit(usable_memory_bytes())};
+}
+
+ModelHandle load(const py::object& path, const py::object& progress, int threads,
+                 std::size_t max_faces) {
   const std::string file = path_text(path);
   return {released({progress, threads}, [&](const RunContext& run) {
-    return std::make_shared<const Model>(load_model(file, run, {.appearance = true}));
+    return std::make_shared<const Model>(load_model(file, run, reading(true, max_faces)));
   })};
 }
 
@@ -139,7 +147,7 @@ std::shared_ptr<const Analysis> Subject::analysed(const Settings& settings, cons
   made->model = model_ ? model_
                        : std::make_shared<const Model>(load_model(
                              path_, run.part(0.0, 0.05),
-                             {.appearance = is_drawn && settings.look.style == Style::Asset}));
+                             reading(is_drawn && settings.look.style == Style::Asset, 0)));
   made->shape = analyse(*made->model, settings.view, run.part(0.05, 1.0));
   made->settings = settings;
   return made;
@@ -164,7 +172,8 @@ ShapeAnalysis with_map(const Model& model, const ViewOptions& options, const Run
 void define_models(py::module_& module) {
   define_model(module);
   define_analysis(module);
-  module.def("load", &load, py::arg("path"), py::arg("progress"), py::arg("threads"));
+  module.def("load", &load, py::arg("path"), py::arg("progress"), py::arg("threads"),
+             py::arg("max_faces"));
   module.def("analyse", &analyse, py::arg("model"), py::arg("F"), py::arg("options"),
              py::arg("progress"), py::arg("threads"));
 }

@@ -18,15 +18,16 @@ Analysis = _core.Analysis
 _NOTEBOOK_SIZE = (480, 360)
 
 
-def load(path: Any, *, progress: Any = None, threads: int = 0) -> Model:
+def load(path: Any, *, progress: Any = None, threads: int = 0, max_faces: int = 0) -> Model:
     """Reads a model: OBJ, OFF, PLY, STL, glTF, GLB, 3MF, or a point cloud XYZ, PTS, PWN, PCD.
 
-    path: str or os.PathLike.
+    path: str or os.PathLike. max_faces: a model of more faces, or points, is refused; 0: what fits
+    into memory.
     Returns a Model: name, format, vertices (n, 3) float64, faces (m, 3) uint32, colours (n, 3) or
     (0, 3) uint8, parts (name, first face, faces) and notes. Its arrays are read-only views.
     Raises IoError, FormatError.
     """
-    return _core.load(path, progress, threads)
+    return _core.load(path, progress, threads, max_faces)
 
 
 @takes("method", "map")

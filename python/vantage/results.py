@@ -238,6 +238,8 @@ class BestView(_Record):
     """With certify=True."""
     warnings: Tuple[str, ...]
     """Every repair and doubt, one sentence each."""
+    doubts: Tuple[str, ...]
+    """Of these, why the answer should not be trusted; empty almost always."""
     json: str
     """The text of view.json, as `vantage view --no-images` writes it."""
 

@@ -358,6 +358,7 @@ void summarise(const std::vector<PieceResult>& results, ContractionHistory& hist
     }
     failed += part.summary.stop == ContractionStop::SolverFailed ? 1 : 0;
     history.components.push_back(part.summary);
+    history.components.back().shrinkage = part.shrinkage.back();
   }
   for (double& a : history.shrinkage) {
     a = vertices > 0.0 ? a / vertices : 1.0;

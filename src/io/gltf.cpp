@@ -34,12 +34,13 @@ constexpr std::size_t kMostVisitsInSmallFile = 10'000;
 
 class SceneReader {
  public:
-  SceneReader(const GltfDocument& document, ModelBuilder& builder)
+  /// \param most_faces that may be shown together; 0: any number.
+  SceneReader(const GltfDocument& document, std::size_t most_faces, ModelBuilder& builder)
       : document_(document),
         gltf_(document.structure),
         builder_(builder),
-        budget_(kMostInSmallFile + kMostPerByte * document.total_bytes + document.unpacked_bytes),
-        visits_left_(kMostVisitsInSmallFile + document.total_bytes) {
+        most_faces_(most_faces),
+        of_mesh_(document.structure.meshes.size()) {
     for (const tinygltf::Mesh& mesh : gltf_.meshes) {
       for (const tinygltf::Primitive& primitive : mesh.primitives) {
         has_triangles_ = has_triangles_ || primitive.mode >= TINYGLTF_MODE_TRIANGLES;
@@ -50,19 +51,10 @@ class SceneReader {
   }
 
   void read() {
-    const std::vector<int> roots = root_nodes();
-    std::vector<Level> levels;
-    levels.push_back({roots, Transform::Identity()});
-    while (!levels.empty()) {
-      Level& level = levels.back();
-      if (level.next == level.nodes.size()) {
-        levels.pop_back();
-        continue;
-      }
-      const int node = level.nodes[level.next++];
-      const Transform parent = level.parent;  // its place moves as levels are added
-      read_node(node, parent, levels);
-    }
+    is_counting_ = true;  // before anything is made
+    walk();
+    is_counting_ = false;
+    walk();
     if (shapeless_primitives_ > 0) {
       builder_.note("primitives without positions left out: " +
                     std::to_string(shapeless_primitives_));
@@ -78,6 +70,25 @@ class SceneReader {
   }
 
  private:
+  /// Goes to every node that is shown.
+  void walk() {
+    budget_ = kMostInSmallFile + kMostPerByte * document_.total_bytes + document_.unpacked_bytes;
+    visits_left_ = kMostVisitsInSmallFile + document_.total_bytes;
+    const std::vector<int> roots = root_nodes();
+    std::vector<Level> levels;
+    levels.push_back({roots, Transform::Identity()});
+    while (!levels.empty()) {
+      Level& level = levels.back();
+      if (level.next == level.nodes.size()) {
+        levels.pop_back();
+        continue;
+      }
+      const int node = level.nodes[level.next++];
+      const Transform parent = level.parent;  // its place moves as levels are added
+      read_node(node, parent, levels);
+    }
+  }
+
   /// Nodes side by side, and which of them is next. A stack of these is no deeper than the file has
   /// nodes, however often they name each other.
   struct Level {
@@ -110,10 +121,11 @@ class SceneReader {
       }
     }
     if (gltf_.nodes.empty() && !gltf_.meshes.empty()) {
-      builder_.note("the file has no scene: each mesh is shown once, where it stands");
-      for (const tinygltf::Mesh& mesh : gltf_.meshes) {
-        builder_.begin_part(mesh.name);
-        read_mesh(mesh, Transform::Identity());
+      if (!is_counting_) {
+        builder_.note("the file has no scene: each mesh is shown once, where it stands");
+      }
+      for (std::size_t m = 0; m < gltf_.meshes.size(); ++m) {
+        show_mesh(m, gltf_.meshes[m].name, Transform::Identity());
       }
     }
     return roots;
@@ -141,11 +153,10 @@ class SceneReader {
       if (static_cast<std::size_t>(node.mesh) >= gltf_.meshes.size()) {
         builder_.fail("node " + std::to_string(n) + " shows a mesh that does not exist");
       }
-      const tinygltf::Mesh& mesh = gltf_.meshes[static_cast<std::size_t>(node.mesh)];
-      const std::string& name = node.name.empty() ? mesh.name : node.name;
+      const auto m = static_cast<std::size_t>(node.mesh);
+      const std::string& name = node.name.empty() ? gltf_.meshes[m].name : node.name;
       spend(name.size());
-      builder_.begin_part(name);
-      read_mesh(mesh, world);
+      show_mesh(m, name, world);
     }
     levels.push_back({node.children, world});
   }
@@ -178,6 +189,57 @@ class SceneReader {
       transform.scale(Eigen::Map<const Vec3>(node.scale.data()));
     }
     return transform.matrix();
+  }
+
+  /// What a mesh adds each time that it is shown.
+  struct Amount {
+    std::size_t spent = 0;  // of the budget
+    std::size_t faces = 0;
+  };
+
+  void show_mesh(std::size_t m, const std::string& name, const Transform& world) {
+    if (!is_counting_) {
+      builder_.begin_part(name);
+      read_mesh(gltf_.meshes[m], world);
+      return;
+    }
+    if (!of_mesh_[m]) {
+      of_mesh_[m] = amount_of(gltf_.meshes[m]);
+    }
+    spend(of_mesh_[m]->spent);
+    faces_ += of_mesh_[m]->faces;
+    if (most_faces_ > 0 && faces_ > most_faces_) {
+      builder_.fail(too_many_faces(most_faces_));
+    }
+  }
+
+  /// Elements of an accessor; of one that is not there none, which is complained of when it is read.
+  [[nodiscard]] std::size_t elements(int accessor) const {
+    const auto a = static_cast<std::size_t>(accessor);
+    return accessor >= 0 && a < gltf_.accessors.size()
+               ? GltfAccessor(document_, accessor, budget_, builder_).count()
+               : 0;
+  }
+
+  [[nodiscard]] Amount amount_of(const tinygltf::Mesh& mesh) const {
+    Amount amount{.spent = mesh.primitives.size()};
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+      const auto position = primitive.attributes.find("POSITION");
+      const bool is_surface = primitive.mode >= TINYGLTF_MODE_TRIANGLES;
+      const bool is_cloud = primitive.mode == TINYGLTF_MODE_POINTS && !has_triangles_;
+      if (position == primitive.attributes.end() || (!is_surface && !is_cloud)) {
+        continue;
+      }
+      const std::size_t points = elements(position->second);
+      amount.spent += points;
+      if (is_surface) {
+        const std::size_t corners = primitive.indices < 0 ? points : elements(primitive.indices);
+        const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
+        amount.spent += corners;
+        amount.faces += is_list ? corners / 3 : corners - std::min<std::size_t>(corners, 2);
+      }
+    }
+    return amount;
   }
 
   void read_mesh(const tinygltf::Mesh& mesh, const Transform& world) {
@@ -359,8 +421,12 @@ class SceneReader {
   const GltfDocument& document_;
   const tinygltf::Model& gltf_;
   ModelBuilder& builder_;
-  std::size_t budget_;
-  std::size_t visits_left_;
+  std::size_t most_faces_;
+  std::vector<std::optional<Amount>> of_mesh_;  // where it was asked for
+  bool is_counting_ = false;
+  std::size_t faces_ = 0;  // counted
+  std::size_t budget_ = 0;
+  std::size_t visits_left_ = 0;
   bool has_triangles_ = false;
   bool has_colours_ = false;
   std::size_t skipped_primitives_ = 0;
@@ -377,7 +443,7 @@ Model parse_gltf(std::string_view bytes, std::string_view name, const RunContext
     builder.keep_appearance(/*of_vertices=*/true);
   }
   const GltfDocument document = read_gltf_document(bytes, surroundings, builder);
-  SceneReader(document, builder).read();
+  SceneReader(document, surroundings.options.max_faces, builder).read();
   return builder.finish();
 }
 

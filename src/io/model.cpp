@@ -53,6 +53,12 @@ Model parse_with(std::string_view bytes, std::string_view name, const RunContext
     }
     return parse_gltf(bytes, name, run, surroundings);
   }();
+  if (const std::size_t most = surroundings.options.max_faces; most > 0) {
+    const bool is_cloud = model.mesh.triangles.empty();
+    if ((is_cloud ? model.mesh.positions.size() : model.mesh.triangles.size()) > most) {
+      throw FormatError(name, "", too_many_faces(most, is_cloud));
+    }
+  }
   model.format = detected.format;
   model.imported_as = detected.import_as == nullptr ? "" : detected.import_as->name;
   model.name = model_name(name);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -70,6 +71,12 @@ Model parse_threemf(std::string_view bytes, std::string_view name, const RunCont
 /// What a ReadOptions::importer gave, see vantage/io/import_stream.h. \param title of the format.
 Model parse_import_stream(std::string_view stream, std::string_view title, std::string_view name,
                           const RunContext& run, const Surroundings& surroundings);
+
+/// What is wrong with a model of more than ReadOptions::max_faces, for a message.
+inline std::string too_many_faces(std::size_t most, bool is_cloud = false) {
+  return "has more than " + std::to_string(most) + (is_cloud ? " points" : " faces") +
+         ", the most that --max-faces allows; decimate it, or allow more if there is the memory";
+}
 
 /// Whether the bytes are a binary STL by their size: 84 bytes and 50 for each declared triangle.
 bool has_binary_stl_size(std::string_view bytes);

@@ -90,11 +90,10 @@ Parts read_parts(std::string_view bytes, const std::string& root, ModelBuilder& 
 /// Puts the items of the build plate where they stand.
 class PlateReader {
  public:
-  PlateReader(const Parts& parts, std::size_t file_bytes, ModelBuilder& builder)
-      : parts_(parts),
-        builder_(builder),
-        budget_(kMostInSmallFile + kMostPerByte * file_bytes),
-        visits_left_(budget_) {
+  /// \param most_faces that may be shown together; 0: any number.
+  PlateReader(const Parts& parts, std::size_t file_bytes, std::size_t most_faces,
+              ModelBuilder& builder)
+      : parts_(parts), builder_(builder), file_bytes_(file_bytes), most_faces_(most_faces) {
     std::uint32_t first = 0;
     for (const auto& [name, part] : parts) {
       objects_ += part.objects.size();
@@ -112,20 +111,12 @@ class PlateReader {
         each.push_back({{}, id, unmoved()});
       }
     }
-    std::vector<Level> levels;
-    levels.push_back({part.items.empty() ? each : part.items, root, Eigen::Affine3d::Identity()});
-    while (!levels.empty()) {
-      Level& level = levels.back();
-      if (level.next == level.uses.size()) {
-        levels.pop_back();
-        continue;
-      }
-      const ThreemfUse& use = level.uses[level.next++];
-      Eigen::Affine3d inner = Eigen::Affine3d::Identity();
-      inner.affine() = use.transform.transpose();
-      const Visit visit{use.part.empty() ? level.part : use.part, use.object, level.outer * inner};
-      read_object(visit, levels);
-    }
+    const std::span<const ThreemfUse> uses = part.items.empty() ? each : part.items;
+    is_counting_ = true;  // before anything is made
+    walk(uses, root);
+    is_counting_ = false;
+    left_out_ = 0;
+    walk(uses, root);
     if (left_out_ > 0) {
       builder_.note("objects that only support others left out: " + std::to_string(left_out_));
     }
@@ -144,6 +135,26 @@ class PlateReader {
   }
 
  private:
+  /// Goes to every object that is shown.
+  void walk(std::span<const ThreemfUse> uses, const std::string& root) {
+    budget_ = kMostInSmallFile + kMostPerByte * file_bytes_;
+    visits_left_ = budget_;
+    std::vector<Level> levels;
+    levels.push_back({uses, root, Eigen::Affine3d::Identity()});
+    while (!levels.empty()) {
+      Level& level = levels.back();
+      if (level.next == level.uses.size()) {
+        levels.pop_back();
+        continue;
+      }
+      const ThreemfUse& use = level.uses[level.next++];
+      Eigen::Affine3d inner = Eigen::Affine3d::Identity();
+      inner.affine() = use.transform.transpose();
+      const Visit visit{use.part.empty() ? level.part : use.part, use.object, level.outer * inner};
+      read_object(visit, levels);
+    }
+  }
+
   /// Objects shown together, and which of them is next. A stack of these is no deeper than the file has
   /// objects, however often they show each other.
   struct Level {
@@ -200,6 +211,13 @@ class PlateReader {
       return;
     }
     spend(object.points.size() + object.triangles.size() * 3 + object.name.size());
+    if (is_counting_) {
+      faces_ += object.triangles.size();
+      if (most_faces_ > 0 && faces_ > most_faces_) {
+        builder_.fail(too_many_faces(most_faces_));
+      }
+      return;
+    }
     builder_.begin_part(object.name);
     const std::size_t first = builder_.point_count();
     for (const Vec3& point : object.points) {
@@ -223,8 +241,12 @@ class PlateReader {
 
   const Parts& parts_;
   ModelBuilder& builder_;
-  std::size_t budget_;
-  std::size_t visits_left_;
+  std::size_t file_bytes_;
+  std::size_t most_faces_;
+  bool is_counting_ = false;
+  std::size_t faces_ = 0;  // counted
+  std::size_t budget_ = 0;
+  std::size_t visits_left_ = 0;
   std::size_t objects_ = 0;
   std::size_t left_out_ = 0;
   std::map<std::string, std::uint32_t, std::less<>> first_material_{};
@@ -248,7 +270,7 @@ Model parse_threemf(std::string_view bytes, std::string_view name, const RunCont
       builder.coordinates_need_double();
     }
   }
-  PlateReader reader(parts, bytes.size(), builder);
+  PlateReader reader(parts, bytes.size(), surroundings.options.max_faces, builder);
   reader.read(root);
   if (builder.keeps_appearance()) {
     builder.set_materials(reader.materials(), {});

@@ -12,6 +12,7 @@
 #include "pipeline/describe_view.h"
 #include "pipeline/map_objective.h"
 #include "pipeline/preference.h"
+#include "pipeline/self_check.h"
 #include "pipeline/twins.h"
 #include "pipeline/view_preparation.h"
 
@@ -57,10 +58,6 @@ ViewReport find_views_by_map(const ShapeAnalysis& shape, const FrameChoice& choi
   const MapObjective map(shape, options, run);
   const ViewScorer& scorer = map.scorer();
   report.total = scorer.total();
-  if (!(report.total > 0.0)) {
-    report.warnings.emplace_back(
-        "the significance map is zero everywhere, so every view is as good as any other");
-  }
   const Preference preference(shape, choice, options, report.total);
   const ViewObjective objective = map.objective(preference);
   const double search_share = options.view_set || options.certify ? 0.25 : 1.0;  // of the bar
@@ -108,6 +105,7 @@ ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
   report.proportions = proportions_of(shape.surface, shape.sphere.diameter / 2.0, planes_of(shape),
                                       upright_frame(choice.frame));
   report.warnings.insert(report.warnings.end(), choice.notes.begin(), choice.notes.end());
+  report.doubts = doubts_about(shape, report, options, run);
   return report;
 }
 

@@ -214,7 +214,9 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
   std::vector<std::string> warnings = model.notes;
   warnings.insert(warnings.end(), shape.warnings.begin(), shape.warnings.end());
   warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
+  warnings.insert(warnings.end(), report.doubts.begin(), report.doubts.end());
   json["warnings"] = warnings;
+  json["doubts"] = report.doubts;
   json["options"] = std::move(echo);
   if (seconds != nullptr) {
     json["seconds"] = seconds_of(*seconds);

@@ -206,6 +206,22 @@ CurveGraph without_isolated(const CurveGraph& graph, const ContractionHistory& h
   return kept;
 }
 
+/// What of the graph's length in closed components is outside their shells.
+double outside_share(const CurveGraph& graph, const Routing& routing,
+                     const std::vector<std::uint32_t>& node_of_vertex) {
+  const std::vector<std::uint32_t> component =
+      components_of_nodes(graph, node_of_vertex, routing.component_of_vertex);
+  double length = 0.0;
+  double outside = 0.0;
+  for (const auto& [a, b] : graph.edges) {
+    if (component[a] != Skeleton::kNone && !routing.shell.is_open(component[a])) {
+      length += (graph.nodes[a] - graph.nodes[b]).norm();
+      outside += routing.shell.outside_length(component[a], graph.nodes[a], graph.nodes[b]);
+    }
+  }
+  return length > 0.0 ? outside / length : 0.0;
+}
+
 /// From the raw graph to the finished one.
 void finish(const TriMesh& mesh, const ContractionHistory& history, const Shell* shell,
             const SkeletonOptions& options, Skeleton& skeleton) {
@@ -225,6 +241,7 @@ void finish(const TriMesh& mesh, const ContractionHistory& history, const Shell*
   if (shell) {
     const Routing routing{mesh, history.component_of_vertex, *shell};
     skeleton.graph = route_edges_inside(skeleton.graph, routing, skeleton.node_of_vertex);
+    skeleton.outside_share = outside_share(skeleton.graph, routing, skeleton.node_of_vertex);
   }
   skeleton.radius = node_radii(skeleton.graph, mesh, skeleton.node_of_vertex);
 }

@@ -52,7 +52,7 @@ std::vector<std::uint8_t> Look::seen_sites() {
   return not_hidden(std::move(asked));
 }
 
-std::vector<std::uint8_t> Look::seen_among(std::span<const std::uint8_t> sites) {
+std::vector<std::uint8_t> Look::turned_among(std::span<const std::uint8_t> sites) const {
   const Surface& surface = sight_.surface_;
   std::vector<std::uint8_t> asked(surface.sites.size(), 0);
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
@@ -62,20 +62,35 @@ std::vector<std::uint8_t> Look::seen_among(std::span<const std::uint8_t> sites) 
       }
     }
   }
-  return not_hidden(std::move(asked));
+  return asked;
+}
+
+std::vector<std::uint8_t> Look::seen_among(std::span<const std::uint8_t> sites) {
+  return not_hidden(turned_among(sites));
+}
+
+std::vector<std::uint8_t> Look::seen_by_segments(std::span<const std::uint8_t> sites) {
+  std::vector<std::uint8_t> asked = turned_among(sites);
+  strike_hidden(asked);
+  return asked;
+}
+
+void Look::strike_hidden(std::vector<std::uint8_t>& asked) {
+  const SurfacePoints points{.sites = sight_.surface_.sites};
+  parallel_for(run_, asked.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (asked[i] != 0 && sight_.hidden(points, static_cast<std::uint32_t>(i), eye_)) {
+        asked[i] = 0;
+      }
+    }
+  });
 }
 
 std::vector<std::uint8_t> Look::not_hidden(std::vector<std::uint8_t> asked) {
   const Surface& surface = sight_.surface_;
   const SurfacePoints points{.sites = surface.sites};
   if (!grid_->hide(surface, points, asked, run_)) {
-    parallel_for(run_, asked.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        if (asked[i] != 0 && sight_.hidden(points, static_cast<std::uint32_t>(i), eye_)) {
-          asked[i] = 0;
-        }
-      }
-    });
+    strike_hidden(asked);
   }
   return asked;
 }

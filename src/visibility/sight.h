@@ -105,10 +105,16 @@ class Look {
   /// The same of those sites that have a 1.
   [[nodiscard]] std::vector<std::uint8_t> seen_among(std::span<const std::uint8_t> sites);
 
+  /// seen_among() by Sight::hidden() alone.
+  [[nodiscard]] std::vector<std::uint8_t> seen_by_segments(std::span<const std::uint8_t> sites);
+
   /// 1 for each site asked about that no face hides. \param asked 1 for each such site, else 0.
   [[nodiscard]] std::vector<std::uint8_t> not_hidden(std::vector<std::uint8_t> asked);
 
  private:
+  [[nodiscard]] std::vector<std::uint8_t> turned_among(std::span<const std::uint8_t> sites) const;
+  void strike_hidden(std::vector<std::uint8_t>& asked);
+
   Sight& sight_;
   Viewpoint eye_;
   RunContext run_;

@@ -29,6 +29,27 @@ Surface surface_for(const TriMesh& mesh, std::span<const FaceSides> sides, std::
   return surface;
 }
 
+std::vector<std::uint8_t> sites_of(const Surface& surface, std::span<const std::uint8_t> asked) {
+  std::vector<std::uint8_t> sites(surface.sites.size(), 0);
+  for (std::size_t v = 0; v < asked.size(); ++v) {
+    if (asked[v] != 0 && surface.site_of_vertex[v] != Surface::kNoSite) {
+      sites[surface.site_of_vertex[v]] = 1;
+    }
+  }
+  return sites;
+}
+
+/// Of vertices at one site perhaps only some were asked about.
+std::vector<std::uint8_t> of_those_asked(const Surface& surface,
+                                         std::span<const std::uint8_t> asked,
+                                         const std::vector<std::uint8_t>& seen_sites) {
+  std::vector<std::uint8_t> seen = vertices_of_sites(surface, seen_sites);
+  for (std::size_t v = 0; v < seen.size(); ++v) {
+    seen[v] = asked[v] != 0 ? seen[v] : 0;
+  }
+  return seen;
+}
+
 }  // namespace
 
 VertexVisibility::VertexVisibility(const TriMesh& mesh, std::vector<FaceSides> sides,
@@ -50,19 +71,17 @@ std::vector<std::uint8_t> VertexVisibility::visible_among(std::span<const std::u
                                                           const Viewpoint& eye,
                                                           const RunContext& run) const {
   Sight& sight = scene_->sight;
-  const Surface& surface = sight.surface();
-  std::vector<std::uint8_t> sites(surface.sites.size(), 0);
-  for (std::size_t v = 0; v < asked.size(); ++v) {
-    if (asked[v] != 0 && surface.site_of_vertex[v] != Surface::kNoSite) {
-      sites[surface.site_of_vertex[v]] = 1;
-    }
-  }
-  Look look(sight, eye_in_frame(eye, surface.frame), run);
-  std::vector<std::uint8_t> seen = vertices_of_sites(surface, look.seen_among(sites));
-  for (std::size_t v = 0; v < seen.size(); ++v) {
-    seen[v] = asked[v] != 0 ? seen[v] : 0;
-  }
-  return seen;
+  Look look(sight, eye_in_frame(eye, sight.surface().frame), run);
+  return of_those_asked(sight.surface(), asked, look.seen_among(sites_of(sight.surface(), asked)));
+}
+
+std::vector<std::uint8_t> VertexVisibility::visible_by_segments(std::span<const std::uint8_t> asked,
+                                                                const Viewpoint& eye,
+                                                                const RunContext& run) const {
+  Sight& sight = scene_->sight;
+  Look look(sight, eye_in_frame(eye, sight.surface().frame), run);
+  return of_those_asked(sight.surface(), asked,
+                        look.seen_by_segments(sites_of(sight.surface(), asked)));
 }
 
 std::vector<std::uint8_t> visible_vertices(const TriMesh& mesh, const Vec3& eye) {

@@ -22,3 +22,11 @@ def angle_bar():
         faces += [(a, b, b + 6), (a, b + 6, a + 6)]
     lines = ["OFF", "12 20 0"] + [f"{x} {y} {z}" for z in (0, 0.2) for x, y in outline]
     return "\n".join(lines + [f"3 {a} {b} {c}" for a, b, c in faces]) + "\n"
+
+
+def write_fault_models(folder):
+    """The models of faults.py."""
+    (folder / "old.off").write_text(box(2.0, 1.0))
+    for name, size in (("new", 1.0), ("m0", 1.0), ("m1", 1.5), ("m2", 1.0)):
+        (folder / f"{name}.off").write_text(box(size))
+    (folder / "bad.off").write_text("OFF\n1 1 0\n0 0 0\n3 0 1 2\n")

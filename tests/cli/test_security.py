@@ -68,6 +68,44 @@ class Limits(ProgramTest):
             self.assertLess((self.dir / "m.gltf").stat().st_size, 70_000)
             self.vantage("info", "m.gltf", "--max-memory", "200MB", exit_code=exit_code)
 
+    def test_more_faces_than_allowed_are_refused_in_one_sentence_by_every_command(self):
+        self.write("m.off", box(1))
+        self.write("eyes.csv", "dx,dy,dz\n0,0,1\n")
+        commands = (("info", "m.off"), ("view", "m.off", "-o", "out"), ("thumb", "m.off", "m.png"),
+                    ("render", "m.off", "-o", "m.png", "--view", "best"), ("map", "m.off", "-o", "m.ply"),
+                    ("skeleton", "m.off", "-o", "m.json"), ("score", "m.off", "--directions", "eyes.csv"),
+                    ("compare", "m.off", "-o", "out"), ("figures", "m.off", "-o", "out"), ("orient", "m.off"))
+        for command in commands:
+            done = self.vantage(*command, "--max-faces", "11", exit_code=3)
+            self.assertEqual(done.err, "vantage: m.off: has more than 11 faces, the most that --max-faces allows; "
+                                       "decimate it, or allow more if there is the memory\n", command)
+        self.assertEqual({p.name for p in self.dir.iterdir()}, {"m.off", "eyes.csv"})
+        self.vantage("info", "m.off", "--max-faces", "12")
+        self.vantage("batch", "m.off", "-o", "out", "--max-faces", "11", "-q", exit_code=4)
+        self.assertIn("has more than 11 faces", self.vantage("results", "export", "out", "--format", "jsonl").out)
+
+    def test_instances_are_counted_before_they_are_made(self):
+        triangle = b"".join(struct.pack("<3f", *p) for p in ((0, 0, 0), (1, 0, 0), (0, 1, 0)))
+        self.write("m.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": list(range(300))}], "nodes": [{"mesh": 0}] * 300,
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+                          {"bufferView": 1, "componentType": 5121, "count": 3000, "type": "SCALAR"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 3000}],
+            "buffers": [{"byteLength": 3036, "uri": "data:application/octet-stream;base64," +
+                         base64.b64encode(triangle + b"\0\1\2" * 1000).decode()}]}))
+        self.vantage("info", "m.gltf", "--max-faces", "300000")
+        self.vantage("info", "m.gltf", "--max-faces", "299999", exit_code=3)
+        with zipfile.ZipFile(self.dir / "m.3mf", "w") as archive:
+            mesh = ('<mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/>'
+                    '</vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh>')
+            objects = f'<object id="1">{mesh}</object>' + "".join(
+                f'<object id="{i + 2}"><components>' + f'<component objectid="{i + 1}"/>' * 2 + "</components></object>"
+                for i in range(10))
+            archive.writestr("3D/3dmodel.model", f'<model><resources>{objects}</resources><build><item objectid="11"/></build></model>')
+        self.vantage("info", "m.3mf", "--max-faces", "1024")
+        self.vantage("info", "m.3mf", "--max-faces", "1023", exit_code=3)
+
     def test_a_file_that_thousands_of_buffers_name_is_read_once(self):
         self.write("two.bin", TRIANGLE + bytes(2_000_000))
         scene = json.loads(gltf("two.bin"))

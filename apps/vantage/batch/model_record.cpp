@@ -49,6 +49,11 @@ bool may_pass_next_time(const std::string& reason) {
          reason == "changed";
 }
 
+bool is_doubted(const ModelRecord& record) {
+  // Results are compact JSON, and none of their texts holds a quotation mark.
+  return record.result.find("\"doubts\":[\"") != std::string::npos;
+}
+
 nlohmann::ordered_json to_json(const ModelRecord& record) {
   nlohmann::ordered_json json;
   json["key"] = record.key;

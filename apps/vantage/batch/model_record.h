@@ -50,6 +50,9 @@ struct ModelRecord {
 /// Reasons that may vanish when tried again; the others are the model's or the user's.
 bool may_pass_next_time(const std::string& reason);
 
+/// Whether its answer should not be trusted, for a reason that its view.json has.
+bool is_doubted(const ModelRecord& record);
+
 /// A record as one JSON object, keys in a fixed order.
 nlohmann::ordered_json to_json(const ModelRecord& record);
 

@@ -49,6 +49,7 @@ SELECT m.key AS key, m.name AS name, c.status AS status,
   json_extract(c.result, '$.worst.direction[0]') AS worst_dx,
   json_extract(c.result, '$.worst.direction[1]') AS worst_dy,
   json_extract(c.result, '$.worst.direction[2]') AS worst_dz,
+  json_array_length(c.result, '$.doubts') AS doubts,
   c.result AS result,
   t.seconds AS seconds, t.peak_bytes AS peak_bytes, t.attempts AS attempts,
   t.finished_ms AS finished_ms
@@ -248,6 +249,11 @@ StatusCounts ResultsStore::counts() {
   return {row.integer(0), row.integer(1), row.integer(2)};
 }
 
+std::int64_t ResultsStore::count_doubted() {
+  return number_of(database_,
+                   "SELECT COUNT(*) FROM results WHERE doubts > 0 AND duplicate_of = ''");
+}
+
 void ResultsStore::check_integrity() {
   Statement check(database_, "PRAGMA integrity_check");
   check.step();
@@ -286,7 +292,8 @@ const std::vector<std::string>& result_columns() {
                                                "worst_fraction",
                                                "worst_dx",
                                                "worst_dy",
-                                               "worst_dz"};
+                                               "worst_dz",
+                                               "doubts"};
   return kNames;
 }
 

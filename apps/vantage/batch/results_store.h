@@ -56,6 +56,9 @@ class ResultsStore : public ResultBook {
   /// Counts over the view `results`.
   StatusCounts counts();
 
+  /// Models whose answers should not be trusted, each content once.
+  std::int64_t count_doubted();
+
   /// Size of the sound database; throws IoError if SQLite's own check finds damage.
   void check_integrity();
 

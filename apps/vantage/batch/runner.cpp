@@ -158,6 +158,7 @@ class Runner {
     if (is_settled(job)) {
       ++counts_.skipped;
       counts_.skipped_failed += job.before && job.before->status == "failed" ? 1 : 0;
+      counts_.doubted += job.before && is_doubted(*job.before) ? 1 : 0;
       report_(counts_, nullptr);
       return;
     }
@@ -230,6 +231,7 @@ class Runner {
       root_.move(event.staging, model_folder(job.record.folder));
       job.record.status = "done";
       ++counts_.done;
+      counts_.doubted += is_doubted(job.record) ? 1 : 0;
       settle(job);
       return;
     }
@@ -307,6 +309,7 @@ class Runner {
     unchanged.position = job.record.position;
     ++counts_.skipped;
     counts_.skipped_failed += unchanged.status == "failed" ? 1 : 0;
+    counts_.doubted += is_doubted(unchanged) ? 1 : 0;
     book_.put(unchanged);
     remove(job);
   }

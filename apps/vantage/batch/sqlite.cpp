@@ -4,26 +4,64 @@
 #include <cerrno>
 
 #include <sqlite3.h>
+#include <sys/stat.h>
 
 #include "vantage/core/error.h"
 
 namespace vantage::batch {
+
+namespace {
+
+std::int64_t bytes_in_file(const std::string& path) {
+  struct stat status {};
+
+  return ::stat(path.c_str(), &status) == 0 ? std::int64_t{status.st_size} : 0;
+}
+
+/// The file as one that nobody changes.
+std::string read_only_address(const std::string& path) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string address = "file:";
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    address += '%';
+    address += kDigits[byte >> 4U];
+    address += kDigits[byte & 15U];
+  }
+  return address + "?immutable=1";
+}
+
+}  // namespace
 
 void Database::Close::operator()(sqlite3* handle) const {
   sqlite3_close_v2(handle);
 }
 
 Database::Database(const std::string& path, Mode mode) : path_(path) {
-  const int flags =
-      mode == Mode::Create ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READWRITE;
+  open(path,
+       mode == Mode::Create ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READWRITE);
+  // Where nothing can be written, SQLite finds no place for its index of the log, and a log without
+  // one is not read: but without a log the file alone is all there is.
+  if (mode == Mode::Read && !can_be_read() && bytes_in_file(path + "-wal") == 0) {
+    open(read_only_address(path), SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
+  }
+}
+
+void Database::open(const std::string& address, int flags) {
   sqlite3* handle = nullptr;
-  const int code = sqlite3_open_v2(path.c_str(), &handle, flags, nullptr);
+  const int code = sqlite3_open_v2(address.c_str(), &handle, flags, nullptr);
   handle_.reset(handle);
   if (code != SQLITE_OK) {
     fail("cannot be opened");
   }
   sqlite3_extended_result_codes(handle, 1);
   sqlite3_busy_timeout(handle, 10'000);
+}
+
+bool Database::can_be_read() const {
+  sqlite3_exec(handle_.get(), "SELECT 1 FROM sqlite_schema", nullptr, nullptr, nullptr);
+  const int code = sqlite3_errcode(handle_.get()) & 0xff;
+  return code != SQLITE_CANTOPEN && code != SQLITE_READONLY && code != SQLITE_IOERR;
 }
 
 void Database::fail(const std::string& doing) const {

@@ -33,6 +33,9 @@ class Database {
     void operator()(sqlite3* handle) const;
   };
 
+  void open(const std::string& address, int flags);
+  [[nodiscard]] bool can_be_read() const;
+
   std::string path_;
   std::unique_ptr<sqlite3, Close> handle_{};
 };

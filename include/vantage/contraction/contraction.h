@@ -89,6 +89,7 @@ struct ComponentContraction {
   int regularised_steps = 0;            ///< Steps that could not be taken as defined.
   std::vector<std::string> remedies{};  ///< What was done about them, a phrase each.
   std::string strategy{"exact"};        ///< Which method contracted it.
+  double shrinkage = 1.0;               ///< [a_t] of its last level.
 };
 
 /// A finer surface that was contracted in place of the input; the input's vertices come first.

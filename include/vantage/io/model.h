@@ -68,6 +68,9 @@ struct ReadOptions {
   /// Textures are looked at no closer than that many pixels on their longer side, so that large JPEGs
   /// may be read at a half, a quarter or an eighth; 0: always whole.
   int texture_side = 0;
+  /// A model of more triangles, or without any of more points, is refused; 0: none is. What a file
+  /// shows again and again is counted before it is made. face_limit.h has what fits into memory.
+  std::size_t max_faces = 0;
   /// Reads formats that the library does not read itself; empty: they are refused.
   ModelImporter importer{};
 };

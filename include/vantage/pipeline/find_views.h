@@ -94,6 +94,9 @@ struct ViewReport {
   FoundView worst_search{};                ///< Evaluations beyond the best view's.
   std::optional<DenseGap> dense_gap{};     ///< If options.certify.
   std::vector<std::string> warnings{};     ///< One sentence each.
+  /// Why the answer should not be trusted, and what to do, one sentence each; see doubts_about().
+  /// Empty almost always. They are among the `warnings` of view.json.
+  std::vector<std::string> doubts{};
   /// If several views were asked for.
   std::optional<ReportedViewSet> set{};
 };

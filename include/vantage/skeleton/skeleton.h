@@ -61,7 +61,9 @@ struct Skeleton {
   /// the two differ, they are those of sampling.
   CurveGraph other_curve{};
   std::vector<std::uint32_t> raw_node_of_vertex{};  ///< |V| nodes of `raw`; kNone if isolated.
-  std::vector<std::string> warnings{};              ///< One sentence each.
+  double outside_share = 0.0;  ///< Of the length of `graph` in closed components, what is outside
+                               ///< their shells; 0 if it was not centred.
+  std::vector<std::string> warnings{};  ///< One sentence each.
 
   /// Node of a vertex that belongs to no face.
   static constexpr std::uint32_t kNone = 0xffffffffu;

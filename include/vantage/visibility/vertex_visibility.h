@@ -48,6 +48,12 @@ class VertexVisibility {
                                                         const Viewpoint& eye,
                                                         const RunContext& run = {}) const;
 
+  /// The same answers as visible_among(), found another way: each vertex's segment to the eye goes
+  /// through a hierarchy in space and is decided in double precision. Slower; to check the others.
+  [[nodiscard]] std::vector<std::uint8_t> visible_by_segments(std::span<const std::uint8_t> asked,
+                                                              const Viewpoint& eye,
+                                                              const RunContext& run = {}) const;
+
  private:
   struct Scene;
   std::unique_ptr<Scene> scene_;

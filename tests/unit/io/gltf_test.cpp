@@ -252,6 +252,22 @@ TEST(Gltf, CountsTheNamesOfNodesThatAreShownManyTimes) {
   EXPECT_THAT(scene.error(), HasSubstr("out of proportion"));
 }
 
+TEST(Gltf, CountsFacesOfNodesBeforeTheyAreMade) {
+  Scene scene;
+  scene.nodes = R"([{"children":[1,1,1]},{"mesh":0}])";
+  const std::size_t faces = scene.parsed().mesh.triangles.size();
+  const auto parsed = [&](std::size_t most) {
+    return parse_model(scene.bytes(), "a.glb", {}, {.max_faces = most}).mesh.triangles.size();
+  };
+  EXPECT_EQ(parsed(faces), faces);
+  try {
+    parsed(faces - 1);
+    ADD_FAILURE() << "it was read";
+  } catch (const FormatError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("has more than " + std::to_string(faces - 1) + " faces"));
+  }
+}
+
 TEST(Gltf, CountsPrimitivesWithoutPositionsInOneNote) {
   Scene scene;
   scene.primitive += R"(,{"attributes":{}},{"attributes":{}})";

@@ -56,6 +56,19 @@ TEST(VertexVisibility, SeesOfASphereTheFractionThatTheDistanceAllows) {
   }
 }
 
+TEST(VertexVisibility, SegmentsOneByOneDecideAsAllAtOnceDo) {
+  for (const TriMesh& mesh : {test::torus(1.0, 0.4, 40, 20), test::box(1.0, 2.0, 3.0, 6)}) {
+    const VertexVisibility visibility(mesh, {FaceSides::Front});
+    Bytes some(mesh.positions.size(), 0);
+    for (std::size_t v = 0; v < some.size(); v += 3) {
+      some[v] = 1;
+    }
+    for (const Viewpoint& eye : {at(0.0, 0.9, 6.0), at(5.0, 3.0, 1.0), along({1.0, 0.2, 0.1})}) {
+      EXPECT_EQ(visibility.visible_by_segments(some, eye), visibility.visible_among(some, eye));
+    }
+  }
+}
+
 TEST(VertexVisibility, SeesSevenCornersOfACubeFromBeyondOne) {
   const Bytes visible = seen(test::box(1.0, 1.0, 1.0, 1), FaceSides::Front, at(3.0, 3.0, 3.0));
   EXPECT_EQ(count(visible), 7U);  // all but the opposite one

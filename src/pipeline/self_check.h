@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vantage/core/run_context.h"
+#include "vantage/pipeline/find_views.h"
+#include "vantage/pipeline/shape_analysis.h"
+
+/// \file
+/// A look at an answer before it is given: docs/conventions.md says what is looked at.
+
+namespace vantage {
+
+/// Why the answer should not be trusted, and what to do, one sentence each; empty almost always.
+/// \param report with both views described. \throw Cancelled
+std::vector<std::string> doubts_about(const ShapeAnalysis& shape, const ViewReport& report,
+                                      const ViewOptions& options, const RunContext& run);
+
+/// How well the ranks of the map's values agree with those on a copy of the surface whose vertices
+/// are moved by 1e-4 of its diameter, of 8 000 vertices at most (Spearman); 1 where the map is flat.
+/// \pre shape.views \throw Cancelled
+double map_agreement_when_moved(const ShapeAnalysis& shape, const ViewOptions& options,
+                                const RunContext& run);
+
+}  // namespace vantage

@@ -1,0 +1,72 @@
+"""Answers that should not be trusted say so, and --strict makes them a failure."""
+
+import json
+import unittest
+
+from program import MODELS, ProgramTest
+from shapes import box
+
+FAST = ("--search", "rapid", "--size", "64")
+# A plate of thin triangles whose contraction has to be taken by other weights, to no end that lasts.
+DOUBTED = MODELS / "candle_stand.ply"
+
+
+def needle():
+    """A tetrahedron a ten-millionth as thick as it is long."""
+    return "OFF\n4 4 0\n0 0 0\n1 0 0\n0.5 1e-7 0\n0.5 0 1e-7\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n"
+
+
+class Doubts(ProgramTest):
+
+    def view(self, model, *arguments, exit_code=0):
+        done = self.vantage("view", model, "-o", "out", *FAST, *arguments, exit_code=exit_code)
+        report = json.loads((self.dir / "out/view.json").read_text())
+        for doubt in report["doubts"]:
+            self.assertIn(doubt, report["warnings"])
+            self.assertIn("warning: " + doubt, done.err)
+        return done, report
+
+    def test_a_sound_answer_is_not_doubted(self):
+        for model in ("horse.ply", "cat_lowpoly.ply"):
+            done, report = self.view(MODELS / model, "--no-images", "--strict")
+            self.assertEqual(report["doubts"], [])
+            self.assertNotIn("warning: ", done.err)
+
+    def test_a_map_that_hangs_on_the_mesh_is(self):
+        _, report = self.view(DOUBTED, "--no-images")
+        self.assertRegex(report["doubts"][0], "hangs on how the surface is cut into triangles.* --method")
+        files = {p.name: p.read_bytes() for p in (self.dir / "out").iterdir() if p.name != "timings.json"}
+        done, _ = self.view(DOUBTED, "--no-images", "--strict", exit_code=1)
+        self.assertEqual(done.err.strip().splitlines()[-1],
+                         f"vantage: candle_stand: {report['doubts'][0]} (--strict)")
+        self.assertEqual(files, {p.name: p.read_bytes() for p in (self.dir / "out").iterdir() if p.name != "timings.json"})
+
+    def test_other_methods_do_not_answer_for_the_map(self):
+        _, report = self.view(DOUBTED, "--no-images", "--method", "viewpoint-entropy", "--strict")
+        self.assertEqual(report["doubts"], [])
+
+    def test_a_picture_that_shows_nothing_is(self):
+        self.write("needle.off", needle())
+        done, report = self.view("needle.off", "--strict", exit_code=1)
+        self.assertRegex(report["doubts"][-1], "picture of the best view shows nothing")
+        self.assertTrue((self.dir / "out/best.png").exists(), done.err)
+
+    def test_a_batch_stores_counts_and_lists_what_is_doubted(self):
+        self.write("sound.off", box(1.0))
+        self.write("needle.off", needle())
+        self.write("again.off", needle())
+        command = ("batch", "sound.off", "needle.off", "again.off", "-o", "out", *FAST)
+        self.assertIn(", 1 not to be trusted;", self.vantage(*command).out)
+        for _ in range(2):  # also where nothing is left to do
+            done = self.vantage(*command, "--strict", exit_code=1)
+            self.assertRegex(done.err, "1 of the answers should not be trusted.* --where 'doubts>0'")
+        rows = json.loads(self.vantage("results", "query", "out", "--where", "doubts>0", "--json",
+                                       "--columns", "name,doubts,status").out)
+        self.assertEqual([(row["name"], row["status"]) for row in rows], [("again", "done"), ("needle", "done")])
+        self.vantage("batch", "sound.off", "-o", "other", *FAST, "--strict")
+        self.write("bad.off", "OFF\n1 1 0\n")
+        self.vantage(*command, "bad.off", "--strict", exit_code=4)
+
+
+if __name__ == "__main__":
+    unittest.main()
