@@ -246,8 +246,8 @@ std::vector<std::string> orientation_feature_names(bool of_front) {
   return {names.begin(), names.end()};
 }
 
-OrientationEvidence::OrientationEvidence(const TriMesh& surface)
-    : looks_(std::make_shared<const SideLooks>(surface)) {}
+OrientationEvidence::OrientationEvidence(const TriMesh& surface, const TextureFlow& flow)
+    : looks_(std::make_shared<const SideLooks>(surface, flow)) {}
 
 Orientation OrientationEvidence::find(const OrientationRequest& request) const {
   if (request.up && request.front && axis_of(*request.up).axis == axis_of(*request.front).axis) {

@@ -46,7 +46,7 @@ CoarseSurface coarse_of(const ShapeAnalysis& shape, const CoarseSurface& proxy,
 ViewPreparation::ViewPreparation(const ShapeAnalysis& shape, const RunContext& run)
     : visibility(shape.surface, shape.sides, kEyes),
       planes((run.check(), mirror_planes(shape.surface))),
-      evidence((run.check(), shape.surface)),
+      evidence((run.check(), shape.surface), shape.flow),
       vertex_areas(vantage::vertex_areas(shape.surface)),
       proxy((run.check(), proxy_of(shape, run))),
       proxy_visibility(proxy.mesh, proxy.sides, kEyes),
@@ -70,7 +70,7 @@ std::vector<MirrorPlane> planes_of(const ShapeAnalysis& shape) {
 }
 
 OrientationEvidence evidence_of(const ShapeAnalysis& shape) {
-  return shape.views ? shape.views->evidence : OrientationEvidence(shape.surface);
+  return shape.views ? shape.views->evidence : OrientationEvidence(shape.surface, shape.flow);
 }
 
 }  // namespace vantage
