@@ -10,7 +10,8 @@ Catalogue entries have y up and +z in front after their model_rotation; aircraft
 nose at -x, cars of TORCS y up and +x in front (AC3D files);
 creatures of 0 A.D. y up and -z in front, units of MegaGlest y up. --listed names the entries of the archives that
 may be used (columns archive, model); without it all are. --scans is a folder with the files that
-scripts/orientation_labels.csv says up and front of. Nothing of these models becomes part of the project.
+scripts/orientation_labels.csv says up and front of. Of catalogue models there are two copies each, stretched
+along the axes, to learn from (column copy_of). Nothing of these models becomes part of the project.
 """
 import argparse
 import csv
@@ -22,6 +23,8 @@ import zipfile
 import zlib
 
 import numpy as np
+
+STRETCH = 0.2  # of the copies of catalogue models: standard deviation of each axis' log
 
 
 class Shape:
@@ -204,16 +207,24 @@ def main():
     given = parser.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)
     labels = csv.writer(sys.stdout)
-    labels.writerow(["file", "group", "kind", "up", "front", "fold"])
+    labels.writerow(["file", "group", "kind", "up", "front", "fold", "copy_of"])
 
-    def row(file, stem, group, kind, up, front):
+    def row(file, stem, group, kind, up, front, copy_of=""):
         # Models of one series (bed1, bed2) are left out together.
-        labels.writerow([file, group, kind, up, front, zlib.crc32(stem.rstrip("0123456789-_").encode()) % 5])
+        labels.writerow([file, group, kind, up, front, zlib.crc32(stem.rstrip("0123456789-_").encode()) % 5,
+                         copy_of])
 
     def put(stem, group, kind, up, front, shape):
         file = given.out / f"{stem}.obj"
         shape.write(file)
         row(file, stem, group, kind, up, front)
+        if group.startswith("catalogue"):  # more of what there is too little of
+            random = np.random.default_rng(zlib.crc32(stem.encode()))
+            for number in (1, 2):
+                copy = given.out / f"{stem}~{number}.obj"
+                Shape(np.asarray(shape.points) * np.exp(random.normal(0.0, STRETCH, 3)), shape.faces, shape.places,
+                      shape.place_faces).write(copy)
+                row(copy, stem, group, kind, up, front, file)
 
     listed = {}
     if given.listed:

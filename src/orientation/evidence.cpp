@@ -6,11 +6,16 @@
 
 #include <Eigen/Geometry>
 
+#include "orientation/outline_end.h"
+
 namespace vantage {
 namespace {
 
 // A silhouette is cut into so many bands across the height.
 constexpr std::size_t kBands = 8;
+// The ends of a silhouette, and what lies behind them, shares of the length.
+constexpr double kTip = 0.12;
+constexpr double kNeck = 0.3;
 // An origin this far from the box's centre says nothing, over the box's side.
 constexpr double kFar = 0.6;
 
@@ -205,8 +210,6 @@ std::vector<double> SideLooks::upright_evidence(AxisDirection up) const {
   const SideTraits& downward = traits_of(up.opposite());
   const double height = fields_.extent[up.axis];
   const auto k = static_cast<Eigen::Index>(up.axis);
-  const std::size_t top_side = index_of(up);
-  const std::size_t base_side = index_of(up.opposite());
   double wall_up = 0.0;
   double wall_area = 0.0;
   for (std::size_t s = 0; s < 6; ++s) {
@@ -300,16 +303,9 @@ std::vector<double> SideLooks::upright_evidence(AxisDirection up) const {
           runs_taper,
           top.rim_depth - top.centre_depth,
           share_of(signed_part(flow_.up, up), flow_.share),
-          signed_part(flow_.up, up),
           share_of(flow_.up_along[k], flow_.share),
           share_of(flow_.right_along[k], flow_.share),
-          share_of(wall_up, wall_area),
-          wall_area,
-          flow_.share,
-          flow_.side[top_side].area,
-          flow_.side[base_side].area,
-          flow_.side[top_side].texels,
-          flow_.side[base_side].texels};
+          share_of(wall_up, wall_area)};
 }
 
 std::vector<double> SideLooks::front_evidence(AxisDirection up, AxisDirection front) const {
@@ -348,6 +344,12 @@ std::vector<double> SideLooks::front_evidence(AxisDirection up, AxisDirection fr
       near_behind += 1.0;
     }
   }
+  const HeightField& beside = fields_.along[side];
+  const EndOfOutline tip = end_of(beside, front, up, 0.0, kTip);
+  const EndOfOutline tail = end_of(beside, front.opposite(), up, 0.0, kTip);
+  const EndOfOutline neck = end_of(beside, front, up, kTip, kNeck);
+  const EndOfOutline rump = end_of(beside, front.opposite(), up, kTip, kNeck);
+  const AxisDirection aside{side, true};
   const TextureFlow::Side& front_face = flow_.side[index_of(front)];
   const TextureFlow::Side& back_face = flow_.side[index_of(front.opposite())];
   const TextureFlow::Side& top_face = flow_.side[index_of(up)];
@@ -435,11 +437,19 @@ std::vector<double> SideLooks::front_evidence(AxisDirection up, AxisDirection fr
           share_of(right_part(back_face.right), back_face.area),
           share_of(signed_part(top_face.up, front), top_face.area),
           share_of(right_part(top_face.right), top_face.area),
-          front_face.read,
-          back_face.read,
-          signed_part(front_face.read_up, up),
-          signed_part(back_face.read_up, up),
-          flow_.share};
+          flow_.share,
+          tip.filled,
+          tail.filled,
+          tip.height,
+          tail.height,
+          neck.filled,
+          rump.filled,
+          neck.height,
+          rump.height,
+          end_of(plan, front, aside, 0.0, kTip).filled,
+          end_of(plan, front.opposite(), aside, 0.0, kTip).filled,
+          end_of(plan, front, aside, kTip, kNeck).filled,
+          end_of(plan, front.opposite(), aside, kTip, kNeck).filled};
 }
 
 double SideLooks::difference(AxisDirection up, AxisDirection front, AxisDirection other) const {

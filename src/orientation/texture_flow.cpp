@@ -11,11 +11,11 @@ namespace {
 
 /// One face with a picture on it.
 struct PicturedFace {
-  Vec3 normal;         ///< Unit, as the face is wound.
-  Vec3 up;             ///< Unit, the way the picture's top lies.
-  Vec3 right;          ///< Unit, the way its right side lies.
-  double area = 0.0;   ///< Of the face.
-  double texels = 0.0; ///< Area in the picture.
+  Vec3 normal;          ///< Unit, as the face is wound.
+  Vec3 up;              ///< Unit, the way the picture's top lies.
+  Vec3 right;           ///< Unit, the way its right side lies.
+  double area = 0.0;    ///< Of the face.
+  double texels = 0.0;  ///< Area in the picture.
 };
 
 using Corners = std::array<Vec3, 3>;
@@ -79,19 +79,15 @@ TextureFlow texture_flow(const TriMesh& mesh, const Appearance& appearance) {
     }
     flow.share += face.area;
     texels += face.texels;
-    const Vec3 reader = face.right.cross(face.up).normalized();
     for (std::size_t s = 0; s < 6; ++s) {
       TextureFlow::Side& side = flow.side[s];
       const auto k = static_cast<Eigen::Index>(s / 2);
       const double sign = s % 2 == 0 ? 1.0 : -1.0;
       const double faces = fourth(sign * face.normal[k]);
-      const double reads = fourth(sign * reader[k]);
       side.area += face.area * faces;
       side.texels += face.texels * faces;
       side.up += face.area * faces * face.up;
       side.right += face.area * faces * face.right;
-      side.read += face.area * reads;
-      side.read_up += face.area * reads * face.up;
     }
     for (Eigen::Index k = 0; k < 3; ++k) {
       flow.up_along[k] += face.area * std::abs(face.up[k]);
@@ -117,8 +113,6 @@ void TextureFlow::scale(double by, double texels_by) {
     one.texels *= texels_by;
     one.up *= by;
     one.right *= by;
-    one.read *= by;
-    one.read_up *= by;
   }
 }
 

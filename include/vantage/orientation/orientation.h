@@ -60,20 +60,18 @@ Eigen::Matrix3d standing_rotation(const TriMesh& surface);
 struct TextureFlow {
   /// Of faces that look to one side of the box, by the fourth power of the cosine.
   struct Side {
-    double area = 0.0;            ///< With a picture.
-    double texels = 0.0;          ///< Area in pictures, share of all.
-    Vec3 up = Vec3::Zero();       ///< Sum over the area of the way the picture's top lies.
-    Vec3 right = Vec3::Zero();    ///< The same of its right side.
-    double read = 0.0;            ///< Area whose picture is seen unmirrored from the side.
-    Vec3 read_up = Vec3::Zero();  ///< Sum over that area of the way the picture's top lies.
+    double area = 0.0;          ///< With a picture.
+    double texels = 0.0;        ///< Area in pictures, share of all.
+    Vec3 up = Vec3::Zero();     ///< Sum over the area of the way the picture's top lies.
+    Vec3 right = Vec3::Zero();  ///< The same of its right side.
   };
 
-  std::array<Side, 6> side{};        ///< +x, −x, +y, −y, +z, −z.
-  double share = 0.0;                ///< Area with a picture.
-  Vec3 up = Vec3::Zero();            ///< Sum over the area of the way the picture's top lies.
-  Vec3 right = Vec3::Zero();         ///< The same of its right side.
-  Vec3 up_along = Vec3::Zero();      ///< Sum of that way's absolute parts along the axes.
-  Vec3 right_along = Vec3::Zero();   ///< The same of its right side.
+  std::array<Side, 6> side{};       ///< +x, −x, +y, −y, +z, −z.
+  double share = 0.0;               ///< Area with a picture.
+  Vec3 up = Vec3::Zero();           ///< Sum over the area of the way the picture's top lies.
+  Vec3 right = Vec3::Zero();        ///< The same of its right side.
+  Vec3 up_along = Vec3::Zero();     ///< Sum of that way's absolute parts along the axes.
+  Vec3 right_along = Vec3::Zero();  ///< The same of its right side.
 
   void scale(double by, double texels_by);
 };
