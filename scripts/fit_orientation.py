@@ -235,8 +235,8 @@ class Task:
                       for k in range(COPIES)]
         directions = [ring_around(row["up"]) if of_front else AXES for row in self.rows]
         self.truth = np.array([d.index(row["front" if of_front else "up"]) for d, row in zip(directions, self.rows)])
-        self.alike = np.array([alike_fronts(fronts_of(row["features"], row["up"])) if of_front else np.eye(6, dtype=bool)
-                               for row in self.rows])
+        self.alike = np.array([alike_fronts(fronts_of(row["features"], row["up"])) if of_front
+                               else np.eye(6, dtype=bool) for row in self.rows])
         # Of up also the front that the convention has, and the odds of each if that up is right.
         self.front = np.array([ring_around(row["up"]).index(row["front"]) if row["front"] else -1 for row in self.rows])
         self.front_odds = None
@@ -307,14 +307,15 @@ class Task:
             ok = self.right[rows, taken]
             turned.append(ok[mask])
             right_by_convention.append(ok[mask & has_right])
-        return np.concatenate(turned).mean(), np.concatenate(right_by_convention).mean()
+        kept = np.concatenate(right_by_convention)
+        return np.concatenate(turned).mean(), kept.mean() if len(kept) else 1.0
 
     def choose_rule(self, scores, share, mask=None, harm=HARM):
         """Witness and threshold that get the most turned models right at no more harm, and the rate."""
         mask = self.catalogue if mask is None else mask
         best = (-1.0, 8.0, 0.99)
-        for witness in np.arange(0.0, 5.01, 0.5):
-            for threshold in np.arange(0.3, 0.996, 0.08):
+        for witness in np.arange(0.0, 5.01, 0.25):
+            for threshold in np.arange(0.3, 0.996, 0.06):
                 turned, kept = self.rates(scores, witness, threshold, mask, share)
                 if 1.0 - kept <= harm and turned > best[0] + 1e-12:
                     best = (turned, float(witness), round(float(threshold), 2))
@@ -434,8 +435,8 @@ def draw(file, curves):
     file.write_text("\n".join(parts + ["</svg>"]) + "\n", encoding="utf-8")
 
 
-MAKE = {"up": lambda: Boosting(rounds=100, leaves=8, rate=0.12, share=0.1, fewest=60),
-        "front": lambda: Boosting(rounds=100, leaves=6, rate=0.1, share=0.1, fewest=60)}
+MAKE = {"up": lambda: Boosting(rounds=150, leaves=8, rate=0.08, share=0.1, fewest=60),
+        "front": lambda: Boosting(rounds=120, leaves=6, rate=0.1, share=0.1, fewest=60)}
 
 
 def main():

@@ -29,7 +29,7 @@ EndOfOutline end_of(const HeightField& field, AxisDirection end, AxisDirection a
     cells += 1.0;
     if (field.is_filled(cell)) {
       filled += 1.0;
-      sum += 1.0 - from_side(field.u_axis == end.axis ? v : u, across);
+      sum += from_side(field.u_axis == end.axis ? v : u, across.opposite());
     }
   }
   result.filled = cells > 0.0 ? filled / cells : 0.0;
