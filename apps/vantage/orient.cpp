@@ -42,7 +42,7 @@ std::string features_json(const ShapeAnalysis& shape) {
                {"front_features", orientation_feature_names(true)},
                {"ups", Json::array()},
                {"fronts", Json::array()}};
-  for (const OrientationFeatures& row : OrientationEvidence(shape.surface).features()) {
+  for (const OrientationFeatures& row : OrientationEvidence(shape.surface, shape.flow).features()) {
     if (!row.front) {
       json["ups"].push_back({{"up", axis_name(row.up)}, {"values", row.values}});
     } else {

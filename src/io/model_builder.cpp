@@ -62,9 +62,6 @@ void ModelBuilder::add_corner(std::uint64_t vertex, Place place) {
     highest_place_ = place;
   }
   corners_.push_back(index);
-  if (keeps_appearance_ && !uvs_are_of_vertices_) {
-    corner_uvs_.push_back(Appearance::kNone);
-  }
   ++open_corners_;
 }
 
@@ -90,7 +87,8 @@ void ModelBuilder::add_uv(double u, double v) {
 }
 
 void ModelBuilder::set_corner_uv(std::uint64_t uv) {
-  if (!corner_uvs_.empty() && uv < Appearance::kNone) {
+  if (!corners_.empty() && uv < Appearance::kNone) {
+    corner_uvs_.resize(corners_.size(), Appearance::kNone);
     corner_uvs_.back() = static_cast<std::uint32_t>(uv);
   }
 }
@@ -177,6 +175,10 @@ void ModelBuilder::triangulate() {
   std::size_t first_corner = 0;
   std::vector<Triangle>& triangles = model_.mesh.triangles;
   triangles.reserve(corners_.size() - 2 * corner_counts_.size());
+  if (!corner_uvs_.empty()) {
+    corner_uvs_.resize(corners_.size(), Appearance::kNone);
+    model_.appearance.uv_of_triangle.reserve(triangles.capacity());
+  }
   const auto mark_parts = [&](std::size_t polygon) {
     if (next_part < part_starts_.size() && part_starts_[next_part].first_polygon == polygon) {
       triangle_of_part_start.push_back(triangles.size());
@@ -188,8 +190,8 @@ void ModelBuilder::triangulate() {
     const std::size_t first_triangle = triangles.size();
     triangulate_polygon({corners_.data() + first_corner, corner_counts_[p]}, model_.mesh.positions,
                         triangles);
+    triangulate_uvs(first_corner, corner_counts_[p], first_triangle);
     if (keeps_appearance_) {
-      triangulate_uvs(first_corner, corner_counts_[p], first_triangle);
       const bool next = next_material < material_starts_.size() &&
                         material_starts_[next_material].first_polygon == p;
       material = next ? material_starts_[next_material++].material : material;
@@ -232,8 +234,7 @@ void ModelBuilder::triangulate_uvs(std::size_t first_corner, std::size_t count,
 void ModelBuilder::finish_appearance() {
   Appearance& appearance = model_.appearance;
   if (appearance.materials.empty()) {
-    appearance = {};
-    return;
+    appearance.material_of_triangle.clear();
   }
   const bool complete = uvs_are_of_vertices_ && uv_count() == point_count();
   if (complete) {

@@ -76,6 +76,8 @@ class ObjReader {
       read_face(rest);
     } else if (keyword == "g" || keyword == "o") {
       builder_.begin_part(trimmed(rest));
+    } else if (keyword == "vt") {
+      read_uv(rest);
     } else if (builder_.keeps_appearance() && is_of_appearance(keyword)) {
       read_appearance(keyword, rest);
     } else if (keyword == "l" || keyword == "p") {
@@ -91,15 +93,18 @@ class ObjReader {
   }
 
   static bool is_of_appearance(std::string_view keyword) {
-    return keyword == "vt" || keyword == "usemtl" || keyword == "mtllib";
+    return keyword == "usemtl" || keyword == "mtllib";
+  }
+
+  /// Kept in any case: how pictures lie tells what is up.
+  void read_uv(std::string_view rest) {
+    // No reason to refuse a shape: what is no number is 0.
+    const double u = number_from(take_token(rest)).value_or(0.0);
+    builder_.add_uv(u, number_from(take_token(rest)).value_or(0.0));
   }
 
   void read_appearance(std::string_view keyword, std::string_view rest) {
-    if (keyword == "vt") {
-      // No reason to refuse a shape: what is no number is 0.
-      const double u = number_from(take_token(rest)).value_or(0.0);
-      builder_.add_uv(u, number_from(take_token(rest)).value_or(0.0));
-    } else if (keyword == "usemtl") {
+    if (keyword == "usemtl") {
       materials_.use(trimmed(rest));
     } else {
       materials_.add_library(trimmed(rest));
@@ -148,17 +153,18 @@ class ObjReader {
     for (std::string_view token = take_token(rest); !token.empty() && token.front() != '#';
          token = take_token(rest)) {
       builder_.add_corner(corner_vertex(token), place_);
-      if (builder_.keeps_appearance()) {
-        read_corner_uv(token);
-      }
+      read_corner_uv(token);
     }
     builder_.end_polygon();
   }
 
   /// The second number of a corner such as "7/2/5"; what is not there or makes no sense is none.
   void read_corner_uv(std::string_view token) {
-    const std::size_t slash = std::min(token.find('/'), token.size());
-    token.remove_prefix(std::min(slash + 1, token.size()));
+    const std::size_t slash = token.find('/');
+    if (slash == std::string_view::npos) {
+      return;
+    }
+    token.remove_prefix(slash + 1);
     const std::optional<std::int64_t> index = integer_from(token.substr(0, token.find('/')));
     if (!index || *index == 0) {
       return;

@@ -129,6 +129,8 @@ CandidateModel::CandidateModel(std::string_view table, std::string_view subject,
       witness = *value;
     } else if (words[1] == "threshold" && value) {
       threshold = *value;
+    } else if (words[1] == "share" && value) {
+      share = *value;
     } else {
       refuse(line);
     }

@@ -4,11 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
+#include "orientation/outline_end.h"
+
 namespace vantage {
 namespace {
 
 // A silhouette is cut into so many bands across the height.
 constexpr std::size_t kBands = 8;
+// The ends of a silhouette, and what lies behind them, shares of the length.
+constexpr double kTip = 0.12;
+constexpr double kNeck = 0.3;
 // An origin this far from the box's centre says nothing, over the box's side.
 constexpr double kFar = 0.6;
 
@@ -120,6 +127,25 @@ Columns columns_of(const HeightField& field, bool up_is_positive) {
   return result;
 }
 
+Vec3 unit(AxisDirection direction) {
+  return Vec3::Unit(static_cast<Eigen::Index>(direction.axis)) *
+         (direction.is_positive ? 1.0 : -1.0);
+}
+
+double signed_part(const Vec3& vector, AxisDirection direction) {
+  const double part = vector[static_cast<Eigen::Index>(direction.axis)];
+  return direction.is_positive ? part : -part;
+}
+
+/// A part over the whole, 0 if there is next to nothing.
+double share_of(double part, double whole) {
+  return whole > 1e-3 ? part / whole : 0.0;
+}
+
+std::size_t index_of(AxisDirection direction) {
+  return 2 * direction.axis + (direction.is_positive ? 0 : 1);
+}
+
 double log_ratio(double a, double b) {
   return std::log2((a + 0.01) / (b + 0.01));
 }
@@ -130,7 +156,8 @@ std::array<AxisDirection, 6> axis_directions() {
   return {{{0, true}, {0, false}, {1, true}, {1, false}, {2, true}, {2, false}}};
 }
 
-SideLooks::SideLooks(const TriMesh& surface) : fields_(surface), traits_(surface) {
+SideLooks::SideLooks(const TriMesh& surface, const TextureFlow& flow)
+    : fields_(surface), traits_(surface), flow_(flow) {
   knows_origin_ = std::all_of(fields_.origin.begin(), fields_.origin.end(),
                               [](double share) { return std::abs(share - 0.5) <= kFar; });
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -182,6 +209,15 @@ std::vector<double> SideLooks::upright_evidence(AxisDirection up) const {
   const SideTraits& upward = traits_of(up);
   const SideTraits& downward = traits_of(up.opposite());
   const double height = fields_.extent[up.axis];
+  const auto k = static_cast<Eigen::Index>(up.axis);
+  double wall_up = 0.0;
+  double wall_area = 0.0;
+  for (std::size_t s = 0; s < 6; ++s) {
+    if (s / 2 != up.axis) {
+      wall_up += signed_part(flow_.side[s].up, up);
+      wall_area += flow_.side[s].area;
+    }
+  }
   return {base.touch,
           top.touch,
           base.touch_hull,
@@ -265,7 +301,11 @@ std::vector<double> SideLooks::upright_evidence(AxisDirection up) const {
           traits_.parts,
           taper,
           runs_taper,
-          top.rim_depth - top.centre_depth};
+          top.rim_depth - top.centre_depth,
+          share_of(signed_part(flow_.up, up), flow_.share),
+          share_of(flow_.up_along[k], flow_.share),
+          share_of(flow_.right_along[k], flow_.share),
+          share_of(wall_up, wall_area)};
 }
 
 std::vector<double> SideLooks::front_evidence(AxisDirection up, AxisDirection front) const {
@@ -304,6 +344,17 @@ std::vector<double> SideLooks::front_evidence(AxisDirection up, AxisDirection fr
       near_behind += 1.0;
     }
   }
+  const HeightField& beside = fields_.along[side];
+  const EndOfOutline tip = end_of(beside, front, up, 0.0, kTip);
+  const EndOfOutline tail = end_of(beside, front.opposite(), up, 0.0, kTip);
+  const EndOfOutline neck = end_of(beside, front, up, kTip, kNeck);
+  const EndOfOutline rump = end_of(beside, front.opposite(), up, kTip, kNeck);
+  const AxisDirection aside{side, true};
+  const TextureFlow::Side& front_face = flow_.side[index_of(front)];
+  const TextureFlow::Side& back_face = flow_.side[index_of(front.opposite())];
+  const TextureFlow::Side& top_face = flow_.side[index_of(up)];
+  const Vec3 to_right = unit(up).cross(unit(front));  // of who looks at the front
+  const auto right_part = [&](const Vec3& vector) { return vector.dot(to_right); };
   const double extent = fields_.extent[front.axis];
   const auto place = [&](double u, double v) { return oriented(is_u ? u : v, front) - 0.5; };
   const auto middle = [&](std::size_t band) { return oriented(profile.middle[band], front) - 0.5; };
@@ -373,7 +424,32 @@ std::vector<double> SideLooks::front_evidence(AxisDirection up, AxisDirection fr
           traits_.axis[front.axis].edges_along,
           traits_.axis[side].edges_along,
           traits_.open,
-          traits_.parts};
+          traits_.parts,
+          share_of(signed_part(flow_.up, front), flow_.share),
+          share_of(right_part(flow_.right), flow_.share),
+          front_face.area,
+          back_face.area,
+          front_face.texels,
+          back_face.texels,
+          share_of(signed_part(front_face.up, up), front_face.area),
+          share_of(signed_part(back_face.up, up), back_face.area),
+          share_of(right_part(front_face.right), front_face.area),
+          share_of(right_part(back_face.right), back_face.area),
+          share_of(signed_part(top_face.up, front), top_face.area),
+          share_of(right_part(top_face.right), top_face.area),
+          flow_.share,
+          tip.filled,
+          tail.filled,
+          tip.height,
+          tail.height,
+          neck.filled,
+          rump.filled,
+          neck.height,
+          rump.height,
+          end_of(plan, front, aside, 0.0, kTip).filled,
+          end_of(plan, front.opposite(), aside, 0.0, kTip).filled,
+          end_of(plan, front, aside, kTip, kNeck).filled,
+          end_of(plan, front.opposite(), aside, kTip, kNeck).filled};
 }
 
 double SideLooks::difference(AxisDirection up, AxisDirection front, AxisDirection other) const {

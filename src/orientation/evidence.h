@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "vantage/orientation/orientation.h"
+
 #include "orientation/height_fields.h"
 #include "orientation/side_look.h"
 #include "orientation/surface_traits.h"
@@ -33,7 +35,7 @@ std::span<const std::string_view> front_evidence_names();
 /// Everything that evidence is made of, measured once.
 class SideLooks {
  public:
-  explicit SideLooks(const TriMesh& surface);
+  SideLooks(const TriMesh& surface, const TextureFlow& flow);
 
   /// Evidence for a direction being up.
   [[nodiscard]] std::vector<double> upright_evidence(AxisDirection up) const;
@@ -54,6 +56,7 @@ class SideLooks {
 
   HeightFields fields_;
   SurfaceTraits traits_;
+  TextureFlow flow_;
   bool knows_origin_ = false;  ///< The coordinates' origin is in the box, or near it.
   std::array<SideLook, 6> looks_{};
   std::array<double, 3> mirror_{};

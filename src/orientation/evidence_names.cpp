@@ -6,7 +6,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::array<std::string_view, 83> kUprightNames{"base_touch",
+constexpr std::array<std::string_view, 87> kUprightNames{"base_touch",
                                                          "top_touch",
                                                          "base_hull",
                                                          "top_hull",
@@ -88,9 +88,13 @@ constexpr std::array<std::string_view, 83> kUprightNames{"base_touch",
                                                          "parts",
                                                          "taper",
                                                          "runs_taper",
-                                                         "dome"};
+                                                         "dome",
+                                                         "texture_up",
+                                                         "texture_up_along",
+                                                         "texture_right_along",
+                                                         "wall_texture_up"};
 
-constexpr std::array<std::string_view, 64> kFrontNames{"front_touch",
+constexpr std::array<std::string_view, 89> kFrontNames{"front_touch",
                                                        "back_touch",
                                                        "front_hull",
                                                        "back_hull",
@@ -153,7 +157,32 @@ constexpr std::array<std::string_view, 64> kFrontNames{"front_touch",
                                                        "edges_front",
                                                        "edges_side",
                                                        "open_edges",
-                                                       "parts"};
+                                                       "parts",
+                                                       "texture_up_ahead",
+                                                       "texture_right",
+                                                       "front_texture",
+                                                       "back_texture",
+                                                       "front_texels",
+                                                       "back_texels",
+                                                       "front_texture_up",
+                                                       "back_texture_up",
+                                                       "front_texture_right",
+                                                       "back_texture_right",
+                                                       "top_texture_ahead",
+                                                       "top_texture_right",
+                                                       "texture",
+                                                       "tip_filled",
+                                                       "tail_filled",
+                                                       "tip_height",
+                                                       "tail_height",
+                                                       "neck_filled",
+                                                       "rump_filled",
+                                                       "neck_height",
+                                                       "rump_height",
+                                                       "tip_width",
+                                                       "tail_width",
+                                                       "neck_width",
+                                                       "rump_width"};
 
 }  // namespace
 

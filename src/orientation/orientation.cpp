@@ -61,10 +61,8 @@ std::vector<AxisDirection> around(AxisDirection up) {
   return ring;
 }
 
-/// Probabilities of candidates, the convention's favoured by the witness.
-std::vector<double> odds_of(std::vector<double> scores, std::size_t usual,
-                            const CandidateModel& model) {
-  scores[usual] += model.witness;
+/// Probabilities of candidates of these log odds.
+std::vector<double> odds_of(std::vector<double> scores) {
   const double most = *std::max_element(scores.begin(), scores.end());
   double sum = 0.0;
   for (double& score : scores) {
@@ -79,11 +77,12 @@ std::vector<double> odds_of(std::vector<double> scores, std::size_t usual,
 
 /// Chooses among candidates.
 /// \param odds of each. \param usual index of the convention's.
-/// \param alike whether two of them cannot be told apart.
+/// \param threshold probability from which another one is taken. \param alike whether two of them
+/// cannot be told apart.
 template <class Alike>
 DirectionChoice choose(const std::vector<AxisDirection>& candidates,
-                       const std::vector<double>& odds, std::size_t usual,
-                       const CandidateModel& model, Alike&& alike) {
+                       const std::vector<double>& odds, std::size_t usual, double threshold,
+                       Alike&& alike) {
   std::vector<double> confidence(odds.size(), 0.0);  // of the candidate or one that looks like it
   for (std::size_t a = 0; a < odds.size(); ++a) {
     for (std::size_t b = 0; b < odds.size(); ++b) {
@@ -95,7 +94,7 @@ DirectionChoice choose(const std::vector<AxisDirection>& candidates,
   for (std::size_t c = 0; c < odds.size(); ++c) {
     best = confidence[c] > confidence[best] + 1e-9 ? c : best;
   }
-  const std::size_t chosen = confidence[best] >= model.threshold ? best : usual;
+  const std::size_t chosen = confidence[best] >= threshold ? best : usual;
   return {.direction = vector_of(candidates[chosen]),
           .source = chosen == usual ? "format" : "shape",
           .confidence = confidence[chosen],
@@ -175,6 +174,29 @@ DirectionChoice known(const Vec3& direction, const char* source) {
   return {.direction = direction, .source = source, .likeliest = direction};
 }
 
+std::size_t place_of(AxisDirection direction, const std::vector<AxisDirection>& candidates) {
+  const auto found = std::find(candidates.begin(), candidates.end(), direction);
+  return static_cast<std::size_t>(found - candidates.begin());
+}
+
+/// Log odds of the sides, if `up` is up, by the shape alone.
+std::vector<double> front_scores(const SideLooks& looks, AxisDirection up) {
+  std::vector<std::vector<double>> values;
+  for (const AxisDirection front : around(up)) {
+    values.push_back(looks.front_evidence(up, front));
+  }
+  return front_model().scores(values);
+}
+
+/// What the side that the convention has in front adds to the log odds of its up: of files that are
+/// upright by it a share faces as it says, of all others each side is as likely.
+double facing_witness(const SideLooks& looks, const Vec3& usual_up) {
+  const AxisDirection up = axis_of(usual_up);
+  const std::size_t usual = place_of(axis_of(upright_frame(usual_up).front), around(up));
+  const double share = front_model().share;
+  return std::log(1.0 - share + share * 4.0 * odds_of(front_scores(looks, up))[usual]);
+}
+
 DirectionChoice find_up(const SideLooks& looks, const OrientationRequest& request) {
   if (request.up) {
     return known(*request.up, "given");
@@ -198,14 +220,27 @@ DirectionChoice find_up(const SideLooks& looks, const OrientationRequest& reques
     throw InvalidInput("the front is along the up axis: give the up axis, too");
   }
   const auto usual_index = static_cast<std::size_t>(found - candidates.begin());
+  std::vector<double> scores = up_model().scores(values);
+  scores[usual_index] +=
+      up_model().witness + (front ? 0.0 : facing_witness(looks, request.usual_up));
   DirectionChoice choice = choose(
-      candidates, odds_of(up_model().scores(values), usual_index, up_model()), usual_index,
-      up_model(), [&](AxisDirection a, AxisDirection b) {
+      candidates, odds_of(std::move(scores)), usual_index, up_model().threshold,
+      [&](AxisDirection a, AxisDirection b) {
         const AxisDirection about{a.axis == b.axis ? (a.axis + 1) % 3 : 3 - a.axis - b.axis, true};
         return looks.difference(about, a, b) < kAlike;
       });
   choice.reasons = reasons_for_up(looks, axis_of(choice.likeliest));
   return choice;
+}
+
+/// What habit adds to the log odds of the usual front. Also where another up than the format's is given
+/// or found, files with y or z up have a usual front; those with another up have none.
+double front_witness(AxisDirection up, bool is_formats) {
+  if (is_formats) {
+    return front_model().witness;
+  }
+  const double share = front_model().share;
+  return up.is_positive && up.axis != 0 ? std::log(3.0 * share / (1.0 - share)) : 0.0;
 }
 
 /// Sets the front and the odds of all sides. \pre result.up
@@ -218,23 +253,18 @@ void find_front(const SideLooks& looks, const OrientationRequest& request, Orien
   const AxisDirection up = axis_of(up_vector);
   const AxisDirection usual = axis_of(upright_frame(up_vector).front);
   const std::vector<AxisDirection> candidates = around(up);
-  std::vector<std::vector<double>> values;
-  values.reserve(candidates.size());
-  for (const AxisDirection front : candidates) {
-    values.push_back(looks.front_evidence(up, front));
-  }
-  const auto found = std::find(candidates.begin(), candidates.end(), usual);
-  const auto usual_index = static_cast<std::size_t>(found - candidates.begin());
-  const std::vector<double> odds =
-      odds_of(front_model().scores(values), usual_index, front_model());
+  const std::size_t usual_index = place_of(usual, candidates);
+  const bool is_formats = up == axis_of(request.usual_up);
+  std::vector<double> scores = front_scores(looks, up);
+  scores[usual_index] += front_witness(up, is_formats);
+  const std::vector<double> odds = odds_of(std::move(scores));
   result.front =
-      choose(candidates, odds, usual_index, front_model(),
+      choose(candidates, odds, usual_index, is_formats ? front_model().threshold : 0.0,
              [&](AxisDirection a, AxisDirection b) { return looks.difference(up, a, b) < kAlike; });
   result.front.reasons = reasons_for_front(looks, up, axis_of(result.front.likeliest));
   Vec3 side = result.front.direction;
   for (double& of_side : result.front_odds) {
-    const auto at = std::find(candidates.begin(), candidates.end(), axis_of(side));
-    of_side = odds[static_cast<std::size_t>(at - candidates.begin())];
+    of_side = odds[place_of(axis_of(side), candidates)];
     side = up_vector.cross(side);
   }
 }
@@ -246,8 +276,8 @@ std::vector<std::string> orientation_feature_names(bool of_front) {
   return {names.begin(), names.end()};
 }
 
-OrientationEvidence::OrientationEvidence(const TriMesh& surface)
-    : looks_(std::make_shared<const SideLooks>(surface)) {}
+OrientationEvidence::OrientationEvidence(const TriMesh& surface, const TextureFlow& flow)
+    : looks_(std::make_shared<const SideLooks>(surface, flow)) {}
 
 Orientation OrientationEvidence::find(const OrientationRequest& request) const {
   if (request.up && request.front && axis_of(*request.up).axis == axis_of(*request.front).axis) {

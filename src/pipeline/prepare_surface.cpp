@@ -86,6 +86,9 @@ ShapeAnalysis prepare_surface(const Model& model, const RunContext& run) {
   list_coarse_coordinates(points, shape.warnings);
   run.check();
   shape.sphere = enclosing_sphere(points);
+  if (model.format == ModelFormat::Obj) {  // whose reader always keeps them
+    shape.flow = texture_flow(model.mesh, model.appearance);
+  }
   if (welded.mesh.triangles.empty() || !(shape.sphere.diameter > 0.0)) {
     throw InvalidInput(
         model.name +

@@ -54,7 +54,7 @@ ViewPreparation::ViewPreparation(const ShapeAnalysis& shape, const RunContext& r
                                  const std::optional<ScoringCamera>& surveyed)
     : visibility(shape.surface, shape.sides, kEyes),
       planes((run.check(), mirror_planes(shape.surface))),
-      evidence((run.check(), shape.surface)),
+      evidence((run.check(), shape.surface), shape.flow),
       vertex_areas(vantage::vertex_areas(shape.surface)),
       proxy((run.check(), proxy_of(shape, run))),
       proxy_visibility(proxy.mesh, proxy.sides, kEyes),
@@ -90,7 +90,7 @@ std::vector<MirrorPlane> planes_of(const ShapeAnalysis& shape) {
 }
 
 OrientationEvidence evidence_of(const ShapeAnalysis& shape) {
-  return shape.views ? shape.views->evidence : OrientationEvidence(shape.surface);
+  return shape.views ? shape.views->evidence : OrientationEvidence(shape.surface, shape.flow);
 }
 
 }  // namespace vantage

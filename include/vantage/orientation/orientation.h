@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vantage/core/vec3.h"
+#include "vantage/mesh/appearance.h"
 #include "vantage/mesh/tri_mesh.h"
 
 /// \file
@@ -54,6 +55,31 @@ struct Orientation {
 /// \complexity O(100 (|V| + |F|)).
 Eigen::Matrix3d standing_rotation(const TriMesh& surface);
 
+/// How the pictures on a surface lie: wood, labels and photographs are upright. All areas are shares
+/// of the surface's; all is 0 without coordinates on textures.
+struct TextureFlow {
+  /// Of faces that look to one side of the box, by the fourth power of the cosine.
+  struct Side {
+    double area = 0.0;          ///< With a picture.
+    double texels = 0.0;        ///< Area in pictures, share of all.
+    Vec3 up = Vec3::Zero();     ///< Sum over the area of the way the picture's top lies.
+    Vec3 right = Vec3::Zero();  ///< The same of its right side.
+  };
+
+  std::array<Side, 6> side{};       ///< +x, −x, +y, −y, +z, −z.
+  double share = 0.0;               ///< Area with a picture.
+  Vec3 up = Vec3::Zero();           ///< Sum over the area of the way the picture's top lies.
+  Vec3 right = Vec3::Zero();        ///< The same of its right side.
+  Vec3 up_along = Vec3::Zero();     ///< Sum of that way's absolute parts along the axes.
+  Vec3 right_along = Vec3::Zero();  ///< The same of its right side.
+
+  void scale(double by, double texels_by);
+};
+
+/// \param appearance its coordinates on textures, whose second one grows towards the picture's top;
+/// materials are not looked at. \complexity O(|F|)
+TextureFlow texture_flow(const TriMesh& mesh, const Appearance& appearance);
+
 /// One direction's features.
 struct OrientationFeatures {
   Vec3 up = Vec3::UnitY();       ///< The candidate for up.
@@ -71,7 +97,8 @@ std::vector<std::string> orientation_feature_names(bool of_front);
 class OrientationEvidence {
  public:
   /// \complexity O(|F| + area over that of a cell), twice the box's longest side in 64 cells.
-  explicit OrientationEvidence(const TriMesh& surface);
+  /// \param flow how pictures lie on it.
+  explicit OrientationEvidence(const TriMesh& surface, const TextureFlow& flow = {});
 
   /// Finds what is not given. A direction other than the convention's is taken only above the
   /// confidence stated in the table of the fitted model. \throw InvalidInput if the directions are

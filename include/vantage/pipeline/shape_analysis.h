@@ -15,6 +15,7 @@
 #include "vantage/io/model.h"
 #include "vantage/mesh/mesh_check.h"
 #include "vantage/mesh/tri_mesh.h"
+#include "vantage/orientation/orientation.h"
 #include "vantage/pipeline/view_options.h"
 #include "vantage/significance/kssm.h"
 #include "vantage/skeleton/skeleton.h"
@@ -52,6 +53,7 @@ struct ShapeAnalysis {
   std::vector<FaceSides> sides{};               ///< One per component of `surface`.
   std::vector<std::uint32_t> surface_vertex{};  ///< For each input vertex its one in `surface`.
   MeshReport check{};                           ///< Of the welded surface.
+  TextureFlow flow{};                           ///< How pictures lie on it.
   Sphere sphere{};                              ///< Smallest around all referenced vertices.
   ContractionHistory history{};                 ///< Filled by add_history().
   Skeleton skeleton{};                          ///< Filled by add_skeleton().

@@ -105,6 +105,14 @@ TEST(Orientation, IsWhatIsGivenOrCertainWhateverTheShape) {
   EXPECT_EQ(evidence.find({.front = Vec3::UnitX()}).up.direction.dot(Vec3::UnitX()), 0.0);
 }
 
+TEST(Orientation, HasNoUsualFrontWhereUpIsNotUsual) {
+  // A chair that stands on x: nothing but the shape speaks of its front.
+  const Eigen::Matrix3d rotation = Eigen::AngleAxisd(M_PI / 2.0, Vec3::UnitY()).toRotationMatrix();
+  const OrientationEvidence evidence(turned(chair(), rotation.array().round().matrix()));
+  const DirectionChoice front = evidence.find({.up = Vec3::UnitX()}).front;
+  EXPECT_EQ(front.direction, front.likeliest);
+}
+
 TEST(Orientation, RefusesDirectionsThatMakeNoFrame) {
   const OrientationEvidence evidence(chair());
   EXPECT_THROW((void)evidence.find({.up = Vec3::UnitX(), .front = -Vec3::UnitX()}), InvalidInput);
