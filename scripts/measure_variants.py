@@ -69,8 +69,8 @@ def flipped(points, faces, _):
         g, d = by_side.get((b, a), (None, None))
         if a > b or g is None or f in taken or g in taken or 1 - normal[f] @ normal[g] > FLAT or (min(c, d), max(c, d)) in present:
             continue
-        first = numpy.cross(points[d] - points[c], points[a] - points[c]) @ normal[f]
-        second = numpy.cross(points[b] - points[c], points[d] - points[c]) @ normal[f]
+        first = numpy.cross(points[a] - points[c], points[d] - points[c]) @ normal[f]
+        second = numpy.cross(points[d] - points[c], points[b] - points[c]) @ normal[f]
         if min(first, second) > 0.1 * max(first, second):  # as convex as that, and no sliver
             faces[f], faces[g] = (c, a, d), (d, b, c)
             present.add((min(c, d), max(c, d)))

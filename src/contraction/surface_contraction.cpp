@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "contraction/surface_contraction.h"
+
+#include <string>
+#include <utility>
+
+#include "contraction/refinement.h"
+
+namespace vantage {
+namespace {
+
+/// A plate stands still if a step takes off less than this share of it; it is contracted again by
+/// larger steps so often at most [ours: a square plate needs all].
+constexpr double kPlateStep = 0.05;
+constexpr int kMostAgain = 3;
+
+/// What the vertices of a surface count by; Cao's sums run over vertices.
+EvenShares shares_of(const TriMesh& mesh, const ContractionOptions& options) {
+  return options.weights == ContractionWeights::Vertex ? EvenShares{} : even_shares(mesh);
+}
+
+/// Contracts a surface by even shares. The rim of a plate may become a line that holds the rest
+/// where it is, by steps that are too small for so wide a surface: then all is done again by larger
+/// ones.
+ComponentHistory contract_evenly(const TriMesh& scaled, const ContractionOptions& options,
+                                 const RunContext& run, EvenShares shares) {
+  ComponentHistory history;
+  for (int again = 0;; ++again) {
+    const bool may_begin_again =
+        again < kMostAgain &&
+        shares.first_contraction() * options.contraction_growth <= options.contraction_limit;
+    shares.least_progress = may_begin_again ? kPlateStep : 0.0;
+    ComponentHistory attempt = contract_component(scaled, options, run, shares);
+    if (again > 0 && (attempt.is_stuck || attempt.shrinkage.back() >= history.shrinkage.back())) {
+      return history;
+    }
+    history = std::move(attempt);
+    if (!may_begin_again || history.summary.stop != ContractionStop::Shrunk ||
+        !is_plate(history.shrinkage.back())) {
+      return history;
+    }
+    shares.first_pull *= options.contraction_growth;
+  }
+}
+
+/// Contracts a surface as options.weights says.
+ComponentHistory contract_by(const TriMesh& mesh, const ContractionOptions& options,
+                             const RunContext& run) {
+  return options.weights == ContractionWeights::Vertex
+             ? contract_component(mesh, options, run)
+             : contract_evenly(mesh, options, run, even_shares(mesh));
+}
+
+/// Contracts a component at full resolution. A large one is thinned by its proxy all the same:
+/// whether a sheet becomes a curve hangs on its slivers, and the methods should agree on it. Small
+/// ones are not thinned: their W_L begins far below its limit.
+ComponentHistory contract_exactly(const TriMesh& scaled, const ContractionOptions& options,
+                                  const RunContext& run) {
+  ContractionOptions no_thinning = options;
+  no_thinning.sheet_limit = options.contraction_limit;
+  ComponentHistory history = contract_by(scaled, no_thinning, run.part(0.0, 0.9));
+  const bool may_be_thinned =
+      options.sheet_limit > options.contraction_limit && scaled.positions.size() > kProxyFrom;
+  // A proxy's share of the area is not quite the same; far below the bound neither is a sheet.
+  if (may_be_thinned && is_sheet(2.0 * history.shrinkage.back())) {
+    const Proxy proxy = make_proxy(scaled, kMergedSize, kProxySize, run);
+    const ComponentHistory coarse =
+        contract_component(proxy.mesh, options, run.part(0.9, 1.0), proxy.shares);
+    const std::vector<Vec3>& curve =
+        is_sheet(coarse.shrinkage.back()) ? coarse.thinned : coarse.levels.back();
+    for (std::size_t v = 0; v < scaled.positions.size() && !curve.empty(); ++v) {
+      history.thinned.push_back(position_of(proxy.place[v], proxy.mesh, curve));
+    }
+    history.summary.strategy += curve.empty() ? "" : ", thinned";
+  }
+  return history;
+}
+
+/// Takes all steps with weights that slivers do not upset where `history` is stuck, if that leads
+/// farther.
+void contract_carefully(const TriMesh& scaled, const ContractionOptions& options,
+                        const RunContext& run, ComponentHistory& history) {
+  ContractionOptions no_thinning = options;
+  no_thinning.sheet_limit = options.contraction_limit;
+  ComponentHistory careful =
+      contract_component(scaled, no_thinning, run, shares_of(scaled, options), true);
+  if (careful.is_stuck && careful.shrinkage.back() >= history.shrinkage.back()) {
+    return;
+  }
+  careful.summary.strategy = history.summary.strategy;
+  careful.summary.remedies = history.summary.remedies;
+  careful.summary.remedies.push_back(
+      "so all steps were taken with weights that thin triangles do not upset");
+  history = std::move(careful);
+}
+
+/// Contracts a finer copy of a surface on which `history` is stuck: coarse meshes have too few
+/// vertices to move. The steps are those of the copy, of the surface's own vertices.
+void contract_finer_copy(const TriMesh& scaled, const ContractionOptions& options,
+                         const RunContext& run, ComponentHistory& history) {
+  const TriMesh finer = refine_whole(scaled, run);
+  if (finer.positions.size() == scaled.positions.size()) {
+    return;
+  }
+  ComponentHistory copy = contract_by(finer, options, run);
+  if (copy.is_stuck || copy.summary.steps <= history.summary.steps) {
+    return;
+  }
+  for (auto& level : copy.levels) {
+    level.resize(scaled.positions.size());
+  }
+  copy.thinned.clear();
+  copy.summary.vertices = scaled.positions.size();
+  copy.summary.strategy = "refined " + std::to_string(finer.positions.size());
+  copy.summary.remedies.insert(copy.summary.remedies.begin(), history.summary.remedies.begin(),
+                               history.summary.remedies.end());
+  copy.summary.remedies.push_back("so a finer copy of the surface was contracted, of " +
+                                  std::to_string(finer.positions.size()) + " vertices");
+  history = std::move(copy);
+}
+
+}  // namespace
+
+ComponentHistory contract_surface(const TriMesh& scaled, const std::optional<Proxy>& proxy,
+                                 const ContractionOptions& options, const RunContext& run) {
+  if (proxy) {
+    ComponentHistory history = contract_by(proxy->mesh, options, run);
+    history.summary.vertices = scaled.positions.size();
+    history.summary.strategy = "proxy " + std::to_string(proxy->mesh.positions.size()) +
+                               (history.thinned.empty() ? "" : ", thinned");
+    return history;
+  }
+  ComponentHistory history;
+  if (options.method == ContractionMethod::Exact) {
+    history = contract_exactly(scaled, options, run);
+  } else {
+    ContractionOptions no_thinning = options;
+    no_thinning.sheet_limit = options.contraction_limit;
+    history = contract_by(scaled, no_thinning, run);
+    history.summary.strategy = "direct";
+  }
+  if (history.is_stuck) {
+    contract_carefully(scaled, options, run, history);
+  }
+  if (history.is_stuck && scaled.positions.size() <= kProxyFrom) {
+    contract_finer_copy(scaled, options, run, history);
+  }
+  return history;
+}
+
+}  // namespace vantage
