@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "contraction/surface_contraction.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "contraction/refinement.h"
 
@@ -14,6 +16,10 @@ namespace {
 constexpr double kPlateStep = 0.05;
 constexpr int kMostAgain = 3;
 
+/// Vertices of an evener copy at most, and of a surface that it is made of at least [ours].
+constexpr std::size_t kEvenCopy = 5'000;
+constexpr std::size_t kFewestEven = 500;
+
 /// What the vertices of a surface count by; Cao's sums run over vertices.
 EvenShares shares_of(const TriMesh& mesh, const ContractionOptions& options) {
   return options.weights == ContractionWeights::Vertex ? EvenShares{} : even_shares(mesh);
@@ -23,14 +29,15 @@ EvenShares shares_of(const TriMesh& mesh, const ContractionOptions& options) {
 /// where it is, by steps that are too small for so wide a surface: then all is done again by larger
 /// ones.
 ComponentHistory contract_evenly(const TriMesh& scaled, const ContractionOptions& options,
-                                 const RunContext& run, EvenShares shares) {
+                                 const RunContext& run, EvenShares shares,
+                                 bool is_careful = false) {
   ComponentHistory history;
   for (int again = 0;; ++again) {
     const bool may_begin_again =
         again < kMostAgain &&
         shares.first_contraction() * options.contraction_growth <= options.contraction_limit;
     shares.least_progress = may_begin_again ? kPlateStep : 0.0;
-    ComponentHistory attempt = contract_component(scaled, options, run, shares);
+    ComponentHistory attempt = contract_component(scaled, options, run, shares, is_careful);
     if (again > 0 && (attempt.is_stuck || attempt.shrinkage.back() >= history.shrinkage.back())) {
       return history;
     }
@@ -94,6 +101,38 @@ void contract_carefully(const TriMesh& scaled, const ContractionOptions& options
   history = std::move(careful);
 }
 
+/// Contracts a copy of a surface with fewer vertices and evener triangles where `history` shows that
+/// those of the surface itself are in the way: thin ones throw parts of it about.
+void contract_even_copy(const TriMesh& scaled, const ContractionOptions& options,
+                        const RunContext& run, ComponentHistory& history) {
+  const auto most = static_cast<std::size_t>(kProxyShare * static_cast<double>(scaled.positions.size()));
+  const std::size_t target = std::min(kEvenCopy, most);
+  const Proxy proxy = make_proxy(scaled, target, target, run);
+  if (proxy.mesh.positions.size() > most) {
+    return;
+  }
+  ComponentHistory copy = contract_evenly(proxy.mesh, options, run, proxy.shares, true);
+  if (copy.is_stuck || copy.summary.steps == 0) {
+    return;
+  }
+  for (auto& level : copy.levels) {
+    std::vector<Vec3> carried;
+    carried.reserve(scaled.positions.size());
+    for (const CoarsePlace& place : proxy.place) {
+      carried.push_back(position_of(place, proxy.mesh, level));
+    }
+    level = std::move(carried);
+  }
+  copy.levels.front() = scaled.positions;
+  copy.thinned.clear();
+  copy.summary.vertices = scaled.positions.size();
+  copy.summary.strategy = history.summary.strategy;
+  copy.summary.remedies = history.summary.remedies;
+  copy.summary.remedies.push_back("so a copy with evener triangles was contracted, of " +
+                                  std::to_string(proxy.mesh.positions.size()) + " vertices");
+  history = std::move(copy);
+}
+
 /// Contracts a finer copy of a surface on which `history` is stuck: coarse meshes have too few
 /// vertices to move. The steps are those of the copy, of the surface's own vertices.
 void contract_finer_copy(const TriMesh& scaled, const ContractionOptions& options,
@@ -138,6 +177,10 @@ ComponentHistory contract_surface(const TriMesh& scaled, const std::optional<Pro
     no_thinning.sheet_limit = options.contraction_limit;
     history = contract_by(scaled, no_thinning, run);
     history.summary.strategy = "direct";
+  }
+  if ((history.was_unsound || history.is_stuck) && options.weights == ContractionWeights::Area &&
+      scaled.positions.size() >= kFewestEven) {
+    contract_even_copy(scaled, options, run, history);
   }
   if (history.is_stuck) {
     contract_carefully(scaled, options, run, history);

@@ -57,28 +57,20 @@ std::vector<std::vector<double>> displacements(const ContractionHistory& history
   return d;
 }
 
-/// Weighted correlation of two fields; 1 where neither varies.
-double correlation(const std::vector<double>& a, const std::vector<double>& b,
-                   const std::vector<double>& weight) {
+/// Weighted variance.
+double variance(const std::vector<double>& x, const std::vector<double>& weight) {
   const double total = std::accumulate(weight.begin(), weight.end(), 0.0);
-  const auto mean = [&](const std::vector<double>& x) {
-    return std::inner_product(x.begin(), x.end(), weight.begin(), 0.0) / total;
-  };
-  const double mean_a = mean(a);
-  const double mean_b = mean(b);
-  double aa = 0.0;
-  double bb = 0.0;
-  double ab = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    aa += weight[i] * (a[i] - mean_a) * (a[i] - mean_a);
-    bb += weight[i] * (b[i] - mean_b) * (b[i] - mean_b);
-    ab += weight[i] * (a[i] - mean_a) * (b[i] - mean_b);
+  const double mean = std::inner_product(x.begin(), x.end(), weight.begin(), 0.0) / total;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sum += weight[i] * (x[i] - mean) * (x[i] - mean);
   }
-  return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 1.0;
+  return sum / total;
 }
 
 /// How much of each level is the surface's: from 0 where its displacements correlate by `least` with
-/// those of the surface meshed anew, to 1 where by half of what is missing more. The input always
+/// those of the surface meshed anew, to 1 where by half of what is missing more. Two meshes differ
+/// by chance: what differs is taken from the level up to this one where it is most. The input always
 /// counts.
 std::vector<double> level_weights(const ContractionHistory& history, const CurveGraph& skeleton,
                                   const CurveGraph& other, double least, const RunContext& run) {
@@ -89,22 +81,28 @@ std::vector<double> level_weights(const ContractionHistory& history, const Curve
       !(std::accumulate(area.begin(), area.end(), 0.0) > 0.0)) {
     return weights;
   }
-  const GraphDistance first(skeleton);
-  const GraphDistance distance(other);
+  const GraphDistance to_first(skeleton);
+  const GraphDistance to_other(other);
   std::vector<double> here(area.size());
   std::vector<double> there(area.size());
-  for (std::size_t level = 1; level < weights.size(); ++level) {
+  std::vector<double> difference(area.size());
+  const double full = kRamp * (1.0 - least);
+  double noise = 0.0;
+  for (std::size_t level = 0; level < weights.size(); ++level) {
     parallel_for(run, area.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        here[i] = first(second.here[level][i]);
-        there[i] = distance(second.there[level][i]);
+        here[i] = to_first(second.here[level][i]);
+        there[i] = to_other(second.there[level][i]);
+        difference[i] = here[i] - there[i];
       }
     });
-    const double surplus = correlation(here, there, area) - least;
-    const double full = kRamp * (1.0 - least);
+    noise = std::max(noise, variance(difference, area));
+    const double signal = std::min(variance(here, area), variance(there, area));
+    // 1 − noise / 2 signal is the correlation where both vary alike.
+    const double surplus = signal > 0.0 ? 1.0 - 0.5 * noise / signal - least : 1.0 - least;
     weights[level] = full > 0.0 ? std::clamp(surplus / full, 0.0, 1.0) : surplus >= 0.0 ? 1.0 : 0.0;
-    if (getenv("VDEBUG")) fprintf(stderr, "level %zu r %.4f\n", level, surplus + least);
   }
+  weights.front() = 1.0;
   return weights;
 }
 
