@@ -117,13 +117,13 @@ PieceResult contract_piece(const TriMesh& mesh, const Piece& piece,
       result.proxy = std::move(proxy);
     }
   }
-  result.history = contract_surface(scaled, result.proxy, options, run);
+  result.history = contract_surface(scaled, result.proxy, options, run.part(0.0, 0.7));
   if (result.proxy && result.history.summary.steps == 0) {
     result.proxy.reset();
-    result.history = contract_surface(scaled, result.proxy, options, run);
+    result.history = contract_surface(scaled, result.proxy, options, run.part(0.7, 0.8));
   }
   result.second = contract_second_mesh(result.proxy ? result.proxy->mesh : scaled, result.history,
-                                       options, run);
+                                       options, run.part(0.8, 1.0));
   const auto to_model = [&scaling](std::vector<Vec3>& points) {
     for (Vec3& p : points) {
       p = p / scaling.factor + scaling.centre;

@@ -17,8 +17,8 @@ namespace {
 
 /// Vertices of a second mesh: at most this many, and at most this share of the first mesh's [ours:
 /// trials in docs/lab].
-constexpr std::size_t kSecondSize = 2'000;
-constexpr double kSecondShare = 0.5;
+constexpr std::size_t kSecondSize = 1'500;
+constexpr double kSecondShare = 1.0 / 3.0;
 /// Components of fewer vertices are not meshed anew.
 constexpr std::size_t kFewest = 32;
 
@@ -71,12 +71,12 @@ void append_levels(std::vector<std::vector<Vec3>> part, std::vector<std::vector<
 
 SecondMesh contract_second_mesh(const TriMesh& first, const ComponentHistory& history,
                                 const ContractionOptions& options, const RunContext& run) {
-  const auto half =
+  const auto share =
       static_cast<std::size_t>(kSecondShare * static_cast<double>(first.positions.size()));
   if (first.positions.size() < kFewest || history.summary.steps == 0) {
     return itself(first, history);
   }
-  const std::size_t target = std::min(kSecondSize, half);
+  const std::size_t target = std::min(kSecondSize, share);
   const Proxy second = make_proxy(first, target, target, run);
   const std::vector<std::uint32_t> points = nearest_merged(first, second);
   ComponentHistory other = contract_surface(second.mesh, std::nullopt, options, run);

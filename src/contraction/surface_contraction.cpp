@@ -32,12 +32,15 @@ ComponentHistory contract_evenly(const TriMesh& scaled, const ContractionOptions
                                  const RunContext& run, EvenShares shares,
                                  bool is_careful = false) {
   ComponentHistory history;
+  double done = 0.0;
   for (int again = 0;; ++again) {
     const bool may_begin_again =
         again < kMostAgain &&
         shares.first_contraction() * options.contraction_growth <= options.contraction_limit;
     shares.least_progress = may_begin_again ? kPlateStep : 0.0;
-    ComponentHistory attempt = contract_component(scaled, options, run, shares, is_careful);
+    const RunContext part = run.part(done, 0.5 * (1.0 + done));
+    done = 0.5 * (1.0 + done);
+    ComponentHistory attempt = contract_component(scaled, options, part, shares, is_careful);
     if (again > 0 && (attempt.is_stuck || attempt.shrinkage.back() >= history.shrinkage.back())) {
       return history;
     }
@@ -171,22 +174,22 @@ ComponentHistory contract_surface(const TriMesh& scaled, const std::optional<Pro
   }
   ComponentHistory history;
   if (options.method == ContractionMethod::Exact) {
-    history = contract_exactly(scaled, options, run);
+    history = contract_exactly(scaled, options, run.part(0.0, 0.7));
   } else {
     ContractionOptions no_thinning = options;
     no_thinning.sheet_limit = options.contraction_limit;
-    history = contract_by(scaled, no_thinning, run);
+    history = contract_by(scaled, no_thinning, run.part(0.0, 0.7));
     history.summary.strategy = "direct";
   }
   if ((history.was_unsound || history.is_stuck) && options.weights == ContractionWeights::Area &&
       scaled.positions.size() >= kFewestEven) {
-    contract_even_copy(scaled, options, run, history);
+    contract_even_copy(scaled, options, run.part(0.7, 0.8), history);
   }
   if (history.is_stuck) {
-    contract_carefully(scaled, options, run, history);
+    contract_carefully(scaled, options, run.part(0.8, 0.9), history);
   }
   if (history.is_stuck && scaled.positions.size() <= kProxyFrom) {
-    contract_finer_copy(scaled, options, run, history);
+    contract_finer_copy(scaled, options, run.part(0.9, 1.0), history);
   }
   return history;
 }
