@@ -35,6 +35,9 @@ constexpr std::array<StepManner, 9> kManners{{{false, kGentlest, 1.0},
 constexpr std::size_t kSafer = 1;
 /// A surface that has lost less than this has hardly begun to shrink [a_t].
 constexpr double kBegun = 0.9;
+/// A step from more than this is early: what another way to take it makes of the surface would tell in
+/// all that follow [a_t; ours].
+constexpr double kEarly = 0.25;
 /// A first step that is too gentle to shrink anything is made stronger this often at most.
 constexpr int kMostStronger = 6;
 
@@ -125,7 +128,7 @@ class Contraction {
   /// Whether it ended because no way to take a step was sound, far from a curve.
   [[nodiscard]] bool is_stuck() const { return is_stuck_; }
 
-  /// Whether far from a curve a step was not sound as it is defined.
+  /// Whether an early step was not sound as it is defined.
   [[nodiscard]] bool was_unsound() const { return was_unsound_; }
 
   /// What was done about steps that could not be taken as defined, a phrase each.
@@ -194,7 +197,7 @@ class Contraction {
     for (std::size_t manner = manner_;; ++manner) {
       Attempt attempt = attempt_in(kManners[manner]);
       first = first == StepFlaw::None ? attempt.flaw : first;
-      was_unsound_ = was_unsound_ || (first != StepFlaw::None && is_plate(state_.shrinkage));
+      was_unsound_ = was_unsound_ || (first != StepFlaw::None && state_.shrinkage > kEarly);
       const bool is_done = !is_sheet(state_.shrinkage) && attempt.flaw != StepFlaw::Unsolved;
       if (attempt.flaw == StepFlaw::None || is_done || manner + 1 == kManners.size()) {
         if (attempt.flaw == StepFlaw::None && first != StepFlaw::None) {

@@ -243,9 +243,13 @@ CurveGraph curve_of(const SecondMesh& second, const SkeletonOptions& options,
   history.component_of_vertex = second.component_of_vertex;
   const double spacing = sample_spacing(second.mesh, options);
   Collapsed collapsed = collapse_history(second.mesh, history, spacing, run);
-  const std::vector<double> weight(collapsed.graph.nodes.size(), 1.0);
-  const CurveGraph raw =
-      merge_close_nodes(collapsed.graph, spacing, weight, collapsed.node_of_vertex);
+  const std::vector<double> areas = cluster_weights(second.mesh);
+  std::vector<double> weight(collapsed.graph.nodes.size(), 0.0);
+  for (std::size_t v = 0; v < areas.size(); ++v) {
+    weight[collapsed.node_of_vertex[v]] += areas[v];
+  }
+  const CurveGraph raw = merge_close_nodes(collapsed.graph, spacing, std::move(weight),
+                                           collapsed.node_of_vertex);
   return fitted(raw, second.mesh, history, collapsed.node_of_vertex, options);
 }
 
@@ -276,9 +280,10 @@ Skeleton finish_skeleton(const TriMesh& mesh, const ContractionHistory& history,
   skeleton.raw_node_of_vertex = std::move(collapsed.node_of_vertex);
   const CurveGraph fine = without_isolated(collapsed.graph, history, skeleton.raw_node_of_vertex);
   std::vector<double> weight(fine.nodes.size(), 0.0);
-  for (const std::uint32_t node : skeleton.raw_node_of_vertex) {
-    if (node != Skeleton::kNone) {
-      weight[node] += 1.0;
+  const std::vector<double> areas = cluster_weights(mesh);
+  for (std::size_t v = 0; v < areas.size(); ++v) {
+    if (skeleton.raw_node_of_vertex[v] != Skeleton::kNone) {
+      weight[skeleton.raw_node_of_vertex[v]] += areas[v];
     }
   }
   skeleton.raw = merge_close_nodes(fine, sample_spacing(mesh, options), std::move(weight),
