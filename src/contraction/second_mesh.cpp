@@ -80,10 +80,10 @@ SecondMesh contract_second_mesh(const TriMesh& first, const ComponentHistory& hi
   const Proxy second = make_proxy(first, target, target, run);
   const std::vector<std::uint32_t> points = nearest_merged(first, second);
   ComponentHistory other = contract_surface(second.mesh, std::nullopt, options, run);
-  SecondMesh result{.mesh = second.mesh,
-                    .levels = std::move(other.levels),
-                    .component_of_vertex =
-                        std::vector<std::uint32_t>(second.mesh.positions.size(), 0)};
+  SecondMesh result{
+      .mesh = second.mesh,
+      .levels = std::move(other.levels),
+      .component_of_vertex = std::vector<std::uint32_t>(second.mesh.positions.size(), 0)};
   for (std::size_t level = 0; level < history.levels.size(); ++level) {
     const std::vector<Vec3>& at = result.levels[std::min(level, result.levels.size() - 1)];
     auto& here = result.here.emplace_back();

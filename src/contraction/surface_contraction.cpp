@@ -108,7 +108,8 @@ void contract_carefully(const TriMesh& scaled, const ContractionOptions& options
 /// those of the surface itself are in the way: thin ones throw parts of it about.
 void contract_even_copy(const TriMesh& scaled, const ContractionOptions& options,
                         const RunContext& run, ComponentHistory& history) {
-  const auto most = static_cast<std::size_t>(kProxyShare * static_cast<double>(scaled.positions.size()));
+  const auto most =
+      static_cast<std::size_t>(kProxyShare * static_cast<double>(scaled.positions.size()));
   const std::size_t target = std::min(kEvenCopy, most);
   const Proxy proxy = make_proxy(scaled, target, target, run);
   if (proxy.mesh.positions.size() > most) {
@@ -164,7 +165,7 @@ void contract_finer_copy(const TriMesh& scaled, const ContractionOptions& option
 }  // namespace
 
 ComponentHistory contract_surface(const TriMesh& scaled, const std::optional<Proxy>& proxy,
-                                 const ContractionOptions& options, const RunContext& run) {
+                                  const ContractionOptions& options, const RunContext& run) {
   if (proxy) {
     ComponentHistory history = contract_by(proxy->mesh, options, run);
     history.summary.vertices = scaled.positions.size();

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <numeric>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
+#include <numeric>
 
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
@@ -160,8 +160,9 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
     }
     // A velocity is as good as the displacement that it starts from. The input is always resolved.
     const std::size_t source = velocity ? j - 1 : j;
-    if (source > 0 && (!(level_weight[source] > 0.0) || !(span_of(map.displacement[source], referenced) >
-                                            options.flat_level * diameter))) {
+    if (source > 0 &&
+        (!(level_weight[source] > 0.0) ||
+         !(span_of(map.displacement[source], referenced) > options.flat_level * diameter))) {
       map.level_factor.push_back(0.0);
       continue;
     }

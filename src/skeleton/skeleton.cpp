@@ -248,8 +248,8 @@ CurveGraph curve_of(const SecondMesh& second, const SkeletonOptions& options,
   for (std::size_t v = 0; v < areas.size(); ++v) {
     weight[collapsed.node_of_vertex[v]] += areas[v];
   }
-  const CurveGraph raw = merge_close_nodes(collapsed.graph, spacing, std::move(weight),
-                                           collapsed.node_of_vertex);
+  const CurveGraph raw =
+      merge_close_nodes(collapsed.graph, spacing, std::move(weight), collapsed.node_of_vertex);
   return fitted(raw, second.mesh, history, collapsed.node_of_vertex, options);
 }
 

@@ -36,7 +36,7 @@ enum class ContractionMethod {
 
 /// What the sums of a step run over.
 enum class ContractionWeights {
-  Area,    ///< The surface: vertices count by area, components of few huge faces are refined (ours).
+  Area,  ///< The surface: vertices count by area, components of few huge faces are refined (ours).
   Vertex,  ///< The vertices of the mesh, each alike (Cao).
 };
 
