@@ -4,6 +4,8 @@
 
     measure_variants.py make  PROGRAM FOLDER MODEL...   writes the variants of each closed model to FOLDER/NAME/
     measure_variants.py table PROGRAM FOLDER [NAME...]  the table, as Markdown; one row a model, worst first
+    measure_variants.py moved PROGRAM FILE...           any file, open and broken ones too: how each was contracted, and
+                                                        the correlation of its map with that of `moved`, worst first
 
 Variants: `moved` (every vertex by 10^-4 D, in a random direction), `quartered` (every triangle in four), `remeshed`
 (isotropically, as many vertices: Voronoi cells of geodesic distance on a finer copy, Valette and Chassery 2004),
@@ -13,9 +15,13 @@ Spearman correlation of the two maps over the model's vertices, each with the ne
 the semicolon the mean distance between the two skeletons over 2 r (0.04 D); c where their cycles differ.
 
 Needs numpy and scipy."""
+import collections
+import functools
 import heapq
 import json
 import pathlib
+import re
+import resource
 import sys
 import tempfile
 
@@ -24,7 +30,7 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import cKDTree
 
-from measure_contraction import points_of, read_ply, run, spearman, subdivided, write_ply
+from measure_contraction import FILE_BYTES, FILE_SECONDS, points_of, read_ply, run, spearman, subdivided, write_ply
 
 SHIFT = 1e-4         # of `moved`, over D
 FLAT = 1e-6          # 1 - cosine of the angle between two faces that lie in a plane
@@ -69,8 +75,8 @@ def flipped(points, faces, _):
         g, d = by_side.get((b, a), (None, None))
         if a > b or g is None or f in taken or g in taken or 1 - normal[f] @ normal[g] > FLAT or (min(c, d), max(c, d)) in present:
             continue
-        first = numpy.cross(points[d] - points[c], points[a] - points[c]) @ normal[f]
-        second = numpy.cross(points[b] - points[c], points[d] - points[c]) @ normal[f]
+        first = numpy.cross(points[a] - points[c], points[d] - points[c]) @ normal[f]
+        second = numpy.cross(points[d] - points[c], points[b] - points[c]) @ normal[f]
         if min(first, second) > 0.1 * max(first, second):  # as convex as that, and no sliver
             faces[f], faces[g] = (c, a, d), (d, b, c)
             present.add((min(c, d), max(c, d)))
@@ -266,7 +272,45 @@ def table(program, folder, *names):
                   f"{sum(x >= FAIR for x in of)}, median {numpy.median(of):.3f}, least {min(of):.3f}")
 
 
+def moved_file(ask, file, folder):
+    """Vertices, strategies and the correlation of the map with that of the file moved; None where there is no map."""
+    try:
+        ask("map", file, "-o", folder + "/map.ply", "-q")
+        vertices, faces = read_ply(folder + "/map.ply")
+        points, place = numpy.unique(points_of(vertices), axis=0, return_inverse=True)  # what coincides stays together
+        size = numpy.linalg.norm(points.max(0) - points.min(0))
+        write_ply(folder + "/moved.ply", moved(points, faces, size)[0][place.reshape(-1)], faces)
+        ask("map", folder + "/moved.ply", "-o", folder + "/other.ply", "-q")
+        report = json.loads(ask("view", file, "-o", folder + "/view", "--no-images", "--json", "--objective", "significance",
+                              "--search", "rapid"))
+    except (RuntimeError, ValueError):
+        return None
+    other = read_ply(folder + "/other.ply")[0]["quality"].astype(float)
+    value = vertices["quality"].astype(float)
+    if len(value) != len(other):
+        return None
+    same = 1.0 if numpy.ptp(value) == 0 and numpy.ptp(other) == 0 else float(numpy.nan_to_num(spearman(value, other)))
+    strategies = collections.Counter(re.sub("[0-9]+", "N", s) for s in report["contraction"]["strategy"])
+    return same, len(value), ", ".join(f"{n} × {s}" if n > 1 else s for s, n in strategies.most_common(3)), report["contraction"]
+
+
+def moved_table(program, *files):
+    resource.setrlimit(resource.RLIMIT_AS, (FILE_BYTES, resource.getrlimit(resource.RLIMIT_AS)[1]))
+    ask = functools.partial(run, "timeout", FILE_SECONDS, program)
+    rows = []
+    for file in files:
+        with tempfile.TemporaryDirectory() as folder:
+            found = moved_file(ask, file, folder)
+        if found:
+            rows.append((found[0], pathlib.Path(file).name, *found[1:]))
+    print("| file | vertices | contracted | levels used | moved |\n| --- | --- | --- | --- | --- |")
+    for same, name, count, how, contraction in sorted(rows, key=lambda r: r[:3]):
+        print(f"| {name} | {count} | {how} | {len(contraction['levels_used'])} of {1 + contraction['levels']} | {same:.3f} |")
+    print(f"\n{len(rows)} files with a map of {len(files)}; at least {GOOD} on {sum(r[0] >= GOOD for r in rows)}, "
+          f"at least {FAIR} on {sum(r[0] >= FAIR for r in rows)}.")
+
+
 if __name__ == "__main__":
-    if len(sys.argv) < 4 or sys.argv[1] not in ("make", "table"):
+    if len(sys.argv) < 4 or sys.argv[1] not in ("make", "table", "moved"):
         sys.exit(__doc__)
-    {"make": make, "table": table}[sys.argv[1]](*sys.argv[2:])
+    {"make": make, "table": table, "moved": moved_table}[sys.argv[1]](*sys.argv[2:])

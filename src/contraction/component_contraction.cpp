@@ -35,6 +35,9 @@ constexpr std::array<StepManner, 9> kManners{{{false, kGentlest, 1.0},
 constexpr std::size_t kSafer = 1;
 /// A surface that has lost less than this has hardly begun to shrink [a_t].
 constexpr double kBegun = 0.9;
+/// A step from more than this is early: what another way to take it makes of the surface would tell in
+/// all that follow [a_t; ours].
+constexpr double kEarly = 0.25;
 /// A first step that is too gentle to shrink anything is made stronger this often at most.
 constexpr int kMostStronger = 6;
 
@@ -125,6 +128,9 @@ class Contraction {
   /// Whether it ended because no way to take a step was sound, far from a curve.
   [[nodiscard]] bool is_stuck() const { return is_stuck_; }
 
+  /// Whether an early step was not sound as it is defined.
+  [[nodiscard]] bool was_unsound() const { return was_unsound_; }
+
   /// What was done about steps that could not be taken as defined, a phrase each.
   [[nodiscard]] const std::vector<std::string>& remedies() const { return remedies_; }
 
@@ -191,6 +197,7 @@ class Contraction {
     for (std::size_t manner = manner_;; ++manner) {
       Attempt attempt = attempt_in(kManners[manner]);
       first = first == StepFlaw::None ? attempt.flaw : first;
+      was_unsound_ = was_unsound_ || (first != StepFlaw::None && state_.shrinkage > kEarly);
       const bool is_done = !is_sheet(state_.shrinkage) && attempt.flaw != StepFlaw::Unsolved;
       if (attempt.flaw == StepFlaw::None || is_done || manner + 1 == kManners.size()) {
         if (attempt.flaw == StepFlaw::None && first != StepFlaw::None) {
@@ -242,6 +249,7 @@ class Contraction {
   std::size_t manner_;              // of kManners, where the next step begins
   std::vector<std::string> remedies_{};
   bool is_stuck_ = false;
+  bool was_unsound_ = false;
 };
 
 /// Contracts a surface that stopped shrinking as a sheet again, with a larger W_L from where the
@@ -294,6 +302,7 @@ ComponentHistory contract_component(const TriMesh& scaled, const ContractionOpti
   }
   history.summary.remedies = surface.remedies();
   history.is_stuck = surface.is_stuck();
+  history.was_unsound = surface.was_unsound();
   if (history.summary.stop == ContractionStop::Shrunk) {
     history.thinned = thin_further(surface, options, run);
     history.summary.strategy += history.thinned.empty() ? "" : ", thinned";

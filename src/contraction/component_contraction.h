@@ -18,7 +18,8 @@ struct ComponentHistory {
   std::vector<Vec3>
       thinned{};  ///< What ContractionHistory::thinned has of it; empty: the last level.
   ComponentContraction summary{};
-  bool is_stuck = false;  ///< Ended far from a curve because no way to take a step was sound.
+  bool is_stuck = false;     ///< Ended far from a curve because no way to take a step was sound.
+  bool was_unsound = false;  ///< An early step was not sound as it is defined.
 };
 
 /// W_L of the first step for faces of this mean area (Cao 2010).

@@ -12,6 +12,8 @@
 #include "contraction/component_contraction.h"
 #include "contraction/proxy.h"
 #include "contraction/refinement.h"
+#include "contraction/second_mesh.h"
+#include "contraction/surface_contraction.h"
 #include "core/parallel.h"
 
 namespace vantage {
@@ -75,21 +77,6 @@ std::vector<Piece> cut_into_pieces(const TriMesh& mesh, std::vector<std::uint32_
   return pieces;
 }
 
-/// Components of more vertices are contracted by a proxy of at most this many [ours; trials in
-/// docs/contraction.md].
-constexpr std::size_t kProxyFrom = 20'000;
-constexpr std::size_t kProxySize = 10'000;
-/// The skeleton of such a component starts from at most so many merged vertices [ours: fewer lose
-/// limbs; trials in docs/lab].
-constexpr std::size_t kMergedSize = 40'000;
-/// A proxy must be smaller than this share of its component to be worth it.
-constexpr double kProxyShare = 0.7;
-
-/// A plate stands still if a step takes off less than this share of it; it is contracted again by
-/// larger steps so often at most [ours: a square plate needs all].
-constexpr double kPlateStep = 0.05;
-constexpr int kMostAgain = 3;
-
 /// Warnings about single steps at most.
 constexpr std::size_t kMostRemedies = 5;
 
@@ -97,132 +84,13 @@ constexpr std::size_t kMostRemedies = 5;
 struct PieceResult {
   ComponentHistory history{};
   std::optional<Proxy> proxy{};  ///< What `history` is of, if not of the piece itself.
+  SecondMesh second{};           ///< The same meshed anew.
   bool is_thinned = false;       ///< Whether it was, once `history` is placed and forgotten.
 };
 
 /// Whether the piece is to be contracted by a proxy, if it can be made coarse enough.
 bool wants_proxy(const Piece& piece, const ContractionOptions& options) {
   return options.method == ContractionMethod::Auto && piece.vertices.size() > kProxyFrom;
-}
-
-/// Contracts a component at full resolution. A large one is thinned by its proxy all the same:
-/// whether a sheet becomes a curve hangs on its slivers, and the methods should agree on it. Small
-/// ones are not thinned: their W_L begins far below its limit.
-ComponentHistory contract_exactly(const TriMesh& scaled, const ContractionOptions& options,
-                                  const RunContext& run) {
-  ContractionOptions no_thinning = options;
-  no_thinning.sheet_limit = options.contraction_limit;
-  ComponentHistory history = contract_component(scaled, no_thinning, run.part(0.0, 0.9));
-  const bool may_be_thinned =
-      options.sheet_limit > options.contraction_limit && scaled.positions.size() > kProxyFrom;
-  // A proxy's share of the area is not quite the same; far below the bound neither is a sheet.
-  if (may_be_thinned && is_sheet(2.0 * history.shrinkage.back())) {
-    const Proxy proxy = make_proxy(scaled, kMergedSize, kProxySize, run);
-    const ComponentHistory coarse =
-        contract_component(proxy.mesh, options, run.part(0.9, 1.0), proxy.shares);
-    const std::vector<Vec3>& curve =
-        is_sheet(coarse.shrinkage.back()) ? coarse.thinned : coarse.levels.back();
-    for (std::size_t v = 0; v < scaled.positions.size() && !curve.empty(); ++v) {
-      history.thinned.push_back(position_of(proxy.place[v], proxy.mesh, curve));
-    }
-    history.summary.strategy += curve.empty() ? "" : ", thinned";
-  }
-  return history;
-}
-
-/// Takes all steps with weights that slivers do not upset where `history` is stuck, if that leads
-/// farther.
-void contract_carefully(const TriMesh& scaled, const ContractionOptions& options,
-                        const RunContext& run, ComponentHistory& history) {
-  ContractionOptions no_thinning = options;
-  no_thinning.sheet_limit = options.contraction_limit;
-  const bool is_exact = options.method == ContractionMethod::Exact;
-  ComponentHistory careful = contract_component(
-      scaled, no_thinning, run, is_exact ? EvenShares{} : even_shares(scaled), true);
-  if (careful.is_stuck && careful.shrinkage.back() >= history.shrinkage.back()) {
-    return;
-  }
-  careful.summary.strategy = history.summary.strategy;
-  careful.summary.remedies = history.summary.remedies;
-  careful.summary.remedies.push_back(
-      "so all steps were taken with weights that thin triangles do not upset");
-  history = std::move(careful);
-}
-
-/// Contracts a surface by even shares. The rim of a plate may become a line that holds the rest
-/// where it is, by steps that are too small for so wide a surface: then all is done again by larger
-/// ones.
-ComponentHistory contract_evenly(const TriMesh& scaled, const ContractionOptions& options,
-                                 const RunContext& run, EvenShares shares) {
-  ComponentHistory history;
-  for (int again = 0;; ++again) {
-    const bool may_begin_again =
-        again < kMostAgain &&
-        shares.first_contraction() * options.contraction_growth <= options.contraction_limit;
-    shares.least_progress = may_begin_again ? kPlateStep : 0.0;
-    ComponentHistory attempt = contract_component(scaled, options, run, shares);
-    if (again > 0 && (attempt.is_stuck || attempt.shrinkage.back() >= history.shrinkage.back())) {
-      return history;
-    }
-    history = std::move(attempt);
-    if (!may_begin_again || history.summary.stop != ContractionStop::Shrunk ||
-        !is_plate(history.shrinkage.back())) {
-      return history;
-    }
-    shares.first_pull *= options.contraction_growth;
-  }
-}
-
-/// Contracts a finer copy of a surface on which `history` is stuck: coarse meshes have too few
-/// vertices to move. The steps are those of the copy, of the surface's own vertices.
-void contract_finer_copy(const TriMesh& scaled, const ContractionOptions& options,
-                         const RunContext& run, ComponentHistory& history) {
-  const TriMesh finer = refine_whole(scaled, run);
-  if (finer.positions.size() == scaled.positions.size()) {
-    return;
-  }
-  ComponentHistory copy = contract_evenly(finer, options, run, even_shares(finer));
-  if (copy.is_stuck || copy.summary.steps <= history.summary.steps) {
-    return;
-  }
-  for (auto& level : copy.levels) {
-    level.resize(scaled.positions.size());
-  }
-  copy.thinned.clear();
-  copy.summary.vertices = scaled.positions.size();
-  copy.summary.strategy = "refined " + std::to_string(finer.positions.size());
-  copy.summary.remedies.insert(copy.summary.remedies.begin(), history.summary.remedies.begin(),
-                               history.summary.remedies.end());
-  copy.summary.remedies.push_back("so a finer copy of the surface was contracted, of " +
-                                  std::to_string(finer.positions.size()) + " vertices");
-  history = std::move(copy);
-}
-
-ComponentHistory contract_scaled(const TriMesh& scaled, const std::optional<Proxy>& proxy,
-                                 const ContractionOptions& options, const RunContext& run) {
-  if (proxy) {
-    ComponentHistory history = contract_evenly(proxy->mesh, options, run, proxy->shares);
-    history.summary.vertices = scaled.positions.size();
-    history.summary.strategy = "proxy " + std::to_string(proxy->mesh.positions.size()) +
-                               (history.thinned.empty() ? "" : ", thinned");
-    return history;
-  }
-  ComponentHistory history;
-  if (options.method == ContractionMethod::Exact) {
-    history = contract_exactly(scaled, options, run);
-  } else {
-    ContractionOptions no_thinning = options;
-    no_thinning.sheet_limit = options.contraction_limit;
-    history = contract_evenly(scaled, no_thinning, run, even_shares(scaled));
-    history.summary.strategy = "direct";
-  }
-  if (history.is_stuck) {
-    contract_carefully(scaled, options, run, history);
-  }
-  if (history.is_stuck && scaled.positions.size() <= kProxyFrom) {
-    contract_finer_copy(scaled, options, run, history);
-  }
-  return history;
 }
 
 PieceResult contract_piece(const TriMesh& mesh, const Piece& piece,
@@ -237,9 +105,9 @@ PieceResult contract_piece(const TriMesh& mesh, const Piece& piece,
     p = (p - scaling.centre) * scaling.factor;
   }
   if (scaled.triangles.empty()) {
-    return {{.levels = {scaled.positions},
-             .shrinkage = {1.0},
-             .summary = {.vertices = scaled.positions.size()}}};
+    return {.history = {.levels = {scaled.positions},
+                        .shrinkage = {1.0},
+                        .summary = {.vertices = scaled.positions.size()}}};
   }
   PieceResult result;
   const std::size_t n = piece.vertices.size();
@@ -249,11 +117,13 @@ PieceResult contract_piece(const TriMesh& mesh, const Piece& piece,
       result.proxy = std::move(proxy);
     }
   }
-  result.history = contract_scaled(scaled, result.proxy, options, run);
+  result.history = contract_surface(scaled, result.proxy, options, run.part(0.0, 0.7));
   if (result.proxy && result.history.summary.steps == 0) {
     result.proxy.reset();
-    result.history = contract_scaled(scaled, result.proxy, options, run);
+    result.history = contract_surface(scaled, result.proxy, options, run.part(0.7, 0.8));
   }
+  result.second = contract_second_mesh(result.proxy ? result.proxy->mesh : scaled, result.history,
+                                       options, run.part(0.8, 1.0));
   const auto to_model = [&scaling](std::vector<Vec3>& points) {
     for (Vec3& p : points) {
       p = p / scaling.factor + scaling.centre;
@@ -261,6 +131,10 @@ PieceResult contract_piece(const TriMesh& mesh, const Piece& piece,
   };
   std::for_each(result.history.levels.begin(), result.history.levels.end(), to_model);
   to_model(result.history.thinned);
+  to_model(result.second.mesh.positions);
+  for (auto* levels : {&result.second.levels, &result.second.here, &result.second.there}) {
+    std::for_each(levels->begin(), levels->end(), to_model);
+  }
   return result;
 }
 
@@ -391,6 +265,9 @@ ContractionHistory contract_pieces(const TriMesh& mesh, const ContractionOptions
         contract_piece(mesh, piece, options, run.part(done, std::min(1.0, done + share))));
     done = std::min(1.0, done + share);
     place(piece, results.back(), mesh, run, history);
+    if (!results.back().second.levels.empty()) {
+      append(std::exchange(results.back().second, {}), history.second);
+    }
     if (history.merged) {
       add_piece(piece, results.back().proxy, *history.merged);
     }
@@ -455,7 +332,7 @@ std::string_view stop_name(ContractionStop stop) {
 ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& options,
                             const RunContext& run) {
   check_fields(options, kContractionFields);
-  if (options.method == ContractionMethod::Auto) {
+  if (options.weights == ContractionWeights::Area) {
     if (std::optional<TriMesh> refined = refine_coarse_components(mesh, run)) {
       return of_refined(mesh, std::move(*refined), options, run);
     }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <numeric>
 
@@ -21,7 +23,9 @@ namespace {
 /// A level whose displacement spans less than this fraction of D is flat: rounding, not shape.
 constexpr double kFlat = 1e-6;
 constexpr std::size_t kGrain = 2048;  // vertices a task
-constexpr std::size_t kAsked = 4096;  // vertices that say whether a level counts, about
+/// A level counts in full where it correlates by this share of what is missing to 1 above the least
+/// [ours: trials in docs/lab].
+constexpr double kRamp = 0.5;
 
 /// Difference of the largest and the smallest value of the referenced vertices.
 double span_of(const std::vector<double>& d, const std::vector<bool>& referenced) {
@@ -53,48 +57,53 @@ std::vector<std::vector<double>> displacements(const ContractionHistory& history
   return d;
 }
 
-/// Correlation of two fields over the marked vertices; 1 where neither varies.
-double correlation(const std::vector<double>& a, const std::vector<double>& b) {
-  const auto n = static_cast<double>(a.size());
-  const double mean_a = std::accumulate(a.begin(), a.end(), 0.0) / n;
-  const double mean_b = std::accumulate(b.begin(), b.end(), 0.0) / n;
-  double aa = 0.0;
-  double bb = 0.0;
-  double ab = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    aa += (a[i] - mean_a) * (a[i] - mean_a);
-    bb += (b[i] - mean_b) * (b[i] - mean_b);
-    ab += (a[i] - mean_a) * (b[i] - mean_b);
+/// Weighted variance.
+double variance(const std::vector<double>& x, const std::vector<double>& weight) {
+  const double total = std::accumulate(weight.begin(), weight.end(), 0.0);
+  const double mean = std::inner_product(x.begin(), x.end(), weight.begin(), 0.0) / total;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sum += weight[i] * (x[i] - mean) * (x[i] - mean);
   }
-  return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 1.0;
+  return sum / total;
 }
 
-/// Which levels say the same of distances to another curve. The input always counts.
-std::vector<bool> agreeing_levels(const ContractionHistory& history, const KssmMap& map,
-                                  const std::vector<bool>& referenced, const CurveGraph& other,
-                                  double least) {
-  std::vector<bool> agrees(history.levels.size(), true);
-  if (other.nodes.empty() || !(least > 0.0)) {
-    return agrees;
+/// How much of each level is the surface's: from 0 where its displacements correlate by `least` with
+/// those of the surface meshed anew, to 1 where by half of what is missing more. Two meshes differ
+/// by chance: what differs is taken from the level up to this one where it is most. The input always
+/// counts.
+std::vector<double> level_weights(const ContractionHistory& history, const CurveGraph& skeleton,
+                                  const CurveGraph& other, double least, const RunContext& run) {
+  std::vector<double> weights(history.levels.size(), 1.0);
+  const SecondMesh& second = history.second;
+  const std::vector<double> area = vertex_areas(second.mesh);
+  if (other.nodes.empty() || !(least > 0.0) || second.here.size() != weights.size() ||
+      !(std::accumulate(area.begin(), area.end(), 0.0) > 0.0)) {
+    return weights;
   }
-  std::vector<std::size_t> asked;
-  for (std::size_t v = 0; v < referenced.size(); ++v) {
-    if (referenced[v]) {
-      asked.push_back(v);
-    }
+  const GraphDistance to_first(skeleton);
+  const GraphDistance to_other(other);
+  std::vector<double> here(area.size());
+  std::vector<double> there(area.size());
+  std::vector<double> difference(area.size());
+  const double full = kRamp * (1.0 - least);
+  double noise = 0.0;
+  for (std::size_t level = 0; level < weights.size(); ++level) {
+    parallel_for(run, area.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        here[i] = to_first(second.here[level][i]);
+        there[i] = to_other(second.there[level][i]);
+        difference[i] = here[i] - there[i];
+      }
+    });
+    noise = std::max(noise, variance(difference, area));
+    const double signal = std::min(variance(here, area), variance(there, area));
+    // 1 − noise / 2 signal is the correlation where both vary alike.
+    const double surplus = signal > 0.0 ? 1.0 - 0.5 * noise / signal - least : 1.0 - least;
+    weights[level] = full > 0.0 ? std::clamp(surplus / full, 0.0, 1.0) : surplus >= 0.0 ? 1.0 : 0.0;
   }
-  const std::size_t stride = 1 + asked.size() / kAsked;
-  const GraphDistance distance(other);
-  for (std::size_t level = 1; level < agrees.size(); ++level) {
-    std::vector<double> here;
-    std::vector<double> there;
-    for (std::size_t i = 0; i < asked.size(); i += stride) {
-      here.push_back(map.displacement[level][asked[i]]);
-      there.push_back(distance(history.levels[level][asked[i]]));
-    }
-    agrees[level] = here.empty() || correlation(here, there) >= least;
-  }
-  return agrees;
+  weights.front() = 1.0;
+  return weights;
 }
 
 void check_input(const TriMesh& mesh, const ContractionHistory& history, const CurveGraph& skeleton,
@@ -140,8 +149,8 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
   map.displacement = displacements(history, skeleton, run);
   map.of_vertex.assign(vertex_count, 0.0);
   const bool velocity = options.kinematics == Kinematics::Velocity;
-  const std::vector<bool> agrees =
-      agreeing_levels(history, map, referenced, other, options.level_agreement);
+  const std::vector<double> level_weight =
+      level_weights(history, skeleton, other, options.level_agreement, run);
   std::vector<double> moved(vertex_count);
   for (std::size_t j = velocity ? 1 : 0; j < map.displacement.size(); ++j) {
     if (velocity) {
@@ -151,8 +160,9 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
     }
     // A velocity is as good as the displacement that it starts from. The input is always resolved.
     const std::size_t source = velocity ? j - 1 : j;
-    if (source > 0 && (!agrees[source] || !(span_of(map.displacement[source], referenced) >
-                                            options.flat_level * diameter))) {
+    if (source > 0 &&
+        (!(level_weight[source] > 0.0) ||
+         !(span_of(map.displacement[source], referenced) > options.flat_level * diameter))) {
       map.level_factor.push_back(0.0);
       continue;
     }
@@ -164,7 +174,8 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
     }
     const double mean = by_rings ? mean_of_local_maxima(level, rings, weight)
                                  : mean_without_maximum(level, referenced, weight);
-    const double factor = (1.0 - mean) * (1.0 - mean);  // Φ of the paper, on normalised values
+    // Φ of the paper, on normalised values
+    const double factor = level_weight[source] * (1.0 - mean) * (1.0 - mean);
     map.level_factor.push_back(factor);
     map.levels_used.push_back(j);
     for (std::size_t v = 0; v < vertex_count; ++v) {

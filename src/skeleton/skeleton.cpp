@@ -27,8 +27,6 @@ constexpr std::size_t kMergeFrom = 10'000;
 /// Longest edge that goes in passes, relative to the spacing [ours: well below what resampling
 /// keeps].
 constexpr double kMergedLength = 0.125;
-/// The same for the other curve, which is to be as good but not the same [ours].
-constexpr double kOtherMergedLength = 0.5;
 /// Pieces of the curve that the map measures to, relative to the spacing [ours: trials in docs/lab].
 constexpr double kPiece = 0.5;
 
@@ -254,32 +252,22 @@ CurveGraph fitted(const CurveGraph& raw, const TriMesh& mesh, const ContractionH
                    kPiece * sample_spacing(mesh, options));
 }
 
-/// What fitted() makes of the surface when short edges are merged first, which are longer than those
-/// of the skeleton: another graph as good as that.
-CurveGraph other_curve(const TriMesh& mesh, const ContractionHistory& history,
-                       const SkeletonOptions& options, const RunContext& run) {
-  const std::vector<double> weights = cluster_weights(mesh);
-  const double spacing = sample_spacing(mesh, options);
-  Collapsed other =
-      collapse_at(mesh, history, history.thinnest(), weights, kOtherMergedLength * spacing, 0, run);
-  place_nodes(other.graph, history.thinnest(), weights, other.node_of_vertex);
-  const CurveGraph fine = without_isolated(other.graph, history, other.node_of_vertex);
-  std::vector<double> weight(fine.nodes.size(), 1.0);
-  const CurveGraph raw = merge_close_nodes(fine, spacing, std::move(weight), other.node_of_vertex);
-  return fitted(raw, mesh, history, other.node_of_vertex, options);
-}
-
-/// The skeleton of the finer surface that was contracted, with what its first vertices belong to.
-Skeleton of_refinement(const TriMesh& mesh, const ContractedRefinement& refinement,
-                       const SkeletonOptions& options, const RunContext& run) {
+/// What fitted() makes of the surface meshed anew: another curve as good as that.
+CurveGraph curve_of(const SecondMesh& second, const SkeletonOptions& options,
+                    const RunContext& run) {
   ContractionHistory history;
-  history.levels = refinement.levels;
-  history.component_of_vertex = refinement.component_of_vertex;
-  history.thinned = refinement.thinned;
-  Skeleton skeleton = extract_skeleton(refinement.mesh, history, options, run);
-  skeleton.node_of_vertex.resize(mesh.positions.size());
-  skeleton.raw_node_of_vertex.resize(mesh.positions.size());
-  return skeleton;
+  history.levels = second.levels;
+  history.component_of_vertex = second.component_of_vertex;
+  const double spacing = sample_spacing(second.mesh, options);
+  Collapsed collapsed = collapse_history(second.mesh, history, spacing, run);
+  const std::vector<double> areas = cluster_weights(second.mesh);
+  std::vector<double> weight(collapsed.graph.nodes.size(), 0.0);
+  for (std::size_t v = 0; v < areas.size(); ++v) {
+    weight[collapsed.node_of_vertex[v]] += areas[v];
+  }
+  const CurveGraph raw =
+      merge_close_nodes(collapsed.graph, spacing, std::move(weight), collapsed.node_of_vertex);
+  return fitted(raw, second.mesh, history, collapsed.node_of_vertex, options);
 }
 
 }  // namespace
@@ -309,9 +297,10 @@ Skeleton finish_skeleton(const TriMesh& mesh, const ContractionHistory& history,
   skeleton.raw_node_of_vertex = std::move(collapsed.node_of_vertex);
   const CurveGraph fine = without_isolated(collapsed.graph, history, skeleton.raw_node_of_vertex);
   std::vector<double> weight(fine.nodes.size(), 0.0);
-  for (const std::uint32_t node : skeleton.raw_node_of_vertex) {
-    if (node != Skeleton::kNone) {
-      weight[node] += 1.0;
+  const std::vector<double> areas = cluster_weights(mesh);
+  for (std::size_t v = 0; v < areas.size(); ++v) {
+    if (skeleton.raw_node_of_vertex[v] != Skeleton::kNone) {
+      weight[skeleton.raw_node_of_vertex[v]] += areas[v];
     }
   }
   skeleton.raw = merge_close_nodes(fine, sample_spacing(mesh, options), std::move(weight),
@@ -321,15 +310,11 @@ Skeleton finish_skeleton(const TriMesh& mesh, const ContractionHistory& history,
   return skeleton;
 }
 
-Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history,
-                          const SkeletonOptions& options, const RunContext& run) {
-  check_fields(options, kSkeletonFields);
-  if (!belongs_to(history, mesh)) {
-    throw InvalidInput("the contraction history does not belong to this mesh");
-  }
-  if (history.refinement) {
-    return of_refinement(mesh, *history.refinement, options, run);
-  }
+namespace {
+
+/// The skeleton of a surface that was contracted as it is.
+Skeleton skeleton_of(const TriMesh& mesh, const ContractionHistory& history,
+                     const SkeletonOptions& options, const RunContext& run) {
   const double spacing = sample_spacing(mesh, options);
   // The collapse, from one edge to the next, leaves the other cores idle.
   Collapsed collapsed;
@@ -340,7 +325,36 @@ Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history
   Skeleton skeleton = finish_skeleton(mesh, history, std::move(collapsed), shell.get(), options);
   if (options.fit) {
     skeleton.curve = fitted(skeleton.raw, mesh, history, skeleton.raw_node_of_vertex, options);
-    skeleton.other_curve = other_curve(mesh, history, options, run.part(0.9, 1.0));
+  }
+  return skeleton;
+}
+
+/// The skeleton of the finer surface that was contracted, with what its first vertices belong to.
+Skeleton of_refinement(const TriMesh& mesh, const ContractedRefinement& refinement,
+                       const SkeletonOptions& options, const RunContext& run) {
+  ContractionHistory history;
+  history.levels = refinement.levels;
+  history.component_of_vertex = refinement.component_of_vertex;
+  history.thinned = refinement.thinned;
+  Skeleton skeleton = skeleton_of(refinement.mesh, history, options, run);
+  skeleton.node_of_vertex.resize(mesh.positions.size());
+  skeleton.raw_node_of_vertex.resize(mesh.positions.size());
+  return skeleton;
+}
+
+}  // namespace
+
+Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history,
+                          const SkeletonOptions& options, const RunContext& run) {
+  check_fields(options, kSkeletonFields);
+  if (!belongs_to(history, mesh)) {
+    throw InvalidInput("the contraction history does not belong to this mesh");
+  }
+  const RunContext most = run.part(0.0, 0.9);
+  Skeleton skeleton = history.refinement ? of_refinement(mesh, *history.refinement, options, most)
+                                         : skeleton_of(mesh, history, options, most);
+  if (options.fit && !history.second.levels.empty()) {
+    skeleton.other_curve = curve_of(history.second, options, run.part(0.9, 1.0));
   }
   run.advance("skeleton", 1.0);
   return skeleton;

@@ -30,14 +30,21 @@ enum class ContractionScaling {
 
 /// How a surface is contracted.
 enum class ContractionMethod {
-  Auto,   ///< Large components by a decimated proxy, those of few huge faces refined (ours).
+  Auto,   ///< Large components by a decimated proxy (ours).
   Exact,  ///< Every component by exact solves at full resolution (the paper's).
+};
+
+/// What the sums of a step run over.
+enum class ContractionWeights {
+  Area,  ///< The surface: vertices count by area, components of few huge faces are refined (ours).
+  Vertex,  ///< The vertices of the mesh, each alike (Cao).
 };
 
 /// Weights and stopping rule of contract().
 struct ContractionOptions {
   ContractionMethod method = ContractionMethod::Auto;       ///< Proxies or not.
   ContractionScaling scaling = ContractionScaling::Sphere;  ///< Unit of the weights.
+  ContractionWeights weights = ContractionWeights::Area;    ///< What vertices count by.
   double contraction_growth = 3.0;    ///< [s_L] factor on W_L per step (Cao; Au used 2); > 1.
   double contraction_limit = 2048.0;  ///< Largest W_L (Cao).
   double sheet_limit = 8192.0;        ///< Largest W_L of ContractionHistory::thinned (ours).
@@ -51,6 +58,9 @@ struct ContractionOptions {
 inline constexpr auto kContractionFields = std::tuple{
     Choice{"contraction", &ContractionOptions::method, "auto|exact",
            "how the surface is contracted: large components by a decimated proxy, or all exactly"},
+    Choice{"contraction-weights", &ContractionOptions::weights, "area|vertex",
+           "what a vertex counts by: the area around it, or each alike as the paper has it, which "
+           "makes the map that of the mesh more than of the surface"},
     Choice{"contraction-scaling", &ContractionOptions::scaling, "sphere|box", kNoFlag},
     Field{"contraction-growth", &ContractionOptions::contraction_growth, 1.01, 100.0,
           "factor on the contraction weight per step [s_L] (Cao 2010: 3; Au 2008: 2)"},
@@ -108,6 +118,17 @@ struct MergedSurface {
   std::vector<std::uint32_t> of_vertex{};  ///< |V| merged vertex that each vertex is part of.
 };
 
+/// A second mesh of the same surface, coarser, contracted by itself. Where the two contractions agree, they tell of
+/// the surface; the rest hangs on how it is cut into triangles.
+struct SecondMesh {
+  TriMesh mesh{};
+  std::vector<std::vector<Vec3>> levels{};           ///< Of its vertices, model units.
+  std::vector<std::uint32_t> component_of_vertex{};  ///< As in ContractionHistory.
+  /// Points of the surface, next to each of its vertices, at the levels of the first contraction.
+  std::vector<std::vector<Vec3>> here{};
+  std::vector<std::vector<Vec3>> there{};  ///< The same points by the second contraction.
+};
+
 /// Positions of every vertex at every level.
 struct ContractionHistory {
   /// K + 1 levels of |V| points in model units; level 0 is the input itself.
@@ -123,6 +144,7 @@ struct ContractionHistory {
   std::vector<std::string> warnings{};  ///< One sentence each.
   /// If some component was made of few huge faces.
   std::optional<ContractedRefinement> refinement{};
+  SecondMesh second{};  ///< Empty for point clouds.
   /// If some component is large.
   std::optional<MergedSurface> merged{};
 

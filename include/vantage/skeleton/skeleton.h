@@ -57,8 +57,7 @@ struct Skeleton {
   /// What KSSM measures to: `raw`, in pieces of half the spacing that follow the contracted surface,
   /// as fine as what is left of that; or `raw` itself. Its first nodes are those of `raw`.
   CurveGraph curve{};
-  /// The same made from the contracted surface merged more coarsely, or empty: where distances to
-  /// the two differ, they are those of sampling.
+  /// The same of ContractionHistory::second, or empty.
   CurveGraph other_curve{};
   std::vector<std::uint32_t> raw_node_of_vertex{};  ///< |V| nodes of `raw`; kNone if isolated.
   double outside_share = 0.0;  ///< Of the length of `graph` in closed components, what is outside

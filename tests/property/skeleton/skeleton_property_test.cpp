@@ -96,7 +96,7 @@ TEST_P(SkeletonProperty, MapsEveryVertexToANode) {
 TEST_P(SkeletonProperty, RadiusIsTheMeanDistanceToTheVerticesOfANode) {
   // A refined surface has vertices that are not the mesh's.
   const ContractionHistory history =
-      contract(GetParam().mesh, {.method = ContractionMethod::Exact});
+      contract(GetParam().mesh, {.weights = ContractionWeights::Vertex});
   ASSERT_FALSE(history.refinement);
   const Skeleton skeleton = extract_skeleton(GetParam().mesh, history);
   std::vector<double> sum(skeleton.graph.nodes.size(), 0.0);

@@ -51,7 +51,9 @@ class FrameOf : public ::testing::TestWithParam<ContractionScaling> {};
 
 TEST_P(FrameOf, TheFirstStepIsTheDenseSolutionInThatFrame) {
   const TriMesh mesh = lopsided();
-  const ContractionOptions options{.method = ContractionMethod::Exact, .scaling = GetParam()};
+  const ContractionOptions options{.method = ContractionMethod::Exact,
+                                   .scaling = GetParam(),
+                                   .weights = ContractionWeights::Vertex};
   const ContractionHistory history = contract(mesh, options);
   ASSERT_GE(history.level_count(), 1U);
   const Frame frame = frame_of(GetParam(), mesh);
@@ -69,7 +71,9 @@ TEST_P(FrameOf, TheFirstStepIsTheDenseSolutionInThatFrame) {
 
 TEST_P(FrameOf, EveryLevelIsThatOfTheScaledComponentBroughtBack) {
   const TriMesh mesh = lopsided();
-  const ContractionOptions options{.method = ContractionMethod::Exact, .scaling = GetParam()};
+  const ContractionOptions options{.method = ContractionMethod::Exact,
+                                   .scaling = GetParam(),
+                                   .weights = ContractionWeights::Vertex};
   const ContractionHistory history = contract(mesh, options);
   const Frame frame = frame_of(GetParam(), mesh);
   const ComponentHistory expected = contract_component(frame.of(mesh), options, {});

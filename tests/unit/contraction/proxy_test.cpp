@@ -95,6 +95,36 @@ TEST(ContractByProxy, IsNotDoneWhereExactIsAskedFor) {
   EXPECT_EQ(exact.components.front().strategy, "exact");
 }
 
+TEST(ContractExactly, IsWhatIsDoneWithoutAProxy) {
+  for (const TriMesh& mesh : {test::torus(1.0, 0.3, 12, 6), test::torus(1.0, 0.3, 120, 40)}) {
+    const auto exact = contract(mesh, {.method = ContractionMethod::Exact});
+    EXPECT_EQ(exact.levels, contract(mesh).levels);
+    const auto paper =
+        contract(mesh, {.method = ContractionMethod::Exact, .weights = ContractionWeights::Vertex});
+    EXPECT_NE(exact.levels, paper.levels);
+    EXPECT_FALSE(paper.refinement);
+  }
+}
+
+TEST(SecondMesh, IsCoarserAndHasPlacesForAllItsVerticesAtAllLevels) {
+  TriMesh mesh = test::together(test::torus(1.0, 0.3, 120, 40), test::torus(0.5, 0.1, 60, 20),
+                                Vec3(5.0, 0.0, 0.0));
+  const auto history = contract(mesh);
+  const SecondMesh& second = history.second;
+  const std::size_t n = second.mesh.positions.size();
+  EXPECT_LT(2 * n, mesh.positions.size());
+  EXPECT_EQ(second.component_of_vertex.back(), 1U);
+  ASSERT_EQ(second.here.size(), history.levels.size());
+  ASSERT_EQ(second.there.size(), history.levels.size());
+  for (std::size_t level = 0; level < history.levels.size(); ++level) {
+    ASSERT_EQ(second.here[level].size(), n);
+    ASSERT_EQ(second.there[level].size(), n);
+    for (std::size_t v = 0; v < n; ++v) {
+      EXPECT_LT((second.here[level][v] - second.there[level][v]).norm(), 0.1) << level;
+    }
+  }
+}
+
 TEST(ContractByProxy, LeavesLevelZeroToTheBit) {
   const TriMesh torus = large_torus();
   EXPECT_EQ(contract(torus).levels.front(), torus.positions);

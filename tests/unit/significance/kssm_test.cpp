@@ -81,8 +81,8 @@ TEST(ComputeKssm, TakesNothingFromAFlatLevel) {
   EXPECT_EQ(two.level_factor.back(), 0.0);
 }
 
-/// The strip contracted to a tenth, then to what is nearer to the graph than another graph of the
-/// same surface is.
+/// The strip contracted to a tenth, then to what is nearer to the graph than that of the strip meshed
+/// anew is, whose levels are the same.
 HandMade contracted_twice() {
   HandMade made;
   for (const double factor : {0.1, 0.01}) {
@@ -91,6 +91,11 @@ HandMade contracted_twice() {
       p *= factor;
     }
   }
+  made.history.second = {.mesh = made.mesh,
+                         .levels = made.history.levels,
+                         .component_of_vertex = {0, 0, 0, 0},
+                         .here = made.history.levels,
+                         .there = made.history.levels};
   return made;
 }
 
@@ -101,6 +106,28 @@ TEST(ComputeKssm, LeavesOutLevelsThatAreTheSamplingOfTheCurve) {
   EXPECT_EQ(map.levels_used, (std::vector<std::size_t>{0, 1}));
   EXPECT_EQ(map.level_factor[2], 0.0);
   EXPECT_DOUBLE_EQ(map.of_vertex[3], 2 * 0.75 * 0.75);
+}
+
+TEST(ComputeKssm, CountsALevelTheLessTheMoreTheOtherMeshDisagrees) {
+  const HandMade made = contracted_twice();
+  double before = 0.75 * 0.75;
+  int in_part = 0;
+  for (double shift = 0.0; shift < 0.3; shift += 0.01) {
+    const CurveGraph other{.nodes = {{shift, 0, 0}}, .edges = {}};
+    const KssmMap map = compute_kssm(made.mesh, made.history, made.graph, {}, {}, other);
+    EXPECT_LE(map.level_factor[1], before + 1e-12) << shift;
+    before = map.level_factor[1];
+    in_part += before > 0.0 && before < 0.75 * 0.75 - 1e-12 ? 1 : 0;
+  }
+  EXPECT_EQ(before, 0.0);
+  EXPECT_GE(in_part, 1);
+}
+
+TEST(ComputeKssm, LeavesOutLevelsThatTheOtherMeshHasOtherwise) {
+  HandMade made = contracted_twice();
+  std::swap(made.history.second.there[1][0], made.history.second.there[1][3]);
+  const KssmMap map = compute_kssm(made.mesh, made.history, made.graph, {}, {}, made.graph);
+  EXPECT_EQ(map.levels_used, std::vector<std::size_t>{0});  // noise stays: level 2 is finer still
 }
 
 TEST(ComputeKssm, CountsAllLevelsWhereNoOtherCurveIsGivenOrNoneIsAskedFor) {
@@ -114,7 +141,7 @@ TEST(ComputeKssm, CountsAllLevelsWhereNoOtherCurveIsGivenOrNoneIsAskedFor) {
 }
 
 TEST(ComputeKssm, AlwaysCountsTheInput) {
-  const HandMade made;
+  const HandMade made = contracted_twice();
   const CurveGraph far{.nodes = {{50, 0, 0}}, .edges = {}};
   EXPECT_EQ(compute_kssm(made.mesh, made.history, made.graph, {}, {}, far).levels_used,
             std::vector<std::size_t>{0});
