@@ -15,7 +15,7 @@
 
 #include "vantage/io/model.h"
 #include "vantage/pipeline/measured_shape.h"
-#include "vantage/view/measurer.h"
+#include "vantage/view/measure.h"
 
 namespace {
 

@@ -5,7 +5,6 @@
 #include <benchmark/benchmark.h>
 
 #include "vantage/mesh/measures.h"
-#include "vantage/render/framing.h"
 #include "vantage/render/render.h"
 
 #include "render/corner_normals.h"

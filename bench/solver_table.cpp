@@ -24,7 +24,7 @@
 
 #include "vantage/io/model.h"
 #include "vantage/mesh/measures.h"
-#include "vantage/mesh/weld.h"
+#include "vantage/mesh/mesh_check.h"
 #include "vantage/operators/cotangent_laplacian.h"
 
 #include "mesh/decimation.h"

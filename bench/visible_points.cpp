@@ -9,7 +9,7 @@
 
 #include "vantage/io/model.h"
 #include "vantage/mesh/measures.h"
-#include "vantage/mesh/weld.h"
+#include "vantage/mesh/mesh_check.h"
 #include "vantage/pipeline/shape_analysis.h"
 #include "vantage/spatial/directions.h"
 #include "vantage/visibility/vertex_visibility.h"

@@ -6,7 +6,7 @@
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/find_views.h"
-#include "vantage/report/pictures.h"
+#include "vantage/report/view_report.h"
 
 int main(int argc, char** argv) {
   using namespace vantage;

@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "vantage/mesh/measures.h"
-#include "vantage/mesh/weld.h"
 
 int main() {
   using namespace vantage;

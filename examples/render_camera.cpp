@@ -6,7 +6,6 @@
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
 #include "vantage/mesh/measures.h"
-#include "vantage/render/framing.h"
 #include "vantage/render/render.h"
 
 int main(int argc, char** argv) {

@@ -15,7 +15,6 @@
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/sidecar.h"
-#include "vantage/report/pictures.h"
 #include "vantage/report/view_report.h"
 
 #include "batch/archive_reader.h"

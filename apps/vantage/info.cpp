@@ -5,7 +5,6 @@
 
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/mesh_check.h"
-#include "vantage/mesh/weld.h"
 #include "vantage/pipeline/shape_analysis.h"
 
 #include "commands.h"

@@ -8,7 +8,7 @@
 
 #include "vantage/io/model.h"
 #include "vantage/render/render.h"
-#include "vantage/report/pictures.h"
+#include "vantage/report/view_report.h"
 
 #include "option_flags.h"
 #include "picture_file.h"

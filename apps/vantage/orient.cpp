@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/error.h"
-#include "vantage/io/turn.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/find_views.h"
 #include "vantage/pipeline/sidecar.h"

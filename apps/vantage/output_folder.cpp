@@ -18,7 +18,6 @@
 #include <unistd.h>
 
 #include "vantage/core/error.h"
-#include "vantage/io/staged_file.h"
 #include "vantage/io/write.h"
 
 #include "output_file.h"

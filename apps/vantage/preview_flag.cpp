@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "vantage/report/pictures.h"
+#include "vantage/report/view_report.h"
 
 #include "terminal_picture.h"
 

@@ -7,7 +7,7 @@
 
 #include "vantage/pipeline/shape_analysis.h"
 #include "vantage/render/render.h"
-#include "vantage/report/pictures.h"
+#include "vantage/report/view_report.h"
 
 #include "session.h"
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "vantage/render/render.h"
+
 #include <map>
 
 #include <nlohmann/json.hpp>
@@ -9,8 +11,7 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/find_views.h"
 #include "vantage/pipeline/sidecar.h"
-#include "vantage/render/framing.h"
-#include "vantage/report/pictures.h"
+#include "vantage/report/view_report.h"
 
 #include "commands.h"
 #include "input_text.h"

@@ -10,7 +10,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-#include "vantage/io/face_limit.h"
+#include "vantage/io/model.h"
 
 namespace vantage::cli {
 namespace {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "vantage/skeleton/skeleton.h"
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -10,7 +12,6 @@
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/shape_analysis.h"
-#include "vantage/skeleton/quality.h"
 
 #include "commands.h"
 #include "method_flags.h"

@@ -2,13 +2,13 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/error.h"
-#include "vantage/io/visible_materials.h"
+#include "vantage/io/model.h"
 #include "vantage/io/write.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/find_views.h"
 #include "vantage/pipeline/sidecar.h"
-#include "vantage/render/framing.h"
-#include "vantage/report/pictures.h"
+#include "vantage/render/render.h"
+#include "vantage/report/view_report.h"
 
 #include "commands.h"
 #include "look_flags.h"

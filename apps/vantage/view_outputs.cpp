@@ -9,7 +9,6 @@
 #include <CLI/CLI.hpp>
 
 #include "vantage/io/camera_files.h"
-#include "vantage/io/model_viewer_camera.h"
 #include "vantage/io/write.h"
 #include "vantage/render/render.h"
 #include "vantage/report/view_report.h"

@@ -8,7 +8,7 @@
 
 #include "vantage/io/model.h"
 #include "vantage/pipeline/find_views.h"
-#include "vantage/report/pictures.h"
+#include "vantage/report/view_report.h"
 
 #include "output_folder.h"
 

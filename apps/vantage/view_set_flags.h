@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "vantage/pipeline/find_views.h"
-#include "vantage/report/pictures.h"
+#include "vantage/report/view_report.h"
 
 #include "look_flags.h"
 #include "method_flags.h"

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "vantage/view/visible_sets.h"
+#include "vantage/view/view_set.h"
 
 namespace vantage::cli {
 

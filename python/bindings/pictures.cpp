@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/report/pictures.h"
-
 #include <array>
 #include <utility>
 
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/find_views.h"
-#include "vantage/render/framing.h"
 #include "vantage/render/render.h"
+#include "vantage/report/view_report.h"
 
 #include "arrays.h"
 #include "camera.h"

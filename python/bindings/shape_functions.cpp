@@ -5,7 +5,7 @@
 
 #include "vantage/mesh/curve_graph.h"
 #include "vantage/pipeline/measured_shape.h"
-#include "vantage/skeleton/quality.h"
+#include "vantage/skeleton/skeleton.h"
 
 #include "arrays.h"
 #include "released_run.h"

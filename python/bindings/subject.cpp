@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "vantage/core/error.h"
-#include "vantage/io/face_limit.h"
+#include "vantage/io/model.h"
 
 #include "arrays.h"
 #include "released_run.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/io/face_limit.h"
-
 #include <algorithm>
 #include <charconv>
 #include <fstream>
@@ -9,6 +7,8 @@
 #include <string_view>
 
 #include <unistd.h>
+
+#include "vantage/io/model.h"
 
 namespace vantage {
 namespace {

@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "vantage/core/error.h"
-#include "vantage/io/visible_materials.h"
 
 #include "io/files.h"
 #include "io/model_format.h"

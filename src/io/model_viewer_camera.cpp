@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/io/model_viewer_camera.h"
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -10,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "vantage/core/error.h"
+#include "vantage/io/camera_files.h"
 
 namespace vantage {
 namespace {

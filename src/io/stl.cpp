@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "vantage/mesh/weld.h"
+#include "vantage/mesh/mesh_check.h"
 
 #include "io/byte_cursor.h"
 #include "io/model_builder.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/io/turn.h"
-
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -11,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/error.h"
+#include "vantage/io/write.h"
 
 namespace vantage {
 namespace {

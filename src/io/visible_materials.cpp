@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/io/visible_materials.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+
+#include "vantage/io/model.h"
 
 namespace vantage {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
-#include "vantage/mesh/weld.h"
 
 #include "mesh/disjoint_sets.h"
 #include "mesh/triangle_corners.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/mesh/weld.h"
-
 #include <algorithm>
 #include <tuple>
+
+#include "vantage/mesh/mesh_check.h"
 
 namespace vantage {
 namespace {

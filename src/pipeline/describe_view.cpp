@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "vantage/mesh/measures.h"
-#include "vantage/render/framing.h"
+#include "vantage/render/render.h"
 
 #include "pipeline/view_preparation.h"
 

@@ -6,7 +6,7 @@
 
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/measured_shape.h"
-#include "vantage/render/framing.h"
+#include "vantage/render/render.h"
 
 #include "pipeline/coarse_surface.h"
 #include "pipeline/describe_view.h"

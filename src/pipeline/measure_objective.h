@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "vantage/view/measurer.h"
+#include "vantage/view/measure.h"
 #include "vantage/view/prior.h"
 #include "vantage/view/search.h"
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "vantage/mesh/measures.h"
+#include "vantage/mesh/mesh_check.h"
 #include "vantage/mesh/topology.h"
-#include "vantage/mesh/weld.h"
 
 #include "mesh/extent.h"
 #include "skeleton/point_skeleton.h"

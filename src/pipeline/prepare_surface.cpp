@@ -7,7 +7,7 @@
 
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
-#include "vantage/mesh/weld.h"
+#include "vantage/mesh/mesh_check.h"
 #include "vantage/pipeline/shape_analysis.h"
 
 #include "core/parallel.h"

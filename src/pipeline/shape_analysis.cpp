@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "vantage/mesh/measures.h"
-#include "vantage/mesh/weld.h"
+#include "vantage/mesh/mesh_check.h"
 #include "vantage/pipeline/find_views.h"
 #include "vantage/pipeline/measured_shape.h"
 

@@ -10,8 +10,8 @@
 #include <Eigen/Geometry>
 
 #include "vantage/mesh/measures.h"
+#include "vantage/mesh/mesh_check.h"
 #include "vantage/mesh/topology.h"
-#include "vantage/mesh/weld.h"
 
 #include "core/parallel.h"
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "vantage/mesh/measures.h"
+#include "vantage/mesh/mesh_check.h"
 #include "vantage/mesh/topology.h"
-#include "vantage/mesh/weld.h"
 
 #include "mesh/disjoint_sets.h"
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/render/framing.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "vantage/core/error.h"
+#include "vantage/render/render.h"
 
 namespace vantage {
 namespace {

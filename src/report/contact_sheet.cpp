@@ -5,9 +5,9 @@
 #include <string_view>
 #include <utility>
 
-#include "vantage/render/framing.h"
+#include "vantage/render/render.h"
 #include "vantage/report/comparison.h"
-#include "vantage/report/pictures.h"
+#include "vantage/report/view_report.h"
 
 #include "report/lettering.h"
 #include "report/line_drawing.h"

@@ -16,7 +16,7 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/measured_shape.h"
 #include "vantage/render/render.h"
-#include "vantage/report/pictures.h"
+#include "vantage/report/view_report.h"
 
 #include "pipeline/view_preparation.h"
 #include "report/legend.h"

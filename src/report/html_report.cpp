@@ -11,7 +11,6 @@
 
 #include "vantage/core/error.h"
 #include "vantage/io/camera_files.h"
-#include "vantage/io/model_viewer_camera.h"
 #include "vantage/io/write.h"
 #include "vantage/render/render.h"
 #include "vantage/report/view_report.h"

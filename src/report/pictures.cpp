@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/report/pictures.h"
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +7,7 @@
 
 #include "vantage/io/write.h"
 #include "vantage/render/render.h"
+#include "vantage/report/view_report.h"
 
 #include "core/parallel.h"
 #include "report/legend.h"

@@ -12,7 +12,6 @@
 #include <Eigen/Geometry>
 
 #include "vantage/pipeline/find_views.h"
-#include "vantage/render/framing.h"
 #include "vantage/render/render.h"
 #include "vantage/spatial/directions.h"
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/version.h"
-#include "vantage/io/model_viewer_camera.h"
+#include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
 #include "vantage/report/view_report.h"
 

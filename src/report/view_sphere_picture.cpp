@@ -12,7 +12,6 @@
 #include <Eigen/Geometry>
 
 #include "vantage/mesh/topology.h"
-#include "vantage/render/framing.h"
 #include "vantage/render/render.h"
 
 namespace vantage {

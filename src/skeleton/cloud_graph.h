@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "vantage/contraction/contraction.h"
+#include "vantage/contraction/history.h"
 #include "vantage/core/run_context.h"
 #include "vantage/mesh/tri_mesh.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/skeleton/quality.h"
-
 #include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
+
+#include "vantage/skeleton/skeleton.h"
 
 #include "skeleton/routing.h"
 #include "skeleton/shell.h"

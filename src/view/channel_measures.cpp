@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/view/channel_measures.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +8,7 @@
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
+#include "vantage/view/channel.h"
 
 #include "core/parallel.h"
 #include "core/shannon.h"

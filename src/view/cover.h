@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "vantage/core/run_context.h"
-#include "vantage/view/visible_sets.h"
+#include "vantage/view/view_set.h"
 
 /// \file
 /// Greedy weighted cover: which views together see most. The significance that a set of views sees

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/view/measurer.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +14,7 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 #include "vantage/significance/mesh_saliency.h"
+#include "vantage/view/measure.h"
 
 #include "core/parallel.h"
 #include "core/shannon.h"

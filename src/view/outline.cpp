@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/view/outline.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 
 #include "vantage/core/error.h"
 #include "vantage/mesh/topology.h"
+#include "vantage/view/measure.h"
 
 #include "core/shannon.h"
 #include "view/outline_sweep.h"

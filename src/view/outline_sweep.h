@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "vantage/view/outline.h"
+#include "vantage/view/measure.h"
 
 /// \file
 /// The boundary of a shape in the plane that is given as a chain of directed segments.

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/view/tour.h"
-
 #include <algorithm>
 #include <limits>
 #include <numeric>
 
 #include "vantage/core/error.h"
+#include "vantage/view/view_set.h"
 
 #include "view/sphere_angles.h"
 

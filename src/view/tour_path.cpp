@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "vantage/core/error.h"
-#include "vantage/view/tour.h"
+#include "vantage/view/view_set.h"
 
 #include "view/sphere_angles.h"
 

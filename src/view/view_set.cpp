@@ -12,7 +12,6 @@
 
 #include "vantage/core/error.h"
 #include "vantage/spatial/directions.h"
-#include "vantage/view/visible_sets.h"
 
 #include "view/cover.h"
 #include "view/sphere_angles.h"

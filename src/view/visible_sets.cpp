@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/view/visible_sets.h"
-
 #include <algorithm>
 
 #include "vantage/core/error.h"
+#include "vantage/view/view_set.h"
 
 #include "core/parallel.h"
 

@@ -10,8 +10,8 @@
 
 #include <Eigen/Geometry>
 
+#include "vantage/mesh/mesh_check.h"
 #include "vantage/mesh/topology.h"
-#include "vantage/mesh/weld.h"
 #include "vantage/visibility/vertex_visibility.h"
 
 #include "mesh/disjoint_sets.h"

@@ -9,8 +9,8 @@
 
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
+#include "vantage/mesh/mesh_check.h"
 #include "vantage/mesh/topology.h"
-#include "vantage/mesh/weld.h"
 
 namespace vantage {
 namespace {

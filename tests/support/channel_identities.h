@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "vantage/view/measurer.h"
+#include "vantage/view/measure.h"
 
 namespace vantage::test {
 

@@ -10,7 +10,7 @@
 
 #include <Eigen/Geometry>
 
-#include "vantage/mesh/weld.h"
+#include "vantage/mesh/mesh_check.h"
 
 #include "core/random.h"
 

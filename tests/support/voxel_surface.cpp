@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "vantage/mesh/weld.h"
+#include "vantage/mesh/mesh_check.h"
 
 namespace vantage::test {
 

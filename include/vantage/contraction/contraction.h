@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "vantage/contraction/history.h"
 #include "vantage/core/fields.h"
 #include "vantage/core/run_context.h"
 #include "vantage/mesh/tri_mesh.h"
@@ -21,12 +22,6 @@
 /// Symbols in [brackets] are the papers'. docs/contraction.md has the equations.
 
 namespace vantage {
-
-/// What the weights are scaled against, so that results do not depend on the unit of length.
-enum class ContractionScaling {
-  Sphere,  ///< Enclosing sphere of each component to diameter 2 (ours: independent of rotation).
-  Box,     ///< Longest side of each component's axis-aligned box to 1.6 (the paper's).
-};
 
 /// How a surface is contracted.
 enum class ContractionMethod {
@@ -76,88 +71,6 @@ inline constexpr auto kContractionFields = std::tuple{
     Field{"shrinkage-tolerance", &ContractionOptions::shrinkage_tolerance, 0.0, 1.0,
           "stop when a step shrinks the mean face area ratio by less (Cao 2010)"},
     Field{"max-steps", &ContractionOptions::max_steps, 1, 100, "at most this many steps"},
-};
-
-/// Why the contraction of a component ended. None of these is an error.
-enum class ContractionStop {
-  Shrunk,         ///< A step shrank the surface by less than the tolerance.
-  Grew,           ///< A side of the bounding box grew past its bound; that step was discarded.
-  Collapsed,      ///< A step would have run a curve to a point; that step was discarded.
-  StepLimit,      ///< `max_steps` were taken.
-  NothingToMove,  ///< No face with area: a point or a needle.
-  SolverFailed,   ///< No regularisation gave a finite solution; that step was discarded.
-};
-
-/// Lower-case name of a stop reason for results, e.g. "shrunk".
-std::string_view stop_name(ContractionStop stop);
-
-/// What happened to one connected component.
-struct ComponentContraction {
-  std::size_t vertices = 0;  ///< Of the component.
-  int steps = 0;             ///< Accepted steps; later levels repeat the last one.
-  ContractionStop stop = ContractionStop::NothingToMove;  ///< Why it ended.
-  int regularised_steps = 0;            ///< Steps that could not be taken as defined.
-  std::vector<std::string> remedies{};  ///< What was done about them, a phrase each.
-  std::string strategy{"exact"};        ///< Which method contracted it.
-  double shrinkage = 1.0;               ///< [a_t] of its last level.
-};
-
-/// A finer surface that was contracted in place of the input; the input's vertices come first.
-struct ContractedRefinement {
-  TriMesh mesh{};                                    ///< The same surface with more vertices.
-  std::vector<std::vector<Vec3>> levels{};           ///< K + 1 levels of its vertices, model units.
-  std::vector<std::uint32_t> component_of_vertex{};  ///< As in ContractionHistory.
-  std::vector<Vec3> thinned{};                       ///< As in ContractionHistory.
-};
-
-/// The surface with some vertices merged: the same components, borders and genus, fewer faces. A skeleton that starts
-/// from it need not collapse every edge of a large surface.
-struct MergedSurface {
-  std::size_t vertex_count = 0;
-  std::vector<Triangle> triangles{};       ///< Of merged vertices.
-  std::vector<std::uint32_t> of_vertex{};  ///< |V| merged vertex that each vertex is part of.
-};
-
-/// A second mesh of the same surface, coarser, contracted by itself. Where the two contractions agree, they tell of
-/// the surface; the rest hangs on how it is cut into triangles.
-struct SecondMesh {
-  TriMesh mesh{};
-  std::vector<std::vector<Vec3>> levels{};           ///< Of its vertices, model units.
-  std::vector<std::uint32_t> component_of_vertex{};  ///< As in ContractionHistory.
-  /// Points of the surface, next to each of its vertices, at the levels of the first contraction.
-  std::vector<std::vector<Vec3>> here{};
-  std::vector<std::vector<Vec3>> there{};  ///< The same points by the second contraction.
-};
-
-/// Positions of every vertex at every level.
-struct ContractionHistory {
-  /// K + 1 levels of |V| points in model units; level 0 is the input itself.
-  std::vector<std::vector<Vec3>> levels{};
-  std::vector<double> shrinkage{};  ///< [a_t] per level, area-ratio mean; 1 at level 0.
-  std::vector<ComponentContraction> components{};  ///< Ordered by lowest vertex index.
-  std::vector<std::uint32_t>
-      component_of_vertex{};  ///< |V| indices into `components`, or kIsolated.
-  /// |V| points from which the skeleton is collapsed, or empty: those of the last level. Components
-  /// that stopped shrinking as sheets stand as they do contracted further, all others as at the last
-  /// level [ours: docs/contraction.md].
-  std::vector<Vec3> thinned{};
-  std::vector<std::string> warnings{};  ///< One sentence each.
-  /// If some component was made of few huge faces.
-  std::optional<ContractedRefinement> refinement{};
-  SecondMesh second{};  ///< Empty for point clouds.
-  /// If some component is large.
-  std::optional<MergedSurface> merged{};
-
-  /// Marks vertices that no face names; they stay where they are.
-  static constexpr std::uint32_t kIsolated = 0xffffffffu;
-
-  /// Where the surface is most like a curve: what the skeleton is collapsed from. \pre has levels
-  [[nodiscard]] const std::vector<Vec3>& thinnest() const {
-    return thinned.empty() ? levels.back() : thinned;
-  }
-
-  /// K, the number of accepted steps of the longest component.
-  [[nodiscard]] std::size_t level_count() const { return levels.empty() ? 0 : levels.size() - 1; }
 };
 
 /// Contracts each connected component of `mesh` by itself, as options.method says.

@@ -21,6 +21,9 @@
 /// .stl the welded vertices in order of first appearance; for glTF the concatenated primitives in
 /// world space, for 3MF the objects in the order in which they are built), because every per-vertex
 /// result refers to it.
+/// Materials that say that nothing at all is to be seen are mistakes: older MeshLab wrote `Tr 1.0` for
+/// what is opaque.
+/// How many faces a model may have where nobody says so: ReadOptions::max_faces.
 
 namespace vantage {
 
@@ -98,5 +101,21 @@ Model load_model(const std::string& path, const RunContext& run = {},
 /// \throw FormatError naming the line.
 std::vector<Vec3> parse_points_csv(std::string_view bytes, std::string_view name,
                                    std::array<std::string_view, 3> columns);
+
+/// The note of a model whose materials were made opaque.
+inline constexpr const char* kMadeOpaque =
+    "by its materials no face can be seen at all; it is shown as opaque";
+
+/// Makes all materials opaque if every face is invisible by its own. \return whether it did.
+/// \pre indices and textures fit each other.
+/// \complexity linear in the faces before the first visible one.
+bool make_visible(Appearance& appearance);
+
+/// Memory that this process may use, bytes: of the machine, or what its control groups leave it.
+std::uint64_t usable_memory_bytes();
+
+/// Faces that so much memory has room for, with all that a view computes of them: two digits and
+/// zeros, so that like machines say the same; at least 100 000.
+std::size_t faces_that_fit(std::uint64_t memory_bytes);
 
 }  // namespace vantage

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -10,12 +12,16 @@
 
 #include "vantage/core/camera.h"
 #include "vantage/core/image.h"
+#include "vantage/core/vec3.h"
+#include "vantage/io/model.h"
 #include "vantage/mesh/curve_graph.h"
 #include "vantage/mesh/tri_mesh.h"
 
 /// \file
 /// Writers give bytes; write_file() puts them on disk before they have a name, so that a failed run
 /// leaves no half-written file.
+/// A file that is whole on the disk before anybody sees it.
+/// Models turned by quarter turns about their axes, with all else as it is.
 
 namespace vantage {
 
@@ -91,5 +97,55 @@ class AnimationEncoder {
 
 /// Shortest decimal text that reads back as the same double; "null" if not finite (JSON).
 std::string number_text(double value);
+
+/// Bytes on the disk that have no name yet, so that several files can take their places in one short
+/// moment. A process that is killed before leaves nothing behind where the file system knows files
+/// without a name (O_TMPFILE), else one named ".NAME.part.PROCESS".
+class StagedFile {
+ public:
+  /// Writes the bytes in the folder of `path`. \throw IoError
+  StagedFile(std::string path, std::string_view bytes);
+  /// Drops what was not placed.
+  ~StagedFile();
+  StagedFile(StagedFile&& other) noexcept;
+  StagedFile& operator=(StagedFile&& other) noexcept;
+
+  /// Gives it its name, in place of the file, link or pipe that has it. Call once. \throw IoError
+  void place();
+
+  [[nodiscard]] const std::string& path() const { return path_; }  ///< Where place() puts it.
+
+ private:
+  /// \return whether the file system knows files without a name. \throw IoError
+  bool write_nameless(std::string_view bytes);
+  /// \throw IoError
+  void write_temporary(std::string_view bytes);
+  void drop() noexcept;
+
+  std::string path_;
+  std::string temporary_{};  ///< Its name until it is placed; empty: it has none.
+  int descriptor_ = -1;      ///< Of a file without a name.
+};
+
+/// A rotation that takes each coordinate axis to another, or to its opposite: exact.
+struct AxisTurn {
+  std::array<std::size_t, 3> from{0, 1, 2};          ///< Coordinate i of the result is this one …
+  std::array<bool, 3> negated{false, false, false};  ///< … or its negative.
+
+  /// The turn that takes the first pair of directions to the second. \pre each pair are two
+  /// coordinate axes or their opposites, at right angles.
+  AxisTurn(const Vec3& up, const Vec3& front, const Vec3& new_up, const Vec3& new_front);
+
+  [[nodiscard]] bool is_none() const;                      ///< Nothing is turned.
+  [[nodiscard]] Vec3 operator()(const Vec3& p) const;      ///< The turned point.
+  [[nodiscard]] std::array<double, 4> quaternion() const;  ///< x, y, z, w; unit.
+};
+
+/// The bytes of an OBJ, STL, glTF or GLB with its shape turned; whatever else it holds stays. Numbers
+/// of text files change their place and sign alone. A glTF gets a node above those of each scene.
+/// \param format as parse_model() found it. \param name shown in messages.
+/// \throw FormatError; InvalidInput for other formats.
+std::string turned_bytes(std::string_view bytes, std::string_view name, ModelFormat format,
+                         const AxisTurn& turn);
 
 }  // namespace vantage

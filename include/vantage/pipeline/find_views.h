@@ -14,7 +14,6 @@
 #include "vantage/pipeline/shape_analysis.h"
 #include "vantage/view/scoring.h"
 #include "vantage/view/search.h"
-#include "vantage/view/tour.h"
 #include "vantage/view/view_set.h"
 #include "vantage/visibility/face_visibility.h"
 #include "vantage/visibility/vertex_visibility.h"

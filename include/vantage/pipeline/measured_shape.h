@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "vantage/pipeline/find_views.h"
-#include "vantage/view/measurer.h"
+#include "vantage/view/measure.h"
 
 /// \file
 /// Measures of a view, applied to an analysed model.

@@ -6,7 +6,7 @@
 
 #include "vantage/core/image.h"
 #include "vantage/pipeline/measured_shape.h"
-#include "vantage/report/pictures.h"
+#include "vantage/report/view_report.h"
 #include "vantage/spatial/mirror_symmetry.h"
 
 /// \file

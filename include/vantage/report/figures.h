@@ -9,7 +9,7 @@
 #include "vantage/core/image.h"
 #include "vantage/core/run_context.h"
 #include "vantage/pipeline/find_views.h"
-#include "vantage/report/pictures.h"
+#include "vantage/report/view_report.h"
 
 /// \file
 /// The paper's figures for any model. docs/figures.md says what each shows.

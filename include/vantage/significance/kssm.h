@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-#include "vantage/contraction/contraction.h"
+#include "vantage/contraction/history.h"
 #include "vantage/core/fields.h"
 #include "vantage/core/run_context.h"
 #include "vantage/mesh/curve_graph.h"

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,22 +13,90 @@
 
 #include <Eigen/Core>
 
+#include "vantage/core/camera.h"
+#include "vantage/core/run_context.h"
 #include "vantage/mesh/curve_graph.h"
+#include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 #include "vantage/mesh/tri_mesh.h"
 #include "vantage/spatial/directions.h"
 #include "vantage/view/channel.h"
-#include "vantage/view/channel_measures.h"
-#include "vantage/view/outline.h"
 #include "vantage/view/scoring.h"
 #include "vantage/visibility/face_visibility.h"
+#include "vantage/visibility/vertex_visibility.h"
 
 /// \file
 /// Measures of a view behind one interface: given the sight table of a view, a number. Those built
 /// in are listed by builtin_measures(), and anybody can make another: examples/own_measure.cpp.
 /// docs/measures.md defines each.
+/// The outline of the shape that an eye sees, and what measures make of it. Lengths are in
+/// diameters of the silhouette disc: the picture of the model's enclosing sphere. docs/measures.md.
+/// Looks at a model and hands what it sees to measures.
 
 namespace vantage {
+
+/// The picture of a sphere on the plane through its centre across the line of sight. In perspective
+/// it is larger than the sphere's own disc; from within the sphere it is taken to be that disc.
+struct SilhouetteDisc {
+  Vec3 towards = Vec3::UnitZ();  ///< Unit, from the sphere's centre to the eye.
+  double diameter = 1.0;         ///< Model units, on that plane; > 0.
+};
+
+/// \pre sphere.diameter > 0. An eye at the very centre looks along −z.
+SilhouetteDisc silhouette_disc(const Sphere& sphere, const Viewpoint& eye);
+
+/// A point of the picture in disc diameters, the disc's centre at the origin.
+using PicturePoint = Eigen::Vector2d;
+
+/// Closed polylines with the shape on their left: outer outlines run counter-clockwise, those of
+/// holes clockwise. The last point is joined to the first.
+using Outline = std::vector<std::vector<PicturePoint>>;
+
+/// What outlines are measured by; all 0 without an outline.
+struct OutlineMeasures {
+  double length = 0.0;             ///< Of all loops, disc diameters.
+  double turning_entropy = 0.0;    ///< Of the turning angles in nine bins over [−π, π], bits.
+  double curvature = 0.0;          ///< Mean of |turning| a step, radians.
+  double curvature_extrema = 0.0;  ///< Mean of its square, radians squared.
+};
+
+/// Steps a disc diameter that turning is measured over, on each loop as equal as it can be divided;
+/// loops shorter than three steps have no turning.
+inline constexpr double kTurningSteps = 256.0;
+
+/// Places a step at which turning is measured: a corner turns in one step or in two by chance, so
+/// that the mean over places is taken. Measures of all shapes tried are converged
+/// (docs/measures.md). [ours]
+inline constexpr int kTurningPhases = 16;
+
+/// Measures an outline. \param phases at least 1.
+OutlineMeasures measure_outline(const Outline& outline, int phases = kTurningPhases);
+
+/// Traces outlines of one surface: not on a grid, but along the edges where layers of the surface
+/// end, so that they are exact but for rounding. Holds references: the mesh must outlive it.
+/// Queries are const and may run on many threads at once.
+class OutlineTracer {
+ public:
+  /// \param sides as for VertexVisibility. \param sphere of the mesh. \throw InvalidInput
+  OutlineTracer(const TriMesh& mesh, std::span<const FaceSides> sides, const Sphere& sphere);
+
+  /// The outline of all that the eye could see. Faces that reach behind the eye are left out, and
+  /// what lies outside the square around the disc, if the eye is within the sphere.
+  [[nodiscard]] Outline trace(const Viewpoint& eye) const;
+
+ private:
+  [[nodiscard]] std::vector<PicturePoint> places(const Viewpoint& eye,
+                                                 std::vector<std::uint8_t>& ahead) const;
+
+  const TriMesh* mesh_;
+  Sphere sphere_;
+  std::vector<std::uint8_t> two_sided_{};              // of each face
+  std::vector<std::array<std::uint32_t, 2>> edges_{};  // lower vertex first
+  // Where two faces run along an edge, each in its own sense: the one in its sense, then the other.
+  std::vector<std::array<std::uint32_t, 2>> beside_{};
+  IndexLists faces_of_edge_{};
+  std::vector<std::int8_t> follows_{};  // of each of these: 1 if it has the edge in that sense
+};
 
 /// What a view shows of a skeleton.
 struct SkeletonSight {
@@ -142,5 +211,55 @@ const std::vector<Measure>& builtin_measures();
 
 /// The measure of this name or alias. \throw InvalidInput that lists the names if there is none.
 const Measure& find_measure(std::string_view name);
+
+/// Values of several measures: values[m][i] is that of measure m in view i.
+using MeasureValues = std::vector<std::vector<double>>;
+
+/// Measures views of one model by several measures, looking once for all of them. Holds references:
+/// what the subject refers to must outlive it. Results do not depend on the number of threads.
+class ViewMeasurer {
+ public:
+  /// \param level the set of views: the icosahedron split this often, 0–6. It is part of the
+  ///              definition of measures that need the channel; these look at all of it here.
+  /// \throw InvalidInput if a measure needs what the subject lacks. \throw Cancelled
+  ViewMeasurer(const MeasureSubject& subject, std::vector<Measure> measures, int level = 3,
+               const RunContext& run = {});
+  ~ViewMeasurer();
+  ViewMeasurer(ViewMeasurer&&) noexcept;             ///< Leaves the other unusable.
+  ViewMeasurer& operator=(ViewMeasurer&&) noexcept;  ///< The same.
+
+  [[nodiscard]] const std::vector<Measure>& measures() const;  ///< As given.
+  [[nodiscard]] const MeasuredModel& model() const;            ///< What is known of the model.
+  [[nodiscard]] const DirectionSet& set() const;               ///< The set of views.
+
+  /// Values over the set; computed once. \throw Cancelled
+  const MeasureValues& set_values(const RunContext& run = {});
+
+  /// Values of any views: eyes inside the model and views that see nothing too. \throw Cancelled
+  [[nodiscard]] MeasureValues values(std::span<const Viewpoint> eyes,
+                                     const RunContext& run = {}) const;
+
+  /// The same of directions, through the subject's camera.
+  [[nodiscard]] MeasureValues values(std::span<const Vec3> directions,
+                                     const RunContext& run = {}) const;
+
+  /// Values of one measure alone, which looks at no more than it needs. \throw Cancelled
+  [[nodiscard]] std::vector<double> values_of(std::size_t m, std::span<const Vec3> directions,
+                                              const RunContext& run = {}) const;
+
+  /// Whether the measure looks at faces and can be estimated by FaceDetail::ByCorners.
+  [[nodiscard]] bool has_estimates(std::size_t m) const;
+
+  /// These estimates. \pre has_estimates(m). \throw Cancelled
+  [[nodiscard]] std::vector<double> estimates_of(std::size_t m, std::span<const Vec3> directions,
+                                                 const RunContext& run = {}) const;
+
+  /// Whether set_values() are there.
+  [[nodiscard]] bool has_set_values() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace vantage

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -11,10 +12,13 @@
 #include "vantage/core/run_context.h"
 #include "vantage/core/vec3.h"
 #include "vantage/view/scoring.h"
+#include "vantage/visibility/face_visibility.h"
 #include "vantage/visibility/vertex_visibility.h"
 
 /// \file
 /// Several views that together tell most: greedy by newly seen significance. docs/view_sets.md.
+/// A closed path over several views, with the eye never leaving the view sphere. docs/view_sets.md.
+/// What each of many views sees, one bit a vertex.
 
 namespace vantage {
 
@@ -93,5 +97,82 @@ ViewSet select_views(const FaceVisibility& faces, std::span<const double> of_fac
 ViewSet measure_views(const FaceVisibility& faces, std::span<const double> of_face,
                       const ScoringCamera& camera, std::span<const Vec3> directions,
                       const ViewSetOptions& options = {}, const RunContext& run = {});
+
+/// A closed round over directions.
+struct Tour {
+  std::vector<std::size_t> order{};  ///< Every index once, 0 first; of both senses the one whose
+                                     ///< second index is less than its last.
+  double length_rad = 0.0;           ///< Sum of the great-circle arcs, the way back included.
+  bool optimal = false;              ///< Whether no shorter round exists.
+};
+
+/// The shortest round over the directions. Up to 12: exact (Held & Karp, 1962). More: nearest
+/// neighbour from index 0, then 2-opt moves and moves of runs of up to three until neither shortens
+/// it. \param directions at least one unit vector. \throw InvalidInput, Cancelled
+Tour shortest_tour(std::span<const Vec3> directions, const RunContext& run = {});
+
+/// Where the eye stands at one moment.
+struct TourPose {
+  Vec3 direction = Vec3::UnitZ();  ///< Unit vector from the centre to the eye.
+  Vec3 up = Vec3::UnitY();         ///< Unit, orthogonal to `direction`.
+};
+
+/// Poses at equal distances on the round: pose i is where the eye is after i / count of the way, and
+/// after the last comes the first again. Arcs are great circles; opposite stops are joined along the
+/// equator. The picture stays upright except near the poles, where upright turns ever faster: there
+/// the roll is smoothed over the way, so that it never jumps, also for a path straight over a pole.
+/// \param stops in order, at least two different unit vectors. \param model_up unit axis.
+/// \param count at least 3. \throw InvalidInput
+std::vector<TourPose> tour_path(std::span<const Vec3> stops, const Vec3& model_up,
+                                std::size_t count);
+
+/// A table of bits: row i tells which vertices view i sees.
+class VisibleSets {
+ public:
+  /// All bits clear. Takes view_count · vertex_count / 8 bytes.
+  VisibleSets(std::size_t view_count, std::size_t vertex_count)
+      : views_(view_count),
+        vertices_(vertex_count),
+        words_((vertex_count + 63) / 64),
+        bits_(view_count * words_, 0) {}
+
+  [[nodiscard]] std::size_t view_count() const { return views_; }  ///< Rows.
+
+  [[nodiscard]] std::size_t vertex_count() const { return vertices_; }  ///< Bits in a row.
+
+  /// Replaces the row of a view; different rows may be set on different threads.
+  /// \param visible |V| values, 0 for unseen. \throw InvalidInput if that is not the size.
+  void set(std::size_t view, std::span<const std::uint8_t> visible);
+
+  /// Whether a view sees a vertex.
+  [[nodiscard]] bool sees(std::size_t view, std::size_t vertex) const {
+    return ((row(view)[vertex / 64] >> (vertex % 64)) & 1U) != 0;
+  }
+
+  /// Bits of a view, 64 to a word, the first vertex lowest; bits beyond |V| are 0.
+  [[nodiscard]] std::span<const std::uint64_t> row(std::size_t view) const {
+    return {bits_.data() + view * words_, words_};
+  }
+
+ private:
+  std::size_t views_;
+  std::size_t vertices_;
+  std::size_t words_;
+  std::vector<std::uint64_t> bits_;
+};
+
+/// What the scoring camera sees from each direction, in parallel over directions.
+/// \param vertex_count |V| of the surface that `visibility` was made of. \throw Cancelled
+VisibleSets visible_sets(const VertexVisibility& visibility, const ScoringCamera& camera,
+                         std::span<const Vec3> directions, std::size_t vertex_count,
+                         const RunContext& run = {});
+
+/// By area a face has so many bits: as many of the first are set as eighths of it are seen, so that
+/// several views together see of it what the one does that sees most.
+inline constexpr std::size_t kBitsAFace = 8;
+
+/// The same with kBitsAFace bits a face in place of one a vertex. \throw Cancelled
+VisibleSets visible_sets(const FaceVisibility& faces, const ScoringCamera& camera,
+                         std::span<const Vec3> directions, const RunContext& run = {});
 
 }  // namespace vantage

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "vantage/mesh/measures.h"
-#include "vantage/render/framing.h"
+#include "vantage/render/render.h"
 
 #include "core/random.h"
 #include "support/shapes.h"

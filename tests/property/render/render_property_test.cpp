@@ -9,7 +9,6 @@
 #include <oneapi/tbb/global_control.h>
 
 #include "vantage/mesh/measures.h"
-#include "vantage/render/framing.h"
 #include "vantage/render/render.h"
 
 #include "support/shapes.h"

@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "vantage/mesh/measures.h"
-#include "vantage/render/framing.h"
 #include "vantage/render/render.h"
 #include "vantage/visibility/vertex_visibility.h"
 

@@ -11,7 +11,6 @@
 
 #include "vantage/contraction/contraction.h"
 #include "vantage/mesh/measures.h"
-#include "vantage/skeleton/quality.h"
 #include "vantage/skeleton/skeleton.h"
 
 #include "support/dense_oracles.h"

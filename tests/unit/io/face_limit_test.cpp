@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/io/face_limit.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

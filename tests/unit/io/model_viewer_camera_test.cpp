@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What the element itself makes of these attributes is looked at in tests/viewer/model_viewer.test.mjs.
-#include "vantage/io/model_viewer_camera.h"
-
 #include <map>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "vantage/core/error.h"
+#include "vantage/io/camera_files.h"
 
 namespace vantage {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/mesh/weld.h"
-
 #include <algorithm>
 #include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "vantage/mesh/mesh_check.h"
 
 #include "support/shapes.h"
 

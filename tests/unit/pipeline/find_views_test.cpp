@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "vantage/mesh/measures.h"
-#include "vantage/report/pictures.h"
 #include "vantage/report/view_report.h"
 
 #include "pipeline/preference.h"

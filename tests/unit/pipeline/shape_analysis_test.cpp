@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "vantage/mesh/weld.h"
+#include "vantage/mesh/mesh_check.h"
 
 #include "support/model_of.h"
 #include "support/shapes.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/render/framing.h"
-
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -10,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "vantage/core/error.h"
+#include "vantage/render/render.h"
 
 #include "support/shapes.h"
 

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "vantage/core/error.h"
-#include "vantage/render/framing.h"
 #include "vantage/render/render.h"
 
 #include "support/shapes.h"

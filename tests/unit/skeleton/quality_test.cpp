@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/skeleton/quality.h"
-
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "vantage/skeleton/skeleton.h"
 
 #include "support/shapes.h"
 

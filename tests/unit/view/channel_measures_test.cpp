@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/view/channel_measures.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -9,6 +7,7 @@
 
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
+#include "vantage/view/channel.h"
 
 #include "core/random.h"
 #include "support/shapes.h"

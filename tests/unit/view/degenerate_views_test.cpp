@@ -14,7 +14,7 @@
 
 #include <gtest/gtest.h>
 
-#include "vantage/view/measurer.h"
+#include "vantage/view/measure.h"
 
 #include "support/shapes.h"
 

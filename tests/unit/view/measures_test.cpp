@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "vantage/core/error.h"
-#include "vantage/view/measurer.h"
+#include "vantage/view/measure.h"
 
 #include "support/channel_identities.h"
 #include "support/shapes.h"

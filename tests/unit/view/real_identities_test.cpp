@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "vantage/io/model.h"
-#include "vantage/view/measurer.h"
+#include "vantage/view/measure.h"
 
 #include "support/channel_identities.h"
 #include "support/data_pack.h"

@@ -16,7 +16,7 @@
 #include "vantage/io/model.h"
 #include "vantage/pipeline/measured_shape.h"
 #include "vantage/significance/mesh_saliency.h"
-#include "vantage/view/measurer.h"
+#include "vantage/view/measure.h"
 
 #include "support/data_pack.h"
 #include "support/shapes.h"

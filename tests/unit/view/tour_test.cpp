@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/view/tour.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,6 +9,7 @@
 
 #include "vantage/core/error.h"
 #include "vantage/spatial/directions.h"
+#include "vantage/view/view_set.h"
 
 #include "core/random.h"
 

@@ -9,7 +9,6 @@
 
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
-#include "vantage/view/visible_sets.h"
 
 #include "support/shapes.h"
 
