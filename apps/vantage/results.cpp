@@ -17,6 +17,7 @@
 #include "method_flags.h"
 #include "results_diff.h"
 #include "results_table.h"
+#include "results_verify.h"
 #include "row_file.h"
 #include "standard_output.h"
 #include "terminal.h"
@@ -282,6 +283,40 @@ struct MergeCommand {
   }
 };
 
+struct VerifyCommand {
+  std::string folder{};
+
+  void add_flags(CLI::App& app, Session& session) {
+    app.add_option("DIR", folder, "folder of a batch")->required();
+    add_common_flags(app, session.flags);
+  }
+
+  void run(Session& session) const {
+    const auto store = open_store(session, folder);
+    Json problems = Json::array();
+    const VerifyCounts counts =
+        verify_results(folder, *store, session.run(), [&](const std::string& problem) {
+          if (session.flags.json) {
+            problems.push_back(problem);
+          } else {
+            session.tell(problem);
+          }
+        });
+    if (session.flags.json) {
+      std::printf(
+          "%s\n",
+          text_of(
+              {{"records", counts.records}, {"folders", counts.folders}, {"problems", problems}}, 2)
+              .c_str());
+    }
+    session.tell(plural(counts.records, "record") + ", " + plural(counts.folders, "folder") +
+                 " of results: " +
+                 (counts.problems == 0 ? "all sound" : plural(counts.problems, "problem")));
+    finish_standard_output();
+    session.exit_code = counts.problems == 0 ? kDone : kFailed;
+  }
+};
+
 }  // namespace
 
 void add_results_command(CLI::App& program, Session& session) {
@@ -299,6 +334,10 @@ void add_results_command(CLI::App& program, Session& session) {
   add_command<MergeCommand>(*results, session, "merge", "shards' results into the folder's store",
                             "Examples:\n  vantage results merge DIR\n"
                             "  vantage results merge ALL PART1 PART2");
+  add_command<VerifyCommand>(*results, session, "verify",
+                             "whether all that was stored is there, whole, and of its record",
+                             "Exit code 1: something is not.\n\n"
+                             "Examples:\n  vantage results verify DIR");
 }
 
 }  // namespace vantage::cli

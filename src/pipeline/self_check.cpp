@@ -92,7 +92,8 @@ void look_at_contraction(const ShapeAnalysis& shape, std::vector<std::string>& d
     const auto vertices = static_cast<double>(component.vertices);
     const bool has_failed = component.stop == ContractionStop::SolverFailed;
     all += vertices;
-    if (component.shrinkage > kCurve || has_failed) {
+    // Of clouds a_t is no area, and stays large where they have become curves.
+    if ((!shape.cloud && component.shrinkage > kCurve) || has_failed) {
       thick += vertices;
       left += vertices * component.shrinkage;
     }
@@ -129,8 +130,8 @@ void look_at_map(const ShapeAnalysis& shape, const ViewOptions& options, const R
         "copy moved by a ten-thousandth of its size the ranks of its values agree "
         "to " +
         in_percent(std::max(agreement, 0.0)) +
-        " only, so that other views may be as good: mend the mesh, cut it into small "
-        "even triangles, or choose another --method");
+        " only, so that other views may be as good: unless the shape is so even that all "
+        "are, mend the mesh, cut it into small even triangles, or choose another --method");
   }
 }
 

@@ -104,7 +104,7 @@ class Job:
                     f"{where}no sentence says what is wrong: {words!r}")
         self.check_disturbed(out, whole)
         if done.returncode == usual and error != "KILL":
-            outcome = "no harm"
+            outcome = "usual exit code"
         else:
             outcome = {-9: "killed", usual: "worker killed"}.get(done.returncode, f"exit code {done.returncode}")
         again = self.run(out)

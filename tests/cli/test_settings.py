@@ -105,7 +105,7 @@ class Words(ProgramTest):
 
     def test_bash_completes_commands_options_values_and_files(self):
         self.assertEqual(self.complete("th"), ["thumb"])
-        self.assertEqual(self.complete("results", ""), ["query", "export", "diff", "merge"])
+        self.assertEqual(self.complete("results", ""), ["query", "export", "diff", "merge", "verify"])
         self.assertEqual(self.complete("thumb", "--cre"), ["--crease"])
         self.assertEqual(self.complete("results", "query", "--stat"), ["--status"])
         self.assertEqual(self.complete("view", "--weight", ""), ["vertex", "area"])

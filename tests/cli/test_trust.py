@@ -1,6 +1,7 @@
 """Answers that should not be trusted say so, and --strict makes them a failure."""
 
 import json
+import math
 import unittest
 
 from program import MODELS, ProgramTest
@@ -31,6 +32,11 @@ class Doubts(ProgramTest):
             done, report = self.view(MODELS / model, "--no-images", "--strict")
             self.assertEqual(report["doubts"], [])
             self.assertNotIn("warning: ", done.err)
+
+    def test_a_cloud_of_points_is_not_doubted_for_being_one(self):
+        points = [(2 + math.cos(v), math.sin(v), u) for u in range(0, 12) for v in [0.5 * i for i in range(13)]]
+        self.write("tube.xyz", "".join(f"{x} {y} {z / 2}\n" for x, y, z in points))
+        self.assertEqual(self.view("tube.xyz", "--no-images")[1]["doubts"], [])
 
     def test_a_map_that_hangs_on_the_mesh_is(self):
         _, report = self.view(DOUBTED, "--no-images")

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "results_verify.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <string_view>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/error.h"
+
+#include "batch/confined_folder.h"
+#include "batch/runner.h"
+
+namespace vantage::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// Whether a picture begins and ends as one does.
+bool is_whole_png(std::string_view bytes) {
+  constexpr std::string_view kPngBegins = "\x89PNG\r\n\x1a\n";
+  constexpr std::string_view kPngEnds = "IEND\xae\x42\x60\x82";
+  return bytes.starts_with(kPngBegins) && bytes.ends_with(kPngEnds);
+}
+
+/// What is wrong with a file of results by its name; empty if nothing is.
+std::string flaw_of(const std::string& name, const std::string& bytes) {
+  if (bytes.empty()) {
+    return "is empty";
+  }
+  if (name.ends_with(".png") && !is_whole_png(bytes)) {
+    return "is no whole picture";
+  }
+  if (name.ends_with(".json") && Json::parse(bytes, nullptr, false).is_discarded()) {
+    return "is no JSON";
+  }
+  return "";
+}
+
+class Verification {
+ public:
+  Verification(const std::string& folder, const RunContext& run,
+               const std::function<void(const std::string&)>& take)
+      : root_(folder, "verify"), run_(run), take_(take) {}
+
+  void look_at(const batch::ModelRecord& record, batch::ResultsStore& store) {
+    run_.check();
+    ++counts_.records;
+    if (!batch::is_sound(record)) {
+      complain(record.key + ": its record is not one of ours");
+      return;
+    }
+    if (!record.duplicate_of.empty()) {
+      if (!store.find(record.duplicate_of)) {
+        complain(record.key + ": has the results of " + record.duplicate_of +
+                 ", which has no record");
+      }
+      return;
+    }
+    if (record.status == "done" && record.folder.empty()) {
+      return;  // its results gave way to those of the same content with other options
+    }
+    if (record.status == "done") {
+      known_.insert(batch::model_folder(record.folder));
+      look_into(record);
+    }
+  }
+
+  /// Folders of results that no record names.
+  void look_for_others() {
+    std::error_code error;
+    if (!root_.is_folder("models")) {
+      return;
+    }
+    const fs::path top = root_.path_of("models");
+    for (fs::recursive_directory_iterator at(top, error), end; !error && at != end;
+         at.increment(error)) {
+      run_.check();
+      if (at->path().filename() == "view.json" && at->is_regular_file(error)) {
+        const std::string name =
+            "models/" + at->path().parent_path().lexically_relative(top).string();
+        if (known_.count(name) == 0) {
+          complain(name + ": results that no record names; remove the folder");
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] const VerifyCounts& counts() const { return counts_; }
+
+  void complain(const std::string& problem) {
+    ++counts_.problems;
+    take_(problem);
+  }
+
+ private:
+  /// All of a regular file; empty if there is none.
+  [[nodiscard]] std::string bytes_of(const std::string& name) const {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(root_.path_of(name), error);
+    constexpr std::uintmax_t kMost = std::uintmax_t{1} << 31U;
+    return error ? std::string()
+                 : root_.beginning_of(name, static_cast<std::size_t>(std::min(size, kMost)));
+  }
+
+  void look_into(const batch::ModelRecord& record) {
+    const std::string folder = batch::model_folder(record.folder);
+    const std::string remedy = "; remove " + folder + " and run the batch again";
+    ++counts_.folders;
+    if (!root_.is_folder(folder)) {
+      complain(record.key + ": its results, " + folder + ", are not there; run the batch again");
+      return;
+    }
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(root_.path_of(folder), error)) {
+      const std::string name = entry.path().filename().string();
+      if (const std::string flaw = flaw_of(name, bytes_of(folder + "/" + name)); !flaw.empty()) {
+        complain(record.key + ": " + folder + "/" + name + " " + flaw + remedy);
+      }
+    }
+    const Json view = Json::parse(bytes_of(folder + "/view.json"), nullptr, false);
+    if (!view.is_object()) {
+      complain(record.key + ": " + folder + "/view.json is not there or damaged" + remedy);
+      return;
+    }
+    const Json result = Json::parse(record.result, nullptr, false);
+    for (const char* part : {"total", "best", "worst"}) {
+      if (!result.is_object() || result.value(part, Json()) != view.value(part, Json())) {
+        complain(record.key + ": " + folder + "/view.json is not what its record says" + remedy);
+        return;
+      }
+    }
+    for (const char* side : {"best", "worst"}) {
+      const Json image = view.value(side, Json::object()).value("image", Json());
+      if (image.is_string() && !root_.exists(folder + "/" + image.get<std::string>())) {
+        complain(record.key + ": " + folder + "/" + image.get<std::string>() + " is not there" +
+                 remedy);
+      }
+    }
+  }
+
+  const batch::ConfinedFolder root_;
+  const RunContext& run_;
+  const std::function<void(const std::string&)>& take_;
+  std::set<std::string> known_{};  ///< Folders that records name.
+  VerifyCounts counts_{};
+};
+
+}  // namespace
+
+VerifyCounts verify_results(const std::string& folder, batch::ResultsStore& store,
+                            const RunContext& run,
+                            const std::function<void(const std::string&)>& take) {
+  Verification verification(folder, run, take);
+  try {
+    store.check_integrity();
+  } catch (const IoError& error) {
+    verification.complain(error.what());
+  }
+  store.for_each_record(
+      [&](const batch::ModelRecord& record) { verification.look_at(record, store); });
+  verification.look_for_others();
+  return verification.counts();
+}
+
+}  // namespace vantage::cli
