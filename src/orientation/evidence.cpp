@@ -96,8 +96,8 @@ Columns columns_of(const HeightField& field, bool up_is_positive) {
     }
     const double u =
         (static_cast<double>(cell % field.columns) + 0.5) / static_cast<double>(field.columns);
-    const double v =
-        (static_cast<double>(cell / field.columns) + 0.5) / static_cast<double>(field.rows);
+    const std::size_t row = cell / field.columns;
+    const double v = (static_cast<double>(row) + 0.5) / static_cast<double>(field.rows);
     const double low = field.low[cell];
     const double high = field.high[cell];
     const double here = high - low + 1e-3;  // sheets have mass, too
@@ -329,10 +329,11 @@ std::vector<double> SideLooks::front_evidence(AxisDirection up, AxisDirection fr
       continue;
     }
     const bool row_is_up = depths.v_axis == up.axis;
-    const double place = row_is_up ? (static_cast<double>(cell / depths.columns) + 0.5) /
-                                         static_cast<double>(depths.rows)
-                                   : (static_cast<double>(cell % depths.columns) + 0.5) /
-                                         static_cast<double>(depths.columns);
+    const std::size_t row = cell / depths.columns;
+    const double place = row_is_up
+                             ? (static_cast<double>(row) + 0.5) / static_cast<double>(depths.rows)
+                             : (static_cast<double>(cell % depths.columns) + 0.5) /
+                                   static_cast<double>(depths.columns);
     const double height = oriented(place, up);
     const double limit = 0.25 * depths.extent;
     if (depths.depth(cell, front.is_positive) <= limit) {

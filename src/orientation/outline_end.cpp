@@ -20,8 +20,8 @@ EndOfOutline end_of(const HeightField& field, AxisDirection end, AxisDirection a
   for (std::size_t cell = 0; cell < field.low.size(); ++cell) {
     const double u =
         (static_cast<double>(cell % field.columns) + 0.5) / static_cast<double>(field.columns);
-    const double v =
-        (static_cast<double>(cell / field.columns) + 0.5) / static_cast<double>(field.rows);
+    const std::size_t row = cell / field.columns;
+    const double v = (static_cast<double>(row) + 0.5) / static_cast<double>(field.rows);
     const double depth = from_side(field.u_axis == end.axis ? u : v, end);
     if (depth < from || depth >= to) {
       continue;

@@ -73,6 +73,7 @@ struct TextureFlow {
   Vec3 up_along = Vec3::Zero();     ///< Sum of that way's absolute parts along the axes.
   Vec3 right_along = Vec3::Zero();  ///< The same of its right side.
 
+  /// Multiplies areas, and the areas in pictures.
   void scale(double by, double texels_by);
 };
 
