@@ -38,9 +38,9 @@ struct KssmOptions {
   /// Levels after the input whose displacement spans at most this fraction of D contribute nothing;
   /// 0 keeps all that span more than 1e-6 D.
   double flat_level = 0.0;
-  /// Levels after the input whose displacements to two curves of one contraction correlate below
-  /// this contribute nothing: they would not be the same on the surface moved by 1e-4 D (docs/lab
-  /// has the trials). 0 keeps all (the paper).
+  /// Levels after the input whose displacements correlate below this with those of the surface meshed
+  /// anew (ContractionHistory::second) contribute nothing, those just above it less (docs/lab has the
+  /// trials). 0 keeps all (the paper).
   double level_agreement = 0.95;
 };
 
@@ -54,25 +54,25 @@ inline constexpr auto kKssmFields = std::tuple{
     Field{
         "flat-level", &KssmOptions::flat_level, 0.0, 1.0,
         "leave out levels whose displacement spans at most this fraction of the model's diameter"},
-    Field{
-        "level-agreement", &KssmOptions::level_agreement, 0.0, 1.0,
-        "leave out levels on which two skeletons of the same contraction agree less (correlation)"},
+    Field{"level-agreement", &KssmOptions::level_agreement, 0.0, 1.0,
+          "leave out levels on which another mesh of the surface agrees less (correlation)"},
 };
 
 /// The map and what it was made of.
 struct KssmMap {
   std::vector<double> of_vertex{};                  ///< |V| values ≥ 0; 0 for isolated vertices.
   std::vector<std::vector<double>> displacement{};  ///< d^(j) per level, model units.
-  std::vector<double> level_factor{};               ///< (1 − m̄)² per level; 0 where left out.
-  std::vector<std::size_t> levels_used{};           ///< Ascending; those that contribute.
+  /// (1 − m̄)² per level, times how much of the level counts; 0 where it is left out.
+  std::vector<double> level_factor{};
+  std::vector<std::size_t> levels_used{};  ///< Ascending; those that contribute.
 
   /// d^(0), the distance of the surface itself to the skeleton, model units.
   [[nodiscard]] const std::vector<double>& thickness() const { return displacement.front(); }
 };
 
 /// Computes the map of `mesh` from its contraction and the graph it contracts to.
-/// \param other another curve of the same contraction, to tell which levels are more than the
-/// sampling of the curve; without nodes: all count. Skeleton::curve and Skeleton::other_curve.
+/// \param other the curve of `history.second`, to tell which levels are the surface's and which hang
+/// on how it is meshed; without nodes: all count. Skeleton::curve and Skeleton::other_curve.
 /// \pre `history` has one point per vertex and at least level 0. \throw InvalidInput if it has not or
 /// an option is outside its range. \throw Cancelled
 KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
