@@ -74,13 +74,6 @@ bool OutputKinds::has_pictures() const {
                      [&](const PictureKind& picture) { return has(picture.kind); });
 }
 
-void OutputKinds::drop_pictures() {
-  for (const PictureKind& picture : kPictures) {
-    kinds_.erase(picture.kind);
-  }
-  kinds_.erase(kReport);  // shows pictures of the views
-}
-
 std::string OutputKinds::text() const {
   std::string text;
   for (const std::string& kind : kinds_) {

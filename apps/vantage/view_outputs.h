@@ -31,9 +31,6 @@ class OutputKinds {
   /// Whether any of them is made of pictures.
   [[nodiscard]] bool has_pictures() const;
 
-  /// Leaves the pictures out.
-  void drop_pictures();
-
   /// The kinds in a fixed order, joined by commas.
   [[nodiscard]] std::string text() const;
 

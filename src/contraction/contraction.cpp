@@ -329,9 +329,14 @@ std::string_view stop_name(ContractionStop stop) {
   return "unknown";
 }
 
-ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& options,
+ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& given,
                             const RunContext& run) {
-  check_fields(options, kContractionFields);
+  check_fields(given, kContractionFields);
+  ContractionOptions options = given;
+  if (given.weights == ContractionWeights::Auto) {
+    options.weights = given.method == ContractionMethod::Exact ? ContractionWeights::Vertex
+                                                               : ContractionWeights::Area;
+  }
   if (options.weights == ContractionWeights::Area) {
     if (std::optional<TriMesh> refined = refine_coarse_components(mesh, run)) {
       return of_refined(mesh, std::move(*refined), options, run);

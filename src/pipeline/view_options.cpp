@@ -106,7 +106,6 @@ ViewOptions preset_options(Preset preset) {
   options.preset = preset;
   if (preset == Preset::Paper) {
     options.contraction.method = ContractionMethod::Exact;
-    options.contraction.weights = ContractionWeights::Vertex;
     options.contraction.scaling = ContractionScaling::Box;
     options.contraction.sheet_limit = 1.0;  // never above the other: nothing is thinned
     options.skeleton.scaling = ContractionScaling::Box;

@@ -48,7 +48,6 @@ class Statement {
   Statement& bind(int index, std::string_view text);
   Statement& bind(int index, std::int64_t number);
   Statement& bind(int index, double number);
-  Statement& bind_null(int index);
 
   /// Moves to the next row; false at the end.
   bool step();

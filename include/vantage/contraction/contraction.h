@@ -31,6 +31,7 @@ enum class ContractionMethod {
 
 /// What the sums of a step run over.
 enum class ContractionWeights {
+  Auto,  ///< As the method has it: Area with Auto, Vertex with Exact.
   Area,  ///< The surface: vertices count by area, components of few huge faces are refined (ours).
   Vertex,  ///< The vertices of the mesh, each alike (Cao).
 };
@@ -39,7 +40,7 @@ enum class ContractionWeights {
 struct ContractionOptions {
   ContractionMethod method = ContractionMethod::Auto;       ///< Proxies or not.
   ContractionScaling scaling = ContractionScaling::Sphere;  ///< Unit of the weights.
-  ContractionWeights weights = ContractionWeights::Area;    ///< What vertices count by.
+  ContractionWeights weights = ContractionWeights::Auto;    ///< What vertices count by.
   double contraction_growth = 3.0;    ///< [s_L] factor on W_L per step (Cao; Au used 2); > 1.
   double contraction_limit = 2048.0;  ///< Largest W_L (Cao).
   double sheet_limit = 8192.0;        ///< Largest W_L of ContractionHistory::thinned (ours).
@@ -53,9 +54,10 @@ struct ContractionOptions {
 inline constexpr auto kContractionFields = std::tuple{
     Choice{"contraction", &ContractionOptions::method, "auto|exact",
            "how the surface is contracted: large components by a decimated proxy, or all exactly"},
-    Choice{"contraction-weights", &ContractionOptions::weights, "area|vertex",
+    Choice{"contraction-weights", &ContractionOptions::weights, "auto|area|vertex",
            "what a vertex counts by: the area around it, or each alike as the paper has it, which "
-           "makes the map that of the mesh more than of the surface"},
+           "makes the map that of the mesh more than of the surface; auto: area, but vertex with "
+           "contraction exact"},
     Choice{"contraction-scaling", &ContractionOptions::scaling, "sphere|box", kNoFlag},
     Field{"contraction-growth", &ContractionOptions::contraction_growth, 1.01, 100.0,
           "factor on the contraction weight per step [s_L] (Cao 2010: 3; Au 2008: 2)"},

@@ -95,14 +95,17 @@ TEST(ContractByProxy, IsNotDoneWhereExactIsAskedFor) {
   EXPECT_EQ(exact.components.front().strategy, "exact");
 }
 
-TEST(ContractExactly, IsWhatIsDoneWithoutAProxy) {
+TEST(ContractExactly, CountsVerticesAndByAreaIsWhatIsDoneWithoutAProxy) {
   for (const TriMesh& mesh : {test::torus(1.0, 0.3, 12, 6), test::torus(1.0, 0.3, 120, 40)}) {
-    const auto exact = contract(mesh, {.method = ContractionMethod::Exact});
-    EXPECT_EQ(exact.levels, contract(mesh).levels);
-    const auto paper =
-        contract(mesh, {.method = ContractionMethod::Exact, .weights = ContractionWeights::Vertex});
-    EXPECT_NE(exact.levels, paper.levels);
+    const auto by_area =
+        contract(mesh, {.method = ContractionMethod::Exact, .weights = ContractionWeights::Area});
+    EXPECT_EQ(by_area.levels, contract(mesh).levels);
+    const auto paper = contract(mesh, {.method = ContractionMethod::Exact});
+    EXPECT_NE(by_area.levels, paper.levels);
     EXPECT_FALSE(paper.refinement);
+    EXPECT_EQ(paper.levels, contract(mesh, {.method = ContractionMethod::Exact,
+                                            .weights = ContractionWeights::Vertex})
+                                .levels);
   }
 }
 
