@@ -58,9 +58,7 @@ _Subject = Union[
 ]
 _Progress = Optional[Callable[[str, float], object]]
 
-def load(
-    path: _Path, *, progress: _Progress = None, threads: int = 0, max_faces: int = 0
-) -> _core.Model: ...
+def load(path: _Path, *, progress: _Progress = None, threads: int = 0) -> _core.Model: ...
 def analyse(
     model: _Subject,
     F: Optional[npt.ArrayLike] = None,
@@ -69,7 +67,7 @@ def analyse(
     threads: int = 0,
     preset: Optional[Literal["default", "paper"]] = None,
     contraction: Optional[Literal["auto", "exact"]] = None,
-    contraction_weights: Optional[Literal["area", "vertex"]] = None,
+    contraction_weights: Optional[Literal["auto", "area", "vertex"]] = None,
     contraction_growth: Optional[float] = None,
     contraction_limit: Optional[float] = None,
     sheet_limit: Optional[float] = None,
@@ -99,7 +97,7 @@ def best_view(
     threads: int = 0,
     preset: Optional[Literal["default", "paper"]] = None,
     contraction: Optional[Literal["auto", "exact"]] = None,
-    contraction_weights: Optional[Literal["area", "vertex"]] = None,
+    contraction_weights: Optional[Literal["auto", "area", "vertex"]] = None,
     contraction_growth: Optional[float] = None,
     contraction_limit: Optional[float] = None,
     sheet_limit: Optional[float] = None,
@@ -154,7 +152,7 @@ def skeleton(
     threads: int = 0,
     preset: Optional[Literal["default", "paper"]] = None,
     contraction: Optional[Literal["auto", "exact"]] = None,
-    contraction_weights: Optional[Literal["area", "vertex"]] = None,
+    contraction_weights: Optional[Literal["auto", "area", "vertex"]] = None,
     contraction_growth: Optional[float] = None,
     contraction_limit: Optional[float] = None,
     sheet_limit: Optional[float] = None,
@@ -177,7 +175,7 @@ def kssm(
     threads: int = 0,
     preset: Optional[Literal["default", "paper"]] = None,
     contraction: Optional[Literal["auto", "exact"]] = None,
-    contraction_weights: Optional[Literal["area", "vertex"]] = None,
+    contraction_weights: Optional[Literal["auto", "area", "vertex"]] = None,
     contraction_growth: Optional[float] = None,
     contraction_limit: Optional[float] = None,
     sheet_limit: Optional[float] = None,
@@ -207,7 +205,7 @@ def vertex_map(
     threads: int = 0,
     preset: Optional[Literal["default", "paper"]] = None,
     contraction: Optional[Literal["auto", "exact"]] = None,
-    contraction_weights: Optional[Literal["area", "vertex"]] = None,
+    contraction_weights: Optional[Literal["auto", "area", "vertex"]] = None,
     contraction_growth: Optional[float] = None,
     contraction_limit: Optional[float] = None,
     sheet_limit: Optional[float] = None,
@@ -264,7 +262,7 @@ def score(
     threads: int = 0,
     preset: Optional[Literal["default", "paper"]] = None,
     contraction: Optional[Literal["auto", "exact"]] = None,
-    contraction_weights: Optional[Literal["area", "vertex"]] = None,
+    contraction_weights: Optional[Literal["auto", "area", "vertex"]] = None,
     contraction_growth: Optional[float] = None,
     contraction_limit: Optional[float] = None,
     sheet_limit: Optional[float] = None,
@@ -306,7 +304,7 @@ def render(
     threads: int = 0,
     preset: Optional[Literal["default", "paper"]] = None,
     contraction: Optional[Literal["auto", "exact"]] = None,
-    contraction_weights: Optional[Literal["area", "vertex"]] = None,
+    contraction_weights: Optional[Literal["auto", "area", "vertex"]] = None,
     contraction_growth: Optional[float] = None,
     contraction_limit: Optional[float] = None,
     sheet_limit: Optional[float] = None,
