@@ -58,7 +58,9 @@ _Subject = Union[
 ]
 _Progress = Optional[Callable[[str, float], object]]
 
-def load(path: _Path, *, progress: _Progress = None, threads: int = 0) -> _core.Model: ...
+def load(
+    path: _Path, *, progress: _Progress = None, threads: int = 0, max_faces: int = 0
+) -> _core.Model: ...
 def analyse(
     model: _Subject,
     F: Optional[npt.ArrayLike] = None,
