@@ -16,7 +16,7 @@ V, F = torus(8, 6)
 # Flags that are no part of the method: files, how it runs, what is printed, moving pictures.
 NO_OPTIONS = {"help", "help-all", "output", "force", "trace", "no-images", "no-report", "preview", "tour", "tour-seconds", "fps",
               "tour-size", "json", "quiet", "verbose", "config", "threads", "max-memory", "timeout",
-              "depth", "levels", "meso", "measure", "visible", "method", "show", "direction",
+              "depth", "max-faces", "strict", "levels", "meso", "measure", "visible", "method", "show", "direction",
               "directions", "eyes", "sphere", "view-set", "camera", "view",
               "seed"}  # of every command; the row of that name is the keyword
 ROWS = vantage.options()
@@ -149,7 +149,7 @@ def test_all_defaults_of_the_paper_are_its_preset():
     ({"size": "8x8x8"}, "option size must be"),
     ({"coverage": 0.0}, "must be above 0"),
     ({"select": "feixas"}, "say how many views"),
-    ({"select": "feixas", "views": 2, "coverage": 0.5}, "go with select"),
+    ({"select": "feixas", "views": 2, "coverage": 0.5}, "goes with select"),
     ({"method": "beauty"}, "beauty"),
     ({"focus": "nothing"}, "nothing"),
 ])

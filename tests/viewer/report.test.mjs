@@ -327,13 +327,15 @@ test('a sphere of the score alone has no switch', async () => {
 
 test('the sphere shows what best maximises until it is switched to the score', async () => {
   const page = await open(browser, peoplesReport());
-  const { best } = JSON.parse(fs.readFileSync(path.join(folder, 'people', 'view.json'), 'utf8'));
+  const { best, twins } = JSON.parse(fs.readFileSync(path.join(folder, 'people', 'view.json'), 'utf8'));
   const highest = () => page.evaluate(() => {
     const { sphere, data } = window.vantage;
     return data.sphere.directions[sphere.heights.indexOf(1)];
   });
   const angle = (a, b) => (Math.acos(a.reduce((s, x, i) => s + x * b[i], 0)) * 180) / Math.PI;
-  assert.ok(angle(await highest(), best.direction) < 15, 'the objective peaks at the best view');
+  const peak = await highest();
+  const asGood = [best, ...twins].map((view) => angle(peak, view.direction));
+  assert.ok(Math.min(...asGood) < 15, 'the objective peaks at the best view or its mirror image');
   assert.match(await page.textContent('#direction'), /objective about [\d.]+ % of the best view's/);
   await page.check('input[name=sphere][value=score]');
   assert.deepEqual(await highest(), await page.evaluate(() => {
