@@ -85,15 +85,15 @@ def main():
     case("horse")
     cat = place(MODELS / "cat_lowpoly.ply", location=(1.5, -1, 0.5), rotation=(math.pi / 2, 0, 2), scale=0.5)
     cat.modifiers.new("Subdivision", "SUBSURF").levels = 1
-    fan = place(MODELS / "fan.ply", location=(-2, 1, 1), scale=0.8)
-    # Evaluated: one more copy of the fan that only the modifier makes.
+    teddy = place(MODELS / "teddy.ply", location=(-2, 1, 1), scale=0.8)
+    # Evaluated: one more copy of the teddy that only the modifier makes.
     bpy.context.view_layer.update()
-    depth = fan.dimensions[1] / fan.scale[1]
-    array = fan.modifiers.new("Array", "ARRAY")
+    depth = teddy.dimensions[1] / teddy.scale[1]
+    array = teddy.modifiers.new("Array", "ARRAY")
     array.count, array.use_relative_offset, array.use_constant_offset = 2, False, True
     array.constant_offset_displace = (0, 1.2 * depth, 0)
-    select(cat, fan)
-    case("cat and fans")
+    select(cat, teddy)
+    case("cat and teddies")
 
     directions = []
     for which in ("NEXT", "NEXT", "NEXT", "WORST"):

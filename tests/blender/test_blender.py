@@ -55,7 +55,7 @@ class Addon(unittest.TestCase):
         return json.loads((folder / "view.json").read_text()), alpha_of(folder / "best.png")
 
     def test_pictures_have_the_silhouette_of_ours(self):
-        for name in ("horse", "cat and fans"):
+        for name in ("horse", "cat and teddies"):
             with self.subTest(name):
                 self.assertEqual(self.result[name]["answer"], ["FINISHED"])
                 view, ours = self.silhouette_of_ours(name)
@@ -68,7 +68,7 @@ class Addon(unittest.TestCase):
 
     def test_next_views_follow_and_the_worst_is_another(self):
         self.assertEqual([self.result[key] for key in ("NEXT 0", "NEXT 1", "NEXT 2", "WORST 3")], [["FINISHED"]] * 4)
-        eyes = [self.result["cat and fans"]["eye"], *self.result["eyes"]]
+        eyes = [self.result["cat and teddies"]["eye"], *self.result["eyes"]]
         for i, first in enumerate(eyes):
             for second in eyes[:i]:
                 self.assertGreater(math.dist(first, second), 0.1)
