@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-// Below this a choice is a doubt that is worth a sentence. [ours]
+// A choice that is less sure than this gets a note. [ours]
 constexpr double kUnsure = 0.5;
 
 std::string percent(double share) {

@@ -17,7 +17,7 @@ constexpr std::size_t kMostQueued = 8;
 /// their turn comes. Each time, thousands of neighbours at one edge would take hours.
 constexpr std::size_t kLargestRing = 1000;
 constexpr std::size_t kRingShare = 16;
-/// Where this many local refinements do not free the way, more will not (on real models a handful
+/// Where this many local refinements do not free the way, more will not (on real models a few
 /// does, or none).
 constexpr std::size_t kMostRefinements = 256;
 

@@ -19,7 +19,7 @@ constexpr std::size_t kBatches = 2;       // … so often, by what was learnt of
 constexpr double kLikeRad = 12.0 * kRadPerDeg;  // estimates so far apart are off by like amounts
 constexpr double kTrust = 0.3;      // weight of the mean error where nothing near was scored
 constexpr std::size_t kStarts = 4;  // directions that the ascent starts from, …
-constexpr double kStartsApartRad = 5.0 * kRadPerDeg;  // … so far apart: not all on one hill
+constexpr double kStartsApartRad = 5.0 * kRadPerDeg;  // … so far apart: not by one maximum
 constexpr double kFlat = 3e-4;         // share of the range that is not worth a finer ring
 constexpr std::size_t kProxyEnds = 2;  // of the ends by a proxy, ascend once more by the score
 

@@ -46,7 +46,7 @@ struct ReportedViewSet {
 struct FrameChoice {
   ModelFrame frame{};                ///< As used.
   Orientation orientation{};         ///< The same with sources, confidences and reasons.
-  std::vector<std::string> notes{};  ///< One sentence for each guess, and for each doubt.
+  std::vector<std::string> notes{};  ///< One sentence for each guess, and for each unsure choice.
 };
 
 /// If options.up is Any: turns the model by standing_rotation(), adds a note with the quaternion, and
