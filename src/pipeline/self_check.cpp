@@ -6,13 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <numeric>
 #include <span>
 #include <utility>
 
 #include "vantage/pipeline/measured_shape.h"
 
 #include "core/random.h"
+#include "core/spearman.h"
 #include "pipeline/view_preparation.h"
 
 namespace vantage {
@@ -36,43 +36,6 @@ constexpr std::size_t kAskedAgain = 4096;
 
 std::string in_percent(double share) {
   return std::to_string(static_cast<int>(std::lround(100.0 * share))) + " %";
-}
-
-/// Ranks, those of equal values their mean.
-std::vector<double> mean_ranks(std::span<const double> values) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::pair(values[a], a) < std::pair(values[b], b);
-  });
-  std::vector<double> rank(values.size());
-  for (std::size_t begin = 0; begin < order.size();) {
-    std::size_t end = begin;
-    while (end < order.size() && values[order[end]] == values[order[begin]]) {
-      ++end;
-    }
-    for (std::size_t i = begin; i < end; ++i) {
-      rank[order[i]] = 0.5 * static_cast<double>(begin + end - 1);
-    }
-    begin = end;
-  }
-  return rank;
-}
-
-/// Spearman's correlation; 1 where nothing varies.
-double agreement_of_ranks(std::span<const double> a, std::span<const double> b) {
-  const std::vector<double> x = mean_ranks(a);
-  const std::vector<double> y = mean_ranks(b);
-  const double mean = 0.5 * (static_cast<double>(x.size()) - 1.0);
-  double xy = 0.0;
-  double xx = 0.0;
-  double yy = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    xy += (x[i] - mean) * (y[i] - mean);
-    xx += (x[i] - mean) * (x[i] - mean);
-    yy += (y[i] - mean) * (y[i] - mean);
-  }
-  return xx > 0.0 && yy > 0.0 ? xy / std::sqrt(xx * yy) : 1.0;
 }
 
 void move_vertices(TriMesh& mesh, double distance) {
@@ -214,7 +177,8 @@ double map_agreement_when_moved(const ShapeAnalysis& shape, const ViewOptions& o
       there.push_back(moved.map.of_vertex[at]);
     }
   }
-  return agreement_of_ranks(here, there);
+  const double agreement = spearman(here, there);
+  return std::isnan(agreement) ? 1.0 : agreement;  // where nothing varies
 }
 
 std::vector<std::string> doubts_about(const ShapeAnalysis& shape, const ViewReport& report,
