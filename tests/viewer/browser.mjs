@@ -8,12 +8,17 @@ import { pathToFileURL } from 'node:url';
 const require = createRequire(path.resolve(process.env.VANTAGE_VIEWER_BUILD, 'package.json'));
 const { chromium } = require('playwright-core');
 
+// A machine that builds beside the tests may take this long for what takes a second alone.
+const kPatienceMs = 120000;
+
 export async function launch() {
   return chromium.launch({
+    timeout: kPatienceMs,
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
     headless: true,
     args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking',
-      '--disable-component-update', '--disable-sync', '--use-gl=angle', '--use-angle=swiftshader',
+      '--disable-component-update', '--disable-sync', '--disable-dev-shm-usage',
+      '--use-gl=angle', '--use-angle=swiftshader',
       '--enable-unsafe-swiftshader'],
   });
 }
@@ -21,6 +26,7 @@ export async function launch() {
 /** Opens a report from disk and waits for its first frame; collects what must not happen. */
 export async function open(browser, file, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1200, height: 800 }, ...options });
+  context.setDefaultTimeout(kPatienceMs);
   const page = await context.newPage();
   page.complaints = [];
   page.on('console', (m) => {
@@ -36,7 +42,7 @@ export async function open(browser, file, options = {}) {
   });
   const start = Date.now();
   await page.goto(pathToFileURL(file).href);
-  await page.waitForSelector('html[data-ready=yes]', { state: 'attached', timeout: 60000 });
+  await page.waitForSelector('html[data-ready=yes]', { state: 'attached' });
   page.loadSeconds = (Date.now() - start) / 1000;
   return page;
 }
