@@ -19,6 +19,11 @@ constexpr int kMostCells = 2048;  // along one side
 /// Entries of the grid for each face, beyond which its cells are made larger: large faces that lie
 /// over one another touch every cell, and thousands of them fill gigabytes [ours].
 constexpr std::size_t kMostEntries = 64;
+/// Faces a cell and faces a vertex, in the mean, beyond which a surface has no inside: faces by the
+/// thousand that meet at few vertices and lie over one another enclose nothing, and asking all of them
+/// takes minutes. A closed surface has two faces a vertex [ours].
+constexpr std::size_t kMostInCell = 1024;
+constexpr std::size_t kMostAtVertex = 16;
 /// A ray from a vertex passes over the faces at that vertex: a ten-thousandth of the model.
 constexpr double kSkip = 1e-4;
 /// Parts of a segment shorter than this share of it are rounding errors of where it is cut.
@@ -64,6 +69,10 @@ Shell::Shell(const TriMesh& mesh, std::span<const std::uint32_t> component_of_ve
     : mesh_(mesh), component_of_vertex_(component_of_vertex), normal_(vertex_normals(mesh)) {
   look_at_edges();
   sort_into_cells();
+  if (faces_.size() > kMostInCell * (offsets_.size() - 1) &&
+      mesh.triangles.size() > kMostAtVertex * mesh.positions.size()) {
+    is_open_.assign(is_open_.size(), 1);
+  }
   if (mesh.triangles.size() > most_walked) {
     frame_ = unit_frame(mesh.positions);
     rays_.emplace(in_frame(mesh, frame_));

@@ -272,6 +272,31 @@ TEST(ShellOutsideLength, AgreesWithSolidAnglesAmongSpikes) {
   EXPECT_GE(partly_outside, 20);
 }
 
+TEST(ShellInside, FacesThatPassThroughOneAnotherByTheThousandEncloseNothing) {
+  // Each face twice, once each way: every edge has an even number of faces, yet nothing is enclosed.
+  const auto crowd = [](std::uint32_t faces) {
+    Pcg32 random(11);
+    TriMesh mesh;
+    for (int i = 0; i < 30; ++i) {
+      mesh.positions.emplace_back(random.uniform(), random.uniform(), random.uniform());
+    }
+    for (std::uint32_t f = 0; f < faces; ++f) {
+      const std::uint32_t a = f % 30;
+      const std::uint32_t b = (a + 1 + f / 30 % 14) % 30;
+      const std::uint32_t c = (b + 1 + f / 420 % 14) % 30;
+      if (c != a) {
+        mesh.triangles.push_back({a, b, c});
+        mesh.triangles.push_back({a, c, b});
+      }
+    }
+    return mesh;
+  };
+  const TriMesh few = crowd(100);
+  EXPECT_FALSE(Shell(few, one_component(few)).is_open(0));
+  const TriMesh many = crowd(5000);
+  EXPECT_TRUE(Shell(many, one_component(many)).is_open(0));
+}
+
 TEST(ShellInside, OfPlacesThatAreNoNumbersEnds) {
   const TriMesh mesh = test::torus(1.0, 0.3, 20, 10);
   const auto components = one_component(mesh);
