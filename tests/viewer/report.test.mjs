@@ -118,6 +118,8 @@ test('the window shows the silhouette of best.png', async () => {
   const header = (await page.locator('header').boundingBox()).height;
   await page.setViewportSize({ width: 1160, height: 600 + Math.round(header) });
   await page.waitForFunction(() => Math.abs(document.getElementById('model').clientHeight - 600) <= 1);
+  // A canvas that is made larger is empty until the frame after.
+  await page.evaluate(() => new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(resolve)); }));
   const [width, height] = await page.evaluate(() => [
     document.getElementById('model').clientWidth, document.getElementById('model').clientHeight]);
   assert.equal(width, 800);
