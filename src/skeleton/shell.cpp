@@ -19,10 +19,8 @@ constexpr int kMostCells = 2048;  // along one side
 /// Entries of the grid for each face, beyond which its cells are made larger: large faces that lie
 /// over one another touch every cell, and thousands of them fill gigabytes [ours].
 constexpr std::size_t kMostEntries = 64;
-/// Faces a cell and faces a vertex, in the mean, beyond which a surface has no inside: faces by the
-/// thousand that meet at few vertices and lie over one another enclose nothing, and asking all of them
-/// takes minutes. A closed surface has two faces a vertex [ours].
-constexpr std::size_t kMostInCell = 1024;
+/// Faces a vertex, in the mean, beyond which a component encloses nothing, while asking all of them
+/// takes minutes: a closed surface has two [ours].
 constexpr std::size_t kMostAtVertex = 16;
 /// A ray from a vertex passes over the faces at that vertex: a ten-thousandth of the model.
 constexpr double kSkip = 1e-4;
@@ -69,10 +67,6 @@ Shell::Shell(const TriMesh& mesh, std::span<const std::uint32_t> component_of_ve
     : mesh_(mesh), component_of_vertex_(component_of_vertex), normal_(vertex_normals(mesh)) {
   look_at_edges();
   sort_into_cells();
-  if (faces_.size() > kMostInCell * (offsets_.size() - 1) &&
-      mesh.triangles.size() > kMostAtVertex * mesh.positions.size()) {
-    is_open_.assign(is_open_.size(), 1);
-  }
   if (mesh.triangles.size() > most_walked) {
     frame_ = unit_frame(mesh.positions);
     rays_.emplace(in_frame(mesh, frame_));
@@ -87,6 +81,19 @@ void Shell::look_at_edges() {
     if (table.faces_of_edge[e].size() % 2 == 1) {
       is_open_[component] = 1;
     }
+  }
+  std::vector<std::size_t> faces(is_open_.size(), 0);
+  std::vector<std::size_t> most(is_open_.size(), 0);
+  for (const Triangle& t : mesh_.triangles) {
+    ++faces[component_of_vertex_[t[0]]];
+  }
+  for (const std::uint32_t component : component_of_vertex_) {
+    if (component < most.size()) {  // not a lone vertex
+      most[component] += kMostAtVertex;
+    }
+  }
+  for (std::size_t c = 0; c < faces.size(); ++c) {
+    is_open_[c] = faces[c] > most[c] ? 1 : is_open_[c];
   }
   neighbours_ = vertex_neighbours(table, mesh_.positions.size());
 }

@@ -52,8 +52,8 @@ class Shell {
   /// Faces in cells of the grid, each counted in every cell that it touches.
   [[nodiscard]] std::size_t grid_entries() const { return faces_.size(); }
 
-  /// Whether the component has an edge with an odd number of faces, or the surface is a heap of faces
-  /// that meet at few vertices: nothing is inside or outside.
+  /// Whether the component has an edge with an odd number of faces, or many more
+  /// faces than a closed surface of its vertices: nothing is inside or outside.
   [[nodiscard]] bool is_open(std::uint32_t component) const {
     return component >= is_open_.size() || is_open_[component] != 0;
   }
