@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-using Landmark = Soundness::Landmark;
+using Sample = Soundness::Sample;
 
 /// A vertex may get this far from the first enclosing sphere's centre, in radii. The box does not
 /// see one vertex that flies off while the others shrink, and what it sees depends on the axes.
@@ -23,16 +23,16 @@ constexpr double kRise = 1e-9;
 constexpr double kThin = 0.3;
 /// A step must leave a curve this share of its length [ours: trials in docs/lab].
 constexpr double kKept = 0.7;
-constexpr std::size_t kLandmarks = 32;
+constexpr std::size_t kSamples = 32;
 
 /// Vertices each of which is as far as can be from those before it, beginning far from `centre`.
-std::vector<Landmark> farthest_points(const std::vector<Vec3>& points, const Vec3& centre) {
+std::vector<Sample> farthest_points(const std::vector<Vec3>& points, const Vec3& centre) {
   std::vector<double> distance(points.size());
   for (std::size_t v = 0; v < points.size(); ++v) {
     distance[v] = (points[v] - centre).squaredNorm();
   }
-  std::vector<Landmark> chosen;
-  while (chosen.size() < std::min(kLandmarks, points.size())) {
+  std::vector<Sample> chosen;
+  while (chosen.size() < std::min(kSamples, points.size())) {
     const auto far = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) -
                                               distance.begin());
     const bool first = chosen.empty();
@@ -46,20 +46,20 @@ std::vector<Landmark> farthest_points(const std::vector<Vec3>& points, const Vec
   return chosen;
 }
 
-/// Length of the minimum spanning tree of the landmarks (Prim 1957): that of a curve through them.
-double tree_length(const std::vector<Vec3>& points, std::span<const Landmark> landmarks) {
-  std::vector<double> distance(landmarks.size(), std::numeric_limits<double>::infinity());
-  std::vector<bool> is_in(landmarks.size(), false);
+/// Length of the minimum spanning tree of the samples (Prim 1957): that of a curve through them.
+double tree_length(const std::vector<Vec3>& points, std::span<const Sample> samples) {
+  std::vector<double> distance(samples.size(), std::numeric_limits<double>::infinity());
+  std::vector<bool> is_in(samples.size(), false);
   double length = 0.0;
   std::size_t last = 0;
-  for (std::size_t step = 1; step < landmarks.size(); ++step) {
+  for (std::size_t step = 1; step < samples.size(); ++step) {
     is_in[last] = true;
     std::size_t next = last;
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
       if (!is_in[i]) {
-        distance[i] = std::min(
-            distance[i], (points[landmarks[i].vertex] - points[landmarks[last].vertex]).norm());
+        distance[i] = std::min(distance[i],
+                               (points[samples[i].vertex] - points[samples[last].vertex]).norm());
         if (distance[i] < least) {
           least = distance[i];
           next = i;
@@ -77,7 +77,7 @@ double tree_length(const std::vector<Vec3>& points, std::span<const Landmark> la
 Soundness::Soundness(const TriMesh& start)
     : sphere_(enclosing_sphere(start.positions)),
       largest_(largest_box(start.positions, sphere_.diameter)),
-      landmarks_(farthest_points(start.positions, sphere_.centre)) {}
+      samples_(farthest_points(start.positions, sphere_.centre)) {}
 
 StepFlaw Soundness::flaw(const TriMesh& before, const std::vector<Vec3>& after,
                          double shrinkage_before, double shrinkage_after, bool is_gentlest) const {
@@ -106,11 +106,11 @@ bool Soundness::collapsed(const TriMesh& before, const std::vector<Vec3>& after)
   }
   // A tree through nearer ones would measure how wide the surface is: a tube along the extent has
   // the area of three of its diameters times that.
-  const auto far_apart = std::find_if(landmarks_.begin(), landmarks_.end(),
-                                      [&](const Landmark& l) { return l.spacing * extent < area; });
-  const std::span<const Landmark> landmarks(landmarks_.begin(), far_apart);
+  const auto far_apart = std::find_if(samples_.begin(), samples_.end(),
+                                      [&](const Sample& l) { return l.spacing * extent < area; });
+  const std::span<const Sample> samples(samples_.begin(), far_apart);
   return enclosing_sphere(after).diameter < kKept * extent ||
-         tree_length(after, landmarks) < kKept * tree_length(before.positions, landmarks);
+         tree_length(after, samples) < kKept * tree_length(before.positions, samples);
 }
 
 }  // namespace vantage

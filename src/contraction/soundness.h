@@ -23,7 +23,7 @@ enum class StepFlaw {
 class Soundness {
  public:
   /// A vertex that a tree through the surface goes through.
-  struct Landmark {
+  struct Sample {
     std::size_t vertex = 0;
     double spacing = 0.0;  ///< From those before it, at the start.
   };
@@ -43,7 +43,7 @@ class Soundness {
 
   Sphere sphere_;
   Vec3 largest_;
-  std::vector<Landmark> landmarks_;  ///< Vertices spread over the start.
+  std::vector<Sample> samples_;  ///< Vertices spread over the start.
 };
 
 }  // namespace vantage

@@ -20,7 +20,7 @@ namespace {
 
 /// Triangulations finer than this are drawn as this: lines would touch. [ours]
 constexpr int kFinestDrawn = 4;
-/// Panels of the whole sphere; one closer look comes after them. [ours]
+/// Panels of the whole sphere; one enlarged part comes after them. [ours]
 constexpr std::size_t kMostPanels = 5;
 constexpr Rgb8 kInk{40, 40, 44};
 constexpr Rgb8 kMesh{196, 200, 206};
@@ -224,7 +224,7 @@ LineDrawing search_figure(const std::vector<SearchStep>& trace, ViewSphereBase b
       set = loop_refined(set);
     }
   }
-  // The closer look: what lies within a ring of the last level that was drawn whole.
+  // The enlarged part: what lies within a ring of the last level that was drawn whole.
   constexpr double kZoom = 12.0;
   const Spot centre{(static_cast<double>(count) + 0.5) * size, 0.5 * size};
   const Ball close(end, centre, radius, kZoom);

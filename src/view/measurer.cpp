@@ -283,7 +283,7 @@ bool ViewMeasurer::State::is_late(std::size_t m) const {
   return measures[m].needs.channel || measures[m].needs.neighbours;
 }
 
-/// First look at a view of the set. \return the faces it sees.
+/// First pass over a view of the set. \return the faces it sees.
 std::vector<FaceArea> ViewMeasurer::State::measure_early(std::size_t i) {
   SightTable sight = look(model.given.camera.viewpoint(model.set.directions[i]), needs, i);
   for (std::size_t m = 0; m < measures.size(); ++m) {

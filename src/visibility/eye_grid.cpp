@@ -231,7 +231,7 @@ VANTAGE_INLINE void EyeGrid::make_ready(const Surface& surface, FacePacket<Lanes
   const Many height = high_y - low_y;
   const Many error_bound = 16.0F * margin_ * (width < height ? height : width);
   keep(error_bound, h.error_bound);
-  // A face whose sense is in doubt excludes nothing in its cells.
+  // A face whose sense is uncertain excludes nothing in its cells.
   keep(sense * area > error_bound ? -error_bound : zero - kInfinity, h.least);
 }
 

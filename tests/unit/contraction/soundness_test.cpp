@@ -27,7 +27,7 @@ TEST(Soundness, KeepsAStepThatThinsATube) {
   EXPECT_EQ(Soundness(tube).flaw(tube, thin.positions, 1.0, 0.1, true), StepFlaw::None);
 }
 
-TEST(Soundness, KeepsAStepThatThinsATubeWiderThanItsLandmarksAreApart) {
+TEST(Soundness, KeepsAStepThatThinsATubeWiderThanItsFarthestPointsAreApart) {
   const TriMesh tube = test::cylinder(0.25, 4.0, 24, 48);
   const TriMesh wide = scaled(tube, {0.6, 0.6, 1.0});
   const TriMesh thin = scaled(tube, {0.02, 0.02, 0.95});
