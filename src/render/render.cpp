@@ -131,7 +131,7 @@ bool has_materials(const Appearance* appearance) {
 }  // namespace
 
 void set_quality(RenderOptions& options, Quality quality) {
-  constexpr std::array<std::array<int, 2>, 3> kRays{{{9, 8}, {16, 16}, {64, 64}}};
+  constexpr std::array<std::array<int, 2>, 3> kRays{{{9, 8}, {16, 8}, {64, 64}}};
   options.samples = kRays[static_cast<std::size_t>(quality)][0];
   options.ambient_rays = kRays[static_cast<std::size_t>(quality)][1];
 }

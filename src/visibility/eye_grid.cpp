@@ -12,11 +12,8 @@
 #include <Eigen/Geometry>
 
 #include "core/parallel.h"
-#include "core/wide_registers.h"
+#include "visibility/face_packet.h"
 #include "visibility/segment.h"
-
-// Functions that take or give wide registers are inlined, all of them: nobody else calls them.
-#pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace vantage {
 namespace {
@@ -41,19 +38,6 @@ constexpr std::size_t kGrain = 4096;  // faces or points per chunk: some tenths 
 constexpr unsigned kLanes = 4;
 constexpr unsigned kWideLanes = 8;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-template <class Numbers, class Number>
-VANTAGE_INLINE Numbers load(const Number* from) {
-  Numbers numbers;
-  std::memcpy(&numbers, from, sizeof numbers);
-  return numbers;
-}
-
-template <class Numbers, class Number, std::size_t Lanes>
-VANTAGE_INLINE void keep(const Numbers& numbers, std::array<Number, Lanes>& to) {
-  static_assert(sizeof numbers == sizeof to);
-  std::memcpy(to.data(), &numbers, sizeof to);
-}
 
 template <class Many, std::size_t Lanes>
 VANTAGE_INLINE std::array<Many, 3> loaded(const std::array<std::array<float, Lanes>, 3>& from) {
@@ -85,34 +69,8 @@ VANTAGE_INLINE void keep_cells(const typename Registers<Lanes>::Floats& at, floa
 
 }  // namespace
 
-/// Some faces ready to tell which points may lie behind them, one lane each. Along a side x, y, 1
-/// are worth what is positive inside, its length times the distance.
-template <unsigned Lanes>
-struct EyeGrid::FacePacket {
-  using Floats = std::array<float, Lanes>;
-  using Numbers = std::array<std::uint32_t, Lanes>;
-
-  struct Side {
-    Floats along_x, along_y, offset;
-  };
-
-  /// One face of them.
-  [[nodiscard]] CellRange cells(unsigned lane) const {
-    return {left[lane], right[lane], top[lane], bottom[lane]};
-  }
-
-  unsigned count = 0;
-  Numbers face;
-  Numbers left, right, top, bottom;  // the cells it touches
-  Floats nearest, farthest;          // its least depth and its largest, rounded outwards
-  std::array<Side, 3> sides;
-  Floats error_bound;  // error of these values
-  Floats least;        // points with less than this are outside
-};
-
 void EyeGrid::sort_points(const SurfacePoints& points) {
   const std::size_t sites = points.sites.size();
-  const auto held_by = static_cast<std::uint32_t>(corners_.size());  // keys of faces begin here
   begin_.assign(std::size_t{rows_} * columns_ + 1, 0);
   for (const std::uint32_t cell : cell_) {
     ++begin_[cell];
@@ -132,7 +90,7 @@ void EyeGrid::sort_points(const SurfacePoints& points) {
     const std::uint32_t i = asked_[k];
     const std::uint32_t slot = --begin_[cell_[k]];
     point_of_[slot] = i;
-    key_[slot] = i < sites ? i : held_by + points.owner[i - sites];
+    key_[slot] = i < sites ? i : key_of_face(points.owner[i - sites]);
     x_[slot] = spots_[k][0];
     y_[slot] = spots_[k][1];
     depth_[slot] = spots_[k][2];
@@ -235,38 +193,6 @@ VANTAGE_INLINE void EyeGrid::make_ready(const Surface& surface, FacePacket<Lanes
   keep(sense * area > error_bound ? -error_bound : zero - kInfinity, h.least);
 }
 
-/// Bit i is set if the point in slot + i may lie behind the face in the lane.
-template <unsigned Lanes>
-VANTAGE_INLINE unsigned EyeGrid::near(const Surface& surface, const FacePacket<Lanes>& h,
-                                      unsigned lane, std::size_t slot) const {
-  using Floats = typename Registers<Lanes>::Floats;
-  using Keys = typename Registers<Lanes>::Keys;
-  const auto x = load<Floats>(x_.data() + slot);
-  const auto y = load<Floats>(y_.data() + slot);
-  const auto depth = load<Floats>(depth_.data() + slot);
-  const auto key = load<Keys>(key_.data() + slot);
-  typename Registers<Lanes>::Truths out = depth < h.nearest[lane];
-  for (const auto& side : h.sides) {
-    out |= x * side.along_x[lane] + y * side.along_y[lane] + side.offset[lane] < h.least[lane];
-  }
-  const std::uint32_t face = h.face[lane];
-  const Triangle& corners = surface.faces[face];
-  const auto held_by = static_cast<std::uint32_t>(corners_.size()) + face;
-  out |= (key == corners[0]) | (key == corners[1]) | (key == corners[2]) | (key == held_by);
-  typename Registers<Lanes>::Truths bit;
-  for (unsigned i = 0; i < Lanes; ++i) {
-    bit[i] = 1 << i;
-  }
-  bit &= ~out;
-  std::array<std::uint64_t, Lanes / 2> pairs{};
-  std::memcpy(pairs.data(), &bit, sizeof pairs);
-  std::uint64_t found = 0;
-  for (const std::uint64_t pair : pairs) {
-    found |= pair;
-  }
-  return static_cast<unsigned>(found) | static_cast<unsigned>(found >> 32U);
-}
-
 /// How far the point is behind the face's plane as the eye sees it; 0 for faces seen edge on.
 float EyeGrid::depth_behind(const Surface& surface, const SurfacePoints& points,
                             std::uint32_t point, std::uint32_t face) const {
@@ -312,7 +238,10 @@ void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points,
 template <unsigned Lanes>
 VANTAGE_INLINE std::size_t EyeGrid::strike(const Surface& surface, const SurfacePoints& points,
                                            const FacePacket<Lanes>& h, unsigned lane) {
-  const CellRange cells = h.cells(lane);
+  const CellRange cells = cells_of(h, lane);
+  const std::uint32_t face = h.face[lane];
+  const FaceTest<Lanes> test(h, lane, surface.faces[face], key_of_face(face));
+  const PointColumns columns{x_.data(), y_.data(), depth_.data(), key_.data()};
   std::size_t work = 1;
   for (std::uint32_t row = cells.top; row <= cells.bottom; ++row) {
     const std::size_t first = std::size_t{row} * columns_;
@@ -320,7 +249,7 @@ VANTAGE_INLINE std::size_t EyeGrid::strike(const Surface& surface, const Surface
     const std::uint32_t begin = begin_[first + cells.left];
     work += 1 + end - begin;
     for (std::uint32_t slot = begin; slot < end; slot += Lanes) {
-      unsigned found = near<Lanes>(surface, h, lane, slot);
+      unsigned found = test.may_hide(columns, slot);
       if (end - slot < Lanes) {
         found &= (1U << (end - slot)) - 1U;
       }
@@ -335,18 +264,26 @@ VANTAGE_INLINE std::size_t EyeGrid::strike(const Surface& surface, const Surface
 
 /// Of some of the faces those of one side, or of both where it is 0.
 struct EyeGrid::Walk {
-  const Surface& surface;
-  const SurfacePoints& points;
-  std::uint8_t side;
-  std::size_t limit;  // of work, for all faces
-  std::atomic<std::size_t> spent{0};
+  Walk(const Surface& of, const SurfacePoints& among, std::uint8_t which, std::size_t most)
+      : surface(of),
+        points(among),
+        side(which),
+        limit(most),
+        limit_each(most / std::max<std::size_t>(1, of.faces.size()) + 1),
+        ahead(of.faces.size() / kAhead + 1) {}
 
   /// Whether it is too much work for so many faces.
   [[nodiscard]] bool is_too_much(std::size_t work, std::size_t faces) const {
-    const std::size_t all = surface.faces.size();
-    return work / (faces + all / kAhead + 1) > limit / all ||
-           spent.load(std::memory_order_relaxed) > limit;
+    return work >= limit_each * (faces + ahead) || spent.load(std::memory_order_relaxed) > limit;
   }
+
+  const Surface& surface;
+  const SurfacePoints& points;
+  std::uint8_t side;
+  std::size_t limit;       // of work, for all faces
+  std::size_t limit_each;  // for one
+  std::size_t ahead;       // faces whose work may be spent before they are reached
+  std::atomic<std::size_t> spent{0};
 };
 
 template <unsigned Lanes>
@@ -359,7 +296,7 @@ VANTAGE_INLINE std::size_t EyeGrid::strike_all(Walk& walk, FacePacket<Lanes>& h)
   const bool holds_asked = walk.side == 1 && !walk.points.sites.empty();
   std::size_t work = 0;
   for (unsigned lane = 0; lane < h.count; ++lane) {
-    if (holds_asked || !behind_all(h.nearest[lane], h.cells(lane))) {
+    if (holds_asked || !behind_all(h.nearest[lane], cells_of(h, lane))) {
       work += strike<Lanes>(walk.surface, walk.points, h, lane);
     }
   }

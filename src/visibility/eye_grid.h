@@ -9,7 +9,7 @@
 #include "vantage/core/camera.h"
 #include "vantage/core/run_context.h"
 
-#include "core/wide_registers.h"
+#include "visibility/face_packet.h"
 #include "visibility/surface.h"
 
 /// \file
@@ -93,8 +93,6 @@ class EyeGrid {
     std::uint32_t left, right, top, bottom;
   };
 
-  template <unsigned Lanes>
-  struct FacePacket;
   struct Walk;
 
   void face_sides(const Surface& surface, const RunContext& run);
@@ -120,6 +118,16 @@ class EyeGrid {
   }
 
   [[nodiscard]] Spot in_cells(const Spot& spot) const { return (spot - origin_) * scale_; }
+
+  /// What marks a point that a face holds: keys of corners come first.
+  [[nodiscard]] std::uint32_t key_of_face(std::uint32_t face) const {
+    return static_cast<std::uint32_t>(corners_.size()) + face;
+  }
+
+  template <unsigned Lanes>
+  [[nodiscard]] static CellRange cells_of(const FacePacket<Lanes>& faces, unsigned lane) {
+    return {faces.left[lane], faces.right[lane], faces.top[lane], faces.bottom[lane]};
+  }
 
   [[nodiscard]] VANTAGE_INLINE CellRange cells_of(const Extent& extent) const {
     const Cells low = __builtin_convertvector(lower(higher(extent.low, Spot{}), last_), Cells);
@@ -148,9 +156,6 @@ class EyeGrid {
   template <unsigned Lanes>
   std::size_t strike(const Surface& surface, const SurfacePoints& points,
                      const FacePacket<Lanes>& h, unsigned lane);
-  template <unsigned Lanes>
-  [[nodiscard]] unsigned near(const Surface& surface, const FacePacket<Lanes>& h, unsigned lane,
-                              std::size_t slot) const;
   [[nodiscard]] float depth_behind(const Surface& surface, const SurfacePoints& points,
                                    std::uint32_t point, std::uint32_t face) const;
   template <unsigned Lanes>
