@@ -20,13 +20,10 @@ std::vector<double> vertex_shares(const ShapeAnalysis& shape, Weight weight) {
   return shares;
 }
 
-// A large surface without a coarse copy is looked at for so many of its vertices, that stand for
-// those after them. [ours]
-constexpr std::size_t kLarge = 16'000;
-constexpr std::size_t kSampled = 1000;
-
+/// Whether a surface without a coarse copy is so large that an estimate looks at as many of its
+/// vertices as the copy would have, each for those after it.
 bool is_sampled(const ViewPreparation& prepared) {
-  return !prepared.is_coarse() && prepared.coarse.of_vertex.size() >= kLarge;
+  return !prepared.is_coarse() && prepared.coarse.of_vertex.size() > ViewPreparation::kLargeSurface;
 }
 
 /// What the vertices that are looked at for an estimate add to it.
@@ -36,7 +33,7 @@ std::vector<double> estimated_shares(const ViewPreparation& prepared,
     return prepared.coarse.sums(shares);
   }
   std::vector<double> sampled(shares.size(), 0.0);
-  const std::size_t step = shares.size() / kSampled;
+  const std::size_t step = shares.size() / ViewPreparation::kCoarseVertices;
   for (std::size_t v = 0; v < shares.size(); ++v) {
     sampled[v - v % step] += shares[v];
   }

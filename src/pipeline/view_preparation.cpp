@@ -11,29 +11,26 @@ namespace {
 // Eyes that a search asks the surface and its coarse copy about, more or less.
 constexpr std::size_t kEyes = 300;
 constexpr std::size_t kCoarseEyes = 2562;
-// Vertices of the coarse copy; fewer lose fingers and tails. [ours, docs/search.md]
-constexpr std::size_t kCoarseVertices = 1000;
 // A surface that cannot be decimated to this share of its vertices gains nothing by a copy. [ours]
 constexpr std::size_t kWorthwhile = 2;
-// Vertices of the proxy, and of surfaces that have one. [ours, docs/search.md]
-constexpr std::size_t kProxyVertices = 8000;
-constexpr std::size_t kLargeSurface = 2 * kProxyVertices;
 
 CoarseSurface proxy_of(const ShapeAnalysis& shape, const RunContext& run) {
-  if (shape.surface.positions.size() <= kLargeSurface) {
+  if (shape.surface.positions.size() <= ViewPreparation::kLargeSurface) {
     return {};
   }
-  return coarse_surface(shape.surface, shape.sides, kProxyVertices, {.stop = run.stop});
+  return coarse_surface(shape.surface, shape.sides, ViewPreparation::kProxyVertices,
+                        {.stop = run.stop});
 }
 
 /// The coarse copy, made from the proxy if there is one.
 CoarseSurface coarse_of(const ShapeAnalysis& shape, const CoarseSurface& proxy,
                         const RunContext& run) {
   if (proxy.of_vertex.empty()) {
-    return coarse_surface(shape.surface, shape.sides, kCoarseVertices, {.stop = run.stop});
+    return coarse_surface(shape.surface, shape.sides, ViewPreparation::kCoarseVertices,
+                          {.stop = run.stop});
   }
   CoarseSurface coarse =
-      coarse_surface(proxy.mesh, proxy.sides, kCoarseVertices, {.stop = run.stop});
+      coarse_surface(proxy.mesh, proxy.sides, ViewPreparation::kCoarseVertices, {.stop = run.stop});
   std::vector<std::uint32_t> of_vertex;
   of_vertex.reserve(proxy.of_vertex.size());
   for (const std::uint32_t v : proxy.of_vertex) {

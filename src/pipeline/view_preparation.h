@@ -21,6 +21,12 @@ namespace vantage {
 
 /// Immutable; copies of an analysis share it.
 struct ViewPreparation {
+  /// Vertices of the coarse copy; fewer lose fingers and tails. [ours, docs/search.md]
+  static constexpr std::size_t kCoarseVertices = 1000;
+  /// Vertices of the proxy, and above which a surface has one. [ours, docs/search.md]
+  static constexpr std::size_t kProxyVertices = 8000;
+  static constexpr std::size_t kLargeSurface = 2 * kProxyVertices;
+
   /// Of the shape's surface; its history, skeleton and map are not looked at.
   /// \param surveyed the camera of a survey of the coarse copy, if one will be made. \throw Cancelled
   explicit ViewPreparation(const ShapeAnalysis& shape, const RunContext& run = {},
