@@ -14,6 +14,7 @@
 #include "vantage/mesh/topology.h"
 #include "vantage/visibility/vertex_visibility.h"
 
+#include "core/parallel.h"
 #include "mesh/disjoint_sets.h"
 #include "mesh/triangle_corners.h"
 #include "spatial/ray_scene.h"
@@ -21,9 +22,9 @@
 namespace vantage {
 namespace {
 
-// Rays that vote on whether a shell is inside an odd number of others, and how often a ray that
-// grazes an edge is replaced by another one.
-constexpr int kVotes = 5;
+// So many rays have to agree on whether a shell is inside an odd number of others; and the most that
+// are cast, as one that grazes an edge is replaced by another.
+constexpr int kAgreeing = 3;
 constexpr int kMaxRays = 40;
 // A crossing nearer to an edge, or a start nearer to a plane, than this is not trusted: relative to
 // the products it is computed from; some thousand rounding errors.
@@ -167,8 +168,8 @@ Crossing crossing(const Vec3& start, const Vec3& direction, const Vec3& p, const
   const Vec3 a = p - start;
   const Vec3 b = q - start;
   const Vec3 c = r - start;
-  const double size = std::max({a.norm(), b.norm(), c.norm()});
-  const double error_bound = kErrorBound * size * size;
+  const double squared_size = std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()});
+  const double error_bound = kErrorBound * squared_size;
   const std::array<double, 3> side{direction.dot(b.cross(c)), direction.dot(c.cross(a)),
                                    direction.dot(a.cross(b))};
   const auto [low, high] = std::minmax_element(side.begin(), side.end());
@@ -179,7 +180,7 @@ Crossing crossing(const Vec3& start, const Vec3& direction, const Vec3& p, const
   const double height = normal.dot(a);
   const double slope = normal.dot(direction);
   const bool behind = (height > 0.0) != (slope > 0.0);
-  const double unsure_height = kErrorBound * size * normal.norm();
+  const double unsure_height = kErrorBound * std::sqrt(squared_size) * normal.norm();
   if (behind && std::abs(height) > unsure_height && std::abs(slope) > kErrorBound * normal.norm()) {
     return Crossing::None;
   }
@@ -205,24 +206,23 @@ class Nesting {
     }
   }
 
-  bool odd(std::uint32_t shell) {
+  [[nodiscard]] bool odd(std::uint32_t shell) const {
     if (!scene_) {
       return false;  // there is no other one
     }
-    int votes = 0;
-    int odd_votes = 0;
-    for (int turn = 0; turn < kMaxRays && votes < kVotes; ++turn) {
+    int odd = 0;
+    int even = 0;
+    for (int turn = 0; turn < kMaxRays && odd < kAgreeing && even < kAgreeing; ++turn) {
       if (const std::optional<bool> vote = ask(shell, turn)) {
-        ++votes;
-        odd_votes += *vote ? 1 : 0;
+        ++(*vote ? odd : even);
       }
     }
-    return 2 * odd_votes > votes;
+    return odd > even;
   }
 
  private:
   /// One ray from the middle of a face of the shell; nothing if it grazes an edge.
-  std::optional<bool> ask(std::uint32_t shell, int turn) {
+  [[nodiscard]] std::optional<bool> ask(std::uint32_t shell, int turn) const {
     const std::vector<std::uint32_t>& members = shells_.members[shell];
     const std::size_t pick = static_cast<std::size_t>(turn) * members.size() / kMaxRays;
     const auto& [a, b, c] = shells_.faces[members[pick]];
@@ -285,20 +285,22 @@ OrientedMesh orient_shells(const TriMesh& mesh, const RunContext& run) {
     return result;
   }
   run.check();
-  Nesting nesting(shells);
-  for (std::uint32_t s = 0; s < shells.members.size(); ++s) {
-    run.check();
-    if (shells.closed[s] == 0) {
-      continue;
-    }
-    const int wound = winding(shells, shells.members[s]);
-    if (wound == 0 || (wound < 0) == nesting.odd(s)) {
-      continue;
-    }
-    ++result.turned_shells;
-    for (const std::uint32_t f : shells.members[s]) {
-      Triangle& t = result.mesh.triangles[shells.face_of[f]];
-      std::swap(t[1], t[2]);
+  const Nesting nesting(shells);
+  std::vector<std::uint8_t> turned(shells.members.size(), 0);
+  const RunContext quiet{.stop = run.stop, .max_threads = run.max_threads};
+  parallel_items(quiet, turned.size(), [&](std::size_t i, const RunContext& own) {
+    own.check();
+    const auto s = static_cast<std::uint32_t>(i);
+    const int wound = shells.closed[s] != 0 ? winding(shells, shells.members[s]) : 0;
+    turned[s] = wound != 0 && (wound < 0) != nesting.odd(s) ? 1 : 0;
+  });
+  for (std::size_t s = 0; s < turned.size(); ++s) {
+    if (turned[s] != 0) {
+      ++result.turned_shells;
+      for (const std::uint32_t f : shells.members[s]) {
+        Triangle& t = result.mesh.triangles[shells.face_of[f]];
+        std::swap(t[1], t[2]);
+      }
     }
   }
   return result;
