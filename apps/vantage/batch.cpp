@@ -126,7 +126,8 @@ struct BatchCommand {
     }
     slurm.add_to(app);
     const std::vector<CLI::Option*> before = app.get_options();
-    method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
+    method.add_to(app,
+                  {.map = true, .camera = true, .search = true, .picture = true, .fits = true});
     several.add_set_to(app);
     look.add_to_several(app);
     for (CLI::Option* option : app.get_options()) {

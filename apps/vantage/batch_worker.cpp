@@ -94,7 +94,8 @@ struct BatchWorkerCommand {
   void add_flags(CLI::App& app, Session& session) {
     app.group("");  // not for people
     app.add_option("--write", write);
-    method.add_to(app, {.map = true, .camera = true, .search = true, .picture = true});
+    method.add_to(app,
+                  {.map = true, .camera = true, .search = true, .picture = true, .fits = true});
     several.add_set_to(app);
     look.add_to_several(app);
     add_common_flags(app, session.flags);
@@ -215,7 +216,7 @@ struct BatchWorkerCommand {
       several.write(output, shape, pictures, report, choice.frame.up, own, run);
     }
     add_report(output, kinds_, model, shape, pictures, report, own, run);
-    add_data(output, kinds_, model, shape, report, own,
+    add_data(output, kinds_, model, shape, report,
              batch::path_of_key(order.at("file").get<std::string>()));
     const Json view = without_missing_images(Json::parse(view_json(model, shape, report, own)));
     output.add("view.json", view.dump(2) + "\n");

@@ -54,6 +54,10 @@ struct FiguresCommand {
 
   void run(Session& session) {
     ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
+    if (options.fit_size) {
+      throw CLI::ValidationError(
+          "--size", "must be WIDTHxHEIGHT like 800x600: the panels of a figure are of one size");
+    }
     options.objective = Objective::Significance;  // the paper's
     options.view_set = several.request_or(kSheetViews);
     options.margin_percent = look.margin_percent();

@@ -36,13 +36,17 @@ void MethodFlags::add_to(CLI::App& app, const FlagGroups& groups) {
     flags_.add_groups(app, {"search"});
   }
   if (groups.picture) {
-    flags_.add_groups(app, {"size"});
+    AllOptions start;
+    start.view.fit_size = groups.fits;
+    flags_.add_groups(app, {"size"}, start);
   }
+  fits_ = groups.fits;
 }
 
 ViewOptions MethodFlags::resolve(std::uint64_t seed) const {
   AllOptions all;
   flags_.apply(all);
+  all.view.fit_size |= fits_ && !flags_.has("size");
   SearchOptions& search = all.view.search;
   const bool by_gradient = search.strategy == SearchStrategy::Gradient;
   if (!by_gradient && search.starts != SearchOptions{}.starts) {
@@ -97,6 +101,10 @@ std::pair<int, int> parse_size(const std::string& text, const std::string& flag)
     set_size(options, text);
   } catch (const InvalidInput& error) {
     throw refused(error, flag);
+  }
+  if (options.fit_size) {
+    throw CLI::ValidationError(flag,
+                               "must be WIDTHxHEIGHT like 800x600: all pictures are of one size");
   }
   return {options.width, options.height};
 }

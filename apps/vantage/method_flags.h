@@ -20,6 +20,7 @@ struct FlagGroups {
   bool camera = false;    ///< The scoring camera and up.
   bool search = false;    ///< The search.
   bool picture = false;   ///< --size.
+  bool fits = false;      ///< --size is auto unless it is given.
 };
 
 /// Turns command line flags into ViewOptions: the preset first, then whatever was given.
@@ -33,6 +34,7 @@ class MethodFlags {
 
  private:
   OptionFlags flags_{};
+  bool fits_ = false;
 };
 
 /// The axis of "x", "-y", … \pre it is one of these.

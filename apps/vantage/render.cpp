@@ -8,8 +8,8 @@
 #include "vantage/core/error.h"
 #include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
-#include "vantage/mesh/measures.h"
 #include "vantage/pipeline/find_views.h"
+#include "vantage/pipeline/picture_frame.h"
 #include "vantage/pipeline/sidecar.h"
 #include "vantage/report/view_report.h"
 
@@ -70,9 +70,9 @@ struct RenderCommand {
                                ? sidecar.view.value_or(Vec3::UnitZ())
                                : unit(parse_vector(direction_text, "--direction"));
     const bool is_sought = !view.empty() && !(view == "best" && sidecar.view);
-    std::optional<Camera> camera;
+    std::optional<PictureFrame> frame;
     if (!camera_file.empty()) {
-      camera = session.read([&] { return parse_camera(read_text(camera_file), camera_file); });
+      frame = session.read([&] { return given_camera(options); });
     }
     Model loaded = session.load(model, look.reading(options.width, options.height));
     session.computing([&] { return stand_along_axes(loaded, options); });
@@ -82,8 +82,8 @@ struct RenderCommand {
       return needs_map ? analyse_shape(loaded, options, run.part(0.0, 0.5), nullptr, use)
                        : prepare_surface(loaded, run);
     });
-    if (!camera) {
-      camera = session.computing([&] {
+    if (!frame) {
+      frame = session.computing([&] {
         return !is_sought ? framed(shape, loaded, direction, options)
                           : found(shape, loaded, options, run.part(0.5, 0.9));
       });
@@ -92,8 +92,9 @@ struct RenderCommand {
                                        : RenderOptions{}.up;
     const std::map<std::string, Picture> pictures{
         {"plain", Picture::Plain}, {"kssm", Picture::Map}, {"skeleton", Picture::Skeleton}};
-    look.write(file, loaded, shape, *camera, pictures.at(show), options, up, run.part(0.9, 1.0));
-    report(session, *camera, options);
+    look.write(file, loaded, shape, frame->camera, pictures.at(show),
+               with_size(options, frame->size), up, run.part(0.9, 1.0));
+    report(session, *frame, options);
     if (look.of_asset()) {
       for (const std::string& note : loaded.notes) {
         session.say("note: " + note);
@@ -110,22 +111,33 @@ struct RenderCommand {
     return v / length;
   }
 
-  static Camera framed(const ShapeAnalysis& shape, const Model& loaded, const Vec3& direction,
-                       const ViewOptions& options) {
-    const ScoringCamera scoring = scoring_camera(shape, options);
-    return frame_points(
-        referenced_points(shape.surface), scoring.viewpoint(direction), shape.sphere.centre,
-        up_vector(choose_frame(loaded, shape, options).frame.up),
-        static_cast<double>(options.width) / options.height, options.margin_percent / 100.0);
+  /// The camera of the file, for a picture of the aspect that the file says if none is wanted.
+  [[nodiscard]] PictureFrame given_camera(const ViewOptions& options) const {
+    const std::string text = read_text(camera_file);
+    PictureFrame frame{parse_camera(text, camera_file), {options.width, options.height}};
+    const std::optional<double> aspect =
+        options.fit_size ? parse_camera_aspect(text, camera_file) : std::nullopt;
+    if (aspect) {
+      frame.size = size_with_aspect(options, *aspect);
+    }
+    return frame;
   }
 
-  [[nodiscard]] Camera found(const ShapeAnalysis& shape, const Model& loaded,
-                             const ViewOptions& options, const RunContext& run) const {
+  static PictureFrame framed(const ShapeAnalysis& shape, const Model& loaded, const Vec3& direction,
+                             const ViewOptions& options) {
+    return frame_picture(shape, direction, choose_frame(loaded, shape, options).frame.up, options);
+  }
+
+  [[nodiscard]] PictureFrame found(const ShapeAnalysis& shape, const Model& loaded,
+                                   const ViewOptions& options, const RunContext& run) const {
     const Goal goal = view == "best" ? Goal::Best : Goal::Worst;
-    return find_view(shape, goal, choose_frame(loaded, shape, options), options, run).picture;
+    const ReportedView of =
+        find_view(shape, goal, choose_frame(loaded, shape, options), options, run);
+    return {of.picture, of.size};
   }
 
-  void report(Session& session, const Camera& camera, const ViewOptions& options) const {
+  void report(Session& session, const PictureFrame& frame, const ViewOptions& options) const {
+    const auto& [camera, size] = frame;
     const auto point = [](const Vec3& p) {
       return nlohmann::ordered_json::array({p.x(), p.y(), p.z()});
     };
@@ -133,8 +145,8 @@ struct RenderCommand {
       session.end_progress();
       const nlohmann::ordered_json json = {
           {"file", file},
-          {"width", options.width},
-          {"height", options.height},
+          {"width", size.width},
+          {"height", size.height},
           {"eye", point(camera.eye)},
           {"target", point(camera.target)},
           {"up", point(camera.up)},
@@ -144,8 +156,8 @@ struct RenderCommand {
       write_output("-", json.dump(2) + "\n");
       return;
     }
-    session.tell(printable(file) + ": " + std::to_string(options.width) + " × " +
-                 std::to_string(options.height));
+    session.tell(printable(file) + ": " + std::to_string(size.width) + " × " +
+                 std::to_string(size.height));
   }
 };
 

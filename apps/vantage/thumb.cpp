@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/error.h"
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
-#include "vantage/mesh/measures.h"
 #include "vantage/pipeline/find_views.h"
+#include "vantage/pipeline/picture_frame.h"
 #include "vantage/pipeline/sidecar.h"
 #include "vantage/render/render.h"
 #include "vantage/report/view_report.h"
@@ -21,12 +23,29 @@
 namespace vantage::cli {
 namespace {
 
-constexpr int kLargestThumbnail = 4096;
+constexpr int kLargestThumbnail = 4096;  // px a side
+constexpr const char* kUsualSize = "256";
+
+/// Options with the size that a flag says. \throw CLI::ValidationError
+ViewOptions sized(const std::string& text) {
+  const std::string flag = "--size";
+  ViewOptions options;
+  try {
+    set_size(options, text == "auto" ? text + ":" + kUsualSize : text);
+  } catch (const InvalidInput& error) {
+    throw refused(error, flag);
+  }
+  if (std::max(options.width, options.height) > kLargestThumbnail) {
+    throw CLI::ValidationError(
+        flag, "must be at most " + std::to_string(kLargestThumbnail) + " pixels a side");
+  }
+  return options;
+}
 
 struct ThumbCommand {
   std::string model{};
   std::string file{};
-  int size = 256;
+  ViewOptions size = sized(kUsualSize);
   OptionFlags frame{};
   LookFlags look{};
   PreviewFlag preview{};
@@ -40,9 +59,12 @@ struct ThumbCommand {
            "-o,--output", name,
            "the same; WebP if it ends in .webp, else PNG, - for standard output")
         ->excludes(place);
-    app.add_option("-s,--size", size, "width and height, pixels")
-        ->check(CLI::Range(1, kLargestThumbnail))
-        ->capture_default_str();
+    app.add_option_function<std::string>(
+           "-s,--size", [this](const std::string& text) { size = sized(text); },
+           "width and height, pixels; auto: as wide or tall as what is seen, with as many pixels "
+           "as "
+           "256x256; auto:SIZE: as many as SIZE")
+        ->default_str(kUsualSize);
     frame.add(app, find_option("up"));
     frame.add(app, find_option("front"));
     look.add_to(app, Quality::Draft);
@@ -60,13 +82,15 @@ struct ThumbCommand {
     AllOptions given;
     frame.apply(given);
     ViewOptions& options = given.view;
-    options.width = options.height = size;
+    options.width = size.width;
+    options.height = size.height;
+    options.fit_size = size.fit_size;
     options.margin_percent = look.margin_percent();
     const RunContext run = session.run();
     const Sidecar sidecar = session.read([&] { return sidecar_of(model); });
     sidecar.apply(options);
     look.suggest(sidecar.style);
-    Model loaded = session.load(model, look.reading(size, size));
+    Model loaded = session.load(model, look.reading(size.width, size.height));
     session.computing([&] { return stand_along_axes(loaded, options); });
     const ShapeAnalysis shape = session.computing([&] { return prepare_surface(loaded, run); });
     const PictureView found = session.computing([&] {
@@ -75,6 +99,7 @@ struct ThumbCommand {
     });
     const Camera& camera = found.view.picture;
     const Vec3 above = up_vector(found.choice.frame.up);
+    options = with_size(options, found.view.size);
     look.write(file, loaded, shape, camera, Picture::Plain, options, above, run.part(0.7, 1.0));
     if (file != "-") {
       preview.show(session, shape, camera, options, look.of(loaded, above), run);
@@ -95,9 +120,9 @@ struct ThumbCommand {
     found.choice = choose_frame(loaded, shape, options);
     found.vertices = shape.surface.positions.size();
     found.view.direction = direction;
-    found.view.picture = frame_points(
-        referenced_points(shape.surface), scoring_camera(shape, options).viewpoint(direction),
-        shape.sphere.centre, up_vector(found.choice.frame.up), 1.0, options.margin_percent / 100.0);
+    const PictureFrame frame = frame_picture(shape, direction, found.choice.frame.up, options);
+    found.view.picture = frame.camera;
+    found.view.size = frame.size;
     return found;
   }
 
@@ -105,8 +130,11 @@ struct ThumbCommand {
     session.end_progress();
     if (session.flags.json && file != "-") {
       const Vec3& d = found.view.direction;
+      const PictureSize& of = found.view.size;
       const nlohmann::ordered_json json = {{"file", file},
-                                           {"size", size},
+                                           {"size", std::max(of.width, of.height)},
+                                           {"width", of.width},
+                                           {"height", of.height},
                                            {"direction", {d.x(), d.y(), d.z()}},
                                            {"up", up_name(found.choice.frame.up)},
                                            {"front", up_name(found.choice.frame.front)},

@@ -6,6 +6,7 @@
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/measured_shape.h"
+#include "vantage/pipeline/picture_frame.h"
 #include "vantage/pipeline/sidecar.h"
 #include "vantage/report/view_report.h"
 
@@ -83,8 +84,12 @@ struct ViewCommand {
     app.add_flag("--strict", strict,
                  "exit code 1 if the answer should not be trusted; it is written all the same");
     measure.add_to(app);
-    method.add_to(app,
-                  {.map = true, .saliency = true, .camera = true, .search = true, .picture = true});
+    method.add_to(app, {.map = true,
+                        .saliency = true,
+                        .camera = true,
+                        .search = true,
+                        .picture = true,
+                        .fits = true});
     several.add_to(app);
     look.add_to_several(app);
     preview.add_to(app);
@@ -136,7 +141,7 @@ struct ViewCommand {
     output.add("view.json", view_json(loaded, shape, report, options));
     several.write(output, shape, pictures, report, choice.frame.up, options, run.part(0.95, 1.0));
     seconds.render = seconds_since(render_start);
-    add_data(output, OutputKinds::all(), loaded, shape, report, options,
+    add_data(output, OutputKinds::all(), loaded, shape, report,
              std::filesystem::path(model).filename().string());
     seconds.total = seconds_since(start);
     output.add("timings.json", timings_json(seconds));
@@ -151,7 +156,8 @@ struct ViewCommand {
     if (session.flags.json) {
       write_output("-", view_json(loaded, shape, report, options, &seconds));
     } else {
-      preview.show(session, shape, report.best.picture, options, shown, session.run());
+      preview.show(session, shape, report.best.picture, with_size(options, report.best.size), shown,
+                   session.run());
       summarise(session, loaded, shape, choice, report, options, output, seconds);
     }
     // Last: who waits for the pictures and the numbers has them.

@@ -10,6 +10,7 @@
 
 #include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
+#include "vantage/pipeline/picture_frame.h"
 #include "vantage/render/render.h"
 #include "vantage/report/view_report.h"
 
@@ -98,8 +99,8 @@ std::optional<Image> add_pictures(OutputFolder& output, const OutputKinds& kinds
     if (wanted.empty()) {
       continue;
     }
-    const Camera& camera = (of_best ? report.best : report.worst).picture;
-    for (Image& image : pictures.take(camera, wanted, options, {},
+    const ReportedView& view = of_best ? report.best : report.worst;
+    for (Image& image : pictures.take(view.picture, wanted, with_size(options, view.size), {},
                                       of_best ? run.part(0.0, 0.5) : run.part(0.5, 1.0))) {
       images.push_back(std::move(image));
     }
@@ -140,8 +141,7 @@ void add_report(OutputFolder& output, const OutputKinds& kinds, const Model& loa
 }
 
 void add_data(OutputFolder& output, const OutputKinds& kinds, const Model& loaded,
-              const ShapeAnalysis& shape, const ViewReport& report, const ViewOptions& options,
-              const std::string& file) {
+              const ShapeAnalysis& shape, const ViewReport& report, const std::string& file) {
   if (kinds.has("map")) {
     const std::vector<double> map = on_input_vertices(shape, shape.map.of_vertex);
     output.add("map.ply", ply_bytes(loaded.mesh, map, colour_map(map), loaded.double_precision));
@@ -154,15 +154,14 @@ void add_data(OutputFolder& output, const OutputKinds& kinds, const Model& loade
   if (!kinds.has("camera")) {
     return;
   }
-  const PictureSize size{options.width, options.height};
   const std::pair<const char*, const ReportedView*> views[] = {{"best", &report.best},
                                                                {"worst", &report.worst}};
   for (const auto& [name, view] : views) {
     const std::string stem = std::string("camera-") + name;
-    output.add(stem + ".gltf", camera_gltf(view->picture, size, shape.sphere.diameter));
+    output.add(stem + ".gltf", camera_gltf(view->picture, view->size, shape.sphere.diameter));
     output.add(stem + ".transforms.json",
-               camera_transforms_json(view->picture, size, std::string(name) + ".png"));
-    output.add(stem + ".f3d.txt", camera_f3d(view->picture, file));
+               camera_transforms_json(view->picture, view->size, std::string(name) + ".png"));
+    output.add(stem + ".f3d.txt", camera_f3d(view->picture, view->size, file));
     if (view->picture.projection == Projection::Perspective) {
       output.add(stem + ".model-viewer.html",
                  camera_model_viewer(view->picture, up_vector(report.up), file));

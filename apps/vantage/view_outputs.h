@@ -53,7 +53,6 @@ void add_report(OutputFolder& output, const OutputKinds& kinds, const Model& loa
 
 /// Adds map, skeleton and cameras among `kinds`. \param file the model's file name.
 void add_data(OutputFolder& output, const OutputKinds& kinds, const Model& loaded,
-              const ShapeAnalysis& shape, const ViewReport& report, const ViewOptions& options,
-              const std::string& file);
+              const ShapeAnalysis& shape, const ViewReport& report, const std::string& file);
 
 }  // namespace vantage::cli

@@ -10,6 +10,7 @@
 #include "vantage/core/error.h"
 #include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
+#include "vantage/pipeline/picture_frame.h"
 #include "vantage/render/render.h"
 #include "vantage/report/figures.h"
 
@@ -132,7 +133,6 @@ void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, Shape
   if (!report.set) {
     return;
   }
-  const PictureSize size{options.width, options.height};
   const std::vector<ReportedView>& views = report.set->views;
   std::vector<NamedCamera> cameras;
   const double stills_share = tour_.empty() ? 1.0 : 0.3;
@@ -143,14 +143,16 @@ void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, Shape
       const RunContext part =
           run.part(static_cast<double>(i) * step, std::min(1.0, static_cast<double>(i + 1) * step));
       constexpr std::array kPlain{Picture::Plain};
-      output.add(name + ".png",
-                 png_bytes(pictures.take(views[i].picture, kPlain, options, {}, part).front()));
+      output.add(name + ".png", png_bytes(pictures
+                                              .take(views[i].picture, kPlain,
+                                                    with_size(options, views[i].size), {}, part)
+                                              .front()));
     }
     output.add("camera-" + name + ".gltf",
-               camera_gltf(views[i].picture, size, shape.sphere.diameter));
-    cameras.push_back({views[i].picture, name + ".png"});
+               camera_gltf(views[i].picture, views[i].size, shape.sphere.diameter));
+    cameras.push_back({views[i].picture, name + ".png", views[i].size});
   }
-  output.add("views.transforms.json", views_transforms_json(cameras, size));
+  output.add("views.transforms.json", views_transforms_json(cameras));
   if (options.pictures) {
     output.add("views.png", png_bytes(contact_sheet(shape, *report.set, options, pictures.look())));
   }

@@ -32,6 +32,7 @@ py::dict view_dict(const ReportedView& view) {
   result["objective"] = view.objective;
   result["visible_area_fraction"] = view.visible_area_fraction;
   result["camera"] = camera_dict(view.picture);
+  result["size"] = py::make_tuple(view.size.width, view.size.height);
   return result;
 }
 

@@ -120,7 +120,7 @@ OptionValue value_from(const Option& option, const py::object& given) {
 
 py::object object_of(const Option& option, const OptionValue& value) {
   if (const auto* text = std::get_if<std::string>(&value)) {
-    if (option.form == TextForm::Size) {
+    if (option.form == TextForm::Size && !text->starts_with("auto")) {
       const std::size_t x = text->find('x');
       return py::make_tuple(std::stoi(text->substr(0, x)), std::stoi(text->substr(x + 1)));
     }

@@ -5,6 +5,7 @@
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/find_views.h"
+#include "vantage/pipeline/picture_frame.h"
 #include "vantage/render/render.h"
 #include "vantage/report/view_report.h"
 
@@ -63,22 +64,19 @@ Picture picture_of(const std::string& show) {
   throw InvalidInput("show is '" + show + "' but must be plain, kssm or skeleton");
 }
 
-Camera camera_from(const Standpoint& from, const Analysis& analysis, const ViewOptions& options,
-                   const RunContext& run) {
+PictureFrame frame_from(const Standpoint& from, const Analysis& analysis,
+                        const ViewOptions& options, const RunContext& run) {
   if (from.camera) {
-    return *from.camera;
+    return {*from.camera, {options.width, options.height}};
   }
   const ShapeAnalysis& shape = analysis.shape;
   const FrameChoice choice = choose_frame(*analysis.model, shape, options);
   if (from.best) {
     const ViewReport report = find_views(shape, choice, options, run);
-    return *from.best ? report.best.picture : report.worst.picture;
+    const ReportedView& view = *from.best ? report.best : report.worst;
+    return {view.picture, view.size};
   }
-  const ScoringCamera scoring = scoring_camera(shape, options);
-  return frame_points(referenced_points(shape.surface), scoring.viewpoint(*from.direction),
-                      shape.sphere.centre, up_vector(choice.frame.up),
-                      static_cast<double>(options.width) / options.height,
-                      options.margin_percent / 100.0);
+  return frame_picture(shape, *from.direction, choice.frame.up, options);
 }
 
 /// Colours of the input's vertices on those of the surface; of several at one place the first counts.
@@ -113,7 +111,7 @@ py::array render_picture(const py::object& model, const py::object& F, const py:
                          const py::object& colours, const py::dict& options,
                          const py::object& progress, int threads) {
   const Subject subject(model, F);
-  const Settings settings = subject.settings(options);
+  Settings settings = subject.settings(options);
   const Standpoint from = standpoint_of(direction, camera, view);
   const Picture picture = picture_of(show);
   const std::vector<Rgb8> given = colours.is_none() ? std::vector<Rgb8>{} : colours_of(colours);
@@ -122,12 +120,13 @@ py::array render_picture(const py::object& model, const py::object& F, const py:
     const auto analysis =
         subject.analysed(settings, needs_map ? with_map : surface_only, run.part(0.0, 0.5), true);
     const ShapeAnalysis& shape = analysis->shape;
-    const Camera taken = camera_from(from, *analysis, settings.view, run.part(0.5, 0.9));
+    const PictureFrame taken = frame_from(from, *analysis, settings.view, run.part(0.5, 0.9));
     RenderOptions look = settings.look;
     if (look.ground) {
       look.up = up_vector(choose_frame(*analysis->model, shape, settings.view).frame.up);
     }
-    return drawn(*analysis, taken, picture, settings, look, given, run.part(0.9, 1.0));
+    settings.view = with_size(settings.view, taken.size);
+    return drawn(*analysis, taken.camera, picture, settings, look, given, run.part(0.9, 1.0));
   });
   return owned_array<std::uint8_t>(std::move(image.rgba),
                                    {py::ssize_t{image.height}, py::ssize_t{image.width}, 4});

@@ -168,6 +168,8 @@ class View(_Record):
     """Of the surface, in [0, 1]."""
     camera: Camera
     """From the same eye, framed tightly: pass it to render()."""
+    size: Tuple[int, int]
+    """Width and height that it is framed for, pixels."""
     gain: Optional[float] = None
     """In a set: significance that no view before sees."""
     coverage: Optional[float] = None

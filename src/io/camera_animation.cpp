@@ -107,12 +107,13 @@ Json animation_of(std::span<const Camera> cameras, double seconds, AnimationBuff
 
 }  // namespace
 
-std::string views_transforms_json(std::span<const NamedCamera> cameras, PictureSize size) {
+std::string views_transforms_json(std::span<const NamedCamera> cameras) {
   Json file;
   Json frames = Json::array();
   for (const NamedCamera& named : cameras) {
     // What the file of one camera says of the whole file belongs to its frame here.
-    const Json one = Json::parse(camera_transforms_json(named.camera, size, named.image_name));
+    const Json one =
+        Json::parse(camera_transforms_json(named.camera, named.size, named.image_name));
     Json frame = one["frames"][0];
     for (const auto& [key, value] : one.items()) {
       if (key != "frames") {
@@ -121,8 +122,9 @@ std::string views_transforms_json(std::span<const NamedCamera> cameras, PictureS
     }
     frames.push_back(frame);
   }
-  file["w"] = size.width;
-  file["h"] = size.height;
+  const PictureSize first = cameras.empty() ? PictureSize{} : cameras.front().size;
+  file["w"] = first.width;
+  file["h"] = first.height;
   file["frames"] = frames;
   return file.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

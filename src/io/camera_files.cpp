@@ -124,10 +124,11 @@ std::string camera_transforms_json(const Camera& camera, PictureSize size,
   return file.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string camera_f3d(const Camera& camera, std::string_view model) {
-  std::string line = "f3d " + shell_quoted(model) + " --camera-position=" + triple(camera.eye) +
-                     " --camera-focal-point=" + triple(camera.target) +
-                     " --camera-view-up=" + triple(camera.up);
+std::string camera_f3d(const Camera& camera, PictureSize size, std::string_view model) {
+  std::string line =
+      "f3d " + shell_quoted(model) + " --camera-position=" + triple(camera.eye) +
+      " --camera-focal-point=" + triple(camera.target) + " --camera-view-up=" + triple(camera.up) +
+      " --resolution=" + std::to_string(size.width) + "," + std::to_string(size.height);
   line += camera.projection == Projection::Perspective
               ? " --camera-view-angle=" + number_text(camera.fov_y_deg)
               : " --camera-orthographic";

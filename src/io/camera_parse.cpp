@@ -32,7 +32,64 @@ class CameraReader : private JsonReader {
     fail("holds no camera: expected a glTF with a camera, a transforms.json or a view.json");
   }
 
+  /// Width over height of the camera's picture.
+  std::optional<double> aspect() const {
+    if (has(root(), "cameras") && has(root(), "nodes")) {
+      return gltf_aspect();
+    }
+    if (has(root(), "frames")) {
+      return ratio(root(), "w", "h");
+    }
+    if (has(root(), "best") && has(root().at("best"), "size")) {
+      const Json& size = root().at("best").at("size");
+      return quotient(number(entry(size, 0, "best.size"), "best.size"),
+                      number(entry(size, 1, "best.size"), "best.size"));
+    }
+    return {};
+  }
+
  private:
+  /// Nothing unless both are above 0.
+  static std::optional<double> quotient(double width, double height) {
+    return width > 0.0 && height > 0.0 ? std::optional(width / height) : std::nullopt;
+  }
+
+  std::optional<double> ratio(const Json& object, const char* width, const char* height) const {
+    if (!has(object, width) || !has(object, height)) {
+      return {};
+    }
+    return quotient(number(object.at(width), width), number(object.at(height), height));
+  }
+
+  std::optional<double> gltf_aspect() const {
+    const Json& lens = gltf_lens(gltf_node());
+    if (has(lens, "orthographic")) {
+      return ratio(lens.at("orthographic"), "xmag", "ymag");
+    }
+    if (!has(lens, "perspective") || !has(lens.at("perspective"), "aspectRatio")) {
+      return {};
+    }
+    return quotient(number(lens.at("perspective").at("aspectRatio"), "aspectRatio"), 1.0);
+  }
+
+  /// The first node that has a camera.
+  const Json& gltf_node() const {
+    for (const Json& node : member(root(), "nodes")) {
+      if (has(node, "camera")) {
+        return node;
+      }
+    }
+    fail("holds no node with a camera");
+  }
+
+  const Json& gltf_lens(const Json& node) const {
+    const Json& index = node.at("camera");
+    if (!index.is_number_unsigned()) {
+      fail("the camera of a node is not an index");
+    }
+    return entry(root().at("cameras"), index.get<std::size_t>(), "camera");
+  }
+
   const Json& member(const Json& object, const char* name) const {
     if (!has(object, name)) {
       fail(std::string("lacks the member ") + name);
@@ -61,27 +118,17 @@ class CameraReader : private JsonReader {
   }
 
   Camera from_gltf() const {
-    const Json& nodes = member(root(), "nodes");
-    for (const Json& node : nodes) {
-      if (!has(node, "camera")) {
-        continue;
-      }
-      const Json& index = node.at("camera");
-      if (!index.is_number_unsigned()) {
-        fail("the camera of a node is not an index");
-      }
-      const Json& lens = entry(root().at("cameras"), index.get<std::size_t>(), "camera");
-      const Json& matrix = member(node, "matrix");
-      Eigen::Matrix4d world;
-      for (Eigen::Index i = 0; i < 16; ++i) {  // column by column
-        world(i % 4, i / 4) =
-            number(entry(matrix, static_cast<std::size_t>(i), "matrix entry"), "a matrix entry");
-      }
-      Camera camera = camera_at(world, has(node, "extras") ? node.at("extras") : Json());
-      read_gltf_lens(lens, camera);
-      return camera;
+    const Json& node = gltf_node();
+    const Json& lens = gltf_lens(node);
+    const Json& matrix = member(node, "matrix");
+    Eigen::Matrix4d world;
+    for (Eigen::Index i = 0; i < 16; ++i) {  // column by column
+      world(i % 4, i / 4) =
+          number(entry(matrix, static_cast<std::size_t>(i), "matrix entry"), "a matrix entry");
     }
-    fail("holds no node with a camera");
+    Camera camera = camera_at(world, has(node, "extras") ? node.at("extras") : Json());
+    read_gltf_lens(lens, camera);
+    return camera;
   }
 
   void read_gltf_lens(const Json& lens, Camera& camera) const {
@@ -175,6 +222,10 @@ class CameraReader : private JsonReader {
 
 Camera parse_camera(std::string_view bytes, std::string_view name) {
   return CameraReader(bytes, name).read();
+}
+
+std::optional<double> parse_camera_aspect(std::string_view bytes, std::string_view name) {
+  return CameraReader(bytes, name).aspect();
 }
 
 }  // namespace vantage

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vantage/mesh/measures.h"
+#include "vantage/pipeline/picture_frame.h"
 #include "vantage/render/render.h"
 
 #include "pipeline/view_preparation.h"
@@ -26,13 +27,11 @@ double visible_area_fraction(std::span<const double> areas, std::span<const std:
 
 }  // namespace
 
-Camera framed(const ShapeAnalysis& shape, const Vec3& direction, UpAxis up,
-              const ViewOptions& options) {
-  const ScoringCamera camera = scoring_camera(shape, options);
-  return frame_points(referenced_points(shape.surface), camera.viewpoint(direction),
-                      camera.sphere.centre, up_vector(up),
-                      static_cast<double>(options.width) / options.height,
-                      options.margin_percent / 100.0);
+void frame_view(ReportedView& view, const ShapeAnalysis& shape, UpAxis up,
+                const ViewOptions& options) {
+  const PictureFrame frame = frame_picture(shape, view.direction, up, options);
+  view.picture = frame.camera;
+  view.size = frame.size;
 }
 
 std::optional<FaceVisibility> faces_to_score(const ShapeAnalysis& shape,
@@ -68,7 +67,7 @@ ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& v
   view.objective = view.score;
   view.visible_area_fraction = visible_area_fraction(
       shape.views ? shape.views->vertex_areas : vertex_areas(shape.surface), visible);
-  view.picture = framed(shape, direction, up, options);
+  frame_view(view, shape, up, options);
   return view;
 }
 

@@ -5,9 +5,9 @@
 
 namespace vantage {
 
-/// The camera of a picture of the whole surface from a direction.
-Camera framed(const ShapeAnalysis& shape, const Vec3& direction, UpAxis up,
-              const ViewOptions& options);
+/// Gives a view the camera and the size of its picture.
+void frame_view(ReportedView& view, const ShapeAnalysis& shape, UpAxis up,
+                const ViewOptions& options);
 
 /// describe_view() with the score that the scorer gives, which is also its objective.
 /// \pre the scorer adds up options.weight.

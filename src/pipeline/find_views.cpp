@@ -155,7 +155,7 @@ PictureView find_picture_view(const Model& model, const ShapeAnalysis& prepared,
   found.view = find_view(shape, Goal::Best, found.choice, options, run.part(0.8, 1.0));
   found.vertices = shape.surface.positions.size();
   if (is_large) {
-    found.view.picture = framed(prepared, found.view.direction, found.choice.frame.up, options);
+    frame_view(found.view, prepared, found.choice.frame.up, options);
   }
   return found;
 }

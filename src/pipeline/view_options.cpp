@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/version.h"
+#include "vantage/io/camera_files.h"
 
 #include "io/files.h"
 #include "pipeline/option_echo.h"
@@ -15,21 +16,23 @@
 namespace vantage {
 namespace {
 
-constexpr int kLargestSide = 16384;
-
 /// One side of a picture. \throw InvalidInput
 int side_of(std::string_view number, std::string_view size) {
   int side = 0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), side);
   if (error != std::errc{} || end != number.data() + number.size()) {
-    throw InvalidInput("option size must be WIDTHxHEIGHT like 800x600, not '" + std::string(size) +
-                       "'");
+    throw InvalidInput("option size must be WIDTHxHEIGHT like 800x600, or auto, not '" +
+                       std::string(size) + "'");
   }
   if (side < 1 || side > kLargestSide) {
     throw InvalidInput("option size must be between 1 and 16384 pixels a side");
   }
   return side;
 }
+
+// Pictures take the aspect of what is seen.
+constexpr std::string_view kAuto = "auto";
+constexpr std::string_view kAutoOf = "auto:";
 
 // The objective as --prior names it, so that options that are echoed can be set again.
 constexpr std::string_view kPeople = "people";
@@ -152,15 +155,27 @@ std::string_view selection_name(ViewSelection selection) {
 }
 
 void set_size(ViewOptions& options, std::string_view text) {
-  const std::size_t x = text.find('x');
-  const int width = side_of(text.substr(0, x), text);
-  const int height = x == std::string_view::npos ? width : side_of(text.substr(x + 1), text);
-  options.width = width;
-  options.height = height;
+  PictureSize size;
+  const bool has_area = text.starts_with(kAutoOf);
+  if (text != kAuto) {
+    const std::string_view sides = has_area ? text.substr(kAutoOf.size()) : text;
+    const std::size_t x = sides.find('x');
+    size.width = side_of(sides.substr(0, x), text);
+    size.height = x == std::string_view::npos ? size.width : side_of(sides.substr(x + 1), text);
+  }
+  options.width = size.width;
+  options.height = size.height;
+  options.fit_size = has_area || text == kAuto;
 }
 
 std::string size_text(const ViewOptions& options) {
-  return std::to_string(options.width) + "x" + std::to_string(options.height);
+  const PictureSize usual;
+  const bool is_usual = options.width == usual.width && options.height == usual.height;
+  if (options.fit_size && is_usual) {
+    return std::string(kAuto);
+  }
+  return std::string(options.fit_size ? kAutoOf : "") + std::to_string(options.width) + "x" +
+         std::to_string(options.height);
 }
 
 void set_prior(ViewOptions& options, std::string_view text) {

@@ -103,6 +103,19 @@ double half_height(const Bounds& bounds, const Room& room) {
                   0.5 * (bounds.high_y - bounds.low_y) / room.y);
 }
 
+/// Aspect of a box with a border of `margin` of the picture's shorter side, the inverse of room_for().
+/// \param least sides below it are 0.
+double aspect_with_margin(double width, double height, double least, double margin) {
+  if (std::max(width, height) < least) {
+    return 1.0;
+  }
+  const double longer = std::max(width, height);
+  const double shorter = std::min(width, height);
+  // room_for(): shorter / longer of the box = (1 - 2 m) / (a - 2 m), with the picture's a >= 1.
+  const double a = (1.0 - 2.0 * margin) * longer / shorter + 2.0 * margin;
+  return width >= height ? a : 1.0 / a;
+}
+
 void check_arguments(std::span<const Vec3> points, const Viewpoint& eye, const Vec3& centre,
                      double aspect, double margin) {
   if (points.empty()) {
@@ -185,11 +198,16 @@ Axes centred_axes(std::span<const Vec3> points, const Vec3& eye, const Vec3& fir
   return axes;
 }
 
+/// Axes in whose middle the points are.
+Axes perspective_axes(std::span<const Vec3> points, const Vec3& eye, const Vec3& centre,
+                      const Vec3& model_up, const Room& room) {
+  const Vec3 up_hint = upright((eye - centre).normalized(), model_up);
+  return centred_axes(points, eye, first_forward(points, eye, centre, up_hint), up_hint, room);
+}
+
 Camera frame_perspective(std::span<const Vec3> points, const Vec3& eye, const Vec3& centre,
                          const Vec3& model_up, const Room& room) {
-  const Vec3 up_hint = upright((eye - centre).normalized(), model_up);
-  const Axes axes =
-      centred_axes(points, eye, first_forward(points, eye, centre, up_hint), up_hint, room);
+  const Axes axes = perspective_axes(points, eye, centre, model_up, room);
   const Bounds bounds = perspective_bounds(points, eye, axes);
   // Measured from the axis, so that nothing is clipped even if the centring ended early.
   const double tangent = std::max(std::max(bounds.high_x, -bounds.low_x) / room.x,
@@ -207,19 +225,31 @@ Camera frame_perspective(std::span<const Vec3> points, const Vec3& eye, const Ve
   return camera;
 }
 
-Camera frame_orthographic(std::span<const Vec3> points, const Vec3& direction, const Vec3& centre,
-                          const Vec3& model_up, const Room& room) {
-  const Axes axes = axes_along(-direction, upright(direction, model_up));
-  Bounds bounds;
-  double nearest = 0.0;
+/// Points in a parallel projection: their bounds about the centre, and where the eye can stand.
+struct ParallelExtent {
+  Bounds bounds{};
+  double nearest = 0.0;  ///< Of all points, towards the eye.
+  double scale = 1.0;    ///< Distance of the farthest point, above 0.
+};
+
+ParallelExtent parallel_extent(std::span<const Vec3> points, const Vec3& direction,
+                               const Vec3& centre, const Axes& axes) {
+  ParallelExtent extent;
   double reach = 0.0;
   for (const Vec3& point : points) {
     const Vec3 offset = point - centre;
-    bounds.add(offset.dot(axes.right), offset.dot(axes.up));
-    nearest = std::max(nearest, offset.dot(direction));
+    extent.bounds.add(offset.dot(axes.right), offset.dot(axes.up));
+    extent.nearest = std::max(extent.nearest, offset.dot(direction));
     reach = std::max(reach, offset.norm());
   }
-  const double scale = reach > 0.0 ? reach : 1.0;
+  extent.scale = reach > 0.0 ? reach : 1.0;
+  return extent;
+}
+
+Camera frame_orthographic(std::span<const Vec3> points, const Vec3& direction, const Vec3& centre,
+                          const Vec3& model_up, const Room& room) {
+  const Axes axes = axes_along(-direction, upright(direction, model_up));
+  const auto [bounds, nearest, scale] = parallel_extent(points, direction, centre, axes);
   Camera camera;
   camera.projection = Projection::Orthographic;
   camera.target = centre + bounds.centre_x() * axes.right + bounds.centre_y() * axes.up;
@@ -261,6 +291,26 @@ Camera frame_points(std::span<const Vec3> points, const Viewpoint& eye, const Ve
     return frame_orthographic(points, eye.position.normalized(), centre, model_up, room);
   }
   return frame_perspective(points, eye.position, centre, model_up, room);
+}
+
+double fitting_aspect(std::span<const Vec3> points, const Viewpoint& eye, const Vec3& centre,
+                      const Vec3& model_up, double margin) {
+  check_arguments(points, eye, centre, 1.0, margin);
+  Bounds bounds;
+  double least = kMinTangent;
+  if (eye.projection == Projection::Orthographic) {
+    const Vec3 direction = eye.position.normalized();
+    const ParallelExtent extent = parallel_extent(
+        points, direction, centre, axes_along(-direction, upright(direction, model_up)));
+    bounds = extent.bounds;
+    least *= extent.scale;
+  } else {
+    const Axes axes =
+        perspective_axes(points, eye.position, centre, model_up, room_for(1.0, margin));
+    bounds = perspective_bounds(points, eye.position, axes);
+  }
+  return aspect_with_margin(bounds.high_x - bounds.low_x, bounds.high_y - bounds.low_y, least,
+                            margin);
 }
 
 }  // namespace vantage

@@ -15,6 +15,7 @@
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/measured_shape.h"
+#include "vantage/pipeline/picture_frame.h"
 #include "vantage/render/render.h"
 #include "vantage/report/view_report.h"
 
@@ -64,10 +65,10 @@ std::vector<Vec3> vertex_normals(const TriMesh& mesh) {
 /// What all panels of a figure share.
 class Panels {
  public:
-  Panels(const ShapeAnalysis& shape, const Camera& camera, const ViewOptions& options,
+  Panels(const ShapeAnalysis& shape, const ReportedView& view, const ViewOptions& options,
          RunContext run, const PictureLook& look)
       : shape_(&shape),
-        camera_(&camera),
+        camera_(camera_for(view, {options.width, options.height})),
         run_(std::move(run)),
         normals_(vertex_normals(shape.surface)),
         look_(look.render),
@@ -78,7 +79,7 @@ class Panels {
   }
 
   [[nodiscard]] Image plain(Picture picture, const ViewOptions& options) const {
-    return draw_picture(*shape_, *camera_, picture, options, look_, run_, asset_);
+    return draw_picture(*shape_, camera_, picture, options, look_, run_, asset_);
   }
 
   /// The surface at a level of its contraction, in the colours of a field if there is one.
@@ -99,15 +100,15 @@ class Panels {
  private:
   [[nodiscard]] Image coloured(const TriMesh& mesh, std::span<const double> field) const {
     if (field.empty()) {
-      return render(mesh, *camera_, {}, {}, look_, run_);
+      return render(mesh, camera_, {}, {}, look_, run_);
     }
-    Image picture = render(mesh, *camera_, colour_map(field), {}, look_, run_);
+    Image picture = render(mesh, camera_, colour_map(field), {}, look_, run_);
     draw_legend(picture);
     return picture;
   }
 
   const ShapeAnalysis* shape_;
-  const Camera* camera_;
+  Camera camera_;
   RunContext run_;
   std::vector<Vec3> normals_;
   RenderOptions look_;
@@ -258,7 +259,8 @@ Image view_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, const V
     const ChosenView& chosen = set.choice.views[i];
     RunContext quiet = run;
     quiet.report = nullptr;
-    panels.push_back(with_caption(pictures.take(view.picture, kPlain, options, {}, quiet).front(),
+    const Camera camera = camera_for(view, {options.width, options.height});
+    panels.push_back(with_caption(pictures.take(camera, kPlain, options, {}, quiet).front(),
                                   std::to_string(i + 1) + ": sees " +
                                       percent_text(view.score_fraction) + ", together " +
                                       percent_text(chosen.coverage)));
@@ -274,8 +276,8 @@ std::vector<Figure> paper_figures(const ShapeAnalysis& shape, const ViewReport& 
     throw InvalidInput("the paper's figures need a surface, and the model has points only");
   }
   const PictureLook white = look.on(kWhite);
-  const Panels best(shape, report.best.picture, options, run, white);
-  const Panels worst(shape, report.worst.picture, options, run, white);
+  const Panels best(shape, report.best, options, run, white);
+  const Panels worst(shape, report.worst, options, run, white);
   const Image map = best.plain(Picture::Map, options);
   std::vector<Figure> figures = sequences(shape, best, map, run.part(0.0, 0.5));
   const SaliencyView saliency = saliency_view(shape, report, options, run.part(0.5, 0.7));
@@ -293,7 +295,7 @@ std::vector<Figure> paper_figures(const ShapeAnalysis& shape, const ViewReport& 
   run.advance("figures", 0.9);
   const auto add_choices = [&](const char* name, const char* kind, const Panels& kssm,
                                const ReportedView& ours, const ReportedView& theirs) {
-    const Panels other(saliency.shape, theirs.picture, options, run, white);
+    const Panels other(saliency.shape, theirs, options, run, white);
     figures.push_back(
         {name,
          choices(kssm, other, options, kind, ours.score_fraction, theirs.score_fraction),

@@ -121,9 +121,14 @@ Json rapid_part(const ScoreBatch& score, double total, Goal goal, const RunConte
 Json view_part(const char* name, const ReportedView& view, const ShapeAnalysis& shape,
                ShapePictures& pictures, const Model& model, const ViewOptions& options,
                const PageFrame& frame, const RunContext& run) {
-  const std::string png =
-      png_bytes(pictures.take_small(view.picture, kStripWidth, kStripHeight, options, run));
-  const PictureSize size{options.width, options.height};
+  const PictureSize size = view.size;
+  const double scale = std::min(static_cast<double>(kStripWidth) / size.width,
+                                static_cast<double>(kStripHeight) / size.height);
+  const auto side = [scale](int pixels) {
+    return std::max(1, static_cast<int>(std::lround(scale * pixels)));
+  };
+  const std::string png = png_bytes(
+      pictures.take_small(view.picture, side(size.width), side(size.height), options, run));
   return {{"name", name},
           {"direction", numbers(view.direction)},
           {"score", view.score},
@@ -132,13 +137,13 @@ Json view_part(const char* name, const ReportedView& view, const ShapeAnalysis& 
           {"target", numbers(frame.to(view.picture.target))},
           {"up", numbers(view.picture.up)},
           {"fov_y_deg", view.picture.fov_y_deg},
-          {"aspect", static_cast<double>(options.width) / options.height},
+          {"aspect", static_cast<double>(size.width) / size.height},
           {"picture", "data:image/png;base64," + base64(png)},
           {"cameras",
            {{"glTF", camera_gltf(view.picture, size, shape.sphere.diameter)},
             {"NeRF transforms.json",
              camera_transforms_json(view.picture, size, std::string(name) + ".png")},
-            {"f3d", camera_f3d(view.picture, model.name)}}}};
+            {"f3d", camera_f3d(view.picture, size, model.name)}}}};
 }
 
 /// The views of a set after the first, which is the best one, and the round over all of them.

@@ -26,6 +26,12 @@ bool is_same(const Camera& a, const Camera& b) {
          a.fov_y_deg == b.fov_y_deg && a.height == b.height;
 }
 
+/// Whether a picture of that size has the image's aspect, but for rounding to pixels.
+bool has_aspect_of(const Image& image, int width, int height) {
+  const std::int64_t off = std::int64_t{image.width} * height - std::int64_t{image.height} * width;
+  return 2 * std::abs(off) <= std::int64_t{image.width} + image.height;
+}
+
 /// What a picture shows, and in which colours.
 class Canvas {
  public:
@@ -152,7 +158,7 @@ Image ShapePictures::take_small(const Camera& camera, int width, int height,
   for (auto taken = plain_.rbegin(); taken != plain_.rend(); ++taken) {
     const Image& image = taken->second;
     if (is_same(taken->first, camera) && image.width >= width && image.height >= height &&
-        std::int64_t{image.width} * height == std::int64_t{image.height} * width) {
+        has_aspect_of(image, width, height)) {
       return smaller_picture(image, width, height, run);
     }
   }

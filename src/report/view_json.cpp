@@ -56,6 +56,7 @@ Json view_of(const ReportedView& view, const Json& image, UpAxis up) {
           {"objective", view.objective},
           {"visible_area_fraction", view.visible_area_fraction},
           {"image", image},
+          {"size", {view.size.width, view.size.height}},
           {"frame", frame_of(view.picture)},
           {"model_viewer", model_viewer_of(view.picture, up)}};
 }

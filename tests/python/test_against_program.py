@@ -31,7 +31,8 @@ import vantage
 ])
 def test_best_view_is_view_json(program, tmp_path, models, flags, keywords):
     model = models / "cat_lowpoly.ply"
-    program("view", model, "-o", "out", "--no-images", *flags)
+    size = [] if "--size" in flags else ["--size", "800x600"]  # what Python begins with
+    program("view", model, "-o", "out", "--no-images", *flags, *size)
     assert vantage.best_view(model, **keywords).json == (tmp_path / "out/view.json").read_text()
 
 
@@ -40,7 +41,7 @@ def test_arrays_and_another_method_give_what_a_file_does(program, tmp_path):
     lines = ["OFF", f"{len(V)} {len(F)} 0", *(" ".join(map(repr, p)) for p in V.tolist()),
              *("3 " + " ".join(map(str, f)) for f in F.tolist())]
     (tmp_path / "torus.off").write_text("\n".join(lines) + "\n")
-    program("view", "torus.off", "-o", "out", "--no-images", "--method", "mesh-saliency")
+    program("view", "torus.off", "-o", "out", "--no-images", "--method", "mesh-saliency", "--size", "800x600")
     written = json.loads((tmp_path / "out/view.json").read_text())
     ours = json.loads(vantage.best_view(V, F, method="mesh-saliency").json)
     ours["model"]["name"], ours["model"]["format"] = "torus", "off"
@@ -55,6 +56,7 @@ def test_fields_of_the_result_are_those_of_view_json(models):
     assert result.worst.eye.tolist() == written["worst"]["eye"]
     assert result.total == written["total"]
     assert result.best.camera.fov_y_deg == written["best"]["frame"]["fov_y_deg"]
+    assert list(result.best.size) == written["best"]["size"]
     assert [v.coverage for v in result.views] == [v["coverage"] for v in written["views"]]
 
 

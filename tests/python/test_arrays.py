@@ -195,6 +195,15 @@ def test_a_camera_that_was_given_out_takes_the_same_picture():
                                                     quality="draft"))
 
 
+def test_a_picture_takes_the_aspect_of_what_is_seen():
+    V, F = torus(12, 8)
+    best = vantage.best_view(V, F, size="auto:30").best
+    picture = vantage.render(V, F, camera=best.camera, size=best.size, quality="draft")
+    assert np.array_equal(picture, vantage.render(V, F, view="best", size="auto:30", quality="draft"))
+    assert abs(picture.shape[0] * picture.shape[1] - 900) < 30
+    assert picture[2:-2].any() and picture.shape[0] != picture.shape[1]
+
+
 def test_a_cameras_matrices_put_its_target_in_the_middle_of_the_picture():
     camera = vantage.best_view(V, F, size=(200, 100)).best.camera
     target = np.linalg.inv(camera.world_from_camera()) @ [*camera.target, 1]

@@ -29,7 +29,7 @@ COMMANDS = {  # what offers which groups of the table
     "render": (vantage.render, {"method", "map", "camera", "search", "size", "look"}),
 }
 TEXTS = {"focus": "0", "epsilon": "2%", "prior": "none", "size": (40, 30), "background": "#102030"}
-OF_PROGRAM = {"size": "800x600"}  # another default
+OF_PROGRAM = {("view", "size"): "auto", ("render", "size"): "800x600"}  # other defaults
 WITH = {"starts": {"search": "gradient"}, "seed": {"search": "gradient"}, "refine": {"views": 2},
         "min_separation": {"views": 2}, "information": {"select": "feixas", "views": 2}, "select": {"views": 2}}
 
@@ -77,7 +77,7 @@ def test_flags_are_the_rows_of_the_table(program, command):
         elif row["low"] is not None:
             assert math.isclose(float(default), row["default"], rel_tol=1e-12), name
         else:
-            assert default == OF_PROGRAM.get(name, row["default"]), name
+            assert default == OF_PROGRAM.get((command, name), row["default"]), name
 
 
 @pytest.mark.parametrize("command", COMMANDS)

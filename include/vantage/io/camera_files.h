@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,22 +29,27 @@ std::string camera_gltf(const Camera& camera, PictureSize size, double near_far_
 std::string camera_transforms_json(const Camera& camera, PictureSize size,
                                    std::string_view image_name);
 
-/// Command line that opens `model` in f3d with this camera.
-std::string camera_f3d(const Camera& camera, std::string_view model);
+/// Command line that opens `model` in f3d with this camera, in a window of that size.
+std::string camera_f3d(const Camera& camera, PictureSize size, std::string_view model);
 
 /// Reads a camera back: a glTF with a camera node, a transforms.json, or our view.json.
 /// \throw FormatError
 Camera parse_camera(std::string_view bytes, std::string_view name);
 
+/// Width over height of the picture that such a file's camera is of; none where it does not say.
+/// \throw FormatError
+std::optional<double> parse_camera_aspect(std::string_view bytes, std::string_view name);
+
 /// A camera and the picture it belongs to.
 struct NamedCamera {
   Camera camera{};           ///< Where the picture was taken.
   std::string image_name{};  ///< File name, beside the transforms.json.
+  PictureSize size{};        ///< Of that picture.
 };
 
 /// NeRF-style transforms.json for all cameras: each frame with its own intrinsics, as Nerfstudio
-/// reads them (camera-to-world row by row, OpenGL axes).
-std::string views_transforms_json(std::span<const NamedCamera> cameras, PictureSize size);
+/// reads them (camera-to-world row by row, OpenGL axes). The file's own w and h are the first's.
+std::string views_transforms_json(std::span<const NamedCamera> cameras);
 
 /// glTF 2.0 (JSON, buffer inside) with one perspective or orthographic camera that passes all poses
 /// in `seconds` at equal intervals and returns to the first, interpolated linearly.

@@ -9,6 +9,7 @@
 #include "vantage/core/camera.h"
 #include "vantage/core/run_context.h"
 #include "vantage/core/vec3.h"
+#include "vantage/io/camera_files.h"
 #include "vantage/io/model.h"
 #include "vantage/orientation/orientation.h"
 #include "vantage/pipeline/shape_analysis.h"
@@ -33,6 +34,7 @@ struct ReportedView {
   double objective = 0.0;              ///< What the search compared; the score, or see Objective.
   double visible_area_fraction = 0.0;  ///< Of the surface; each visible vertex counts its third.
   Camera picture{};                    ///< Same eye, framed tightly.
+  PictureSize size{};                  ///< Of the picture it is framed for.
 };
 
 /// Several views that together tell most, and the round over them.

@@ -30,6 +30,9 @@ enum class Preset {
   Paper,    ///< The paper's: box scaling, cube of 8, rapid search, ε = 0.1 as a raw sum.
 };
 
+/// Longest side of a picture, px.
+inline constexpr int kLargestSide = 16384;
+
 /// What the best view maximises.
 enum class Objective {
   Significance,  ///< The score alone [paper].
@@ -121,17 +124,19 @@ struct ViewOptions {
   std::optional<UpAxis> front{};                    ///< Unset: choose_frame().
   int width = 800;                                  ///< Of pictures, px.
   int height = 600;                                 ///< Of pictures, px.
-  double margin_percent = 4.0;                      ///< Of pictures, of the shorter side, [0, 50).
-  bool pictures = true;                             ///< Whether view.json names pictures.
+  bool fit_size = false;        ///< Pictures of a view take its aspect, and width × height pixels.
+  double margin_percent = 4.0;  ///< Of pictures, of the shorter side, [0, 50).
+  bool pictures = true;         ///< Whether view.json names pictures.
   /// Several views besides best and worst.
   std::optional<ViewSetRequest> view_set{};
   /// Object whose significance alone counts, see find_object(); empty: all.
   std::string focus{};
 };
 
-/// Sets both sides of pictures from "800x600" or "600". \throw InvalidInput
+/// Sets both sides of pictures from "800x600" or "600"; from "auto" or "auto:800x600" their aspect is
+/// that of what is seen. \throw InvalidInput
 void set_size(ViewOptions& options, std::string_view text);
-/// "800x600".
+/// "800x600", "auto" or "auto:801x600".
 std::string size_text(const ViewOptions& options);
 /// options.objective, but for the paper's and Lee's searches, which know only the score.
 Objective objective_of(const ViewOptions& options);
@@ -190,7 +195,9 @@ inline constexpr auto kViewFields = std::tuple{
            "search densely as well, and report how far the views found are behind; slow"},
     Group{"size", "Pictures"},
     Text{"size", set_size, size_text,
-         "size of pictures in pixels: WIDTHxHEIGHT, or one number for a square", TextForm::Size},
+         "size of pictures in pixels: WIDTHxHEIGHT, or one number for a square; auto: as wide or "
+         "tall as what is seen, with as many pixels as 800x600; auto:SIZE: as many as SIZE",
+         TextForm::Size},
     Switch{"pictures", &ViewOptions::pictures, kNoFlag},
     Group{"look", "Pictures"},
     Field{"margin", &ViewOptions::margin_percent, 0.0, 45.0, "empty border around the model",

@@ -74,7 +74,7 @@ class ShapePictures {
                           const RunContext& run = {});
 
   /// A plain picture of another size: the one that was taken last with this camera, made smaller, if
-  /// it has that shape. \throw InvalidInput, Cancelled
+  /// it has that aspect. \throw InvalidInput, Cancelled
   Image take_small(const Camera& camera, int width, int height, const ViewOptions& options,
                    const RunContext& run = {});
 

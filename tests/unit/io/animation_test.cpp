@@ -106,15 +106,18 @@ TEST(CameraAnimation, RefusesOnePoseAndNoTime) {
 }
 
 TEST(ViewsTransforms, GivesEachFrameItsOwnLens) {
-  std::vector<NamedCamera> cameras{{round_trip(2)[0], "a.png"}, {round_trip(2)[1], "b.png"}};
+  std::vector<NamedCamera> cameras{{round_trip(2)[0], "a.png", {200, 100}},
+                                   {round_trip(2)[1], "b.png", {100, 300}}};
   cameras[1].camera.fov_y_deg = 60.0;
-  const auto json = nlohmann::json::parse(views_transforms_json(cameras, {200, 100}));
+  const auto json = nlohmann::json::parse(views_transforms_json(cameras));
   ASSERT_EQ(json["frames"].size(), 2U);
   EXPECT_EQ(json["frames"][0]["file_path"], "a.png");
   EXPECT_EQ(json["frames"][1]["file_path"], "b.png");
   // Focal length in pixels: half the height over tan(fov / 2).
   EXPECT_NEAR(json["frames"][0]["fl_y"], 50.0 / std::tan(std::numbers::pi / 12.0), 1e-9);
-  EXPECT_NEAR(json["frames"][1]["fl_y"], 50.0 / std::tan(std::numbers::pi / 6.0), 1e-9);
+  EXPECT_NEAR(json["frames"][1]["fl_y"], 150.0 / std::tan(std::numbers::pi / 6.0), 1e-9);
+  EXPECT_EQ(json["frames"][1]["w"], 100);
+  EXPECT_EQ(json["h"], 100);
 }
 
 Image plain(int width, int height, std::uint8_t grey) {

@@ -102,10 +102,12 @@ TEST(CameraTransforms, OfOtherToolsNeedOnlyTheHorizontalAngle) {
 }
 
 TEST(CameraF3d, QuotesTheNameOfTheModel) {
-  const std::string line = camera_f3d(slanted(Projection::Perspective), "it's mine.obj");
+  const std::string line =
+      camera_f3d(slanted(Projection::Perspective), {640, 480}, "it's mine.obj");
   EXPECT_THAT(line, HasSubstr("f3d 'it'\\''s mine.obj' --camera-position=3,4,5 "
                               "--camera-focal-point=1,1,1 "));
   EXPECT_THAT(line, HasSubstr("--camera-view-angle=24"));
+  EXPECT_THAT(line, HasSubstr("--resolution=640,480"));
 }
 
 TEST(ParseCamera, ReadsThePictureOfTheBestViewFromAViewJson) {
@@ -120,6 +122,24 @@ TEST(ParseCamera, ReadsThePictureOfTheBestViewFromAViewJson) {
   expected.up =
       Vec3(0, 4, 0.5) / std::sqrt(4.0 * 4.0 + 0.5 * 0.5);  // across (0, −0.5, 4), up in it
   expect_same(camera, expected);
+}
+
+TEST_P(CameraFile, SaysTheAspectOfItsPicture) {
+  const Camera camera = slanted(GetParam());
+  EXPECT_NEAR(parse_camera_aspect(camera_gltf(camera, {640, 400}, 2.0), "c.gltf").value(), 1.6,
+              1e-12);
+  EXPECT_NEAR(
+      parse_camera_aspect(camera_transforms_json(camera, {640, 400}, "a.png"), "t.json").value(),
+      1.6, 1e-12);
+}
+
+TEST(ParseCamera, TakesTheAspectOfAViewJsonFromTheSizeOfItsBestView) {
+  EXPECT_NEAR(parse_camera_aspect(R"({"best":{"size":[300,200]}})", "view.json").value(), 1.5,
+              1e-12);
+  EXPECT_FALSE(parse_camera_aspect(R"({"best":{}})", "view.json").has_value());  // of 0.3
+  EXPECT_FALSE(parse_camera_aspect(R"({"best":{"size":[300,0]}})", "view.json").has_value());
+  EXPECT_THROW(parse_camera_aspect(R"({"best":{"size":[300]}})", "view.json"), FormatError);
+  EXPECT_THROW(parse_camera_aspect(R"({"best":{"size":["a",2]}})", "view.json"), FormatError);
 }
 
 TEST(ParseCamera, RefusesWhatHoldsNoCamera) {

@@ -35,6 +35,26 @@ TEST(Presets, PaperIsBoxScalingRapidSearchFromACubeAndARawEpsilon) {
   EXPECT_EQ(paper.kssm.suppression, Suppression::Mean);
 }
 
+TEST(Size, IsExactOrOfThatManyPixels) {
+  ViewOptions options;
+  set_size(options, "auto");
+  EXPECT_TRUE(options.fit_size);
+  EXPECT_EQ(options.width * options.height, 800 * 600);
+  EXPECT_EQ(size_text(options), "auto");
+  set_size(options, "auto:300x200");
+  EXPECT_TRUE(options.fit_size);
+  EXPECT_EQ(options.width, 300);
+  EXPECT_EQ(options.height, 200);
+  EXPECT_EQ(size_text(options), "auto:300x200");
+  set_size(options, "64");
+  EXPECT_FALSE(options.fit_size);
+  EXPECT_EQ(size_text(options), "64x64");
+  for (const char* wrong : {"auto:", "auto:x", "auto64", "AUTO", "auto:0", "auto:9x99999", ""}) {
+    EXPECT_THROW(set_size(options, wrong), InvalidInput) << wrong;
+  }
+  EXPECT_EQ(size_text(options), "64x64");
+}
+
 /// A valid value that is not what the option is by default; nothing for texts.
 OptionValue another(const Option& option) {
   const OptionValue now = option.value({});

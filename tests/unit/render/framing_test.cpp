@@ -153,5 +153,29 @@ TEST(FramePoints, RefusesArgumentsOutOfRange) {
   EXPECT_THROW(frame_points(broken, eye, centre, up, 1.0), InvalidInput);
 }
 
+TEST(FittingAspect, IsThatOfTheBoxAndItsMargin) {
+  const std::vector<Vec3> wide{Vec3(-3, -2, 0), Vec3(3, 2, 0)};
+  const std::vector<Vec3> tall{Vec3(-2, -3, 0), Vec3(2, 3, 0)};
+  const Viewpoint along{Projection::Orthographic, Vec3::UnitZ()};
+  for (const Viewpoint& eye : {along, eye_at(Vec3(0, 0, 50))}) {
+    EXPECT_NEAR(fitting_aspect(wide, eye, Vec3::Zero(), Vec3::UnitY(), 0.0), 1.5, 1e-9);
+    // A margin of a tenth of the height, 0.8 for the box: 0.8 · 1.5 + 0.2 wide.
+    EXPECT_NEAR(fitting_aspect(wide, eye, Vec3::Zero(), Vec3::UnitY(), 0.1), 1.4, 1e-9);
+    EXPECT_NEAR(fitting_aspect(tall, eye, Vec3::Zero(), Vec3::UnitY(), 0.1), 1.0 / 1.4, 1e-9);
+  }
+}
+
+TEST(FittingAspect, OfALineHasNoEndAndOfAPointIsOne) {
+  const Viewpoint along{Projection::Orthographic, Vec3::UnitZ()};
+  const std::vector<Vec3> line{Vec3(-1, 0, 0), Vec3(1, 0, 0)};
+  const std::vector<Vec3> upright_line{Vec3(0, -1, 0), Vec3(0, 1, 0)};
+  const std::vector<Vec3> point{Vec3(1, 2, 3)};
+  EXPECT_GT(fitting_aspect(line, along, Vec3::Zero(), Vec3::UnitY()), 1e9);
+  EXPECT_LT(fitting_aspect(upright_line, along, Vec3::Zero(), Vec3::UnitY()), 1e-9);
+  EXPECT_EQ(fitting_aspect(point, along, Vec3::Zero(), Vec3::UnitY()), 1.0);
+  EXPECT_EQ(fitting_aspect(point, eye_at(Vec3(0, 0, 50)), Vec3::Zero(), Vec3::UnitY()), 1.0);
+  EXPECT_THROW(fitting_aspect({}, along, Vec3::Zero(), Vec3::UnitY()), InvalidInput);
+}
+
 }  // namespace
 }  // namespace vantage

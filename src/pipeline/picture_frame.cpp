@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/pipeline/picture_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "vantage/mesh/measures.h"
+#include "vantage/pipeline/find_views.h"
+#include "vantage/render/render.h"
+
+namespace vantage {
+namespace {
+
+/// Longer pictures would be awkward beside text and in rows. [ours]
+constexpr double kWidest = 2.0;
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+int side(double pixels) {
+  return static_cast<int>(std::clamp(std::round(pixels), 1.0, static_cast<double>(kLargestSide)));
+}
+
+double aspect_of(PictureSize size) {
+  return static_cast<double>(size.width) / size.height;
+}
+
+}  // namespace
+
+PictureFrame frame_picture(const ShapeAnalysis& shape, const Vec3& direction, UpAxis up,
+                           const ViewOptions& options) {
+  const ScoringCamera camera = scoring_camera(shape, options);
+  const std::vector<Vec3> points = referenced_points(shape.surface);
+  const Viewpoint eye = camera.viewpoint(direction);
+  const Vec3 above = up_vector(up);
+  const double margin = options.margin_percent / 100.0;
+  PictureSize size{options.width, options.height};
+  if (options.fit_size) {
+    const double aspect = fitting_aspect(points, eye, camera.sphere.centre, above, margin);
+    size = size_with_aspect(options, std::clamp(aspect, 1.0 / kWidest, kWidest));
+  }
+  return {frame_points(points, eye, camera.sphere.centre, above, aspect_of(size), margin), size};
+}
+
+PictureSize size_with_aspect(const ViewOptions& options, double aspect) {
+  const double area = static_cast<double>(options.width) * options.height;
+  // The shorter side first: so the aspect of a size that was found is again of that size.
+  const int shorter = side(std::sqrt(area / std::max(aspect, 1.0 / aspect)));
+  const int longer = side(area / shorter);
+  return aspect >= 1.0 ? PictureSize{longer, shorter} : PictureSize{shorter, longer};
+}
+
+ViewOptions with_size(ViewOptions options, PictureSize size) {
+  options.width = size.width;
+  options.height = size.height;
+  options.fit_size = false;
+  return options;
+}
+
+Camera camera_for(const ReportedView& view, PictureSize size) {
+  Camera camera = view.picture;
+  const double wider = std::max(1.0, aspect_of(view.size) / aspect_of(size));
+  if (wider > 1.0) {
+    const double half = std::tan(0.5 * camera.fov_y_deg * kRadPerDeg);
+    camera.fov_y_deg = 2.0 * std::atan(wider * half) / kRadPerDeg;
+    camera.height *= wider;
+  }
+  return camera;
+}
+
+}  // namespace vantage

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/pipeline/picture_frame.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "vantage/pipeline/find_views.h"
+#include "vantage/report/view_report.h"
+
+#include "support/shapes.h"
+
+namespace vantage::test {
+namespace {
+
+ShapeAnalysis prepared(const TriMesh& mesh) {
+  Model model;
+  model.mesh = mesh;
+  return prepare_surface(model);
+}
+
+ViewOptions fitting(const char* size = "auto") {
+  ViewOptions options;
+  set_size(options, size);
+  return options;
+}
+
+double aspect(PictureSize size) {
+  return static_cast<double>(size.width) / size.height;
+}
+
+/// Empty pixels left, right, above and below what a picture shows.
+std::array<int, 4> borders(const Image& image) {
+  int left = image.width;
+  int right = -1;
+  int top = image.height;
+  int bottom = -1;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      if (image.pixel(x, y)[3] > 0) {
+        left = std::min(left, x);
+        right = std::max(right, x);
+        top = std::min(top, y);
+        bottom = y;
+      }
+    }
+  }
+  return {left, image.width - 1 - right, top, image.height - 1 - bottom};
+}
+
+TEST(FramePicture, IsExactlyAsLargeAsASizeSays) {
+  ViewOptions options;
+  set_size(options, "300x200");
+  const PictureFrame frame =
+      frame_picture(prepared(box(1.0, 5.0, 1.0, 2)), Vec3::UnitZ(), UpAxis::Y, options);
+  EXPECT_EQ(frame.size.width, 300);
+  EXPECT_EQ(frame.size.height, 200);
+}
+
+TEST(FramePicture, FillsItsPictureUpToTheMarginOnAllFourSides) {
+  const ShapeAnalysis shape = prepared(box(1.0, 1.5, 1.0, 2));
+  for (const Projection projection : {Projection::Perspective, Projection::Orthographic}) {
+    ViewOptions options = fitting("auto:100");
+    options.projection = projection;
+    for (const Vec3& direction :
+         {Vec3(0.0, 0.0, 1.0), Vec3(0.6, 0.0, 0.8), Vec3(0.48, 0.6, 0.64)}) {
+      const PictureFrame frame = frame_picture(shape, direction, UpAxis::Y, options);
+      const Image image =
+          take_picture(shape, frame.camera, Picture::Plain, with_size(options, frame.size));
+      const double margin = 0.04 * std::min(frame.size.width, frame.size.height);
+      for (const int border : borders(image)) {
+        EXPECT_NEAR(border, margin, 1.5) << direction.transpose();
+      }
+    }
+  }
+}
+
+TEST(FramePicture, KeepsTheNumberOfPixels) {
+  for (const double height : {0.3, 0.7, 1.0, 1.9, 4.0}) {
+    const PictureFrame frame = frame_picture(prepared(box(1.0, height, 1.0, 2)),
+                                             Vec3(0.6, 0.0, 0.8), UpAxis::Y, fitting());
+    EXPECT_NEAR(frame.size.width * frame.size.height, 800 * 600, 0.002 * 800 * 600);
+  }
+}
+
+TEST(FramePicture, IsNoLongerThanTwiceItsShorterSide) {
+  const ShapeAnalysis shape = prepared(box(20.0, 1.0, 1.0, 2));
+  const PictureFrame wide = frame_picture(shape, Vec3::UnitZ(), UpAxis::Y, fitting());
+  EXPECT_NEAR(aspect(wide.size), 2.0, 0.005);
+  const PictureFrame tall = frame_picture(shape, Vec3::UnitZ(), UpAxis::X, fitting());
+  EXPECT_NEAR(aspect(tall.size), 0.5, 0.005);
+  const PictureFrame end_on = frame_picture(shape, Vec3::UnitX(), UpAxis::Y, fitting());
+  EXPECT_NEAR(aspect(end_on.size), 1.0, 0.005);
+}
+
+TEST(SizeWithAspect, OfASizeItGaveIsThatSize) {
+  // So a camera written with its size is read back for the same picture.
+  const ViewOptions options = fitting();
+  for (double wanted = 0.5; wanted <= 2.0; wanted += 0.001) {
+    const PictureSize size = size_with_aspect(options, wanted);
+    const PictureSize again = size_with_aspect(options, aspect(size));
+    EXPECT_EQ(again.width, size.width) << wanted;
+    EXPECT_EQ(again.height, size.height) << wanted;
+  }
+}
+
+TEST(SizeWithAspect, HasNoSideBeyondThePixelsOfAPicture) {
+  const PictureSize wide = size_with_aspect(fitting("auto:16384"), 1e9);
+  EXPECT_EQ(wide.width, 16384);
+  EXPECT_EQ(wide.height, 1);
+}
+
+TEST(CameraFor, ShowsInAnotherSizeAllThatTheViewsPictureShows) {
+  const ShapeAnalysis shape = prepared(box(4.0, 1.0, 2.0, 2));
+  for (const Projection projection : {Projection::Perspective, Projection::Orthographic}) {
+    ViewOptions options = fitting("auto:160");
+    options.projection = projection;
+    ReportedView view;
+    const PictureFrame frame = frame_picture(shape, Vec3(0.6, 0.0, 0.8), UpAxis::Y, options);
+    view.picture = frame.camera;
+    view.size = frame.size;
+    for (const PictureSize size : {PictureSize{100, 100}, PictureSize{60, 120}, frame.size}) {
+      const Image image =
+          take_picture(shape, camera_for(view, size), Picture::Plain, with_size(options, size));
+      for (const int border : borders(image)) {
+        EXPECT_GE(border, 1);
+      }
+    }
+    EXPECT_EQ(camera_for(view, frame.size).fov_y_deg, frame.camera.fov_y_deg);
+    EXPECT_EQ(camera_for(view, {400, 100}).height, frame.camera.height);  // room enough
+  }
+}
+
+}  // namespace
+}  // namespace vantage::test
