@@ -10,6 +10,7 @@
 #include "vantage/view/measure.h"
 
 #include "core/shannon.h"
+#include "view/view_likelihood.h"
 
 namespace vantage {
 namespace {
@@ -189,6 +190,8 @@ void add_channel_measures(std::vector<Measure>& all) {
   const MeasureNeeds next{.faces = true, .neighbours = true};
   all.push_back(less("instability", "how much the picture changes to the neighbouring views, bits",
                      "Feixas, Sbert, González 2009", next, instability_of));
+  all.push_back(more("view-likelihood", "share of the view sphere around it that looks alike",
+                     "after Weinshall, Werman 1997", next, view_likelihood));
   all.push_back(more(
       "pmi-saliency", "saliency of faces by how their visibility differs from theirs around",
       "Feixas, Sbert, González 2009", kChannel,

@@ -59,30 +59,6 @@ FaceRows rows_by_face(const ViewChannel& channel, const RunContext& run) {
   return rows;
 }
 
-/// (a + b) log (a + b) − a log a − b log b. The same bits for (b, a).
-double shared_term(double a, double b) {
-  return x_log_x(a + b) - (x_log_x(a) + x_log_x(b));
-}
-
-/// A sparse list of areas with the sums that divergences from others need.
-struct SummedAreas {
-  std::span<const FaceArea> list{};
-  double area = 0.0;
-  double logs = 0.0;  // Σ a log a
-};
-
-/// Weighted Jensen–Shannon divergence of two distributions a/A and b/B with weights A/(A+B) and
-/// B/(A+B): ((A+B) log (A+B) − A log A − B log B − Σ ((a+b) log (a+b) − a log a − b log b)) /
-/// (A+B).
-/// \param laid_out the list of `a`.
-double divergence_of(const SummedAreas& a, const LaidOutAreas& laid_out, const SummedAreas& b) {
-  if (!(a.area > 0.0) || !(b.area > 0.0)) {
-    return 0.0;
-  }
-  const double shared = laid_out.logs_with(b.list) - b.logs;
-  return std::clamp((shared_term(a.area, b.area) - shared) / (a.area + b.area), 0.0, 1.0);
-}
-
 /// Around a vertex of more faces than this only those count that share an edge: the tip of a fan
 /// would make every face the neighbour of every other. [ours]
 constexpr std::size_t kMostAtVertex = 256;

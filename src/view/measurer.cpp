@@ -81,7 +81,6 @@ struct ViewMeasurer::State {
   std::optional<FaceVisibility> faces{};
   std::optional<OutlineTracer> outlines{};
   MeasureValues of_set{};
-  std::vector<std::array<double, 2>> set_sums{};  // SightTable's projected_area and area_logs
 
   void prepare(const RunContext& run);
   void prepare_maps(const RunContext& run);
@@ -289,7 +288,7 @@ std::vector<FaceArea> ViewMeasurer::State::measure_early(std::size_t i) {
   for (std::size_t m = 0; m < measures.size(); ++m) {
     of_set[m][i] = is_late(m) ? 0.0 : value(m, sight);
   }
-  set_sums[i] = {sight.projected_area, sight.area_logs};
+  model.set_sums[i] = {sight.projected_area, sight.area_logs};
   return std::move(sight.faces);
 }
 
@@ -298,8 +297,8 @@ void ViewMeasurer::State::measure_late(std::size_t i) {
   const Viewpoint eye = model.given.camera.viewpoint(model.set.directions[i]);
   SightTable sight = look(eye, {.neighbours = needs.neighbours}, i);
   sight.faces = model.set_views[i];
-  sight.projected_area = set_sums[i][0];
-  sight.area_logs = set_sums[i][1];
+  sight.projected_area = model.set_sums[i][0];
+  sight.area_logs = model.set_sums[i][1];
   if (needs.channel) {
     sight.channel = channel_measures(sight.faces, model.terms, model.face_areas);
   }
@@ -315,7 +314,7 @@ void ViewMeasurer::State::survey(const RunContext& run) {
   const std::size_t count = model.set.directions.size();
   const bool keeps_faces = needs.channel || needs.neighbours;
   of_set.assign(measures.size(), std::vector<double>(count, 0.0));
-  set_sums.assign(count, {0.0, 0.0});
+  model.set_sums.assign(count, {0.0, 0.0});
   std::vector<std::vector<FaceArea>> kept(keeps_faces ? count : 0);
   // In a few batches, so that progress can be told and a stop be heard.
   constexpr std::size_t kBatch = 64;

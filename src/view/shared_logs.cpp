@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "core/shannon.h"
 #include "core/shannon_lanes.h"
 #include "core/wide_registers.h"
 
@@ -110,6 +111,11 @@ template <class Cell>
 }
 #endif
 
+/// (a + b) log (a + b) − a log a − b log b. The same bits for (b, a).
+double shared_term(double a, double b) {
+  return x_log_x(a + b) - (x_log_x(a) + x_log_x(b));
+}
+
 }  // namespace
 
 double sum_of_logs(std::span<const FaceArea> list) {
@@ -142,6 +148,14 @@ double LaidOutAreas::logs_with(std::span<const FaceArea> other) const {
   }
 #endif
   return logs_with_here(other, cells_.data());
+}
+
+double divergence_of(const SummedAreas& a, const LaidOutAreas& laid_out, const SummedAreas& b) {
+  if (!(a.area > 0.0) || !(b.area > 0.0)) {
+    return 0.0;
+  }
+  const double shared = laid_out.logs_with(b.list) - b.logs;
+  return std::clamp((shared_term(a.area, b.area) - shared) / (a.area + b.area), 0.0, 1.0);
 }
 
 }  // namespace vantage

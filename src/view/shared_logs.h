@@ -17,6 +17,13 @@ namespace vantage {
 /// Σ a log a, to base 2. \pre areas are above 0.
 double sum_of_logs(std::span<const FaceArea> list);
 
+/// A sparse list of areas with the sums that divergences from others need.
+struct SummedAreas {
+  std::span<const FaceArea> list{};
+  double area = 0.0;
+  double logs = 0.0;  ///< Σ a log a
+};
+
 /// A list of areas laid out by place, to compare many others with.
 class LaidOutAreas {
  public:
@@ -39,5 +46,10 @@ class LaidOutAreas {
   std::vector<Cell> cells_;
   std::span<const FaceArea> list_{};
 };
+
+/// Weighted Jensen–Shannon divergence of two distributions a/A and b/B with weights A/(A+B) and
+/// B/(A+B): ((A+B) log (A+B) − A log A − B log B − Σ ((a+b) log (a+b) − a log a − b log b)) /
+/// (A+B); 0 if A or B is. \param laid_out the list of `a`.
+double divergence_of(const SummedAreas& a, const LaidOutAreas& laid_out, const SummedAreas& b);
 
 }  // namespace vantage

@@ -174,8 +174,10 @@ struct MeasuredModel {
   DirectionSet set{};                                ///< The views that channel terms are of.
   ChannelTerms terms{};                              ///< Of that set.
   std::vector<std::vector<FaceArea>> set_views{};    ///< Faces seen by each view of the set.
-  IndexLists next_views{};                           ///< Views beside each view of the set.
-  std::vector<double> divergences{};                 ///< From these, if neighbours are looked at.
+  /// SightTable's projected_area and area_logs of each of these.
+  std::vector<std::array<double, 2>> set_sums{};
+  IndexLists next_views{};            ///< Views beside each view of the set.
+  std::vector<double> divergences{};  ///< From these, if neighbours are looked at.
 };
 
 /// Whether large or small values are good.
