@@ -93,7 +93,7 @@ std::optional<ViewSetRequest> ViewSetFlags::request() const {
   AllOptions all;
   flags_.apply(all);
   const std::optional<ViewSetRequest> request = checked(all.view);
-  if (!request && (!tour_.empty() || flags_.has("select"))) {
+  if (!request && (!tour_.empty() || flags_.has("select") || flags_.has("tour-path"))) {
     throw CLI::ValidationError("--views",
                                "say how many views are wanted, with --views N or --coverage C");
   }
@@ -110,8 +110,8 @@ ViewSetRequest ViewSetFlags::request_or(int views) const {
   return checked(all.view).value();
 }
 
-double ViewSetFlags::seconds(const Tour& tour) const {
-  return seconds_ > 0.0 ? seconds_ : std::max(1.0, tour.length_rad * kDegPerRad / kDegPerSecond);
+double ViewSetFlags::seconds(const ReportedViewSet& set) const {
+  return seconds_ > 0.0 ? seconds_ : std::max(1.0, set.way_rad() * kDegPerRad / kDegPerSecond);
 }
 
 namespace {
@@ -156,7 +156,7 @@ void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, Shape
   if (options.pictures) {
     output.add("views.png", png_bytes(contact_sheet(shape, *report.set, options, pictures.look())));
   }
-  if (report.set->tour.length_rad > 0.0) {
+  if (report.set->way_rad() > 0.0) {
     write_tour(output, shape, pictures, report, up, run.part(stills_share, 1.0));
   } else if (!tour_.empty()) {
     throw InvalidInput(
@@ -170,9 +170,9 @@ void ViewSetFlags::write_tour(OutputFolder& output, const ShapeAnalysis& shape,
                               const RunContext& run) const {
   const ReportedViewSet& set = *report.set;
   const double aspect = static_cast<double>(width_) / height_;
-  const double length = seconds(set.tour);
-  const auto keys = static_cast<std::size_t>(
-      std::max(12.0, std::ceil(set.tour.length_rad * kDegPerRad / kDegPerKey)));
+  const double length = seconds(set);
+  const auto keys =
+      static_cast<std::size_t>(std::max(12.0, std::ceil(set.way_rad() * kDegPerRad / kDegPerKey)));
   output.add("tour.gltf",
              camera_animation_gltf(tour_cameras(shape, set, report.camera, up, aspect, keys),
                                    length, {width_, height_}, shape.sphere.diameter));
@@ -226,6 +226,10 @@ std::string view_set_table(const ReportedViewSet& set) {
   if (set.views.size() > 1) {
     text += "; tour of " + rounded(set.tour.length_rad * kDegPerRad, 4) + " degrees";
     text += set.tour.optimal ? "" : " (not proved shortest)";
+  }
+  if (set.way) {
+    text += "\n  explored " + rounded(100.0 * set.way->coverage, 4) + " % on " +
+            rounded(set.way->length_rad * kDegPerRad, 4) + " degrees";
   }
   return text;
 }

@@ -38,7 +38,7 @@ class ViewSetFlags {
  private:
   void write_tour(OutputFolder& output, const ShapeAnalysis& shape, ShapePictures& pictures,
                   const ViewReport& report, UpAxis up, const RunContext& run) const;
-  [[nodiscard]] double seconds(const Tour& tour) const;
+  [[nodiscard]] double seconds(const ReportedViewSet& set) const;
 
   OptionFlags flags_{};
   std::string tour_{};

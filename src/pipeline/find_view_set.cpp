@@ -6,11 +6,13 @@
 #include <Eigen/Geometry>
 
 #include "vantage/mesh/measures.h"
+#include "vantage/mesh/topology.h"
 #include "vantage/pipeline/find_views.h"
 #include "vantage/spatial/directions.h"
 #include "vantage/view/channel.h"
 
 #include "pipeline/describe_view.h"
+#include "view/sphere_angles.h"
 
 namespace vantage {
 namespace {
@@ -20,11 +22,19 @@ constexpr int kChannelLevel = 3;
 constexpr double kMostChannelBytes = 1024.0 * 1024.0 * 1024.0;
 // Empty border of the tour's pictures, as frame_points() leaves it.
 constexpr double kMargin = 0.04;
+// What an exploration sees if nothing is asked for: the last slivers take most of the way. [ours]
+constexpr double kExploredShare = 0.95;
+// How often the corners of its way, 60 degrees and more on the set of views, are cut. [ours]
+constexpr int kCornerPasses = 2;
 
-/// Views chosen on the channel from views to faces, as directions.
-std::vector<Vec3> channel_views(const ShapeAnalysis& shape, const ScoringCamera& camera,
-                                const ViewSetRequest& request, std::vector<std::string>& warnings,
-                                const RunContext& run) {
+/// The view sphere and what is seen from it.
+struct SeenSphere {
+  DirectionSet set{};
+  ViewChannel channel{};
+};
+
+SeenSphere seen_sphere(const ShapeAnalysis& shape, const ScoringCamera& camera,
+                       std::vector<std::string>& warnings, const RunContext& run) {
   int level = kChannelLevel;
   // About half of the faces are seen, eight bytes each.
   while (level > 0 && 10.0 * std::ldexp(1.0, 2 * level) * 4.0 *
@@ -32,7 +42,8 @@ std::vector<Vec3> channel_views(const ShapeAnalysis& shape, const ScoringCamera&
                           kMostChannelBytes) {
     --level;
   }
-  const std::vector<Vec3> directions = direction_set(ViewSphereBase::Icosahedron, level).directions;
+  SeenSphere sphere{direction_set(ViewSphereBase::Icosahedron, level), {}};
+  const std::vector<Vec3>& directions = sphere.set.directions;
   if (level < kChannelLevel) {
     warnings.push_back("the views were chosen from " + std::to_string(directions.size()) +
                        " directions instead of 642 to save memory");
@@ -43,7 +54,15 @@ std::vector<Vec3> channel_views(const ShapeAnalysis& shape, const ScoringCamera&
     eyes.push_back(camera.viewpoint(d));
   }
   const FaceVisibility faces(shape.surface, shape.sides);
-  const ViewChannel channel = channel_table(faces, shape.surface.triangles.size(), eyes, run);
+  sphere.channel = channel_table(faces, shape.surface.triangles.size(), eyes, run);
+  return sphere;
+}
+
+/// Views chosen on the channel from views to faces, as directions.
+std::vector<Vec3> channel_views(const SeenSphere& sphere, const ViewSetRequest& request,
+                                std::vector<std::string>& warnings, const RunContext& run) {
+  const auto& [set, channel] = sphere;
+  const std::vector<Vec3>& directions = set.directions;
   const std::size_t count =
       request.set.views ? static_cast<std::size_t>(*request.set.views) : directions.size();
   const std::vector<ChannelPick> picks =
@@ -61,6 +80,46 @@ std::vector<Vec3> channel_views(const ShapeAnalysis& shape, const ScoringCamera&
         "no view sees more than one face, so the first of all directions is shown");
   }
   return chosen;
+}
+
+/// Cuts the corners of a way; its ends stay.
+std::vector<Vec3> without_corners(const std::vector<Vec3>& stops) {
+  if (stops.size() < 3) {
+    return stops;
+  }
+  std::vector<Vec3> smooth{stops.front()};
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    smooth.push_back((3.0 * stops[i] + stops[i + 1]).normalized());
+    smooth.push_back((stops[i] + 3.0 * stops[i + 1]).normalized());
+  }
+  smooth.push_back(stops.back());
+  return smooth;
+}
+
+/// The exploration from the best view, with its corners cut.
+CameraWay explored_way(const SeenSphere& sphere, const Vec3& best, const ViewSetRequest& request,
+                       const RunContext& run) {
+  const std::vector<Vec3>& directions = sphere.set.directions;
+  const auto nearest =
+      std::max_element(directions.begin(), directions.end(),
+                       [&](const Vec3& a, const Vec3& b) { return a.dot(best) < b.dot(best); });
+  const Exploration found = explore_by_entropy(
+      sphere.channel, vertex_neighbours({sphere.set.directions, sphere.set.triangles}),
+      static_cast<std::uint32_t>(nearest - directions.begin()),
+      request.set.coverage.value_or(kExploredShare), run);
+  CameraWay way;
+  way.coverage = found.coverage;
+  for (const std::uint32_t view : found.views) {
+    way.stops.push_back(directions[view]);
+  }
+  way.stops.front() = best;
+  for (int pass = 0; pass < kCornerPasses; ++pass) {
+    way.stops = without_corners(way.stops);
+  }
+  for (std::size_t i = 0; i < way.stops.size(); ++i) {
+    way.length_rad += angle_between(way.stops[i], way.stops[(i + 1) % way.stops.size()]);
+  }
+  return way;
 }
 
 void warn_of(const ViewSet& set, const ViewSetRequest& request,
@@ -104,19 +163,23 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
   const ScoringCamera& camera = scorer.camera();
   const ViewSetRequest& request = options.view_set.value();
   check_fields(request, kViewSetRequestFields);
+  std::optional<SeenSphere> sphere;
+  if (request.selection != ViewSelection::Kssm || request.path == TourPath::Explore) {
+    sphere = seen_sphere(shape, camera, warnings, run.part(0.0, 0.3));
+  }
+  const RunContext rest = run.part(sphere ? 0.3 : 0.0, 1.0);
   const auto select = [&](const auto& visible) {
-    return select_views(visible, scorer.shares(), camera, best, request.set, run);
+    return select_views(visible, scorer.shares(), camera, best, request.set, rest);
   };
   const auto measure = [&](const auto& visible, const std::vector<Vec3>& chosen) {
-    return measure_views(visible, scorer.shares(), camera, chosen, request.set, run.part(0.3, 1.0));
+    return measure_views(visible, scorer.shares(), camera, chosen, request.set, rest);
   };
   const FaceVisibility* faces = scorer.faces();
   ReportedViewSet result;
   if (request.selection == ViewSelection::Kssm) {
     result.choice = faces != nullptr ? select(*faces) : select(visibility);
   } else {
-    const std::vector<Vec3> chosen =
-        channel_views(shape, camera, request, warnings, run.part(0.0, 0.3));
+    const std::vector<Vec3> chosen = channel_views(*sphere, request, warnings, rest.part(0.0, 0.0));
     result.choice = faces != nullptr ? measure(*faces, chosen) : measure(visibility, chosen);
   }
   warn_of(result.choice, request, warnings);
@@ -130,6 +193,9 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
     result.choice.views.front().gain = result.views.front().score;
   }
   result.tour = shortest_tour(directions, run);
+  if (request.path == TourPath::Explore) {
+    result.way = explored_way(*sphere, best, request, run);
+  }
   return result;
 }
 
@@ -137,8 +203,12 @@ std::vector<Camera> tour_cameras(const ShapeAnalysis& shape, const ReportedViewS
                                  const ScoringCamera& camera, UpAxis up, double aspect,
                                  std::size_t count) {
   std::vector<Vec3> stops;
-  for (const std::size_t i : set.tour.order) {
-    stops.push_back(set.choice.views[i].direction);
+  if (set.way) {
+    stops = set.way->stops;
+  } else {
+    for (const std::size_t i : set.tour.order) {
+      stops.push_back(set.choice.views[i].direction);
+    }
   }
   const std::vector<Vec3> points = referenced_points(shape.surface);
   const Vec3& centre = camera.sphere.centre;

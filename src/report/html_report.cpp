@@ -161,10 +161,10 @@ void add_set(Json& data, const ViewReport& report, const ShapeAnalysis& shape,
     data["warnings"].push_back("Of the " + std::to_string(views.size()) + " views the first " +
                                std::to_string(shown) + " are shown here.");
   }
-  if (!(report.set->tour.length_rad > 0.0)) {
+  if (!(report.set->way_rad() > 0.0)) {
     return;
   }
-  const double degrees = report.set->tour.length_rad * 180.0 / std::numbers::pi;
+  const double degrees = report.set->way_rad() * 180.0 / std::numbers::pi;
   const auto count = static_cast<std::size_t>(std::max(12.0, std::ceil(degrees / kTourStepDeg)));
   Json poses = Json::array();
   for (const Camera& camera :

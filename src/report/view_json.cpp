@@ -102,17 +102,26 @@ Json views_of(const ReportedViewSet& set, bool pictures, UpAxis up) {
 Json set_of(const ReportedViewSet& set, ViewSelection selection) {
   constexpr std::array<std::string_view, 3> kStops{"count", "coverage", "exhausted"};
   constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-  return {{"selection", selection_name(selection)},
-          {"stop", kStops[static_cast<std::size_t>(set.choice.stop)]},
-          {"candidates", set.choice.candidates},
-          {"evaluations", set.choice.evaluations},
-          {"reachable", set.choice.reachable},
-          {"least_views", set.choice.least_views},
-          {"most_coverage", set.choice.most_coverage},
-          {"tour",
-           {{"order", set.tour.order},
-            {"length_deg", set.tour.length_rad * kDegPerRad},
-            {"optimal", set.tour.optimal}}}};
+  Json json = {{"selection", selection_name(selection)},
+               {"stop", kStops[static_cast<std::size_t>(set.choice.stop)]},
+               {"candidates", set.choice.candidates},
+               {"evaluations", set.choice.evaluations},
+               {"reachable", set.choice.reachable},
+               {"least_views", set.choice.least_views},
+               {"most_coverage", set.choice.most_coverage},
+               {"tour",
+                {{"order", set.tour.order},
+                 {"length_deg", set.tour.length_rad * kDegPerRad},
+                 {"optimal", set.tour.optimal}}}};
+  if (set.way) {
+    json["way"] = {{"length_deg", set.way->length_rad * kDegPerRad},
+                   {"coverage", set.way->coverage},
+                   {"stops", Json::array()}};
+    for (const Vec3& stop : set.way->stops) {
+      json["way"]["stops"].push_back(point(stop));
+    }
+  }
+  return json;
 }
 
 std::string text_of(const Json& json) {

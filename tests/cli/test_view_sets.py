@@ -132,6 +132,27 @@ class ViewSets(ProgramTest):
         at = data.index(b"acTL") + 4
         self.assertEqual(struct.unpack(">II", data[at:at + 8]), (8, 0))
 
+    def test_an_exploration_goes_from_the_best_view_until_enough_is_seen(self):
+        small = ("--size", "64x48", "--no-report", "-q")
+        for threads in (1, 2):
+            self.vantage("view", FAN, "-o", f"out{threads}", "--coverage", 0.9, "--tour-path", "explore", *small,
+                         "--threads", threads, "--tour", f"tour{threads}.webp", "--tour-size", "40x30", "--fps", 2)
+        report = self.report("out1")
+        way = report["view_set"]["way"]
+        self.assertGreaterEqual(way["coverage"], 0.9)
+        self.assertEqual(way["stops"][0], report["best"]["direction"])
+        self.assertEqual((self.dir / "tour1.webp").read_bytes(), (self.dir / "tour2.webp").read_bytes())
+        self.assertEqual((self.dir / "out1/tour.gltf").read_bytes(), (self.dir / "out2/tour.gltf").read_bytes())
+        self.vantage("view", FAN, "-o", "round", "--coverage", 0.9, *small)
+        self.assertNotIn("way", self.report("round")["view_set"])
+        self.assertNotEqual((self.dir / "round/tour.gltf").read_bytes(), (self.dir / "out1/tour.gltf").read_bytes())
+        # The set is the same, one view of it has no round but an exploration.
+        self.assertEqual(self.report("round")["views"], report["views"])
+        self.vantage("view", FAN, "-o", "one", "--views", 1, "--tour-path", "explore", "--no-images", "-q")
+        self.assertGreaterEqual(self.report("one")["view_set"]["way"]["coverage"], 0.95)
+        self.assertTrue((self.dir / "one/tour.gltf").exists())
+        self.assertIn("--views", self.vantage("view", FAN, "--tour-path", "explore", exit_code=2).err)
+
     def test_a_tour_of_one_view_is_refused_and_leaves_nothing(self):
         done = self.vantage("view", FAN, "-o", "out", "--coverage", 0.1, "--no-images", "--tour", "t.webp",
                             exit_code=1)

@@ -37,11 +37,22 @@ struct ReportedView {
   PictureSize size{};                  ///< Of the picture it is framed for.
 };
 
+/// A closed way of the camera around the model.
+struct CameraWay {
+  std::vector<Vec3> stops{};  ///< Unit vectors from the centre to the eye, great circles between.
+  double length_rad = 0.0;    ///< With the way back to the first.
+  double coverage = 0.0;      ///< As Exploration has it.
+};
+
 /// Several views that together tell most, and the round over them.
 struct ReportedViewSet {
   std::vector<ReportedView> views{};  ///< Of choice.views, in the same order.
   ViewSet choice{};                   ///< Gains, coverage and bounds.
   Tour tour{};                        ///< The shortest round over the views.
+  std::optional<CameraWay> way{};     ///< The camera's, if it is not that round.
+
+  /// Of what the camera does.
+  [[nodiscard]] double way_rad() const { return way ? way->length_rad : tour.length_rad; }
 };
 
 /// The model's frame that a run uses, and why.
@@ -154,7 +165,7 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
                               const ViewOptions& options, std::vector<std::string>& warnings,
                               const RunContext& run = {});
 
-/// Cameras along the tour of a set, `count` at equal distances, all with the field of view that
+/// Cameras along the tour of a set, or its way, `count` at equal distances, all with the field of view that
 /// shows the whole surface from every one of them. \pre at least two different views.
 /// \param aspect width over height.
 std::vector<Camera> tour_cameras(const ShapeAnalysis& shape, const ReportedViewSet& set,

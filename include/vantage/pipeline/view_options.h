@@ -86,11 +86,18 @@ inline constexpr const char* kSelectionWords = "kssm|vazquez|feixas";
 /// "kssm", "vazquez" or "feixas".
 std::string_view selection_name(ViewSelection selection);
 
+/// Which way the camera takes around the model.
+enum class TourPath {
+  Round,    ///< The shortest closed path over the views.
+  Explore,  ///< explore_by_entropy() from the best view, and back to it.
+};
+
 /// Several views: how many, and chosen how.
 struct ViewSetRequest {
   ViewSetOptions set{};                           ///< Number, coverage, separation.
   ViewSelection selection = ViewSelection::Kssm;  ///< The others look at `set.views` alone.
-  double information = 0.0;  ///< Feixas: stop at this share of I(V;Z); 0: by number alone.
+  double information = 0.0;         ///< Feixas: stop at this share of I(V;Z); 0: by number alone.
+  TourPath path = TourPath::Round;  ///< Of the camera.
 };
 
 /// The table of ViewSetRequest.
@@ -101,6 +108,9 @@ inline constexpr auto kViewSetRequestFields = std::tuple{
            "mutual information"},
     Field{"information", &ViewSetRequest::information, 0.0, 1.0,
           "feixas: stop when the merged view's information falls to this share of the channel's"},
+    Choice{"tour-path", &ViewSetRequest::path, "round|explore",
+           "round: the shortest over the views; explore: from the best view always to where most "
+           "entropy of unseen faces is, until the coverage, or 0.95, is seen"},
 };
 
 /// Everything that shapes the result of a view.

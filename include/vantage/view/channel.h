@@ -60,6 +60,22 @@ struct ChannelPick {
 std::vector<ChannelPick> greedy_entropy_views(const ViewChannel& channel, std::size_t count,
                                               const RunContext& run = {});
 
+/// A way over the view sphere from view to view beside it.
+struct Exploration {
+  std::vector<std::uint32_t> views{};  ///< Indices of the channel's views; the first is the start.
+  /// Share of all that any view sees, Σ a_z over all views, that is of faces seen on the way, [0, 1].
+  double coverage = 0.0;
+};
+
+/// Vázquez's exploration: from a view always to the one beside it of greatest entropy over the faces
+/// not yet seen, as greedy_entropy_views() measures it, until `coverage` is reached. Where no view
+/// beside it shows anything new, to the nearest that does. Of equals the lower index.
+/// \param next for each view the views beside it, ascending and mutual. \param start a view.
+/// \param coverage in [0, 1]. \throw InvalidInput if the channel is malformed, or next or start do
+/// not belong to it. \throw Cancelled
+Exploration explore_by_entropy(const ViewChannel& channel, const IndexLists& next,
+                               std::uint32_t start, double coverage, const RunContext& run = {});
+
 /// Result of merge_views().
 struct MergedViews {
   std::vector<ChannelPick> picks{};  ///< `value` is I(v̂;Z) with this view merged in.
