@@ -8,11 +8,12 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 
-#include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/measured_shape.h"
 #include "vantage/pipeline/picture_frame.h"
@@ -22,6 +23,7 @@
 #include "pipeline/view_preparation.h"
 #include "report/legend.h"
 #include "report/panels.h"
+#include "report/point_balls.h"
 #include "report/search_figure.h"
 #include "report/sphere_figure.h"
 
@@ -33,6 +35,8 @@ constexpr std::size_t kMostLevels = 6;
 /// Contracted surfaces are drawn thicker by this share of D on all sides, lest limbs that have become
 /// lines vanish between the samples. [ours]
 constexpr double kThickening = 0.004;
+/// Radius of the points of a cloud over D. [ours]
+constexpr double kPointRadius = 0.005;
 constexpr Rgb8 kWhite{255, 255, 255};
 constexpr std::array kPlain{Picture::Plain};
 
@@ -84,6 +88,9 @@ class Panels {
 
   /// The surface at a level of its contraction, in the colours of a field if there is one.
   [[nodiscard]] Image level(std::size_t level, std::span<const double> field) const {
+    if (shape_->cloud) {
+      return points(shape_->history.levels[level], field);
+    }
     TriMesh mesh = shape_->surface;
     mesh.positions = shape_->history.levels[level];
     for (std::size_t v = 0; level > 0 && v < normals_.size(); ++v) {
@@ -98,6 +105,15 @@ class Panels {
   }
 
  private:
+  [[nodiscard]] Image points(std::span<const Vec3> positions, std::span<const double> field) const {
+    const PointBalls balls = point_balls(positions, kPointRadius * shape_->sphere.diameter);
+    std::vector<double> values;
+    for (std::size_t v = 0; !field.empty() && v < balls.point_of_vertex.size(); ++v) {
+      values.push_back(field[balls.point_of_vertex[v]]);
+    }
+    return coloured(balls.mesh, values);
+  }
+
   [[nodiscard]] Image coloured(const TriMesh& mesh, std::span<const double> field) const {
     if (field.empty()) {
       return render(mesh, camera_, {}, {}, look_, run_);
@@ -173,18 +189,13 @@ SaliencyView saliency_view(const ShapeAnalysis& shape, const ViewReport& report,
   return result;
 }
 
-/// Figures 7 and 8: a view of KSSM's and one of saliency's choice, plain and with their maps.
-Image choices(const Panels& kssm, const Panels& saliency, const ViewOptions& options,
-              std::string_view kind, double kssm_share, double saliency_share) {
-  const auto caption = [&](const char* method, double share) {
-    return std::string(kind) + " by " + method + ": sees " + percent_text(share) + " of it";
-  };
-  return side_by_side(
-      {with_caption(kssm.plain(Picture::Plain, options), caption("KSSM", kssm_share)),
-       with_caption(kssm.plain(Picture::Map, options), "KSSM"),
-       with_caption(saliency.plain(Picture::Plain, options),
-                    caption("mesh saliency", saliency_share)),
-       with_caption(saliency.plain(Picture::Map, options), "mesh saliency")});
+/// Half of figures 7 and 8: a view that a method chose, plain and with its map.
+void add_choice(std::vector<Image>& panels, const Panels& of, const ViewOptions& options,
+                const std::string& kind, const std::string& method, double share) {
+  panels.push_back(
+      with_caption(of.plain(Picture::Plain, options),
+                   kind + " by " + method + ": sees " + percent_text(share) + " of it"));
+  panels.push_back(with_caption(of.plain(Picture::Map, options), method));
 }
 
 /// Figures 1, 2 and 3; the last panel is the map.
@@ -208,8 +219,8 @@ std::vector<Figure> sequences(const ShapeAnalysis& shape, const Panels& best, co
           {"figure-3-levels", side_by_side(shares), {}}};
 }
 
-/// Figure 6.
-Figure sphere_figure(const ShapeAnalysis& shape, const SaliencyView& saliency,
+/// Figure 6. \param saliency null: KSSM alone.
+Figure sphere_figure(const ShapeAnalysis& shape, const SaliencyView* saliency,
                      const ViewReport& report, const ViewOptions& options, RenderOptions look,
                      const RunContext& run) {
   look.width = options.width;
@@ -220,10 +231,11 @@ Figure sphere_figure(const ShapeAnalysis& shape, const SaliencyView& saliency,
         sphere_panel(shape, values, shown, report.best.direction, report.up, options, look, run),
         std::string(name) + " seen from each direction");
   };
-  return {"figure-6-spheres",
-          side_by_side({panel(shape.map.of_vertex, shape.map.of_vertex, "KSSM"),
-                        panel(saliency.map, saliency.shape.map.of_vertex, "mesh saliency")}),
-          {}};
+  std::vector<Image> panels{panel(shape.map.of_vertex, shape.map.of_vertex, "KSSM")};
+  if (saliency != nullptr) {
+    panels.push_back(panel(saliency->map, saliency->shape.map.of_vertex, "mesh saliency"));
+  }
+  return {"figure-6-spheres", side_by_side(panels), {}};
 }
 
 Figure rapid_figure(const ShapeAnalysis& shape, const ViewReport& report,
@@ -272,15 +284,15 @@ Image view_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, const V
 std::vector<Figure> paper_figures(const ShapeAnalysis& shape, const ViewReport& report,
                                   const ViewOptions& options, const RunContext& run,
                                   const PictureLook& look) {
-  if (shape.cloud) {
-    throw InvalidInput("the paper's figures need a surface, and the model has points only");
-  }
   const PictureLook white = look.on(kWhite);
   const Panels best(shape, report.best, options, run, white);
   const Panels worst(shape, report.worst, options, run, white);
   const Image map = best.plain(Picture::Map, options);
   std::vector<Figure> figures = sequences(shape, best, map, run.part(0.0, 0.5));
-  const SaliencyView saliency = saliency_view(shape, report, options, run.part(0.5, 0.7));
+  std::optional<SaliencyView> saliency;
+  if (!shape.cloud) {  // mesh saliency is of curvature, which points do not have
+    saliency = saliency_view(shape, report, options, run.part(0.5, 0.7));
+  }
   RunContext quiet = run;
   quiet.report = nullptr;
   figures.push_back(rapid_figure(shape, report, options, quiet));
@@ -291,18 +303,22 @@ std::vector<Figure> paper_figures(const ShapeAnalysis& shape, const ViewReport& 
                      with_caption(map, "KSSM"),
                      with_caption(best.plain(Picture::Skeleton, options), "skeleton")}),
        {}});
-  figures.push_back(sphere_figure(shape, saliency, report, options, white.render, quiet));
+  figures.push_back(
+      sphere_figure(shape, saliency ? &*saliency : nullptr, report, options, white.render, quiet));
   run.advance("figures", 0.9);
   const auto add_choices = [&](const char* name, const char* kind, const Panels& kssm,
-                               const ReportedView& ours, const ReportedView& theirs) {
-    const Panels other(saliency.shape, theirs, options, run, white);
-    figures.push_back(
-        {name,
-         choices(kssm, other, options, kind, ours.score_fraction, theirs.score_fraction),
-         {}});
+                               ReportedView ViewReport::*view) {
+    std::vector<Image> panels;
+    add_choice(panels, kssm, options, kind, "KSSM", (report.*view).score_fraction);
+    if (saliency) {
+      const ReportedView& theirs = saliency->report.*view;
+      add_choice(panels, Panels(saliency->shape, theirs, options, run, white), options, kind,
+                 "mesh saliency", theirs.score_fraction);
+    }
+    figures.push_back({name, side_by_side(panels), {}});
   };
-  add_choices("figure-7-best", "best", best, report.best, saliency.report.best);
-  add_choices("figure-8-worst", "worst", worst, report.worst, saliency.report.worst);
+  add_choices("figure-7-best", "best", best, &ViewReport::best);
+  add_choices("figure-8-worst", "worst", worst, &ViewReport::worst);
   if (report.set) {
     figures.push_back({"views", view_sheet(shape, *report.set, options, quiet, look), {}});
   }

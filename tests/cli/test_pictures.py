@@ -6,7 +6,7 @@ import sys
 import unittest
 
 from png import read_png
-from program import MODELS, ProgramTest
+from program import MODELS, ProgramTest, read_ply
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 from update_goldens import GOLDENS, picture_arguments  # noqa: E402
@@ -135,10 +135,14 @@ class Figures(ProgramTest):
         self.assertTrue((self.dir / "f/cat_lowpoly/figure-6-spheres.png").exists())
         self.assertEqual(len((self.dir / "f/table-1-times.csv").read_text().splitlines()), 3)
 
-    def test_points_have_none_and_leave_no_folder(self):
-        self.write("cloud.xyz", "\n".join(f"{x} {y} {x * y * 0.1}" for x in range(12) for y in range(12)))
-        self.vantage("figures", "cloud.xyz", "-o", "f", exit_code=1)
-        self.assertFalse((self.dir / "f").exists())
+    def test_points_have_figures_too_without_saliency(self):
+        _, points, _ = read_ply(MODELS / "fan.ply")
+        self.write("cloud.xyz", "\n".join(f"{p['x']} {p['y']} {p['z']}" for p in points))
+        self.vantage("figures", "cloud.xyz", "-o", "f", "--size", "40x30", "-q", "--search", "rapid", "--views", "2")
+        names = sorted(p.name for p in (self.dir / "f").iterdir())
+        self.assertEqual(len([n for n in names if n.startswith("figure-")]), 9)
+        self.assertEqual(read_png((self.dir / "f/figure-8-worst.png").read_bytes())[:2], (2 * 48 + 8, 30 + 12 + 16))
+        self.assertEqual(read_png((self.dir / "f/figure-6-spheres.png").read_bytes())[0], 48 + 8)
 
 
 if __name__ == "__main__":

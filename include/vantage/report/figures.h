@@ -25,8 +25,9 @@ struct Figure {
 
 /// Figures 1 to 8 of the paper; all but 8 from the best view's camera. 6, 7 and 8 show mesh saliency
 /// beside KSSM, with a search of its own. If the report has several views, they are on a sheet.
-/// \param shape of a surface, with history, skeleton and map (kssm).
-/// \throw InvalidInput for a cloud of points, which has no surface to contract. \throw Cancelled
+/// Of a cloud of points 1 and 2 show the points as small solids, and 6, 7 and 8 KSSM alone: mesh
+/// saliency is of a surface's curvature.
+/// \param shape with history, skeleton and map (kssm). \throw Cancelled
 /// \param look of the panels that show the surface; white where it has no background.
 std::vector<Figure> paper_figures(const ShapeAnalysis& shape, const ViewReport& report,
                                   const ViewOptions& options, const RunContext& run = {},

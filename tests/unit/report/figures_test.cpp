@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "vantage/core/error.h"
+#include "vantage/mesh/measures.h"
 
+#include "report/point_balls.h"
 #include "support/model_of.h"
 #include "support/shapes.h"
 
@@ -85,10 +87,55 @@ TEST(TimesTable, HasOneRowAModelAndAddsUp) {
             std::string::npos);
 }
 
-TEST(PaperFigures, NeedASurface) {
-  ShapeAnalysis cloud;
-  cloud.cloud.emplace();
-  EXPECT_THROW(paper_figures(cloud, {}, {}), InvalidInput);
+/// Pixels of a panel of 48 × 36 that are not white.
+int ink(const Image& figure, int panel) {
+  int count = 0;
+  for (int y = 8; y < 8 + 36; ++y) {
+    for (int x = 8 + panel * 56; x < 8 + panel * 56 + 48; ++x) {
+      count += figure.pixel(x, y)[0] < 250 || figure.pixel(x, y)[2] < 250 ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+TEST(PaperFigures, OfACloudShowItsPointsAsTheyContractAndNoSaliency) {
+  ViewOptions options;
+  options.width = 48;
+  options.height = 36;
+  options.search.strategy = SearchStrategy::Exhaustive;
+  options.search.subdivisions = 1;
+  Model model = model_of(y_of_tubes(0.25, 24));
+  model.mesh.triangles.clear();
+  const ShapeAnalysis shape = analyse_shape(model, options);
+  ASSERT_TRUE(shape.cloud.has_value());
+  const std::vector<Figure> figures =
+      paper_figures(shape, find_views(shape, UpAxis::Y, options), options);
+  ASSERT_EQ(figures.size(), 8U);
+  const auto panels = [](const Image& image) { return (image.width - 8) / (48 + 8); };
+  const int levels = std::min<int>(6, static_cast<int>(shape.history.level_count()) + 1);
+  ASSERT_GT(levels, 1);
+  EXPECT_EQ(panels(figures[0].image), levels);
+  EXPECT_EQ(panels(figures[5].image), 1);
+  EXPECT_EQ(panels(figures[6].image), 2);
+  EXPECT_EQ(panels(figures[7].image), 2);
+  // Points cover the limbs of the Y, and have become curves at the end.
+  EXPECT_GT(ink(figures[0].image, 0), 100);
+  EXPECT_GT(ink(figures[0].image, levels - 1), 5);
+  EXPECT_LT(ink(figures[0].image, levels - 1), ink(figures[0].image, 0) * 7 / 10);
+}
+
+TEST(PointBalls, StandAtTheirPointsAndAreAtMostSoMany) {
+  const std::vector<Vec3> points{Vec3(0, 0, 0), Vec3(1, 2, 3)};
+  const PointBalls balls = point_balls(points, 0.5);
+  ASSERT_EQ(balls.mesh.positions.size(), 12U);
+  EXPECT_EQ(balls.mesh.triangles.size(), 16U);
+  for (std::size_t v = 0; v < 12; ++v) {
+    EXPECT_NEAR((balls.mesh.positions[v] - points[balls.point_of_vertex[v]]).norm(), 0.5, 1e-15);
+  }
+  EXPECT_NEAR(signed_volume(balls.mesh), 2.0 * 4.0 / 3.0 * 0.125, 1e-12);  // wound outwards
+  const std::vector<Vec3> many(3 * kMostBalls + 1, Vec3::Zero());
+  EXPECT_LE(point_balls(many, 0.5).mesh.positions.size(), 6 * kMostBalls);
+  EXPECT_TRUE(point_balls({}, 0.5).mesh.positions.empty());
 }
 
 }  // namespace
