@@ -63,7 +63,7 @@ void add_set(py::dict& result, const std::optional<ReportedViewSet>& set) {
   if (set) {
     std::vector<std::int64_t> order(set->tour.order.begin(), set->tour.order.end());
     result["tour"] = owned_array(std::move(order));
-    result["tour_length_deg"] = set->way_rad() * 180.0 / std::numbers::pi;
+    result["tour_length_deg"] = set->tour.length_rad * 180.0 / std::numbers::pi;
   }
 }
 

@@ -143,6 +143,7 @@ def best_view(
     refine: Optional[bool] = None,
     select: Optional[Literal["kssm", "vazquez", "feixas"]] = None,
     information: Optional[float] = None,
+    tour_path: Optional[Literal["round", "explore"]] = None,
 ) -> BestView: ...
 def skeleton(
     model: _Subject,

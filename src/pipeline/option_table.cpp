@@ -113,7 +113,7 @@ std::optional<ViewSetRequest> checked_view_set(const ViewOptions& options) {
   if (request.set.views || request.set.coverage || request.information > 0.0) {
     return request;
   }
-  if (!by_kssm || request.set.min_separation_deg > 0.0) {
+  if (!by_kssm || request.set.min_separation_deg > 0.0 || request.path == TourPath::Explore) {
     throw InvalidInput(
         "option views is not given: say how many views are wanted, by views or coverage");
   }

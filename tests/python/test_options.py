@@ -31,7 +31,8 @@ COMMANDS = {  # what offers which groups of the table
 TEXTS = {"focus": "0", "epsilon": "2%", "prior": "none", "size": (40, 30), "background": "#102030"}
 OF_PROGRAM = {("view", "size"): "auto", ("render", "size"): "800x600"}  # other defaults
 WITH = {"starts": {"search": "gradient"}, "seed": {"search": "gradient"}, "refine": {"views": 2},
-        "min_separation": {"views": 2}, "information": {"select": "feixas", "views": 2}, "select": {"views": 2}}
+        "min_separation": {"views": 2}, "information": {"select": "feixas", "views": 2}, "select": {"views": 2},
+        "tour_path": {"views": 2}}
 
 
 def flags_of(help_text):
@@ -149,6 +150,7 @@ def test_all_defaults_of_the_paper_are_its_preset():
     ({"size": "8x8x8"}, "option size must be"),
     ({"coverage": 0.0}, "must be above 0"),
     ({"select": "feixas"}, "say how many views"),
+    ({"tour_path": "explore"}, "say how many views"),
     ({"select": "feixas", "views": 2, "coverage": 0.5}, "goes with select"),
     ({"method": "beauty"}, "beauty"),
     ({"focus": "nothing"}, "nothing"),
