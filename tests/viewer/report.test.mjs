@@ -114,15 +114,16 @@ for (const name of ['best', 'worst']) {
 
 test('the window shows the silhouette of best.png', async () => {
   // The stage is as large as the picture: 360 px of panel beside it, the header above.
-  const page = await open(browser, report, { viewport: { width: 1160, height: 700 } });
+  const [wide, high] = view.best.size;
+  const page = await open(browser, report, { viewport: { width: wide + 360, height: high + 100 } });
   const header = (await page.locator('header').boundingBox()).height;
-  await page.setViewportSize({ width: 1160, height: 600 + Math.round(header) });
-  await page.waitForFunction(() => Math.abs(document.getElementById('model').clientHeight - 600) <= 1);
+  await page.setViewportSize({ width: wide + 360, height: high + Math.round(header) });
+  await page.waitForFunction((h) => Math.abs(document.getElementById('model').clientHeight - h) <= 1, high);
   // A canvas that is made larger is empty until the frame after.
   await page.evaluate(() => new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(resolve)); }));
   const [width, height] = await page.evaluate(() => [
     document.getElementById('model').clientWidth, document.getElementById('model').clientHeight]);
-  assert.equal(width, 800);
+  assert.equal(width, wide);
   const picture = 'data:image/png;base64,' + fs.readFileSync(path.join(out, 'best.png')).toString('base64');
   const overlap = await page.evaluate(async ([url, w, h]) => {
     const mask = async (source) => {
