@@ -142,7 +142,19 @@ class MarchingTetrahedra {
     }
   }
 
+  /// Whether the surface passes through a cell.
+  [[nodiscard]] bool is_cut(int i, int j, int k) const {
+    int inside = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      inside += value_[id(i + corner % 2, j + corner / 2 % 2, k + corner / 4)] < 0.0 ? 1 : 0;
+    }
+    return inside > 0 && inside < 8;
+  }
+
   void cell(int i, int j, int k) {
+    if (!is_cut(i, j, k)) {
+      return;
+    }
     // Kuhn's six tetrahedra along the diagonal: one for each order of the axes.
     std::array<int, 3> axes{0, 1, 2};
     do {

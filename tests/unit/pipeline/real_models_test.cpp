@@ -6,7 +6,6 @@
 #include "vantage/pipeline/find_views.h"
 
 #include "support/data_pack.h"
-#include "support/visibility_oracle.h"
 
 namespace vantage::test {
 namespace {
@@ -41,28 +40,6 @@ INSTANTIATE_TEST_SUITE_P(DataPack, RealClosedModel,
                                          "clean/block.off", "clean/scad_candleStand.off",
                                          "clean/knot2.off", "clean/rings.obj", "clean/kitten.obj",
                                          "clean/skull_low_resolution.obj", "clean/chair.off"));
-
-using RealSmallModel = RealModel;
-
-TEST_P(RealSmallModel, VisibleVerticesAreThoseOfBruteForce) {
-  const ShapeAnalysis shape = prepare_surface(model);
-  const VertexVisibility visibility(shape.surface, shape.sides);
-  const ScoringCamera camera = scoring_camera(shape, {});
-  for (const Vec3& direction : direction_set(ViewSphereBase::Cube, 0).directions) {
-    const Viewpoint eye = camera.viewpoint(direction);
-    const auto visible = visibility.visible_vertices(eye);
-    const auto truth = brute_force_visibility(shape.surface, shape.sides.front(), eye);
-    for (std::size_t v = 0; v < visible.size(); ++v) {
-      if (truth[v] != Seen::Exactly) {
-        ASSERT_EQ(visible[v] != 0, truth[v] == Seen::Yes) << "vertex " << v;
-      }
-    }
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(DataPack, RealSmallModel,
-                         testing::Values("clean/block.off", "clean/goathead.obj",
-                                         "clean/scad_example009.off"));
 
 }  // namespace
 }  // namespace vantage::test
