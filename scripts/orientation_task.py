@@ -154,7 +154,7 @@ class Task:
         self.target = self.right / self.right.sum(1, keepdims=True)
         counts = {g: sum(r["group"] == g for r in self.rows) for g in {r["group"] for r in self.rows}}
         # A hundred airliners are not a hundred kinds of thing.
-        self.weight = np.array([1.0 if r["group"].startswith("catalogue") else min(1.0, 30 / counts[r["group"]])
+        self.weight = np.array([1.0 if r["group"].startswith("catalogue") else min(1.0, 60 / counts[r["group"]])
                                 for r in self.rows])
         self.catalogue = np.array([r["group"].startswith("catalogue") for r in self.rows])
         _, first, of_row, count = np.unique([r["series"] for r in self.rows], return_index=True, return_inverse=True,
