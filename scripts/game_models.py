@@ -7,9 +7,9 @@ import zipfile
 import numpy as np
 
 # Names of parts that are no things of their own: stems without leaves, wrecks, what water looks like.
-PARTS = ("crash", "blaetter", "stamm", "leaves", "engine", "_wing", "weapon", "head0", "turret", "pods", "_hull", "_upper",
-         "_lower", "collision", "_lod", "_LOD", "_low", "-low", "wheel", "water", "shield", "arrow", "shadow", "speed",
-         "exhaust", "_hit", "spark", "fitchBarrel", "_structure", "_beam", "_stem", "_bloom")
+PARTS = ("crash", "blaetter", "stamm", "leaves", "engine", "_wing", "weapon", "head0", "turret", "pods", "_hull",
+         "_upper", "_lower", "collision", "_lod", "_LOD", "_low", "-low", "wheel", "water", "shield", "arrow", "shadow",
+         "speed", "exhaust", "_hit", "spark", "fitchBarrel", "_structure", "_beam", "_stem", "_bloom")
 FEWEST_FACES = 40
 MOST_OF_A_SERIES = 3
 
