@@ -94,6 +94,16 @@ class Boosting:
 
         return sum(value(tree) for tree in self.trees).reshape(inputs.shape[:2])
 
+    def scaled(self, factor):
+        """The same with all leaves times a factor."""
+        def times(tree):
+            if not isinstance(tree, tuple):
+                return round(tree * factor, 3)
+            return (tree[0], tree[1], times(tree[2]), times(tree[3]))
+
+        self.trees = [times(tree) for tree in self.trees]
+        return self
+
     def text(self, names):
         columns = list(names) + [f"{name}-opposite" for name in names] + [f"{name}-mean" for name in names]
 

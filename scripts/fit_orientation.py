@@ -2,19 +2,22 @@
 # SPDX-License-Identifier: MIT
 """Fits src/orientation/orientation_table.txt, and measures it on models left out of the fit (numpy).
 
-    scripts/fit_orientation.py VANTAGE LABELS.csv [LABELS.csv …] [-o TABLE] [--cache FILE]
+    scripts/fit_orientation.py VANTAGE LABELS.csv [LABELS.csv …] [-o TABLE] [--keep-front] [--cache FILE]
 
 VANTAGE is the program: `vantage orient MODEL --features` gives each model's features. LABELS.csv has
 the columns file,group,kind,up,front,fold,copy_of: axes as --up takes them, front empty where nobody knows
 it, models of one fold are left out together, and the kind is what accuracies are listed by. Groups
-that begin with "catalogue" are what witness and threshold are chosen on. Rows with copy_of are stretched
+are the archives that models come from; "catalogue" begins those of furniture. Rows with copy_of are stretched
 copies of that file: learnt from, never judged.
 
 The model is a sum of small regression trees over features of each candidate direction, those less the
 opposite candidate's, and those less the mean of all: gradient boosting (Friedman 2001) of the softmax
-over the candidates. Witness and threshold are then chosen on models left out: the most turned models
-right with at most 1 % harm. A format's convention is an up with a front: how well its front suits the
-shape, if its up is right, speaks for that up, too, as far as files face so (the share of the scans that do).
+over the candidates. What files of one archive share (its makers' habits) is no help with other files: so whole
+archives are left out, one by one, and on what is then said of them the scale of the log odds (the least log loss),
+witness and threshold are chosen: the most turned models right with at most 1 % harm. A series of near
+copies (twenty wall sockets) counts as one model, and is left out of the folds together. A format's convention
+is an up with a front: how well its front suits the shape, if its up is right, speaks for that up, too, as far
+as files face so (the share of the scans that do).
 """
 import argparse
 import csv
@@ -26,13 +29,7 @@ import sys
 import numpy as np
 
 from boosting import Boosting, numbers_in, softmax
-
-AXES = ["x", "-x", "y", "-y", "z", "-z"]
-OPPOSITE = np.array([1, 0, 3, 2, 5, 4])
-ALIKE = 0.1  # kAlike of src/orientation/orientation.cpp
-HARM = 0.01
-FOLDS = 5
-COPIES = 2
+from orientation_task import AXES, COPIES, HARM, Task, fronts_of, interval, mean, ring_around, series_of, widened
 
 
 def features_of(program, file):
@@ -63,208 +60,39 @@ def load(program, label_files, cache):
         if row.get("copy_of"):
             copies.setdefault(row["copy_of"], []).append(row["features"])
     rows = [row for row in rows if not row.get("copy_of")]
+    for row, series in zip(rows, series_of(rows)):
+        row["series"] = series
     for row in rows:
         row["copies"] = (copies.get(row["file"], []) + [row["features"]] * COPIES)[:COPIES]
     return rows
 
 
-def widened(values):
-    """Features, less those of the opposite candidate, less the mean: models x candidates x 3 features."""
-    opposite = OPPOSITE[: values.shape[1]]
-    return np.concatenate([values, values - values[:, opposite], values - values.mean(1, keepdims=True)], 2)
-
-
-def as_files_come(plain, names, of_front):
-    """As if the origin were in the middle and there were no pictures; and as if the origin were far away."""
-    height = names.index("origin_ahead" if of_front else "origin_height")
-    aside = names.index("origin_aside")
-    pictures = [i for i, name in enumerate(names) if "texture" in name]
-    copies = []
-    for far in (0.0, 0.6 if of_front else 1.2):  # kFar of src/orientation/evidence.cpp
-        copy = plain.copy()
-        copy[:, :, height], copy[:, :, aside] = 0.5, far
-        if far == 0.0:
-            copy[:, :, pictures] = 0.0
-        copies.append(copy)
-    return copies
-
-
-def ring_around(up):
-    return [a for a in AXES if a.lstrip("-") != up.lstrip("-")]
-
-
-def ups_of(features):
-    by_axis = {c["up"]: c["values"] for c in features["ups"]}
-    return [by_axis[a] for a in AXES]
-
-
-def fronts_of(features, up):
-    by_axis = {c["front"]: c for c in features["fronts"] if c["up"] == up}
-    return [by_axis[a] for a in ring_around(up)]
-
-
-def alike_fronts(fronts):
-    same = np.eye(4, dtype=bool)
-    for a, front in enumerate(fronts):
-        same[a, a ^ 1] = front["back_difference"] < ALIKE
-        for b in range(4):
-            if b // 2 != a // 2:
-                same[a, b] = front["side_difference"] < ALIKE
-    return same
-
-
-class Task:
-    """Up, or the front if up is known: inputs, what is right, and which candidates look alike."""
-
-    def __init__(self, rows, of_front):
-        self.rows = [r for r in rows if r["up"] and (r["front"] or not of_front)]
-        self.of_front = of_front
-        names = rows[0]["features"][("front" if of_front else "up") + "_features"]
-
-        def values(features, up):
-            return [f["values"] for f in fronts_of(features, up)] if of_front else ups_of(features)
-
-        plain = np.array([values(row["features"], row["up"]) for row in self.rows])
-        self.inputs = widened(plain)
-        self.more = [widened(copy) for copy in as_files_come(plain, names, of_front)]
-        self.more += [widened(np.array([values(row["copies"][k], row["up"]) for row in self.rows]))
-                      for k in range(COPIES)]
-        directions = [ring_around(row["up"]) if of_front else AXES for row in self.rows]
-        self.truth = np.array([d.index(row["front" if of_front else "up"]) for d, row in zip(directions, self.rows)])
-        self.alike = np.array([alike_fronts(fronts_of(row["features"], row["up"])) if of_front
-                               else np.eye(6, dtype=bool) for row in self.rows])
-        # Of up also the front that the convention has, and the odds of each if that up is right.
-        self.front = np.array([ring_around(row["up"]).index(row["front"]) if row["front"] else -1 for row in self.rows])
-        self.front_odds = None
-        self.known_models = {}
-        self.right = self.alike[np.arange(len(self.truth)), self.truth]  # models x candidates
-        self.target = self.right / self.right.sum(1, keepdims=True)
-        counts = {g: sum(r["group"] == g for r in self.rows) for g in {r["group"] for r in self.rows}}
-        # A hundred airliners are not a hundred kinds of thing.
-        self.weight = np.array([1.0 if r["group"].startswith("catalogue") else min(1.0, 30 / counts[r["group"]])
-                                for r in self.rows])
-        self.catalogue = np.array([r["group"].startswith("catalogue") for r in self.rows])
-        self.fold = np.array([int(r["fold"]) % FOLDS for r in self.rows])
-
-    def left_out_scores(self, make, parts):
-        """Scores of each model by one fitted without the part it is in (NaN: it is in none)."""
-        scores = np.full(self.inputs.shape[:2], np.nan)
-        for part in parts:
-            scores[part] = self.fitted(make, ~part).scores(self.inputs[part])
-        return scores
-
-    def folds(self):
-        return [self.fold == fold for fold in range(FOLDS)]
-
-    def archives(self):
-        names = np.array([row["group"] for row in self.rows])
-        return [names == name for name in sorted(set(names[self.catalogue]))]
-
-    def fitted(self, make, mask):
-        if mask.tobytes() not in self.known_models:
-            self.known_models[mask.tobytes()] = self.newly_fitted(make, mask)
-        return self.known_models[mask.tobytes()]
-
-    def newly_fitted(self, make, mask):
-        inputs = np.concatenate([self.inputs[mask]] + [copy[mask] for copy in self.more])
-        count = len(self.more)
-        return make().fit(inputs, np.tile(self.target[mask], (1 + count, 1)),
-                          np.concatenate([self.weight[mask] / 2] + [self.weight[mask] / 2 / count] * count))
-
-    def conventions(self, witness, share):
-        """(convention's candidate, models that it has right, what it adds to the odds) of each convention."""
-        rows = np.arange(len(self.rows))
-        count = self.inputs.shape[1]
-        for usual in range(count):
-            if self.of_front:
-                yield usual, self.right[:, usual], witness * np.eye(count)[usual]
-                continue
-            for front in range(4):
-                facing = np.log(1 - share + share * 4 * self.front_odds[rows, usual, front])
-                yield (usual, (self.truth == usual) & (self.front == front),
-                       (witness + facing)[:, None] * np.eye(count)[usual])
-
-    def decided(self, scores, witness, threshold, share=0.0):
-        """For each convention: the models it has right, and the candidates taken."""
-        rows = np.arange(len(scores))
-        for usual, has_right, added in self.conventions(witness, share):
-            odds = softmax(scores + added)
-            if self.of_front:
-                odds = np.einsum("mab,mb->ma", self.alike, odds)
-            best = odds.argmax(1)
-            best = np.where(odds[:, usual] >= odds.max(1) - 1e-9, usual, best)
-            yield has_right, np.where(odds[rows, best] >= threshold, best, usual)
-
-    def rates(self, scores, witness, threshold, mask, share=0.0):
-        """Share right of models turned at random, and of those that the convention has right."""
-        turned, right_by_convention = [], []
-        rows = np.arange(len(scores))
-        for has_right, taken in self.decided(scores, witness, threshold, share):
-            ok = self.right[rows, taken]
-            turned.append(ok[mask])
-            right_by_convention.append(ok[mask & has_right])
-        kept = np.concatenate(right_by_convention)
-        return np.concatenate(turned).mean(), kept.mean() if len(kept) else 1.0
-
-    def choose_rule(self, scores, share, mask=None, harm=HARM):
-        """Witness and threshold that get the most turned models right at no more harm, and the rate."""
-        mask = self.catalogue if mask is None else mask
-        best = (-1.0, 8.0, 0.99)
-        for witness in np.arange(0.0, 5.01, 0.25):
-            for threshold in np.arange(0.3, 0.996, 0.06):
-                turned, kept = self.rates(scores, witness, threshold, mask, share)
-                if 1.0 - kept <= harm and turned > best[0] + 1e-12:
-                    best = (turned, float(witness), round(float(threshold), 2))
-        return best[1:] + best[:1]
-
-    def rule_left_out(self, scores, share):
-        """Turned right, and harm, by rules chosen on the catalogue's other folds."""
-        turned, harmed, count = 0.0, 0.0, 0
-        for part in self.folds():
-            witness, threshold, _ = self.choose_rule(scores, share, self.catalogue & ~part)
-            mask = self.catalogue & part
-            right, kept = self.rates(scores, witness, threshold, mask, share)
-            turned, harmed, count = turned + right * mask.sum(), harmed + (1 - kept) * mask.sum(), count + mask.sum()
-        return turned / count, harmed / count
-
-    def given_up(self, scores, witness, threshold, share, mask):
-        """Share with the right front of models turned at random whose up is given."""
-        rows = np.arange(len(scores))
-        # One in six has its format's up; y and z have a usual front then, too; four have none.
-        own = self.rates(scores, witness, threshold, mask, share)[0]
-        usual = self.rates(scores, np.log(3 * share / (1 - share)), 0.0, mask, share)[0]
-        alone = self.right[rows, np.einsum("mab,mb->ma", self.alike, softmax(scores)).argmax(1)][mask].mean()
-        return own / 6 + usual / 6 + 4 * alone / 6
-
-
-def front_odds(rows, make, task, parts):
+def front_odds(rows, make, task, parts, scale):
     """Odds of each front, for each up, by models fitted without the part: models x 6 x 4."""
     plain = np.array([[[f["values"] for f in fronts_of(row["features"], up)] for up in AXES] for row in rows])
     odds = np.full(plain.shape[:3], 0.25)
     known = np.array([bool(row["front"]) for row in rows])
     for part in parts:
         model = task.fitted(make, ~part[known])
-        odds[part] = softmax(model.scores(widened(plain[part].reshape(-1, 4, plain.shape[3])))).reshape(-1, 6, 4)
+        scores = scale * model.scores(widened(plain[part].reshape(-1, 4, plain.shape[3])))
+        odds[part] = softmax(scores).reshape(-1, 6, 4)
     return odds
 
 
 def describe(task, scores, witness, threshold, share):
-    every = np.ones(len(task.rows), bool)
-    plain = task.right[np.arange(len(task.rows)), scores.argmax(1)]
-    print(f"  the shape alone: catalogue {plain[task.catalogue].mean():.3f}, all {plain.mean():.3f}")
-    for name, mask in (("catalogue", task.catalogue), ("all", every)):
-        turned, kept = task.rates(scores, witness, threshold, mask, share)
-        print(f"  {name} ({mask.sum()}): turned {turned:.3f} right, harm {1 - kept:.4f}")
-        if task.of_front:
-            print(f"    if up is given: {task.given_up(scores, witness, threshold, share, mask):.3f}")
+    one = np.ones(len(task.rows))
+    plain = task.right[np.arange(len(task.rows)), scores.argmax(1)].astype(float)
+    turned, kept = task.outcomes(scores, witness, threshold, share)
+    rates = [("shape alone", plain), ("turned", turned), ("harm", 1 - kept)]
+    if task.of_front:
+        rates.append(("if up is given", task.given_up(scores, witness, threshold, share)))
+    for name, counts in (("catalogue", one * task.catalogue), ("all", one)):
+        print(f"  {name}: " + ", ".join(printed(what, values, counts, task.series) for what, values in rates))
     as_they_come(task, scores, witness, threshold, share)
-    turned, harm = task.rule_left_out(scores, share)
-    print(f"  rules chosen on the other folds: turned {turned:.3f} right, harm {harm:.4f}")
     for kind in sorted({row["kind"] for row in task.rows}):
         mask = np.array([row["kind"] == kind for row in task.rows])
-        turned, kept = task.rates(scores, witness, threshold, mask, share)
-        print(f"    {kind:20} {mask.sum():4}  shape alone {plain[mask].mean():.2f}  turned {turned:.2f}  "
-              f"right by convention {kept:.2f}")
+        print(f"    {kind:20} {mask.sum():4}  shape alone {plain[mask].mean():.2f}  turned {turned[mask].mean():.2f}  "
+              f"right by convention {mean(kept, one * mask):.2f}")
     confusion(task, scores)
 
 
@@ -313,11 +141,6 @@ def calibration(task, scores):
     return rows
 
 
-def trade(task, scores, share):
-    """(harm allowed, turned right) of the catalogue by the best rule for each."""
-    return [(harm, task.choose_rule(scores, share, harm=harm)[2]) for harm in (.005, .01, .02, .03, .05, .08, .12)]
-
-
 def draw(file, curves):
     """Calibration, and what is gained for harm, as an SVG of two diagrams."""
     colours = {"up": "#1f5fa8", "front": "#b5532a"}
@@ -353,6 +176,35 @@ MAKE = {"up": lambda: Boosting(rounds=100, leaves=8, rate=0.12, share=0.1, fewes
         "front": lambda: Boosting(rounds=100, leaves=6, rate=0.1, share=0.1, fewest=60)}
 
 
+def printed(name, values, counts, series):
+    low, high = interval(values, counts, series)
+    if np.isnan(low):
+        return f"{name} unknown"
+    return f"{name} {mean(values, counts):.3f} ({low:.3f} to {high:.3f})"
+
+
+def describe_archives(task, scores, rule, share, grid):
+    """What is said of archives that the fit knows nothing of."""
+    turned, kept = task.outcomes(scores, *rule, share)
+    right = task.right[np.arange(len(scores)), scores.argmax(1)].astype(float)
+    one = np.ones(len(scores))
+
+    def line(name, counts):
+        print(f"    {name:24} {int((counts > 0).sum()):4}  " + ", ".join(
+            printed(what, values, counts, task.series)
+            for what, values in (("shape alone", right), ("turned", turned), ("harm", 1 - kept))))
+
+    print("  archives left out whole (95 % intervals, series drawn)")
+    for part in task.archives():
+        line(task.rows[int(np.argmax(part))]["group"], one * part)
+    line("catalogue", one * task.catalogue)
+    line("catalogue, series as one", task.counts * task.catalogue)
+    line("all, as chosen on", task.counts)
+    turned, kept = task.rule_left_out(grid)
+    print("    rules chosen on the other archives: " + printed("turned", turned, task.counts, task.series) + ", "
+          + printed("harm", 1 - kept, task.counts, task.series))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
@@ -360,8 +212,10 @@ def main():
     parser.add_argument("-o", "--output", type=pathlib.Path)
     parser.add_argument("--cache", type=pathlib.Path, help="file that keeps the features")
     parser.add_argument("--figure", type=pathlib.Path, help="SVG of calibration and harm to write")
-    parser.add_argument("--archives", action="store_true", help="also leave out whole archives, one by one")
+    parser.add_argument("--keep-front", action="store_true", help="let the lines of the front in TABLE as they are")
     given = parser.parse_args()
+    kept = [line for line in given.output.read_text(encoding="utf-8").splitlines() if line.startswith("front ")] \
+        if given.keep_front else []
     rows = load(given.program, given.labels, given.cache)
     lines = ["# Which direction is up, and which the front: docs/orientation.md. Written by",
              "# scripts/fit_orientation.py. tree: FEATURE LIMIT BELOW ABOVE; leaves are added up."]
@@ -370,40 +224,43 @@ def main():
     print(f"of {len(scans)} scans with y up, {share:.2f} face z")
     tasks = {subject: Task(rows, subject == "front") for subject in ("front", "up")}
 
-    def left_out(parts_of):
-        """Left-out scores of both; those of up know the odds of the fronts."""
+    def left_out(parts_of, scales=None):
+        """Left-out scores of both, and their scales; those of up know the odds of the fronts."""
         scores = {s: task.left_out_scores(MAKE[s], parts_of(task)) for s, task in tasks.items()}
-        tasks["up"].front_odds = front_odds(tasks["up"].rows, MAKE["front"], tasks["front"], parts_of(tasks["up"]))
-        return scores
+        scales = scales or {s: 1.0 if s == "front" and kept else task.choose_scale(scores[s])
+                            for s, task in tasks.items()}
+        tasks["up"].front_odds = front_odds(tasks["up"].rows, MAKE["front"], tasks["front"], parts_of(tasks["up"]),
+                                            scales["front"])
+        return {s: scales[s] * scores[s] for s in tasks}, scales
 
-    curves = {}
-    left_out_scores = left_out(Task.folds)
-    rules = {}
+    curves, rules = {}, {}
+    scores, scales = left_out(Task.archives)
     for subject in ("up", "front"):
-        task, scores = tasks[subject], left_out_scores[subject]
-        witness, threshold, _ = rules[subject] = task.choose_rule(scores, share)
-        model = task.fitted(MAKE[subject], np.ones(len(task.rows), bool))
-        size = sum(numbers_in(tree) for tree in model.trees)
-        print(f"{subject}: {len(task.rows)} models, {size} numbers, witness {witness:g}, threshold {threshold:g}")
-        describe(task, scores, witness, threshold, share)
-        stated, gained = calibration(task, scores), trade(task, scores, share)
+        task = tasks[subject]
+        grid = task.grid(scores[subject], share)
+        witness, threshold, _ = task.choose_rule(grid)
+        rules[subject] = witness, threshold
+        print(f"{subject}: {len(task.rows)} models, scale {scales[subject]:g}, witness {witness:g}, "
+              f"threshold {threshold:g}")
+        describe_archives(task, scores[subject], rules[subject], share, grid)
+        stated = calibration(task, scores[subject])
+        gained = [(harm, task.choose_rule(grid, harm=harm)[2]) for harm in (.005, .01, .02, .03, .05, .08, .12)]
         curves[subject] = stated, gained
         print("  stated -> right (models): " + ", ".join(f"{x:.2f} -> {y:.2f} ({n})" for x, y, n in stated))
         print("  harm allowed -> turned right: " + ", ".join(f"{x:.3f} -> {y:.2f}" for x, y in gained))
+    scores, _ = left_out(Task.folds, scales)
+    for subject in ("up", "front"):
+        task = tasks[subject]
+        model = task.fitted(MAKE[subject], np.ones(len(task.rows), bool)).scaled(scales[subject])
+        print(f"{subject}, {sum(numbers_in(tree) for tree in model.trees)} numbers, in folds")
+        describe(task, scores[subject], *rules[subject], share)
+        if subject == "front" and kept:
+            lines += kept
+            continue
         names = rows[0]["features"][f"{subject}_features"]
-        lines += [f"{subject} witness {witness:g}", f"{subject} threshold {threshold:g}"]
+        lines += [f"{subject} witness {rules[subject][0]:g}", f"{subject} threshold {rules[subject][1]:g}"]
         lines += [f"{subject} share {share:g}"] if subject == "front" else []
         lines += [f"{subject} tree {text}" for text in model.text(names)]
-    if given.archives:
-        left_out_scores = left_out(Task.archives)
-        for subject in ("up", "front"):
-            task, scores = tasks[subject], left_out_scores[subject]
-            for part in [*task.archives(), task.catalogue]:
-                right = task.right[part, scores[part].argmax(1)].mean()
-                turned, kept = task.rates(np.nan_to_num(scores), *rules[subject][:2], part, share)
-                name = task.rows[int(np.argmax(part))]["group"] if not (part == task.catalogue).all() else "each"
-                print(f"  {subject}, left out whole: {name} ({part.sum()}): "
-                      f"shape alone {right:.3f}, turned {turned:.3f}, harm {1 - kept:.4f}")
     if given.figure:
         draw(given.figure, curves)
     if given.output:

@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: MIT
 """Makes the models and labels that fit_orientation.py reads, from unpacked Debian packages (numpy).
 
-    apt-get download sweethome3d-furniture sweethome3d flightgear-data-ai torcs-data 0ad-data megaglest-data
+    apt-get download sweethome3d-furniture sweethome3d flightgear-data-ai torcs-data 0ad-data megaglest-data \
+        ufoai-data supertuxkart-data
     for p in *.deb; do dpkg -x $p packages; done
     scripts/orientation_data.py packages OUT [--listed views.csv] [--scans FOLDER] > labels.csv
 
 Catalogue entries have y up and +z in front after their model_rotation; aircraft of FlightGear y up and the
 nose at -x, cars of TORCS y up and +x in front (AC3D files);
-creatures of 0 A.D. y up and -z in front, units of MegaGlest y up. --listed names the entries of the archives that
+creatures of 0 A.D. y up and -z in front, units of MegaGlest y up; what UFO: Alien Invasion and SuperTuxKart
+have is in game_models.py. --listed names the entries of the archives that
 may be used (columns archive, model); without it all are. --scans is a folder with the files that
 scripts/orientation_labels.csv says up and front of. Of catalogue models there are two copies each, stretched
 along the axes, to learn from (column copy_of). Nothing of these models becomes part of the project.
@@ -23,6 +25,8 @@ import zipfile
 import zlib
 
 import numpy as np
+
+from game_models import games
 
 STRETCH = 0.2  # of the copies of catalogue models: standard deviation of each axis' log
 
@@ -209,15 +213,15 @@ def main():
     labels = csv.writer(sys.stdout)
     labels.writerow(["file", "group", "kind", "up", "front", "fold", "copy_of"])
 
-    def row(file, stem, group, kind, up, front, copy_of=""):
+    def row(file, stem, group, kind, up, front, copy_of="", series=None):
         # Models of one series (bed1, bed2) are left out together.
-        labels.writerow([file, group, kind, up, front, zlib.crc32(stem.rstrip("0123456789-_").encode()) % 5,
-                         copy_of])
+        series = series or stem.rstrip("0123456789-_")
+        labels.writerow([file, group, kind, up, front, zlib.crc32(series.encode()) % 5, copy_of])
 
-    def put(stem, group, kind, up, front, shape):
+    def put(stem, group, kind, up, front, shape, series=None):
         file = given.out / f"{stem}.obj"
         shape.write(file)
-        row(file, stem, group, kind, up, front)
+        row(file, stem, group, kind, up, front, series=series)
         if group.startswith("catalogue"):  # more of what there is too little of
             random = np.random.default_rng(zlib.crc32(stem.encode()))
             for number in (1, 2):
@@ -256,6 +260,11 @@ def main():
         if len(shape.faces) >= 60 and bytes_of_it not in known:
             known.add(bytes_of_it)
             put(f"{group}__{stem}", group, kind, "y", front, shape)
+    for stem, series, group, kind, up, front, shape in games(given.packages):
+        bytes_of_it = zlib.crc32(np.asarray(shape[0]).tobytes())
+        if bytes_of_it not in known:
+            known.add(bytes_of_it)
+            put(f"{group}__{stem}", group, kind, up, front, Shape(*shape), series)
     if given.scans:
         table = pathlib.Path(__file__).with_name("orientation_labels.csv")
         for entry in csv.DictReader(table.open(encoding="utf-8")):

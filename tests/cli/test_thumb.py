@@ -97,7 +97,7 @@ class Thumb(ProgramTest):
             self.assertGreater(sum(a > 128 for row in rows for a in row[3::4]), 200, name)
 
     def test_json_says_from_where(self):
-        done = self.vantage("thumb", FAN, "fan.png", "--json")
+        done = self.vantage("thumb", FAN, "fan.png", "--json", "--up", "z")
         said = json.loads(done.out)
         self.assertAlmostEqual(sum(x * x for x in said["direction"]), 1.0, 9)
         self.assertEqual((said["size"], said["up"]), (256, "z"))
