@@ -4,7 +4,7 @@
 #
 #   scripts/fuzz.sh SECONDS [TARGET…]     each target (default: all) for so many seconds
 #   scripts/fuzz.sh --spread SECONDS [TARGET…]  so many seconds in all: a turn each, then mostly to the target whose last
-#                                         turn found most that is new in a second; the table holds all such runs so far
+#                                         turn found most new edges in a second; the table holds all such runs so far
 #   scripts/fuzz.sh --minimise [TARGET…]  then: the fewest small inputs that reach the same code, into fuzz/corpus/
 #
 # Seeds are fuzz/corpus/TARGET/ and, where VANTAGE_DATA names a folder of models, its small files. What is learnt stays
@@ -27,7 +27,7 @@ if [[ $what == --spread ]]; then
   spread_seconds=$1
   shift
 fi
-turn_seconds=30      # of a target, of those that are spread
+turn_seconds=120     # of a target, of those that are spread: what is learnt is run first
 
 build=build/fuzz
 if [[ ${FUZZ_BUILD:-yes} == yes ]]; then
@@ -105,26 +105,25 @@ print_head() {
 
 print_row() { printf '| %-14s | %10s | %8s | %8s | %6s | %8s |\n' "$@"; }
 
-# One more turn of a target, added to build/fuzz/totals/TARGET: executions, seconds, edges, inputs, findings, and what
-# the turn found that is new in a thousand seconds.
+# One more turn of a target, added to build/fuzz/totals/TARGET: executions, seconds, edges, inputs, findings, and the
+# edges that the turn found new in a thousand seconds.
 take_turn() {
-  local target=$1 total=$build/totals/$1 started=$SECONDS before all=(0 0 0 0 0 0)
+  local target=$1 total=$build/totals/$1 started=$SECONDS all=(0 0 0 0 0 0)
   [[ ! -f $total ]] || read -r -a all <"$total"
-  mkdir -p "$build/learnt/$target"
-  before=$(find "$build/learnt/$target" -type f | wc -l)
   run_target "$target" $turn_seconds
   local took=$((SECONDS - started > 0 ? SECONDS - started : 1))
-  echo "$((all[0] + ${executions:-0})) $((all[1] + took)) ${edges:-${all[2]}} $inputs $found" \
-    "$(((inputs - before) * 1000 / took))" >"$total"
+  edges=${edges:-${all[2]}}
+  echo "$((all[0] + ${executions:-0})) $((all[1] + took)) $edges $inputs $found" \
+    "$(((edges - all[2]) * 1000 / took))" >"$total"
 }
 
-# Three turns of four go where most was new, the fourth to the target that had least time.
+# Three turns of four go where most was new, the fourth, and all where nothing was, to the target that had least time.
 next_target() {
-  local column=$(($1 % 4 == 3 ? 2 : 6)) order=-gr
-  ((column == 6)) || order=-g
+  local order=('-k7,7gr' '-k3,3g')
+  (($1 % 4 < 3)) || order=('-k3,3g')
   for target in "${targets[@]}"; do
-    echo "$target $(cut -d' ' -f$column "$build/totals/$target")"
-  done | sort -k2,2 $order | awk 'NR == 1 {print $1}'
+    echo "$target $(<"$build/totals/$target")"
+  done | sort "${order[@]}" | awk 'NR == 1 {print $1}'
 }
 
 if [[ $what == --spread ]]; then
