@@ -11,8 +11,9 @@ ctest --test-dir build/asan -j "$(nproc)" --output-on-failure
 scripts/fuzz.sh "$seconds"
 if [[ -n ${VANTAGE_DATA:-} ]]; then
   scripts/check_hostile.py "$VANTAGE_DATA" --command info --most-bytes 200
-  scripts/check_hostile.py "$VANTAGE_DATA" --command view --program build/asan/apps/vantage/vantage --seconds 600
+  scripts/check_hostile.py "$VANTAGE_DATA" --command all --program build/asan/apps/vantage/vantage --seconds 600
 fi
+scripts/check_threads.sh
 scripts/check_symbols.sh  # of the build with the preset release
 scripts/check_without_npm.sh
 scripts/build_docs.sh

@@ -3,6 +3,8 @@
 # Runs the fuzzers, one after the other, and prints a table of what they did.
 #
 #   scripts/fuzz.sh SECONDS [TARGET…]     each target (default: all) for so many seconds
+#   scripts/fuzz.sh --spread SECONDS [TARGET…]  so many seconds in all: a turn each, then mostly to the target whose last
+#                                         turn found most new edges in a second; the table holds all such runs so far
 #   scripts/fuzz.sh --minimise [TARGET…]  then: the fewest small inputs that reach the same code, into fuzz/corpus/
 #
 # Seeds are fuzz/corpus/TARGET/ and, where VANTAGE_DATA names a folder of models, its small files. What is learnt stays
@@ -15,11 +17,17 @@ seed_bytes=20000     # larger seeds are slow to mutate
 corpus_files=60      # of each target, at most, when minimising
 corpus_bytes=4000    # of each of them
 
-usage() { sed -n '3,11p' "$0" | sed 's/^# \{0,1\}//'; exit 2; }
+usage() { sed -n '3,13p' "$0" | sed 's/^# \{0,1\}//'; exit 2; }
 (($# > 0)) || usage
 what=$1
 shift
-[[ $what == --minimise || $what =~ ^[0-9]+$ ]] || usage
+[[ $what == --minimise || $what == --spread || $what =~ ^[0-9]+$ ]] || usage
+if [[ $what == --spread ]]; then
+  [[ ${1:-} =~ ^[0-9]+$ ]] || usage
+  spread_seconds=$1
+  shift
+fi
+turn_seconds=120     # of a target, of those that are spread: what is learnt is run first
 
 build=build/fuzz
 if [[ ${FUZZ_BUILD:-yes} == yes ]]; then
@@ -44,7 +52,7 @@ seed_from_data() {
   case $target in
     picture) ending='png -o -iname *.jpg -o -iname *.webp' ;;
     packed) ending='drc' ;;
-    archive | camera | csv | dataset | manifest | pipeline | prior | record | settings | site | threemf_xml) return 0 ;;
+    built_* | view_* | archive | camera | csv | dataset | manifest | pipeline | prior | record | settings | site | threemf_xml) return 0 ;;
   esac
   set -f  # the pattern is for find
   local words=()
@@ -75,25 +83,73 @@ if [[ $what == --minimise ]]; then
   exit 0
 fi
 
-printf '| %-11s | %10s | %8s | %8s | %6s | %8s |\n' target executions seconds edges inputs findings
-printf '| %-11s | %10s | %8s | %8s | %6s | %8s |\n' --- ---: ---: ---: ---: ---:
-broken=0
-for target in "${targets[@]}"; do
-  learnt=$build/learnt/$target
-  log=$build/found/$target.log
+# Runs a target and sets executions, edges, inputs and found.
+run_target() {
+  local target=$1 seconds=$2 learnt=$build/learnt/$1 log=$build/found/$1.log
   mkdir -p "$learnt" "fuzz/corpus/$target"
   seed_from_data "$target"
-  seeds=("fuzz/corpus/$target")
+  local seeds=("fuzz/corpus/$target")
   [[ -d $build/seeds/$target ]] && seeds+=("$build/seeds/$target")
-  rm -f "$build/found/$target"-*
-  started=$SECONDS
-  nice "$build/fuzz/${target}_fuzz" -max_total_time="$what" -timeout=120 -rss_limit_mb=3000 -max_len=$seed_bytes \
-    -print_final_stats=1 -artifact_prefix="$build/found/$target-" "$learnt" "${seeds[@]}" >"$log" 2>&1 || true
+  nice "$build/fuzz/${target}_fuzz" -max_total_time="$seconds" -timeout=120 -rss_limit_mb=3000 -max_len=$seed_bytes \
+    -print_final_stats=1 -print_funcs=0 -artifact_prefix="$build/found/$target-" "$learnt" "${seeds[@]}" >"$log" 2>&1 || true
   found=$(find $build/found -name "$target-*" | wc -l)
   executions=$(awk '/number_of_executed_units/ {print $2}' "$log")
   edges=$(grep -o 'cov: [0-9]*' "$log" | tail -1 | cut -c6- || true)
-  printf '| %-11s | %10s | %8d | %8s | %6d | %8d |\n' "$target" "${executions:-?}" $((SECONDS - started)) \
-    "${edges:-?}" "$(find "$learnt" -type f | wc -l)" "$found"
+  inputs=$(find "$learnt" -type f | wc -l)
+}
+
+print_head() {
+  printf '| %-14s | %10s | %8s | %8s | %6s | %8s |\n' target executions seconds edges inputs findings
+  printf '| %-14s | %10s | %8s | %8s | %6s | %8s |\n' --- ---: ---: ---: ---: ---:
+}
+
+print_row() { printf '| %-14s | %10s | %8s | %8s | %6s | %8s |\n' "$@"; }
+
+# One more turn of a target, added to build/fuzz/totals/TARGET: executions, seconds, edges, inputs, findings, and the
+# edges that the turn found new in a thousand seconds.
+take_turn() {
+  local target=$1 total=$build/totals/$1 started=$SECONDS all=(0 0 0 0 0 0)
+  [[ ! -f $total ]] || read -r -a all <"$total"
+  run_target "$target" $turn_seconds
+  local took=$((SECONDS - started > 0 ? SECONDS - started : 1))
+  edges=${edges:-${all[2]}}
+  echo "$((all[0] + ${executions:-0})) $((all[1] + took)) $edges $inputs $found" \
+    "$(((edges - all[2]) * 1000 / took))" >"$total"
+}
+
+# Three turns of four go where most was new, the fourth, and all where nothing was, to the target that had least time.
+next_target() {
+  local order=('-k7,7gr' '-k3,3g')
+  (($1 % 4 < 3)) || order=('-k3,3g')
+  for target in "${targets[@]}"; do
+    echo "$target $(<"$build/totals/$target")"
+  done | sort "${order[@]}" | awk 'NR == 1 {print $1}'
+}
+
+if [[ $what == --spread ]]; then
+  mkdir -p $build/totals
+  for target in "${targets[@]}"; do
+    [[ -f $build/totals/$target ]] || take_turn "$target"
+  done
+  for ((turn = 0; SECONDS < spread_seconds; ++turn)); do
+    take_turn "$(next_target $turn)"
+  done
+  print_head
+  for target in "${targets[@]}"; do
+    read -r -a all <"$build/totals/$target"
+    print_row "$target" "${all[@]:0:5}"
+  done
+  [[ -z $(find $build/found -type f ! -name '*.log') ]]
+  exit
+fi
+
+print_head
+broken=0
+for target in "${targets[@]}"; do
+  rm -f "$build/found/$target"-*
+  started=$SECONDS
+  run_target "$target" "$what"
+  print_row "$target" "${executions:-?}" $((SECONDS - started)) "${edges:-?}" "$inputs" "$found"
   ((found == 0)) || broken=1
 done
 exit $broken

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Lets every call of `view`, `batch`, a shard and the merge that writes fail in turn, or kills the process
+"""Lets every call of `view`, `batch`, a shard, the merge and `serve` that writes fail in turn, or kills the process
 there, and finishes each run afterwards: what was injected, what came of it, and whether the end was that of an
 undisturbed run. Markdown on stdout; exit code 1 if anything was not.
 

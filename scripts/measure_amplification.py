@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What small files that repeat what they hold cost: for each format one that shows as many faces or points as is
-read, its size, what `info` and `view --no-images` say, processor seconds and peak memory. Markdown on stdout.
+"""What small files that repeat what they hold cost: for each format those that show as many faces or points as are
+read, their size, what `info` and `view --no-images` say, processor seconds and peak memory, also for each face (or
+point, where there are none). Markdown on stdout.
 
     scripts/measure_amplification.py build/release/apps/vantage/vantage [--view] [--only NAME]
 """
@@ -49,6 +50,33 @@ def gltf(side, nodes, primitives):
                      + base64.b64encode(data).decode()}]}).encode()
 
 
+def glb(document, data):
+    """A document without its buffers, and the bytes of the only one."""
+    text = json.dumps(document | {"asset": {"version": "2.0"}, "buffers": [{"byteLength": len(data)}]}).encode()
+    text += b" " * (-len(text) % 4)
+    data += bytes(-len(data) % 4)
+    return (struct.pack("<4s2I", b"glTF", 2, 28 + len(text) + len(data)) + struct.pack("<I4s", len(text), b"JSON") + text
+            + struct.pack("<I4s", len(data), b"BIN\0") + data)
+
+
+def glb_of_nodes(side, nodes):
+    document = json.loads(gltf(side, nodes, 1))
+    data = base64.b64decode(document.pop("buffers")[0]["uri"].split(",")[1])
+    return glb(document, data)
+
+
+def glb_of_indices(indices, mode, has_data):
+    """A strip or fan over 200 places, an index a byte, or as an accessor that has no bytes at all."""
+    places = b"".join(struct.pack("<3f", i % 17, i // 17, i % 5) for i in range(200))
+    names = bytes(i * 7 % 200 for i in range(indices)) if has_data else b""
+    accessor = {"componentType": 5121, "count": indices, "type": "SCALAR"} | ({"bufferView": 1} if has_data else {})
+    views = [{"buffer": 0, "byteLength": len(places)}, {"buffer": 0, "byteOffset": len(places), "byteLength": len(names)}]
+    return glb({"nodes": [{"mesh": 0}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "mode": mode}]}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": 200, "type": "VEC3"}, accessor],
+                "bufferViews": views[:1 + has_data]}, places + names)
+
+
 def threemf(path, side, items, levels):
     points, faces = grid(side)
     mesh = "".join(f'<vertex x="{x:.4g}" y="{y:.4g}" z="{z:.4g}"/>' for x, y, z in points)
@@ -90,6 +118,11 @@ def files(folder):
     yield "glTF, more nodes than allowed", lambda: written("many.gltf", gltf(30, 5000, 1))
     yield "glTF, primitives of one accessor", lambda: written("primitives.gltf", gltf(10, 1, 1300))
 
+    yield "GLB, nodes of one mesh", lambda: written("nodes.glb", glb_of_nodes(10, 1300))
+    yield "GLB, strip of indices of a byte", lambda: written("strip.glb", glb_of_indices(100_000, 5, True))
+    yield "GLB, fan of indices of a byte", lambda: written("fan.glb", glb_of_indices(100_000, 6, True))
+    yield "GLB, indices without bytes", lambda: written("absent.glb", glb_of_indices(900_000, 4, False))
+
     def made(name, *arguments):
         threemf(folder / name, *arguments)
         return folder / name
@@ -106,6 +139,18 @@ def files(folder):
         b"element face 2000\nproperty list uchar ushort vertex_indices\nend_header\n"
         + b"".join(struct.pack("<3f", i % 17, i // 17, i % 5) for i in range(300))
         + b"".join(b"\xff" + struct.pack("<255H", *((j + i) % 300 for j in range(255))) for i in range(2000))))
+    facet = struct.pack("<12fH", *range(12), 0)
+    yield "STL, one facet 20 000 times", lambda: written("facets.stl", bytes(80) + struct.pack("<I", 20_000) + facet * 20_000)
+    yield "STL, text, facets of a few places", lambda: written("text.stl", "solid\n" + "".join(
+        "facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {i * k % 9} {i * k % 7} {i * k % 5}\n" for k in (1, 2, 3))
+        + "endloop\nendfacet\n" for i in range(10_000)) + "endsolid\n")
+    yield "OFF, 100 000 faces of 9 places", lambda: written("faces.off", "OFF\n9 100000 0\n" + "".join(
+        f"{i % 3} {i // 3} {i % 2}\n" for i in range(9)) + "".join(f"3 {i % 9} {i * 2 % 9} {i * 5 % 9}\n" for i in range(100_000)))
+    yield "OFF, one face of 100 000 corners", lambda: written("polygon.off", "OFF\n9 1 0\n" + "".join(
+        f"{i % 3} {i // 3} {i % 2}\n" for i in range(9)) + "100000" + "".join(f" {i % 9}" for i in range(100_000)) + "\n")
+    for ending, head in (("xyz", ""), ("pts", "200000\n")):
+        yield f"{ending.upper()}, 200 000 points in nine places", lambda ending=ending, head=head: written(
+            f"points.{ending}", head + "".join(f"{i % 3} {i % 9 // 3} 0\n" for i in range(200_000)))
     packed = lzf_of_zeros(12 * 1_000_000)
     yield "PCD, packed zeros", lambda: written("zeros.pcd", (
         b"VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1000000\nHEIGHT 1\n"
@@ -120,13 +165,21 @@ def limit():
 
 
 def run(program, command, path, out):
-    """Exit code and resources of one run."""
+    """Exit code, resources and output of one run."""
     flags = ["--no-images", "-o", str(out), "-q"] if command == "view" else ["--json"]
-    process = subprocess.Popen([program, command, str(path), *flags], stdout=subprocess.DEVNULL,
-                               stderr=subprocess.DEVNULL, preexec_fn=limit)
-    _, status, used = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    return process.returncode, used
+    with tempfile.TemporaryFile() as said:
+        process = subprocess.Popen([program, command, str(path), *flags], stdout=said, stderr=subprocess.DEVNULL,
+                                   preexec_fn=limit)
+        _, status, used = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        said.seek(0)
+        return process.returncode, used, said.read()
+
+
+def shown_in(info):
+    """Faces, or points where there are none."""
+    told = json.loads(info) if info else {}
+    return told.get("faces") or told.get("vertices") or 0
 
 
 def main():
@@ -135,17 +188,22 @@ def main():
     parser.add_argument("--view", action="store_true")
     parser.add_argument("--only", default="")
     arguments = parser.parse_args()
-    print("| file | size, kB | command | exit | processor, s | peak, MB | kB a byte |\n| --- | --- | --- | --- | --- | --- | --- |")
+    print("| file | size, kB | faces | command | exit | processor, s | µs a face | peak, MB | kB a byte |\n"
+          "| --- | ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: |")
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         for title, make in files(folder):
             if arguments.only not in title:
                 continue
             path = make()
+            faces = 0
             for command in ("info", "view") if arguments.view else ("info",):
-                code, used = run(arguments.program, command, path, folder / "out")
+                code, used, said = run(arguments.program, command, path, folder / "out")
+                faces = shown_in(said) if command == "info" else faces
                 size = path.stat().st_size
-                print(f"| {title} | {size / 1000:.1f} | {command} | {code} | {used.ru_utime + used.ru_stime:.1f} | "
+                seconds = used.ru_utime + used.ru_stime
+                each = f"{1e6 * seconds / faces:.1f}" if faces else "–"
+                print(f"| {title} | {size / 1000:.1f} | {faces or '–'} | {command} | {code} | {seconds:.1f} | {each} | "
                       f"{used.ru_maxrss / 1000:.0f} | {used.ru_maxrss * 1.024 / size:.2f} |", flush=True)
 
 

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "contraction/step_limits.h"
+#include "mesh/place_order.h"
 
 namespace vantage {
 namespace {
@@ -25,21 +28,31 @@ constexpr double kThin = 0.3;
 constexpr double kKept = 0.7;
 constexpr std::size_t kSamples = 32;
 
-/// Vertices each of which is as far as can be from those before it, beginning far from `centre`.
+/// Vertices each of which is as far as can be from those before it, beginning far from `centre`. Of those as
+/// far, the order of places decides, not of numbers: other samples may tell otherwise whether a step is kept.
 std::vector<Sample> farthest_points(const std::vector<Vec3>& points, const Vec3& centre) {
+  const PlaceOrder order(points);
   std::vector<double> distance(points.size());
+  std::vector<std::uint32_t> place(points.size());
   for (std::size_t v = 0; v < points.size(); ++v) {
-    distance[v] = (points[v] - centre).squaredNorm();
+    distance[v] = (points[v] - centre).norm();
+    place[v] = order.place(points[v], points[v]);
   }
   std::vector<Sample> chosen;
   while (chosen.size() < std::min(kSamples, points.size())) {
-    const auto far = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) -
-                                              distance.begin());
+    std::size_t far = 0;
+    std::pair<std::uint32_t, std::uint32_t> farthest{order.steps(distance[0]), place[0]};
+    for (std::size_t v = 1; v < points.size(); ++v) {
+      const std::pair candidate{order.steps(distance[v]), place[v]};
+      if (candidate > farthest) {
+        far = v;
+        farthest = candidate;
+      }
+    }
     const bool first = chosen.empty();
-    chosen.push_back(
-        {far, first ? std::numeric_limits<double>::infinity() : std::sqrt(distance[far])});
+    chosen.push_back({far, first ? std::numeric_limits<double>::infinity() : distance[far]});
     for (std::size_t v = 0; v < points.size(); ++v) {
-      const double d = (points[v] - points[far]).squaredNorm();
+      const double d = (points[v] - points[far]).norm();
       distance[v] = first ? d : std::min(distance[v], d);
     }
   }

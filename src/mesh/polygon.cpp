@@ -238,13 +238,13 @@ class EarClipper {
     // Enough for any real polygon; what is left of a hopeless one is fanned.
     constexpr std::size_t kLeastWork = 20'000'000;
     constexpr std::size_t kWorkPerCorner = 400;
-    const std::size_t budget = std::max(kLeastWork, kWorkPerCorner * points_.size());
+    budget_ = std::max(kLeastWork, kWorkPerCorner * points_.size());
 
     remaining_ = points_.size();
     waiting_.assign(points_.size(), true);
     gone_.assign(points_.size(), false);
     bool all_tried = true;  // the candidates are all corners of the ring
-    while (remaining_ > 3 && work_ < budget) {
+    while (remaining_ > 3 && work_ < budget_) {
       const std::size_t before = remaining_;
       std::vector<std::uint32_t> changed = clip_round(candidates, grid, triangles);
       if (changed.empty() && all_tried && remaining_ == before) {
@@ -299,7 +299,9 @@ class EarClipper {
     std::vector<std::uint32_t> changed;
     for (const std::uint32_t i : candidates) {
       ++work_;
-      if (remaining_ > 3 && !gone_[i] && !waiting_[i] && is_ear(i, grid, work_)) {
+      // A cell may hold all corners, where few places repeat: a round alone can be too much.
+      if (work_ < budget_ && remaining_ > 3 && !gone_[i] && !waiting_[i] &&
+          is_ear(i, grid, work_)) {
         cut_off(i, triangles, changed);
       }
     }
@@ -364,6 +366,7 @@ class EarClipper {
   std::vector<bool> gone_{};     ///< No longer in the ring.
   std::size_t remaining_ = 0;    ///< Corners in the ring.
   std::size_t work_ = 0;         ///< Cells, members and candidates looked at.
+  std::size_t budget_ = 0;       ///< Most work; what is left then is fanned.
 };
 
 /// The corners in the plane across `normal`, counter-clockwise, around the first one.

@@ -180,10 +180,11 @@ std::string size_text(const ViewOptions& options) {
 
 void set_prior(ViewOptions& options, std::string_view text) {
   const std::string name(text);
-  options.objective = name == kPeople ? Objective::People : Objective::Significance;
+  // First what may fail: a refused option changes nothing.
   options.prior = name == kPeople || name == "none" ? no_prior()
                   : name == "upright"               ? upright_prior()
                                                     : parse_prior(read_file(name), name);
+  options.objective = name == kPeople ? Objective::People : Objective::Significance;
 }
 
 std::string prior_text(const ViewOptions& options) {

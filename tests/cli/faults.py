@@ -6,11 +6,16 @@ names the shim.
 """
 
 import collections
+import http.client
 import json
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
+import urllib.error
+import urllib.parse
+import urllib.request
 
 PROGRAM = os.environ.get("VANTAGE", "")
 SHIM = os.environ.get("VANTAGE_FAULT_SHIM", "")
@@ -65,14 +70,17 @@ class Job:
     def check_disturbed(self, out, whole):
         """What must hold right after the fault."""
 
-    def run(self, out, **faults):
+    def environment(self, faults):
         environment = dict(os.environ)
         if faults:
             environment["LD_PRELOAD"] = SHIM
             environment.update({f"FAULT_{name.upper()}": str(value) for name, value in faults.items()})
             if self.faults_in:
                 environment["FAULT_IN"] = self.faults_in
-        return subprocess.run([PROGRAM, *self.words(out)], cwd=self.scratch, env=environment, check=False,
+        return environment
+
+    def run(self, out, **faults):
+        return subprocess.run([PROGRAM, *self.words(out)], cwd=self.scratch, env=self.environment(faults), check=False,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=300)
 
     def undisturbed(self):
@@ -242,4 +250,53 @@ class Merge(Batch):
         return {name: content for name, content in super().answer(out).items() if not name.startswith("shards/")}
 
 
-JOBS = (View, ViewOver, BatchParent, BatchWorker, Shard, Merge)
+class Serve(Batch):
+    """A server of the folder of a batch, asked for its first page and for each file, and ended."""
+
+    name = "serve"
+    failures = (1, 3)  # the store is its input, too
+
+    def __init__(self, scratch):
+        super().__init__(scratch)
+        self.pages = {}
+
+    def prepare(self, out):
+        before = self.scratch / "served-before"
+        if not before.exists():
+            subprocess.run([PROGRAM, *Batch.words(self, before)], cwd=self.scratch, check=False)
+        shutil.copytree(before, out)
+
+    def run(self, out, **faults):
+        words = [PROGRAM, "serve", str(out), "-q"]
+        server = subprocess.Popen(words, cwd=self.scratch, env=self.environment(faults), stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE)
+        self.pages = self.ask(server.stdout.readline().decode().strip(), out)
+        server.send_signal(signal.SIGINT)
+        stdout, stderr = server.communicate(timeout=60)
+        return subprocess.CompletedProcess(words, server.returncode, stdout, stderr)
+
+    @staticmethod
+    def ask(address, out):
+        """What the server answers to each path; nothing where it does not answer."""
+        pages = {}
+        for path in ["", "absent", *sorted(files_of(pathlib.Path(out) / "models"))] if address else []:
+            path = f"models/{path}" if path not in ("", "absent") else path
+            try:
+                with urllib.request.urlopen(address + urllib.parse.quote(path), timeout=60) as answer:
+                    pages[f"page {path}"] = answer.read()
+            except urllib.error.HTTPError as error:
+                pages[f"page {path}"] = error.code
+            except (OSError, http.client.HTTPException):
+                continue
+        return pages
+
+    def answer(self, out):
+        return {**super().answer(out), **self.pages}
+
+    def check_disturbed(self, out, whole):
+        super().check_disturbed(out, whole)
+        for page, content in self.pages.items():
+            require(content == whole[page] or content in (500, 503), f"{out}: {page} is answered wrongly")
+
+
+JOBS = (View, ViewOver, BatchParent, BatchWorker, Shard, Merge, Serve)

@@ -63,6 +63,9 @@ class Faults(ProgramTest):
     def test_merges(self):
         self.check(faults.Merge, ("ENOSPC", "EIO", "KILL"))
 
+    def test_servers(self):
+        self.check(faults.Serve, ("EDQUOT", "EIO", "KILL"))
+
     def test_a_server_whose_disk_takes_nothing_serves(self):
         self.vantage("batch", "m0.off", "-o", "out", "--search", "rapid", "--size", "48", "-q")
         before = faults.files_of(self.dir / "out")

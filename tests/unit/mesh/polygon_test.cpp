@@ -2,6 +2,8 @@
 #include "mesh/polygon.h"
 
 #include <cmath>
+#include <cstddef>
+#include <ctime>
 #include <numbers>
 #include <numeric>
 
@@ -173,6 +175,19 @@ TEST(TriangulatePolygon, CoversARaggedPolygonOfAHundredThousandCorners) {
   const std::vector<Vec3> points = ragged(100'000, 9);
   const TriMesh mesh = triangulated(points);
   EXPECT_NEAR(surface_area(mesh), shoelace(points), 1e-9);
+}
+
+TEST(TriangulatePolygon, EndsSoonWhereItsCornersStandInNinePlaces) {
+  constexpr int kCorners = 200'000;
+  std::vector<Vec3> points;
+  points.reserve(kCorners);
+  for (int i = 0; i < kCorners; ++i) {
+    points.emplace_back(i % 3, i % 9 / 3, i % 9 % 2);
+  }
+  const std::clock_t begin = std::clock();
+  EXPECT_EQ(triangulated(points).triangles.size(), std::size_t{kCorners} - 2);
+  constexpr double kMostSeconds = 12.0;  // 0.4, and 16 where the work of a round was not bounded
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, kMostSeconds);
 }
 
 }  // namespace

@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Builds oneTBB from Debian's source with the thread sanitizer, and the program with both, and runs commands over models
+# with as many threads as there are cores, at least four.
+#
+#   scripts/check_threads.sh [MODEL…]     default: models/*
+#
+# Without a oneTBB of its own the sanitizer does not see how its tasks wait for each other, and reports races that are
+# none. Embree is the distribution's, not instrumented; its tasks run in that oneTBB. Needs dpkg-dev and the network.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+folder=$PWD/build/tsan-tbb
+
+if [[ ! -d $folder/installed ]]; then
+  mkdir -p "$folder/lists/partial" "$folder/cache/archives/partial"
+  echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian bookworm main" \
+    >"$folder/sources.list"
+  apt=(-o Dir::Etc::sourcelist="$folder/sources.list" -o Dir::Etc::sourceparts=- -o Dir::State::lists="$folder/lists"
+    -o Dir::Cache="$folder/cache" -o APT::Sandbox::User=root)
+  apt-get "${apt[@]}" update -qq
+  (cd "$folder" && apt-get "${apt[@]}" source -qq --download-only onetbb && tar xf onetbb_*.orig.tar.xz)
+  cmake -S "$folder"/oneTBB-* -B "$folder/build" -G Ninja -DTBB_SANITIZE=thread -DTBB_TEST=OFF -DTBB_STRICT=OFF \
+    -DTBBMALLOC_BUILD=OFF -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_INSTALL_PREFIX="$folder/installed" >/dev/null
+  nice cmake --build "$folder/build" --target install >/dev/null
+fi
+cmake --preset tsan -DTBB_DIR="$folder/installed/lib/cmake/TBB" >/dev/null
+nice cmake --build build/tsan --target vantage_program >/dev/null
+
+models=("$@")
+((${#models[@]} > 0)) || models=(models/*.ply models/*.obj models/*.off)
+threads=$(($(nproc) > 4 ? $(nproc) : 4))
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+export LD_LIBRARY_PATH=$folder/installed/lib
+export TSAN_OPTIONS="halt_on_error=0 exitcode=66 log_path=$out/report suppressions=$PWD/scripts/tsan_suppressions.txt"
+runs=0
+for model in "${models[@]}"; do
+  [[ -f $model ]] || continue
+  for words in "info --json" "view -o $out/view --force -q" "map -o $out/map.ply --force -q" \
+    "skeleton -o $out/graph.obj --force -q" "thumb -o $out/thumb.png --force -q" "compare -o $out/compare --force -q"; do
+    read -r -a command <<<"$words"
+    code=0
+    build/tsan/apps/vantage/vantage "${command[0]}" "$model" "${command[@]:1}" --threads "$threads" >/dev/null || code=$?
+    ((runs += 1))
+    ((code == 0 || code == 66)) || echo "${command[0]} $model: exit code $code"
+  done
+done
+races=$(cat "$out"/report* 2>/dev/null | grep -c "WARNING: ThreadSanitizer" || true)
+echo "$runs runs with $threads threads, $races reports"
+[[ -z $(ls "$out"/report* 2>/dev/null) ]] || cat "$out"/report* | head -200
+((races == 0))
