@@ -9,7 +9,6 @@
 #include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/find_views.h"
-#include "vantage/pipeline/picture_frame.h"
 #include "vantage/pipeline/sidecar.h"
 #include "vantage/report/view_report.h"
 

@@ -7,7 +7,6 @@
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/find_views.h"
-#include "vantage/pipeline/picture_frame.h"
 #include "vantage/pipeline/sidecar.h"
 #include "vantage/render/render.h"
 #include "vantage/report/view_report.h"

@@ -5,8 +5,8 @@
 
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
+#include "vantage/pipeline/find_views.h"
 #include "vantage/pipeline/measured_shape.h"
-#include "vantage/pipeline/picture_frame.h"
 #include "vantage/pipeline/sidecar.h"
 #include "vantage/report/view_report.h"
 

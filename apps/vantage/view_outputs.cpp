@@ -10,7 +10,7 @@
 
 #include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
-#include "vantage/pipeline/picture_frame.h"
+#include "vantage/pipeline/find_views.h"
 #include "vantage/render/render.h"
 #include "vantage/report/view_report.h"
 

@@ -5,7 +5,6 @@
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/find_views.h"
-#include "vantage/pipeline/picture_frame.h"
 #include "vantage/render/render.h"
 #include "vantage/report/view_report.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "vantage/mesh/measures.h"
-#include "vantage/pipeline/picture_frame.h"
+#include "vantage/pipeline/find_views.h"
 #include "vantage/render/render.h"
 
 #include "pipeline/view_preparation.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/pipeline/picture_frame.h"
-
+// Camera and size of a picture of the whole surface.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -15,8 +15,8 @@
 #include <utility>
 
 #include "vantage/mesh/measures.h"
+#include "vantage/pipeline/find_views.h"
 #include "vantage/pipeline/measured_shape.h"
-#include "vantage/pipeline/picture_frame.h"
 #include "vantage/render/render.h"
 #include "vantage/report/view_report.h"
 

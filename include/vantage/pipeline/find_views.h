@@ -13,6 +13,7 @@
 #include "vantage/io/model.h"
 #include "vantage/orientation/orientation.h"
 #include "vantage/pipeline/shape_analysis.h"
+#include "vantage/pipeline/view_options.h"
 #include "vantage/view/scoring.h"
 #include "vantage/view/search.h"
 #include "vantage/view/view_set.h"
@@ -171,5 +172,26 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
 std::vector<Camera> tour_cameras(const ShapeAnalysis& shape, const ReportedViewSet& set,
                                  const ScoringCamera& camera, UpAxis up, double aspect,
                                  std::size_t count);
+
+/// What a picture shows, and its size.
+struct PictureFrame {
+  Camera camera{};     ///< Framed on the whole surface.
+  PictureSize size{};  ///< Of the picture that it is framed for.
+};
+
+/// The picture from a direction: of options.width × options.height, or, if options.fit_size, of as
+/// many pixels and the aspect of what is seen, between 1:2 and 2:1. [ours]
+PictureFrame frame_picture(const ShapeAnalysis& shape, const Vec3& direction, UpAxis up,
+                           const ViewOptions& options);
+
+/// A picture of about options.width × options.height pixels with that aspect (width over height),
+/// no side longer than 16384.
+PictureSize size_with_aspect(const ViewOptions& options, double aspect);
+
+/// The same options for a picture of exactly that size.
+ViewOptions with_size(ViewOptions options, PictureSize size);
+
+/// A view's camera for a picture of another size: it shows all that the view's own picture does.
+Camera camera_for(const ReportedView& view, PictureSize size);
 
 }  // namespace vantage

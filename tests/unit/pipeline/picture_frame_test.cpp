@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/pipeline/picture_frame.h"
 
 #include <algorithm>
 #include <array>
