@@ -66,7 +66,7 @@ class Sizes(ProgramTest):
         self.assertGreater(height, 1.9 * width)
 
     def test_a_picture_from_a_camera_takes_the_aspect_that_its_file_says(self):
-        self.vantage("view", MODELS / "fan.ply", "-o", "v", "--size", "auto:60", *FAST)
+        self.vantage("view", MODELS / "fan.ply", "-o", "v", "--size", "auto:60", "--up", "z", *FAST)
         wanted = self.size_of("v/best.png")
         self.assertNotEqual(wanted, (60, 60))
         for camera in ("view.json", "camera-best.gltf", "camera-best.transforms.json"):
