@@ -35,7 +35,8 @@ class OpennessGrid {
 
   /// The set of rays of column x and row y of the grid, or of a picture.
   [[nodiscard]] static std::size_t set_of(int x, int y) {
-    return static_cast<std::size_t>(kNeighbours * (y % kNeighbours) + x % kNeighbours);
+    return static_cast<std::size_t>(kNeighbours) * static_cast<std::size_t>(y % kNeighbours) +
+           static_cast<std::size_t>(x % kNeighbours);
   }
 
  private:

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -155,12 +156,13 @@ void ShapePictures::keep_plain(const Camera& camera, const Image& image) {
 
 Image ShapePictures::take_small(const Camera& camera, int width, int height,
                                 const ViewOptions& options, const RunContext& run) {
-  for (auto taken = plain_.rbegin(); taken != plain_.rend(); ++taken) {
-    const Image& image = taken->second;
-    if (is_same(taken->first, camera) && image.width >= width && image.height >= height &&
-        has_aspect_of(image, width, height)) {
-      return smaller_picture(image, width, height, run);
-    }
+  const auto taken = std::find_if(plain_.rbegin(), plain_.rend(), [&](const auto& kept) {
+    const auto& [of, image] = kept;
+    return is_same(of, camera) && image.width >= width && image.height >= height &&
+           has_aspect_of(image, width, height);
+  });
+  if (taken != plain_.rend()) {
+    return smaller_picture(taken->second, width, height, run);
   }
   ViewOptions small = options;
   small.width = width;
