@@ -12,7 +12,4 @@ target_compile_definitions(vantage_options INTERFACE EIGEN_DONT_PARALLELIZE EIGE
 if(VANTAGE_SANITIZE)
   add_compile_options(-fsanitize=${VANTAGE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${VANTAGE_SANITIZE})
-  if(VANTAGE_NO_SANITIZE)
-    add_compile_options(-fno-sanitize=${VANTAGE_NO_SANITIZE})
-  endif()
 endif()

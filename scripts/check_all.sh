@@ -6,7 +6,7 @@ seconds=${1:-60}  # a fuzzer
 scripts/install_dependencies.sh all
 scripts/check_format.sh
 scripts/check_tidy.sh
-cmake --preset asan -DVANTAGE_NO_SANITIZE= >/dev/null && cmake --build --preset asan
+cmake --preset asan >/dev/null && cmake --build --preset asan
 ctest --test-dir build/asan -j "$(nproc)" --output-on-failure
 scripts/fuzz.sh "$seconds"
 if [[ -n ${VANTAGE_DATA:-} ]]; then
