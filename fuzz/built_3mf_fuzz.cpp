@@ -13,7 +13,7 @@
 #include "choices.h"
 #include "io/readers.h"
 #include "sound_model.h"
-#include "zip_package.h"
+#include "unit/io/zip_archive.h"
 
 namespace {
 
@@ -143,7 +143,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::map<std::string, std::string> files = ThreemfDraft(choices).files();
   const auto read = [&](bool is_packed, std::size_t most_faces) {
     const vantage::ReadOptions options{.appearance = true, .max_faces = most_faces};
-    return vantage::parse_threemf(zip_package(files, is_packed), "fuzz.3mf", {}, {{}, {}, options});
+    const std::string bytes =
+        vantage::test::zip_archive({files.begin(), files.end()},
+                                   is_packed ? "zip:compression=deflate" : "zip:compression=store");
+    return vantage::parse_threemf(bytes, "fuzz.3mf", {}, {{}, {}, options});
   };
   const auto model = sound_model([&] { return read(false, 0); });
   expect_same(model, sound_model([&] { return read(true, 0); }));

@@ -6,4 +6,4 @@ cd "$(dirname "$0")/.."
 scripts/install_dependencies.sh test
 cmake --preset release -DVANTAGE_BUILD_BENCH=OFF -DVANTAGE_QUICK_BUILD=ON >/dev/null
 cmake --build --preset release
-ctest --preset release -j "$(($(nproc) + 2))"  # those of Slurm, servers and kills mostly wait
+ctest --preset release -j "$(($(nproc) + 1))"  # the tests of Slurm mostly wait

@@ -61,8 +61,7 @@ struct ThumbCommand {
     app.add_option_function<std::string>(
            "-s,--size", [this](const std::string& text) { size = sized(text); },
            "width and height, pixels; auto: as wide or tall as what is seen, with as many pixels "
-           "as "
-           "256x256; auto:SIZE: as many as SIZE")
+           "as 256x256; auto:SIZE: as many as SIZE")
         ->default_str(kUsualSize);
     frame.add(app, find_option("up"));
     frame.add(app, find_option("front"));
