@@ -1,5 +1,5 @@
 # With VANTAGE_QUICK_BUILD, for builds from nothing: what most sources include is parsed once a target instead of once
-# a source, and several sources of a folder are compiled as one. Off by default, because a source that forgets an include
+# a source, and the sources of a folder are compiled as one. Off by default, because a source that forgets an include
 # would compile, and because a change of one source compiles its neighbours again.
 set(VANTAGE_SHARED_HEADERS <algorithm> <array> <cmath> <cstdint> <limits> <map> <memory> <numbers> <numeric> <optional>
     <span> <string> <string_view> <tuple> <utility> <vector> <Eigen/Geometry>)
@@ -11,9 +11,8 @@ function(vantage_precompile target)
   endif()
 endfunction()
 
-# vantage_unite(<target> sources that are compiled alone…): call it when the target has all its sources. Who shares a
-# compilation depends on nothing but folder and name, so that a new source can only clash with its own group. Sources
-# clash if both give a name of their own, in an unnamed namespace, another meaning: list one of them.
+# vantage_unite(<target> sources that are compiled alone…): call it when the target has all its sources. Sources clash if
+# both give a name of their own, in an unnamed namespace, another meaning: rename one, or list it.
 function(vantage_unite target)
   if(NOT VANTAGE_QUICK_BUILD)
     return()
@@ -25,10 +24,7 @@ function(vantage_unite target)
     get_filename_component(folder ${source} DIRECTORY)
     get_filename_component(folder "${folder}" NAME)
     if(NOT name IN_LIST ARGN)
-      string(MD5 digits ${name})
-      string(SUBSTRING ${digits} 0 1 digit)
-      math(EXPR part "0x${digit} / 4")
-      set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP "${folder}${part}")
+      set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP "all_${folder}")
     endif()
   endforeach()
 endfunction()

@@ -5,5 +5,5 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install_dependencies.sh test
 cmake --preset release -DVANTAGE_BUILD_BENCH=OFF -DVANTAGE_QUICK_BUILD=ON >/dev/null
-cmake --build --preset release
+cmake --build --preset release -j "$(nproc)"
 ctest --preset release -j "$(($(nproc) + 1))"  # the tests of Slurm mostly wait

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/report/figures.h"
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -14,6 +13,7 @@
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
 
+#include "clock.h"
 #include "commands.h"
 #include "look_flags.h"
 #include "method_flags.h"
@@ -24,12 +24,6 @@
 
 namespace vantage::cli {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Views on the sheet unless said otherwise. [ours]
 constexpr int kSheetViews = 6;

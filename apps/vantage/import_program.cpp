@@ -33,7 +33,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kName = "vantage-import";
+constexpr const char* kProgramName = "vantage-import";
 /// Data of the process where --max-memory says nothing, bytes, and so much may be sent. [ours]
 constexpr std::uint64_t kUsualMemory = 8'000'000'000;
 /// Address space beyond that for the libraries themselves, bytes. [ours]
@@ -84,8 +84,8 @@ void become_importer(const char* program, const char* extension, int input, int 
   sigset_t none;
   sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
-  std::array<char*, 3> words{const_cast<char*>(kName),      // NOLINT(*-const-cast)
-                             const_cast<char*>(extension),  // NOLINT(*-const-cast)
+  std::array<char*, 3> words{const_cast<char*>(kProgramName),  // NOLINT(*-const-cast)
+                             const_cast<char*>(extension),     // NOLINT(*-const-cast)
                              nullptr};
   char locale[] = "LC_ALL=C";
   std::array<char*, 2> environment{locale, nullptr};
@@ -244,7 +244,7 @@ std::string import_program() {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
   for (const fs::path& place :
-       {folder / kName, folder.parent_path() / "libexec" / "vantage" / kName}) {
+       {folder / kProgramName, folder.parent_path() / "libexec" / "vantage" / kProgramName}) {
     if (!error && is_program(place)) {
       return place.string();
     }
@@ -255,8 +255,8 @@ std::string import_program() {
     const std::string_view one = rest.substr(0, rest.find(':'));
     rest.remove_prefix(std::min(rest.size(), one.size() + 1));
     // A relative entry would mean another program in every folder.
-    if (one.starts_with('/') && is_program(fs::path(one) / kName)) {
-      return (fs::path(one) / kName).string();
+    if (one.starts_with('/') && is_program(fs::path(one) / kProgramName)) {
+      return (fs::path(one) / kProgramName).string();
     }
   }
   return {};

@@ -35,12 +35,13 @@ struct MeasuresCommand {
       write_output("-", rows.dump(2) + "\n");
       return;
     }
-    constexpr std::size_t kName = 30;
-    constexpr std::size_t kCost = 14;
-    session.tell(padded("name", kName) + "best  " + padded("looks at", kCost) + "meaning; source");
+    constexpr std::size_t kNameWidth = 30;
+    constexpr std::size_t kCostWidth = 14;
+    session.tell(padded("name", kNameWidth) + "best  " + padded("looks at", kCostWidth) +
+                 "meaning; source");
     for (const Measure& m : builtin_measures()) {
-      session.tell(padded(m.name, kName) + (m.better == Better::More ? "max   " : "min   ") +
-                   padded(std::string(m.cost()), kCost) + m.meaning + "; " + m.source +
+      session.tell(padded(m.name, kNameWidth) + (m.better == Better::More ? "max   " : "min   ") +
+                   padded(std::string(m.cost()), kCostWidth) + m.meaning + "; " + m.source +
                    (m.alias.empty() ? "" : "; also " + m.alias));
     }
   }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 
@@ -10,6 +9,7 @@
 #include "vantage/pipeline/sidecar.h"
 #include "vantage/report/view_report.h"
 
+#include "clock.h"
 #include "commands.h"
 #include "look_flags.h"
 #include "measure_flags.h"
@@ -23,12 +23,6 @@
 
 namespace vantage::cli {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::string direction_text(const Vec3& d) {
   return "(" + rounded(d.x(), 3) + ", " + rounded(d.y(), 3) + ", " + rounded(d.z(), 3) + ")";

@@ -31,7 +31,7 @@ constexpr double kDegPerKey = 1.0;
 constexpr int kTourSamples = 9;
 constexpr int kTourAmbientRays = 0;
 constexpr int kMostFrames = 4000;
-constexpr double kMostSeconds = 600.0;
+constexpr double kMostTourSeconds = 600.0;
 constexpr int kViewsOfBatch = 6;  // with --write views alone: as many as a box has sides
 constexpr const char* kGroup = "Several views";  // in the help
 
@@ -39,7 +39,7 @@ std::string numbered(std::size_t i) {
   return (i < 9 ? "view-0" : "view-") + std::to_string(i + 1);
 }
 
-std::string padded(const std::string& text, std::size_t width) {
+std::string right_aligned(const std::string& text, std::size_t width) {
   return std::string(width > text.size() ? width - text.size() : 0, ' ') + text;
 }
 
@@ -73,7 +73,7 @@ void ViewSetFlags::add_to(CLI::App& app) {
       ->check(check_tour_name)
       ->group(group);
   app.add_option("--tour-seconds", seconds_, "length of the tour; default: 36 degrees a second")
-      ->check(CLI::Range(0.1, kMostSeconds))
+      ->check(CLI::Range(0.1, kMostTourSeconds))
       ->group(group);
   app.add_option("--fps", fps_, "pictures a second of the tour")
       ->check(CLI::Range(1, 60))
@@ -217,10 +217,10 @@ std::string view_set_table(const ReportedViewSet& set) {
     const std::string direction =
         "(" + rounded(d.x(), 3) + ", " + rounded(d.y(), 3) + ", " + rounded(d.z(), 3) + ")";
     const ChosenView& chosen = set.choice.views[i];
-    std::string row = "  " + padded(std::to_string(i + 1), 4) + "    " + direction;
+    std::string row = "  " + right_aligned(std::to_string(i + 1), 4) + "    " + direction;
     row.resize(std::max<std::size_t>(row.size(), 36), ' ');
-    text += "\n" + row + padded(rounded(chosen.gain, 6), 10) +
-            padded(rounded(100.0 * chosen.coverage, 4), 8) + " %";
+    text += "\n" + row + right_aligned(rounded(chosen.gain, 6), 10) +
+            right_aligned(rounded(100.0 * chosen.coverage, 4), 8) + " %";
   }
   text += "\n  as much coverage needs at least " + plural(set.choice.least_views, "view");
   if (set.views.size() > 1) {

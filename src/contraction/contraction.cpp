@@ -19,9 +19,9 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kGrain = 8192;  // vertices a task
-constexpr double kSphereSide = 2.0;   // ours: D = 2
-constexpr double kBoxSide = 1.6;      // Cao 2010: the longest side of the box
+constexpr std::size_t kVerticesPerTask = 8192;  // vertices a task
+constexpr double kSphereSide = 2.0;             // ours: D = 2
+constexpr double kBoxSide = 1.6;                // Cao 2010: the longest side of the box
 
 /// One component cut out of the mesh, and where its vertices came from.
 struct Piece {
@@ -149,12 +149,14 @@ void place(const Piece& piece, const PieceResult& result, const TriMesh& mesh,
     return;  // stays at its exact input position
   }
   const auto carry = [&](const std::vector<Vec3>& from, std::vector<Vec3>& to) {
-    parallel_for(run, piece.vertices.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        to[piece.vertices[i]] =
-            result.proxy ? position_of(result.proxy->place[i], result.proxy->mesh, from) : from[i];
-      }
-    });
+    parallel_for(
+        run, piece.vertices.size(), kVerticesPerTask, [&](std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i) {
+            to[piece.vertices[i]] =
+                result.proxy ? position_of(result.proxy->place[i], result.proxy->mesh, from)
+                             : from[i];
+          }
+        });
   };
   for (std::size_t level = 1; level < history.levels.size(); ++level) {
     carry(levels[std::min(level, levels.size() - 1)], history.levels[level]);

@@ -14,7 +14,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kGrain = 2048;  // fine vertices a task
+constexpr std::size_t kFineVerticesPerTask = 2048;  // fine vertices a task
 /// Stars visited at most on the way from the vertex a point was merged in to its nearest face.
 constexpr int kLongestWalk = 6;
 
@@ -121,11 +121,12 @@ Proxy make_proxy(const TriMesh& fine, std::size_t between, std::size_t target,
   proxy.of_vertex = std::move(two.coarse.of_vertex);
   const Walker walker(proxy.mesh);
   proxy.place.resize(fine.positions.size());
-  parallel_for(run, fine.positions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      proxy.place[v] = walker.nearest(fine.positions[v], proxy.of_vertex[v]);
-    }
-  });
+  parallel_for(run, fine.positions.size(), kFineVerticesPerTask,
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t v = begin; v < end; ++v) {
+                   proxy.place[v] = walker.nearest(fine.positions[v], proxy.of_vertex[v]);
+                 }
+               });
   proxy.shares = even_shares(proxy.mesh);
   return proxy;
 }

@@ -14,7 +14,7 @@
 namespace vantage {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // glTF's codes: 32-bit float.
 constexpr int kFloat = 5126;
@@ -35,17 +35,17 @@ Eigen::Quaterniond rotation_of(const Camera& camera) {
 class AnimationBuffer {
  public:
   /// Adds an array of `components` floats each; returns the accessor.
-  int add(const std::vector<float>& values, int components, const char* type, const Json& low,
-          const Json& high) {
+  int add(const std::vector<float>& values, int components, const char* type,
+          const OrderedJson& low, const OrderedJson& high) {
     const std::size_t offset = bytes_.size();
     for (const float value : values) {
       append_little_endian(bytes_, value);
     }
     views_.push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", 4 * values.size()}});
-    Json accessor = {{"bufferView", views_.size() - 1},
-                     {"componentType", kFloat},
-                     {"count", values.size() / static_cast<std::size_t>(components)},
-                     {"type", type}};
+    OrderedJson accessor = {{"bufferView", views_.size() - 1},
+                            {"componentType", kFloat},
+                            {"count", values.size() / static_cast<std::size_t>(components)},
+                            {"type", type}};
     if (!low.is_null()) {
       accessor["min"] = low;
       accessor["max"] = high;
@@ -54,22 +54,22 @@ class AnimationBuffer {
     return static_cast<int>(accessors_.size()) - 1;
   }
 
-  void store_in(Json& file) const {
+  void store_in(OrderedJson& file) const {
     file["buffers"] =
-        Json::array({{{"byteLength", bytes_.size()},
-                      {"uri", "data:application/octet-stream;base64," + base64(bytes_)}}});
+        OrderedJson::array({{{"byteLength", bytes_.size()},
+                             {"uri", "data:application/octet-stream;base64," + base64(bytes_)}}});
     file["bufferViews"] = views_;
     file["accessors"] = accessors_;
   }
 
  private:
   std::string bytes_{};
-  Json views_ = Json::array();
-  Json accessors_ = Json::array();
+  OrderedJson views_ = OrderedJson::array();
+  OrderedJson accessors_ = OrderedJson::array();
 };
 
 /// Channels of the animation: where the eye is, and how the camera is turned, at each key.
-Json animation_of(std::span<const Camera> cameras, double seconds, AnimationBuffer& buffer) {
+OrderedJson animation_of(std::span<const Camera> cameras, double seconds, AnimationBuffer& buffer) {
   std::vector<float> times;
   std::vector<float> places;
   std::vector<float> turns;
@@ -90,31 +90,31 @@ Json animation_of(std::span<const Camera> cameras, double seconds, AnimationBuff
       turns.push_back(static_cast<float>(turn.coeffs()[k]));  // x y z w, as glTF has them
     }
   }
-  const int time =
-      buffer.add(times, 1, "SCALAR", Json::array({times.front()}), Json::array({times.back()}));
+  const int time = buffer.add(times, 1, "SCALAR", OrderedJson::array({times.front()}),
+                              OrderedJson::array({times.back()}));
   const int place = buffer.add(places, 3, "VEC3", nullptr, nullptr);
   const int turn = buffer.add(turns, 4, "VEC4", nullptr, nullptr);
   const auto sampler = [time](int output) {
-    return Json{{"input", time}, {"interpolation", "LINEAR"}, {"output", output}};
+    return OrderedJson{{"input", time}, {"interpolation", "LINEAR"}, {"output", output}};
   };
   const auto channel = [](int index, const char* path) {
-    return Json{{"sampler", index}, {"target", {{"node", 0}, {"path", path}}}};
+    return OrderedJson{{"sampler", index}, {"target", {{"node", 0}, {"path", path}}}};
   };
   return {{"name", "tour"},
-          {"samplers", Json::array({sampler(place), sampler(turn)})},
-          {"channels", Json::array({channel(0, "translation"), channel(1, "rotation")})}};
+          {"samplers", OrderedJson::array({sampler(place), sampler(turn)})},
+          {"channels", OrderedJson::array({channel(0, "translation"), channel(1, "rotation")})}};
 }
 
 }  // namespace
 
 std::string views_transforms_json(std::span<const NamedCamera> cameras) {
-  Json file;
-  Json frames = Json::array();
+  OrderedJson file;
+  OrderedJson frames = OrderedJson::array();
   for (const NamedCamera& named : cameras) {
     // What the file of one camera says of the whole file belongs to its frame here.
-    const Json one =
-        Json::parse(camera_transforms_json(named.camera, named.size, named.image_name));
-    Json frame = one["frames"][0];
+    const OrderedJson one =
+        OrderedJson::parse(camera_transforms_json(named.camera, named.size, named.image_name));
+    OrderedJson frame = one["frames"][0];
     for (const auto& [key, value] : one.items()) {
       if (key != "frames") {
         frame[key] = value;
@@ -126,7 +126,7 @@ std::string views_transforms_json(std::span<const NamedCamera> cameras) {
   file["w"] = first.width;
   file["h"] = first.height;
   file["frames"] = frames;
-  return file.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return file.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 std::string camera_animation_gltf(std::span<const Camera> cameras, double seconds, PictureSize size,
@@ -134,15 +134,15 @@ std::string camera_animation_gltf(std::span<const Camera> cameras, double second
   if (cameras.size() < 2 || !(seconds > 0.0) || !std::isfinite(seconds)) {
     throw InvalidInput("a camera's animation needs at least two poses and some time");
   }
-  Json file = Json::parse(camera_gltf(cameras[0], size, near_far_scale));
+  OrderedJson file = OrderedJson::parse(camera_gltf(cameras[0], size, near_far_scale));
   const Eigen::Quaterniond turn = rotation_of(cameras[0]);
   const Vec3& eye = cameras[0].eye;
-  Json& node = file["nodes"][0];
+  OrderedJson& node = file["nodes"][0];
   node.erase("matrix");  // animated nodes must not have one
   node["translation"] = {eye.x(), eye.y(), eye.z()};
   node["rotation"] = {turn.x(), turn.y(), turn.z(), turn.w()};
   AnimationBuffer buffer;
-  file["animations"] = Json::array({animation_of(cameras, seconds, buffer)});
+  file["animations"] = OrderedJson::array({animation_of(cameras, seconds, buffer)});
   buffer.store_in(file);
   return file.dump(2) + "\n";
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
@@ -12,12 +11,12 @@
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
 
+#include "core/degrees.h"
+
 namespace vantage {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+using OrderedJson = nlohmann::ordered_json;
 
 /// Camera-to-world: columns are the camera's x (right), y (up), −(view direction), and the eye.
 Eigen::Matrix4d camera_to_world(const Camera& camera) {
@@ -34,8 +33,8 @@ Eigen::Matrix4d camera_to_world(const Camera& camera) {
   return matrix;
 }
 
-Json list(const Vec3& v) {
-  return Json::array({v.x(), v.y(), v.z()});
+OrderedJson list(const Vec3& v) {
+  return OrderedJson::array({v.x(), v.y(), v.z()});
 }
 
 double aspect(PictureSize size) {
@@ -67,7 +66,7 @@ std::string camera_gltf(const Camera& camera, PictureSize size, double near_far_
   const double near =
       std::max(distance - near_far_scale, kNearestFraction * std::max(near_far_scale, distance));
   const double far = distance + near_far_scale;
-  Json lens;
+  OrderedJson lens;
   if (camera.projection == Projection::Perspective) {
     lens = {{"type", "perspective"},
             {"perspective",
@@ -84,26 +83,26 @@ std::string camera_gltf(const Camera& camera, PictureSize size, double near_far_
               {"znear", near},
               {"zfar", far}}}};
   }
-  const Json node = {{"name", "camera"},
-                     {"camera", 0},
-                     {"matrix", std::vector<double>(matrix.data(), matrix.data() + 16)},
-                     {"extras", {{"target", list(camera.target)}}}};
-  const Json file = {{"asset", {{"version", "2.0"}, {"generator", "vantage"}}},
-                     {"scene", 0},
-                     {"scenes", Json::array({{{"nodes", Json::array({0})}}})},
-                     {"nodes", Json::array({node})},
-                     {"cameras", Json::array({lens})}};
+  const OrderedJson node = {{"name", "camera"},
+                            {"camera", 0},
+                            {"matrix", std::vector<double>(matrix.data(), matrix.data() + 16)},
+                            {"extras", {{"target", list(camera.target)}}}};
+  const OrderedJson file = {{"asset", {{"version", "2.0"}, {"generator", "vantage"}}},
+                            {"scene", 0},
+                            {"scenes", OrderedJson::array({{{"nodes", OrderedJson::array({0})}}})},
+                            {"nodes", OrderedJson::array({node})},
+                            {"cameras", OrderedJson::array({lens})}};
   return file.dump(2) + "\n";
 }
 
 std::string camera_transforms_json(const Camera& camera, PictureSize size,
                                    std::string_view image_name) {
   const Eigen::Matrix4d matrix = camera_to_world(camera);
-  Json rows = Json::array();
+  OrderedJson rows = OrderedJson::array();
   for (int r = 0; r < 4; ++r) {
     rows.push_back({matrix(r, 0), matrix(r, 1), matrix(r, 2), matrix(r, 3)});
   }
-  Json file;
+  OrderedJson file;
   if (camera.projection == Projection::Perspective) {
     const double half_height = std::tan(0.5 * camera.fov_y_deg * kRadPerDeg);
     const double focal = 0.5 * size.height / half_height;  // px, the same both ways
@@ -118,10 +117,10 @@ std::string camera_transforms_json(const Camera& camera, PictureSize size,
   file["cy"] = 0.5 * size.height;
   file["w"] = size.width;
   file["h"] = size.height;
-  file["frames"] = Json::array({{{"file_path", std::string(image_name)},
-                                 {"transform_matrix", rows},
-                                 {"target", list(camera.target)}}});
-  return file.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  file["frames"] = OrderedJson::array({{{"file_path", std::string(image_name)},
+                                        {"transform_matrix", rows},
+                                        {"target", list(camera.target)}}});
+  return file.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 std::string camera_f3d(const Camera& camera, PictureSize size, std::string_view model) {

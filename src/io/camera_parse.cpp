@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string>
 
@@ -8,12 +7,11 @@
 
 #include "vantage/io/camera_files.h"
 
+#include "core/degrees.h"
 #include "core/json_reader.h"
 
 namespace vantage {
 namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 class CameraReader : private JsonReader {
  public:

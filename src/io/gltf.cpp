@@ -17,17 +17,13 @@
 #include "io/gltf_document.h"
 #include "io/model_builder.h"
 #include "io/readers.h"
+#include "io/reuse_budget.h"
 
 namespace vantage {
 namespace {
 
 using Transform = Eigen::Matrix4d;
 
-/// A file may show one mesh many times. All that is shown together may have this many vertices
-/// and corners for each byte of the file …
-constexpr std::size_t kMostPerByte = 64;
-/// … and this many in any case.
-constexpr std::size_t kMostInSmallFile = 1'000'000;
 /// Nodes may be visited this often, and once more for each byte of the file. A valid file visits
 /// each node once; some exporters share subtrees, and a malicious one doubles at every level.
 constexpr std::size_t kMostVisitsInSmallFile = 10'000;

@@ -28,9 +28,9 @@ constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
 /// Bytes that may be unpacked for each byte of the file: what meshopt's codec reaches on nothing but
 /// zeros (256 vertices of a column in 4 bytes) …
-constexpr std::size_t kMostPerByte = 64;
+constexpr std::size_t kMostBytesPerByte = 64;
 /// … and in any case, room for a million corners. [ours]
-constexpr std::size_t kMostOfSmallFile = 16'000'000;
+constexpr std::size_t kMostBytesOfSmallFile = 16'000'000;
 
 /// A member of an object; null if there is none.
 const Json* member(const Json* object, const char* name) {
@@ -118,7 +118,7 @@ class Unpacker {
         document_(document),
         gltf_(document.structure),
         builder_(builder),
-        bytes_left_(kMostOfSmallFile + kMostPerByte * document.total_bytes) {}
+        bytes_left_(kMostBytesOfSmallFile + kMostBytesPerByte * document.total_bytes) {}
 
   void unpack_views() {
     const Json* views = member(&root_, "bufferViews");

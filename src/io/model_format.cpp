@@ -32,10 +32,6 @@ std::string extension_of(std::string_view name) {
   return dot == std::string_view::npos ? "" : lower(file.substr(dot + 1));
 }
 
-bool starts_with(std::string_view bytes, std::string_view magic) {
-  return bytes.substr(0, magic.size()) == magic;
-}
-
 std::optional<ModelFormat> format_of_extension(std::string_view extension) {
   const auto* const last = kFormatNames.end() - 1;  // no file is called .imported
   const auto* const entry = std::find(kFormatNames.begin(), last, extension);
@@ -45,13 +41,13 @@ std::optional<ModelFormat> format_of_extension(std::string_view extension) {
 
 /// What the first bytes say for sure.
 std::optional<ModelFormat> format_of_magic(std::string_view bytes) {
-  if (starts_with(bytes, "glTF")) {
+  if (bytes.starts_with("glTF")) {
     return ModelFormat::Glb;
   }
   if (is_threemf(bytes)) {
     return ModelFormat::Threemf;
   }
-  if (starts_with(bytes, "# .PCD")) {
+  if (bytes.starts_with("# .PCD")) {
     return ModelFormat::Pcd;
   }
   const std::string_view first_line = TextCursor(bytes).next_line().value_or("");
@@ -74,7 +70,7 @@ std::optional<ModelFormat> format_of_content(std::string_view bytes) {
   if (lower(word.substr(0, 5)) == "solid") {
     return ModelFormat::Stl;
   }
-  if (starts_with(word, "{")) {
+  if (word.starts_with("{")) {
     return ModelFormat::Gltf;
   }
   constexpr std::array<std::string_view, 8> kObjWords = {"v",      "vn", "vt", "g",
@@ -115,7 +111,7 @@ DetectedFormat detect_format(std::string_view bytes, std::string_view name, bool
                                 : ""};
   }
   if (said == ModelFormat::Threemf) {
-    if (!starts_with(bytes, "PK")) {
+    if (!bytes.starts_with("PK")) {
       throw FormatError(name, "byte 0", "expected the letters PK, which start every 3MF file");
     }
     return {*said, ""};

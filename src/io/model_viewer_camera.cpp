@@ -10,12 +10,13 @@
 #include "vantage/core/error.h"
 #include "vantage/io/camera_files.h"
 
+#include "core/degrees.h"
+
 namespace vantage {
 namespace {
 
 using Matrix3 = Eigen::Matrix3d;
 
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr double kLevel = 1e-9;  // a sine below this is rounding
 // Moving the target to the middle of what is seen leaves a picture rolled by a degree or two; the
 // element shows it upright. Beyond this, a camera that someone meant so, the model is turned instead.

@@ -32,9 +32,9 @@ std::uint64_t whole(std::string_view token, std::int64_t most, Place place,
   return static_cast<std::uint64_t>(*value);
 }
 
-class HeaderReader {
+class PcdHeaderReader {
  public:
-  explicit HeaderReader(const ModelBuilder& builder) : builder_(builder) {}
+  explicit PcdHeaderReader(const ModelBuilder& builder) : builder_(builder) {}
 
   /// Takes one statement; true if it was the last.
   bool take(const std::vector<std::string_view>& words, Place place) {
@@ -112,7 +112,7 @@ class HeaderReader {
 
 PcdHeader read_pcd_header(std::string_view bytes, const ModelBuilder& builder) {
   TextCursor cursor(bytes);
-  HeaderReader reader(builder);
+  PcdHeaderReader reader(builder);
   for (bool ended = false; !ended;) {
     const auto line = cursor.next_line();
     if (!line) {

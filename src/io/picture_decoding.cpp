@@ -17,10 +17,6 @@ Image blank(std::size_t width, std::size_t height) {
           std::vector<std::uint8_t>(4 * width * height)};
 }
 
-bool starts_with(std::string_view bytes, std::string_view magic) {
-  return bytes.substr(0, magic.size()) == magic;
-}
-
 }  // namespace
 
 std::string picture_size_problem(std::size_t width, std::size_t height, std::size_t most_pixels) {
@@ -76,13 +72,13 @@ DecodedPicture decode_webp(std::string_view bytes, std::size_t most_pixels) {
 }
 
 DecodedPicture decode_picture(std::string_view bytes, std::size_t most_pixels, int wanted_side) {
-  if (starts_with(bytes, "\x89PNG")) {
+  if (bytes.starts_with("\x89PNG")) {
     return decode_png(bytes, most_pixels);
   }
-  if (starts_with(bytes, "\xFF\xD8")) {
+  if (bytes.starts_with("\xFF\xD8")) {
     return decode_jpeg(bytes, most_pixels, wanted_side);
   }
-  if (starts_with(bytes, "RIFF") &&
+  if (bytes.starts_with("RIFF") &&
       bytes.substr(std::min<std::size_t>(8, bytes.size()), 4) == "WEBP") {
     return decode_webp(bytes, most_pixels);
   }

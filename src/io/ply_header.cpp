@@ -69,9 +69,9 @@ PlyRole role_of(const PlyElement& element, const PlyProperty& property) {
   return role;
 }
 
-class HeaderReader {
+class PlyHeaderReader {
  public:
-  HeaderReader(std::string_view bytes, const ModelBuilder& builder)
+  PlyHeaderReader(std::string_view bytes, const ModelBuilder& builder)
       : bytes_(bytes), cursor_(bytes), builder_(builder) {}
 
   PlyHeader read() {
@@ -231,7 +231,7 @@ std::size_t ply_scalar_bytes(PlyScalar type) {
 }
 
 PlyHeader read_ply_header(std::string_view bytes, const ModelBuilder& builder) {
-  return HeaderReader(bytes, builder).read();
+  return PlyHeaderReader(bytes, builder).read();
 }
 
 }  // namespace vantage

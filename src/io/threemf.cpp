@@ -15,6 +15,7 @@
 #include "io/model_builder.h"
 #include "io/number_parsing.h"
 #include "io/readers.h"
+#include "io/reuse_budget.h"
 #include "io/threemf_package.h"
 #include "io/threemf_parts.h"
 
@@ -24,11 +25,6 @@ namespace {
 constexpr const char* kRelationships = "_rels/.rels";
 constexpr const char* kUsualRoot = "3d/3dmodel.model";
 
-/// A file may show one object many times. All that is shown together may have this many vertices
-/// and corners for each byte of the file …
-constexpr std::size_t kMostPerByte = 64;
-/// … and this many in any case; objects may be visited as often. [ours]
-constexpr std::size_t kMostInSmallFile = 1'000'000;
 /// Objects, items, components and colours that may be read, and one for each byte of the file: each is
 /// kept, and takes more than its text. [ours]
 constexpr std::size_t kMostRecordsOfSmallFile = 100'000;

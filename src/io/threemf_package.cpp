@@ -16,9 +16,9 @@ namespace {
 
 /// Bytes of text that may come out for each byte of the archive: real models have up to 20, and a
 /// grid of zeros 60 [ours] …
-constexpr std::size_t kMostPerByte = 100;
+constexpr std::size_t kMostTextPerByte = 100;
 /// … and in any case. [ours]
-constexpr std::size_t kMostOfSmallFile = 64'000'000;
+constexpr std::size_t kMostTextOfSmallFile = 64'000'000;
 /// Parts of a package; slicers write a dozen. [ours]
 constexpr std::size_t kMostParts = 100'000;
 constexpr std::size_t kBlock = 1 << 16;
@@ -92,7 +92,7 @@ void read_package(std::string_view bytes, const PartSink& sink, const ModelBuild
   if (archive_read_open_memory(a, bytes.data(), bytes.size()) != ARCHIVE_OK) {
     builder.fail("is no ZIP archive, which every 3MF file is: " + reason_of(a));
   }
-  std::size_t left = kMostOfSmallFile + kMostPerByte * bytes.size();
+  std::size_t left = kMostTextOfSmallFile + kMostTextPerByte * bytes.size();
   archive_entry* entry = nullptr;
   int code = ARCHIVE_OK;
   for (std::size_t parts = 0;

@@ -136,8 +136,8 @@ std::string turned_binary_stl(std::string_view bytes, const AxisTurn& turn) {
 
 std::string turned_gltf_text(std::string_view text, std::string_view name, const AxisTurn& turn,
                              int indent) {
-  using OrderedJson = nlohmann::ordered_json;
-  OrderedJson root = OrderedJson::parse(text, nullptr, /*allow_exceptions=*/false);
+  using json = nlohmann::ordered_json;
+  json root = json::parse(text, nullptr, /*allow_exceptions=*/false);
   const auto fail = [&](const char* problem) {
     throw FormatError(std::string(name), "JSON", problem);
   };
@@ -148,16 +148,16 @@ std::string turned_gltf_text(std::string_view text, std::string_view name, const
       !root["nodes"].is_array()) {
     fail("has no scene to turn");
   }
-  for (OrderedJson& scene : root["scenes"]) {
+  for (json& scene : root["scenes"]) {
     if (!scene.is_object() || !scene.contains("nodes") || !scene["nodes"].is_array() ||
         scene["nodes"].empty()) {
       continue;
     }
     root["nodes"].push_back(
         {{"name", "upright"}, {"rotation", turn.quaternion()}, {"children", scene["nodes"]}});
-    scene["nodes"] = OrderedJson::array({root["nodes"].size() - 1});
+    scene["nodes"] = json::array({root["nodes"].size() - 1});
   }
-  return root.dump(indent, ' ', false, OrderedJson::error_handler_t::replace);
+  return root.dump(indent, ' ', false, json::error_handler_t::replace);
 }
 
 std::string turned_glb(std::string_view bytes, std::string_view name, const AxisTurn& turn) {

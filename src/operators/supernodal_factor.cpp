@@ -22,10 +22,6 @@ constexpr std::size_t kChunk = 64;
 
 using Eigen::Index;
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Multiplications of one front: Σ of squared column heights.
 double work_of(double height, double columns) {
   return columns * height * height - columns * columns * height + columns * columns * columns / 3.0;

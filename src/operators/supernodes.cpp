@@ -17,10 +17,6 @@ constexpr int kMedium = 48;
 constexpr double kMediumZeros = 0.1;
 constexpr double kWideZeros = 0.05;
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// For each column the rows above its diagonal, ascending within reason (any order will do).
 struct UpperPattern {
   std::vector<std::size_t> offsets{};
@@ -263,7 +259,7 @@ class Structure {
 /// Where the entries of the matrix go, supernode by supernode so that rows are found by a table.
 void find_entries(const Eigen::SparseMatrix<double>& A, const std::vector<int>& column_of,
                   const std::vector<int>& supernode_of, Supernodes& nodes) {
-  struct Entry {
+  struct LowerEntry {
     int row;
     int column;
     std::size_t number;
@@ -283,7 +279,7 @@ void find_entries(const Eigen::SparseMatrix<double>& A, const std::vector<int>& 
   };
   for_each([&](int, int column) { ++start[at(supernode_of[at(column)]) + 1]; });
   std::partial_sum(start.begin(), start.end(), start.begin());
-  std::vector<Entry> entries(start.back());
+  std::vector<LowerEntry> entries(start.back());
   std::vector<std::size_t> next(start.begin(), start.end() - 1);
   std::size_t number = 0;
   for_each([&](int row, int column) {
@@ -296,7 +292,7 @@ void find_entries(const Eigen::SparseMatrix<double>& A, const std::vector<int>& 
       place[at(nodes.rows[r])] = static_cast<int>(r - nodes.row_start[at(s)]);
     }
     for (std::size_t e = start[at(s)]; e < start[at(s) + 1]; ++e) {
-      const Entry& entry = entries[e];
+      const LowerEntry& entry = entries[e];
       nodes.value_of_entry[entry.number] =
           nodes.value_start[at(s)] + at(place[at(entry.row)]) +
           at(entry.column - nodes.first_column[at(s)]) * at(nodes.height(s));

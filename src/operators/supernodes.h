@@ -8,6 +8,11 @@
 
 namespace vantage {
 
+/// An index of Eigen's as one of a vector.
+inline std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
 /// The columns of a Cholesky factor in runs of equal structure, and the tree in which they depend
 /// on each other. Columns are those of the permuted matrix, in post-order of the elimination tree.
 /// Liu, "The Role of Elimination Trees in Sparse Factorization", 1990; runs that differ little are
@@ -28,14 +33,10 @@ struct Supernodes {
 
   [[nodiscard]] int count() const { return static_cast<int>(parent.size()); }
 
-  [[nodiscard]] int columns(int s) const {
-    return first_column[static_cast<std::size_t>(s) + 1] -
-           first_column[static_cast<std::size_t>(s)];
-  }
+  [[nodiscard]] int columns(int s) const { return first_column[at(s) + 1] - first_column[at(s)]; }
 
   [[nodiscard]] int height(int s) const {
-    return static_cast<int>(row_start[static_cast<std::size_t>(s) + 1] -
-                            row_start[static_cast<std::size_t>(s)]);
+    return static_cast<int>(row_start[at(s) + 1] - row_start[at(s)]);
   }
 };
 

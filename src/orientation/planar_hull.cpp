@@ -8,11 +8,11 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
+}  // namespace
+
+double twice_area(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
-
-}  // namespace
 
 std::vector<Vec2> planar_hull(std::vector<Vec2> points) {
   const auto before = [](const Vec2& a, const Vec2& b) {
@@ -24,7 +24,7 @@ std::vector<Vec2> planar_hull(std::vector<Vec2> points) {
   for (int pass = 0; pass < 2 && points.size() > 2; ++pass) {
     const std::size_t base = hull.size();
     for (const Vec2& p : points) {
-      while (hull.size() >= base + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0.0) {
+      while (hull.size() >= base + 2 && twice_area(hull[hull.size() - 2], hull.back(), p) <= 0.0) {
         hull.pop_back();
       }
       hull.push_back(p);

@@ -7,6 +7,9 @@
 
 namespace vantage {
 
+/// Twice the area of a triangle, positive where it goes round counter-clockwise.
+double twice_area(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c);
+
 /// Convex hull, counter-clockwise (Andrew's monotone chain); of fewer than three points, nothing.
 std::vector<Eigen::Vector2d> planar_hull(std::vector<Eigen::Vector2d> points);
 

@@ -24,14 +24,10 @@ constexpr double kFlatStep = 0.002;
 // Steps and differences count up to this: a gap is a gap however deep. [ours]
 constexpr double kLargestStep = 0.1;
 
-double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
 double area_of(const std::vector<Vec2>& hull) {
   double twice = 0.0;
   for (std::size_t i = 1; i + 1 < hull.size(); ++i) {
-    twice += turn(hull[0], hull[i], hull[i + 1]);
+    twice += twice_area(hull[0], hull[i], hull[i + 1]);
   }
   return 0.5 * twice;
 }
@@ -42,7 +38,7 @@ double depth_inside(const std::vector<Vec2>& hull, const Vec2& point) {
   for (std::size_t i = 0; i < hull.size() && hull.size() >= 3; ++i) {
     const Vec2& a = hull[i];
     const Vec2& b = hull[(i + 1) % hull.size()];
-    least = std::min(least, turn(a, b, point) / (b - a).norm());
+    least = std::min(least, twice_area(a, b, point) / (b - a).norm());
   }
   return least;
 }

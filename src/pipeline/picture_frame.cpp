@@ -2,18 +2,18 @@
 // Camera and size of a picture of the whole surface.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/find_views.h"
 #include "vantage/render/render.h"
+
+#include "core/degrees.h"
 
 namespace vantage {
 namespace {
 
 /// Longer pictures would be awkward beside text and in rows. [ours]
 constexpr double kWidest = 2.0;
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 int side(double pixels) {
   return static_cast<int>(std::clamp(std::round(pixels), 1.0, static_cast<double>(kLargestSide)));

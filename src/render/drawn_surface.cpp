@@ -3,18 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "vantage/mesh/measures.h"
 
+#include "core/degrees.h"
 #include "core/parallel.h"
 #include "render/corner_normals.h"
 
 namespace vantage {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 /// Edges turn from smooth to crisp within so much on either side of the crease angle [ours]: at the
 /// default of 40° rounded fillets of CAD parts, rarely split finer than 12 to the full turn, stay
 /// smooth and their chamfers sharp, and bends of scans do not fray into teeth.

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 
+#include "core/degrees.h"
 #include "core/parallel.h"
 #include "render/feature_edges.h"
 #include "render/sample_pattern.h"
@@ -14,7 +14,6 @@
 namespace vantage {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 /// Occlusion rays of a sample that shows what no probe near it does. [ours]
 constexpr std::size_t kSampleRays = 4;
 /// Occlusion looks this far, over the scene's radius: what is further darkens no crevice.

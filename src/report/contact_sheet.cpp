@@ -18,10 +18,10 @@ namespace {
 
 constexpr int kTileWidth = 240;    // px
 constexpr int kTileHeight = 180;   // px
-constexpr int kGap = 8;            // px
+constexpr int kGapPx = 8;          // px
 constexpr int kTextHeight = 22;    // px, a line with its descenders
 constexpr double kLetters = 11.0;  // px, height of capitals
-constexpr int kLabel = kTextHeight + kGap;
+constexpr int kLabelPx = kTextHeight + kGapPx;
 constexpr int kTiles = 3;       // best, worst, sphere
 constexpr int kMethodRows = 9;  // methods below each other
 constexpr Rgb8 kWhite{255, 255, 255};
@@ -70,10 +70,10 @@ Image comparison_sheet(const ShapeAnalysis& shape, const Comparison& comparison,
   const int count = static_cast<int>(comparison.methods.size());
   const int rows = std::min(count, kMethodRows);
   const int columns = (count + kMethodRows - 1) / kMethodRows;
-  const int block_width = kTiles * (kTileWidth + kGap) + 2 * kGap;
-  const int block_height = kLabel + kTileHeight + kGap;
-  const int header = kLabel + kGap;
-  Sheet sheet(columns * block_width, header + rows * block_height + kGap);
+  const int block_width = kTiles * (kTileWidth + kGapPx) + 2 * kGapPx;
+  const int block_height = kLabelPx + kTileHeight + kGapPx;
+  const int header = kLabelPx + kGapPx;
+  Sheet sheet(columns * block_width, header + rows * block_height + kGapPx);
   constexpr std::array<std::string_view, kTiles> kTitles{"best view", "worst view", "all views"};
   RunContext quiet = run;
   quiet.report = nullptr;
@@ -93,7 +93,7 @@ Image comparison_sheet(const ShapeAnalysis& shape, const Comparison& comparison,
   for (int m = 0; m < count; ++m) {
     run.advance("pictures", static_cast<double>(m) / count);
     const ComparedMethod& method = comparison.methods[static_cast<std::size_t>(m)];
-    const int left = m / kMethodRows * block_width + kGap;
+    const int left = m / kMethodRows * block_width + kGapPx;
     const int top = header + m % kMethodRows * block_height;
     sheet.write(method.measure.name, left, top);
     const std::array<Image, kTiles> tiles{
@@ -101,10 +101,10 @@ Image comparison_sheet(const ShapeAnalysis& shape, const Comparison& comparison,
         view_sphere_picture(shape, comparison, method, up, kTileWidth, kTileHeight, quiet)};
     for (int t = 0; t < kTiles; ++t) {
       const auto tile = static_cast<std::size_t>(t);
-      const int x = left + t * (kTileWidth + kGap);
-      sheet.place(tiles[tile], x, top + kLabel);
+      const int x = left + t * (kTileWidth + kGapPx);
+      sheet.place(tiles[tile], x, top + kLabelPx);
       if (m % kMethodRows == 0) {
-        sheet.write(kTitles[tile], x + (kTileWidth - text_width(kTitles[tile])) / 2, kGap);
+        sheet.write(kTitles[tile], x + (kTileWidth - text_width(kTitles[tile])) / 2, kGapPx);
       }
     }
   }

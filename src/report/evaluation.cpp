@@ -15,7 +15,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// The best view of `vantage view` as it is without flags, but for the map's and the camera's.
 Vec3 default_view(const Model& model, const ShapeAnalysis& shape, ViewOptions options,
@@ -40,12 +40,12 @@ Spread spread_of(std::span<const double> values, std::span<const double> weights
     all += weights[v];
     sum += weights[v] * values[v];
   }
-  const double mean = all > 0.0 ? sum / all : kNone;
+  const double mean = all > 0.0 ? sum / all : kUnknown;
   double squares = 0.0;
   for (std::size_t v = 0; v < values.size(); ++v) {
     squares += weights[v] * (values[v] - mean) * (values[v] - mean);
   }
-  return {mean, all > 0.0 ? std::sqrt(squares / all) : kNone};
+  return {mean, all > 0.0 ? std::sqrt(squares / all) : kUnknown};
 }
 
 double pearson(std::span<const double> a, std::span<const double> b) {
@@ -59,7 +59,7 @@ double pearson(std::span<const double> a, std::span<const double> b) {
     aa += (a[v] - mean_a) * (a[v] - mean_a);
     bb += (b[v] - mean_b) * (b[v] - mean_b);
   }
-  return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : kNone;
+  return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : kUnknown;
 }
 
 GazeAgreement gaze_agreement(const std::string& map, const RecordedModel& record,
@@ -77,8 +77,8 @@ GazeAgreement gaze_agreement(const std::string& map, const RecordedModel& record
           rank_correlation(values, record.gaze),
           roc_area(values, record.gaze),
           adjusted,
-          surface.mean != 0.0 ? adjusted / surface.mean : kNone,
-          surface.deviation > 0.0 ? adjusted / surface.deviation : kNone};
+          surface.mean != 0.0 ? adjusted / surface.mean : kUnknown,
+          surface.deviation > 0.0 ? adjusted / surface.deviation : kUnknown};
 }
 
 }  // namespace
@@ -158,7 +158,7 @@ Interval bootstrap_mean(std::span<const double> values, std::uint64_t seed) {
     }
   }
   if (finite.empty()) {
-    return {kNone, kNone, kNone};
+    return {kUnknown, kUnknown, kUnknown};
   }
   Pcg32 random(seed);
   std::vector<double> means;

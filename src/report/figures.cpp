@@ -37,7 +37,7 @@ constexpr std::size_t kMostLevels = 6;
 constexpr double kThickening = 0.004;
 /// Radius of the points of a cloud over D. [ours]
 constexpr double kPointRadius = 0.005;
-constexpr Rgb8 kWhite{255, 255, 255};
+constexpr Rgb8 kPaper{255, 255, 255};
 constexpr std::array kPlain{Picture::Plain};
 
 /// Level 0, the last level, and evenly between them.
@@ -262,7 +262,7 @@ Image side_by_side(const std::vector<Image>& panels) {
 
 Image view_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, const ViewOptions& options,
                  const RunContext& run, const PictureLook& look) {
-  ShapePictures pictures(shape, look.on(kWhite));
+  ShapePictures pictures(shape, look.on(kPaper));
   std::vector<Image> panels;
   const auto count = static_cast<double>(set.views.size());
   for (std::size_t i = 0; i < set.views.size(); ++i) {
@@ -284,7 +284,7 @@ Image view_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, const V
 std::vector<Figure> paper_figures(const ShapeAnalysis& shape, const ViewReport& report,
                                   const ViewOptions& options, const RunContext& run,
                                   const PictureLook& look) {
-  const PictureLook white = look.on(kWhite);
+  const PictureLook white = look.on(kPaper);
   const Panels best(shape, report.best, options, run, white);
   const Panels worst(shape, report.worst, options, run, white);
   const Image map = best.plain(Picture::Map, options);

@@ -22,7 +22,7 @@ namespace {
 constexpr int kFinestDrawn = 4;
 /// Panels of the whole sphere; one enlarged part comes after them. [ours]
 constexpr std::size_t kMostPanels = 5;
-constexpr Rgb8 kInk{40, 40, 44};
+constexpr Rgb8 kTextInk{40, 40, 44};
 constexpr Rgb8 kMesh{196, 200, 206};
 constexpr Rgb8 kBall{243, 244, 246};
 constexpr Rgb8 kPath{20, 20, 20};
@@ -219,7 +219,8 @@ LineDrawing search_figure(const std::vector<SearchStep>& trace, ViewSphereBase b
     ball.disc(drawing);
     draw_mesh(drawing, ball, set, 0.0025 * size);
     draw_search(drawing, ball, story, level, 0.012 * size);
-    drawing.text(label(story, level, total), {centre[0] - radius, size + letters}, letters, kInk);
+    drawing.text(label(story, level, total), {centre[0] - radius, size + letters}, letters,
+                 kTextInk);
     if (level < kFinestDrawn) {
       set = loop_refined(set);
     }
@@ -232,7 +233,7 @@ LineDrawing search_figure(const std::vector<SearchStep>& trace, ViewSphereBase b
   draw_mesh(drawing, close, set, 0.0025 * size);
   draw_search(drawing, close, story, last, 0.012 * size);
   drawing.text("12 x " + label(story, last, total), {centre[0] - radius, size + letters}, letters,
-               kInk);
+               kTextInk);
   return drawing;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "vantage/io/write.h"
 #include "vantage/report/view_report.h"
 
+#include "core/degrees.h"
 #include "pipeline/option_echo.h"
 
 namespace vantage {
@@ -101,7 +101,6 @@ Json views_of(const ReportedViewSet& set, bool pictures, UpAxis up) {
 
 Json set_of(const ReportedViewSet& set, ViewSelection selection) {
   constexpr std::array<std::string_view, 3> kStops{"count", "coverage", "exhausted"};
-  constexpr double kDegPerRad = 180.0 / std::numbers::pi;
   Json json = {{"selection", selection_name(selection)},
                {"stop", kStops[static_cast<std::size_t>(set.choice.stop)]},
                {"candidates", set.choice.candidates},

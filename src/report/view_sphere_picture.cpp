@@ -21,8 +21,8 @@ namespace {
 // enclosing sphere: the worst must not cut the model. [ours]
 constexpr double kNear = 1.05;
 constexpr double kFar = 1.75;
-constexpr double kWire = 0.009;  // half the width of a wire in radii [ours]
-constexpr int kSides = 3;        // of a wire
+constexpr double kHalfWire = 0.009;  // half the width of a wire in radii [ours]
+constexpr int kWireSides = 3;        // of a wire
 constexpr Rgb8 kModelGrey{168, 168, 168};
 
 /// How good each view is, from 0 to 1; all 0 where they are alike.
@@ -50,17 +50,17 @@ void add_wire(TriMesh& mesh, const Vec3& a, const Vec3& b, double radius) {
   const Vec3 other = along.normalized().cross(side);
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (const Vec3& end : {a, b}) {
-    for (int k = 0; k < kSides; ++k) {
-      const double angle = 2.0 * std::numbers::pi * k / kSides;
+    for (int k = 0; k < kWireSides; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / kWireSides;
       mesh.positions.emplace_back(end +
                                   radius * (std::cos(angle) * side + std::sin(angle) * other));
     }
   }
-  for (std::uint32_t k = 0; k < kSides; ++k) {
+  for (std::uint32_t k = 0; k < kWireSides; ++k) {
     const std::uint32_t here = first + k;
-    const std::uint32_t next = first + (k + 1) % kSides;
-    mesh.triangles.push_back({here, next, here + kSides});
-    mesh.triangles.push_back({next, next + kSides, here + kSides});
+    const std::uint32_t next = first + (k + 1) % kWireSides;
+    mesh.triangles.push_back({here, next, here + kWireSides});
+    mesh.triangles.push_back({next, next + kWireSides, here + kWireSides});
   }
 }
 
@@ -79,9 +79,9 @@ Image view_sphere_picture(const ShapeAnalysis& shape, const Comparison& comparis
   std::vector<Rgb8> colours(mesh.positions.size(), kModelGrey);
   const EdgeTable table = build_edge_table({comparison.set.directions, comparison.set.triangles});
   for (const auto& [a, b] : table.edges) {
-    add_wire(mesh, node(a), node(b), kWire * radius);
-    colours.insert(colours.end(), kSides, cool_warm(good[a]));
-    colours.insert(colours.end(), kSides, cool_warm(good[b]));
+    add_wire(mesh, node(a), node(b), kHalfWire * radius);
+    colours.insert(colours.end(), kWireSides, cool_warm(good[a]));
+    colours.insert(colours.end(), kWireSides, cool_warm(good[b]));
   }
   // From a corner in front, always as near: pictures of methods are to be compared.
   const UprightFrame frame = upright_frame(up_vector(up));

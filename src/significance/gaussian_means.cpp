@@ -26,7 +26,7 @@ constexpr double kCell = kReach / 4.0;
 constexpr std::int64_t kCellsFar = 4;
 /// Where no point is near: what lists are filled up with.
 constexpr double kNowhere = 1e9;
-constexpr std::size_t kGrain = 8;  // cells a task
+constexpr std::size_t kCellsPerTask = 8;  // cells a task
 
 /// exp(−t) for t from 0 to 2, what a Gaussian within its reach needs: the eighth power of a Taylor
 /// series, of which the first term left out is below 1e-17. Without a table, which lanes would have
@@ -239,11 +239,11 @@ std::vector<GaussianMeans> gaussian_means(const FieldPoints& points, const RunCo
   std::vector<GaussianMeans> means(points.position.size());
   const Cells cells(points);
   // Blocks, so that a bar moves and a stop is seen.
-  const std::size_t block = std::max<std::size_t>(kGrain, cells.size() / 64);
+  const std::size_t block = std::max<std::size_t>(kCellsPerTask, cells.size() / 64);
   for (std::size_t first = 0; first < cells.size(); first += block) {
     run.advance("saliency", static_cast<double>(first) / static_cast<double>(cells.size()));
     const std::size_t count = std::min(block, cells.size() - first);
-    parallel_for(run, count, kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(run, count, kCellsPerTask, [&](std::size_t begin, std::size_t end) {
       NearPoints near;
       for (std::size_t cell = first + begin; cell < first + end; ++cell) {
         near.clear();

@@ -22,7 +22,7 @@ namespace {
 
 /// A level whose displacement spans less than this fraction of D is flat: rounding, not shape.
 constexpr double kFlat = 1e-6;
-constexpr std::size_t kGrain = 2048;  // vertices a task
+constexpr std::size_t kVerticesPerTask = 2048;  // vertices a task
 /// A level counts in full where it correlates by this share of what is missing to 1 above the least
 /// [ours: trials in docs/lab].
 constexpr double kRamp = 0.5;
@@ -48,7 +48,7 @@ std::vector<std::vector<double>> displacements(const ContractionHistory& history
   for (const auto& positions : history.levels) {
     run.advance("map", static_cast<double>(d.size()) / levels);
     auto& level = d.emplace_back(positions.size());
-    parallel_for(run, positions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(run, positions.size(), kVerticesPerTask, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
         level[v] = distance(positions[v]);
       }
@@ -89,7 +89,7 @@ std::vector<double> level_weights(const ContractionHistory& history, const Curve
   const double full = kRamp * (1.0 - least);
   double noise = 0.0;
   for (std::size_t level = 0; level < weights.size(); ++level) {
-    parallel_for(run, area.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(run, area.size(), kVerticesPerTask, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         here[i] = to_first(second.here[level][i]);
         there[i] = to_other(second.there[level][i]);

@@ -19,7 +19,7 @@ namespace {
 constexpr std::array<std::array<std::size_t, 2>, 5> kPairs{
     {{0, 2}, {1, 4}, {2, 5}, {3, 6}, {4, 7}}};
 /// A scale whose saliency spans less than this fraction of the largest |C| is flat: rounding.
-constexpr double kFlat = 1e-6;
+constexpr double kFlatShare = 1e-6;
 
 }  // namespace
 
@@ -64,7 +64,7 @@ MeshSaliency compute_mesh_saliency(const TriMesh& mesh, const MeshSaliencyOption
     for (std::size_t i = 0; i < means.size(); ++i) {
       field[vertex_of_point[i]] = std::abs(means[i][centre] - means[i][surround]);
     }
-    const NormalisedField scaled = normalised(field, counted, kFlat * strongest);
+    const NormalisedField scaled = normalised(field, counted, kFlatShare * strongest);
     if (scaled.flat) {
       result.level_factor.push_back(0.0);
       continue;

@@ -18,7 +18,7 @@ namespace vantage {
 namespace {
 
 constexpr double kCircumference = 2.0 * std::numbers::pi;  // over the radius
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
 using Adjacency = std::vector<std::vector<std::uint32_t>>;
 
@@ -29,7 +29,7 @@ std::vector<std::uint32_t> loop_over(const CurveGraph& graph, const Adjacency& l
   const auto span = [&graph](std::uint32_t a, std::uint32_t b) {
     return (graph.nodes[a] - graph.nodes[b]).norm();
   };
-  std::vector<double> distance(graph.nodes.size(), kFar);
+  std::vector<double> distance(graph.nodes.size(), kUnreached);
   std::vector<std::uint32_t> from(graph.nodes.size(), Skeleton::kNone);
   using Entry = std::pair<double, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -56,7 +56,7 @@ std::vector<std::uint32_t> loop_over(const CurveGraph& graph, const Adjacency& l
   }
   length = distance[edge[1]];
   std::vector<std::uint32_t> loop;
-  for (std::uint32_t n = edge[1]; length < kFar && n != Skeleton::kNone; n = from[n]) {
+  for (std::uint32_t n = edge[1]; length < kUnreached && n != Skeleton::kNone; n = from[n]) {
     loop.push_back(n);
   }
   return loop;
@@ -159,7 +159,7 @@ void close_short_loops(CurveGraph& graph, const TriMesh& samples,
     double most = kCircumference * *std::max_element(radius.begin(), radius.end());
     std::vector<std::uint32_t> shortest;
     for (const auto& edge : graph.edges) {
-      double length = kFar;
+      double length = kUnreached;
       std::vector<std::uint32_t> loop = loop_over(graph, lists, edge, most, length);
       double mean = 0.0;
       for (const std::uint32_t n : loop) {

@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kGrain = 2048;  // points a task
+constexpr std::size_t kPointsPerTask = 2048;  // points a task
 /// Tries to meet the wanted number of samples.
 constexpr int kTries = 8;
 /// A sample this much smaller than wanted is good enough.
@@ -87,7 +87,7 @@ NeighbourDistances neighbour_distances(std::span<const Vec3> points, std::size_t
   const PointTree tree(points);
   const std::size_t wanted = std::min(k + 1, points.size());
   std::vector<std::uint32_t> near(points.size() * wanted);
-  parallel_for(run, points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(run, points.size(), kPointsPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<std::size_t> found(wanted);
     std::vector<double> squared(wanted);
     for (std::size_t i = begin; i < end; ++i) {
@@ -98,7 +98,7 @@ NeighbourDistances neighbour_distances(std::span<const Vec3> points, std::size_t
       }
     }
   });
-  parallel_for(run, points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(run, points.size(), kPointsPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<double> values;
     for (std::size_t i = begin; i < end; ++i) {
       values.clear();
@@ -117,7 +117,7 @@ std::vector<NearestThree> nearest_three(std::span<const Vec3> points, std::span<
                                         const RunContext& run) {
   std::vector<NearestThree> result(points.size());
   const PointTree tree(targets);
-  parallel_for(run, points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(run, points.size(), kPointsPerTask, [&](std::size_t begin, std::size_t end) {
     std::array<std::size_t, 3> found{};
     std::array<double, 3> squared{};
     for (std::size_t i = begin; i < end; ++i) {

@@ -15,7 +15,7 @@ namespace vantage {
 namespace {
 
 // Views a chunk.
-constexpr std::size_t kGrain = 4;
+constexpr std::size_t kDirectionsPerTask = 4;
 
 /// The area that each view sees in all. \throw InvalidInput
 std::vector<double> seen_areas(const ViewChannel& channel) {
@@ -122,7 +122,7 @@ std::vector<ChannelPick> greedy_entropy_views(const ViewChannel& channel, std::s
   std::vector<ChannelPick> picks;
   std::vector<double> entropy(channel.views.size(), 0.0);
   while (picks.size() < count) {
-    parallel_for(without_progress(run), entropy.size(), kGrain,
+    parallel_for(without_progress(run), entropy.size(), kDirectionsPerTask,
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t v = begin; v < end; ++v) {
                      double sum = 0.0;
@@ -189,7 +189,7 @@ MergedViews merge_views(const ViewChannel& channel, std::size_t count, double ra
                  [](double area) { return area > 0.0 ? std::uint8_t{1} : std::uint8_t{0}; });
   MergedViews result;
   while (result.picks.size() < count) {
-    parallel_for(without_progress(run), information.size(), kGrain,
+    parallel_for(without_progress(run), information.size(), kDirectionsPerTask,
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t v = begin; v < end; ++v) {
                      information[v] = seen[v] > 0.0 ? merged.with(v) : 0.0;

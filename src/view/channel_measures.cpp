@@ -17,9 +17,9 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kGrain = 256;      // faces a task
-constexpr std::size_t kRowGrain = 4096;  // faces a task whose rows are filled
-constexpr std::size_t kViewGrain = 16;   // views a task that are compared with their neighbours
+constexpr std::size_t kFacesPerTask = 256;  // faces a task
+constexpr std::size_t kRowGrain = 4096;     // faces a task whose rows are filled
+constexpr std::size_t kViewGrain = 16;      // views a task that are compared with their neighbours
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// The channel turned round: for each face the views that see it and how much of it. FaceArea::face
@@ -92,7 +92,7 @@ std::vector<double> face_saliency(const FaceRows& rows, const std::vector<Summed
   const IndexLists around = faces_around(mesh);
   // Each pair once, at the lower face.
   std::vector<double> of_pair(around.values.size(), 0.0);
-  parallel_for(run, around.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(run, around.size(), kFacesPerTask, [&](std::size_t begin, std::size_t end) {
     LaidOutAreas laid_out(views);
     for (std::size_t f = begin; f < end; ++f) {
       laid_out.put(rows[f]);

@@ -20,8 +20,8 @@ constexpr double kLikeRad = 12.0 * kRadPerDeg;  // estimates so far apart are of
 constexpr double kTrust = 0.3;      // weight of the mean error where nothing near was scored
 constexpr std::size_t kStarts = 4;  // directions that the ascent starts from, …
 constexpr double kStartsApartRad = 5.0 * kRadPerDeg;  // … so far apart: not by one maximum
-constexpr double kFlat = 3e-4;         // share of the range that is not worth a finer ring
-constexpr std::size_t kProxyEnds = 2;  // of the ends by a proxy, ascend once more by the score
+constexpr double kNotWorthARing = 3e-4;  // share of the range that is not worth a finer ring
+constexpr std::size_t kProxyEnds = 2;    // of the ends by a proxy, ascend once more by the score
 
 constexpr double kSurveyShare = 0.5;  // of the progress bar
 
@@ -169,7 +169,7 @@ Candidate search_globally(const SearchTarget& target, const RunContext& run) {
   }
   AscentRules rules{.first_rad = first_rad,
                     .last_rad = target.finest_deg() * kRadPerDeg,
-                    .flat = kFlat * survey.range(),
+                    .flat = kNotWorthARing * survey.range(),
                     .drops_losers = true};
   const RunContext ascent = run.part(kSurveyShare, 1.0);
   std::vector<Candidate> candidates =

@@ -22,7 +22,7 @@ bool is_larger(const Candidate& a, const Candidate& b) {
 }
 
 /// The ring of six around a candidate, on its lattice, which begins here if there is none.
-std::vector<Candidate> ring_around(Candidate& candidate, double width_rad) {
+std::vector<Candidate> candidate_ring(Candidate& candidate, double width_rad) {
   constexpr std::array<std::array<double, 2>, 6> kSteps{
       {{1.0, 0.0}, {0.0, 1.0}, {-1.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}, {1.0, -1.0}}};
   LatticePlace& at = candidate.place;
@@ -149,7 +149,7 @@ void ascend(std::vector<Candidate>& candidates, const AscentRules& rules,
       if (!climb.is_over) {
         active.push_back(&climb);
         widest = std::max(widest, climb.width_rad);
-        for (Candidate& one : ring_around(*climb.at, climb.width_rad)) {
+        for (Candidate& one : candidate_ring(*climb.at, climb.width_rad)) {
           directions.push_back(one.direction);
           around.push_back(std::move(one));
         }

@@ -12,14 +12,14 @@
 namespace vantage {
 namespace {
 
-constexpr std::uint32_t kNone = kNoSide;
+constexpr std::uint32_t kNoNeighbour = kNoSide;
 
 /// A stretch of one chain that bounds the shape: down where the shape is on its right, else up.
 struct Stretch {
   PicturePoint low = PicturePoint::Zero();
   PicturePoint high = PicturePoint::Zero();
-  std::uint32_t side = kNone;  // that `low` is on
-  std::uint32_t next = kNone;
+  std::uint32_t side = kNoNeighbour;  // that `low` is on
+  std::uint32_t next = kNoNeighbour;
   bool is_left = false;  // of the shape
 };
 
@@ -28,7 +28,7 @@ struct Stretch {
 struct Bound {
   std::uint32_t chain = 0;
   std::uint32_t side = 0;  // of the chain, at the line or below it
-  std::uint32_t stretch = kNone;
+  std::uint32_t stretch = kNoNeighbour;
 };
 
 /// Cuts the plane into slabs in which nothing begins, ends or crosses, so that the shape is a row
@@ -45,7 +45,7 @@ class Sweep {
       if (side.is_first) {
         lines.push_back(side.low);
       }
-      if (side.next == kNone) {
+      if (side.next == kNoNeighbour) {
         lines.push_back(side.high);
       }
     }
@@ -136,7 +136,7 @@ class Sweep {
     for (const ActiveChains::Chain& chain : active_.chains()) {
       const int after = layers + chain.step;
       if ((layers > 0) != (after > 0)) {
-        above_.push_back({chain.first, chain.side, kNone});
+        above_.push_back({chain.first, chain.side, kNoNeighbour});
       }
       layers = after;
     }
@@ -168,7 +168,7 @@ class Sweep {
 
   /// The end of a stretch on the line at hand.
   struct End {
-    std::uint32_t stretch = kNone;
+    std::uint32_t stretch = kNoNeighbour;
     bool is_below = false;
     bool is_left = false;  // of the shape
 
@@ -220,7 +220,7 @@ class Sweep {
   void add_points(const Stretch& stretch, std::vector<PicturePoint>& loop) const {
     const std::size_t begin = loop.size();
     loop.push_back(stretch.low);
-    for (std::uint32_t s = stretch.side; s != kNone && sides_[s].high < stretch.high.y();
+    for (std::uint32_t s = stretch.side; s != kNoNeighbour && sides_[s].high < stretch.high.y();
          s = sides_[s].next) {
       loop.emplace_back(sides_[s].x_high, sides_[s].high);
     }
@@ -235,7 +235,7 @@ class Sweep {
     Outline outline;
     for (std::uint32_t first = 0; first < stretches_.size(); ++first) {
       std::vector<PicturePoint> loop;
-      for (std::uint32_t i = first; i != kNone && used[i] == 0; i = stretches_[i].next) {
+      for (std::uint32_t i = first; i != kNoNeighbour && used[i] == 0; i = stretches_[i].next) {
         used[i] = 1;
         add_points(stretches_[i], loop);
       }

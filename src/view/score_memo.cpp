@@ -10,7 +10,7 @@ namespace vantage {
 namespace {
 
 // Directions a batch: enough to keep many cores busy, few enough for a bar that moves.
-constexpr std::size_t kBatch = 32;
+constexpr std::size_t kDirectionsAtOnce = 32;
 
 }  // namespace
 
@@ -49,9 +49,9 @@ std::vector<double> ScoreMemo::scores(const std::vector<Vec3>& directions, int l
                                       const RunContext& run) {
   std::vector<double> result;
   result.reserve(directions.size());
-  for (std::size_t begin = 0; begin < directions.size(); begin += kBatch) {
+  for (std::size_t begin = 0; begin < directions.size(); begin += kDirectionsAtOnce) {
     run.advance("search", static_cast<double>(begin) / static_cast<double>(directions.size()));
-    const std::size_t end = std::min(directions.size(), begin + kBatch);
+    const std::size_t end = std::min(directions.size(), begin + kDirectionsAtOnce);
     const std::vector<Vec3> batch(directions.begin() + static_cast<std::ptrdiff_t>(begin),
                                   directions.begin() + static_cast<std::ptrdiff_t>(end));
     const std::vector<double> part = scores(batch, level);

@@ -9,9 +9,9 @@
 
 #include "vantage/core/vec3.h"
 
-namespace vantage {
+#include "core/degrees.h"
 
-inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+namespace vantage {
 
 /// Angle between two vectors in radians, accurate also near 0 and π.
 inline double angle_between(const Vec3& a, const Vec3& b) {

@@ -20,7 +20,7 @@ constexpr float kNearestShare = 1.0F / 64.0F;
 // chosen by measurement on models of 10 K to 170 K vertices. [ours]
 constexpr double kPointsPerCell = 1.0;
 constexpr std::uint32_t kMaxCells = 2048;
-constexpr std::size_t kGrain = 4096;  // points per chunk: some tenths of a millisecond
+constexpr std::size_t kSpotsPerTask = 4096;  // points per chunk: some tenths of a millisecond
 
 }  // namespace
 
@@ -62,7 +62,7 @@ bool EyeGrid::aim(const Surface& surface, const RunContext& run) {
 void EyeGrid::project(const FloatPoints& points, std::vector<Spot>& spots,
                       const RunContext& run) const {
   spots.resize(points.x.size());
-  parallel_for(run, spots.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(run, spots.size(), kSpotsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       spots[i] = in_picture(points, i);
     }
@@ -102,7 +102,7 @@ void EyeGrid::choose_cells(std::size_t active) {
 }
 
 void EyeGrid::to_cells(std::vector<Spot>& spots, const RunContext& run) const {
-  parallel_for(run, spots.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(run, spots.size(), kSpotsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       spots[i] = in_cells(spots[i]);
     }
@@ -153,7 +153,7 @@ void EyeGrid::place_points(const SurfacePoints& points, const std::vector<std::u
   spots_.resize(count);
   cell_.resize(count);
   const std::size_t sites = points.sites.size();
-  parallel_for(run, count, kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(run, count, kSpotsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t i = asked_[k];
       spots_[k] = i < sites ? corners_[i] : in_cells(in_picture(*points.rounded, i - sites));

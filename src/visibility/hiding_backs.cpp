@@ -21,7 +21,7 @@ namespace {
 constexpr double kClear = 0x1p-40;
 // A shell whose volume is below this share of what its faces' volumes add up to has no inside to
 // speak of.
-constexpr double kFlatShell = 1e-9;
+constexpr double kFlatPart = 1e-9;
 
 // Steps a face that the search for faces near each other may take; a fine mesh takes thirty.
 constexpr std::size_t kStepsPerFace = 100;
@@ -94,7 +94,7 @@ class BackCheck {
       size[shell] += std::abs(part);
     }
     for (std::uint32_t f = 0; f < hides_.size(); ++f) {
-      if (!(volume[f] > kFlatShell * size[f])) {
+      if (!(volume[f] > kFlatPart * size[f])) {
         hides_[f] = 1;  // also of faces that no shell is named after
       }
     }

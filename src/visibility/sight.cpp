@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kGrain = 2048;  // points per chunk: a few tenths of a millisecond
+constexpr std::size_t kPointsPerTask = 2048;  // points per chunk: a few tenths of a millisecond
 
 }  // namespace
 
@@ -77,7 +77,7 @@ std::vector<std::uint8_t> Look::seen_by_segments(std::span<const std::uint8_t> s
 
 void Look::strike_hidden(std::vector<std::uint8_t>& asked) {
   const SurfacePoints points{.sites = sight_.surface_.sites};
-  parallel_for(run_, asked.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(run_, asked.size(), kPointsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (asked[i] != 0 && sight_.hidden(points, static_cast<std::uint32_t>(i), eye_)) {
         asked[i] = 0;

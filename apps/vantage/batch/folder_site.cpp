@@ -23,7 +23,7 @@ namespace vantage::batch {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// How deep results are looked for.
 constexpr int kDepth = 4;
@@ -33,26 +33,26 @@ constexpr std::size_t kMostResults = 20'000;
 constexpr std::uintmax_t kLargestJson = 16U << 20U;
 constexpr std::string_view kModels = "/models/";
 
-struct Kind {
+struct MediaType {
   std::string_view extension;
   const char* type;
 };
 
 /// What results are made of.
-constexpr std::array<Kind, 14> kKinds{{{".html", "text/html; charset=utf-8"},
-                                       {".png", "image/png"},
-                                       {".webp", "image/webp"},
-                                       {".json", "application/json"},
-                                       {".csv", "text/csv; charset=utf-8"},
-                                       {".txt", "text/plain; charset=utf-8"},
-                                       {".svg", "image/svg+xml"},
-                                       {".ply", "application/octet-stream"},
-                                       {".obj", "text/plain; charset=utf-8"},
-                                       {".gltf", "model/gltf+json"},
-                                       {".glb", "model/gltf-binary"},
-                                       {".swc", "text/plain; charset=utf-8"},
-                                       {".graphml", "application/xml"},
-                                       {".jsonl", "application/x-ndjson"}}};
+constexpr std::array<MediaType, 14> kMediaTypes{{{".html", "text/html; charset=utf-8"},
+                                                 {".png", "image/png"},
+                                                 {".webp", "image/webp"},
+                                                 {".json", "application/json"},
+                                                 {".csv", "text/csv; charset=utf-8"},
+                                                 {".txt", "text/plain; charset=utf-8"},
+                                                 {".svg", "image/svg+xml"},
+                                                 {".ply", "application/octet-stream"},
+                                                 {".obj", "text/plain; charset=utf-8"},
+                                                 {".gltf", "model/gltf+json"},
+                                                 {".glb", "model/gltf-binary"},
+                                                 {".swc", "text/plain; charset=utf-8"},
+                                                 {".graphml", "application/xml"},
+                                                 {".jsonl", "application/x-ndjson"}}};
 
 bool is_hidden(std::string_view path) {
   return path.find("/.") != std::string_view::npos || path.find('\0') != std::string_view::npos ||
@@ -66,33 +66,33 @@ bool is_file(const fs::path& path) {
 }
 
 /// A view.json of ours; nothing if it is not one.
-std::optional<Json> read_result(const fs::path& folder) {
+std::optional<OrderedJson> read_result(const fs::path& folder) {
   const fs::path path = folder / "view.json";
   std::error_code error;
   if (!is_file(path) || fs::file_size(path, error) > kLargestJson || error) {
     return std::nullopt;
   }
   std::ifstream stream(path, std::ios::binary);
-  Json json = Json::parse(std::istreambuf_iterator<char>(stream), {}, nullptr, false);
+  OrderedJson json = OrderedJson::parse(std::istreambuf_iterator<char>(stream), {}, nullptr, false);
   const bool ours = json.is_object() && json.contains("vantage") && json.contains("model") &&
                     json["model"].is_object() && json.contains("best") && json["best"].is_object();
   return ours ? std::optional(std::move(json)) : std::nullopt;
 }
 
-Json number_or_null(const Json& object, const char* member) {
+OrderedJson number_or_null(const OrderedJson& object, const char* member) {
   const auto found = object.find(member);
-  return found != object.end() && found->is_number() ? *found : Json(nullptr);
+  return found != object.end() && found->is_number() ? *found : OrderedJson(nullptr);
 }
 
-Json row_of(const Json& result, const fs::path& folder, const std::string& name) {
+OrderedJson row_of(const OrderedJson& result, const fs::path& folder, const std::string& name) {
   const int has = (is_file(folder / "best.png") ? kHasThumbnail | kHasPicture : 0) |
                   (is_file(folder / "report.html") ? kHasReport : 0);
-  const Json& best = result["best"];
+  const OrderedJson& best = result["best"];
   const auto title = result["model"].find("name");
   const bool named = title != result["model"].end() && title->is_string();
-  return Json::array({name, named ? *title : Json(name), "done", "", "", name,
-                      number_or_null(best, "score_fraction"), number_or_null(best, "score"),
-                      number_or_null(result["model"], "vertices"), has});
+  return OrderedJson::array({name, named ? *title : OrderedJson(name), "done", "", "", name,
+                             number_or_null(best, "score_fraction"), number_or_null(best, "score"),
+                             number_or_null(result["model"], "vertices"), has});
 }
 
 /// Folders inside `root`, itself included, sorted by path; hidden ones and links left out.
@@ -139,7 +139,7 @@ std::string FolderSite::results_index() const {
   std::string rows;
   StatusCounts counts;
   for (const fs::path& folder : folders_in(root_)) {
-    const std::optional<Json> result = read_result(folder);
+    const std::optional<OrderedJson> result = read_result(folder);
     if (!result || counts.done == static_cast<std::int64_t>(kMostResults)) {
       continue;
     }
@@ -148,14 +148,14 @@ std::string FolderSite::results_index() const {
     const std::string name =
         folder == root_ ? root_.filename().string() : folder.lexically_relative(root_).string();
     const std::string row =
-        row_of(*result, folder, name).dump(-1, ' ', false, Json::error_handler_t::replace);
+        row_of(*result, folder, name).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
     rows += (rows.empty() ? "" : ",\n") + script_safe(row);
   }
   return index_page(rows, {"index.html"}, 0, counts);
 }
 
 std::optional<SitePage> FolderSite::index(std::size_t page) const {
-  SitePage made{.type = kKinds[0].type};
+  SitePage made{.type = kMediaTypes[0].type};
   if (is_batch_) {
     ResultsStore store(root_.string(), Database::Mode::Read);
     std::optional<std::string> body = overview_page(root_.string(), store, page);
@@ -200,9 +200,10 @@ std::optional<SitePage> FolderSite::find(std::string_view path) const {
     }
   }
   const std::string extension = file.extension().string();
-  const auto* const kind = std::find_if(kKinds.begin(), kKinds.end(),
-                                        [&](const Kind& k) { return k.extension == extension; });
-  if (kind == kKinds.end() || file.is_absolute()) {
+  const auto* const kind =
+      std::find_if(kMediaTypes.begin(), kMediaTypes.end(),
+                   [&](const MediaType& k) { return k.extension == extension; });
+  if (kind == kMediaTypes.end() || file.is_absolute()) {
     return std::nullopt;
   }
   SitePage page{.type = kind->type, .file = ServedFile::open(root_, file)};

@@ -19,7 +19,7 @@ constexpr std::size_t kLongestLine = 1U << 20U;
 constexpr const char* kNoAxis = " has an \"up\" that is none of x y z -x -y -z";
 constexpr const char* kNoFront = " has a \"front\" that is none of x y z -x -y -z";
 
-enum class Kind { Unknown, JsonLines, Csv, Paths };
+enum class ManifestForm { Unknown, JsonLines, Csv, Paths };
 
 using Fields = std::map<std::string, std::string>;
 
@@ -30,14 +30,15 @@ class ManifestSource : public EntrySource {
 
   std::optional<Entry> next() override {
     while (true) {
-      std::optional<std::string> line = read_line(kind_ == Kind::Csv || kind_ == Kind::Unknown);
+      std::optional<std::string> line =
+          read_line(kind_ == ManifestForm::Csv || kind_ == ManifestForm::Unknown);
       if (!line) {
         return std::nullopt;
       }
-      if (kind_ == Kind::Unknown && take_first(*line)) {
+      if (kind_ == ManifestForm::Unknown && take_first(*line)) {
         continue;
       }
-      if (line->empty() || (kind_ == Kind::Paths && line->front() == '#' && !zero_ended_)) {
+      if (line->empty() || (kind_ == ManifestForm::Paths && line->front() == '#' && !zero_ended_)) {
         continue;
       }
       Entry entry = entry_of(*line);
@@ -55,11 +56,11 @@ class ManifestSource : public EntrySource {
     while (const std::optional<char> read = bytes_.next()) {
       const char c = *read;
       any = true;
-      if (c == '\0' && (zero_ended_ || kind_ == Kind::Unknown)) {
+      if (c == '\0' && (zero_ended_ || kind_ == ManifestForm::Unknown)) {
         zero_ended_ = true;
         break;
       }
-      inside = (c == '"' && quotes && kind_ == Kind::Csv) ? !inside : inside;
+      inside = (c == '"' && quotes && kind_ == ManifestForm::Csv) ? !inside : inside;
       if (c == '\n' && !inside && !zero_ended_) {
         break;
       }
@@ -83,13 +84,13 @@ class ManifestSource : public EntrySource {
       line.erase(0, 3);
     }
     if (line.starts_with('{')) {
-      kind_ = Kind::JsonLines;
+      kind_ = ManifestForm::JsonLines;
       return false;
     }
     header_ = cells_of(line);
     const bool csv =
         !zero_ended_ && std::find(header_.begin(), header_.end(), "path") != header_.end();
-    kind_ = csv ? Kind::Csv : Kind::Paths;
+    kind_ = csv ? ManifestForm::Csv : ManifestForm::Paths;
     return csv;
   }
 
@@ -150,9 +151,9 @@ class ManifestSource : public EntrySource {
 
   Fields fields_of(const std::string& line, std::string& problem) const {
     Fields fields;
-    if (kind_ == Kind::Paths) {
+    if (kind_ == ManifestForm::Paths) {
       fields["path"] = line;
-    } else if (kind_ == Kind::Csv) {
+    } else if (kind_ == ManifestForm::Csv) {
       const std::vector<std::string> cells = cells_of(line);
       for (std::size_t i = 0; i < std::min(cells.size(), header_.size()); ++i) {
         fields[header_[i]] = cells[i];
@@ -176,7 +177,7 @@ class ManifestSource : public EntrySource {
   }
 
   Entry entry_of(const std::string& line) {
-    if (kind_ == Kind::JsonLines) {
+    if (kind_ == ManifestForm::JsonLines) {
       if (std::optional<Entry> planned = planned_entry(line)) {
         if (!is_axis(planned->up)) {
           planned->problem = place() + kNoAxis;
@@ -219,7 +220,7 @@ class ManifestSource : public EntrySource {
 
   std::filesystem::path folder_;
   StoppableBytes bytes_;
-  Kind kind_ = Kind::Unknown;
+  ManifestForm kind_ = ManifestForm::Unknown;
   bool zero_ended_ = false;
   std::vector<std::string> header_{};
   std::int64_t line_number_ = 0;

@@ -23,10 +23,10 @@
 namespace vantage::batch {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::size_t kRowsPerPage = 50'000;
-constexpr int kColumns = 10;
+constexpr int kTileColumns = 10;
 constexpr int kRows = 8;
 constexpr int kGap = 8;       // px around a thumbnail
 constexpr int kCaption = 18;  // px, the name below it
@@ -43,7 +43,7 @@ std::string sheet_name(std::size_t sheet) {
   return name.data();
 }
 
-constexpr int kSheetWidth = kColumns * (kThumbnailSide + kGap) + kGap;
+constexpr int kSheetWidth = kTileColumns * (kThumbnailSide + kGap) + kGap;
 
 /// Whether a file begins as a page of write_overview() does.
 bool is_page(const ConfinedFolder& folder, const std::string& name) {
@@ -103,12 +103,12 @@ class ContactSheets {
           4 * static_cast<std::size_t>(image_.width) * static_cast<std::size_t>(image_.height),
           255);
     }
-    const int left = kGap + tile_ % kColumns * (kThumbnailSide + kGap);
-    const int top = kGap + tile_ / kColumns * kTileHeight;
+    const int left = kGap + tile_ % kTileColumns * (kThumbnailSide + kGap);
+    const int top = kGap + tile_ / kTileColumns * kTileHeight;
     place(thumbnail, left + (kThumbnailSide - thumbnail.width) / 2,
           top + (kThumbnailSide - thumbnail.height) / 2);
     place(caption(name, kThumbnailSide, kCaption), left, top + kThumbnailSide);
-    if (++tile_ == kColumns * kRows) {
+    if (++tile_ == kTileColumns * kRows) {
       write();
     }
   }
@@ -143,7 +143,7 @@ class ContactSheets {
 
   void write() {
     // The last sheet is as long as it is full.
-    image_.height = (tile_ + kColumns - 1) / kColumns * kTileHeight + kGap;
+    image_.height = (tile_ + kTileColumns - 1) / kTileColumns * kTileHeight + kGap;
     image_.rgba.resize(4 * static_cast<std::size_t>(image_.width) *
                        static_cast<std::size_t>(image_.height));
     write_checked(folder_, sheet_name(sheet_), png_bytes(image_), is_sheet);
@@ -180,7 +180,7 @@ std::string tail_of(const std::string& key, std::size_t parts) {
 std::map<std::string, std::string> labels_of(ResultsStore& store) {
   std::map<std::string, std::vector<std::string>> keys_of_name;
   Statement rows = table_rows(store);
-  for (std::size_t shown = 0; shown < kSheets * kColumns * kRows && rows.step();) {
+  for (std::size_t shown = 0; shown < kSheets * kTileColumns * kRows && rows.step();) {
     if (rows.text(2) == "done" && rows.text(3).empty()) {
       keys_of_name[rows.text(1)].push_back(rows.text(0));
       ++shown;
@@ -210,14 +210,14 @@ std::string row_of(const Statement& row, const ConfinedFolder& root) {
     return root.exists(model_folder(folder) + "/" + file) ? bit : 0;
   };
   const auto number = [&](int column) {
-    return row.is_null(column) ? Json(nullptr) : Json(row.number(column));
+    return row.is_null(column) ? OrderedJson(nullptr) : OrderedJson(row.number(column));
   };
-  const Json cells =
-      Json::array({row.text(0), row.text(1), row.text(2), row.text(3), row.text(4), folder,
-                   number(6), number(7), row.is_null(8) ? Json(nullptr) : Json(row.integer(8)),
-                   shown(kThumbnailFile, kHasThumbnail) | shown("best.png", kHasPicture) |
-                       shown("report.html", kHasReport)});
-  return script_safe(cells.dump(-1, ' ', false, Json::error_handler_t::replace));
+  const OrderedJson cells = OrderedJson::array(
+      {row.text(0), row.text(1), row.text(2), row.text(3), row.text(4), folder, number(6),
+       number(7), row.is_null(8) ? OrderedJson(nullptr) : OrderedJson(row.integer(8)),
+       shown(kThumbnailFile, kHasThumbnail) | shown("best.png", kHasPicture) |
+           shown("report.html", kHasReport)});
+  return script_safe(cells.dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
 }
 
 /// The small picture of a model that was really run.

@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t kCheckpoint = 256;
 
 // A record is a few kB; the rest of a longer line is no record and fills no memory.
-constexpr std::size_t kLongestLine = 16U << 20U;
+constexpr std::size_t kLongestRecord = 16U << 20U;
 
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
@@ -36,7 +36,7 @@ bool read_line(std::FILE* file, std::string& line) {
   line.clear();
   int c = 0;
   while ((c = ::getc_unlocked(file)) != EOF && c != '\n') {
-    if (line.size() <= kLongestLine) {
+    if (line.size() <= kLongestRecord) {
       line += static_cast<char>(c);
     }
   }
@@ -49,7 +49,7 @@ std::string file_name(const Shard& shard) {
   return name.data();
 }
 
-std::string content_key(const ModelRecord& record) {
+std::string versioned_content_key(const ModelRecord& record) {
   return record.content + ' ' + record.options + ' ' + record.version;
 }
 
@@ -143,12 +143,12 @@ void ShardLog::read(const std::string& name) {
 
 void ShardLog::remember(const ModelRecord& record) {
   if (const auto old = records_.find(record.key); old != records_.end()) {
-    runs_of_content_[content_key(old->second)].erase({old->second.position, record.key});
+    runs_of_content_[versioned_content_key(old->second)].erase({old->second.position, record.key});
     owner_of_folder_.erase(old->second.folder);
   }
   records_[record.key] = record;
   if (stands_for_its_content(record)) {
-    runs_of_content_[content_key(record)].insert({record.position, record.key});
+    runs_of_content_[versioned_content_key(record)].insert({record.position, record.key});
   }
   if (!record.folder.empty()) {
     owner_of_folder_[record.folder] = record.key;
@@ -161,7 +161,7 @@ std::optional<ModelRecord> ShardLog::find(const std::string& key) {
 }
 
 std::optional<ModelRecord> ShardLog::find_content(const ModelRecord& like) {
-  const auto found = runs_of_content_.find(content_key(like));
+  const auto found = runs_of_content_.find(versioned_content_key(like));
   if (found == runs_of_content_.end() || found->second.empty()) {
     return std::nullopt;
   }

@@ -85,7 +85,7 @@ TriMesh fanned_box() {
   return fans;
 }
 
-std::vector<NamedMesh> surfaces() {
+std::vector<NamedMesh> sound_surfaces() {
   return {{"Cube", test::box(1, 1, 1, 1)},       {"CoarseBox", test::box(1, 0.5, 0.25, 2)},
           {"FannedBox", fanned_box()},           {"CoarseTorus", test::torus(1.0, 0.3, 12, 5)},
           {"CoarseY", test::y_of_tubes(0.3, 6)}, {"Plate", test::box(1.0, 1.0, 0.02, 6)},
@@ -104,7 +104,7 @@ TEST_P(SoundContraction, NeverEnlargesTheSurface) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Surfaces, SoundContraction, ::testing::ValuesIn(surfaces()),
+INSTANTIATE_TEST_SUITE_P(Surfaces, SoundContraction, ::testing::ValuesIn(sound_surfaces()),
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

@@ -36,7 +36,7 @@ std::string head(double unit_m, std::uint32_t up, bool stated) {
   return record("head", bytes(unit_m, up, std::uint32_t{stated}, 1U));
 }
 
-const std::string kCorners = bytes(0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0);
+const std::string kCornerBytes = bytes(0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0);
 
 struct Mesh {
   std::uint32_t flags = 0;
@@ -44,7 +44,7 @@ struct Mesh {
   std::string name = "part";
   std::uint64_t vertices = 3;
   std::uint64_t faces = 1;
-  std::string body = kCorners + bytes(3U, 0U, 1U, 2U);
+  std::string body = kCornerBytes + bytes(3U, 0U, 1U, 2U);
 
   [[nodiscard]] std::string text() const {
     return record("mesh", bytes(flags, material, static_cast<std::uint32_t>(name.size())) + name +
@@ -101,7 +101,7 @@ TEST(ImportStream, GivesColoursAndMaterials) {
   const Model model = read(stream({record("matl", material), Mesh{}.text(),
                                    Mesh{.flags = kImportColours,
                                         .material = 0,
-                                        .body = kCorners + colours + bytes(3U, 0U, 1U, 2U)}
+                                        .body = kCornerBytes + colours + bytes(3U, 0U, 1U, 2U)}
                                        .text()},
                                   2));
   ASSERT_EQ(model.vertex_colours.size(), 6U);
@@ -131,9 +131,9 @@ TEST(ImportStream, BelievesNoCount) {
   EXPECT_THAT(error_of(stream({Mesh{.vertices = many / 4 + 1}.text()}, 1)), HasSubstr("less than"));
   EXPECT_THAT(error_of(stream({Mesh{.faces = many}.text()}, 1)), HasSubstr("less than"));
   EXPECT_THAT(error_of(stream({Mesh{.faces = 0}.text()}, 1)), HasSubstr("more than"));
-  EXPECT_THAT(error_of(stream({Mesh{.body = kCorners + bytes(~0U, 0U)}.text()}, 1)),
+  EXPECT_THAT(error_of(stream({Mesh{.body = kCornerBytes + bytes(~0U, 0U)}.text()}, 1)),
               HasSubstr("less than"));
-  EXPECT_THAT(error_of(stream({Mesh{.body = kCorners + bytes(3U, 0U, 1U, 3U)}.text()}, 1)),
+  EXPECT_THAT(error_of(stream({Mesh{.body = kCornerBytes + bytes(3U, 0U, 1U, 3U)}.text()}, 1)),
               HasSubstr("names vertex 3 of a part that has 3"));
   EXPECT_THAT(error_of(std::string(kImportMagic) + "note" + bytes(~std::uint64_t{0})),
               HasSubstr("less than"));
@@ -157,7 +157,7 @@ TEST(ImportStream, SaysInOneLineWhyNothingCouldBeRead) {
 
 TEST(ImportStream, RefusesCoordinatesThatAreNoNumbers) {
   const std::string body = bytes(std::bit_cast<double>(~std::uint64_t{0}), 0.0, 0.0) +
-                           kCorners.substr(24) + bytes(3U, 0U, 1U, 2U);
+                           kCornerBytes.substr(24) + bytes(3U, 0U, 1U, 2U);
   EXPECT_THAT(error_of(stream({Mesh{.body = body}.text()}, 1)), HasSubstr("not a finite number"));
 }
 

@@ -8,13 +8,13 @@
 namespace vantage {
 namespace {
 
-constexpr int kSide = 36;
+constexpr int kGridSide = 36;
 
 /// A flat patch seen straight on, one unit a pixel.
-FragmentRows flat(int first_row = 0, int rows = kSide) {
-  FragmentRows patch(kSide, first_row, rows, 1);
+FragmentRows flat(int first_row = 0, int rows = kGridSide) {
+  FragmentRows patch(kGridSide, first_row, rows, 1);
   for (int y = first_row; y < first_row + rows; ++y) {
-    for (int x = 0; x < kSide; ++x) {
+    for (int x = 0; x < kGridSide; ++x) {
       Fragment& fragment = patch.fragments[patch.index(x, y)];
       fragment.place.position = Vec3f(static_cast<float>(x), static_cast<float>(-y), 0.0F);
       fragment.hit = true;
@@ -39,8 +39,8 @@ float at(const OpennessGrid& grid, const FragmentRows& rows, int x, int y) {
 TEST(OpennessGrid, LeavesAnOpenSurfaceExactlyOpen) {
   const FragmentRows rows = flat();
   const OpennessGrid grid = grid_of(rows, [](const SurfacePlace&) { return false; });
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
+  for (int y = 0; y < kGridSide; ++y) {
+    for (int x = 0; x < kGridSide; ++x) {
       ASSERT_EQ(at(grid, rows, x, y), 1.0F);
     }
   }
@@ -63,15 +63,15 @@ TEST(OpennessGrid, NineNeighboursHaveAllSetsOfRays) {
   const OpennessGrid grid(
       rows, 1.0,
       [](const SurfacePlace&, std::size_t set) { return static_cast<float>(set) / 8.0F; }, {});
-  for (int x = 2; x < kSide - 4; ++x) {
+  for (int x = 2; x < kGridSide - 4; ++x) {
     ASSERT_FLOAT_EQ(at(grid, rows, x, 17), 0.5F);  // mean of 0/8, 1/8, …, 8/8
   }
 }
 
 TEST(OpennessGrid, DoesNotReachAcrossAStep) {
   FragmentRows rows = flat();
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 16; x < kSide; ++x) {
+  for (int y = 0; y < kGridSide; ++y) {
+    for (int x = 16; x < kGridSide; ++x) {
       rows.fragments[rows.index(x, y)].place.position.z() = 3.0F;
     }
   }
@@ -107,7 +107,7 @@ TEST(OpennessGrid, DoesNotDependOnHowThePictureIsCut) {
   const OpennessGrid of_whole = grid_of(whole, dark);
   const OpennessGrid of_part = grid_of(part, dark);
   for (int y = 10; y < 15; ++y) {
-    for (int x = 0; x < kSide; ++x) {
+    for (int x = 0; x < kGridSide; ++x) {
       ASSERT_EQ(at(of_part, part, x, y), at(of_whole, whole, x, y)) << x << " " << y;
     }
   }

@@ -151,15 +151,15 @@ TEST(Render, EdgesOfATransparentPictureHaveNoDarkFringe) {
 
 TEST(Render, ALineHalfAPixelWideHasNoGaps) {
   // It passes between the middles of pixels for most of its length.
-  constexpr int kSide = 100;
+  constexpr int kPictureSide = 100;
   constexpr double kWide = 0.5;
   TriMesh line;
   line.positions = {{-40, 0, 0}, {40, 3, 0}, {40, 3 + kWide, 0}, {-40, kWide, 0}};
   line.triangles = {{0, 1, 2}, {0, 2, 3}};
-  const Image image = render(line, front(kSide), {}, {}, square(kSide));
+  const Image image = render(line, front(kPictureSide), {}, {}, square(kPictureSide));
   for (int x = 20; x < 80; ++x) {
     double column = 0.0;
-    for (int y = 0; y < kSide; ++y) {
+    for (int y = 0; y < kPictureSide; ++y) {
       column += image.pixel(x, y)[3] / 255.0;
     }
     EXPECT_NEAR(column, kWide, 0.15) << x;

@@ -16,7 +16,7 @@
 namespace vantage {
 namespace {
 
-ViewChannel random_channel(std::size_t views, std::size_t faces, std::uint64_t seed) {
+ViewChannel half_seen_channel(std::size_t views, std::size_t faces, std::uint64_t seed) {
   Pcg32 random(seed);
   ViewChannel channel{faces, {}};
   for (std::size_t v = 0; v < views; ++v) {
@@ -84,7 +84,7 @@ TEST(GreedyEntropyViews, AViewThatSeesNothingIsNeverChosen) {
 }
 
 TEST(MergeViews, StartsWithTheViewOfLeastMutualInformation) {
-  const ViewChannel channel = random_channel(12, 30, 4);
+  const ViewChannel channel = half_seen_channel(12, 30, 4);
   std::size_t least = 0;
   for (std::size_t v = 1; v < 12; ++v) {
     if (merged_information(channel, {v}) < merged_information(channel, {least})) {
@@ -98,7 +98,7 @@ TEST(MergeViews, StartsWithTheViewOfLeastMutualInformation) {
 
 TEST(MergeViews, EveryStepIsTheDefinitionsBest) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    const ViewChannel channel = random_channel(10, 25, seed);
+    const ViewChannel channel = half_seen_channel(10, 25, seed);
     const MergedViews merged = merge_views(channel, 6);
     std::vector<std::size_t> chosen;
     for (const ChannelPick& pick : merged.picks) {
@@ -118,7 +118,7 @@ TEST(MergeViews, EveryStepIsTheDefinitionsBest) {
 }
 
 TEST(MergeViews, AllViewsMergedTellNothing) {
-  const MergedViews merged = merge_views(random_channel(8, 20, 1), 8);
+  const MergedViews merged = merge_views(half_seen_channel(8, 20, 1), 8);
   ASSERT_EQ(merged.picks.size(), 8U);
   EXPECT_NEAR(merged.picks.back().value, 0.0, 1e-12);
 }
@@ -133,7 +133,7 @@ TEST(MergeViews, GivesTheChannelsInformation) {
 }
 
 TEST(MergeViews, StopsAtTheShareOfInformation) {
-  const ViewChannel channel = random_channel(10, 25, 2);
+  const ViewChannel channel = half_seen_channel(10, 25, 2);
   const MergedViews merged = merge_views(channel, 10, 0.5);
   const double limit = 0.5 * merged.channel_information;
   EXPECT_LE(merged.picks.back().value, limit);

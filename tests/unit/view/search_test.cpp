@@ -39,7 +39,7 @@ Vec3 peak() {
   return Vec3(0.3, -0.7, 0.45).normalized();
 }
 
-double hills(const Vec3& d) {
+double three_hills(const Vec3& d) {
   const auto hill = [&](const Vec3& top, double tall, double steep) {
     return tall * std::exp(steep * (d.dot(top) - 1.0));
   };
@@ -158,10 +158,10 @@ TEST(RapidSearch, OfABlankMapIsTheFirstDirection) {
 
 TEST(ExhaustiveSearch, IsALinearScan) {
   const auto directions = direction_set(ViewSphereBase::Icosahedron, 4).directions;
-  const auto best =
-      std::max_element(directions.begin(), directions.end(),
-                       [](const Vec3& a, const Vec3& b) { return hills(a) < hills(b); });
-  const FoundView found = search_view({scoring(hills), 1.0}, Goal::Best,
+  const auto best = std::max_element(
+      directions.begin(), directions.end(),
+      [](const Vec3& a, const Vec3& b) { return three_hills(a) < three_hills(b); });
+  const FoundView found = search_view({scoring(three_hills), 1.0}, Goal::Best,
                                       {.strategy = SearchStrategy::Exhaustive, .subdivisions = 4});
   EXPECT_EQ(found.direction, *best);
   EXPECT_EQ(found.evaluations, 2562U);
@@ -178,10 +178,10 @@ TEST(ExhaustiveSearch, GivesTiesToTheLowestIndex) {
 }
 
 TEST(GlobalSearch, FindsTheTallestOfSeveralHills) {
-  const FoundView found = search_view({scoring(hills), 1.0}, Goal::Best);
-  // The two other hills shift the top of the first; at the top the score is at least that of
+  const FoundView found = search_view({scoring(three_hills), 1.0}, Goal::Best);
+  // The two other three_hills shift the top of the first; at the top the score is at least that of
   // peak().
-  EXPECT_GE(found.score, hills(peak()));
+  EXPECT_GE(found.score, three_hills(peak()));
   EXPECT_LT(degrees_between(found.direction, peak()), 1.0);
 }
 
@@ -202,8 +202,8 @@ TEST(GlobalSearch, EndsOnASmoothSummitWhereTheScoreGainsNoMore) {
 
 TEST(GlobalSearch, FindsTheLowestOfSeveralPits) {
   const FoundView found =
-      search_view({scoring([](const Vec3& d) { return 2.0 - hills(d); }), 1.0}, Goal::Worst);
-  EXPECT_LE(found.score, 2.0 - hills(peak()));
+      search_view({scoring([](const Vec3& d) { return 2.0 - three_hills(d); }), 1.0}, Goal::Worst);
+  EXPECT_LE(found.score, 2.0 - three_hills(peak()));
 }
 
 TEST(GlobalSearch, OfABlankMapIsTheFirstDirection) {
@@ -244,7 +244,7 @@ TEST_P(SearchBy, ScoresNoDirectionTwice) {
   const auto counting = scoring([&](const Vec3& d) {
     ++count;
     asked.emplace(d.x(), d.y(), d.z());
-    return hills(d);
+    return three_hills(d);
   });
   const FoundViews found = search_best_and_worst({counting, 1.0}, {.strategy = GetParam()});
   EXPECT_EQ(asked.size(), count);
@@ -253,17 +253,19 @@ TEST_P(SearchBy, ScoresNoDirectionTwice) {
 
 TEST_P(SearchBy, FindsTheSameTogetherAsAlone) {
   const SearchOptions options{.strategy = GetParam()};
-  const FoundViews both = search_best_and_worst({scoring(hills), 1.0}, options);
-  EXPECT_EQ(both.best.direction, search_view({scoring(hills), 1.0}, Goal::Best, options).direction);
+  const FoundViews both = search_best_and_worst({scoring(three_hills), 1.0}, options);
+  EXPECT_EQ(both.best.direction,
+            search_view({scoring(three_hills), 1.0}, Goal::Best, options).direction);
   EXPECT_EQ(both.worst.direction,
-            search_view({scoring(hills), 1.0}, Goal::Worst, options).direction);
+            search_view({scoring(three_hills), 1.0}, Goal::Worst, options).direction);
 }
 
 TEST_P(SearchBy, KeepsATraceOfWhatItScored) {
-  const FoundView found = search_view({scoring(hills), 1.0}, Goal::Best, {.strategy = GetParam()});
+  const FoundView found =
+      search_view({scoring(three_hills), 1.0}, Goal::Best, {.strategy = GetParam()});
   ASSERT_EQ(found.trace.size(), found.evaluations);
   for (const SearchStep& step : found.trace) {
-    ASSERT_EQ(step.score, hills(step.direction));
+    ASSERT_EQ(step.score, three_hills(step.direction));
     ASSERT_LE(step.score, found.score);
   }
 }
@@ -274,7 +276,7 @@ TEST_P(SearchBy, ReportsFractionsThatNeverDecreaseAndEndAtOne) {
     EXPECT_GE(fraction, last);
     last = fraction;
   }};
-  search_best_and_worst({scoring(hills), 1.0}, {.strategy = GetParam()}, run);
+  search_best_and_worst({scoring(three_hills), 1.0}, {.strategy = GetParam()}, run);
   EXPECT_EQ(last, 1.0);
 }
 
@@ -282,7 +284,7 @@ TEST_P(SearchBy, StopsOnRequest) {
   std::stop_source source;
   const auto stopping = scoring([&](const Vec3& d) {
     source.request_stop();
-    return hills(d);
+    return three_hills(d);
   });
   EXPECT_THROW(search_view({stopping, 1.0}, Goal::Best, {.strategy = GetParam()},
                            {.stop = source.get_token()}),
@@ -294,9 +296,11 @@ INSTANTIATE_TEST_SUITE_P(Strategies, SearchBy,
                                          SearchStrategy::Global, SearchStrategy::Dense));
 
 TEST(SearchView, RefusesOptionsOutsideTheirRange) {
-  EXPECT_THROW(search_view({scoring(hills), 1.0}, Goal::Best, {.subdivisions = 9}), InvalidInput);
-  EXPECT_THROW(search_view({scoring(hills), 1.0}, Goal::Best, {.epsilon = -1.0}), InvalidInput);
-  EXPECT_THROW(search_view({scoring(hills), -1.0}, Goal::Best), InvalidInput);
+  EXPECT_THROW(search_view({scoring(three_hills), 1.0}, Goal::Best, {.subdivisions = 9}),
+               InvalidInput);
+  EXPECT_THROW(search_view({scoring(three_hills), 1.0}, Goal::Best, {.epsilon = -1.0}),
+               InvalidInput);
+  EXPECT_THROW(search_view({scoring(three_hills), -1.0}, Goal::Best), InvalidInput);
 }
 
 }  // namespace

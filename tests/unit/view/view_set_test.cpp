@@ -16,9 +16,9 @@ namespace vantage {
 namespace {
 
 /// Views of a closed shape with the same significance everywhere.
-class Scene {
+class SeenShape {
  public:
-  explicit Scene(TriMesh shape)
+  explicit SeenShape(TriMesh shape)
       : mesh(std::move(shape)),
         significance(mesh.positions.size(), 1.0),
         camera{.sphere = enclosing_sphere(mesh.positions)} {}
@@ -34,8 +34,8 @@ class Scene {
   ScoringCamera camera;
 };
 
-const Scene& cube() {
-  static const Scene kCube(test::box(1.0, 1.0, 1.0, 1));
+const SeenShape& cube() {
+  static const SeenShape kCube(test::box(1.0, 1.0, 1.0, 1));
   return kCube;
 }
 
@@ -71,7 +71,7 @@ TEST(SelectViews, FirstViewIsTheOneGiven) {
 }
 
 TEST(SelectViews, GainsNeverGrowWithoutRefinement) {
-  const Scene scene(test::torus(1.0, 0.4, 24, 12));
+  const SeenShape scene(test::torus(1.0, 0.4, 24, 12));
   const ViewSet set = scene.select(Vec3::UnitX(), {.refine = false, .level = 3});
   ASSERT_GE(set.views.size(), 3U);
   for (std::size_t i = 2; i < set.views.size(); ++i) {
@@ -80,7 +80,7 @@ TEST(SelectViews, GainsNeverGrowWithoutRefinement) {
 }
 
 TEST(SelectViews, GainsAddUpToTheCoverage) {
-  const Scene scene(test::torus(1.0, 0.4, 24, 12));
+  const SeenShape scene(test::torus(1.0, 0.4, 24, 12));
   const ViewSet set = scene.select(Vec3::UnitX(), {.views = 5, .level = 3});
   double seen = 0.0;
   for (const ChosenView& view : set.views) {
@@ -91,15 +91,15 @@ TEST(SelectViews, GainsAddUpToTheCoverage) {
 
 TEST(SelectViews, WhatNoViewSeesIsNotReachable) {
   // A box inside a box: the inner one's 8 corners, which come first, are seen from nowhere.
-  const Scene scene(test::together(test::box(0.2, 0.2, 0.2, 1), test::box(1.0, 1.0, 1.0, 1),
-                                   Vec3::Constant(-0.4)));
+  const SeenShape scene(test::together(test::box(0.2, 0.2, 0.2, 1), test::box(1.0, 1.0, 1.0, 1),
+                                       Vec3::Constant(-0.4)));
   const ViewSet set = scene.select(Vec3(1, 1, 1), {.level = 2});
   EXPECT_EQ(set.reachable, 8.0);
   EXPECT_EQ(set.views.back().coverage, 1.0);
 }
 
 TEST(SelectViews, KeepsViewsApart) {
-  const Scene scene(test::torus(1.0, 0.4, 24, 12));
+  const SeenShape scene(test::torus(1.0, 0.4, 24, 12));
   const ViewSet set =
       scene.select(Vec3::UnitX(), {.views = 4, .min_separation_deg = 80.0, .level = 3});
   for (std::size_t i = 0; i < set.views.size(); ++i) {
@@ -118,14 +118,14 @@ TEST(SelectViews, SaysThatNoViewIsFarEnoughAway) {
 }
 
 TEST(SelectViews, RefinementNeverLowersTheFirstGain) {
-  const Scene scene(test::torus(1.0, 0.4, 40, 20));
+  const SeenShape scene(test::torus(1.0, 0.4, 40, 20));
   const ViewSet plain = scene.select(Vec3::UnitX(), {.views = 2, .refine = false, .level = 2});
   const ViewSet refined = scene.select(Vec3::UnitX(), {.views = 2, .level = 2});
   EXPECT_GE(refined.views[1].gain, plain.views[1].gain);
 }
 
 TEST(SelectViews, IsTheSameForAnyNumberOfThreads) {
-  const Scene scene(test::torus(1.0, 0.4, 24, 12));
+  const SeenShape scene(test::torus(1.0, 0.4, 24, 12));
   const ViewSetOptions options{.views = 5, .level = 3};
   const ViewSet one = scene.select(Vec3::UnitX(), options, {.max_threads = 1});
   const ViewSet four = scene.select(Vec3::UnitX(), options, {.max_threads = 4});
@@ -137,7 +137,7 @@ TEST(SelectViews, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(SelectViews, AMapOfZerosIsCoveredByTheFirstView) {
-  Scene scene(test::box(1.0, 1.0, 1.0, 1));
+  SeenShape scene(test::box(1.0, 1.0, 1.0, 1));
   scene.significance.assign(scene.significance.size(), 0.0);
   const ViewSet set = scene.select(Vec3::UnitX(), {.level = 1});
   EXPECT_EQ(set.views.size(), 1U);

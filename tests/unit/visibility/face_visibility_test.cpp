@@ -18,7 +18,7 @@
 namespace vantage {
 namespace {
 
-const Viewpoint kAbove{Projection::Orthographic, Vec3(0.0, 0.0, 1.0)};
+const Viewpoint kEyeAbove{Projection::Orthographic, Vec3(0.0, 0.0, 1.0)};
 
 double visible_area(const std::vector<SeenFace>& faces) {
   double sum = 0.0;
@@ -66,7 +66,7 @@ TEST(FaceVisibility, ByCornersAFaceCountsWholeIfTwoOfThemAreSeen) {
       test::together(test::sheet(4.0, 4.0, 1), test::sheet(2.0, 6.0, 1), Vec3(0.0, -1.0, 1.0)),
       {FaceSides::Both});
   double under = 0.0;
-  for (const SeenFace& face : pair.seen_surface(kAbove, {}, FaceDetail::ByCorners).faces) {
+  for (const SeenFace& face : pair.seen_surface(kEyeAbove, {}, FaceDetail::ByCorners).faces) {
     under += face.face < 2 ? face.visible_area : 0.0;
   }
   EXPECT_NEAR(under, 8.0, 1e-12);
@@ -80,7 +80,7 @@ TriMesh sheets(double width) {
 /// Area seen from above of the first two faces.
 double seen_of_first(const TriMesh& mesh) {
   double seen = 0.0;
-  for (const SeenFace& face : FaceVisibility(mesh, {FaceSides::Both}).seen_faces(kAbove)) {
+  for (const SeenFace& face : FaceVisibility(mesh, {FaceSides::Both}).seen_faces(kEyeAbove)) {
     seen += face.face < 2 ? face.visible_area : 0.0;
   }
   return seen;
@@ -102,7 +102,7 @@ TEST(FaceVisibility, LooksOnceAtFacesThatStandInOnePlace) {
   const FaceVisibility once(sheet, {FaceSides::Both});
   const FaceVisibility often(repeated, {FaceSides::Both});
   EXPECT_EQ(often.total_area(), once.total_area());
-  EXPECT_NEAR(visible_area(often.seen_faces(kAbove)), 16.0, 1e-12);
+  EXPECT_NEAR(visible_area(often.seen_faces(kEyeAbove)), 16.0, 1e-12);
 }
 
 TEST(FaceVisibility, SeesEachOfTwoSheetsBackToBackFromItsSide) {
@@ -112,7 +112,7 @@ TEST(FaceVisibility, SeesEachOfTwoSheetsBackToBackFromItsSide) {
     std::swap(t[0], t[1]);
   }
   const FaceVisibility both(test::together(sheet, back, Vec3::Zero()), {FaceSides::Front});
-  const auto above = both.seen_faces(kAbove);
+  const auto above = both.seen_faces(kEyeAbove);
   const auto below = both.seen_faces({Projection::Orthographic, Vec3(0.0, 0.0, -1.0)});
   ASSERT_EQ(above.size(), 2U);
   ASSERT_EQ(below.size(), 2U);
@@ -159,7 +159,7 @@ TEST(FaceVisibility, SeesWhatATipHidesThatComesThroughAFace) {
   }
   const double width = kTip / (1.0 + kTip);
   std::array<double, 2> seen{};
-  for (const SeenFace& face : FaceVisibility(mesh, {FaceSides::Both}).seen_faces(kAbove)) {
+  for (const SeenFace& face : FaceVisibility(mesh, {FaceSides::Both}).seen_faces(kEyeAbove)) {
     seen.at(face.face < 2 ? 0 : 1) += face.projected_area;
   }
   EXPECT_NEAR(seen[0], 16.0 - width * width, 1e-12);
@@ -193,7 +193,7 @@ TEST(FaceVisibility, JudgesByPointsWhereThousandsOfFacesLieBeforeOthers) {
     stairs.triangles.push_back({3 * f, 3 * f + 1, 3 * f + 2});
   }
   const FaceVisibility visibility(stairs, {FaceSides::Both});
-  const std::vector<SeenFace> faces = visibility.seen_faces(kAbove);
+  const std::vector<SeenFace> faces = visibility.seen_faces(kEyeAbove);
   ASSERT_FALSE(faces.empty());
   EXPECT_EQ(faces.front().face, 0U);
   EXPECT_NEAR(faces.front().visible_area, 1.5, 1e-3);  // twelve of sixteen parts
@@ -212,7 +212,7 @@ TriMesh boxes_with_gap(double gap, int subdivisions) {
 }
 
 /// Faces of these seen from the front.
-std::vector<SeenFace> faces_seen_through(double gap, const Viewpoint& eye = kAbove) {
+std::vector<SeenFace> faces_seen_through(double gap, const Viewpoint& eye = kEyeAbove) {
   return FaceVisibility(boxes_with_gap(gap, 1), {FaceSides::Front}).seen_faces(eye);
 }
 
@@ -246,7 +246,7 @@ TEST(FaceVisibility, OfManyFacesSeesTheDeepestThroughAGap) {
     const TriMesh mesh = boxes_with_gap(gap, 42);  // 63 504 faces
     const Sphere sphere = enclosing_sphere(mesh.positions);
     const double deepest = gap > 0.0 ? -1.8 : 1.0;  // fronts of the small box and of the others
-    EXPECT_NEAR(FaceVisibility(mesh, {FaceSides::Front}).seen_surface(kAbove).deepest,
+    EXPECT_NEAR(FaceVisibility(mesh, {FaceSides::Front}).seen_surface(kEyeAbove).deepest,
                 0.5 - (deepest - sphere.centre.z()) / sphere.diameter, 1e-12)
         << gap;
   }
@@ -267,7 +267,7 @@ TEST(FaceVisibility, GoesAsDeepAsWhatIsSeenOfAFace) {
     const TriMesh mesh = test::together(falling_sheet(0.5, squares), test::sheet(2.63, 4.0, 1),
                                         Vec3(1.37, 0.0, 1.0));
     const Sphere sphere = enclosing_sphere(mesh.positions);
-    EXPECT_NEAR(FaceVisibility(mesh, {FaceSides::Both}).seen_surface(kAbove).deepest,
+    EXPECT_NEAR(FaceVisibility(mesh, {FaceSides::Both}).seen_surface(kEyeAbove).deepest,
                 0.5 - (-0.5 * 1.37 - sphere.centre.z()) / sphere.diameter, 1e-12)
         << squares;
   }
@@ -289,7 +289,7 @@ double unevenness(const SeenSurface& seen) {
 TEST(FaceVisibility, SpreadsFacesOverTheDepthsThatTheyReach) {
   for (const double slope : {1.0, 3.0}) {
     const TriMesh sheet = falling_sheet(slope, 7);
-    EXPECT_LT(unevenness(FaceVisibility(sheet, {FaceSides::Both}).seen_surface(kAbove)), 1e-12);
+    EXPECT_LT(unevenness(FaceVisibility(sheet, {FaceSides::Both}).seen_surface(kEyeAbove)), 1e-12);
   }
 }
 
@@ -332,7 +332,7 @@ TEST(FaceVisibility, HidesAFaceBehindOneThatSharesItsCorners) {
   TriMesh mesh;
   mesh.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 1, 0), Vec3(0.5, 0.6, 0.5)};
   mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
-  const auto faces = FaceVisibility(mesh, {FaceSides::Front}).seen_faces(kAbove);
+  const auto faces = FaceVisibility(mesh, {FaceSides::Front}).seen_faces(kEyeAbove);
   ASSERT_EQ(faces.size(), 1U);
   EXPECT_NEAR(faces[0].visible_area, 0.4 * 0.5, 1e-12);
 }
@@ -381,7 +381,7 @@ TEST(FaceVisibility, IntegratesALinearFieldExactly) {
   for (const Vec3& p : cube.positions) {
     field.push_back(1.0 + 2.0 * p.x() + 3.0 * p.y() + 5.0 * p.z());
   }
-  EXPECT_NEAR(visibility.visible_integral(field, visibility.seen_faces(kAbove)), 8.5, 1e-12);
+  EXPECT_NEAR(visibility.visible_integral(field, visibility.seen_faces(kEyeAbove)), 8.5, 1e-12);
   double all = 0.0;
   for (const double of_face : visibility.integrals(field)) {
     all += of_face;
@@ -399,7 +399,7 @@ TEST(FaceVisibility, IntegratesALinearFieldOverPartsOfFaces) {
   }
   const double lower = 4.0 * (4.0 - 1.37) * (1.0 + (1.37 + 4.0) + 6.0);
   const double upper = 4.0 * 1.37 * (1.0 + 1.37 + 6.0 + 5.0);
-  EXPECT_NEAR(visibility.visible_integral(field, visibility.seen_faces(kAbove)), lower + upper,
+  EXPECT_NEAR(visibility.visible_integral(field, visibility.seen_faces(kEyeAbove)), lower + upper,
               1e-10);
 }
 
