@@ -235,12 +235,28 @@ class Decimator {
       faces_a_[v] = 0;
     }
     if (is_too_large(ring_a_) || is_too_large(ring_b_) || edge_faces == 0 || common != edge_faces ||
-        lone || (border_a && border_b && edge_faces != 1)) {
+        lone || (border_a && border_b && edge_faces != 1) || has_faces_twice(a, b)) {
       return false;
     }
     // A tetrahedron, or faces back to back: the common neighbours themselves make an edge of both.
     const std::size_t ring = ring_a_.size() + ring_b_.size() - 2 - static_cast<std::size_t>(common);
     return ring >= 3 && ring <= Policy::kLargestRing;
+  }
+
+  /// Whether two faces at the edge have one apex: it would be left without a face.
+  [[nodiscard]] bool has_faces_twice(std::uint32_t a, std::uint32_t b) {
+    apexes_.clear();
+    for (const Fans::Corners& corners : fans_[a]) {
+      const std::array c{now(corners[0]), now(corners[1])};
+      if (c[0] != c[1] && (c[0] == b || c[1] == b)) {
+        const std::uint32_t apex = c[0] == b ? c[1] : c[0];
+        if (std::find(apexes_.begin(), apexes_.end(), apex) != apexes_.end()) {
+          return true;
+        }
+        apexes_.push_back(apex);
+      }
+    }
+    return false;
   }
 
   /// Whether moving `v` to `at` turns one of its faces that do not hold `other`.
@@ -305,6 +321,7 @@ class Decimator {
   std::vector<std::uint8_t> faces_b_;
   std::vector<std::uint32_t> ring_a_{};
   std::vector<std::uint32_t> ring_b_{};
+  std::vector<std::uint32_t> apexes_{};
 };
 
 /// Costs are fourth powers of lengths, held in float: they need lengths of about 1.

@@ -181,11 +181,11 @@ struct RayScene::Scene {
   }
 
   static void pass_holes(const RTCFilterFunctionNArguments* query) {
-    filter(query, [](double opacity) { return opacity > 0.0; });
+    filter(query, [](double share) { return share > 0.0; });
   }
 
   static void pass_glass(const RTCFilterFunctionNArguments* query) {
-    filter(query, [](double opacity) { return opacity >= 0.5; });
+    filter(query, [](double share) { return share >= 0.5; });
   }
 };
 

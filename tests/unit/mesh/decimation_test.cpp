@@ -14,6 +14,7 @@
 #include "vantage/mesh/mesh_check.h"
 #include "vantage/mesh/topology.h"
 
+#include "core/random.h"
 #include "mesh/edge_splitting.h"
 #include "support/shapes.h"
 
@@ -57,6 +58,39 @@ TEST(Decimate, KeepsBothRimsOfAnOpenCylinder) {
   const Decimation coarse = decimate(test::open_cylinder(0.3, 3.0, 24, 60), 200, {});
   EXPECT_EQ(euler_characteristic(coarse.mesh), 0);
   EXPECT_GE(border_edges(coarse.mesh), 6U);
+}
+
+/// Triangles between few vertices, some of them twice; every vertex has one.
+TriMesh tangle(std::uint64_t seed) {
+  Pcg32 random(seed);
+  const auto pick = [&](std::size_t count) {
+    return static_cast<std::uint32_t>(random.uniform() * static_cast<double>(count));
+  };
+  TriMesh mesh;
+  for (int i = 0; i < 60; ++i) {
+    mesh.positions.emplace_back(random.uniform(), random.uniform(), random.uniform());
+  }
+  for (std::uint32_t v = 0; v < 60; ++v) {
+    const std::uint32_t near = v / 6 * 6;  // ten parts of six vertices
+    const std::uint32_t a = near + (v - near + 1 + pick(5)) % 6;
+    std::uint32_t b = near + pick(6);
+    while (b == a || b == v) {
+      b = near + pick(6);
+    }
+    mesh.triangles.push_back({v, a, b});
+    if (random.uniform() < 0.5) {
+      mesh.triangles.push_back({a, b, v});
+    }
+  }
+  return mesh;
+}
+
+TEST(Decimate, KeepsComponentsWhereFacesStandTwiceAndEdgesHaveMany) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const TriMesh mesh = tangle(seed);
+    const TriMesh coarse = decimate(mesh, 0, {}).mesh;
+    EXPECT_EQ(connected_components(coarse).count, connected_components(mesh).count) << seed;
+  }
 }
 
 TEST(Decimate, StaysOnASphereToAFewPercent) {

@@ -51,7 +51,7 @@ TEST(Angles, OfNothingIsZero) {
 }
 
 TEST(Angles, AreTheSameWhateverStandsBesideThem) {
-  for (const std::size_t count : {2, 3, 4, 5, 8}) {
+  for (const std::size_t count : {2U, 3U, 4U, 5U, 8U}) {
     EXPECT_EQ(angle_of(0.3, -0.7, count), angle_of(0.3, -0.7));
   }
 }

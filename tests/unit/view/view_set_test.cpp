@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -145,8 +146,8 @@ TEST(SelectViews, AMapOfZerosIsCoveredByTheFirstView) {
 }
 
 TEST(SelectViews, RefusesACoverageOfNothing) {
-  EXPECT_THROW(cube().select(Vec3::UnitX(), {.coverage = 0.0}), InvalidInput);
-  EXPECT_THROW(cube().select(Vec3::UnitX(), {.coverage = 1.5}), InvalidInput);
+  EXPECT_THROW(std::ignore = cube().select(Vec3::UnitX(), {.coverage = 0.0}), InvalidInput);
+  EXPECT_THROW(std::ignore = cube().select(Vec3::UnitX(), {.coverage = 1.5}), InvalidInput);
 }
 
 TEST(MeasureViews, GivesTheGainsOfGivenViewsInTheirOrder) {
