@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "vantage/core/random.h"
+#include "core/random.h"
 
 namespace vantage::test {
 namespace {
