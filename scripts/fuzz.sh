@@ -94,7 +94,7 @@ if [[ $what == --leaks ]]; then
   leaky=0
   for target in "${targets[@]}"; do
     mkdir -p "$build/learnt/$target"
-    nice "$build/fuzz/${target}_fuzz" -runs=0 -timeout=600 -rss_limit_mb=3000 -detect_leaks=1 \
+    nice "$build/fuzz/${target}_fuzz" -runs=0 -timeout=600 -report_slow_units=60 -rss_limit_mb=3000 -detect_leaks=1 \
       -artifact_prefix="$build/found/$target-" "$build/learnt/$target" "fuzz/corpus/$target" \
       >"$build/found/$target.leaks.log" 2>&1 || { echo "$target: see $build/found/$target.leaks.log"; leaky=1; }
   done
