@@ -40,10 +40,11 @@ OptionValue fuzzed_number(const Option& option, Choices& choices) {
 
 OptionValue fuzzed_integer(const Option& option, Choices& choices) {
   const auto low = static_cast<std::uint64_t>(option.low);
-  const auto high = static_cast<std::uint64_t>(option.high);
-  const std::array<std::uint64_t, 6> values{
-      low,     high,     low + choices.below(16),
-      low - 1, high + 1, std::numeric_limits<std::uint64_t>::max()};
+  constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+  const std::uint64_t high =  // as a double kMost is one more
+      option.high < static_cast<double>(kMost) ? static_cast<std::uint64_t>(option.high) : kMost;
+  const std::array<std::uint64_t, 6> values{low,     high,     low + choices.below(16),
+                                            low - 1, high + 1, kMost};
   return choices.of(values);
 }
 

@@ -23,7 +23,7 @@ if [[ ! -d $folder/installed ]]; then
     -DTBBMALLOC_BUILD=OFF -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_INSTALL_PREFIX="$folder/installed" >/dev/null
   nice cmake --build "$folder/build" --target install >/dev/null
 fi
-cmake --preset tsan -DTBB_DIR="$folder/installed/lib/cmake/TBB" >/dev/null
+cmake --preset tsan -DVANTAGE_QUICK_BUILD=ON -DTBB_DIR="$folder/installed/lib/cmake/TBB" >/dev/null
 nice cmake --build build/tsan --target vantage_program >/dev/null
 
 models=("$@")

@@ -65,16 +65,29 @@ def glb_of_nodes(side, nodes):
     return glb(document, data)
 
 
-def glb_of_indices(indices, mode, has_data):
-    """A strip or fan over 200 places, an index a byte, or as an accessor that has no bytes at all."""
+def glb_of_indices(indices, mode, has_data, cycle=200):
+    """Triangles, a strip or a fan over 200 places, an index a byte, the first `cycle` again and again, or as an accessor
+    that has no bytes at all."""
     places = b"".join(struct.pack("<3f", i % 17, i // 17, i % 5) for i in range(200))
-    names = bytes(i * 7 % 200 for i in range(indices)) if has_data else b""
+    names = bytes(i % cycle * 7 % 200 for i in range(indices)) if has_data else b""
     accessor = {"componentType": 5121, "count": indices, "type": "SCALAR"} | ({"bufferView": 1} if has_data else {})
     views = [{"buffer": 0, "byteLength": len(places)}, {"buffer": 0, "byteOffset": len(places), "byteLength": len(names)}]
     return glb({"nodes": [{"mesh": 0}],
                 "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "mode": mode}]}],
                 "accessors": [{"bufferView": 0, "componentType": 5126, "count": 200, "type": "VEC3"}, accessor],
                 "bufferViews": views[:1 + has_data]}, places + names)
+
+
+def glb_of_shared_indices(primitives, faces):
+    """Primitives that all name the same indices."""
+    places = b"".join(struct.pack("<3f", i % 17, i // 17, i % 5) for i in range(200))
+    names = bytes((i * 7 + i // 200) % 200 for i in range(3 * faces))
+    primitive = {"attributes": {"POSITION": 0}, "indices": 1}
+    return glb({"nodes": [{"mesh": 0}], "meshes": [{"primitives": [primitive] * primitives}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": 200, "type": "VEC3"},
+                              {"bufferView": 1, "componentType": 5121, "count": 3 * faces, "type": "SCALAR"}],
+                "bufferViews": [{"buffer": 0, "byteLength": len(places)},
+                                {"buffer": 0, "byteOffset": len(places), "byteLength": len(names)}]}, places + names)
 
 
 def threemf(path, side, items, levels):
@@ -121,6 +134,9 @@ def files(folder):
     yield "GLB, nodes of one mesh", lambda: written("nodes.glb", glb_of_nodes(10, 1300))
     yield "GLB, strip of indices of a byte", lambda: written("strip.glb", glb_of_indices(100_000, 5, True))
     yield "GLB, fan of indices of a byte", lambda: written("fan.glb", glb_of_indices(100_000, 6, True))
+    yield "GLB, 200 faces of indices again and again", lambda: written("again.glb", glb_of_indices(300_000, 4, True))
+    yield "GLB, indices of one face again and again", lambda: written("once.glb", glb_of_indices(300_000, 4, True, 3))
+    yield "GLB, primitives of one accessor of indices", lambda: written("shared.glb", glb_of_shared_indices(300, 1000))
     yield "GLB, indices without bytes", lambda: written("absent.glb", glb_of_indices(900_000, 4, False))
 
     def made(name, *arguments):

@@ -207,6 +207,7 @@ struct BatchWorkerCommand {
     const FrameChoice choice = choose_frame(model, shape, own);
     ViewReport report = find_views(shape, choice, own, run);
     OutputFolder output(batch::path_of_key(order.at("staging").get<std::string>()), kViewResults);
+    output.keep_private();  // the parent moves it to its place
     ShapePictures pictures(shape, own_look.of(model, up_vector(choice.frame.up)));
     if (const auto best = add_pictures(output, kinds_, pictures, report, own, run)) {
       doubt_empty_picture(best, report);

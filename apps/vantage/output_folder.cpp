@@ -235,7 +235,9 @@ void OutputFolder::exchange() {
 
   const std::vector<std::string> former = former_files();
   const fs::path unfinished = folder / unfinished_name(kind_.marker);
-  write_file(unfinished.string(), kUnfinishedText);
+  if (!is_private_) {
+    write_file(unfinished.string(), kUnfinishedText);
+  }
   std::vector<fs::path> placed;
   std::size_t removed = 0;
   std::error_code error;

@@ -31,6 +31,10 @@ class OutputFolder {
   /// is refused by check(), before any work is done.
   OutputFolder(std::string path, const ResultKind& kind) : path_(std::move(path)), kind_(kind) {}
 
+  /// Says that nobody else knows the folder before it is whole, nor keeps it if it never is: then no file has to tell
+  /// that it is unfinished, which saves a wait for the disk.
+  void keep_private() { is_private_ = true; }
+
   /// \param force also takes a folder of somebody else's files.
   /// \throw IoError if writing there would replace somebody else's files, or it is not a folder.
   void check(bool force) const;
@@ -71,6 +75,7 @@ class OutputFolder {
   std::vector<File> files_{};
   std::vector<File> beside_{};  // by their paths
   std::vector<std::string> below_{};
+  bool is_private_ = false;
 };
 
 /// Writes level-00.ply, level-01.ply, … in place of those of a former run. \throw IoError

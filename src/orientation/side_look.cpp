@@ -95,17 +95,39 @@ std::vector<std::size_t> patches(std::vector<std::uint8_t> marked, std::size_t c
   return sizes;
 }
 
-/// Corners of a cell, in units of the longest side.
-void add_corners(const HeightField& field, const Vec2& cell_size, std::size_t cell,
-                 std::vector<Vec2>& points) {
-  const auto column = static_cast<double>(cell % field.columns);
-  const auto row = static_cast<double>(cell / field.columns);
-  for (const double u : {column, column + 1.0}) {
-    for (const double v : {row, row + 1.0}) {
-      points.emplace_back(u * cell_size.x(), v * cell_size.y());
-    }
+/// Corners of the first and the last of some cells in each row, in units of the longest side: those of
+/// cells between them lie inside their hull.
+class RowEnds {
+ public:
+  RowEnds(const HeightField& field, const Vec2& cell_size)
+      : columns_(field.columns), cell_size_(cell_size), ends_(field.rows, {field.columns, 0}) {}
+
+  void add(std::size_t cell) {
+    auto& [first, end] = ends_[cell / columns_];
+    first = std::min(first, cell % columns_);
+    end = std::max(end, cell % columns_ + 1);
   }
-}
+
+  [[nodiscard]] std::vector<Vec2> hull() const {
+    std::vector<Vec2> points;
+    for (std::size_t row = 0; row < ends_.size(); ++row) {
+      const auto& [first, end] = ends_[row];
+      for (const std::size_t column : {first, end}) {
+        for (std::size_t side = 0; side < 2 && first < end; ++side) {
+          points.emplace_back(static_cast<double>(column) * cell_size_.x(),
+                              static_cast<double>(row + side) * cell_size_.y());
+        }
+      }
+    }
+    return planar_hull(std::move(points));
+  }
+
+ private:
+  std::size_t columns_;
+  Vec2 cell_size_;
+  std::vector<std::pair<std::size_t, std::size_t>>
+      ends_;  // first, and one after the last, of a row
+};
 
 /// Depths in the middle of the box, and along its border.
 struct Zones {
@@ -198,8 +220,8 @@ SideLook side_look(const HeightFields& fields, std::size_t axis, bool from_high)
   const double reach = std::min(kTouch, 0.25 * field.extent);
   SideLook look;
   std::vector<std::uint8_t> touching(field.low.size(), 0);
-  std::vector<Vec2> outline;
-  std::vector<Vec2> base;
+  RowEnds outline(field, cell_size);
+  RowEnds base(field, cell_size);
   double filled = 0.0;
   double touched = 0.0;
   Zones zones;
@@ -212,11 +234,11 @@ SideLook side_look(const HeightFields& fields, std::size_t axis, bool from_high)
     look.depth += depth;
     add_to_zones(field, cell, depth, zones);
     look.back += (from_high ? field.high_is_back : field.low_is_back)[cell] != 0 ? 1.0 : 0.0;
-    add_corners(field, cell_size, cell, outline);
+    outline.add(cell);
     if (depth <= reach) {
       touching[cell] = 1;
       touched += 1.0;
-      add_corners(field, cell_size, cell, base);
+      base.add(cell);
     }
   }
   if (!(filled > 0.0)) {
@@ -228,8 +250,8 @@ SideLook side_look(const HeightFields& fields, std::size_t axis, bool from_high)
   look.depth /= filled;
   look.back /= filled;
   look.relative_depth = field.extent > 0.0 ? look.depth / field.extent : 0.0;
-  const std::vector<Vec2> hull = planar_hull(std::move(base));
-  const double whole = area_of(planar_hull(std::move(outline)));
+  const std::vector<Vec2> hull = base.hull();
+  const double whole = area_of(outline.hull());
   look.touch_hull = whole > 0.0 ? area_of(hull) / whole : 0.0;
   const Vec2 centre(fields.area_mean[field.u_axis] * fields.extent[field.u_axis],
                     fields.area_mean[field.v_axis] * fields.extent[field.v_axis]);

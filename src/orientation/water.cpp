@@ -38,8 +38,7 @@ double rain_held(const HeightField& field, bool from_high) {
   double filled = 0.0;
   while (end != open.begin()) {
     std::pop_heap(open.begin(), end, std::greater<>());
-    --end;
-    const double level = end->first;
+    const double level = (--end)->first;
     const std::size_t cell = end->second;
     if (field.is_filled(cell)) {
       held += level - ground(cell);

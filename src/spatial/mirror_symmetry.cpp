@@ -12,7 +12,7 @@
 
 #include "vantage/mesh/measures.h"
 
-#include "spatial/point_tree.h"
+#include "spatial/point_cells.h"
 
 namespace vantage {
 namespace {
@@ -42,16 +42,14 @@ void add_samples(const std::array<Vec3, 3>& corners, double spacing, SurfacePoin
   while (!pending.empty()) {
     const std::array<Vec3, 3> t = pending.back();
     pending.pop_back();
-    std::size_t longest = 0;
-    for (std::size_t i = 1; i < 3; ++i) {
-      if ((t[(i + 1) % 3] - t[i]).norm() > (t[(longest + 1) % 3] - t[longest]).norm()) {
-        longest = i;
-      }
-    }
+    const std::array<double, 3> sides{(t[1] - t[0]).norm(), (t[2] - t[1]).norm(),
+                                      (t[0] - t[2]).norm()};
+    const auto longest = static_cast<std::size_t>(std::max_element(sides.begin(), sides.end()) -
+                                                  sides.begin());  // the first of equal ones
     const Vec3& a = t[longest];
     const Vec3& b = t[(longest + 1) % 3];
     const Vec3& c = t[(longest + 2) % 3];
-    if ((b - a).norm() > spacing) {
+    if (sides[longest] > spacing) {
       const Vec3 middle = 0.5 * (a + b);
       pending.push_back({a, middle, c});
       pending.push_back({middle, b, c});
@@ -109,11 +107,8 @@ SurfacePoints normalised_points(const TriMesh& surface, Vec3& centroid, double& 
 
 /// Whether the mirror images of all but `outlier_share` of the area are as near to the surface as
 /// the tolerance asks.
-bool is_symmetric(const SurfacePoints& set, const PointTree& tree, const Vec3& normal,
-                  double spacing, const MirrorOptions& options) {
-  // Reach is half an extent, the tolerance is of the whole one; samples of the two halves may lie
-  // where they like within their spacing.
-  const double limit = 2.0 * options.tolerance + 0.6 * spacing;
+bool is_symmetric(const SurfacePoints& set, const PointCells& cells, const Vec3& normal,
+                  const MirrorOptions& options) {
   const std::size_t stride = 1 + set.points.size() / kQueries;
   double all = 0.0;
   for (std::size_t i = 0; i < set.points.size(); i += stride) {
@@ -123,7 +118,7 @@ bool is_symmetric(const SurfacePoints& set, const PointTree& tree, const Vec3& n
   for (std::size_t i = 0; i < set.points.size() && beyond <= options.outlier_share * all;
        i += stride) {
     const Vec3 image = set.points[i] - 2.0 * normal.dot(set.points[i]) * normal;
-    beyond += tree.has_within(image, limit * limit) ? 0.0 : set.shares[i];
+    beyond += cells.has_near(image) ? 0.0 : set.shares[i];
   }
   return all > 0.0 && beyond <= options.outlier_share * all;
 }
@@ -157,13 +152,15 @@ std::vector<MirrorPlane> mirror_planes(const TriMesh& surface, const MirrorOptio
   if (set.points.empty()) {
     return planes;
   }
-  const PointTree tree(set.points);
+  // Reach is half an extent, the tolerance is of the whole one; samples of the two halves may lie
+  // where they like within their spacing.
+  const PointCells cells(set.points, 2.0 * options.tolerance + 0.6 * spacing);
   const double same = std::cos(kSamePlaneRad);
   for (const Vec3& normal : candidate_normals(set)) {
     const bool known = std::any_of(planes.begin(), planes.end(), [&](const MirrorPlane& plane) {
       return std::abs(plane.normal.dot(normal)) > same;
     });
-    if (!known && is_symmetric(set, tree, normal, spacing, options)) {
+    if (!known && is_symmetric(set, cells, normal, options)) {
       planes.push_back({normal, centroid});
     }
   }

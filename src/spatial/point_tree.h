@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -27,13 +25,6 @@ class PointTree {
   std::size_t nearest(const Vec3& place, std::span<std::size_t> found,
                       std::span<double> squared) const {
     return tree_.knnSearch(place.data(), found.size(), found.data(), squared.data());
-  }
-
-  /// Whether a point lies at most sqrt(squared) away: ends at the first.
-  [[nodiscard]] bool has_within(const Vec3& place, double squared) const {
-    First first{std::nextafter(squared, std::numeric_limits<double>::infinity())};
-    tree_.findNeighbors(first, place.data(), nanoflann::SearchParams());
-    return first.found;
   }
 
   using Match = std::pair<std::size_t, double>;
@@ -61,24 +52,6 @@ class PointTree {
       return false;
     }
   };
-
-  // A result set of nanoflann's, which names its members, that wants one point nearer than `limit`.
-  // NOLINTBEGIN(readability-identifier-naming)
-  struct First {
-    double limit;
-    bool found = false;
-
-    [[nodiscard]] double worstDist() const { return limit; }
-
-    [[nodiscard]] bool full() const { return true; }
-
-    bool addPoint(double /*squared*/, std::size_t /*index*/) {
-      found = true;
-      return false;
-    }
-  };
-
-  // NOLINTEND(readability-identifier-naming)
 
   View view_;
   nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, View>, View, 3,
