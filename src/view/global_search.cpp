@@ -17,7 +17,8 @@ constexpr std::size_t kFirstScores = 32;  // directions scored first; half of th
 constexpr std::size_t kBatch = 16;        // then so many at a time, a quarter of them peaks, …
 constexpr std::size_t kBatches = 2;       // … so often, by what was learnt of the estimates
 constexpr double kLikeRad = 12.0 * kRadPerDeg;  // estimates so far apart are off by like amounts
-constexpr std::size_t kStarts = 4;              // directions that the ascent starts from, …
+constexpr double kTrust = 0.3;      // weight of the mean error where nothing near was scored
+constexpr std::size_t kStarts = 4;  // directions that the ascent starts from, …
 constexpr double kStartsApartRad = 5.0 * kRadPerDeg;  // … so far apart: not by one maximum
 constexpr double kFlat = 3e-4;         // share of the range that is not worth a finer ring
 constexpr std::size_t kProxyEnds = 2;  // of the ends by a proxy, ascend once more by the score
@@ -98,21 +99,24 @@ class Survey {
     }
   }
 
-  /// Adds to each estimate what those that were scored are off by, in the mean, the nearest most.
+  /// Adds to each estimate what those near it that were scored are off by, in the mean.
   void correct() {
     std::vector<std::size_t> places;
     std::vector<double> errors;
+    double mean = 0.0;
     for (const Candidate& one : scored_) {
       const auto at = std::find(set_.directions.begin(), set_.directions.end(), one.direction);
       const std::size_t place = static_cast<std::size_t>(at - set_.directions.begin());
       if (at != set_.directions.end() && std::isfinite(one.value - estimates_[place])) {
         places.push_back(place);
         errors.push_back(one.value - estimates_[place]);
+        mean += errors.back();
       }
     }
+    mean /= std::max(1.0, static_cast<double>(errors.size()));
     for (std::size_t i = 0; i < corrected_.size(); ++i) {
-      double weights = std::numeric_limits<double>::min();
-      double sum = 0.0;
+      double weights = kTrust;
+      double sum = kTrust * mean;
       for (std::size_t k = 0; k < places.size(); ++k) {
         const double apart = (set_.directions[i] - set_.directions[places[k]]).norm() / kLikeRad;
         const double weight = std::exp(-0.5 * apart * apart);
