@@ -238,12 +238,8 @@ double Measure::worst() const {
 
 std::string_view Measure::cost() const {
   const std::pair<bool, std::string_view> dearest_first[] = {
-      {is_of_set(), "set of views"},
-      {needs.kssm, "kssm map"},
-      {needs.skeleton, "skeleton"},
-      {needs.saliency, "saliency map"},
-      {needs.outline, "outline"},
-      {needs.faces, "faces"},
+      {is_of_set(), "set of views"},    {needs.kssm, "kssm map"},   {needs.skeleton, "skeleton"},
+      {needs.saliency, "saliency map"}, {needs.outline, "outline"}, {needs.faces, "faces"},
       {needs.vertices, "vertices"},
   };
   for (const auto& [is_needed, thing] : dearest_first) {
