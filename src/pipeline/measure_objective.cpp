@@ -75,8 +75,6 @@ ViewObjective MeasureObjective::objective() const {
       }
       return estimates;
     };
-  }
-  if (measurer_->has_estimates(measure_)) {
     objective.proxy = [this](const std::vector<Vec3>& directions) {
       std::vector<double> estimates = measurer_->estimates_of(measure_, directions, quiet_);
       for (double& estimate : estimates) {
