@@ -58,7 +58,7 @@ MapObjective::MapObjective(const ShapeAnalysis& shape, const ViewOptions& option
 
 std::vector<double> MapObjective::estimates(const std::vector<Vec3>& directions) const {
   const std::optional<SurveySight>& survey = prepared_->survey;
-  if (!survey || !survey->is_of(coarse_scorer_.camera())) {
+  if (!survey || !is_same(survey->camera(), coarse_scorer_.camera())) {
     return coarse_scorer_.score_all(directions, quiet_);
   }
   std::vector<double> scores(directions.size(), 0.0);

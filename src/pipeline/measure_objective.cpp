@@ -17,11 +17,10 @@ MeasureObjective::MeasureObjective(ViewMeasurer& measurer, std::size_t m, const 
       measure_(m),
       quiet_{.stop = run.stop, .max_threads = run.max_threads},
       is_falling_(measurer.measures()[m].better == Better::Less) {
-  if (!measurer.has_set_values() && measurer.has_estimates(m)) {
-    has_estimates_ = true;
-    take(measurer.estimates_of(m, measurer.set().directions, quiet_));
-  }
-  if (!(highest_ > 0.0)) {
+  const SetSurvey survey = measurer.survey_of(m, run);
+  has_estimates_ = !survey.is_exact;
+  take(survey.values);
+  if (has_estimates_ && !(highest_ > 0.0)) {
     has_estimates_ = false;
     take(measurer.set_values(run)[m]);
   }

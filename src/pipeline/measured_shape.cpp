@@ -21,8 +21,6 @@
 namespace vantage {
 namespace {
 
-constexpr int kSetLevel = 3;  // 642 views: a part of the definition of measures built on the set
-
 MeasuredView measured(const FoundView& found, const MeasureObjective& by) {
   return {found.direction, by.value(found.score)};
 }
@@ -57,6 +55,7 @@ MeasureSubject measure_subject(const ShapeAnalysis& shape, const ViewOptions& op
   subject.camera = scoring_camera(shape, options);
   subject.weight = options.weight;
   subject.kssm = shape.map.of_vertex;
+  subject.seen_by_set = seen_by_set(shape, subject.camera);
   if (!shape.skeleton.graph.nodes.empty()) {
     subject.skeleton = &shape.skeleton.graph;
     subject.node_of_vertex = shape.skeleton.node_of_vertex;
@@ -77,7 +76,7 @@ std::vector<double> vertex_map(const ShapeAnalysis& shape, const ViewOptions& op
                        "'; there are kssm, mesh-saliency, pmi-saliency");
   }
   const ViewMeasurer measurer(measure_subject(shape, options), {find_measure("pmi-saliency")},
-                              kSetLevel, run);
+                              kMeasureSetLevel, run);
   return saliency_on_vertices(shape.surface, measurer.model().terms.saliency_of_face);
 }
 
@@ -119,8 +118,8 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, const FrameChoice& 
     require_gradient(find_measure(options.method));
   }
   const double kNone = std::numeric_limits<double>::quiet_NaN();
-  ViewMeasurer measurer(measure_subject(shape, options), {find_measure(options.method)}, kSetLevel,
-                        run.part(0.0, 0.6));
+  ViewMeasurer measurer(measure_subject(shape, options), {find_measure(options.method)},
+                        kMeasureSetLevel, run.part(0.0, 0.6));
   const MeasureObjective by(measurer, 0, run.part(0.0, 0.6));
   ViewObjective objective = by.objective();
   const Preference preference(shape, choice, options, objective.total);

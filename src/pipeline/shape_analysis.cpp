@@ -62,11 +62,17 @@ void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext&
   }
 }
 
-/// The camera of the survey that a search will make of the coarse copy.
-std::optional<ScoringCamera> surveyed(const ShapeAnalysis& shape, const ViewOptions& options) {
-  const bool is_surveyed =
-      sums_a_map(options.method) && options.search.strategy == SearchStrategy::Global;
-  return is_surveyed ? std::optional(scoring_camera(shape, options)) : std::nullopt;
+/// What the search by the options' method will ask.
+PreparedFor use_of(const ShapeAnalysis& shape, const ViewOptions& options) {
+  PreparedFor use;
+  if (sums_a_map(options.method)) {
+    if (options.search.strategy == SearchStrategy::Global) {
+      use.survey = scoring_camera(shape, options);
+    }
+  } else if (find_measure(options.method).is_of_set() && surface_area(shape.surface) > 0.0) {
+    use.measures = scoring_camera(shape, options);
+  }
+  return use;
 }
 
 ShapeAnalysis analyse_surface(ShapeAnalysis shape, const ViewOptions& options,
@@ -86,7 +92,7 @@ ShapeAnalysis analyse_surface(ShapeAnalysis shape, const ViewOptions& options,
       },
       [&] {
         if (use == AnalysisUse::Views) {
-          views = std::make_shared<ViewPreparation>(shape, run, surveyed(shape, options));
+          views = std::make_shared<ViewPreparation>(shape, run, use_of(shape, options));
         }
       });
   shape.views = std::move(views);

@@ -18,6 +18,12 @@ std::array<double, 3> key_of(const Vec3& direction) {
 
 }  // namespace
 
+bool is_same(const ScoringCamera& a, const ScoringCamera& b) {
+  return a.sphere.centre == b.sphere.centre && a.sphere.diameter == b.sphere.diameter &&
+         a.projection == b.projection && a.fov_y_deg == b.fov_y_deg &&
+         a.distance_factor == b.distance_factor;
+}
+
 SurveySight::SurveySight(const VertexVisibility& visibility, const ScoringCamera& camera,
                          const RunContext& run)
     : camera_(camera) {
@@ -31,13 +37,6 @@ SurveySight::SurveySight(const VertexVisibility& visibility, const ScoringCamera
   for (std::size_t i = 0; i < directions.size(); ++i) {
     index_[key_of(directions[i])] = i;
   }
-}
-
-bool SurveySight::is_of(const ScoringCamera& camera) const {
-  return camera.sphere.centre == camera_.sphere.centre &&
-         camera.sphere.diameter == camera_.sphere.diameter &&
-         camera.projection == camera_.projection && camera.fov_y_deg == camera_.fov_y_deg &&
-         camera.distance_factor == camera_.distance_factor;
 }
 
 std::optional<double> SurveySight::score(const Vec3& direction,

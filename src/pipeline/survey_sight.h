@@ -14,6 +14,9 @@
 
 namespace vantage {
 
+/// Whether two cameras see the same from every direction.
+bool is_same(const ScoringCamera& a, const ScoringCamera& b);
+
 /// Which vertices are seen from the directions that a search surveys, icosahedron level 4. They do
 /// not depend on the map, so that they are found beside the contraction.
 class SurveySight {
@@ -22,8 +25,8 @@ class SurveySight {
   SurveySight(const VertexVisibility& visibility, const ScoringCamera& camera,
               const RunContext& run);
 
-  /// Whether it is what this camera sees.
-  [[nodiscard]] bool is_of(const ScoringCamera& camera) const;
+  /// What it is seen through.
+  [[nodiscard]] const ScoringCamera& camera() const { return camera_; }
 
   /// What ViewScorer::score() gives for `shares`, one a vertex; nothing for other directions.
   [[nodiscard]] std::optional<double> score(const Vec3& direction,

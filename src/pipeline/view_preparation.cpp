@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "vantage/mesh/measures.h"
+#include "vantage/spatial/directions.h"
+#include "vantage/visibility/face_visibility.h"
 
 namespace vantage {
 namespace {
@@ -40,6 +42,17 @@ CoarseSurface coarse_of(const ShapeAnalysis& shape, const CoarseSurface& proxy,
   return coarse;
 }
 
+SeenBySet look_through(const ScoringCamera& camera, const ShapeAnalysis& shape,
+                       const RunContext& run) {
+  std::vector<Viewpoint> eyes;
+  for (const Vec3& direction :
+       direction_set(ViewSphereBase::Icosahedron, kMeasureSetLevel).directions) {
+    eyes.push_back(camera.viewpoint(direction));
+  }
+  const FaceVisibility faces(shape.surface, shape.sides);
+  return {camera, channel_table(faces, shape.surface.triangles.size(), eyes, run)};
+}
+
 bool is_worthwhile(const CoarseSurface& copy) {
   const std::size_t vertices = copy.of_vertex.size();
   return vertices > 0 && kWorthwhile * copy.mesh.positions.size() <= vertices;
@@ -48,7 +61,7 @@ bool is_worthwhile(const CoarseSurface& copy) {
 }  // namespace
 
 ViewPreparation::ViewPreparation(const ShapeAnalysis& shape, const RunContext& run,
-                                 const std::optional<ScoringCamera>& surveyed)
+                                 const PreparedFor& use)
     : visibility(shape.surface, shape.sides, kEyes),
       planes((run.check(), mirror_planes(shape.surface))),
       evidence((run.check(), shape.surface), shape.flow),
@@ -57,8 +70,11 @@ ViewPreparation::ViewPreparation(const ShapeAnalysis& shape, const RunContext& r
       proxy_visibility(proxy.mesh, proxy.sides, kEyes),
       coarse((run.check(), coarse_of(shape, proxy, run))),
       coarse_visibility(coarse.mesh, coarse.sides, kCoarseEyes) {
-  if (surveyed && is_coarse()) {
-    survey.emplace(coarse_visibility, *surveyed, run);
+  if (use.survey && is_coarse()) {
+    survey.emplace(coarse_visibility, *use.survey, run);
+  }
+  if (use.measures) {
+    set = look_through(*use.measures, shape, run);
   }
 }
 
@@ -84,6 +100,12 @@ std::shared_ptr<const VertexVisibility> visibility_of(const ShapeAnalysis& shape
 
 std::vector<MirrorPlane> planes_of(const ShapeAnalysis& shape) {
   return shape.views ? shape.views->planes : mirror_planes(shape.surface);
+}
+
+const ViewChannel* seen_by_set(const ShapeAnalysis& shape, const ScoringCamera& camera) {
+  const bool is_known =
+      shape.views && shape.views->set && is_same(shape.views->set->camera, camera);
+  return is_known ? &shape.views->set->channel : nullptr;
 }
 
 OrientationEvidence evidence_of(const ShapeAnalysis& shape) {

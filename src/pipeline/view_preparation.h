@@ -9,6 +9,8 @@
 #include "vantage/orientation/orientation.h"
 #include "vantage/pipeline/shape_analysis.h"
 #include "vantage/spatial/mirror_symmetry.h"
+#include "vantage/view/channel.h"
+#include "vantage/view/scoring.h"
 #include "vantage/visibility/vertex_visibility.h"
 
 #include "pipeline/coarse_surface.h"
@@ -19,6 +21,21 @@
 
 namespace vantage {
 
+/// What views will be looked for by, if that is known.
+struct PreparedFor {
+  std::optional<ScoringCamera> survey{};    ///< The camera of a survey of the coarse copy.
+  std::optional<ScoringCamera> measures{};  ///< That of measures of a set of views.
+};
+
+/// What a set of views sees through a camera.
+struct SeenBySet {
+  ScoringCamera camera{};
+  ViewChannel channel{};
+};
+
+/// The views that measures are defined over: this level of the icosahedron.
+inline constexpr int kMeasureSetLevel = 3;
+
 /// Immutable; copies of an analysis share it.
 struct ViewPreparation {
   /// Vertices of the coarse copy; fewer lose fingers and tails. [ours, docs/search.md]
@@ -28,9 +45,9 @@ struct ViewPreparation {
   static constexpr std::size_t kLargeSurface = 2 * kProxyVertices;
 
   /// Of the shape's surface; its history, skeleton and map are not looked at.
-  /// \param surveyed the camera of a survey of the coarse copy, if one will be made. \throw Cancelled
+  /// \throw Cancelled
   explicit ViewPreparation(const ShapeAnalysis& shape, const RunContext& run = {},
-                           const std::optional<ScoringCamera>& surveyed = {});
+                           const PreparedFor& use = {});
 
   VertexVisibility visibility;
   std::vector<MirrorPlane> planes;   ///< mirror_planes().
@@ -42,6 +59,7 @@ struct ViewPreparation {
   CoarseSurface coarse;                ///< What estimates of scores look at.
   VertexVisibility coarse_visibility;  ///< Of its mesh.
   std::optional<SurveySight> survey;   ///< Of the coarse copy.
+  std::optional<SeenBySet> set;        ///< Of the surface, by kMeasureSetLevel.
 
   /// Whether the coarse copy is so much smaller than the surface that estimates on it gain.
   [[nodiscard]] bool is_coarse() const;
@@ -58,6 +76,9 @@ std::shared_ptr<const VertexVisibility> visibility_of(const ShapeAnalysis& shape
 
 /// The mirror planes of the shape's, or found now.
 std::vector<MirrorPlane> planes_of(const ShapeAnalysis& shape);
+
+/// What the set of views sees through this camera, if the shape's knows it; else null.
+const ViewChannel* seen_by_set(const ShapeAnalysis& shape, const ScoringCamera& camera);
 
 /// The evidence of the shape's, or gathered now.
 OrientationEvidence evidence_of(const ShapeAnalysis& shape);

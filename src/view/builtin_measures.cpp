@@ -192,6 +192,7 @@ void add_channel_measures(std::vector<Measure>& all) {
                      "Feixas, Sbert, González 2009", next, instability_of));
   all.push_back(more("view-likelihood", "share of the view sphere around it that looks alike",
                      "after Weinshall, Werman 1997", next, view_likelihood));
+  all.back().estimate = estimated_view_likelihood;
   all.push_back(more(
       "pmi-saliency", "saliency of faces by how their visibility differs from theirs around",
       "Feixas, Sbert, González 2009", kChannel,
@@ -237,12 +238,8 @@ double Measure::worst() const {
 
 std::string_view Measure::cost() const {
   const std::pair<bool, std::string_view> dearest_first[] = {
-      {needs.channel || needs.neighbours, "set of views"},
-      {needs.kssm, "kssm map"},
-      {needs.skeleton, "skeleton"},
-      {needs.saliency, "saliency map"},
-      {needs.outline, "outline"},
-      {needs.faces, "faces"},
+      {is_of_set(), "set of views"},    {needs.kssm, "kssm map"},   {needs.skeleton, "skeleton"},
+      {needs.saliency, "saliency map"}, {needs.outline, "outline"}, {needs.faces, "faces"},
       {needs.vertices, "vertices"},
   };
   for (const auto& [is_needed, thing] : dearest_first) {

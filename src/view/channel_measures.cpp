@@ -295,7 +295,7 @@ double mean_divergence(std::span<const double> divergences) {
   return divergences.empty() ? 0.0 : sum / static_cast<double>(divergences.size());
 }
 
-std::vector<double> neighbour_divergences(const std::vector<std::vector<FaceArea>>& views,
+std::vector<double> neighbour_divergences(std::span<const std::vector<FaceArea>> views,
                                           const IndexLists& next, const RunContext& run) {
   std::vector<double> divergences(next.values.size(), 1.0);
   std::vector<SummedAreas> sums(views.size());

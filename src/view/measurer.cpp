@@ -21,6 +21,7 @@
 #include "mesh/curvature.h"
 #include "view/shared_logs.h"
 #include "view/skeleton_sight.h"
+#include "view/view_likelihood.h"
 
 namespace vantage {
 namespace {
@@ -81,21 +82,28 @@ struct ViewMeasurer::State {
   std::optional<FaceVisibility> faces{};
   std::optional<OutlineTracer> outlines{};
   MeasureValues of_set{};
+  bool is_measured = false;  // all of of_set
+  ViewChannel channel{};     // unless the subject brings it; what model.set_views refers to
 
   void prepare(const RunContext& run);
   void prepare_maps(const RunContext& run);
   void survey(const RunContext& run);
-  [[nodiscard]] bool is_late(std::size_t m) const;
+  void measure_set(const RunContext& run);
+  void look_at_set(const RunContext& run);
+  [[nodiscard]] bool is_seen_by_set() const;
+  void take(const ViewChannel& seen, const RunContext& run);
   std::vector<FaceArea> measure_early(std::size_t i);
+  [[nodiscard]] SightTable kept_sight(std::size_t i) const;
   void measure_late(std::size_t i);
+  [[nodiscard]] std::vector<double> estimates_of_set(std::size_t m, const RunContext& run) const;
   [[nodiscard]] SightTable look(const Viewpoint& eye, const MeasureNeeds& wanted,
                                 std::size_t set_index, FaceDetail detail = FaceDetail::Exact) const;
   void look_at_faces(const MeasureNeeds& wanted, FaceDetail detail, SightTable& sight) const;
   [[nodiscard]] std::vector<double> values_of(std::size_t m, std::span<const Vec3> directions,
                                               FaceDetail detail, const RunContext& run) const;
   [[nodiscard]] MeasureNeeds needs_of(std::size_t m) const;
-  [[nodiscard]] std::vector<std::uint32_t> neighbours(const Vec3& towards) const;
-  [[nodiscard]] double value(std::size_t m, const SightTable& sight) const;
+  [[nodiscard]] double value(std::size_t m, const SightTable& sight,
+                             FaceDetail detail = FaceDetail::Exact) const;
 };
 
 void ViewMeasurer::State::prepare(const RunContext& run) {
@@ -144,6 +152,8 @@ void ViewMeasurer::State::prepare(const RunContext& run) {
   model.spread = spread_of(mesh, model.face_areas, model.surface_area);
   if (needs.neighbours) {
     model.next_views = vertex_neighbours({model.set.directions, model.set.triangles});
+    model.next_coarse_views =
+        vertex_neighbours({model.coarse_set.directions, model.coarse_set.triangles});
   }
   prepare_maps(run);
 }
@@ -216,45 +226,21 @@ SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& w
       sight.neighbours.assign(row.begin(), row.end());
       sight.set_index = static_cast<std::uint32_t>(set_index);
     } else {
-      sight.neighbours = neighbours(sight.towards);
+      sight.neighbours = views_around(model.set, model.next_views, sight.towards);
     }
   }
   return sight;
 }
 
-/// The corners of the set's triangle that the direction falls in; of a direction that is one of the
-/// set's, its neighbours.
-std::vector<std::uint32_t> ViewMeasurer::State::neighbours(const Vec3& towards) const {
-  const std::vector<Vec3>& all = model.set.directions;
-  constexpr double kSame = 1e-9;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if ((all[i] - towards).norm() < kSame) {
-      const auto row = model.next_views[i];
-      return {row.begin(), row.end()};
-    }
-  }
-  const Triangle* best = nullptr;
-  double inside = -std::numeric_limits<double>::infinity();
-  for (const Triangle& t : model.set.triangles) {
-    const Vec3 &a = all[t[0]], &b = all[t[1]], &c = all[t[2]];
-    const double least =
-        std::min({towards.dot(a.cross(b)), towards.dot(b.cross(c)), towards.dot(c.cross(a))});
-    if (least > inside) {
-      inside = least;
-      best = &t;
-    }
-  }
-  return best == nullptr ? std::vector<std::uint32_t>{}
-                         : std::vector<std::uint32_t>(best->begin(), best->end());
-}
-
-double ViewMeasurer::State::value(std::size_t m, const SightTable& sight) const {
+/// \param detail of what the sight tells; unless it is exact, an estimate will do.
+double ViewMeasurer::State::value(std::size_t m, const SightTable& sight, FaceDetail detail) const {
   // What else was looked at for other measures must not matter.
   const MeasureNeeds& own = measures[m].needs;
   if (own.faces ? sight.faces.empty() : own.vertices && !sight.sees_vertices) {
     return measures[m].worst();
   }
-  const double value = measures[m].value(model, sight);
+  const bool is_estimate = detail != FaceDetail::Exact && measures[m].estimate;
+  const double value = (is_estimate ? measures[m].estimate : measures[m].value)(model, sight);
   return std::isnan(value) ? measures[m].worst() : value;
 }
 
@@ -271,51 +257,70 @@ std::vector<double> ViewMeasurer::State::values_of(std::size_t m, std::span<cons
   parallel_for(run, directions.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Viewpoint eye = model.given.camera.viewpoint(directions[i]);
-      values[i] = value(m, look(eye, own, kNotOfSet, detail));
+      values[i] = value(m, look(eye, own, kNotOfSet, detail), detail);
     }
   });
   return values;
-}
-
-/// Whether a measure has to wait until all views of the set were looked at.
-bool ViewMeasurer::State::is_late(std::size_t m) const {
-  return measures[m].needs.channel || measures[m].needs.neighbours;
 }
 
 /// First pass over a view of the set. \return the faces it sees.
 std::vector<FaceArea> ViewMeasurer::State::measure_early(std::size_t i) {
   SightTable sight = look(model.given.camera.viewpoint(model.set.directions[i]), needs, i);
   for (std::size_t m = 0; m < measures.size(); ++m) {
-    of_set[m][i] = is_late(m) ? 0.0 : value(m, sight);
+    of_set[m][i] = measures[m].is_of_set() ? 0.0 : value(m, sight);
   }
-  model.set_sums[i] = {sight.projected_area, sight.area_logs};
   return std::move(sight.faces);
 }
 
-/// Values of a view of the set that need all the others. \pre terms and set_views are there.
-void ViewMeasurer::State::measure_late(std::size_t i) {
+/// What is kept of a view of the set. \pre terms and set_views are there.
+SightTable ViewMeasurer::State::kept_sight(std::size_t i) const {
   const Viewpoint eye = model.given.camera.viewpoint(model.set.directions[i]);
   SightTable sight = look(eye, {.neighbours = needs.neighbours}, i);
-  sight.faces = model.set_views[i];
+  sight.faces.assign(model.set_views[i].begin(), model.set_views[i].end());
   sight.projected_area = model.set_sums[i][0];
   sight.area_logs = model.set_sums[i][1];
   if (needs.channel) {
     sight.channel = channel_measures(sight.faces, model.terms, model.face_areas);
   }
+  return sight;
+}
+
+/// Values of a view of the set that need all the others.
+void ViewMeasurer::State::measure_late(std::size_t i) {
+  const SightTable sight = kept_sight(i);
   for (std::size_t m = 0; m < measures.size(); ++m) {
-    if (is_late(m)) {
-      of_set[m][i] = value(m, is_kept(measures[m].needs) ? sight : look(eye, needs, i));
+    if (measures[m].is_of_set()) {
+      of_set[m][i] = value(m, is_kept(measures[m].needs) ? sight : look(sight.eye, needs, i));
     }
   }
 }
 
+/// \pre the measure is of the set, has an estimate and looks at no more than is kept.
+std::vector<double> ViewMeasurer::State::estimates_of_set(std::size_t m,
+                                                          const RunContext& run) const {
+  std::vector<double> estimates(model.set.directions.size(), 0.0);
+  parallel_for(quiet(run), estimates.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      estimates[i] = value(m, kept_sight(i), FaceDetail::ByCorners);
+    }
+  });
+  return estimates;
+}
+
+/// Whether the subject brings all that its measures look at in views of the set.
+bool ViewMeasurer::State::is_seen_by_set() const {
+  const ViewChannel* seen = model.given.seen_by_set;
+  return seen != nullptr && seen->face_count == model.face_areas.size() &&
+         seen->views.size() == model.set.directions.size() && is_kept(needs) &&
+         std::all_of(measures.begin(), measures.end(),
+                     [](const Measure& measure) { return measure.is_of_set(); });
+}
+
 /// Looks at all views of the set once.
-void ViewMeasurer::State::survey(const RunContext& run) {
+void ViewMeasurer::State::look_at_set(const RunContext& run) {
   const std::size_t count = model.set.directions.size();
   const bool keeps_faces = needs.channel || needs.neighbours;
-  of_set.assign(measures.size(), std::vector<double>(count, 0.0));
-  model.set_sums.assign(count, {0.0, 0.0});
-  std::vector<std::vector<FaceArea>> kept(keeps_faces ? count : 0);
+  channel = {model.face_areas.size(), std::vector<std::vector<FaceArea>>(keeps_faces ? count : 0)};
   // In a few batches, so that progress can be told and a stop be heard.
   constexpr std::size_t kBatch = 64;
   for (std::size_t start = 0; start < count; start += kBatch) {
@@ -325,29 +330,60 @@ void ViewMeasurer::State::survey(const RunContext& run) {
                    for (std::size_t i = start + begin; i < start + end; ++i) {
                      std::vector<FaceArea> faces_seen = measure_early(i);
                      if (keeps_faces) {
-                       kept[i] = std::move(faces_seen);
+                       channel.views[i] = std::move(faces_seen);
                      }
                    }
                  });
   }
-  if (!keeps_faces) {
-    return;
+}
+
+/// Takes from what the set sees all that measures need of it.
+void ViewMeasurer::State::take(const ViewChannel& seen, const RunContext& run) {
+  model.set_views = seen.views;
+  model.set_sums.reserve(seen.views.size());
+  for (const std::vector<FaceArea>& view : seen.views) {
+    double area = 0.0;
+    for (const FaceArea& face : view) {
+      area += face.area;
+    }
+    model.set_sums.push_back({area, sum_of_logs(view)});
   }
   run.advance("views", 0.8);
-  ViewChannel channel{model.face_areas.size(), std::move(kept)};
   if (needs.channel) {
-    model.terms = channel_terms(channel, *model.given.surface, quiet(run));
+    model.terms = channel_terms(seen, *model.given.surface, quiet(run));
   }
-  model.set_views = std::move(channel.views);
   run.advance("views", 0.9);
   if (needs.neighbours) {
     model.divergences = neighbour_divergences(model.set_views, model.next_views, quiet(run));
   }
-  parallel_for(quiet(run), count, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      measure_late(i);
-    }
-  });
+}
+
+/// Looks at the views of the set and measures what can be measured of each alone.
+void ViewMeasurer::State::survey(const RunContext& run) {
+  of_set.assign(measures.size(), std::vector<double>(model.set.directions.size(), 0.0));
+  const bool is_seen = is_seen_by_set();
+  if (!is_seen) {
+    look_at_set(run);
+  }
+  if (needs.channel || needs.neighbours) {
+    take(is_seen ? *model.given.seen_by_set : channel, run);
+  }
+}
+
+/// Measures all that is not measured yet.
+void ViewMeasurer::State::measure_set(const RunContext& run) {
+  if (of_set.empty()) {
+    survey(run);
+  }
+  if (!is_measured && (needs.channel || needs.neighbours)) {
+    parallel_for(quiet(run), model.set.directions.size(), 1,
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t i = begin; i < end; ++i) {
+                     measure_late(i);
+                   }
+                 });
+  }
+  is_measured = true;
 }
 
 ViewMeasurer::ViewMeasurer(const MeasureSubject& subject, std::vector<Measure> measures, int level,
@@ -358,6 +394,7 @@ ViewMeasurer::ViewMeasurer(const MeasureSubject& subject, std::vector<Measure> m
   }
   state_->model.given = subject;
   state_->model.set = direction_set(ViewSphereBase::Icosahedron, level);
+  state_->model.coarse_set = direction_set(ViewSphereBase::Icosahedron, std::max(0, level - 1));
   state_->measures = std::move(measures);
   for (const Measure& measure : state_->measures) {
     state_->needs = both(state_->needs, measure.needs);
@@ -385,9 +422,7 @@ const DirectionSet& ViewMeasurer::set() const {
 }
 
 const MeasureValues& ViewMeasurer::set_values(const RunContext& run) {
-  if (state_->of_set.empty()) {
-    state_->survey(run);
-  }
+  state_->measure_set(run);
   return state_->of_set;
 }
 
@@ -420,7 +455,7 @@ std::vector<double> ViewMeasurer::values_of(std::size_t m, std::span<const Vec3>
 
 bool ViewMeasurer::has_estimates(std::size_t m) const {
   const MeasureNeeds needs = state_->needs_of(m);
-  return needs.faces && !needs.outline && !state_->is_late(m);
+  return needs.faces && !needs.outline;
 }
 
 std::vector<double> ViewMeasurer::estimates_of(std::size_t m, std::span<const Vec3> directions,
@@ -428,8 +463,15 @@ std::vector<double> ViewMeasurer::estimates_of(std::size_t m, std::span<const Ve
   return state_->values_of(m, directions, FaceDetail::ByCorners, run);
 }
 
-bool ViewMeasurer::has_set_values() const {
-  return !state_->of_set.empty();
+SetSurvey ViewMeasurer::survey_of(std::size_t m, const RunContext& run) {
+  const Measure& measure = state_->measures[m];
+  if (!state_->is_measured && measure.is_of_set() && measure.estimate) {
+    return {state_->estimates_of_set(m, run), false};
+  }
+  if (!state_->is_measured && !measure.is_of_set() && has_estimates(m)) {
+    return {estimates_of(m, set().directions, quiet(run)), false};
+  }
+  return {set_values(run)[m], true};
 }
 
 }  // namespace vantage

@@ -23,6 +23,12 @@ VANTAGE_INLINE void load_areas(const FaceArea* entries, LogLanes& areas) {
   areas = __builtin_convertvector(__builtin_shufflevector(both, both, 1, 3, 5, 7), LogLanes);
 }
 
+/// Multiplies areas, which are rounded as they are stored.
+VANTAGE_INLINE void multiply(LogLanes& areas, double scale) {
+  using Stored = float __attribute__((vector_size(kLogLanes * sizeof(float))));
+  areas = __builtin_convertvector(__builtin_convertvector(scale * areas, Stored), LogLanes);
+}
+
 /// Calls add(entries, how many of them count) for kLogLanes at a time. What fills up the last has
 /// area 1, whose logarithm is 0, and the place of an entry of the list.
 template <class Add>
@@ -72,7 +78,8 @@ VANTAGE_INLINE void put_here(std::span<const FaceArea> list, Cell* cells) {
 }
 
 template <class Cell>
-VANTAGE_INLINE double logs_with_here(std::span<const FaceArea> list, const Cell* cells) {
+VANTAGE_INLINE double logs_with_here(std::span<const FaceArea> list, double scale,
+                                     const Cell* cells) {
   LogLanes sum{};
   for_lanes(
       list, [&](const FaceArea* entries, std::size_t count) __attribute__((always_inline)) {
@@ -84,10 +91,12 @@ VANTAGE_INLINE double logs_with_here(std::span<const FaceArea> list, const Cell*
         load_areas(entries, areas);
         LogLanes both{p.area, q.area, r.area, s.area};
         LogLanes own{p.log, q.log, r.log, s.log};
-        for (std::size_t k = count; k < kLogLanes; ++k) {
-          both[k] = own[k] = 0.0;
-        }
+        multiply(areas, scale);
         both += areas;
+        for (std::size_t k = count; k < kLogLanes; ++k) {
+          both[k] = 1.0;
+          own[k] = 0.0;
+        }
         LogLanes logs;
         log_2(both, logs);
         sum += both * logs - own;
@@ -106,8 +115,9 @@ template <class Cell>
 }
 
 template <class Cell>
-[[gnu::target("avx2")]] double logs_with_wide(std::span<const FaceArea> list, const Cell* cells) {
-  return logs_with_here(list, cells);
+[[gnu::target("avx2")]] double logs_with_wide(std::span<const FaceArea> list, double scale,
+                                              const Cell* cells) {
+  return logs_with_here(list, scale, cells);
 }
 #endif
 
@@ -141,20 +151,20 @@ void LaidOutAreas::put(std::span<const FaceArea> list) {
   put_here(list, cells_.data());
 }
 
-double LaidOutAreas::logs_with(std::span<const FaceArea> other) const {
+double LaidOutAreas::logs_with(std::span<const FaceArea> other, double scale) const {
 #if defined(__x86_64__)
   if (has_wide_registers()) {
-    return logs_with_wide(other, cells_.data());
+    return logs_with_wide(other, scale, cells_.data());
   }
 #endif
-  return logs_with_here(other, cells_.data());
+  return logs_with_here(other, scale, cells_.data());
 }
 
 double divergence_of(const SummedAreas& a, const LaidOutAreas& laid_out, const SummedAreas& b) {
   if (!(a.area > 0.0) || !(b.area > 0.0)) {
     return 0.0;
   }
-  const double shared = laid_out.logs_with(b.list) - b.logs;
+  const double shared = laid_out.logs_with(b.list, b.scale) - b.logs;
   return std::clamp((shared_term(a.area, b.area) - shared) / (a.area + b.area), 0.0, 1.0);
 }
 

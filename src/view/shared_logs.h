@@ -21,7 +21,8 @@ double sum_of_logs(std::span<const FaceArea> list);
 struct SummedAreas {
   std::span<const FaceArea> list{};
   double area = 0.0;
-  double logs = 0.0;  ///< Σ a log a
+  double logs = 0.0;   ///< Σ a log a
+  double scale = 1.0;  ///< What the areas of the list count times; `area` and `logs` are scaled.
 };
 
 /// A list of areas laid out by place, to compare many others with.
@@ -34,8 +35,8 @@ class LaidOutAreas {
   void put(std::span<const FaceArea> list);
 
   /// Σ over the places of another list, which has b there and this one a or 0, of
-  /// (a + b) log (a + b) − a log a.
-  [[nodiscard]] double logs_with(std::span<const FaceArea> other) const;
+  /// (a + b) log (a + b) − a log a. \param scale what its areas count times.
+  [[nodiscard]] double logs_with(std::span<const FaceArea> other, double scale = 1.0) const;
 
  private:
   struct Cell {

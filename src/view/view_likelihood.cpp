@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -57,50 +58,78 @@ class SetDistances {
       return 1.0;  // it sees nothing, and so shares nothing
     }
     const double scale = seen_.area / area;
-    scaled_.clear();
-    for (const FaceArea& a : model_->set_views[view]) {
-      scaled_.push_back({a.face, static_cast<float>(scale * a.area)});
-    }
-    return divergence_of(seen_, laid_out_,
-                         {scaled_, seen_.area, scale * logs + seen_.area * log_2(scale)});
+    return divergence_of(
+        seen_, laid_out_,
+        {model_->set_views[view], seen_.area, scale * logs + seen_.area * log_2(scale), scale});
   }
 
   const MeasuredModel* model_;
   SummedAreas seen_;
   LaidOutAreas laid_out_;
   std::vector<double> known_;
-  std::vector<FaceArea> scaled_{};
+};
+
+/// Views that one is compared with: those of a set.
+struct Compared {
+  const DirectionSet& set;
+  const IndexLists& next;  // views beside each
 };
 
 /// The view of the set that looks from there, if there is one.
-std::optional<std::uint32_t> same_view(const MeasuredModel& model, const SightTable& sight) {
-  if (sight.set_index != SightTable::kOffSet) {
-    return sight.set_index;
-  }
-  for (const std::uint32_t near : sight.neighbours) {
-    for (const std::uint32_t view : model.next_views[near]) {
-      if ((model.set.directions[view] - sight.towards).norm() < kSame) {
-        return view;
-      }
+std::optional<std::uint32_t> same_view(const Compared& to, const Vec3& towards) {
+  for (std::uint32_t view = 0; view < to.set.directions.size(); ++view) {
+    if ((to.set.directions[view] - towards).norm() < kSame) {
+      return view;
     }
   }
   return {};
 }
 
 /// Marks the views of the set that are alike and joined to one of `seeds` by such.
-std::vector<std::uint8_t> alike_views(const MeasuredModel& model, std::vector<std::uint32_t> seeds,
+std::vector<std::uint8_t> alike_views(const Compared& to, std::vector<std::uint32_t> seeds,
                                       SetDistances& distance, double limit) {
-  std::vector<std::uint8_t> is_alike(model.set_views.size(), 0);
+  std::vector<std::uint8_t> is_alike(to.set.directions.size(), 0);
   while (!seeds.empty()) {
     const std::uint32_t view = seeds.back();
     seeds.pop_back();
     if (is_alike[view] == 0 && distance[view] <= limit) {
       is_alike[view] = 1;
-      const auto next = model.next_views[view];
+      const auto next = to.next[view];
       seeds.insert(seeds.end(), next.begin(), next.end());
     }
   }
   return is_alike;
+}
+
+double likelihood_among(const Compared& to, const MeasuredModel& model, const SightTable& sight) {
+  const double limit = std::sqrt(kAlike);
+  SetDistances distance(model, sight);
+  const std::optional<std::uint32_t> own = same_view(to, sight.towards);
+  if (own) {
+    distance.begin_at(*own);
+  }
+  const std::vector<std::uint32_t> around =
+      own ? std::vector{*own} : views_around(to.set, to.next, sight.towards);
+  const std::vector<std::uint8_t> is_alike = alike_views(to, around, distance, limit);
+  const std::vector<Vec3>& directions = to.set.directions;
+  const auto is_around = [&](const Triangle& t) {  // the view, which is none of the set
+    return !own && std::is_permutation(t.begin(), t.end(), around.begin(), around.end());
+  };
+  double region = 0.0;
+  for (const Triangle& t : to.set.triangles) {
+    if (is_around(t)) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::uint32_t a = t[c];
+        const std::uint32_t b = t[(c + 1) % 3];
+        region += share_below(0.0, distance[a], distance[b], limit) *
+                  solid_angle(sight.towards, directions[a], directions[b]);
+      }
+    } else if (is_alike[t[0]] != 0 || is_alike[t[1]] != 0 || is_alike[t[2]] != 0) {
+      region += share_below(distance[t[0]], distance[t[1]], distance[t[2]], limit) *
+                solid_angle(directions[t[0]], directions[t[1]], directions[t[2]]);
+    }
+  }
+  return std::min(1.0, region / (4.0 * std::numbers::pi));
 }
 
 }  // namespace
@@ -121,34 +150,32 @@ double share_below(double a, double b, double c, double limit) {
 }
 
 double view_likelihood(const MeasuredModel& model, const SightTable& sight) {
-  const double limit = std::sqrt(kAlike);
-  SetDistances distance(model, sight);
-  const std::optional<std::uint32_t> own = same_view(model, sight);
-  if (own) {
-    distance.begin_at(*own);
+  return likelihood_among({model.set, model.next_views}, model, sight);
+}
+
+double estimated_view_likelihood(const MeasuredModel& model, const SightTable& sight) {
+  return likelihood_among({model.coarse_set, model.next_coarse_views}, model, sight);
+}
+
+std::vector<std::uint32_t> views_around(const DirectionSet& set, const IndexLists& next,
+                                        const Vec3& towards) {
+  if (const std::optional<std::uint32_t> own = same_view({set, next}, towards)) {
+    const auto row = next[*own];
+    return {row.begin(), row.end()};
   }
-  const std::vector<std::uint8_t> is_alike =
-      alike_views(model, own ? std::vector{*own} : sight.neighbours, distance, limit);
-  const std::vector<Vec3>& directions = model.set.directions;
-  const auto is_around = [&](const Triangle& t) {  // the view, which is none of the set
-    return !own && std::is_permutation(t.begin(), t.end(), sight.neighbours.begin(),
-                                       sight.neighbours.end());
-  };
-  double region = 0.0;
-  for (const Triangle& t : model.set.triangles) {
-    if (is_around(t)) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        const std::uint32_t a = t[c];
-        const std::uint32_t b = t[(c + 1) % 3];
-        region += share_below(0.0, distance[a], distance[b], limit) *
-                  solid_angle(sight.towards, directions[a], directions[b]);
-      }
-    } else if (is_alike[t[0]] != 0 || is_alike[t[1]] != 0 || is_alike[t[2]] != 0) {
-      region += share_below(distance[t[0]], distance[t[1]], distance[t[2]], limit) *
-                solid_angle(directions[t[0]], directions[t[1]], directions[t[2]]);
+  const Triangle* best = nullptr;
+  double inside = -std::numeric_limits<double>::infinity();
+  for (const Triangle& t : set.triangles) {
+    const Vec3 &a = set.directions[t[0]], &b = set.directions[t[1]], &c = set.directions[t[2]];
+    const double least =
+        std::min({towards.dot(a.cross(b)), towards.dot(b.cross(c)), towards.dot(c.cross(a))});
+    if (least > inside) {
+      inside = least;
+      best = &t;
     }
   }
-  return std::min(1.0, region / (4.0 * std::numbers::pi));
+  return best == nullptr ? std::vector<std::uint32_t>{}
+                         : std::vector<std::uint32_t>(best->begin(), best->end());
 }
 
 }  // namespace vantage

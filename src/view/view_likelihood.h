@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "vantage/view/measure.h"
 
 /// \file
@@ -19,6 +22,14 @@ inline constexpr double kAlike = 0.5;
 /// taken to be linear. \pre the table has the faces and the neighbours of a view that sees something,
 /// the model the views of the set.
 double view_likelihood(const MeasuredModel& model, const SightTable& sight);
+
+/// The same of a view among those of the next coarser set, in a quarter of the time.
+double estimated_view_likelihood(const MeasuredModel& model, const SightTable& sight);
+
+/// The corners of the set's triangle that a direction falls in; of a direction that is one of the
+/// set's, the views beside it. \param next for each view of the set the views beside it.
+std::vector<std::uint32_t> views_around(const DirectionSet& set, const IndexLists& next,
+                                        const Vec3& towards);
 
 /// Share of a triangle where the linear function with these values at its corners is at most `limit`.
 double share_below(double a, double b, double c, double limit);

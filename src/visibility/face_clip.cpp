@@ -66,6 +66,10 @@ void FaceClip::take(std::uint32_t face) {
   by_size_.clear();
 }
 
+bool FaceClip::is_corner(std::uint32_t site) const {
+  return std::find(on_.begin(), on_.end(), site) != on_.end();
+}
+
 /// Heights are over more than a touch.
 FaceClip::Corner FaceClip::corner(std::uint32_t site) const {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -122,7 +126,12 @@ bool FaceClip::is_behind(const std::array<std::uint32_t, 2>& edge) const {
   constexpr double kLeast = 1e-9;   // share of the edge: less is a touch
   constexpr double kInFace = 1e-9;  // below the face's plane, in units of the frame
   const Corner from = corner(edge[0]);
-  const Corner way = corner(edge[1]) - from;
+  const Corner to = corner(edge[1]);
+  // From a corner of the face down: only there it is as near to the plane as to lie in it.
+  if (is_corner(edge[0]) ? to[3] < -kInFace : is_corner(edge[1]) && from[3] < -kInFace) {
+    return false;
+  }
+  const Corner way = to - from;
   double low = 0.0;
   double high = 1.0;
   for (Eigen::Index k = 0; k < 4; ++k) {

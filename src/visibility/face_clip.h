@@ -89,6 +89,7 @@ class FaceClip {
   /// is the height over the face's plane on the eye's side.
   using Corner = Eigen::Vector4d;
 
+  [[nodiscard]] bool is_corner(std::uint32_t site) const;  // of the face
   [[nodiscard]] Corner corner(std::uint32_t site) const;
   void subtract(Polygons::Points polygon);
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -26,7 +27,7 @@ struct Entropies {
   std::vector<double> of_view{};
 };
 
-inline Entropies entropies_of(const std::vector<std::vector<FaceArea>>& views, std::size_t faces) {
+inline Entropies entropies_of(std::span<const std::vector<FaceArea>> views, std::size_t faces) {
   std::vector<double> of_face(faces, 0.0);
   double total = 0.0;
   for (const auto& view : views) {
@@ -92,7 +93,7 @@ inline void expect_channel_identities(ViewMeasurer& measurer) {
 /// one is left: splitting a face never lowers I(V;Z).
 inline void expect_merging_tells_no_more(const MeasuredModel& model) {
   constexpr double kBits = 1e-9;
-  ViewChannel channel{model.face_areas.size(), model.set_views};
+  ViewChannel channel{model.face_areas.size(), {model.set_views.begin(), model.set_views.end()}};
   TriMesh mesh = *model.given.surface;  // only the number of its faces matters
   double before = model.terms.mutual_information;
   EXPECT_GT(before, 0.0);

@@ -169,7 +169,7 @@ double mean_divergence(std::span<const double> divergences);
 /// \param next for each view the views beside it, ascending and mutual. \return one a value of
 /// `next`.
 /// \throw Cancelled
-std::vector<double> neighbour_divergences(const std::vector<std::vector<FaceArea>>& views,
+std::vector<double> neighbour_divergences(std::span<const std::vector<FaceArea>> views,
                                           const IndexLists& next, const RunContext& run = {});
 
 /// S(z) on vertices: mean over the faces at each vertex, weighted by area; 0 where there are none.

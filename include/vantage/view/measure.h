@@ -140,6 +140,8 @@ struct MeasureSubject {
   std::span<const double> saliency{};    ///< Mesh saliency; computed if needed and not given.
   const CurveGraph* skeleton = nullptr;  ///< Centred.
   std::span<const std::uint32_t> node_of_vertex{};  ///< Node of `skeleton`; ~0 where none.
+  /// What the set of views sees through `camera`, by FaceVisibility, if that was looked at before.
+  const ViewChannel* seen_by_set = nullptr;
 };
 
 /// What measures need of a view or of the model; only that is computed.
@@ -170,13 +172,16 @@ struct MeasuredModel {
   double surface_area = 0.0;              ///< [A_t]
   std::vector<double> saliency{};         ///< Mesh saliency of each vertex.
   std::vector<double> angle_deficits{};   ///< Of each vertex, radians.
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();  ///< Second moment of the surface over A_t.
-  DirectionSet set{};                                ///< The views that channel terms are of.
-  ChannelTerms terms{};                              ///< Of that set.
-  std::vector<std::vector<FaceArea>> set_views{};    ///< Faces seen by each view of the set.
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();    ///< Second moment of the surface over A_t.
+  DirectionSet set{};                                  ///< The views that channel terms are of.
+  ChannelTerms terms{};                                ///< Of that set.
+  std::span<const std::vector<FaceArea>> set_views{};  ///< Faces seen by each view of the set.
   /// SightTable's projected_area and area_logs of each of these.
   std::vector<std::array<double, 2>> set_sums{};
-  IndexLists next_views{};            ///< Views beside each view of the set.
+  IndexLists next_views{};  ///< Views beside each view of the set.
+  /// The set one level coarser, if neighbours are looked at: its views are the first of the set.
+  DirectionSet coarse_set{};
+  IndexLists next_coarse_views{};     ///< Views beside each view of that.
   std::vector<double> divergences{};  ///< From these, if neighbours are looked at.
 };
 
@@ -194,6 +199,8 @@ struct Measure {
   /// The value for a view that sees something: finite; where more is better, at least 0.
   std::function<double(const MeasuredModel&, const SightTable&)> value{};
   bool is_count = false;  ///< A number of things: it goes in steps and has no gradient.
+  /// Nearly the value, cheaper: for searches. Unset: the value.
+  std::function<double(const MeasuredModel&, const SightTable&)> estimate{};
 
   /// What a view that sees nothing gets: 0 where more is better, else infinity.
   [[nodiscard]] double worst() const;
@@ -202,6 +209,9 @@ struct Measure {
   [[nodiscard]] bool is_better(double a, double b) const {
     return better == Better::More ? a > b : a < b;
   }
+
+  /// Whether it is defined over a set of views, which all are looked at first.
+  [[nodiscard]] bool is_of_set() const { return needs.channel || needs.neighbours; }
 
   /// The dearest thing it needs: "surface", "vertices", "faces", "outline", "saliency map",
   /// "skeleton", "kssm map" (a skeleton and more), "set of views".
@@ -213,6 +223,12 @@ const std::vector<Measure>& builtin_measures();
 
 /// The measure of this name or alias. \throw InvalidInput that lists the names if there is none.
 const Measure& find_measure(std::string_view name);
+
+/// One measure over the set of views.
+struct SetSurvey {
+  std::vector<double> values{};  ///< Of each view of the set.
+  bool is_exact = true;          ///< Or else estimates.
+};
 
 /// Values of several measures: values[m][i] is that of measure m in view i.
 using MeasureValues = std::vector<std::vector<double>>;
@@ -249,15 +265,16 @@ class ViewMeasurer {
   [[nodiscard]] std::vector<double> values_of(std::size_t m, std::span<const Vec3> directions,
                                               const RunContext& run = {}) const;
 
-  /// Whether the measure looks at faces and can be estimated by FaceDetail::ByCorners.
+  /// Whether the measure looks at faces and can be estimated by FaceDetail::ByCorners. What it takes
+  /// from the set of views stays exact.
   [[nodiscard]] bool has_estimates(std::size_t m) const;
 
   /// These estimates. \pre has_estimates(m). \throw Cancelled
   [[nodiscard]] std::vector<double> estimates_of(std::size_t m, std::span<const Vec3> directions,
                                                  const RunContext& run = {}) const;
 
-  /// Whether set_values() are there.
-  [[nodiscard]] bool has_set_values() const;
+  /// One measure over the set: estimates where these cost less. \throw Cancelled
+  [[nodiscard]] SetSurvey survey_of(std::size_t m, const RunContext& run = {});
 
  private:
   struct State;

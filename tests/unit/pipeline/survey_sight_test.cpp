@@ -42,16 +42,16 @@ TEST(SurveySight, KnowsNoOtherDirectionsAndCameras) {
   const Surveyed shape;
   const SurveySight sight(shape.visibility, shape.camera, {});
   EXPECT_FALSE(sight.score(Vec3(0.6, 0.48, 0.64), shape.shares).has_value());
-  EXPECT_TRUE(sight.is_of(shape.camera));
+  EXPECT_TRUE(is_same(sight.camera(), shape.camera));
   ScoringCamera other = shape.camera;
   other.distance_factor = 3.0;
-  EXPECT_FALSE(sight.is_of(other));
+  EXPECT_FALSE(is_same(sight.camera(), other));
   other = shape.camera;
   other.projection = Projection::Orthographic;
-  EXPECT_FALSE(sight.is_of(other));
+  EXPECT_FALSE(is_same(sight.camera(), other));
   other = shape.camera;
   other.sphere.diameter *= 1.5;
-  EXPECT_FALSE(sight.is_of(other));
+  EXPECT_FALSE(is_same(sight.camera(), other));
 }
 
 }  // namespace

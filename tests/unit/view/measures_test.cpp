@@ -307,6 +307,51 @@ TEST(Measures, OfTheSetAreThoseOfTheSameDirectionsAskedForAlone) {
   EXPECT_EQ(of_set, again);
 }
 
+TEST(Measures, OfTheSetDoNotLookWhereTheSubjectBringsWhatTheSetSees) {
+  const Subject ring(test::torus(1.0, 0.4, 24, 12), Projection::Perspective);
+  std::vector<Viewpoint> eyes;
+  for (const Vec3& direction : direction_set(ViewSphereBase::Icosahedron, 2).directions) {
+    eyes.push_back(ring.given.camera.viewpoint(direction));
+  }
+  const FaceVisibility faces(ring.mesh, ring.sides);
+  ViewChannel seen = channel_table(faces, ring.mesh.triangles.size(), eyes);
+  MeasureSubject given = ring.given;
+  given.seen_by_set = &seen;
+  std::vector<Measure> measures = test::channel_measures();
+  std::erase_if(measures, [](const Measure& measure) { return !measure.is_of_set(); });
+  ASSERT_GE(measures.size(), 3U);
+  EXPECT_EQ(ViewMeasurer(given, measures, 2).set_values(),
+            ViewMeasurer(ring.given, measures, 2).set_values());
+  // It is what is brought that is measured.
+  seen.views[5] = seen.views[6];
+  ViewMeasurer changed(given, measures, 2);
+  EXPECT_EQ(changed.set_values()[0][5], changed.set_values()[0][6]);
+  // Not for another set.
+  EXPECT_EQ(ViewMeasurer(given, measures, 1).set_values(),
+            ViewMeasurer(ring.given, measures, 1).set_values());
+  // Not for measures that look at more.
+  measures.push_back(find_measure("max-depth"));
+  EXPECT_EQ(ViewMeasurer(given, measures, 2).set_values(),
+            ViewMeasurer(ring.given, measures, 2).set_values());
+}
+
+TEST(Measures, AreSurveyedByEstimatesWhereTheseCostLess) {
+  const Subject ring(test::torus(1.0, 0.4, 24, 12), Projection::Perspective);
+  for (const char* name : {"projected-area", "view-likelihood", "vmi", "silhouette-length"}) {
+    ViewMeasurer measurer(ring.given, {find_measure(name)}, 2);
+    const SetSurvey survey = measurer.survey_of(0);
+    const std::vector<double> exact = measurer.set_values()[0];
+    const double most = *std::max_element(exact.begin(), exact.end());
+    EXPECT_EQ(survey.is_exact, survey.values == exact) << name;
+    EXPECT_EQ(survey.is_exact,
+              name == std::string_view("vmi") || name == std::string_view("silhouette-length"));
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      EXPECT_NEAR(survey.values[i], exact[i], 0.15 * most) << name << ' ' << i;
+    }
+    EXPECT_TRUE(measurer.survey_of(0).is_exact) << "the set's values are there by now";
+  }
+}
+
 TEST(Measures, CompareAViewOffTheSetWithTheCornersOfItsTriangle) {
   const Subject ring(test::torus(1.0, 0.4, 24, 12), Projection::Perspective);
   const ViewMeasurer measurer(ring.given, {find_measure("instability")}, 2);

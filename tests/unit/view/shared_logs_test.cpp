@@ -42,6 +42,22 @@ TEST(SharedLogs, AreExactForPowersOfTwo) {
   EXPECT_EQ(sum_of_logs(std::vector<FaceArea>{{0, 0.25F}, {1, 8.0F}, {2, 1.0F}}), -0.5 + 24.0);
 }
 
+TEST(SharedLogs, OfAScaledListAreThoseOfItsScaledAreas) {
+  constexpr double kScale = 0.37;
+  for (const std::uint32_t places : {1U, 2U, 3U, 4U, 101U}) {  // full lanes, and others
+    const std::vector<FaceArea> list = areas_at(places, 1, 8);
+    std::vector<FaceArea> scaled;
+    for (const FaceArea& entry : list) {
+      scaled.push_back({entry.face, static_cast<float>(kScale * entry.area)});
+    }
+    LaidOutAreas laid_out(places);
+    const std::vector<FaceArea> other = areas_at(places, 2, 9);
+    laid_out.put(other);
+    EXPECT_EQ(laid_out.logs_with(list, kScale), laid_out.logs_with(scaled)) << places;
+    EXPECT_NE(laid_out.logs_with(list, kScale), laid_out.logs_with(list)) << places;
+  }
+}
+
 TEST(SharedLogs, OfTwoListsAreTheirDefinition) {
   const std::vector<FaceArea> a = areas_at(300, 2, 5);
   const std::vector<FaceArea> b = areas_at(300, 3, 6);

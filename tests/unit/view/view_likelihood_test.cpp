@@ -131,6 +131,22 @@ TEST(ViewLikelihood, ChangesLittleWithTheSetAndWithoutAJumpBetweenItsViews) {
   }
 }
 
+TEST(ViewLikelihood, IsEstimatedByTheCoarserSet) {
+  const TriMesh ring = test::torus(1.0, 0.4, 24, 12);
+  const std::vector<FaceSides> sides{FaceSides::Front};
+  MeasureSubject subject;
+  subject.surface = &ring;
+  subject.sides = sides;
+  subject.camera = {.sphere = enclosing_sphere(ring.positions)};
+  const std::vector<double> coarse =
+      likelihoods(ring, direction_set(ViewSphereBase::Icosahedron, 3).directions, 2,
+                  FaceSides::Front, Projection::Perspective);
+  ViewMeasurer measurer(subject, {find_measure("view-likelihood")}, 3);
+  const SetSurvey survey = measurer.survey_of(0);
+  ASSERT_FALSE(survey.is_exact);
+  EXPECT_EQ(survey.values, coarse);
+}
+
 TEST(ViewLikelihood, IsThatOfTheTurnedModelFromTheTurnedView) {
   // The turned set is another one: alike but for what lies between its views.
   const TriMesh box = test::box(3.0, 2.0, 1.0, 6);

@@ -54,6 +54,20 @@ class Clipped {
     return clip.subtract(taken, steps);
   }
 
+  /// Whether an edge lies before a face of the mesh, or in it; the edge by its ends' positions.
+  [[nodiscard]] bool is_behind(std::uint32_t face, const Vec3& a, const Vec3& b) const {
+    const auto site = [&](const Vec3& place) {
+      const Vec3 there = surface_.frame.to_frame(place);
+      const auto at = std::find(surface_.sites.begin(), surface_.sites.end(), there);
+      EXPECT_NE(at, surface_.sites.end());
+      return static_cast<std::uint32_t>(at - surface_.sites.begin());
+    };
+    FaceClip clip;
+    clip.begin(surface_, local_);
+    clip.take(number_of(face));
+    return clip.is_behind({site(a), site(b)});
+  }
+
   /// The side that a face of the mesh turns to the eye.
   [[nodiscard]] int turned(std::uint32_t face) const { return turned_[number_of(face)]; }
 
@@ -201,6 +215,27 @@ TEST(FaceClip, LeavesWhatSamplesSee) {
     }
     EXPECT_NEAR(sum / static_cast<double>(exact.size()), 0.0, 1e-3);
   }
+}
+
+TEST(FaceClip, LiesBehindEdgesThatRiseFromItsCornersNotBehindThoseThatSink) {
+  // A face seen from above, and others with an edge from its first corner to over or under its middle.
+  TriMesh mesh;
+  mesh.positions = {Vec3(0, 0, 0),   Vec3(4, 0, 0),      Vec3(0, 4, 0),
+                    Vec3(1, 1, 0.5), Vec3(1, 1.2, -0.5), Vec3(1.2, 1, -1e-3),
+                    Vec3(5, 5, 0.1), Vec3(1.5, 1, 0.0),  Vec3(-1, -1, 0.0)};
+  mesh.triangles = {{0, 1, 2}, {0, 3, 6}, {0, 4, 6}, {0, 5, 6}, {0, 7, 6}, {3, 8, 6}};
+  const Clipped clipped(mesh, kAbove);
+  const auto is_behind = [&](std::size_t a, std::size_t b) {
+    EXPECT_EQ(clipped.is_behind(0, mesh.positions[a], mesh.positions[b]),
+              clipped.is_behind(0, mesh.positions[b], mesh.positions[a]));
+    return clipped.is_behind(0, mesh.positions[a], mesh.positions[b]);
+  };
+  EXPECT_TRUE(is_behind(0, 3));
+  EXPECT_FALSE(is_behind(0, 4));
+  EXPECT_FALSE(is_behind(0, 5));
+  EXPECT_TRUE(is_behind(0, 7));  // in it
+  EXPECT_TRUE(is_behind(3, 8));
+  EXPECT_FALSE(is_behind(4, 8));
 }
 
 }  // namespace
