@@ -229,7 +229,9 @@ def find_poses(cloud, colours, shown):
     few, many = cloud.points[:COARSE_POINTS], cloud.points[:FINE_POINTS]
     places = apart(coarse_grid(coarse, few), PLACES, 25)
     places = [p for p in places if p.overlap > places[0].overlap - 0.2]
-    poses = [refined(fine, many, place) for place in places]
+    starts = places + [Pose(p.azimuth, p.elevation, float(field)) for p in places[:3] for field in FIELDS
+                       if field != p.field]
+    poses = [refined(fine, many, start) for start in starts]
     best = max(poses, key=lambda p: p.overlap)
     poses += [refined(fine, many, place) for place in mirrored(best)]
     poses = apart(poses, len(poses), 12)

@@ -2,7 +2,8 @@
 """Which of an icon's poses is meant, how sure that is, and when none is (numpy).
 
 Poses are compared by fit = 3 overlap + appearance. Where fits are so near that they cannot be told apart, the pose
-nearest to the catalogue's front is taken: an icon from behind needs a reason.
+nearest to the catalogue's front and not from below is taken: an icon from behind needs a reason. If such poses are of
+heights far apart, as those of a ball are, none is taken.
 """
 from dataclasses import dataclass
 
@@ -12,7 +13,6 @@ import icon_pose
 
 OVERLAP_WEIGHT = 3.0     # of overlap against appearance
 LEAST_OVERLAP = 0.88     # with less, an icon shows something else, or otherwise than the model is
-LEAST_CONFIDENCE = 0.2
 ALIKE = 0.03             # fits so near cannot be told apart
 CERTAIN = 0.10           # difference of fits that leaves a doubt of 1/e
 
@@ -29,23 +29,28 @@ def fit(pose):
     return OVERLAP_WEIGHT * pose.overlap + pose.appearance
 
 
+def usual(pose):
+    """Towards the front, and not from below."""
+    _, up, front = icon_pose.direction(pose.azimuth, pose.elevation)
+    return front + 2 * min(up, 0.0)
+
+
 def choose(poses):
     """\\param poses of icon_pose.find_poses()."""
     most = max(pose.overlap for pose in poses)
     near = sorted((p for p in poses if p.overlap >= most - icon_pose.WORSE), key=lambda p: -fit(p))
     alike = [p for p in near if fit(p) > fit(near[0]) - ALIKE]
-    pose = max(alike, key=lambda p: icon_pose.direction(p.azimuth, p.elevation)[2])
+    pose = max(alike, key=usual)
     others = [p for p in near if icon_pose.between(p, pose) >= icon_pose.APART]
     second = max((p for p in others if fit(p) > fit(pose) - ALIKE), key=fit, default=None)
     margin = max(0.0, fit(pose) - max(fit(p) for p in others)) if others else 1.0
     told = 1 - np.exp(-margin / CERTAIN)
     if second is not None:  # the front is believed
-        told = 0.5 if icon_pose.direction(pose.azimuth, pose.elevation)[2] > icon_pose.direction(
-            second.azimuth, second.elevation)[2] else 0.25
+        told = 0.5
     confidence = float(np.clip((pose.overlap - 0.8) / 0.12, 0, 1) * told)
     refusal = ""
     if pose.overlap < LEAST_OVERLAP:
         refusal = "the silhouettes do not fit"
-    elif confidence < LEAST_CONFIDENCE:
+    elif any(abs(p.elevation - pose.elevation) >= icon_pose.APART for p in alike):
         refusal = "poses cannot be told apart"
     return Choice(pose, second, confidence, refusal)

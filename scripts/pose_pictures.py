@@ -10,7 +10,6 @@ SIDE = 120
 
 def of_pose(cloud, pose):
     """The points seen so, lit from the eye, over white."""
-    frame = icon_pose.Frame(np.ones((SIDE, SIDE), bool), np.zeros((SIDE, SIDE, 3)), SIDE)
     seen = cloud.points @ icon_pose.axes(pose.azimuth, pose.elevation).T
     w = 1 / (1 / np.sin(pose.field / 2) - seen[:, 2])
     x, y = seen[:, 0] * w, -seen[:, 1] * w
@@ -19,12 +18,17 @@ def of_pose(cloud, pose):
     row = ((y - (y.min() + y.max()) / 2) / size * 0.92 * SIDE + SIDE / 2).astype(int)
     order = np.argsort(seen[:, 2], kind="stable")
     normals = cloud.normals @ icon_pose.axes(pose.azimuth, pose.elevation)[2]
-    picture = np.ones((frame.side, frame.side, 3))
+    picture = np.ones((SIDE, SIDE, 3))
     picture[row[order], column[order]] = (cloud.colours * (0.35 + 0.6 * np.abs(normals))[:, None])[order]
     return picture
 
 
-def draw(file, colours, cloud, *poses):
+def beside(colours, cloud, *poses):
+    """One picture: the icon, then the poses."""
     icon = Image.fromarray((255 * np.clip(colours, 0, 1)).astype(np.uint8)).resize((SIDE, SIDE))
     parts = [np.asarray(icon)] + [(255 * np.clip(of_pose(cloud, p), 0, 1)).astype(np.uint8) for p in poses]
-    Image.fromarray(np.concatenate(parts, 1)).save(file)
+    return Image.fromarray(np.concatenate(parts, 1))
+
+
+def draw(file, colours, cloud, *poses):
+    beside(colours, cloud, *poses).save(file)
