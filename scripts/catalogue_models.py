@@ -17,6 +17,8 @@ PROPERTIES = "PluginFurnitureCatalog.properties"
 SEEN_ALPHA = 40      # of 255: where an icon shows something, glass and thin rods included
 BACKGROUND = 12      # of 255: how far an opaque icon's pixel is from its corner to be no background
 
+MIRROR_DISTANCE = 0.02  # of the half diagonal: mean distance of a mirror image's points to the surface's
+
 
 class Entry:
     """What the catalogue says of one thing: strings as they stand there."""
@@ -144,6 +146,13 @@ class Faces:
         return np.clip(result, 0, 1)
 
 
+    def write(self, file):
+        """As OBJ, shape only."""
+        with open(file, "w", encoding="ascii") as stream:
+            stream.writelines("v %.7g %.7g %.7g\n" % tuple(p) for p in self.points)
+            stream.writelines("f %d %d %d\n" % tuple(f + 1) for f in self.corners)
+
+
 class Cloud:
     """Points spread evenly over a surface: centred on the box and scaled to a half diagonal of 1."""
 
@@ -168,8 +177,21 @@ class Cloud:
         self.colours = faces.colours(pick, shares)[order]
 
 
+    def mirrors(self, axis):
+        """Whether the surface is its own mirror image along an axis: points' images lie near points."""
+        images = self.points[:1000] * np.where(np.arange(3) == axis, -1, 1)
+        others = self.points[-20000:]
+        squares = (others ** 2).sum(1)
+        nearest = [(squares - 2 * others @ p).min() + p @ p for p in images]
+        return bool(np.sqrt(np.maximum(nearest, 0)).mean() < MIRROR_DISTANCE)
+
+
+def read_faces(archive, entry):
+    return Faces(archive, entry.model.lstrip("/"), entry.rotation())
+
+
 def read_cloud(archive, entry, count):
-    faces = Faces(archive, entry.model.lstrip("/"), entry.rotation())
+    faces = read_faces(archive, entry)
     return Cloud(faces, count) if len(faces.corners) else None
 
 

@@ -3,23 +3,19 @@
 """Fits the objective `people` to the views that a furniture catalogue shows its things from (numpy).
 
     apt-get download sweethome3d-furniture; dpkg -x sweethome3d-furniture*.deb packages
-    scripts/fit_choices.py packages --views views.csv --vantage PROGRAM --cache FOLDER [--page PAGE]
-        [--write | --check] [--dataset FOLDER]
+    scripts/fit_choices.py packages --views views.csv --vantage PROGRAM --cache FOLDER [--page PAGE] [--write | --check]
 
 views.csv has archive, model, overlap, azimuth_deg, elevation_deg, dx, dy, dz and second_* of each entry: the
 direction from the model's centre to the eye of its icon, y up and +z in front after the catalogue's rotation.
 Overlaps below 0.88 are left out; where another direction within 0.02 of the overlap is in front, it is taken. A table
 of rebuild_catalogue.py, with a column confidence, is taken as it is: it has told front from back by colours.
 --write replaces src/choice/choice_table.txt, --check compares it with what it would be, --page puts the table
-of errors on models left out between the marks of a page. --dataset writes the models and a manifest, people.json, for
-`vantage eval`: left and right are mirror images, front and back where the model says so. docs/people.md explains
-the model.
+of errors on models left out between the marks of a page. docs/people.md explains the model.
 """
 import argparse
 import csv
 import json
 import pathlib
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -256,19 +252,6 @@ def table_text(entries):
                              f"mirror {mirror}"] + [e.line() for e in entries]) + "\n"
 
 
-def write_dataset(entries, folder, models):
-    """What `vantage eval` reads: \\p models hold the entries' files."""
-    (folder / "models").mkdir(parents=True, exist_ok=True)
-    listed = []
-    for entry in entries:
-        file = f"models/{entry.name}.obj"
-        shutil.copyfile(models / f"{entry.name}.obj", folder / file)
-        planes = [[1, 0, 0]] + ([[0, 0, 1]] if entry.shape[3] else [])
-        listed.append({"model": file, "up": "y", "views": [{"direction": [round(float(x), 6) for x in entry.direction]}],
-                       "mirror_planes": planes})
-    (folder / "people.json").write_text(json.dumps({"models": listed}, indent=1) + "\n", encoding="utf-8")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("packages", type=pathlib.Path)
@@ -276,14 +259,11 @@ def main():
     parser.add_argument("--vantage", required=True)
     parser.add_argument("--cache", required=True, type=pathlib.Path)
     parser.add_argument("--page", type=pathlib.Path)
-    parser.add_argument("--dataset", type=pathlib.Path)
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--check", action="store_true")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         entries, directions = read_entries(arguments, pathlib.Path(folder))
-        if arguments.dataset:
-            write_dataset(entries, arguments.dataset, pathlib.Path(folder))
     text = table_text(entries)
     if arguments.write:
         TABLE.write_text(text, encoding="utf-8")

@@ -3,18 +3,19 @@
 """Recovers the cameras of a furniture catalogue's icons (numpy, PIL).
 
     apt-get download sweethome3d-furniture; dpkg -x sweethome3d-furniture*.deb packages
-    scripts/rebuild_catalogue.py packages -o FOLDER [--listed VIEWS] [--pictures]
+    scripts/rebuild_catalogue.py packages -o FOLDER [--listed VIEWS] [--pictures] [--dataset]
 
 Writes FOLDER/views.csv: for each entry whose icon fits its model archive, category, model, icon, name,
 model_rotation, overlap, azimuth_deg, elevation_deg, fov_deg, dx, dy, dz (from the box's centre to the eye, y up, +z
 in front, after model_rotation), second_* (the best pose at least 30 degrees away that cannot be told from it; 0 if
 there is none), and last confidence, 0 to 1. FOLDER/refused.csv has the rest, with the reason. --listed is a file
-with columns archive and model: only these are done, and its views are compared with the new ones (compare_views.py
-does the same later). --pictures draws each icon beside its pose, FOLDER/pictures. The same bytes come out
-whatever --jobs is. No model and no icon becomes part of the project: their licences are in the packages.
+with columns archive and model: only these are done. --pictures draws each icon beside its pose, FOLDER/pictures.
+--dataset writes FOLDER/people.json and FOLDER/models for `vantage eval`: left and right are mirror images, and front
+and back of what mirrors them. The same bytes come out whatever --jobs is. compare_views.py compares two such tables. No model and no icon becomes part of the project: their licences are in the packages.
 """
 import argparse
 import csv
+import json
 import os
 import pathlib
 import sys
@@ -37,27 +38,34 @@ COLUMNS = ("archive category model icon name model_rotation overlap azimuth_deg 
 POINTS = 80000
 
 
+def stem_of(entry):
+    return f"{entry.archive}__{pathlib.Path(entry.model).stem}"
+
+
 class Work:
     """What one process does with one entry."""
 
-    def __init__(self, pictures):
-        self.pictures = pictures
+    def __init__(self, pictures, models):
+        self.pictures, self.models = pictures, models
 
     def __call__(self, entry):
         try:
             with zipfile.ZipFile(entry.library) as archive:
                 colours, shown = catalogue_models.read_icon(archive, entry.icon)
-                cloud = catalogue_models.read_cloud(archive, entry, POINTS)
+                faces = catalogue_models.read_faces(archive, entry)
         except (KeyError, ValueError, IndexError, OSError) as error:
-            return entry, None, f"cannot be read: {error}"
-        if cloud is None or not shown.any():
-            return entry, None, "has no faces" if cloud is None else "its icon is empty"
-        poses = icon_pose.find_poses(cloud, colours, shown)
-        choice = choose(poses)
+            return entry, None, f"cannot be read: {error}", False
+        if not len(faces.corners) or not shown.any():
+            return entry, None, "its icon is empty" if len(faces.corners) else "has no faces", False
+        cloud = catalogue_models.Cloud(faces, POINTS)
+        choice = choose(icon_pose.find_poses(cloud, colours, shown))
         if self.pictures:
-            name = f"{entry.archive}__{pathlib.Path(entry.model).stem}.png"
-            pose_pictures.draw(self.pictures / name, colours, cloud, choice.pose)
-        return entry, choice, choice.refusal
+            pose_pictures.draw(self.pictures / f"{stem_of(entry)}.png", colours, cloud, choice.pose)
+        mirrors_front = False
+        if self.models and not choice.refusal:
+            faces.write(self.models / f"{stem_of(entry)}.obj")
+            mirrors_front = cloud.mirrors(2)
+        return entry, choice, choice.refusal, mirrors_front
 
 
 def row_of(entry, choice):
@@ -80,32 +88,48 @@ def wanted_entries(packages, listed):
             if names is None or (entry.archive, entry.model) in names]
 
 
+def record_of(entry, choice, mirrors_front):
+    """The entry in a manifest of `vantage eval`."""
+    d = icon_pose.direction(choice.pose.azimuth, choice.pose.elevation)
+    return {"model": f"models/{stem_of(entry)}.obj", "up": "y", "views": [{"direction": [round(x, 4) + 0.0 for x in d]}],
+            "mirror_planes": [[1, 0, 0]] + [[0, 0, 1]] * mirrors_front}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("packages", type=pathlib.Path)
     parser.add_argument("-o", "--output", required=True, type=pathlib.Path)
     parser.add_argument("--listed", type=pathlib.Path)
     parser.add_argument("--pictures", action="store_true")
+    parser.add_argument("--dataset", action="store_true")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     arguments = parser.parse_args()
     entries = wanted_entries(arguments.packages, arguments.listed)
     if not entries:
         sys.exit(f"{arguments.packages}: holds no .sh3f library with such entries; unpack sweethome3d-furniture into it")
     pictures = arguments.output / "pictures" if arguments.pictures else None
-    (pictures or arguments.output).mkdir(parents=True, exist_ok=True)
-    accepted, refused = [], []
+    models = arguments.output / "models" if arguments.dataset else None
+    for folder in (arguments.output, pictures, models):
+        if folder:
+            folder.mkdir(parents=True, exist_ok=True)
+    accepted, refused, records = [], [], []
     with Pool(arguments.jobs) as pool:
-        for count, (entry, choice, refusal) in enumerate(pool.imap(Work(pictures), entries), 1):
+        for count, (entry, choice, refusal, mirrors) in enumerate(pool.imap(Work(pictures, models), entries), 1):
             if refusal:
-                refused.append([refusal] + (row_of(entry, choice) if choice else [entry.archive, entry.category, entry.model]))
+                about = row_of(entry, choice) if choice else [entry.archive, entry.category, entry.model]
+                refused.append([refusal] + about)
             else:
                 accepted.append(row_of(entry, choice))
+                records.append(record_of(entry, choice, mirrors))
             print(f"\r{count} of {len(entries)}, {len(refused)} refused ", end="", file=sys.stderr, flush=True)
     print(file=sys.stderr)
     for name, header, rows in (("views.csv", COLUMNS, accepted), ("refused.csv", ["reason"] + COLUMNS, refused)):
         with open(arguments.output / name, "w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerows([header] + rows)
+    if arguments.dataset:
+        manifest = json.dumps({"models": records}, indent=1)
+        (arguments.output / "people.json").write_text(manifest + "\n", encoding="utf-8")
     print(f"{len(accepted)} views, {len(refused)} refused: {arguments.output / 'views.csv'}")
 
 

@@ -80,7 +80,7 @@ def main():
             model = unpacked(archive, entry, pathlib.Path(folder))
             try:
                 colours, shown = drawn(arguments.vantage, model, truth, pathlib.Path(folder))
-            except subprocess.CalledProcessError:
+            except (subprocess.CalledProcessError, subprocess.TimeoutExpired):
                 continue
             poses = icon_pose.find_poses(catalogue_models.read_cloud(archive, entry, POINTS), colours, shown)
         choice = choose(poses)
