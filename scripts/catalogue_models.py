@@ -17,7 +17,7 @@ PROPERTIES = "PluginFurnitureCatalog.properties"
 SEEN_ALPHA = 40      # of 255: where an icon shows something, glass and thin rods included
 BACKGROUND = 12      # of 255: how far an opaque icon's pixel is from its corner to be no background
 
-MIRROR_DISTANCE = 0.02  # of the half diagonal: mean distance of a mirror image's points to the surface's
+ALIKE_DISTANCE = 0.02  # of the half diagonal: mean distance of an image's points to the surface's, which are as dense
 
 
 class Entry:
@@ -177,13 +177,20 @@ class Cloud:
         self.colours = faces.colours(pick, shares)[order]
 
 
-    def mirrors(self, axis):
-        """Whether the surface is its own mirror image along an axis: points' images lie near points."""
-        images = self.points[:1000] * np.where(np.arange(3) == axis, -1, 1)
+    def is_alike(self, matrix):
+        """Whether the surface is its own image: points' images lie near points."""
+        images = self.points[:1000] @ np.asarray(matrix).T
         others = self.points[-20000:]
         squares = (others ** 2).sum(1)
         nearest = [(squares - 2 * others @ p).min() + p @ p for p in images]
-        return bool(np.sqrt(np.maximum(nearest, 0)).mean() < MIRROR_DISTANCE)
+        return bool(np.sqrt(np.maximum(nearest, 0)).mean() < ALIKE_DISTANCE)
+
+    def mirror_planes(self):
+        """Normals: of left and right always, of front and back if alike, of every tenth degree if it is round."""
+        turns = [np.array([[np.cos(a), 0, np.sin(a)], [0, 1, 0], [-np.sin(a), 0, np.cos(a)]]) for a in np.radians((25, 80))]
+        if all(self.is_alike(turn) for turn in turns):
+            return [[round(float(np.cos(a)), 4), 0, round(float(np.sin(a)), 4)] for a in np.radians(range(0, 180, 10))]
+        return [[1, 0, 0]] + [[0, 0, 1]] * self.is_alike(np.diag([1, 1, -1]))
 
 
 def read_faces(archive, entry):

@@ -19,6 +19,7 @@ from PIL import Image, ImageDraw
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import catalogue_models  # noqa: E402
+import fit_choices  # noqa: E402
 import icon_pose  # noqa: E402
 import pose_pictures  # noqa: E402
 
@@ -33,6 +34,12 @@ def read(file):
 def seen_from(row):
     d = np.array([float(row[k]) for k in ("dx", "dy", "dz")])
     return d / np.linalg.norm(d)
+
+
+def front_believed(row):
+    """GIVEN's view as fit_choices.py reads it: where silhouettes cannot tell, the front."""
+    d = fit_choices.chosen(row)
+    return {**row, "dx": d[0], "dy": d[1], "dz": d[2]}
 
 
 def angle(a, b):
@@ -61,8 +68,8 @@ def sheet(file, packages, keys, given, new):
                 rows = [table[entry.archive, entry.model] for table in (given, new)]
                 colours, _ = catalogue_models.read_icon(archive, entry.icon)
                 cloud = catalogue_models.read_cloud(archive, entry, 80000)
-                poses = [icon_pose.Pose(float(r["azimuth_deg"]), float(r["elevation_deg"]),
-                                        float(np.radians(float(r["fov_deg"])))) for r in rows]
+                poses = [icon_pose.Pose(*icon_pose.angles_of(seen_from(r)), float(np.radians(float(r["fov_deg"]))))
+                         for r in rows]
                 parts.append((keys.index((entry.archive, entry.model)), entry, rows,
                               pose_pictures.beside(colours, cloud, *poses)))
     across, height = 3, pose_pictures.SIDE + 14
@@ -72,7 +79,7 @@ def sheet(file, packages, keys, given, new):
     for at, (_, entry, rows, picture) in enumerate(sorted(parts, key=lambda p: p[0])):
         x, y = at % across * width, at // across * height
         whole.paste(picture, (x, y))
-        text = " / ".join(f"{r['overlap']} {float(r['azimuth_deg']):.0f} {float(r['elevation_deg']):.0f}" for r in rows)
+        text = " / ".join(f"{r['overlap']} %.0f %.0f" % icon_pose.angles_of(seen_from(r)) for r in rows)
         draw.text((x, y + pose_pictures.SIDE + 1), f"{pathlib.Path(entry.model).stem[:20]} {text}", fill="black")
     whole.save(file)
 
@@ -94,15 +101,19 @@ def main():
     for title, keys in (("in both", both), (f"given overlap {arguments.least} or more", good)):
         if keys:
             summary(title, keys, given, new)
+    believed = {k: front_believed(given[k]) for k in good}
+    if good:
+        summary("the same, its front believed", good, believed, new)
     only = [k for k in given if k not in new]
     sound = sum(float(given[k]["overlap"]) >= arguments.least for k in only)
     print(f"\nonly given: {len(only)}, of which {sound} with an overlap of {arguments.least} or more; "
           f"only new: {sum(k not in given for k in new)}")
-    worst = sorted(good, key=lambda k: -min(angle(given[k], new[k])))[:arguments.worst]
+    worst = sorted(good, key=lambda k: -min(angle(believed[k], new[k])))[:arguments.worst]
+    given = {**given, **believed}
     for key in worst:
         print("%3.0f° %s: given %s %s %s %s, new %s %s %s confidence %s" % (
-            min(angle(given[key], new[key])), key[1], given[key]["overlap"], given[key]["azimuth_deg"],
-            given[key]["elevation_deg"], f"(second {given[key]['second_overlap']})", new[key]["overlap"],
+            min(angle(given[key], new[key])), key[1], given[key]["overlap"],
+            *("%.1f" % x for x in icon_pose.angles_of(seen_from(given[key]))), f"(second {given[key]['second_overlap']})", new[key]["overlap"],
             new[key]["azimuth_deg"], new[key]["elevation_deg"], new[key].get("confidence", "")))
     if arguments.sheet:
         sheet(arguments.sheet, arguments.packages, worst, given, new)

@@ -10,8 +10,9 @@ model_rotation, overlap, azimuth_deg, elevation_deg, fov_deg, dx, dy, dz (from t
 in front, after model_rotation), second_* (the best pose at least 30 degrees away that cannot be told from it; 0 if
 there is none), and last confidence, 0 to 1. FOLDER/refused.csv has the rest, with the reason. --listed is a file
 with columns archive and model: only these are done. --pictures draws each icon beside its pose, FOLDER/pictures.
---dataset writes FOLDER/people.json and FOLDER/models for `vantage eval`: left and right are mirror images, and front
-and back of what mirrors them. The same bytes come out whatever --jobs is. compare_views.py compares two such tables. No model and no icon becomes part of the project: their licences are in the packages.
+--dataset writes FOLDER/people.json and FOLDER/models for `vantage eval`: left and right are mirror images, front and
+back of what mirrors them, and all sides of what is round. The same bytes come out whatever --jobs is. compare_views.py compares two such tables. No
+model and no icon becomes part of the project: their licences are in the packages.
 """
 import argparse
 import csv
@@ -53,19 +54,19 @@ class Work:
             with zipfile.ZipFile(entry.library) as archive:
                 colours, shown = catalogue_models.read_icon(archive, entry.icon)
                 faces = catalogue_models.read_faces(archive, entry)
+                cloud = catalogue_models.Cloud(faces, POINTS) if len(faces.corners) else None
         except (KeyError, ValueError, IndexError, OSError) as error:
-            return entry, None, f"cannot be read: {error}", False
-        if not len(faces.corners) or not shown.any():
-            return entry, None, "its icon is empty" if len(faces.corners) else "has no faces", False
-        cloud = catalogue_models.Cloud(faces, POINTS)
+            return entry, None, f"cannot be read: {error}", []
+        if cloud is None or not shown.any():
+            return entry, None, "has no faces" if cloud is None else "its icon is empty", []
         choice = choose(icon_pose.find_poses(cloud, colours, shown))
         if self.pictures:
             pose_pictures.draw(self.pictures / f"{stem_of(entry)}.png", colours, cloud, choice.pose)
-        mirrors_front = False
+        planes = []
         if self.models and not choice.refusal:
             faces.write(self.models / f"{stem_of(entry)}.obj")
-            mirrors_front = cloud.mirrors(2)
-        return entry, choice, choice.refusal, mirrors_front
+            planes = cloud.mirror_planes()
+        return entry, choice, choice.refusal, planes
 
 
 def row_of(entry, choice):
@@ -88,11 +89,11 @@ def wanted_entries(packages, listed):
             if names is None or (entry.archive, entry.model) in names]
 
 
-def record_of(entry, choice, mirrors_front):
+def record_of(entry, choice, planes):
     """The entry in a manifest of `vantage eval`."""
     d = icon_pose.direction(choice.pose.azimuth, choice.pose.elevation)
     return {"model": f"models/{stem_of(entry)}.obj", "up": "y", "views": [{"direction": [round(x, 4) + 0.0 for x in d]}],
-            "mirror_planes": [[1, 0, 0]] + [[0, 0, 1]] * mirrors_front}
+            "mirror_planes": planes}
 
 
 def main():
@@ -114,13 +115,13 @@ def main():
             folder.mkdir(parents=True, exist_ok=True)
     accepted, refused, records = [], [], []
     with Pool(arguments.jobs) as pool:
-        for count, (entry, choice, refusal, mirrors) in enumerate(pool.imap(Work(pictures, models), entries), 1):
+        for count, (entry, choice, refusal, planes) in enumerate(pool.imap(Work(pictures, models), entries), 1):
             if refusal:
                 about = row_of(entry, choice) if choice else [entry.archive, entry.category, entry.model]
                 refused.append([refusal] + about)
             else:
                 accepted.append(row_of(entry, choice))
-                records.append(record_of(entry, choice, mirrors))
+                records.append(record_of(entry, choice, planes))
             print(f"\r{count} of {len(entries)}, {len(refused)} refused ", end="", file=sys.stderr, flush=True)
     print(file=sys.stderr)
     for name, header, rows in (("views.csv", COLUMNS, accepted), ("refused.csv", ["reason"] + COLUMNS, refused)):

@@ -53,13 +53,15 @@ def drawn(program, model, pose, folder):
 
 
 def summary(rows):
-    print("| icons | number | within 5° | 10° | 20° | from the wrong side | refused |\n" + "| --- " * 7 + "|")
+    print("| icons | number | within 5° | 10° | 20° | elevation within 10° | from the wrong side | refused |\n"
+          + "| --- " * 8 + "|")
     for title, chosen in (("all", rows), ("accepted", [r for r in rows if not r["refusal"]]),
                           ("confidence 0.5 or more", [r for r in rows if r["confidence"] >= 0.5 and not r["refusal"]])):
         if chosen:
             errors = np.array([r["error"] for r in chosen])
             shares = " | ".join(f"{100 * (errors <= limit).mean():.0f} %" for limit in (5, 10, 20))
-            print(f"| {title} | {len(chosen)} | {shares} | {sum(r['wrong_side'] for r in chosen)} | "
+            heights = np.array([abs(r["elevation_deg"] - r["found_elevation_deg"]) for r in chosen])
+            print(f"| {title} | {len(chosen)} | {shares} | {100 * (heights <= 10).mean():.0f} % | {sum(r['wrong_side'] for r in chosen)} | "
                   f"{sum(bool(r['refusal']) for r in chosen)} |")
 
 
