@@ -86,34 +86,33 @@ class Frame:
         self.picture /= np.maximum(count, 1)[..., None]
 
     def cells_of(self, points, pose):
-        """Cells of projected points, row-major, -1 outside; and their depths towards the eye."""
-        seen = points @ axes(pose.azimuth, pose.elevation).T
-        w = 1 / (1 / np.sin(pose.field / 2) - seen[:, 2])
-        x, y = seen[:, 0] * w, -seen[:, 1] * w
-        left, right, top, bottom = x.min(), x.max(), y.min(), y.max()
+        """Cells of projected points (3 x N), row-major, -1 outside; and their depths towards the eye."""
+        x, y, depth = axes(pose.azimuth, pose.elevation).astype(np.float32) @ points
+        w = np.float32(1 / np.sin(pose.field / 2)) - depth
+        x /= w
+        y /= -w
+        left, right, top, bottom = float(x.min()), float(x.max()), float(y.min()), float(y.max())
         size = max((right - left) if self.across else (bottom - top), 1e-9)
-        scale = (self.width if self.across else self.height) / size
-        column = np.floor((x - (left + right) / 2) * scale + self.side / 2).astype(int)
-        row = np.floor((y - (top + bottom) / 2) * scale + self.side / 2).astype(int)
-        # The far edges belong to the last cell.
-        column, row = np.minimum(column, self.side // 2 + self.side // 2), np.minimum(row, self.side)
-        column[column == self.side // 2 + (self.width + 1) // 2] -= self.across
-        row[row == self.side // 2 + (self.height + 1) // 2] -= not self.across
-        outside = (column < 0) | (column >= self.side) | (row < 0) | (row >= self.side)
-        return np.where(outside, -1, row * self.side + column), seen[:, 2]
+        # A little less than the icon's side, so that the far edges belong to the last cell.
+        scale = (self.width if self.across else self.height) / size * (1 - 1e-5)
+        x *= np.float32(scale)
+        y *= np.float32(scale)
+        x += np.float32(self.side / 2 - scale * (left + right) / 2)
+        y += np.float32(self.side / 2 - scale * (top + bottom) / 2)
+        cells = y.astype(np.int32) * self.side + x.astype(np.int32)
+        longer = scale * max(right - left, bottom - top)
+        if longer > self.side:  # the icon's longer side is the model's shorter one
+            cells[(x < 0) | (x >= self.side) | (y < 0) | (y >= self.side)] = -1
+        return cells, depth
 
     def overlap(self, points, pose):
         cells, _ = self.cells_of(points, pose)
         mask = np.zeros(self.side * self.side + 1, bool)
         mask[cells] = True
-        outside = self.beyond(cells)
+        outside = np.count_nonzero(cells < 0) / len(cells) * self.total if mask[-1] else 0
         mask = mask[:-1]
         both = np.count_nonzero(mask & self.mask.ravel())
         return both / (self.total + np.count_nonzero(mask) - both + outside)
-
-    def beyond(self, cells):
-        """Cells' worth of points that fall off the grid: as many of the points, so many of the icon's cells."""
-        return np.count_nonzero(cells < 0) / len(cells) * self.total
 
 
 def coarse_grid(frame, points):
@@ -172,7 +171,7 @@ def mirrored(pose):
 
 def drawn(frame, cloud, pose):
     """Colours and normals of what is in front in each cell, and where that is known."""
-    cells, depth = frame.cells_of(cloud.points, pose)
+    cells, depth = frame.cells_of(np.ascontiguousarray(cloud.points.T, np.float32), pose)
     order = np.argsort(depth, kind="stable")  # the nearest is written last
     order = order[cells[order] >= 0]
     front = np.full(frame.side ** 2, -1)
@@ -226,7 +225,7 @@ def appearance(frame, cloud, pose):
 def find_poses(cloud, colours, shown):
     """Poses of the icon, refined, with overlap and appearance; the best overlap first."""
     fine, coarse = Frame(shown, colours, FINE), Frame(shown, colours, COARSE)
-    few, many = cloud.points[:COARSE_POINTS], cloud.points[:FINE_POINTS]
+    few, many = (np.ascontiguousarray(cloud.points[:n].T, np.float32) for n in (COARSE_POINTS, FINE_POINTS))
     places = apart(coarse_grid(coarse, few), PLACES, 25)
     places = [p for p in places if p.overlap > places[0].overlap - 0.2]
     starts = places + [Pose(p.azimuth, p.elevation, float(field)) for p in places[:3] for field in FIELDS

@@ -1,91 +1,78 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes the tables of docs/evidence.md: what `vantage eval` says of people's views and of a catalogue's (no packages).
+"""Writes the tables of docs/evidence.md: people's views by `vantage eval`, a catalogue's by fit_choices.py (numpy).
 
-    scripts/rebuild_catalogue.py packages -o catalogue --listed VIEWS --dataset
-    scripts/make_evidence.py --vantage PROGRAM --people FOLDER --catalogue catalogue/people.json --work FOLDER [--every N]
+    scripts/make_evidence.py --vantage PROGRAM --work FOLDER [--people FOLDER] [--packages FOLDER --views VIEWS]
 
-Each table has the error, folded, with the interval of 95 %, and what it is less than that of the best constant camera
-fitted on the other models, paired. Runs that were stopped go on from --work. --every N takes every Nth model of the
-catalogue. Rows that are in no table of the page are in --work, tables.md.
+--people is a data set of `vantage eval`; --packages and --views are those of fit_choices.py, VIEWS as
+rebuild_catalogue.py writes it. What is not given keeps its table. Each table has the error, folded, with its interval
+of 95 %, and what it is less than that of the best constant camera, paired: fitted on the other models of people's, and
+in the same folds as the model of choice on the catalogue. What was measured is kept in --work, and a run that was
+stopped goes on from there.
 """
 import argparse
-import json
 import pathlib
 import re
 import subprocess
 import sys
 
-PAGE = pathlib.Path(__file__).resolve().parents[1] / "docs/evidence.md"
-METHODS = "kssm,mesh-saliency,viewpoint-entropy,projected-area"
-NAMES = {"best possible single view": None, "another person": None, "best constant camera, model left out": None,
-         "three-quarter (1, 0.6, 1)": None, "vantage view (searches kssm × prior)": "`vantage view`",
-         "vantage view": "`vantage view`", "random": None}
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+METHODS = "kssm,mesh-saliency,viewpoint-entropy,projected-area,pmi-saliency"
+ROWS = {"best possible single view", "another person", "best constant camera, model left out", "three-quarter (1, 0.6, 1)",
+        "vantage view", "random"} | set(METHODS.split(","))
+
+LEFT_OUT = ("| f3d", "| isometric", "| straight front")
 
 
-def evaluated(program, data, folder, methods):
-    """The table of views that an evaluation writes: cells of each row by their header."""
-    subprocess.run([program, "eval", data, "-o", folder, "--method", methods], check=True, stdout=subprocess.DEVNULL)
+def of_people(program, data, folder):
+    """The rows above of the table of views that an evaluation writes."""
+    subprocess.run([program, "eval", data, "-o", folder, "--method", METHODS], check=True, stdout=subprocess.DEVNULL)
     lines = (folder / "tables.md").read_text(encoding="utf-8").splitlines()
     start = next(i for i, line in enumerate(lines) if line.startswith("| view | error, folded"))
-    header = [cell.strip() for cell in lines[start].strip("|").split("|")]
-    rows = []
+    count = next(line for line in lines if re.fullmatch(r"\d+ models\.", line))
+    out = [count, "", "| view | error [95 %] | less the constant camera's | within 45° |", "| --- | --- | --- | --- |"]
     for line in lines[start + 2:]:
         if not line.startswith("|"):
             break
-        rows.append(dict(zip(header, (cell.strip() for cell in line.strip("|").split("|")))))
-    count = next(line for line in lines if re.fullmatch(r"\d+ models\.", line)).split()[0]
-    return int(count), rows
-
-
-def table(count, rows, wanted):
-    out = [f"{count} models.", "", "| view | error | less the constant camera's | within 45° |", "| --- | --- | --- | --- |"]
-    for row in rows:
-        name = row["view"]
-        if name in wanted:
-            out.append("| %s | %s | %s | %s |" % (
-                NAMES.get(name) or name, row["error, folded [95 %]"],
-                row["less the best constant camera's, folded [95 %, paired]"], row["within 45° [95 %]"].split(" [")[0]))
+        name, error, less, _, _, _, near = (cell.strip() for cell in line.strip("|").split("|")[:7])
+        if name in ROWS:
+            shown = "`vantage view`" if name == "vantage view" else name
+            out.append(f"| {shown} | {error} | {less} | {near.split(' [')[0]} |")
     return "\n".join(out) + "\n"
 
 
-def part_of(catalogue, every, folder):
-    """A manifest of every Nth model, beside the whole one, whose paths are relative to it."""
-    if every == 1:
-        return catalogue
-    models = json.loads(catalogue.read_text(encoding="utf-8"))["models"][::every]
-    part = catalogue.with_name(f"every{every}.json")
-    part.write_text(json.dumps({"models": models}) + "\n", encoding="utf-8")
-    return part
+def of_catalogue(program, packages, views, folder):
+    """The table that fit_choices.py prints, without some of its fixed cameras."""
+    done = subprocess.run([sys.executable, ROOT / "scripts/fit_choices.py", packages, "--views", views, "--vantage", program,
+                           "--cache", folder], check=True, capture_output=True, text=True)
+    return "".join(line + "\n" for line in done.stdout.strip().splitlines() if not line.startswith(LEFT_OUT))
 
 
-def put(text, name, content):
+def put(page, name, content):
+    text = page.read_text(encoding="utf-8")
     begin, end = f"<!-- make_evidence.py begins: {name} -->", f"<!-- make_evidence.py ends: {name} -->"
     if begin not in text or end not in text:
-        sys.exit(f"{PAGE}: has no marks of {name}; write the lines '{begin}' and '{end}' where its table belongs")
-    return text[:text.index(begin) + len(begin)] + "\n" + content + text[text.index(end):]
+        sys.exit(f"{page}: has no table of {name}; write the lines '{begin}' and '{end}' where it belongs")
+    page.write_text(text[:text.index(begin) + len(begin)] + "\n" + content + text[text.index(end):], encoding="utf-8")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--vantage", required=True)
-    parser.add_argument("--people", type=pathlib.Path)
-    parser.add_argument("--catalogue", type=pathlib.Path)
     parser.add_argument("--work", required=True, type=pathlib.Path)
-    parser.add_argument("--every", type=int, default=1)
-    parser.add_argument("--page", type=pathlib.Path, default=PAGE)
+    parser.add_argument("--people", type=pathlib.Path)
+    parser.add_argument("--packages", type=pathlib.Path)
+    parser.add_argument("--views", type=pathlib.Path)
+    parser.add_argument("--page", type=pathlib.Path, default=ROOT / "docs/evidence.md")
     arguments = parser.parse_args()
-    text = arguments.page.read_text(encoding="utf-8")
-    wanted = set(NAMES) | set(METHODS.split(",")) | {"pmi-saliency"}
+    if (arguments.packages is None) != (arguments.views is None):
+        parser.error("--packages and --views need each other")
+    arguments.work.mkdir(parents=True, exist_ok=True)
     if arguments.people:
-        folder = arguments.work / "people"
-        count, rows = evaluated(arguments.vantage, arguments.people, folder, METHODS + ",pmi-saliency")
-        text = put(text, "people", table(count, rows, wanted))
-    if arguments.catalogue:
-        part = part_of(arguments.catalogue, arguments.every, arguments.work)
-        count, rows = evaluated(arguments.vantage, part, arguments.work / "catalogue", METHODS)
-        text = put(text, "catalogue", table(count, rows, wanted - {"best possible single view", "another person"}))
-    arguments.page.write_text(text, encoding="utf-8")
+        put(arguments.page, "people", of_people(arguments.vantage, arguments.people, arguments.work / "people"))
+    if arguments.packages:
+        put(arguments.page, "catalogue",
+            of_catalogue(arguments.vantage, arguments.packages, arguments.views, arguments.work / "catalogue"))
 
 
 if __name__ == "__main__":
