@@ -13,7 +13,7 @@ import icon_pose
 
 OVERLAP_WEIGHT = 6.0     # of overlap against appearance: on 70 icons of known cameras (try_icon_poses.py) 6 to 20 are best
 LEAST_OVERLAP = 0.88     # with less, an icon shows something else, or otherwise than the model is
-ALIKE = 0.10             # fits so near cannot be told apart: of 40 poses from behind so near, none was surely right
+ALIKE = 0.10             # fits so near cannot be told apart: of 39 poses from behind so near, one at most is right
 CERTAIN = 0.10           # difference of fits that leaves a doubt of 1/e
 
 
