@@ -21,7 +21,7 @@ METHODS = "kssm,mesh-saliency,viewpoint-entropy,projected-area,pmi-saliency"
 ROWS = {"best possible single view", "another person", "best constant camera, model left out", "three-quarter (1, 0.6, 1)",
         "vantage view", "random"} | set(METHODS.split(","))
 
-LEFT_OUT = ("| f3d", "| isometric", "| straight front")
+LEFT_OUT = ("| f3d", "| isometric", "| straight front", "| best constant camera, archives")
 
 
 def of_people(program, data, folder):
