@@ -17,11 +17,12 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-METHODS = "kssm,mesh-saliency,viewpoint-entropy,projected-area,pmi-saliency"
+METHODS = "kssm,pmi-saliency"
 ROWS = {"best possible single view", "another person", "best constant camera, model left out", "three-quarter (1, 0.6, 1)",
-        "vantage view", "random"} | set(METHODS.split(","))
+        "vantage view"} | set(METHODS.split(","))
 
-LEFT_OUT = ("| f3d", "| isometric", "| straight front", "| best constant camera, archives")
+LEFT_OUT = ("| f3d", "| isometric", "| straight front", "| best constant camera, archives",
+            "| random")
 
 
 def of_people(program, data, folder):
@@ -30,14 +31,14 @@ def of_people(program, data, folder):
     lines = (folder / "tables.md").read_text(encoding="utf-8").splitlines()
     start = next(i for i, line in enumerate(lines) if line.startswith("| view | error, folded"))
     count = next(line for line in lines if re.fullmatch(r"\d+ models\.", line))
-    out = [count, "", "| view | error [95 %] | less the constant camera's | within 45° |", "| --- | --- | --- | --- |"]
+    out = [count, "", "| view | error [95 %] | less the constant camera's |", "| --- | --- | --- |"]
     for line in lines[start + 2:]:
         if not line.startswith("|"):
             break
-        name, error, less, _, _, _, near = (cell.strip() for cell in line.strip("|").split("|")[:7])
+        name, error, less = (cell.strip() for cell in line.strip("|").split("|")[:3])
         if name in ROWS:
             shown = "`vantage view`" if name == "vantage view" else name
-            out.append(f"| {shown} | {error} | {less} | {near.split(' [')[0]} |")
+            out.append(f"| {shown} | {error} | {less} |")
     return "\n".join(out) + "\n"
 
 
