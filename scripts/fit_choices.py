@@ -7,7 +7,8 @@
 
 views.csv has archive, model, overlap, azimuth_deg, elevation_deg, dx, dy, dz and second_* of each entry: the
 direction from the model's centre to the eye of its icon, y up and +z in front after the catalogue's rotation.
-Overlaps below 0.88 are left out; where another direction within 0.02 of the overlap is in front, it is taken.
+Overlaps below 0.88 are left out; where another direction within 0.02 of the overlap is in front, it is taken. A table
+of rebuild_catalogue.py, with a column confidence, is taken as it is: it has told front from back by colours.
 --write replaces src/choice/choice_table.txt, --check compares it with what it would be, --page puts the table
 of errors on models left out between the marks of a page. docs/people.md explains the model.
 """
@@ -48,6 +49,8 @@ def unit(v):
 def chosen(row):
     """The direction of an icon's view."""
     direction = unit([float(row[k]) for k in ("dx", "dy", "dz")])
+    if "confidence" in row:
+        return direction
     if direction[2] < 0 and float(row["second_overlap"]) > float(row["overlap"]) - AMBIGUOUS:
         a, e = (np.radians(float(row[k])) for k in ("second_azimuth_deg", "second_elevation_deg"))
         second = np.array([np.sin(a) * np.cos(e), np.sin(e), np.cos(a) * np.cos(e)])
@@ -101,16 +104,15 @@ class Entry:
 
 def read_entries(arguments, folder):
     with open(arguments.views, newline="", encoding="utf-8") as file:
-        rows = [row for row in csv.DictReader(file) if float(row["overlap"]) >= LEAST_OVERLAP]
+        rows = [row for row in csv.DictReader(file) if "confidence" in row or float(row["overlap"]) >= LEAST_OVERLAP]
     listed = {row["model"].lstrip("/"): row for row in rows}
     files = []
     for path in sorted(arguments.packages.rglob("*.sh3f")):
         with zipfile.ZipFile(path) as archive:
             models = orientation_data.catalogue(archive, "PluginFurnitureCatalog.properties", set(listed))
-            for entry in models:
-                stem, _, points, faces = entry
+            for stem, _, shape in models:
                 file = folder / f"{path.stem}__{stem}.obj"
-                orientation_data.write_obj(file, points, faces)
+                orientation_data.Shape(shape.points, shape.faces).write(file)
                 files.append((file, path.stem))
     by_stem = {(row["archive"], pathlib.Path(row["model"]).stem): row for row in rows}
     arguments.cache.mkdir(parents=True, exist_ok=True)

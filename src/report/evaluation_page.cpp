@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "vantage/report/evaluation.h"
 
 #include "report/agreement.h"
+#include "report/constant_camera.h"
 #include "report/csv_field.h"
 
 namespace vantage {
@@ -126,56 +128,68 @@ std::string sorted_lines(const std::vector<ViewAgreement>& rows, Wanted wanted, 
   return text;
 }
 
+/// A method's values less those of another one on the same models.
+std::vector<double> less_than(const std::vector<ViewAgreement>& rows, const std::string& method,
+                              std::string_view other, double ViewAgreement::*value) {
+  std::map<std::string_view, double> of_other;
+  for (const ViewAgreement& row : rows) {
+    if (row.method == other) {
+      of_other[row.model] = row.*value;
+    }
+  }
+  std::vector<double> differences;
+  for (const ViewAgreement& row : rows) {
+    const auto found = of_other.find(row.model);
+    if (row.method == method && found != of_other.end()) {
+      differences.push_back(row.*value - found->second);
+    }
+  }
+  return differences;
+}
+
 std::string view_table(const std::vector<ViewAgreement>& rows) {
-  const auto tells = [](const ViewRow& row) {
+  const auto tells = [&](const ViewRow& row) {
+    const std::vector<double> less =
+        less_than(rows, row.name(), kConstantCamera, &ViewAgreement::mean_folded_deg);
     return "| " + row.name() + " | " + row.mean(&ViewAgreement::mean_folded_deg, kOfHalfTurn, 3) +
-           " | " + row.mean(&ViewAgreement::mean_deg, kOfHalfTurn, 3) + " | " +
+           " | " + interval_text(bootstrap_mean(less), kOfHalfTurn, 3, "") + " | " +
+           row.mean(&ViewAgreement::mean_deg, kOfHalfTurn, 3) + " | " +
            row.median(&ViewAgreement::mean_folded_deg) + " | " +
            row.median(&ViewAgreement::mean_deg) + " | " +
            row.mean(&ViewAgreement::within_45, 100.0, 0, " %") + " | " +
            row.mean(&ViewAgreement::all_folded_deg, kOfHalfTurn, 3) + " | " +
            row.mean(&ViewAgreement::percentile, 1.0, 2) + " |\n";
   };
-  return "| view | error, folded [95 %] | error [95 %] | median, folded | median | within 45° "
-         "[95 %] | error with kept starts, folded [95 %] | people's views in its own scores "
+  return "| view | error, folded [95 %] | less the best constant camera's, folded [95 %, paired] | "
+         "error [95 %] | median, folded | median | within 45° [95 %] | error with kept starts, "
+         "folded [95 %] | people's views in its own scores "
          "[95 %] |\n"
-         "| --- | --- | --- | --- | --- | --- | --- | --- |\n" +
+         "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n" +
          sorted_lines(
              rows, [](const std::string& name) { return !is_under_prior(name); }, tells);
-}
-
-/// A method's values less those of the prior alone on the same models.
-std::vector<double> beyond_prior(const std::vector<ViewAgreement>& rows, const std::string& method,
-                                 double ViewAgreement::*value) {
-  std::vector<double> differences;
-  for (const ViewAgreement& row : rows) {
-    for (const ViewAgreement& other : rows) {
-      if (row.method == method && other.method == kPriorAlone && row.model == other.model) {
-        differences.push_back(row.*value - other.*value);
-      }
-    }
-  }
-  return differences;
 }
 
 /// Empty if there is no method under the prior.
 std::string prior_table(const std::vector<ViewAgreement>& rows) {
   const auto tells = [&](const ViewRow& row) {
     const std::vector<double> less =
-        beyond_prior(rows, row.name(), &ViewAgreement::mean_folded_deg);
+        less_than(rows, row.name(), kPriorAlone, &ViewAgreement::mean_folded_deg);
     const auto nearer = std::count_if(less.begin(), less.end(), [](double d) { return d < 0.0; });
     const auto farther = std::count_if(less.begin(), less.end(), [](double d) { return d > 0.0; });
     return "| " + row.name() + " | " + row.mean(&ViewAgreement::mean_folded_deg, kOfHalfTurn, 3) +
            " | " + interval_text(bootstrap_mean(less), kOfHalfTurn, 3, "") + " | " +
            std::to_string(nearer) + " / " + std::to_string(farther) + " | " +
-           interval_text(bootstrap_mean(beyond_prior(rows, row.name(), &ViewAgreement::within_45)),
-                         100.0, 0, " %") +
+           interval_text(
+               bootstrap_mean(less_than(rows, row.name(), kPriorAlone, &ViewAgreement::within_45)),
+               100.0, 0, " %") +
            " | " + row.mean(&ViewAgreement::mean_deg, kOfHalfTurn, 3) + " |\n";
   };
-  const std::string lines = sorted_lines(
-      rows, [](const std::string& name) { return is_under_prior(name) || name == kDefaultView; },
-      tells);
-  return lines.empty()
+  const auto is_wanted = [](const std::string& name) {
+    return is_under_prior(name) || name == kDefaultView || name == kConstantCamera;
+  };
+  const std::string lines = sorted_lines(rows, is_wanted, tells);
+  return std::none_of(rows.begin(), rows.end(),
+                      [](const ViewAgreement& row) { return is_under_prior(row.method); })
              ? ""
              : "### Under the prior\n"
                "| view | error, folded [95 %] | less the prior's alone, folded [95 %, paired] | "

@@ -26,6 +26,7 @@
 #include "core/loaded_code.h"
 #include "core/parallel.h"
 #include "io/files.h"
+#include "report/constant_camera.h"
 
 namespace vantage {
 namespace {
@@ -128,6 +129,7 @@ EvaluatedModel evaluate(const RecordedModel& record, const ViewOptions& options,
                         const std::vector<Measure>& measures, const RunContext& run) {
   const Model model = load_model(record.path, run);
   EvaluatedModel rows;
+  rows.up = options.up.value_or(default_up(model));
   if (!record.views.empty()) {
     rows.views = evaluate_views(record, model, options, measures, run);
   }
@@ -171,7 +173,8 @@ EvaluationJournal::EvaluationJournal(std::string file) : state_(std::make_unique
   for (std::string line; std::getline(lines, line);) {
     try {
       const Json json = Json::parse(line);
-      EvaluatedModel rows{rows_from(json.at("views"), &ViewAgreement::method, kViewColumns),
+      EvaluatedModel rows{static_cast<UpAxis>(json.at("up").get<int>()),
+                          rows_from(json.at("views"), &ViewAgreement::method, kViewColumns),
                           rows_from(json.at("gaze"), &GazeAgreement::map, kGazeColumns)};
       state_->rows[json.at("key").get<std::string>()] = std::move(rows);
       whole += line + '\n';
@@ -206,6 +209,7 @@ void EvaluationJournal::add(const std::string& key, const EvaluatedModel& rows) 
     return;
   }
   const Json json{{"key", key},
+                  {"up", static_cast<int>(rows.up)},
                   {"views", rows_json(rows.views, &ViewAgreement::method, kViewColumns)},
                   {"gaze", rows_json(rows.gaze, &GazeAgreement::map, kGazeColumns)}};
   const std::string line = json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
@@ -262,6 +266,7 @@ std::vector<EvaluatedModel> evaluate_records(const std::vector<RecordedModel>& r
       journal.add(keys[i], results[i]);
     }
   });
+  add_constant_camera(records, results);
   return results;
 }
 

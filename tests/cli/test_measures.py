@@ -234,6 +234,11 @@ class Measures(ProgramTest):
         gaze = list(csv.DictReader(io.StringIO((self.dir / "out" / "gaze.csv").read_text())))
         self.assertEqual({r["model"] for r in gaze}, {"large.off"})
         self.assertIn("| plemenos |", (self.dir / "out" / "tables.md").read_text())
+        # Only large.off, whose up is z, is left to choose small.off's camera by, and the other way round: (1, 1, 1)
+        # in x, y, z is up in part in both, but from behind where z is up.
+        constant = [r for r in rows if r["method"] == "best constant camera, model left out"]
+        self.assertEqual({r["model"] for r in constant}, {"small.off", "large.off"})
+        self.assertTrue(all(float(r["mean_folded_deg"]) > 30 for r in constant), constant)
 
     def test_eval_goes_on_where_a_killed_run_stopped(self):
         self.people()

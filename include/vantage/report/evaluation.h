@@ -74,6 +74,7 @@ std::vector<GazeAgreement> evaluate_gaze(const RecordedModel& record, const Mode
 
 /// What was found out about one record.
 struct EvaluatedModel {
+  UpAxis up = UpAxis::Y;               ///< That reference cameras stand upright to.
   std::vector<ViewAgreement> views{};  ///< Empty if no views were recorded.
   std::vector<GazeAgreement> gaze{};   ///< Empty if no gaze was recorded.
 };
@@ -102,7 +103,8 @@ class EvaluationJournal {
 };
 
 /// Evaluates records side by side, the largest first; rows are in the order of the records whatever the
-/// number of threads. Reads the models. \param done told how many of the records the journal had.
+/// number of threads. Reads the models. Last of a model's rows of views is the best constant camera,
+/// fitted on the other models. \param done told how many of the records the journal had.
 /// \throw IoError, FormatError, InvalidInput, Cancelled
 std::vector<EvaluatedModel> evaluate_records(const std::vector<RecordedModel>& records,
                                              const ViewOptions& options,

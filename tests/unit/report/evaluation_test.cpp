@@ -12,6 +12,7 @@
 #include "vantage/spatial/directions.h"
 
 #include "report/agreement.h"
+#include "report/constant_camera.h"
 #include "support/shapes.h"
 
 namespace vantage {
@@ -229,7 +230,7 @@ TEST(EvidenceTables, CompareMethodsUnderThePriorWithThePriorModelByModel) {
 
 TEST(EvidenceTables, GiveAnIntervalToEachMeanAndDashesWhereThereIsNone) {
   const std::string text = evidence_tables(rows_of_two_models(), {});
-  EXPECT_NE(text.find("| near | 0.400 [0.400, 0.400] | 0.250 [0.250, 0.250] | 72.0 | 45.0 | "
+  EXPECT_NE(text.find("| near | 0.400 [0.400, 0.400] | – | 0.250 [0.250, 0.250] | 72.0 | 45.0 | "
                       "25 % [25, 25] | 0.400 [0.400, 0.400] | 0.75 [0.75, 0.75] |"),
             std::string::npos)
       << text;
@@ -243,8 +244,62 @@ TEST(EvidenceTables, GiveAnIntervalToEachMeanAndDashesWhereThereIsNone) {
   for (ViewAgreement& row : kept) {
     row.mean_deg = row.mean_folded_deg = row.within_45 = std::nan("");
   }
-  EXPECT_NE(evidence_tables(kept, {}).find("| near | – | – | – | – | – | 0.400"),
+  EXPECT_NE(evidence_tables(kept, {}).find("| near | – | – | – | – | – | – | 0.400"),
             std::string::npos);
+}
+
+TEST(EvidenceTables, CompareEachViewWithTheConstantCameraModelByModel) {
+  std::vector<ViewAgreement> rows = rows_of_two_models();
+  for (const auto& [model, error] : {std::pair("a,b.off", 81.0), std::pair("b.off", 54.0)}) {
+    rows.push_back({std::string(kConstantCamera), model, 90.0, error, error, 0.5, std::nan("")});
+  }
+  const std::string text = evidence_tables(rows, {});
+  // 72° against 81° and 54°: −0.05 and 0.1 of a half turn.
+  EXPECT_NE(text.find("| near | 0.400 [0.400, 0.400] | 0.025 [-0.050, 0.100] |"), std::string::npos)
+      << text;
+  const std::size_t under = text.find("### Under the prior");
+  EXPECT_NE(text.find(kConstantCamera, under), std::string::npos);
+}
+
+/// What evaluate_records() has of models before the constant camera is added, all with y up.
+std::vector<EvaluatedModel> evaluated(std::size_t count) {
+  return std::vector<EvaluatedModel>(count);
+}
+
+TEST(ConstantCamera, IsTheBestOneOfTheOtherModels) {
+  std::vector<RecordedModel> records{seen_from({0.0}), seen_from({0.0}), seen_from({90.0})};
+  std::vector<EvaluatedModel> results = evaluated(3);
+  add_constant_camera(records, results);
+  ASSERT_EQ(results[2].views.size(), 1U);
+  EXPECT_EQ(results[2].views[0].method, kConstantCamera);
+  // Both others are seen from +z, which is a direction of the set; this one from +x.
+  EXPECT_NEAR(results[2].views[0].mean_folded_deg, 90.0, 1e-9);
+  // Left out, the first has one other from +z and one from +x: any direction between serves both.
+  EXPECT_NEAR(results[0].views[0].mean_folded_deg, results[1].views[0].mean_folded_deg, 1e-9);
+  EXPECT_GE(results[0].views[0].mean_folded_deg, 0.0);
+  EXPECT_LE(results[0].views[0].mean_folded_deg, 90.0 + 1e-9);
+}
+
+TEST(ConstantCamera, StandsUprightToEachModel) {
+  // Seen from the front both: +z where y is up, −y where z is.
+  std::vector<RecordedModel> records{seen_from({0.0}), seen_from({0.0})};
+  records[1].views[0].direction = -Vec3::UnitY();
+  std::vector<EvaluatedModel> results = evaluated(2);
+  results[1].up = UpAxis::Z;
+  add_constant_camera(records, results);
+  EXPECT_NEAR(results[0].views[0].mean_folded_deg, 0.0, 1e-9);
+  EXPECT_NEAR(results[1].views[0].mean_folded_deg, 0.0, 1e-9);
+}
+
+TEST(ConstantCamera, NeedsAnotherModelWhereSomebodyMoved) {
+  std::vector<RecordedModel> records{seen_from({0.0}), seen_from({0.0}, false), {.name = "gaze"}};
+  std::vector<EvaluatedModel> results = evaluated(3);
+  add_constant_camera(records, results);
+  EXPECT_TRUE(results[0].views.empty());
+  ASSERT_EQ(results[1].views.size(), 1U);  // nobody moved, but there is a camera
+  EXPECT_TRUE(std::isnan(results[1].views[0].mean_folded_deg));
+  EXPECT_NEAR(results[1].views[0].all_folded_deg, 0.0, 1e-9);
+  EXPECT_TRUE(results[2].views.empty());
 }
 
 TEST(AgreementCsv, HoldsNamesWithCommasAndQuotes) {
