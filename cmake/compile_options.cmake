@@ -6,6 +6,8 @@ target_compile_options(vantage_options INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> # false alarm of gcc 12 at -O3 (GCC bug 105329)
   # Quick builds: the same about strings put together; and in a united source the main file is not that of the class.
   "$<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${VANTAGE_QUICK_BUILD}>>:-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-array-bounds;-Wno-subobject-linkage>"
+  # … and clang takes names of another source for shadowed.
+  "$<$<AND:$<CXX_COMPILER_ID:Clang>,$<BOOL:${VANTAGE_QUICK_BUILD}>>:-Wno-shadow>"
   $<$<BOOL:${VANTAGE_WERROR}>:-Werror>)
 target_compile_definitions(vantage_options INTERFACE EIGEN_DONT_PARALLELIZE EIGEN_MPL2_ONLY)
 

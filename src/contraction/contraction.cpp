@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -76,6 +77,10 @@ std::vector<Piece> cut_into_pieces(const TriMesh& mesh, std::vector<std::uint32_
   }
   return pieces;
 }
+
+/// Vertices of pieces that are contracted side by side: bounds the memory, and is what the largest piece without a
+/// proxy has. [ours]
+constexpr std::size_t kTogether = 20'000;
 
 /// Warnings about single steps at most.
 constexpr std::size_t kMostRemedies = 5;
@@ -246,6 +251,34 @@ void summarise(const std::vector<PieceResult>& results, ContractionHistory& hist
   }
 }
 
+/// The first pieces, as many as have kTogether vertices at most; at least one.
+std::span<const Piece> next_together(std::span<const Piece> pieces) {
+  std::size_t count = 0;
+  std::size_t vertices = 0;
+  while (count < pieces.size() &&
+         (count == 0 || vertices + pieces[count].vertices.size() <= kTogether)) {
+    vertices += pieces[count++].vertices.size();
+  }
+  return pieces.first(count);
+}
+
+/// Contracts pieces side by side; a single one with all threads and with its own progress.
+std::vector<PieceResult> contract_together(const TriMesh& mesh, std::span<const Piece> pieces,
+                                           const ContractionOptions& options,
+                                           const RunContext& run) {
+  std::vector<PieceResult> results(pieces.size());
+  if (pieces.size() == 1) {
+    results[0] = contract_piece(mesh, pieces[0], options, run);
+    return results;
+  }
+  parallel_items(run, pieces.size(), [&](std::size_t i, const RunContext& own) {
+    results[i] = contract_piece(mesh, pieces[i], options,
+                                {.stop = own.stop, .max_threads = own.max_threads});
+  });
+  run.advance("contracting", 1.0);
+  return results;
+}
+
 ContractionHistory contract_pieces(const TriMesh& mesh, const ContractionOptions& options,
                                    const RunContext& run) {
   ContractionHistory history;
@@ -259,23 +292,33 @@ ContractionHistory contract_pieces(const TriMesh& mesh, const ContractionOptions
     history.merged->of_vertex.resize(mesh.positions.size());
     add_isolated(history.component_of_vertex, *history.merged);
   }
-  double done = 0.0;
-  const auto total = static_cast<double>(mesh.positions.size());
-  for (const Piece& piece : pieces) {
-    const double share = static_cast<double>(piece.vertices.size()) / total;
-    results.push_back(
-        contract_piece(mesh, piece, options, run.part(done, std::min(1.0, done + share))));
-    done = std::min(1.0, done + share);
-    place(piece, results.back(), mesh, run, history);
-    if (!results.back().second.levels.empty()) {
-      append(std::exchange(results.back().second, {}), history.second);
+  const auto add = [&](const Piece& piece, PieceResult result) {
+    place(piece, result, mesh, run, history);
+    if (!result.second.levels.empty()) {
+      append(std::exchange(result.second, {}), history.second);
     }
     if (history.merged) {
-      add_piece(piece, results.back().proxy, *history.merged);
+      add_piece(piece, result.proxy, *history.merged);
     }
-    results.back().proxy.reset();  // now in `history`; keeps the peak at one copy
-    results.back().history.levels.clear();
-    results.back().is_thinned = !std::exchange(results.back().history.thinned, {}).empty();
+    result.proxy.reset();  // now in `history`; keeps the peak at what is contracted at once
+    result.history.levels.clear();
+    result.is_thinned = !std::exchange(result.history.thinned, {}).empty();
+    results.push_back(std::move(result));
+  };
+  std::size_t done = 0;
+  const auto total = static_cast<double>(mesh.positions.size());
+  for (std::size_t first = 0; first < pieces.size();) {
+    const std::span<const Piece> together = next_together(std::span(pieces).subspan(first));
+    std::size_t after = done;
+    for (const Piece& piece : together) {
+      after += piece.vertices.size();
+    }
+    for (PieceResult& result : contract_together(
+             mesh, together, options,
+             run.part(static_cast<double>(done) / total, static_cast<double>(after) / total))) {
+      add(pieces[first++], std::move(result));
+    }
+    done = after;
   }
   fill_thinned(results, history);
   summarise(results, history);
