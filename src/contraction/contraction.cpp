@@ -374,20 +374,20 @@ std::string_view stop_name(ContractionStop stop) {
   return "unknown";
 }
 
-ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& given,
+ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& options,
                             const RunContext& run) {
-  check_fields(given, kContractionFields);
-  ContractionOptions options = given;
-  if (given.weights == ContractionWeights::Auto) {
-    options.weights = given.method == ContractionMethod::Exact ? ContractionWeights::Vertex
-                                                               : ContractionWeights::Area;
+  check_fields(options, kContractionFields);
+  ContractionOptions resolved = options;
+  if (options.weights == ContractionWeights::Auto) {
+    resolved.weights = options.method == ContractionMethod::Exact ? ContractionWeights::Vertex
+                                                                  : ContractionWeights::Area;
   }
-  if (options.weights == ContractionWeights::Area) {
+  if (resolved.weights == ContractionWeights::Area) {
     if (std::optional<TriMesh> refined = refine_coarse_components(mesh, run)) {
-      return of_refined(mesh, std::move(*refined), options, run);
+      return of_refined(mesh, std::move(*refined), resolved, run);
     }
   }
-  return contract_pieces(mesh, options, run);
+  return contract_pieces(mesh, resolved, run);
 }
 
 }  // namespace vantage
