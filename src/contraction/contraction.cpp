@@ -2,9 +2,11 @@
 #include "vantage/contraction/contraction.h"
 
 #include <algorithm>
+#include <atomic>
 #include <optional>
 #include <span>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "vantage/mesh/measures.h"
@@ -271,11 +273,19 @@ std::vector<PieceResult> contract_together(const TriMesh& mesh, std::span<const 
     results[0] = contract_piece(mesh, pieces[0], options, run);
     return results;
   }
+  std::size_t total = 0;
+  for (const Piece& piece : pieces) {
+    total += piece.vertices.size();
+  }
+  std::atomic<std::size_t> done = 0;
+  const std::thread::id caller = std::this_thread::get_id();
   parallel_items(run, pieces.size(), [&](std::size_t i, const RunContext& own) {
-    results[i] = contract_piece(mesh, pieces[i], options,
-                                {.stop = own.stop, .max_threads = own.max_threads});
+    results[i] = contract_piece(mesh, pieces[i], options, own);
+    done += pieces[i].vertices.size();
+    if (std::this_thread::get_id() == caller) {  // who alone may report
+      run.advance("contracting", static_cast<double>(done) / static_cast<double>(total));
+    }
   });
-  run.advance("contracting", 1.0);
   return results;
 }
 

@@ -65,31 +65,37 @@ double share_of_directions(const std::vector<Vec2>& hull, const Vec2& point, dou
   return angle / kWhole;
 }
 
+/// Unmarks the patch that begins at a marked cell: those that it shares a side or a corner with, and so on.
+/// \return the number of its cells.
+std::size_t unmark_patch(std::vector<std::uint8_t>& marked, std::size_t columns, std::size_t rows,
+                         std::size_t start) {
+  std::vector<std::size_t> pending{start};
+  marked[start] = 0;
+  std::size_t size = 0;
+  while (!pending.empty()) {
+    const std::size_t row = pending.back() / columns;
+    const std::size_t column = pending.back() % columns;
+    pending.pop_back();
+    ++size;
+    for (std::size_t r = row > 0 ? row - 1 : 0; r < std::min(rows, row + 2); ++r) {
+      for (std::size_t c = column > 0 ? column - 1 : 0; c < std::min(columns, column + 2); ++c) {
+        if (marked[r * columns + c] != 0) {
+          marked[r * columns + c] = 0;
+          pending.push_back(r * columns + c);
+        }
+      }
+    }
+  }
+  return size;
+}
+
 /// Sizes in cells of the patches of marked cells, which share no side or corner.
 std::vector<std::size_t> patches(std::vector<std::uint8_t> marked, std::size_t columns,
                                  std::size_t rows) {
   std::vector<std::size_t> sizes;
-  std::vector<std::size_t> pending;
   for (std::size_t start = 0; start < marked.size(); ++start) {
-    if (marked[start] == 0) {
-      continue;
-    }
-    sizes.push_back(0);
-    marked[start] = 0;
-    pending.push_back(start);
-    while (!pending.empty()) {
-      const std::size_t row = pending.back() / columns;
-      const std::size_t column = pending.back() % columns;
-      pending.pop_back();
-      ++sizes.back();
-      for (std::size_t r = row > 0 ? row - 1 : 0; r < std::min(rows, row + 2); ++r) {
-        for (std::size_t c = column > 0 ? column - 1 : 0; c < std::min(columns, column + 2); ++c) {
-          if (marked[r * columns + c] != 0) {
-            marked[r * columns + c] = 0;
-            pending.push_back(r * columns + c);
-          }
-        }
-      }
+    if (marked[start] != 0) {
+      sizes.push_back(unmark_patch(marked, columns, rows, start));
     }
   }
   return sizes;
@@ -142,8 +148,8 @@ struct Zones {
 void add_to_zones(const HeightField& field, std::size_t cell, double depth, Zones& zones) {
   const double u =
       (static_cast<double>(cell % field.columns) + 0.5) / static_cast<double>(field.columns);
-  const double v =
-      (static_cast<double>(cell / field.columns) + 0.5) / static_cast<double>(field.rows);
+  const std::size_t row = cell / field.columns;
+  const double v = (static_cast<double>(row) + 0.5) / static_cast<double>(field.rows);
   const double off = std::max(std::abs(u - 0.5), std::abs(v - 0.5));
   if (off < 1.0 / 6.0 || off > 1.0 / 3.0) {
     const std::size_t zone = off < 1.0 / 6.0 ? 0 : 1;

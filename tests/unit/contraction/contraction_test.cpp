@@ -4,7 +4,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <set>
+#include <stop_token>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -221,14 +224,15 @@ TEST(ContractProgress, NeverGoesBackOverManyComponents) {
     mesh = test::together(mesh, test::sphere(1), Vec3(5.0 * (i + 1), 0, 0));
   }
   std::vector<double> seen;
-  contract(mesh, {}, {.report = [&](std::string_view, double f) { seen.push_back(f); }});
+  const auto report = [&](std::string_view, double f) { seen.push_back(f); };
+  contract(mesh, {}, {.report = report, .max_threads = 1});  // others are silent
   ASSERT_GE(seen.size(), 5U);
   EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
   EXPECT_EQ(seen.back(), 1.0);
   EXPECT_GE(seen.front(), 0.0);
 }
 
-/// Contracts and requests a stop at the given report; returns how many reports came.
+/// Contracts on one thread and requests a stop at the given report; returns how many reports came.
 int reports_until_stop(const TriMesh& mesh, int stop_at) {
   std::stop_source source;
   int seen = 0;
@@ -238,15 +242,35 @@ int reports_until_stop(const TriMesh& mesh, int stop_at) {
     }
   };
   try {
-    contract(mesh, {}, {.report = count, .stop = source.get_token()});
+    contract(mesh, {}, {.report = count, .stop = source.get_token(), .max_threads = 1});
   } catch (const Cancelled&) {
     return seen;
   }
   return stop_at == 0 ? seen : -1;
 }
 
+TEST(ContractProgress, ComesFromTheCallingThreadAsPartsAreDone) {
+  TriMesh mesh = test::sphere(1);
+  for (int i = 0; i < 20; ++i) {
+    mesh = test::together(mesh, test::sphere(1), Vec3(5.0 * (i + 1), 0, 0));
+  }
+  std::set<std::thread::id> threads;
+  std::vector<double> seen;
+  const auto report = [&](std::string_view, double f) {
+    threads.insert(std::this_thread::get_id());
+    seen.push_back(f);
+  };
+  contract(mesh, {}, {.report = report, .max_threads = 2});
+  EXPECT_EQ(threads, std::set{std::this_thread::get_id()});
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  EXPECT_EQ(seen.back(), 1.0);
+}
+
 TEST(ContractCancel, StopsAtEveryReportedFraction) {
-  const TriMesh mesh = test::together(test::torus(1.0, 0.3, 12, 8), test::sphere(1), Vec3(5, 0, 0));
+  TriMesh mesh = test::torus(1.0, 0.3, 12, 8);
+  for (int i = 0; i < 3; ++i) {
+    mesh = test::together(mesh, test::sphere(1), Vec3(5.0 * (i + 1), 0, 0));
+  }
   const int reports = reports_until_stop(mesh, 0);
   ASSERT_GE(reports, 4);
   for (int at = 1; at < reports; ++at) {  // after the last one nothing is left to stop
