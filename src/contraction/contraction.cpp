@@ -80,9 +80,8 @@ std::vector<Piece> cut_into_pieces(const TriMesh& mesh, std::vector<std::uint32_
   return pieces;
 }
 
-/// Vertices of pieces that are contracted side by side: bounds the memory, and is what the largest piece without a
-/// proxy has. [ours]
-constexpr std::size_t kTogether = 20'000;
+/// Vertices of pieces that are contracted side by side: bounds the memory, and is what refinement makes of all. [ours]
+constexpr std::size_t kTogether = 60'000;
 
 /// Warnings about single steps at most.
 constexpr std::size_t kMostRemedies = 5;
