@@ -22,9 +22,9 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kVerticesPerTask = 8192;  // vertices a task
-constexpr double kSphereSide = 2.0;             // ours: D = 2
-constexpr double kBoxSide = 1.6;                // Cao 2010: the longest side of the box
+constexpr std::size_t kVerticesPerTask = 8192;
+constexpr double kSphereSide = 2.0;  // ours: D = 2
+constexpr double kBoxSide = 1.6;     // Cao 2010: the longest side of the box
 
 /// One component cut out of the mesh, and where its vertices came from.
 struct Piece {

@@ -14,7 +14,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kFineVerticesPerTask = 2048;  // fine vertices a task
+constexpr std::size_t kFineVerticesPerTask = 2048;
 /// Stars visited at most on the way from the vertex a point was merged in to its nearest face.
 constexpr int kLongestWalk = 6;
 

@@ -134,7 +134,7 @@ class PlateReader {
   /// Goes to every object that is shown.
   void walk(std::span<const ThreemfUse> uses, const std::string& root) {
     budget_ = kMostInSmallFile + kMostPerByte * file_bytes_;
-    visits_left_ = budget_;
+    visits_left_ = budget_;  // objects may be visited as often [ours]
     std::vector<Level> levels;
     levels.push_back({uses, root, Eigen::Affine3d::Identity()});
     while (!levels.empty()) {

@@ -26,7 +26,7 @@ constexpr double kCell = kReach / 4.0;
 constexpr std::int64_t kCellsFar = 4;
 /// Where no point is near: what lists are filled up with.
 constexpr double kNowhere = 1e9;
-constexpr std::size_t kCellsPerTask = 8;  // cells a task
+constexpr std::size_t kCellsPerTask = 8;
 
 /// exp(−t) for t from 0 to 2, what a Gaussian within its reach needs: the eighth power of a Taylor
 /// series, of which the first term left out is below 1e-17. Without a table, which lanes would have

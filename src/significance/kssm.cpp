@@ -22,7 +22,7 @@ namespace {
 
 /// A level whose displacement spans less than this fraction of D is flat: rounding, not shape.
 constexpr double kFlat = 1e-6;
-constexpr std::size_t kVerticesPerTask = 2048;  // vertices a task
+constexpr std::size_t kVerticesPerTask = 2048;
 /// A level counts in full where it correlates by this share of what is missing to 1 above the least
 /// [ours: trials in docs/lab].
 constexpr double kRamp = 0.5;

@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kPointsPerTask = 2048;  // points a task
+constexpr std::size_t kPointsPerTask = 2048;
 /// Tries to meet the wanted number of samples.
 constexpr int kTries = 8;
 /// A sample this much smaller than wanted is good enough.

@@ -17,9 +17,9 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kFacesPerTask = 256;  // faces a task
-constexpr std::size_t kRowGrain = 4096;     // faces a task whose rows are filled
-constexpr std::size_t kViewGrain = 16;      // views a task that are compared with their neighbours
+constexpr std::size_t kFacesPerTask = 256;
+constexpr std::size_t kRowGrain = 4096;  // faces a task whose rows are filled
+constexpr std::size_t kViewGrain = 16;   // views a task that are compared with their neighbours
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// The channel turned round: for each face the views that see it and how much of it. FaceArea::face

@@ -20,7 +20,7 @@ constexpr float kNearestShare = 1.0F / 64.0F;
 // chosen by measurement on models of 10 K to 170 K vertices. [ours]
 constexpr double kPointsPerCell = 1.0;
 constexpr std::uint32_t kMaxCells = 2048;
-constexpr std::size_t kSpotsPerTask = 4096;  // points per chunk: some tenths of a millisecond
+constexpr std::size_t kSpotsPerTask = 4096;  // some tenths of a millisecond
 
 }  // namespace
 

@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kPointsPerTask = 2048;  // points per chunk: a few tenths of a millisecond
+constexpr std::size_t kPointsPerTask = 2048;  // a few tenths of a millisecond
 
 }  // namespace
 

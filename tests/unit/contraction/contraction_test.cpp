@@ -266,6 +266,20 @@ TEST(ContractProgress, ComesFromTheCallingThreadAsPartsAreDone) {
   EXPECT_EQ(seen.back(), 1.0);
 }
 
+TEST(Contract, OfManyPartsIsTheSameForAnyNumberOfThreads) {
+  TriMesh mesh = test::torus(1.0, 0.3, 24, 12);
+  for (int i = 0; i < 7; ++i) {
+    mesh = test::together(mesh, test::sphere(i % 3), Vec3(5.0 * (i + 1), 0, 0));
+  }
+  const ContractionHistory alone = contract(mesh, {}, {.max_threads = 1});
+  for (const int threads : {2, 3, 8}) {
+    const ContractionHistory many = contract(mesh, {}, {.max_threads = threads});
+    EXPECT_EQ(many.levels, alone.levels) << threads;
+    EXPECT_EQ(many.component_of_vertex, alone.component_of_vertex) << threads;
+    EXPECT_EQ(many.shrinkage, alone.shrinkage) << threads;
+  }
+}
+
 TEST(ContractCancel, StopsAtEveryReportedFraction) {
   TriMesh mesh = test::torus(1.0, 0.3, 12, 8);
   for (int i = 0; i < 3; ++i) {
