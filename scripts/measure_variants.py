@@ -4,8 +4,9 @@
 
     measure_variants.py make  PROGRAM FOLDER MODEL...   writes the variants of each closed model to FOLDER/NAME/
     measure_variants.py table PROGRAM FOLDER [NAME...]  the table, as Markdown; one row a model, worst first
-    measure_variants.py moved PROGRAM FILE...           any file, open and broken ones too: how each was contracted, and
-                                                        the correlation of its map with that of `moved`, worst first
+    measure_variants.py moved PROGRAM FILE...           any file, open and broken ones too: how each was contracted, the
+                                                        correlation of its map with those of `moved` and `quartered`, and
+                                                        the processor time of `map`; worst moved first
 
 Variants: `moved` (every vertex by 10^-4 D, in a random direction), `quartered` (every triangle in four), `remeshed`
 (isotropically, as many vertices: Voronoi cells of geodesic distance on a finer copy, Valette and Chassery 2004),
@@ -272,26 +273,41 @@ def table(program, folder, *names):
                   f"{sum(x >= FAIR for x in of)}, median {numpy.median(of):.3f}, least {min(of):.3f}")
 
 
+def agreement(values, others):
+    flat = numpy.ptp(values) == 0 and numpy.ptp(others) == 0
+    return 1.0 if flat else float(numpy.nan_to_num(spearman(values, others)))
+
+
 def moved_file(ask, file, folder):
-    """Vertices, strategies and the correlation of the map with that of the file moved; None where there is no map."""
+    """Correlations of the map with those of the file moved and quartered, processor seconds, vertices, strategies and
+    the report's contraction; None where there is no map."""
+    def values_of(name, *mesh):
+        write_ply(f"{folder}/{name}.ply", *mesh)
+        ask("map", f"{folder}/{name}.ply", "-o", f"{folder}/map.ply", "--force", "-q")
+        return read_ply(folder + "/map.ply")[0]["quality"].astype(float)
+
     try:
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
         ask("map", file, "-o", folder + "/map.ply", "-q")
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
         vertices, faces = read_ply(folder + "/map.ply")
-        points, place = numpy.unique(points_of(vertices), axis=0, return_inverse=True)  # what coincides stays together
+        # What coincides stays together.
+        points, first, place = numpy.unique(points_of(vertices), axis=0, return_index=True, return_inverse=True)
+        faces = place.reshape(-1)[faces]
         size = numpy.linalg.norm(points.max(0) - points.min(0))
-        write_ply(folder + "/moved.ply", moved(points, faces, size)[0][place.reshape(-1)], faces)
-        ask("map", folder + "/moved.ply", "-o", folder + "/other.ply", "-q")
+        value = vertices["quality"].astype(float)[first]
+        other = values_of("moved", *moved(points, faces, size))
+        finer = values_of("quartered", *quartered(points, faces, size))
         report = json.loads(ask("view", file, "-o", folder + "/view", "--no-images", "--json", "--objective", "significance",
                               "--search", "rapid"))
     except (RuntimeError, ValueError):
         return None
-    other = read_ply(folder + "/other.ply")[0]["quality"].astype(float)
-    value = vertices["quality"].astype(float)
-    if len(value) != len(other):
+    if len(value) != len(other) or len(finer) < len(value):
         return None
-    same = 1.0 if numpy.ptp(value) == 0 and numpy.ptp(other) == 0 else float(numpy.nan_to_num(spearman(value, other)))
     strategies = collections.Counter(re.sub("[0-9]+", "N", s) for s in report["contraction"]["strategy"])
-    return same, len(value), ", ".join(f"{n} × {s}" if n > 1 else s for s, n in strategies.most_common(3)), report["contraction"]
+    return (agreement(value, other), agreement(value, finer[:len(value)]),
+            after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, len(vertices),
+            ", ".join(f"{n} × {s}" if n > 1 else s for s, n in strategies.most_common(3)), report["contraction"])
 
 
 def moved_table(program, *files):
@@ -303,11 +319,14 @@ def moved_table(program, *files):
             found = moved_file(ask, file, folder)
         if found:
             rows.append((found[0], pathlib.Path(file).name, *found[1:]))
-    print("| file | vertices | contracted | levels used | moved |\n| --- | --- | --- | --- | --- |")
-    for same, name, count, how, contraction in sorted(rows, key=lambda r: r[:3]):
-        print(f"| {name} | {count} | {how} | {len(contraction['levels_used'])} of {1 + contraction['levels']} | {same:.3f} |")
-    print(f"\n{len(rows)} files with a map of {len(files)}; at least {GOOD} on {sum(r[0] >= GOOD for r in rows)}, "
-          f"at least {FAIR} on {sum(r[0] >= FAIR for r in rows)}.")
+    print("| file | vertices | contracted | levels used | CPU, s | moved | quartered |\n" + "| --- " * 7 + "|")
+    for same, name, finer, seconds, count, how, contraction in sorted(rows, key=lambda r: r[:3]):
+        print(f"| {name} | {count} | {how} | {len(contraction['levels_used'])} of {1 + contraction['levels']} | {seconds:.2f} "
+              f"| {same:.3f} | {finer:.3f} |")
+    print(f"\n{len(rows)} files with a map of {len(files)}; {numpy.mean([r[3] for r in rows]):.2f} s of processor time in the mean.")
+    for name, of in (("moved", [r[0] for r in rows]), ("quartered", [r[2] for r in rows])):
+        print(f"- {name}: mean {numpy.mean(of):.3f}, at least {GOOD} on {sum(x >= GOOD for x in of)}, at least {FAIR} on "
+              f"{sum(x >= FAIR for x in of)}, least {min(of):.3f}")
 
 
 if __name__ == "__main__":

@@ -33,7 +33,13 @@ struct MapCommand {
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("MODEL", model, "file to read, or -")->required();
     app.add_option("-o,--output", file, "PLY file to write, with property quality and colours")
-        ->required();
+        ->required()
+        ->check([](const std::string& path) {
+          const std::string extension = std::filesystem::path(path).extension().string();
+          return path == "-" || extension == ".ply"
+                     ? std::string()
+                     : "the map's file must end in .ply, not '" + extension + "'";
+        });
     app.add_option(
            "--method", name,
            "kssm: significance; mesh-saliency, pmi-saliency: other measures' maps; thickness: "

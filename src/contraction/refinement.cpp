@@ -28,9 +28,16 @@ constexpr double kFineEdge = 0.03;
 /// is not enough.
 constexpr double kMostVertices = 20'000.0;
 constexpr double kCoarser = 1.25;  // factor on the edge length while that is exceeded
-/// Vertices that it may make of all components, about [ours]: the largest come first, and those for
-/// which no vertices are left stay as they are.
+/// Of several components those less long than this share of the longest are split to edges of
+/// kLongEdge. The edges of the others stay longer, alike, where these are more vertices, about: again
+/// up to kLongEdge of their diameters. [ours: trials in docs/lab]
+constexpr double kSmallPart = 0.25;
+constexpr double kLongEdge = 0.08;
+constexpr double kManyVertices = 30'000.0;
+/// Where that makes more vertices still, the smallest components stay as they are [ours].
 constexpr double kMostOfAll = 60'000.0;
+/// Faces that turn by more than this at their edge meet at a crease. [ours]
+constexpr double kCreaseCos = 0.94;  // of 20°
 
 constexpr double kNoBound = std::numeric_limits<double>::infinity();  // an edge length of no bound
 
@@ -45,9 +52,31 @@ struct CoarsePart {
   std::vector<std::uint32_t> faces{};
   double diameter = 0.0;
   double area = 0.0;
-  double edge = kNoBound;  ///< Down to which its edges are to be split.
-  double vertices = 0.0;   ///< That this makes, about.
+  double creases = 0.0;  ///< Length of its creases and borders.
+  bool is_coarse = false;
+  double edge = 0.0;  ///< Down to which its edges are to be split.
 };
+
+/// Measures the creases and borders of all parts.
+void measure_creases(const TriMesh& mesh, std::vector<CoarsePart>& parts) {
+  std::vector<std::uint32_t> part_of(mesh.triangles.size(), 0);
+  for (std::uint32_t p = 0; p < parts.size(); ++p) {
+    for (const std::uint32_t f : parts[p].faces) {
+      part_of[f] = p;
+    }
+  }
+  const EdgeTable table = build_edge_table(mesh);
+  for (std::size_t e = 0; e < table.edges.size(); ++e) {
+    const auto faces = table.faces_of_edge[e];
+    const auto normal = [&](std::size_t i) {
+      return area_vector(mesh, mesh.triangles[faces[i]]).normalized();
+    };
+    if (faces.size() != 2 || std::abs(normal(0).dot(normal(1))) < kCreaseCos) {
+      const auto [a, b] = table.edges[e];
+      parts[part_of[faces[0]]].creases += (mesh.positions[a] - mesh.positions[b]).norm();
+    }
+  }
+}
 
 std::vector<CoarsePart> parts_of(const TriMesh& mesh) {
   const Components components = connected_components(mesh);
@@ -79,22 +108,46 @@ bool is_coarse(const TriMesh& mesh, const CoarsePart& part) {
 }
 
 /// About the number of vertices that splitting the part down to `edge` makes: those of its area, and
-/// those along its sides, which long thin faces have more of.
-double estimated_vertices(const TriMesh& mesh, const CoarsePart& part, double edge) {
-  double count = 4.0 * part.area / (edge * edge);
-  for (const std::uint32_t f : part.faces) {
-    count += 2.0 * longest_edge(mesh, mesh.triangles[f]) / edge;
-  }
-  return count;
+/// those along its creases, which long thin parts have more of. It depends on the surface, not on how
+/// that is cut into triangles.
+double estimated_vertices(const CoarsePart& part, double edge) {
+  return 4.0 * part.area / (edge * edge) + 2.0 * part.creases / edge;
 }
 
 /// Chooses the length down to which the part's edges are split.
-void choose_edge(const TriMesh& mesh, CoarsePart& part) {
+void choose_edge(CoarsePart& part) {
   part.edge = kFineEdge * part.diameter;
-  part.vertices = estimated_vertices(mesh, part, part.edge);
-  while (part.edge < part.diameter && part.vertices > kMostVertices) {
+  while (part.edge < part.diameter && estimated_vertices(part, part.edge) > kMostVertices) {
     part.edge *= kCoarser;
-    part.vertices = estimated_vertices(mesh, part, part.edge);
+  }
+}
+
+/// Lengthens edges: those of small parts at once as far as a part may need no more, so that many take
+/// nothing from a large one; of the others all alike, until they make few enough vertices.
+void share_vertices(std::vector<CoarsePart>& parts) {
+  double largest = 0.0;
+  for (const CoarsePart& part : parts) {
+    largest = std::max(largest, part.diameter);
+  }
+  std::vector<CoarsePart*> others;
+  for (CoarsePart& part : parts) {
+    if (part.diameter < kSmallPart * largest) {
+      part.edge = std::max(part.edge, kLongEdge * part.diameter);
+    } else {
+      others.push_back(&part);
+    }
+  }
+  const auto vertices = [&] {
+    return std::accumulate(others.begin(), others.end(), 0.0,
+                           [](double sum, const CoarsePart* part) {
+                             return sum + estimated_vertices(*part, part->edge);
+                           });
+  };
+  for (double edge = kFineEdge; edge * kCoarser <= kLongEdge && vertices() > kManyVertices;
+       edge *= kCoarser) {
+    for (CoarsePart* part : others) {
+      part->edge *= kCoarser;
+    }
   }
 }
 
@@ -127,30 +180,38 @@ std::optional<TriMesh> refine_coarse_components(const TriMesh& mesh, const RunCo
   }
   const TriMesh unit = unit_size(mesh, sphere);
   std::vector<CoarsePart> parts = parts_of(unit);
+  for (CoarsePart& part : parts) {
+    part.is_coarse = is_coarse(unit, part);
+  }
+  if (std::none_of(parts.begin(), parts.end(), [](const auto& part) { return part.is_coarse; })) {
+    return std::nullopt;
+  }
+  measure_creases(unit, parts);
+  std::for_each(parts.begin(), parts.end(), choose_edge);
+  share_vertices(parts);
   std::vector<double> longest(mesh.triangles.size(), kNoBound);
   double vertices = 0.0;
   for (const std::size_t p : largest_first(parts)) {
-    CoarsePart& part = parts[p];
-    if (!is_coarse(unit, part)) {
-      continue;
+    const CoarsePart& part = parts[p];
+    vertices += estimated_vertices(part, part.edge);
+    if (vertices > kMostOfAll) {
+      break;
     }
-    choose_edge(unit, part);
-    if (vertices + part.vertices <= kMostOfAll) {
-      vertices += part.vertices;
+    if (part.is_coarse) {
       for (const std::uint32_t f : part.faces) {
         longest[f] = part.edge * sphere.diameter;
       }
     }
   }
-  return vertices > 0.0 ? std::optional(split_long_edges(mesh, std::move(longest), run))
-                        : std::nullopt;
+  return split_long_edges(mesh, std::move(longest), run);
 }
 
 TriMesh refine_whole(const TriMesh& scaled, const RunContext& run) {
   std::vector<CoarsePart> parts = parts_of(scaled);
+  measure_creases(scaled, parts);
   std::vector<double> longest(scaled.triangles.size(), kNoBound);
   for (CoarsePart& part : parts) {
-    choose_edge(scaled, part);
+    choose_edge(part);
     for (const std::uint32_t f : part.faces) {
       longest[f] = part.edge;
     }

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "vantage/mesh/measures.h"
 #include "vantage/pipeline/measured_shape.h"
 
 #include "core/random.h"
@@ -23,8 +24,9 @@ namespace {
 constexpr double kCurve = 0.1;
 /// From here on it is not quite one, which is a reason to look at its map again. [ours]
 constexpr double kNearlyCurve = 0.04;
-/// What of the vertices may belong to such components. [ours]
-constexpr double kFewVertices = 0.05;
+/// What of the surface and of its significance such components may hold: more, and the views hang on
+/// them. [ours]
+constexpr double kMinorShare = 0.25;
 /// SPEC: of the skeleton's length at most 2 % is outside on any model.
 constexpr double kMostOutside = 0.02;
 /// SPEC: maps of one surface agree to 0.85 on all models.
@@ -47,23 +49,64 @@ void move_vertices(TriMesh& mesh, double distance) {
   }
 }
 
-void look_at_contraction(const ShapeAnalysis& shape, std::vector<std::string>& doubts) {
+/// The share of each component in what all faces hold, of a cloud in what all vertices do.
+template <class Amount>
+std::vector<double> component_shares(const ShapeAnalysis& shape, std::size_t count,
+                                     const Amount& amount_of) {
+  std::vector<double> shares(shape.history.components.size(), 0.0);
   double all = 0.0;
-  double thick = 0.0;
-  double left = 0.0;
-  for (const ComponentContraction& component : shape.history.components) {
-    const auto vertices = static_cast<double>(component.vertices);
-    const bool has_failed = component.stop == ContractionStop::SolverFailed;
-    all += vertices;
-    // Of clouds a_t is no area, and stays large where they have become curves.
-    if ((!shape.cloud && component.shrinkage > kCurve) || has_failed) {
-      thick += vertices;
-      left += vertices * component.shrinkage;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [vertex, amount] = amount_of(i);
+    const std::uint32_t component = shape.history.component_of_vertex[vertex];
+    if (component != ContractionHistory::kIsolated) {
+      shares[component] += amount;
+      all += amount;
     }
   }
-  if (thick > kFewVertices * all) {
-    doubts.push_back("the surface could not be contracted to a curve (of " +
-                     in_percent(thick / all) + " of its vertices, " + in_percent(left / thick) +
+  for (double& share : shares) {
+    share = all > 0.0 ? share / all : 0.0;
+  }
+  return shares;
+}
+
+std::vector<double> shares_of_surface(const ShapeAnalysis& shape) {
+  using Part = std::pair<std::size_t, double>;
+  if (shape.cloud) {
+    return component_shares(shape, shape.surface.positions.size(),
+                            [](std::size_t v) { return Part(v, 1.0); });
+  }
+  return component_shares(shape, shape.surface.triangles.size(), [&](std::size_t f) {
+    const Triangle& t = shape.surface.triangles[f];
+    return Part(t[0], area_vector(shape.surface, t).norm());
+  });
+}
+
+std::vector<double> shares_of_significance(const ShapeAnalysis& shape) {
+  return component_shares(shape, shape.map.of_vertex.size(), [&](std::size_t v) {
+    return std::pair<std::size_t, double>(v, shape.map.of_vertex[v]);
+  });
+}
+
+void look_at_contraction(const ShapeAnalysis& shape, std::vector<std::string>& doubts) {
+  const std::vector<double> surface = shares_of_surface(shape);
+  const std::vector<double> significance = shares_of_significance(shape);
+  double thick = 0.0;
+  double significant = 0.0;
+  double left = 0.0;
+  for (std::size_t c = 0; c < shape.history.components.size(); ++c) {
+    const ComponentContraction& component = shape.history.components[c];
+    const bool has_failed = component.stop == ContractionStop::SolverFailed;
+    // Of clouds a_t is no area, and stays large where they have become curves.
+    if ((!shape.cloud && component.shrinkage > kCurve) || has_failed) {
+      thick += surface[c];
+      significant += significance[c];
+      left += surface[c] * component.shrinkage;
+    }
+  }
+  if (std::max(thick, significant) > kMinorShare) {
+    doubts.push_back("the surface could not be contracted to a curve (of parts with " +
+                     in_percent(thick) + " of it and " + in_percent(significant) +
+                     " of the significance, " + in_percent(left / thick) +
                      " of the area is left), so that map, skeleton and views are hardly more than "
                      "a guess: mend the mesh, cut it into small even triangles, or choose another "
                      "--method");

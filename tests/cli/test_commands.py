@@ -129,6 +129,12 @@ class Map(ProgramTest):
         self.assertGreater(ordered[-1]["red"], ordered[-1]["blue"])
         self.assertGreater(ordered[0]["blue"], ordered[0]["red"])
 
+    def test_other_endings_than_ply_are_wrong_usage(self):
+        for name in ("map.json", "map.csv", "map"):
+            done = self.vantage("map", MODELS / "fan.ply", "-o", name, exit_code=2)
+            self.assertIn("must end in .ply", done.err)
+            self.assertFalse((self.dir / name).exists())
+
     def test_every_choice_of_method_gives_another_map(self):
         maps = set()
         choices = ((), ("--suppression", "local-maxima"), ("--kinematics", "velocity"), ("--graph", "finished"),

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/self_check.h"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/model_of.h"
+#include "support/shapes.h"
+
+namespace vantage::test {
+namespace {
+
+/// A sphere of radius 1 and one of radius `small` beside it.
+TriMesh two_spheres(double small) {
+  TriMesh mesh = sphere(3);
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  const TriMesh other = sphere(3);
+  for (const Vec3& p : other.positions) {
+    mesh.positions.emplace_back(small * p + Vec3(3.0, 0.0, 0.0));
+  }
+  for (const Triangle& t : other.triangles) {
+    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  return mesh;
+}
+
+TEST(DoubtsAbout, PartsThatDidNotBecomeCurvesHangOnHowLargeTheyAre) {
+  ViewOptions options;
+  options.search = {.strategy = SearchStrategy::Exhaustive, .subdivisions = 1};
+  // As many vertices in both: what counts is how large a part is, not how finely it is cut.
+  const ShapeAnalysis shape = analyse_shape(model_of(two_spheres(0.4)), options);
+  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  const auto doubts_where_left = [&](std::size_t vertex, double shrinkage) {
+    ShapeAnalysis other = shape;
+    other.views.reset();  // so that only the contraction is looked at
+    const std::uint32_t component = other.history.component_of_vertex[vertex];
+    other.history.components[component].shrinkage = shrinkage;
+    return doubts_about(other, report, options, {});
+  };
+  const std::size_t of_the_small = shape.surface.positions.size() - 1;
+  EXPECT_TRUE(doubts_where_left(0, 0.01).empty());
+  EXPECT_TRUE(doubts_where_left(of_the_small, 0.5).empty());
+  const std::vector<std::string> doubts = doubts_where_left(0, 0.5);
+  ASSERT_EQ(doubts.size(), 1U);
+  // 1 / (1 + 0.4²) of the area.
+  EXPECT_NE(doubts[0].find("of parts with 86 % of it and "), std::string::npos) << doubts[0];
+  EXPECT_NE(doubts[0].find(", 50 % of the area is left)"), std::string::npos) << doubts[0];
+}
+
+}  // namespace
+}  // namespace vantage::test
