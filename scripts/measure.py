@@ -13,6 +13,7 @@
                                           computed anew, and to the best view
     measure.py thumb  PROGRAM MODEL...    thumbnails: seconds, and their view against the best one
     measure.py pictures PROGRAM MODEL...  seconds of whole commands that draw, medians of three
+    measure.py methods PROGRAM MODEL...   `view --method`, pictures and all, of every measure: seconds and exact scores
     measure.py broken PROGRAM FOLDER      how every file of a folder ends, under limits
 
 Only ratios of one run mean something on a shared machine.
@@ -275,6 +276,18 @@ def pictures_table(program, models):
             print(f"| {pathlib.Path(model).stem} |", " | ".join(cells), "|", flush=True)
 
 
+def methods_table(program, models):
+    print("| model | measure | looks at | wall s | CPU s | exact scores, best + worst |\n" + "| --- " * 6 + "|")
+    with tempfile.TemporaryDirectory() as folder:
+        for model in models:
+            for measure in run(program, "measures", "--json"):
+                name = measure["name"]
+                wall, cpu, said = timed(program, "view", model, "--method", name, "-o", f"{folder}/{name}", "--json")
+                search = json.loads(said)["search"]
+                print(f"| {pathlib.Path(model).stem} | `{name}` | {measure['cost']} | {wall:.2f} | {cpu:.2f} "
+                      f"| {search['evaluations']} + {search['worst_evaluations']} |", flush=True)
+
+
 def thumb_table(program, models):
     """The view of a thumbnail: its objective under the whole method's own map against the best one's."""
     print("| model | vertices | wall s | CPU s | up as in view | objective / the best | angle to the best |")
@@ -362,7 +375,8 @@ def broken_table(program, folder):
 def main():
     tables = {"view": view_table, "rapid": rapid_table, "missed": missed_table,
               "global": global_table, "smooth": smooth_table,
-              "tessellation": tessellation_table, "thumb": thumb_table, "pictures": pictures_table}
+              "tessellation": tessellation_table, "thumb": thumb_table, "pictures": pictures_table,
+              "methods": methods_table}
     if len(sys.argv) >= 4 and sys.argv[1] in tables:
         tables[sys.argv[1]](sys.argv[2], sys.argv[3:])
     elif len(sys.argv) == 4 and sys.argv[1] == "broken":
