@@ -56,23 +56,14 @@ class Survey {
   /// All that was scored.
   [[nodiscard]] const std::vector<Candidate>& scored() const { return scored_; }
 
-  /// Scores both ways along the axes: things with flat sides have peaks and pits there. Then the
-  /// most promising of the first, unless a search before this one has taught the estimates.
-  void begin() {
+  /// Scores both ways along the axes: things with flat sides have peaks and pits there.
+  void score_axes() {
     std::vector<Vec3> axes;
     for (Eigen::Index k = 0; k < 3; ++k) {
       axes.emplace_back(Vec3::Unit(k));
       axes.emplace_back(-Vec3::Unit(k));
     }
-    const std::vector<Vec3> known = target_.known();
-    if (known.empty()) {
-      score(axes);
-      score_promising(kFirstScores, kFirstScores / 2);
-    } else {
-      score(known);
-      correct();
-      score_promising(kBatch, kBatch / 2);
-    }
+    score(axes);
   }
 
   /// Scores the highest peaks of the corrected estimates, then the highest of them, apart from each
@@ -171,7 +162,8 @@ Candidate search_globally(const SearchTarget& target, const RunContext& run) {
   const SearchTarget cheapest = target.has_proxy() ? target.by_proxy() : target;
   const double first_rad = half_spacing_rad(target.objective().survey_level);
   Survey survey(cheapest, 1.5 * first_rad, run.part(0.0, kSurveyShare));
-  survey.begin();
+  survey.score_axes();
+  survey.score_promising(kFirstScores, kFirstScores / 2);
   for (std::size_t batch = 0; batch < kBatches; ++batch) {
     survey.score_promising(kBatch, kBatch / 4);
   }

@@ -42,17 +42,6 @@ class SearchTarget {
     return values_of(directions, exact_->scores(directions, 0, run));
   }
 
-  /// Directions that a search before this one scored, outside of its ascents.
-  [[nodiscard]] std::vector<Vec3> known() const {
-    std::vector<Vec3> directions;
-    for (const SearchStep& step : exact_->trace()) {
-      if (step.level == 0) {
-        directions.push_back(step.direction);
-      }
-    }
-    return directions;
-  }
-
   /// What the surrogate makes of them.
   [[nodiscard]] std::vector<double> estimates(const std::vector<Vec3>& directions,
                                               const RunContext& run) const {
@@ -64,8 +53,8 @@ class SearchTarget {
 
   /// Of the global search's rings.
   [[nodiscard]] double finest_deg() const {
-    return goal_ != Goal::Worst && objective_->preference ? objective_->finest_preferred_deg
-                                                          : objective_->finest_deg;
+    return goal_ == Goal::Best && objective_->preference ? objective_->finest_preferred_deg
+                                                         : objective_->finest_deg;
   }
 
   [[nodiscard]] const ViewObjective& objective() const { return *objective_; }
