@@ -88,6 +88,9 @@ std::vector<double> shares_of_significance(const ShapeAnalysis& shape) {
 }
 
 void look_at_contraction(const ShapeAnalysis& shape, std::vector<std::string>& doubts) {
+  if (shape.history.components.empty()) {
+    return;  // maps of other measures need no contraction
+  }
   const std::vector<double> surface = shares_of_surface(shape);
   const std::vector<double> significance = shares_of_significance(shape);
   double thick = 0.0;

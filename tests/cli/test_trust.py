@@ -8,13 +8,25 @@ import unittest
 from program import MODELS, ProgramTest
 
 FAST = ("--search", "rapid", "--size", "64")
-# Thin blades: whether a level of the map counts is decided by how they are cut into triangles.
-DOUBTED = MODELS / "fan.ply"
+DOUBTED = "table.off"
 
 
 def needle():
     """A tetrahedron a ten-millionth as thick as it is long."""
     return "OFF\n4 4 0\n0 0 0\n1 0 0\n0.5 1e-7 0\n0.5 0 1e-7\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n"
+
+
+def table():
+    """A thin plate on four thin legs: what of its map counts is decided by how they are cut into triangles."""
+    corners, faces = [], []
+    for x, y, z, a, b, c in ((0, 0, 0, 1, 1, 0.02), *((x, y, -0.7, 0.05, 0.05, 0.7) for x in (0.05, 0.9) for y in (0.05, 0.9))):
+        first = len(corners)
+        corners += [(x + i * a, y + j * b, z + k * c) for i in (0, 1) for j in (0, 1) for k in (0, 1)]
+        quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+        faces += [[first + i for i in quad] for quad in quads]
+    lines = [f"OFF\n{len(corners)} {len(faces)} 0", *(f"{x} {y} {z}" for x, y, z in corners),
+             *("4 " + " ".join(map(str, face)) for face in faces)]
+    return "\n".join(lines) + "\n"
 
 
 class Doubts(ProgramTest):
@@ -39,15 +51,17 @@ class Doubts(ProgramTest):
         self.assertEqual(self.view("tube.xyz", "--no-images")[1]["doubts"], [])
 
     def test_a_map_that_hangs_on_the_mesh_is(self):
+        self.write(DOUBTED, table())
         _, report = self.view(DOUBTED, "--no-images")
         self.assertRegex(report["doubts"][0], "hangs on how the surface is cut into triangles.* --method")
         files = {p.name: p.read_bytes() for p in (self.dir / "out").iterdir() if p.name != "timings.json"}
         done, _ = self.view(DOUBTED, "--no-images", "--strict", exit_code=1)
         self.assertEqual(done.err.strip().splitlines()[-1],
-                         f"vantage: fan: {report['doubts'][0]} (--strict)")
+                         f"vantage: table: {report['doubts'][0]} (--strict)")
         self.assertEqual(files, {p.name: p.read_bytes() for p in (self.dir / "out").iterdir() if p.name != "timings.json"})
 
     def test_other_methods_do_not_answer_for_the_map(self):
+        self.write(DOUBTED, table())
         _, report = self.view(DOUBTED, "--no-images", "--method", "viewpoint-entropy", "--strict")
         self.assertEqual(report["doubts"], [])
 

@@ -60,6 +60,7 @@ class Splitter {
       split_.surface.positions.emplace_back(
           0.5 * (shape_.surface.positions[a] + shape_.surface.positions[b]));
       split_.map.of_vertex.push_back(0.5 * (shape_.map.of_vertex[a] + shape_.map.of_vertex[b]));
+      split_.history.component_of_vertex.push_back(shape_.history.component_of_vertex[a]);
     }
   }
 
