@@ -28,12 +28,12 @@ constexpr double kFineEdge = 0.03;
 /// is not enough.
 constexpr double kMostVertices = 20'000.0;
 constexpr double kCoarser = 1.25;  // factor on the edge length while that is exceeded
-/// Of several components those less long than this share of the longest are split to edges of
-/// kLongEdge. The edges of the others stay longer, alike, where these are more vertices, about: again
-/// up to kLongEdge of their diameters. [ours: trials in docs/lab]
+/// Vertices that it may make of all components, about: where these are more, those less long than a
+/// share of the longest are split to edges of kLongEdge only, and the edges of the others stay longer,
+/// alike: again up to kLongEdge of their diameters. [ours: trials in docs/lab]
+constexpr double kManyVertices = 30'000.0;
 constexpr double kSmallPart = 0.25;
 constexpr double kLongEdge = 0.08;
-constexpr double kManyVertices = 30'000.0;
 /// Where that makes more vertices still, the smallest components stay as they are [ours].
 constexpr double kMostOfAll = 60'000.0;
 /// Faces that turn by more than this at their edge meet at a crease. [ours]
@@ -111,7 +111,7 @@ bool is_coarse(const TriMesh& mesh, const CoarsePart& part) {
 /// those along its creases, which long thin parts have more of. It depends on the surface, not on how
 /// that is cut into triangles.
 double estimated_vertices(const CoarsePart& part, double edge) {
-  return 4.0 * part.area / (edge * edge) + 2.0 * part.creases / edge;
+  return edge > 0.0 ? 4.0 * part.area / (edge * edge) + 2.0 * part.creases / edge : 0.0;
 }
 
 /// Chooses the length down to which the part's edges are split.
@@ -122,28 +122,34 @@ void choose_edge(CoarsePart& part) {
   }
 }
 
-/// Lengthens edges: those of small parts at once as far as a part may need no more, so that many take
-/// nothing from a large one; of the others all alike, until they make few enough vertices.
+double estimated_vertices(const std::vector<CoarsePart*>& parts) {
+  return std::accumulate(parts.begin(), parts.end(), 0.0, [](double sum, const CoarsePart* part) {
+    return sum + estimated_vertices(*part, part->edge);
+  });
+}
+
+/// Where the parts make too many vertices, lengthens edges: those of small parts at once as far as a
+/// part may need no more, so that many take nothing from a large one; of the others all alike.
 void share_vertices(std::vector<CoarsePart>& parts) {
   double largest = 0.0;
-  for (const CoarsePart& part : parts) {
+  std::vector<CoarsePart*> all;
+  for (CoarsePart& part : parts) {
     largest = std::max(largest, part.diameter);
+    all.push_back(&part);
+  }
+  if (estimated_vertices(all) <= kManyVertices) {
+    return;
   }
   std::vector<CoarsePart*> others;
-  for (CoarsePart& part : parts) {
-    if (part.diameter < kSmallPart * largest) {
-      part.edge = std::max(part.edge, kLongEdge * part.diameter);
+  for (CoarsePart* part : all) {
+    if (part->diameter < kSmallPart * largest) {
+      part->edge = std::max(part->edge, kLongEdge * part->diameter);
     } else {
-      others.push_back(&part);
+      others.push_back(part);
     }
   }
-  const auto vertices = [&] {
-    return std::accumulate(others.begin(), others.end(), 0.0,
-                           [](double sum, const CoarsePart* part) {
-                             return sum + estimated_vertices(*part, part->edge);
-                           });
-  };
-  for (double edge = kFineEdge; edge * kCoarser <= kLongEdge && vertices() > kManyVertices;
+  for (double edge = kFineEdge;
+       edge * kCoarser <= kLongEdge && estimated_vertices(others) > kManyVertices;
        edge *= kCoarser) {
     for (CoarsePart* part : others) {
       part->edge *= kCoarser;
