@@ -5,7 +5,6 @@ import math
 import unittest
 
 from program import MODELS, ProgramTest, read_ply
-from program import contract_quickly as setUpModule
 
 
 class Skeleton(ProgramTest):

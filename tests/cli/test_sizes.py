@@ -5,7 +5,6 @@ import unittest
 
 from png import read_png
 from program import MODELS, ProgramTest
-from program import contract_quickly as setUpModule
 from shapes import box
 
 FAST = ("--search", "rapid", "--no-report", "-q", "--force")
