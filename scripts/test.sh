@@ -6,4 +6,7 @@ cd "$(dirname "$0")/.."
 scripts/install_dependencies.sh test
 cmake --preset release -DVANTAGE_BUILD_BENCH=OFF -DVANTAGE_QUICK_BUILD=ON >/dev/null
 cmake --build --preset release -j "$(nproc)"
-ctest --preset release -j "$(($(nproc) + 1))"  # the tests of Slurm mostly wait
+code=0
+ctest --preset release -j "$(($(nproc) + 1))" || code=$?  # the tests of Slurm mostly wait
+scripts/count_tests.py build/release
+exit $code

@@ -11,6 +11,7 @@ import unittest
 import zipfile
 
 from program import PROGRAM, ProgramTest
+from program import contract_quickly as setUpModule
 from shapes import box
 
 FAST = ["--search", "rapid", "--write", "json", "--jobs", "2"]

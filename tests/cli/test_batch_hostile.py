@@ -12,6 +12,7 @@ import unittest
 
 from hostile import FAST, HostileTest
 from program import PROGRAM
+from program import contract_quickly as setUpModule
 from shapes import box
 
 

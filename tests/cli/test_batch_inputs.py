@@ -15,6 +15,7 @@ import zipfile
 
 from hostile import FAST, TRIANGLE, gltf, HostileTest
 from program import PROGRAM
+from program import contract_quickly as setUpModule
 from shapes import box
 
 

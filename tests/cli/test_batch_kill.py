@@ -14,6 +14,7 @@ import time
 import unittest
 
 from program import PROGRAM, ProgramTest
+from program import contract_quickly as setUpModule
 from shapes import box
 
 KILLS = int(os.environ.get("VANTAGE_KILLS", "16"))

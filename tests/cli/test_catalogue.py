@@ -9,6 +9,7 @@ import unittest
 import zipfile
 
 from program import ProgramTest
+from program import contract_quickly as setUpModule
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 PYTHON = "/usr/bin/python3"  # python3-numpy and python3-pil are packages of that one

@@ -9,6 +9,7 @@ import time
 import unittest
 
 from program import MODELS, PROGRAM, ProgramTest
+from program import contract_quickly as setUpModule
 from shapes import box
 
 CUBE = ("OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"

@@ -14,6 +14,7 @@ import urllib.request
 
 import faults
 from program import PROGRAM, ProgramTest
+from program import contract_quickly as setUpModule
 from shapes import box, write_fault_models
 
 MOST = int(os.environ.get("VANTAGE_FAULTS", "2"))
@@ -89,7 +90,8 @@ class Time(ProgramTest):
         for i in range(8):
             self.write(f"m{i}.off", box(1 + i / 10))
         self.names = [f"m{i}.off" for i in range(8)]
-        self.run_words = ("--search", "rapid", "--size", "48", "--jobs", "2", "-q")
+        # Long enough for something to happen meanwhile.
+        self.run_words = ("--search", "rapid", "--size", "48", "--jobs", "2", "--contraction", "auto", "-q")
 
     def export(self, folder):
         return self.vantage("results", "export", folder, "--format", "jsonl").out

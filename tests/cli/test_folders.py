@@ -9,6 +9,7 @@ import subprocess
 import unittest
 
 from program import PROGRAM, ProgramTest
+from program import contract_quickly as setUpModule
 from shapes import box
 
 FAST = ("--search", "rapid", "--size", "48")

@@ -11,6 +11,7 @@ import tarfile
 import unittest
 
 from program import MODELS, PROGRAM, ProgramTest
+from program import contract_quickly as setUpModule
 
 WORKFLOW = MODELS.parent / "examples/github-actions/thumbnails.yml"
 NO_COMMIT = "0" * 40

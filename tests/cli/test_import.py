@@ -10,6 +10,7 @@ import unittest
 
 import program
 from program import PROGRAM, ProgramTest
+from program import contract_quickly as setUpModule
 
 DATA = pathlib.Path(__file__).resolve().parents[1] / "data/import"
 IMPORT = pathlib.Path(PROGRAM).parent / "vantage-import"

@@ -9,6 +9,7 @@ import zlib
 
 from png import read_png
 from program import ProgramTest, read_ply
+from program import contract_quickly as setUpModule
 from shapes import box
 
 SMALL = ("--size", "48")

@@ -8,6 +8,7 @@ import subprocess
 import unittest
 
 from program import MODELS, PROGRAM, ProgramTest, read_ply
+from program import contract_quickly as setUpModule
 from shapes import angle_bar, box
 
 FAN = MODELS / "fan.ply"

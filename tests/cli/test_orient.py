@@ -6,6 +6,7 @@ import struct
 import unittest
 
 from program import MODELS, ProgramTest
+from program import contract_quickly as setUpModule
 
 # A chair that stands on y = 0 and faces +z: boxes as low and high corners.
 CHAIR = [((0, .9, 0), (1, 1, 1)), ((0, 1, 0), (1, 2, .1)), ((0, 0, 0), (.1, .9, .1)), ((.9, 0, 0), (1, .9, .1)),

@@ -7,6 +7,7 @@ import subprocess
 import unittest
 
 from program import MODELS, PROGRAM, ProgramTest
+from program import contract_quickly as setUpModule
 from shapes import box
 
 FAST = ("--search", "rapid")
@@ -150,7 +151,7 @@ class Leftovers(ProgramTest):
         except OSError as error:
             self.skipTest(f"LOUD: no files without a name in {self.dir}: {error}")
         self.write("a.off", box(1.0))
-        command = [PROGRAM, "thumb", "a.off", "t.png", "-s", "2048"]
+        command = [PROGRAM, "thumb", "a.off", "t.png", "-s", "1024", "--quality", "draft"]
         for _ in range(8):
             process = subprocess.Popen(command, cwd=self.dir)
             fds = pathlib.Path(f"/proc/{process.pid}/fd")

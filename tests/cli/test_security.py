@@ -16,6 +16,7 @@ import unittest
 import zipfile
 
 from program import MODELS, PROGRAM, ProgramTest
+from program import contract_quickly as setUpModule
 from shapes import box
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]

@@ -7,6 +7,7 @@ import subprocess
 import unittest
 
 from program import MODELS, PROGRAM, ProgramTest
+from program import contract_quickly as setUpModule
 from shapes import box
 
 FAN = MODELS / "fan.ply"

@@ -5,6 +5,7 @@ import sqlite3
 import unittest
 
 from program import ProgramTest
+from program import contract_quickly as setUpModule
 from shapes import box
 
 

@@ -5,6 +5,7 @@ import struct
 import unittest
 
 from program import MODELS, ProgramTest
+from program import contract_quickly as setUpModule
 from shapes import angle_bar
 
 FAN = MODELS / "fan.ply"

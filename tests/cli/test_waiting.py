@@ -7,6 +7,7 @@ import time
 import unittest
 
 from program import PROGRAM, ProgramTest
+from program import contract_quickly as setUpModule
 from shapes import box
 
 

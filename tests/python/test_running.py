@@ -130,12 +130,12 @@ def test_one_analysis_serves_many_threads():
     assert all(np.array_equal(scores, alone) for scores in found)
 
 
-@pytest.mark.parametrize("threads", [1, 2, 3, 8])
-def test_bytes_do_not_depend_on_the_number_of_threads(cat, threads):
+def test_bytes_do_not_depend_on_the_number_of_threads(cat):
     expected = vantage.kssm(cat, levels=True)
-    result = vantage.kssm(cat, levels=True, threads=threads)
-    assert result.of_vertex.tobytes() == expected.of_vertex.tobytes()
-    assert result.displacement.tobytes() == expected.displacement.tobytes()
+    for threads in (1, 2, 3, 8):
+        result = vantage.kssm(cat, levels=True, threads=threads)
+        assert result.of_vertex.tobytes() == expected.of_vertex.tobytes(), threads
+        assert result.displacement.tobytes() == expected.displacement.tobytes(), threads
 
 
 def test_an_analysis_answers_as_the_model_does(fan):
@@ -215,10 +215,11 @@ def test_results_can_be_pickled(cat):
 
 
 @pytest.mark.parametrize("call", [
-    lambda: vantage.kssm(*SMALL, levels=True), lambda: vantage.skeleton(*SMALL, levels=True),
+    lambda: vantage.kssm(*SMALL, levels=True, contraction="exact"),
+    lambda: vantage.skeleton(*SMALL, levels=True, contraction="exact"),
     lambda: vantage.visible_vertices(*SMALL, sphere=0), lambda: vantage.Model(*SMALL).vertices,
     lambda: vantage.render(*SMALL, direction=(0, 0, 1), size=8, quality="draft"),
-    lambda: vantage.best_view(*SMALL, search="exhaustive", subdivisions=0),
+    lambda: vantage.best_view(*SMALL, search="exhaustive", subdivisions=0, contraction="exact"),
     lambda: pytest.raises(vantage.InvalidInput, vantage.kssm, SMALL[0], SMALL[1] + 1),
 ], ids=["kssm", "skeleton", "visible_vertices", "Model", "render", "best_view", "error"])
 def test_a_hundred_calls_leave_nothing_behind(call):

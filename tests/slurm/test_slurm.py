@@ -17,7 +17,7 @@ import cluster
 
 VANTAGE = os.environ["VANTAGE"]
 # Fast, so that a test is about Slurm; a shard of the slow kind takes long enough to be disturbed.
-FAST = ["--search", "rapid", "--write", "camera"]
+FAST = ["--search", "rapid", "--contraction", "exact", "--write", "camera"]
 SLOW = ["--search", "exhaustive", "--subdivisions", "4", "--write", "camera"]
 DENSE = ["--search", "exhaustive", "--subdivisions", "5", "--write", "camera"]
 

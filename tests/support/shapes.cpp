@@ -303,6 +303,21 @@ TriMesh y_of_tubes(double radius, int cells) {
   return MarchingTetrahedra(cells, -reach, reach, radius).mesh;
 }
 
+TriMesh sphere_with_caps(double height) {
+  TriMesh mesh = sphere(4);
+  const std::size_t faces = mesh.triangles.size();
+  for (std::size_t f = 0; f < faces; f += 7) {
+    const auto [a, b, c] = mesh.triangles[f];
+    const auto tip = static_cast<std::uint32_t>(mesh.positions.size());
+    const Vec3 middle = 0.5 * (mesh.positions[a] + mesh.positions[b]);
+    mesh.positions.emplace_back(middle + height * (mesh.positions[c] - middle));
+    mesh.triangles[f] = {a, b, tip};
+    mesh.triangles.push_back({b, c, tip});
+    mesh.triangles.push_back({c, a, tip});
+  }
+  return mesh;
+}
+
 TriMesh sheet(double x, double y, int cells) {
   TriMesh mesh;
   for (int j = 0; j <= cells; ++j) {

@@ -28,6 +28,11 @@ TriMesh open_cylinder(double radius, double height, int around, int along);
 /// \param cells resolution over the shape's extent.
 TriMesh y_of_tubes(double radius, int cells);
 
+/// A sphere in every seventh face of which a vertex lies `height` of the face's height from a side:
+/// angles of almost 180°, whose cotangents of −1/height push instead of pull. Its edges are too short
+/// for it to be refined first.
+TriMesh sphere_with_caps(double height);
+
 /// Flat rectangle [0,x]×[0,y] in the plane z = 0, facing +z, cells × cells quads.
 TriMesh sheet(double x, double y, int cells);
 

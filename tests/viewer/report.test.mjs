@@ -59,7 +59,7 @@ function texturedReport() {
   fs.writeFileSync(path.join(folder, 'box.obj'), ['mtllib box.mtl', ...corners.map((p) => `v ${p.join(' ')}`),
     'vt 0 0', 'vt 1 0', 'vt 1 1', 'vt 0 1', 'usemtl two',
     ...sides.map((side) => `f ${side.map((v, k) => `${v}/${k + 1}`).join(' ')}`), ''].join('\n'));
-  vantage('view', 'box.obj', '-o', path.join(folder, 'box'), '--search', 'rapid');
+  vantage('view', 'box.obj', '-o', path.join(folder, 'box'), '--search', 'rapid', '--contraction', 'exact');
   return path.join(folder, 'box', 'report.html');
 }
 

@@ -78,29 +78,14 @@ std::vector<double> score_fractions(const Painted& shape, const std::vector<Vec3
   return scores;
 }
 
-class SplittingHalfOfAModel : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    const Painted coarse = painted_torus();
-    before = score_fractions(coarse, directions());
-    after = score_fractions(split_half(split_half(coarse)), directions());
-  }
-
-  static std::vector<Vec3> directions() {
-    return direction_set(ViewSphereBase::Icosahedron, 3).directions;
-  }
-
-  static inline std::vector<double> before{};
-  static inline std::vector<double> after{};
-};
-
-TEST_F(SplittingHalfOfAModel, MovesNoScoreByAHundredth) {
+TEST(SplittingHalfOfAModel, MovesNoScoreByAHundredthAndLeavesTheBestViewWhereItIs) {
+  const std::vector<Vec3> directions = direction_set(ViewSphereBase::Icosahedron, 3).directions;
+  const Painted coarse = painted_torus();
+  const std::vector<double> before = score_fractions(coarse, directions);
+  const std::vector<double> after = score_fractions(split_half(split_half(coarse)), directions);
   for (std::size_t i = 0; i < before.size(); ++i) {
     EXPECT_NEAR(after[i], before[i], 0.01 * before[i]);
   }
-}
-
-TEST_F(SplittingHalfOfAModel, LeavesTheBestViewWhereItIs) {
   const auto best = [](const std::vector<double>& scores) {
     return std::max_element(scores.begin(), scores.end()) - scores.begin();
   };

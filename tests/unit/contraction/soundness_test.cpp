@@ -3,15 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "vantage/contraction/contraction.h"
-
-#include "support/named_mesh.h"
 #include "support/shapes.h"
 
 namespace vantage {
 namespace {
-
-using test::NamedMesh;
 
 /// The mesh with its positions scaled along each axis.
 TriMesh scaled(TriMesh mesh, const Vec3& factors) {
@@ -64,48 +59,6 @@ TEST(Soundness, RefusesAVertexThatFliesOff) {
   torn.positions[0] = 3.0 * ball.positions[0];
   EXPECT_EQ(Soundness(ball).flaw(ball, torn.positions, 1.0, 0.9, true), StepFlaw::Grew);
 }
-
-/// A box of long needles, as CAD programs write them: each side is a fan from one of its corners.
-TriMesh fanned_box() {
-  TriMesh mesh = test::box(2.0, 1.0, 0.5, 1);
-  TriMesh fans{.positions = mesh.positions, .triangles = {}};
-  for (const Triangle& t : mesh.triangles) {
-    std::uint32_t previous = t[1];
-    for (int k = 1; k <= 8; ++k) {
-      std::uint32_t next = t[2];
-      if (k < 8) {
-        next = static_cast<std::uint32_t>(fans.positions.size());
-        fans.positions.emplace_back(mesh.positions[t[1]] +
-                                    k / 8.0 * (mesh.positions[t[2]] - mesh.positions[t[1]]));
-      }
-      fans.triangles.push_back({t[0], previous, next});
-      previous = next;
-    }
-  }
-  return fans;
-}
-
-std::vector<NamedMesh> sound_surfaces() {
-  return {{"Cube", test::box(1, 1, 1, 1)},       {"CoarseBox", test::box(1, 0.5, 0.25, 2)},
-          {"FannedBox", fanned_box()},           {"CoarseTorus", test::torus(1.0, 0.3, 12, 5)},
-          {"CoarseY", test::y_of_tubes(0.3, 6)}, {"Plate", test::box(1.0, 1.0, 0.02, 6)},
-          {"Sheet", test::sheet(1.0, 0.5, 5)},   {"FineSphere", test::sphere(5)}};
-}
-
-class SoundContraction : public ::testing::TestWithParam<NamedMesh> {};
-
-TEST_P(SoundContraction, NeverEnlargesTheSurface) {
-  for (const ContractionMethod method : {ContractionMethod::Auto, ContractionMethod::Exact}) {
-    const ContractionHistory history = contract(GetParam().mesh, {.method = method});
-    ASSERT_GE(history.level_count(), 1U);
-    for (std::size_t level = 1; level < history.shrinkage.size(); ++level) {
-      EXPECT_LE(history.shrinkage[level], history.shrinkage[level - 1] + 1e-9) << level;
-    }
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Surfaces, SoundContraction, ::testing::ValuesIn(sound_surfaces()),
-                         [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
 }  // namespace vantage

@@ -158,8 +158,8 @@ TEST(TriangulatePolygon, AlwaysGivesTwoTrianglesFewerThanCorners) {
   EXPECT_EQ(triangulated(tangle).triangles.size(), 298U);
 }
 
-TEST(TriangulatePolygon, TakesAMillionCornersOfACircleOrAComb) {
-  constexpr int kCorners = 1'000'000;
+TEST(TriangulatePolygon, TakesTwoHundredThousandCornersOfACircleOrAComb) {
+  constexpr int kCorners = 200'000;
   std::vector<Vec3> circle;
   circle.reserve(kCorners);
   for (int i = 0; i < kCorners; ++i) {

@@ -39,27 +39,34 @@ std::vector<double> direct_saliency(const TriMesh& mesh, const MeshSaliencyOptio
   }
   const std::vector<double> areas = vertex_areas(mesh);
   const double epsilon = options.saliency_scale * bounding_box(mesh.positions).size().norm();
-  const auto mean_at = [&](std::size_t v, double sigma) {
+  std::vector<double> squared(n);  // of distances from the vertex at hand
+  const auto mean_within = [&](double sigma) {
     double sum = 0.0;
     double weights = 0.0;
     for (std::size_t u = 0; u < n; ++u) {
-      const double squared = (mesh.positions[u] - mesh.positions[v]).squaredNorm();
-      if (std::sqrt(squared) <= 2.0 * sigma) {
+      if (std::sqrt(squared[u]) <= 2.0 * sigma) {
         const double w =
-            std::exp(-squared / (2.0 * sigma * sigma)) * (options.area_kernel ? areas[u] : 1.0);
+            std::exp(-squared[u] / (2.0 * sigma * sigma)) * (options.area_kernel ? areas[u] : 1.0);
         sum += w * c[u];
         weights += w;
       }
     }
     return sum / weights;
   };
+  constexpr std::array kScales{2, 3, 4, 5, 6};
+  std::array<std::vector<double>, kScales.size()> levels;
+  for (std::size_t v = 0; v < n; ++v) {
+    for (std::size_t u = 0; u < n; ++u) {
+      squared[u] = (mesh.positions[u] - mesh.positions[v]).squaredNorm();
+    }
+    for (std::size_t k = 0; k < kScales.size(); ++k) {
+      const double sigma = kScales[k] * epsilon;
+      levels[k].push_back(std::abs(mean_within(sigma) - mean_within(2.0 * sigma)));
+    }
+  }
   const IndexLists rings = vertex_neighbours(mesh);
   std::vector<double> saliency(n, 0.0);
-  for (const int scale : {2, 3, 4, 5, 6}) {
-    std::vector<double> level(n);
-    for (std::size_t v = 0; v < n; ++v) {
-      level[v] = std::abs(mean_at(v, scale * epsilon) - mean_at(v, 2.0 * scale * epsilon));
-    }
+  for (std::vector<double>& level : levels) {
     const auto [low, high] = std::minmax_element(level.begin(), level.end());
     const double bottom = *low;
     const double span = *high - *low;

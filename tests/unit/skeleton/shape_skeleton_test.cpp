@@ -190,12 +190,14 @@ TEST(ExtractSkeleton, OfNothingIsNothing) {
 }
 
 TEST(ExtractSkeleton, RefusesAHistoryOfAnotherMesh) {
-  const ContractionHistory history = contract(test::sphere(1));
+  const auto history = contract(test::sphere(1), {.method = ContractionMethod::Exact});
   EXPECT_THROW(extract_skeleton(test::sphere(2), history), InvalidInput);
 }
 
 TEST(ExtractSkeleton, RefusesASpacingOfNothing) {
-  EXPECT_THROW(skeleton_of(test::sphere(1), {.spacing = 0.0}), InvalidInput);
+  const TriMesh mesh = test::sphere(1);
+  const auto history = contract(mesh, {.method = ContractionMethod::Exact});
+  EXPECT_THROW(extract_skeleton(mesh, history, {.spacing = 0.0}), InvalidInput);
 }
 
 TEST(ExtractSkeleton, SurvivesFacesThatStandTwice) {

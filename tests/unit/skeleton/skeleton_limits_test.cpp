@@ -74,9 +74,12 @@ TEST(SkeletonWithoutPruning, KeepsTheBranchOfABumpThatPruningCuts) {
   EXPECT_EQ(ends({.prune_ratio = 2.0, .prune = false}), 3U);
 }
 
+/// Without refining first.
+constexpr ContractionOptions kQuick{.method = ContractionMethod::Exact};
+
 TEST(SkeletonHistory, WithAnEarlierLevelOfAnotherSizeIsRefused) {
   const TriMesh mesh = test::sphere(1);
-  ContractionHistory history = contract(mesh);
+  ContractionHistory history = contract(mesh, kQuick);
   ASSERT_GE(history.levels.size(), 2U);
   history.levels.front().pop_back();
   EXPECT_THROW(extract_skeleton(mesh, history), InvalidInput);
@@ -84,7 +87,7 @@ TEST(SkeletonHistory, WithAnEarlierLevelOfAnotherSizeIsRefused) {
 
 TEST(SkeletonHistory, WithoutATableOfComponentsIsRefused) {
   const TriMesh mesh = test::sphere(1);
-  ContractionHistory history = contract(mesh);
+  ContractionHistory history = contract(mesh, kQuick);
   history.component_of_vertex.clear();
   EXPECT_THROW(extract_skeleton(mesh, history), InvalidInput);
 }

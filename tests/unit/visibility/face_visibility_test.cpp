@@ -243,7 +243,7 @@ TEST(FaceVisibility, SeesNothingThroughAGapThatIsClosed) {
 
 TEST(FaceVisibility, OfManyFacesSeesTheDeepestThroughAGap) {
   for (const double gap : {1e-6, -1e-6}) {
-    const TriMesh mesh = boxes_with_gap(gap, 42);  // 63 504 faces
+    const TriMesh mesh = boxes_with_gap(gap, 12);  // 5184 faces
     const Sphere sphere = enclosing_sphere(mesh.positions);
     const double deepest = gap > 0.0 ? -1.8 : 1.0;  // fronts of the small box and of the others
     EXPECT_NEAR(FaceVisibility(mesh, {FaceSides::Front}).seen_surface(kEyeAbove).deepest,
@@ -263,7 +263,7 @@ TriMesh falling_sheet(double slope, int squares) {
 
 TEST(FaceVisibility, GoesAsDeepAsWhatIsSeenOfAFace) {
   // Another sheet hides all that lies beyond x = 1.37, amid the faces.
-  for (const int squares : {1, 175}) {
+  for (const int squares : {1, 40}) {
     const TriMesh mesh = test::together(falling_sheet(0.5, squares), test::sheet(2.63, 4.0, 1),
                                         Vec3(1.37, 0.0, 1.0));
     const Sphere sphere = enclosing_sphere(mesh.positions);
@@ -335,42 +335,6 @@ TEST(FaceVisibility, HidesAFaceBehindOneThatSharesItsCorners) {
   const auto faces = FaceVisibility(mesh, {FaceSides::Front}).seen_faces(kEyeAbove);
   ASSERT_EQ(faces.size(), 1U);
   EXPECT_NEAR(faces[0].visible_area, 0.4 * 0.5, 1e-12);
-}
-
-/// Faces whose front is turned to the eye.
-std::vector<std::uint32_t> fronts(const TriMesh& mesh, const Viewpoint& eye) {
-  std::vector<std::uint32_t> result;
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-    const Vec3& corner = mesh.positions[mesh.triangles[f][0]];
-    const Vec3 sight =
-        eye.projection == Projection::Perspective ? Vec3(eye.position - corner) : eye.position;
-    if (area_vector(mesh, mesh.triangles[f]).dot(sight) > 0.0) {
-      result.push_back(f);
-    }
-  }
-  return result;
-}
-
-TEST(FaceVisibility, SeesEveryFrontFaceOfAConvexMeshWithItsCornersAndNoOther) {
-  const TriMesh mesh = test::sphere(7);  // 327 680 faces
-  const FaceVisibility visibility(mesh, {FaceSides::Front});
-  const VertexVisibility vertices(mesh, {FaceSides::Front});
-  for (const Viewpoint& eye : {Viewpoint{Projection::Perspective, Vec3(2.0, 3.0, -1.0)},
-                               Viewpoint{Projection::Orthographic, Vec3(0.3, -0.2, 0.9)}}) {
-    const std::vector<std::uint32_t> expected = fronts(mesh, eye);
-    std::vector<std::uint8_t> corners(mesh.positions.size(), 0);
-    for (const std::uint32_t f : expected) {
-      for (const std::uint32_t v : mesh.triangles[f]) {
-        corners[v] = 1;
-      }
-    }
-    const std::vector<SeenFace> seen = visibility.seen_faces(eye);
-    EXPECT_TRUE(
-        std::equal(seen.begin(), seen.end(), expected.begin(), expected.end(),
-                   [](const SeenFace& face, std::uint32_t front) { return face.face == front; }));
-    EXPECT_EQ(visibility.visible_vertices(eye), corners);
-    EXPECT_EQ(vertices.visible_vertices(eye), corners);
-  }
 }
 
 TEST(FaceVisibility, IntegratesALinearFieldExactly) {
