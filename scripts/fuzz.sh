@@ -102,7 +102,7 @@ if [[ $what == --leaks ]]; then
 fi
 
 # Runs a target and sets executions (without what was known and is run first), before and edges (what that reaches, and
-# what is reached now), inputs and found. A starved machine makes inputs slow: time is no finding below ten minutes.
+# what is reached now), quiet (executions since the last new edge), inputs and found. A starved machine makes inputs slow: time is no finding below ten minutes.
 run_target() {
   local target=$1 seconds=$2 learnt=$build/learnt/$1 log=$build/found/$1.log
   mkdir -p "$learnt" "fuzz/corpus/$target"
@@ -110,33 +110,36 @@ run_target() {
   local seeds=("fuzz/corpus/$target")
   [[ -d $build/seeds/$target ]] && seeds+=("$build/seeds/$target")
   nice "$build/fuzz/${target}_fuzz" -max_total_time="$seconds" -timeout=600 -report_slow_units=60 -rss_limit_mb=3000 \
-    -max_len=$seed_bytes -detect_leaks=0 -entropic=0 -print_final_stats=1 -print_funcs=0 \
+    -max_len=$seed_bytes -detect_leaks=0 -entropic=0 -reload=0 -print_final_stats=1 -print_funcs=0 \
     -artifact_prefix="$build/found/$target-" "$learnt" "${seeds[@]}" >"$log" 2>&1 || true
   found=$(find $build/found -name "$target-*" ! -name '*.log' | wc -l)
   executions=$(awk '/INITED/ {known = substr($1, 2)} /number_of_executed_units/ {print $2 - known}' "$log")
   before=$(awk '/INITED/ {for (i = 1; i < NF; ++i) if ($i == "cov:") print $(i + 1)}' "$log" | tail -1)
   edges=$(grep -o 'cov: [0-9]*' "$log" | tail -1 | cut -c6- || true)
+  quiet=$(awk '{for (i = 1; i < NF; ++i) if ($i == "cov:" && $(i + 1) > most) {most = $(i + 1); last = substr($1, 2)}}
+    /number_of_executed_units/ {print $2 - last}' "$log")
   inputs=$(find "$learnt" -type f | wc -l)
 }
 
+print_row() { printf '| %-14s | %10s | %8s | %12s | %8s | %6s | %8s | %14s |\n' "$@"; }
+
 print_head() {
-  printf '| %-14s | %10s | %8s | %12s | %8s | %6s | %8s |\n' target executions seconds 'edges before' edges inputs findings
-  printf '| %-14s | %10s | %8s | %12s | %8s | %6s | %8s |\n' --- ---: ---: ---: ---: ---: ---:
+  print_row target executions seconds 'edges before' edges inputs findings 'without an edge'
+  print_row --- ---: ---: ---: ---: ---: ---: ---:
 }
 
-print_row() { printf '| %-14s | %10s | %8s | %12s | %8s | %6s | %8s |\n' "$@"; }
-
 # One more turn of a target, added to build/fuzz/totals/TARGET: executions, seconds, edges before the first turn and now,
-# inputs, findings, and the edges that the turn found new in a thousand seconds.
+# inputs, findings, the edges that the turn found new in a thousand seconds, and executions since the last new edge.
 take_turn() {
-  local target=$1 total=$build/totals/$1 started=$SECONDS all=(0 0 0 0 0 0)
+  local target=$1 total=$build/totals/$1 started=$SECONDS all=(0 0 0 0 0 0 0 0)
   [[ ! -f $total ]] || read -r -a all <"$total"
   run_target "$target" "$turn_seconds"
   local took=$((SECONDS - started > 0 ? SECONDS - started : 1))
   ((all[2] > 0)) || all[2]=${before:-0}
   edges=${edges:-${all[3]}}
+  ((edges > ${before:-$edges})) || quiet=$((all[7] + ${executions:-0}))
   echo "$((all[0] + ${executions:-0})) $((all[1] + took)) ${all[2]} $edges $inputs $found" \
-    "$(((edges - ${before:-$edges}) * 1000 / took))" >"$total"
+    "$(((edges - ${before:-$edges}) * 1000 / took))" "${quiet:-0}" >"$total"
 }
 
 # Three turns of four go where most was new, the fourth, and all where nothing was, to the target that had least time;
@@ -155,7 +158,7 @@ print_totals() {
   for target in "${targets[@]}"; do
     [[ -f $build/totals/$target ]] || continue
     read -r -a all <"$build/totals/$target"
-    print_row "$target" "${all[@]:0:6}"
+    print_row "$target" "${all[@]:0:6}" "${all[7]:-0}"
     sum=$((sum + all[0]))
   done
   echo "$sum executions"
@@ -188,7 +191,7 @@ for target in "${targets[@]}"; do
   rm -f "$build/found/$target"-*
   started=$SECONDS
   run_target "$target" "$what"
-  print_row "$target" "${executions:-?}" $((SECONDS - started)) "${before:-?}" "${edges:-?}" "$inputs" "$found"
+  print_row "$target" "${executions:-?}" $((SECONDS - started)) "${before:-?}" "${edges:-?}" "$inputs" "$found" "${quiet:-?}"
   ((found == 0)) || broken=1
 done
 exit $broken
