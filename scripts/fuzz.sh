@@ -72,17 +72,17 @@ seed_from_data() {
 }
 
 minimise() {
-  local target=$1 small=$build/small/$1
+  local target=$1 small=$build/small/$1 corpus=fuzz/corpus/$1
   rm -rf "$small"
-  mkdir -p "$small" "fuzz/corpus/$target"
-  "$build/fuzz/${target}_fuzz" -merge=1 -max_len=$corpus_bytes -rss_limit_mb=3000 "$small" "$build/learnt/$target" \
-    >/dev/null 2>&1
-  # The smallest ones: each of them reached something when it came.
-  find "$small" -type f -size -${corpus_bytes}c -printf '%s %p\n' | sort -n | awk -v most=$corpus_files 'NR <= most' |
-    while read -r _ file; do
-      cp "$file" "fuzz/corpus/$target/$(sha1sum <"$file" | cut -c1-12)"
-    done
-  printf '%-12s %4d files\n' "$target" "$(find "fuzz/corpus/$target" -type f | wc -l)"
+  mkdir -p "$small/none" "$corpus" "$build/learnt/$target"
+  "$build/fuzz/${target}_fuzz" -merge=1 -merge_control_file="$small/control" -max_len=$corpus_bytes -rss_limit_mb=3000 \
+    -detect_leaks=0 -timeout=600 "$small/none" "$build/learnt/$target" "$corpus" >"$small/log" 2>&1
+  scripts/choose_inputs.py "$small/control" --files $corpus_files --bytes $corpus_bytes >"$small/chosen" 2>"$small/said"
+  while read -r file; do cp "$file" "$small/$(sha1sum <"$file" | cut -c1-12)"; done <"$small/chosen"
+  # Inputs with a name of their own are kept: they broke something once, or tell what a target reads.
+  find "$corpus" -type f -regextype egrep -regex '.*/[0-9a-f]{12}' -delete
+  while read -r file; do [[ -e $file ]] && cp "$file" "$corpus"; done < <(find "$small" -maxdepth 1 -regextype egrep -regex '.*/[0-9a-f]{12}')
+  printf '%-14s %4d files, chosen: %s\n' "$target" "$(find "$corpus" -type f | wc -l)" "$(cat "$small/said")"
 }
 
 if [[ $what == --minimise ]]; then
