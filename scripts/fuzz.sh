@@ -11,18 +11,19 @@
 #
 # Seeds are fuzz/corpus/TARGET/ and, where VANTAGE_DATA names a folder of models, its small files. What is learnt stays
 # in build/fuzz/learnt/; inputs that break something go to build/fuzz/found/ and end the script with exit code 1.
-# FUZZ_BUILD=no takes the programs as they are; FUZZ_JOBS=2 spreads over two targets at a time, FUZZ_TURN=60 is a turn.
+# FUZZ_BUILD=no takes the programs as they are, FUZZ_JOBS=2 spreads over two targets at a time, FUZZ_TURN=60 is a turn,
+# FUZZ_BYTES=200 the longest input (8000).
 #
 # Fuzzing keeps short call stacks of allocations, a small quarantine of what was freed, and looks for no leaks: a fifth more
 # inputs. What breaks is run again by hand with the usual settings, and --leaks asks once for all that is kept.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-seed_bytes=8000      # larger seeds are slow to mutate
+seed_bytes=${FUZZ_BYTES:-8000}  # larger seeds are slow to mutate
 corpus_files=60      # of each target, at most, when minimising
 corpus_bytes=4000    # of each of them
 
-usage() { sed -n '3,20p' "$0" | sed 's/^# \{0,1\}//'; exit 2; }
+usage() { sed -n '3,/^set /p' "$0" | sed '$d; s/^# \{0,1\}//'; exit 2; }
 (($# > 0)) || usage
 what=$1
 shift
