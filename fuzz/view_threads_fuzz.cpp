@@ -21,18 +21,17 @@ std::string bytes_of(const Values& values) {
 
 /// Everything that a run gives, or why it gives nothing.
 std::string view_with_threads(const vantage::Model& model, int threads) {
-  const vantage::ViewOptions options = quick_options();
-  const vantage::RunContext run{.report = {}, .stop = {}, .max_threads = threads};
   constexpr int kPictureSide = 24;
+  vantage::ViewOptions options = quick_options();
+  options.width = kPictureSide;
+  options.height = kPictureSide;
+  const vantage::RunContext run{.report = {}, .stop = {}, .max_threads = threads};
   try {
     const vantage::ShapeAnalysis shape = vantage::analyse_shape(model, options, run);
     const vantage::ViewReport report =
         vantage::find_views(shape, vantage::choose_frame(model, shape, options), options, run);
-    vantage::RenderOptions look;
-    look.width = kPictureSide;
-    look.height = kPictureSide;
-    const vantage::Image picture = vantage::draw_picture(shape, report.best.picture,
-                                                         vantage::Picture::Map, options, look, run);
+    const vantage::Image picture =
+        vantage::draw_picture(shape, report.best.picture, vantage::Picture::Map, options, {}, run);
     return bytes_of(shape.map.of_vertex) + bytes_of(shape.skeleton.graph.nodes) +
            bytes_of(shape.skeleton.node_of_vertex) + bytes_of(picture.rgba) +
            vantage::view_json(model, shape, report, options);

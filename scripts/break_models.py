@@ -59,7 +59,7 @@ def main():
     options.out.mkdir(parents=True, exist_ok=True)
     count = 0
     for file in sorted(options.folder.rglob("*")):
-        if file.suffix.lower() not in endings or not file.is_file() or not 0 < file.stat().st_size <= options.most_bytes:
+        if file.suffix.lower() not in endings or not file.is_file() or not 1 < file.stat().st_size <= options.most_bytes:
             continue
         content = file.read_bytes()
         name = str(file.relative_to(options.folder)).replace("/", "_")

@@ -3,7 +3,7 @@
 """Runs the program over every file of a folder and checks how it ends: by itself, in time, within memory, in one sentence.
 
     check_hostile.py FOLDER [--program build/release/apps/vantage/vantage] [--command info|view|…|all] [--seconds 60]
-                     [--max-memory 4GB] [--timeout SECONDS] [--stride N] [--most-bytes N] [--table]
+                     [--max-memory 4GB] [--timeout SECONDS] [--stride N] [--largest BYTES] [--most-bytes N] [--table]
 
 --timeout is the program's own, --seconds this script's; --table counts by ending, and how often vantage-import broke down.
 Prints a table of exit codes, the slowest files and those with the largest peak of memory for each byte; exit code 1 if a
@@ -94,11 +94,13 @@ def main():
     parser.add_argument("--timeout", default="")
     parser.add_argument("--table", action="store_true")
     parser.add_argument("--stride", type=int, default=1)
+    parser.add_argument("--largest", type=float, default=float("inf"), help="of the files that are run")
     parser.add_argument("--most-bytes", type=float, default=0.0)
     options = parser.parse_args()
     if options.command == "all" and options.most_bytes > 0:
         parser.error("--most-bytes goes with one command")
-    files = sorted(p for p in options.folder.resolve().rglob("*") if p.is_file() and p.suffix.lower() in MODELS)
+    files = sorted(p for p in options.folder.resolve().rglob("*")
+                   if p.is_file() and p.suffix.lower() in MODELS and p.stat().st_size <= options.largest)
     commands = COMMANDS if options.command == "all" else (options.command,)
     problems = [problem for command in commands for problem in check(command, files[::options.stride], options)]
     sys.exit(1 if problems else 0)

@@ -11,18 +11,19 @@
 #
 # Seeds are fuzz/corpus/TARGET/ and, where VANTAGE_DATA names a folder of models, its small files. What is learnt stays
 # in build/fuzz/learnt/; inputs that break something go to build/fuzz/found/ and end the script with exit code 1.
-# FUZZ_BUILD=no takes the programs as they are; FUZZ_JOBS=2 spreads over two targets at a time, FUZZ_TURN=60 is a turn.
+# FUZZ_BUILD=no takes the programs as they are, FUZZ_JOBS=2 spreads over two targets at a time, FUZZ_TURN=60 is a turn,
+# FUZZ_BYTES=200 the longest input (8000).
 #
 # Fuzzing keeps short call stacks of allocations, a small quarantine of what was freed, and looks for no leaks: a fifth more
 # inputs. What breaks is run again by hand with the usual settings, and --leaks asks once for all that is kept.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-seed_bytes=8000      # larger seeds are slow to mutate
+seed_bytes=${FUZZ_BYTES:-8000}  # larger seeds are slow to mutate
 corpus_files=60      # of each target, at most, when minimising
 corpus_bytes=4000    # of each of them
 
-usage() { sed -n '3,20p' "$0" | sed 's/^# \{0,1\}//'; exit 2; }
+usage() { sed -n '3,/^set /p' "$0" | sed '$d; s/^# \{0,1\}//'; exit 2; }
 (($# > 0)) || usage
 what=$1
 shift
@@ -72,17 +73,17 @@ seed_from_data() {
 }
 
 minimise() {
-  local target=$1 small=$build/small/$1
+  local target=$1 small=$build/small/$1 corpus=fuzz/corpus/$1
   rm -rf "$small"
-  mkdir -p "$small" "fuzz/corpus/$target"
-  "$build/fuzz/${target}_fuzz" -merge=1 -max_len=$corpus_bytes -rss_limit_mb=3000 "$small" "$build/learnt/$target" \
-    >/dev/null 2>&1
-  # The smallest ones: each of them reached something when it came.
-  find "$small" -type f -size -${corpus_bytes}c -printf '%s %p\n' | sort -n | awk -v most=$corpus_files 'NR <= most' |
-    while read -r _ file; do
-      cp "$file" "fuzz/corpus/$target/$(sha1sum <"$file" | cut -c1-12)"
-    done
-  printf '%-12s %4d files\n' "$target" "$(find "fuzz/corpus/$target" -type f | wc -l)"
+  mkdir -p "$small/none" "$corpus" "$build/learnt/$target"
+  "$build/fuzz/${target}_fuzz" -merge=1 -merge_control_file="$small/control" -max_len=$corpus_bytes -rss_limit_mb=3000 \
+    -detect_leaks=0 -timeout=600 "$small/none" "$build/learnt/$target" "$corpus" >"$small/log" 2>&1
+  scripts/choose_inputs.py "$small/control" --files $corpus_files --bytes $corpus_bytes >"$small/chosen" 2>"$small/said"
+  while read -r file; do cp "$file" "$small/$(sha1sum <"$file" | cut -c1-12)"; done <"$small/chosen"
+  # Inputs with a name of their own are kept: they broke something once, or tell what a target reads.
+  find "$corpus" -type f -regextype egrep -regex '.*/[0-9a-f]{12}' -delete
+  while read -r file; do [[ -e $file ]] && cp "$file" "$corpus"; done < <(find "$small" -maxdepth 1 -regextype egrep -regex '.*/[0-9a-f]{12}')
+  printf '%-14s %4d files, chosen: %s\n' "$target" "$(find "$corpus" -type f | wc -l)" "$(cat "$small/said")"
 }
 
 if [[ $what == --minimise ]]; then
@@ -102,7 +103,7 @@ if [[ $what == --leaks ]]; then
 fi
 
 # Runs a target and sets executions (without what was known and is run first), before and edges (what that reaches, and
-# what is reached now), inputs and found. A starved machine makes inputs slow: time is no finding below ten minutes.
+# what is reached now), quiet (executions since the last new edge), inputs and found. A starved machine makes inputs slow: time is no finding below ten minutes.
 run_target() {
   local target=$1 seconds=$2 learnt=$build/learnt/$1 log=$build/found/$1.log
   mkdir -p "$learnt" "fuzz/corpus/$target"
@@ -110,33 +111,36 @@ run_target() {
   local seeds=("fuzz/corpus/$target")
   [[ -d $build/seeds/$target ]] && seeds+=("$build/seeds/$target")
   nice "$build/fuzz/${target}_fuzz" -max_total_time="$seconds" -timeout=600 -report_slow_units=60 -rss_limit_mb=3000 \
-    -max_len=$seed_bytes -detect_leaks=0 -entropic=0 -print_final_stats=1 -print_funcs=0 \
+    -max_len=$seed_bytes -detect_leaks=0 -entropic=0 -reload=0 -print_final_stats=1 -print_funcs=0 \
     -artifact_prefix="$build/found/$target-" "$learnt" "${seeds[@]}" >"$log" 2>&1 || true
   found=$(find $build/found -name "$target-*" ! -name '*.log' | wc -l)
   executions=$(awk '/INITED/ {known = substr($1, 2)} /number_of_executed_units/ {print $2 - known}' "$log")
   before=$(awk '/INITED/ {for (i = 1; i < NF; ++i) if ($i == "cov:") print $(i + 1)}' "$log" | tail -1)
   edges=$(grep -o 'cov: [0-9]*' "$log" | tail -1 | cut -c6- || true)
+  quiet=$(awk '{for (i = 1; i < NF; ++i) if ($i == "cov:" && $(i + 1) > most) {most = $(i + 1); last = substr($1, 2)}}
+    /number_of_executed_units/ {print $2 - last}' "$log")
   inputs=$(find "$learnt" -type f | wc -l)
 }
 
+print_row() { printf '| %-14s | %10s | %8s | %12s | %8s | %6s | %8s | %14s |\n' "$@"; }
+
 print_head() {
-  printf '| %-14s | %10s | %8s | %12s | %8s | %6s | %8s |\n' target executions seconds 'edges before' edges inputs findings
-  printf '| %-14s | %10s | %8s | %12s | %8s | %6s | %8s |\n' --- ---: ---: ---: ---: ---: ---:
+  print_row target executions seconds 'edges before' edges inputs findings 'without an edge'
+  print_row --- ---: ---: ---: ---: ---: ---: ---:
 }
 
-print_row() { printf '| %-14s | %10s | %8s | %12s | %8s | %6s | %8s |\n' "$@"; }
-
 # One more turn of a target, added to build/fuzz/totals/TARGET: executions, seconds, edges before the first turn and now,
-# inputs, findings, and the edges that the turn found new in a thousand seconds.
+# inputs, findings, the edges that the turn found new in a thousand seconds, and executions since the last new edge.
 take_turn() {
-  local target=$1 total=$build/totals/$1 started=$SECONDS all=(0 0 0 0 0 0)
+  local target=$1 total=$build/totals/$1 started=$SECONDS all=(0 0 0 0 0 0 0 0)
   [[ ! -f $total ]] || read -r -a all <"$total"
   run_target "$target" "$turn_seconds"
   local took=$((SECONDS - started > 0 ? SECONDS - started : 1))
   ((all[2] > 0)) || all[2]=${before:-0}
   edges=${edges:-${all[3]}}
+  ((edges > ${before:-$edges})) || quiet=$((all[7] + ${executions:-0}))
   echo "$((all[0] + ${executions:-0})) $((all[1] + took)) ${all[2]} $edges $inputs $found" \
-    "$(((edges - ${before:-$edges}) * 1000 / took))" >"$total"
+    "$(((edges - ${before:-$edges}) * 1000 / took))" "${quiet:-0}" >"$total"
 }
 
 # Three turns of four go where most was new, the fourth, and all where nothing was, to the target that had least time;
@@ -155,7 +159,7 @@ print_totals() {
   for target in "${targets[@]}"; do
     [[ -f $build/totals/$target ]] || continue
     read -r -a all <"$build/totals/$target"
-    print_row "$target" "${all[@]:0:6}"
+    print_row "$target" "${all[@]:0:6}" "${all[7]:-0}"
     sum=$((sum + all[0]))
   done
   echo "$sum executions"
@@ -188,7 +192,7 @@ for target in "${targets[@]}"; do
   rm -f "$build/found/$target"-*
   started=$SECONDS
   run_target "$target" "$what"
-  print_row "$target" "${executions:-?}" $((SECONDS - started)) "${before:-?}" "${edges:-?}" "$inputs" "$found"
+  print_row "$target" "${executions:-?}" $((SECONDS - started)) "${before:-?}" "${edges:-?}" "$inputs" "$found" "${quiet:-?}"
   ((found == 0)) || broken=1
 done
 exit $broken

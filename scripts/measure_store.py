@@ -82,6 +82,12 @@ def workers(out):
     return found
 
 
+def processor_seconds():
+    """Of all processes that have ended and were waited for."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def run_under_kills(command, out, kill, seconds, done, environment):
     """Runs the command and kills workers meanwhile. Returns seconds, kills, and whether it came to its end."""
     rng = random.Random(2)
@@ -104,12 +110,10 @@ def run_under_kills(command, out, kill, seconds, done, environment):
 
 
 def timed(name, command, codes=(0,)):
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    before = processor_seconds()
     begin = time.monotonic()
     ended = subprocess.run([str(c) for c in command], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    print(f"{name}: {time.monotonic() - begin:.1f} s, {cpu:.1f} s of processor", flush=True)
+    print(f"{name}: {time.monotonic() - begin:.1f} s, {processor_seconds() - before:.1f} s of processor", flush=True)
     if ended.returncode not in codes:
         print(f"  exit code {ended.returncode}: {ended.stderr.strip()[:300]}")
     return ended.returncode in codes
@@ -133,11 +137,14 @@ def check_kills(arguments, scratch):
         seconds, killed, is_whole = run_under_kills(command, out, arguments.kill, arguments.seconds, done, environment)
     got = counts(out)
     print(f"{arguments.models} models, {'Slurm' if arguments.slurm else f'{arguments.jobs} workers'}: "
-          f"{seconds:.0f} s, {killed} workers killed, ended by itself: {is_whole}, rows: {got}", flush=True)
+          f"{seconds:.0f} s, {processor_seconds():.0f} s of processor, {killed} workers killed, ended by itself: {is_whole}, "
+          f"rows: {got}, {(out / 'results.sqlite').stat().st_size / 1e6:.0f} MB", flush=True)
     good = got.get("failed", 0) == 0 and (not is_whole or got.get("done", 0) == arguments.models)
     good &= timed("results verify", [arguments.program, "results", "verify", out])
     if is_whole:
-        good &= timed("resume of all that is done", command[:-2] if arguments.slurm else command)
+        resume = command[:-2] if arguments.slurm else command
+        good &= timed("resume of all that is done", resume)
+        good &= timed("overview (index.html)", [a for a in resume if a != "--no-overview"])
     return good and ask(arguments.program, out, scratch)
 
 
