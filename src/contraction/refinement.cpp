@@ -57,7 +57,7 @@ struct CoarsePart {
   double edge = 0.0;  ///< Down to which its edges are to be split.
 };
 
-/// Measures the creases and borders of all parts.
+/// Measures the creases and borders of all parts, whichever way their faces are wound.
 void measure_creases(const TriMesh& mesh, std::vector<CoarsePart>& parts) {
   std::vector<std::uint32_t> part_of(mesh.triangles.size(), 0);
   for (std::uint32_t p = 0; p < parts.size(); ++p) {

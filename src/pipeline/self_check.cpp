@@ -107,10 +107,10 @@ void look_at_contraction(const ShapeAnalysis& shape, std::vector<std::string>& d
     }
   }
   if (std::max(thick, significant) > kMinorShare) {
-    doubts.push_back("the surface could not be contracted to a curve (of parts with " +
-                     in_percent(thick) + " of it and " + in_percent(significant) +
-                     " of the significance, " + in_percent(left / thick) +
-                     " of the area is left), so that map, skeleton and views are hardly more than "
+    doubts.push_back("the surface could not be contracted to a curve (" + in_percent(left) +
+                     " of it is left, in parts that hold " + in_percent(thick) + " of it and " +
+                     in_percent(significant) +
+                     " of its significance), so that map, skeleton and views are hardly more than "
                      "a guess: mend the mesh, cut it into small even triangles, or choose another "
                      "--method");
   }

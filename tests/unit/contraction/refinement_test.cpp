@@ -31,5 +31,33 @@ TEST(RefineCoarseComponents, RefinesTheLargestFirstAndNotTooMany) {
   EXPECT_LT(all->positions.size(), 60'000U);
 }
 
+/// Eight cubes, which alone would be given twice as many vertices as they may have together.
+TriMesh eight_cubes(int cells) {
+  TriMesh row = test::box(1.0, 1.0, 1.0, cells);
+  for (int i = 1; i < 8; ++i) {
+    row = test::together(row, test::box(1.0, 1.0, 1.0, cells), Vec3(2.0 * i, 0.0, 0.0));
+  }
+  return row;
+}
+
+TEST(RefineCoarseComponents, SharesVerticesByTheSurfaceNotByItsTriangles) {
+  const auto alone = refine_coarse_components(test::box(1.0, 1.0, 1.0, 1), {});
+  const auto coarse = refine_coarse_components(eight_cubes(1), {});
+  const auto finer = refine_coarse_components(eight_cubes(8), {});
+  ASSERT_TRUE(alone && coarse && finer);
+  EXPECT_LT(coarse->positions.size(), 8 * alone->positions.size());
+  EXPECT_EQ(coarse->positions.size(), finer->positions.size());
+}
+
+TEST(RefineCoarseComponents, VerticesWithoutAFaceChangeNothing) {
+  TriMesh mesh =
+      test::together(test::box(1.0, 1.0, 1.0, 1), test::box(0.1, 0.1, 0.1, 1), Vec3(0.0, 5.0, 0.0));
+  const auto before = refine_coarse_components(mesh, {});
+  mesh.positions.emplace_back(1.0, 0.5, 0.5);
+  const auto after = refine_coarse_components(mesh, {});
+  ASSERT_TRUE(before && after);
+  EXPECT_EQ(after->positions.size(), before->positions.size() + 1);
+}
+
 }  // namespace
 }  // namespace vantage
