@@ -6,6 +6,10 @@
 
 #include <CLI/CLI.hpp>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "vantage/core/version.h"
 
 #include "commands.h"
@@ -46,11 +50,22 @@ int report_usage(const CLI::App& program, const std::vector<std::string>& words,
   return vantage::cli::kWrongUsage;
 }
 
+/// The stages of a run ask for the same tens of megabytes again and again. glibc gives such memory back
+/// and fetches it anew, page by page: half of a run's page faults, 4 to 8 % of the time of `view`.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kMegabyte = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, 32 * kMegabyte);
+  mallopt(M_TRIM_THRESHOLD, 256 * kMegabyte);
+#endif
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(bugprone-exception-escape): out of memory while reporting a failure may end it
 int main(int argc, char** argv) {
   using namespace vantage::cli;
+  keep_freed_memory();
   Session session;
   CLI::App program{kAbout, "vantage"};
   program.set_version_flag("--version", [] {

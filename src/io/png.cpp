@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <png.h>
+#include <zlib.h>
 
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
@@ -13,8 +14,10 @@
 namespace vantage {
 namespace {
 
-constexpr int kCompressionLevel =
-    3;  // 7 ms and 105 kB for 800 × 600; level 6 takes 17 ms for 90 kB
+// Pictures are smooth or flat: a pixel differs little from the one above it, and runs of no difference
+// are all that is worth a search. Six of 480 000 pixels take 46 ms and 1.42 MB so; with differences
+// from the left and zlib's level 3 they take 91 ms and 1.51 MB, with level 6 240 ms and 1.32 MB.
+constexpr int kCompressionLevel = 1;
 
 /// What libpng's callbacks share; it reports errors by a long jump past C++ frames.
 struct PngOutput {
@@ -51,7 +54,8 @@ bool encode(png_structp png, png_infop info, const PngSize& size, png_bytepp row
   }
   png_set_write_fn(png, output, append_bytes, flush_nothing);
   png_set_compression_level(png, kCompressionLevel);
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+  png_set_compression_strategy(png, Z_RLE);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
   png_set_IHDR(png, info, static_cast<png_uint_32>(size.width),
                static_cast<png_uint_32>(size.height), size.depth, PNG_COLOR_TYPE_RGB_ALPHA,
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);

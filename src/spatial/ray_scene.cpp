@@ -23,9 +23,10 @@ namespace {
 // that fits into memory. In units of a UnitFrame, where the longest side is 1 to 2.
 constexpr float kBoxMargin = 1e-5F;
 
-// No configuration file of the working or home directory may change results; the instruction set
-// is pinned because wider ones fuse multiply and add, which changes pictures in the last bit.
-constexpr const char* kDeviceConfig = "ignore_config_files=1,verbose=0,isa=sse4.2";
+// No configuration file of the working or home directory may change results. The instruction set has a
+// bound because wider ones fuse multiply and add, which changes pictures in the last bit; those up to
+// AVX give the same pictures.
+constexpr const char* kDeviceConfig = "ignore_config_files=1,verbose=0,max_isa=avx";
 
 /// What an error of Embree means to the caller.
 [[noreturn]] void fail(const char* what, RTCError error) {

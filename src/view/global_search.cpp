@@ -13,9 +13,9 @@ namespace vantage {
 namespace {
 
 // All ours; docs/search.md has what each trades, measured.
-constexpr std::size_t kFirstScores = 32;  // directions scored first; half of them peaks
-constexpr std::size_t kBatch = 16;        // then so many at a time, a quarter of them peaks, …
-constexpr std::size_t kBatches = 2;       // … so often, by what was learnt of the estimates
+constexpr std::size_t kBatch = 16;   // directions scored at a time, a quarter of them peaks: at first
+                                     // twice as many, half of them peaks, …
+constexpr std::size_t kBatches = 2;  // … then so often, by what was learnt of the estimates
 constexpr double kLikeRad = 12.0 * kRadPerDeg;  // estimates so far apart are off by like amounts
 constexpr double kTrust = 0.3;      // weight of the mean error where nothing near was scored
 constexpr std::size_t kStarts = 4;  // directions that the ascent starts from, …
@@ -163,7 +163,7 @@ Candidate search_globally(const SearchTarget& target, const RunContext& run) {
   const double first_rad = half_spacing_rad(target.objective().survey_level);
   Survey survey(cheapest, 1.5 * first_rad, run.part(0.0, kSurveyShare));
   survey.score_axes();
-  survey.score_promising(kFirstScores, kFirstScores / 2);
+  survey.score_promising(2 * kBatch, kBatch);
   for (std::size_t batch = 0; batch < kBatches; ++batch) {
     survey.score_promising(kBatch, kBatch / 4);
   }

@@ -114,7 +114,8 @@ struct ViewObjective {
   /// Nearer to the score than the surrogate and cheaper than the score: SearchStrategy::Global climbs
   /// by it, and scores what it climbed to. Unset: it climbs by the score.
   ScoreBatch proxy{};
-  /// What the best view maximises, of a direction and its score. Unset: the score.
+  /// What the best view maximises, of a direction and its score; called from many threads at once.
+  /// Unset: the score.
   std::function<double(const Vec3& direction, double score)> preference{};
   int survey_level = 4;  ///< Icosahedron level that SearchStrategy::Global surveys first, 0–6.
   double finest_deg = 0.01;            ///< Its ascent ends with rings as narrow as this, > 0, …
