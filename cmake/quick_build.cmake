@@ -11,8 +11,9 @@ function(vantage_precompile target)
   endif()
 endfunction()
 
-# Of a folder with more, so many sources are compiled as one: where one job takes a fifth of the build, cores wait for it.
-set(VANTAGE_SOURCES_AS_ONE 30)
+# More sources of a folder are compiled in even parts of at most so many: where one job takes a fifth of the build, cores
+# wait for it.
+set(VANTAGE_SOURCES_AS_ONE 46)
 
 # vantage_unite(<target> sources that are compiled alone…): call it when the target has all its sources. Sources clash if
 # both give a name of their own, in an unnamed namespace, another meaning: rename one, or list it.
@@ -27,10 +28,19 @@ function(vantage_unite target)
     get_filename_component(folder ${source} DIRECTORY)
     get_filename_component(folder "${folder}" NAME)
     if(NOT name IN_LIST ARGN)
-      list(APPEND of_${folder} ${source})
-      list(LENGTH of_${folder} count)
-      math(EXPR part "(${count} - 1) / ${VANTAGE_SOURCES_AS_ONE}")
-      set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP "${folder}_${part}")
+      list(APPEND folders "${folder}_")
+      list(APPEND of_${folder}_ ${source})
     endif()
+  endforeach()
+  list(REMOVE_DUPLICATES folders)
+  foreach(folder IN LISTS folders)
+    list(LENGTH of_${folder} count)
+    math(EXPR parts "(${count} + ${VANTAGE_SOURCES_AS_ONE} - 1) / ${VANTAGE_SOURCES_AS_ONE}")
+    set(k 0)
+    foreach(source IN LISTS of_${folder})
+      math(EXPR part "${k} * ${parts} / ${count}")
+      math(EXPR k "${k} + 1")
+      set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP "${folder}${part}")
+    endforeach()
   endforeach()
 endfunction()
