@@ -14,10 +14,13 @@ def read_png(data):
         stream += data[at + 8:at + 8 + length] if kind == b"IDAT" else b""
         at += 12 + length
     raw, rows, step = zlib.decompress(stream), [], 4 * width + 1
+    above = bytes(4 * width)
     for y in range(height):
         line = bytearray(raw[y * step + 1:(y + 1) * step])
-        assert raw[y * step] == 1, "written with the filter Sub"
-        for i in range(4, len(line)):
-            line[i] = (line[i] + line[i - 4]) & 255
-        rows.append(bytes(line))
+        kind = raw[y * step]
+        assert kind in (0, 1, 2), "written with the filters None, Sub (goldens) and Up"
+        for i in range(4 if kind == 1 else 0, len(line) if kind else 0):
+            line[i] = (line[i] + (line[i - 4] if kind == 1 else above[i])) & 255
+        above = bytes(line)
+        rows.append(above)
     return width, height, rows
