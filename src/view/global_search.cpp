@@ -13,8 +13,8 @@ namespace vantage {
 namespace {
 
 // All ours; docs/search.md has what each trades, measured.
-constexpr std::size_t kBatch = 16;   // directions scored at a time, a quarter of them peaks: at first
-                                     // twice as many, half of them peaks, …
+constexpr std::size_t kBatch = 16;   // directions scored at a time, a quarter of them peaks; at
+                                     // first twice as many, half of them peaks, …
 constexpr std::size_t kBatches = 2;  // … then so often, by what was learnt of the estimates
 constexpr double kLikeRad = 12.0 * kRadPerDeg;  // estimates so far apart are off by like amounts
 constexpr double kTrust = 0.3;      // weight of the mean error where nothing near was scored
@@ -138,6 +138,7 @@ class Survey {
 std::vector<Candidate> best_by_score(const std::vector<Candidate>& ends,
                                      const SearchTarget& target) {
   std::vector<Vec3> directions;
+  directions.reserve(ends.size());
   for (const Candidate& end : ends) {
     directions.push_back(end.direction);
   }
@@ -153,7 +154,8 @@ std::vector<Candidate> best_by_score(const std::vector<Candidate>& ends,
 std::vector<Candidate> ascended(std::vector<Candidate> candidates, const AscentRules& rules,
                                 const SearchTarget& target, const RunContext& run) {
   ascend(candidates, rules, target, 1, run);
-  return largest_apart(std::move(candidates), candidates.size(), 0.0);
+  const std::size_t count = candidates.size();
+  return largest_apart(std::move(candidates), count, 0.0);
 }
 
 }  // namespace
