@@ -16,6 +16,7 @@ fi
 scripts/check_threads.sh
 scripts/check_symbols.sh  # of the build with the preset release
 scripts/check_without_npm.sh
+scripts/check_compilers.sh
 scripts/build_docs.sh
 scripts/check_reproducible.sh
 if [[ $(id -u) -eq 0 ]] && command -v debootstrap >/dev/null; then
