@@ -32,9 +32,9 @@ class SearchTarget {
     return {*objective_, goal_, *proxy_, *surrogate_, nullptr};
   }
 
-  /// Values of directions; new scores are recorded at `level`.
+  /// Values of a few directions; new scores are recorded at `level`.
   [[nodiscard]] std::vector<double> values(const std::vector<Vec3>& directions, int level) const {
-    return values_of(directions, exact_->scores(directions, level), {});
+    return values_of(directions, exact_->scores(directions, level), {.max_threads = 1});
   }
 
   /// The same of a start set, with progress.
