@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Runs clang-tidy 14 over all sources, or with --changed over those of the last commit:
-# over 12 of them at most, spread evenly, when a large merge was the last.
+# Runs clang-tidy 14 over all sources, or with --changed over those of the last 20 commits:
+# over 12 of them at most, spread evenly.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 mapfile -t files < <(
-  if [[ ${1:-} == --changed ]] && git rev-parse -q --verify HEAD~1 >/dev/null; then
-    git diff --name-only --diff-filter=d HEAD~1 -- 'src/*.cpp' 'apps/*.cpp' 'python/*.cpp'
+  if [[ ${1:-} == --changed ]]; then
+    base=$(git rev-list --first-parent -n 21 HEAD | tail -1)
+    git diff --name-only --diff-filter=d "$base" -- 'src/*.cpp' 'apps/*.cpp' 'python/*.cpp'
   else
     git ls-files 'src/*.cpp' 'apps/*.cpp' 'python/*.cpp' 'tests/*.cpp' 'bench/*.cpp'
   fi)
