@@ -266,7 +266,7 @@ struct BatchCommand {
       runner.work_name =
           "shard-" + std::to_string(part->index) + "-of-" + std::to_string(part->count);
     }
-    const ViewOptions options = view_options_of(method, several, look, kinds);
+    const ViewOptions options = view_options_of(method, several, look, kinds, session.flags.seed);
     runner.options_hash = [options, kinds, its_look = look](const batch::Entry& entry) {
       ViewOptions own = options;
       LookFlags own_look = its_look;
@@ -286,6 +286,7 @@ struct BatchCommand {
     };
     runner.worker_arguments = {"batch-worker",
                                "--write=" + (kinds.text().empty() ? "json" : kinds.text())};
+    runner.worker_arguments.push_back("--seed=" + std::to_string(session.flags.seed));
     append_flags(runner.worker_arguments, method_options);
     batch::prepare_folder(folder);
   }
@@ -315,7 +316,8 @@ struct BatchCommand {
                        "--manifest=" + request.folder + "/slurm/plan.jsonl",
                        "--output=" + request.folder,
                        "--quiet",
-                       "--config=none"};
+                       "--config=none",
+                       "--seed=" + std::to_string(session.flags.seed)};
     append_flags(request.command, shard_options);
     append_flags(request.command, method_options);
     if (jobs == 0) {
@@ -374,12 +376,15 @@ struct BatchCommand {
     if (!watched || !known) {
       return -1;
     }
-    const auto source = open_source(session);
+    std::unique_ptr<batch::EntrySource> source = open_source(session);
+    if (part) {
+      source = std::make_unique<ShardSource>(std::move(source), *part);
+    }
     const RunContext run = session.run();
     std::int64_t count = 0;
-    while (const std::optional<batch::Entry> entry = source->next()) {
+    while (source->next()) {
       run.check();
-      count += !part || part->holds(entry->key) ? 1 : 0;
+      ++count;
     }
     return count;
   }

@@ -104,7 +104,7 @@ struct BatchWorkerCommand {
 
   void run(Session& session) {
     kinds_ = OutputKinds::parse(write);
-    options_ = view_options_of(method, several, look, kinds_);
+    options_ = view_options_of(method, several, look, kinds_, session.flags.seed);
 #if defined(M_ARENA_MAX)
     // glibc reserves 64 MB of address space for every thread's heap, which counts as memory here.
     ::mallopt(M_ARENA_MAX, 1);

@@ -7,7 +7,7 @@
 namespace vantage::cli {
 namespace {
 
-constexpr std::array<std::string_view, 22> kOfView{"view.json",
+constexpr std::array<std::string_view, 24> kOfView{"view.json",
                                                    "timings.json",
                                                    "report.html",
                                                    "map.ply",
@@ -21,9 +21,11 @@ constexpr std::array<std::string_view, 22> kOfView{"view.json",
                                                    "camera-best.gltf",
                                                    "camera-best.transforms.json",
                                                    "camera-best.f3d.txt",
+                                                   "camera-best.model-viewer.html",
                                                    "camera-worst.gltf",
                                                    "camera-worst.transforms.json",
                                                    "camera-worst.f3d.txt",
+                                                   "camera-worst.model-viewer.html",
                                                    "views.png",
                                                    "views.transforms.json",
                                                    "tour.gltf",

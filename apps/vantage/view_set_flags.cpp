@@ -157,7 +157,8 @@ void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, Shape
     output.add("views.png", png_bytes(contact_sheet(shape, *report.set, options, pictures.look())));
   }
   if (report.set->way_rad() > 0.0) {
-    write_tour(output, shape, pictures, report, up, run.part(stills_share, 1.0));
+    write_tour(output, shape, pictures, report, up, options.margin_percent,
+               run.part(stills_share, 1.0));
   } else if (!tour_.empty()) {
     throw InvalidInput(
         "one view sees everything asked for, so there is no tour; ask for more "
@@ -167,15 +168,15 @@ void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, Shape
 
 void ViewSetFlags::write_tour(OutputFolder& output, const ShapeAnalysis& shape,
                               ShapePictures& pictures, const ViewReport& report, UpAxis up,
-                              const RunContext& run) const {
+                              double margin_percent, const RunContext& run) const {
   const ReportedViewSet& set = *report.set;
   const double aspect = static_cast<double>(width_) / height_;
   const double length = seconds(set);
   const auto keys =
       static_cast<std::size_t>(std::max(12.0, std::ceil(set.way_rad() * kDegPerRad / kDegPerKey)));
-  output.add("tour.gltf",
-             camera_animation_gltf(tour_cameras(shape, set, report.camera, up, aspect, keys),
-                                   length, {width_, height_}, shape.sphere.diameter));
+  output.add("tour.gltf", camera_animation_gltf(tour_cameras(shape, set, report.camera, up, aspect,
+                                                             keys, margin_percent),
+                                                length, {width_, height_}, shape.sphere.diameter));
   if (tour_.empty()) {
     return;
   }
@@ -193,8 +194,8 @@ void ViewSetFlags::write_tour(OutputFolder& output, const ShapeAnalysis& shape,
   AnimationEncoder encoder(is_webp(tour_) ? AnimationFormat::WebP : AnimationFormat::Apng, width_,
                            height_, frames, fps_);
   double done = 0.0;
-  for (const Camera& camera :
-       tour_cameras(shape, set, report.camera, up, aspect, static_cast<std::size_t>(frames))) {
+  for (const Camera& camera : tour_cameras(shape, set, report.camera, up, aspect,
+                                           static_cast<std::size_t>(frames), margin_percent)) {
     const double next = std::min(1.0, done + 1.0 / frames);
     encoder.add(pictures.take_plain(camera, look, run.part(done, next)));
     done = next;
@@ -203,8 +204,8 @@ void ViewSetFlags::write_tour(OutputFolder& output, const ShapeAnalysis& shape,
 }
 
 ViewOptions view_options_of(const MethodFlags& method, const ViewSetFlags& several,
-                            const LookFlags& look, const OutputKinds& kinds) {
-  ViewOptions options = method.resolve();
+                            const LookFlags& look, const OutputKinds& kinds, std::uint64_t seed) {
+  ViewOptions options = method.resolve(seed);
   options.margin_percent = look.margin_percent();
   options.view_set = kinds.has("views") ? several.request_or(kViewsOfBatch) : several.request();
   return options;

@@ -37,7 +37,8 @@ class ViewSetFlags {
 
  private:
   void write_tour(OutputFolder& output, const ShapeAnalysis& shape, ShapePictures& pictures,
-                  const ViewReport& report, UpAxis up, const RunContext& run) const;
+                  const ViewReport& report, UpAxis up, double margin_percent,
+                  const RunContext& run) const;
   [[nodiscard]] double seconds(const ReportedViewSet& set) const;
 
   OptionFlags flags_{};
@@ -51,7 +52,7 @@ class ViewSetFlags {
 /// The options of a model of a batch: those of the method, and a set of views if one is asked for
 /// or `kinds` has pictures of one.
 ViewOptions view_options_of(const MethodFlags& method, const ViewSetFlags& several,
-                            const LookFlags& look, const OutputKinds& kinds);
+                            const LookFlags& look, const OutputKinds& kinds, std::uint64_t seed);
 
 /// One line a view: where from, what it adds, how much is seen by then.
 std::string view_set_table(const ReportedViewSet& set);

@@ -149,6 +149,7 @@ ContractionHistory contract_samples(const std::vector<Vec3>& points, const Point
       }
     }
     history.components.push_back(part.summary);
+    history.components.back().shrinkage = part.shrinkage.back();
     shrinkage.push_back(part.shrinkage);
   }
   history.shrinkage.assign(history.levels.size(), 0.0);

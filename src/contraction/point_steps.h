@@ -6,8 +6,8 @@
 
 namespace vantage {
 
-/// Contracts one component of a cloud, scaled as options.scaling says, with the weights of the
-/// specification's point column. \throw Cancelled
+/// Contracts one component of a cloud, scaled as options.scaling says, with the weights for
+/// points of docs/contraction.md. \throw Cancelled
 ComponentHistory contract_point_component(const std::vector<Vec3>& scaled, const PointRings& rings,
                                           const ContractionOptions& options, const RunContext& run);
 

@@ -66,8 +66,8 @@ void parallel_items(const RunContext& run, std::size_t count,
   const auto threads = static_cast<std::size_t>(
       std::max(1, run.max_threads > 0 ? std::min(run.max_threads, available) : available));
   const std::size_t rounds = count - count % threads;
-  const RunContext alone{.report = {}, .stop = run.stop, .max_threads = 1};
-  const RunContext together{.report = {}, .stop = run.stop, .max_threads = run.max_threads};
+  const RunContext alone = run.alone();
+  const RunContext together = run.quiet();
   const auto do_all = [&](std::size_t first, std::size_t last, const RunContext& own) {
     parallel_for(run, last - first, 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = first + begin; i < first + end; ++i) {

@@ -29,4 +29,12 @@ RunContext RunContext::part(double begin, double end) const {
   return piece;
 }
 
+RunContext RunContext::quiet() const {
+  return {.stop = stop, .max_threads = max_threads};
+}
+
+RunContext RunContext::alone() const {
+  return {.stop = stop, .max_threads = 1};
+}
+
 }  // namespace vantage

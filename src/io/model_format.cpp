@@ -33,10 +33,10 @@ std::string extension_of(std::string_view name) {
 }
 
 std::optional<ModelFormat> format_of_extension(std::string_view extension) {
-  const auto* const last = kFormatNames.end() - 1;  // no file is called .imported
-  const auto* const entry = std::find(kFormatNames.begin(), last, extension);
-  return entry == last ? std::nullopt
-                       : std::optional(static_cast<ModelFormat>(entry - kFormatNames.begin()));
+  const auto endings = model_endings();
+  const auto entry = std::find(endings.begin(), endings.end(), extension);
+  return entry == endings.end() ? std::nullopt
+                                : std::optional(static_cast<ModelFormat>(entry - endings.begin()));
 }
 
 /// What the first bytes say for sure.
@@ -82,6 +82,10 @@ std::optional<ModelFormat> format_of_content(std::string_view bytes) {
 }
 
 }  // namespace
+
+std::span<const std::string_view> model_endings() {
+  return std::span(kFormatNames).first(kFormatNames.size() - 1);  // no file is called .imported
+}
 
 std::string_view format_name(ModelFormat format) {
   return kFormatNames[static_cast<std::size_t>(format)];

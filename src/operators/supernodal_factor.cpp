@@ -132,7 +132,7 @@ bool SupernodalFactor::factorize(const Eigen::SparseMatrix<double>& A, const Run
     }
   }
   std::atomic<bool> definite{true};
-  const RunContext alone{.report = {}, .stop = run.stop, .max_threads = 1};
+  const RunContext alone = run.alone();
   parallel_for(run, subtrees_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const int root = subtrees_[i];

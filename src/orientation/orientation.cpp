@@ -285,6 +285,11 @@ Orientation OrientationEvidence::find(const OrientationRequest& request) const {
   }
   Orientation result;
   result.up = find_up(*looks_, request);
+  if (request.front && axis_of(*request.front).axis == axis_of(result.up.direction).axis) {
+    throw InvalidInput(
+        "the front is along the up axis, which the format gives: give another front, or the up "
+        "axis, too");
+  }
   find_front(*looks_, request, result);
   return result;
 }

@@ -52,8 +52,8 @@ ScoringCamera scoring_camera(const ShapeAnalysis& shape, const ViewOptions& opti
 
 ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& visibility,
                            const ScoringCamera& camera, const Vec3& direction, UpAxis up,
-                           const ViewOptions& options) {
-  const auto visible = visibility.visible_vertices(camera.viewpoint(direction));
+                           const ViewOptions& options, const RunContext& run) {
+  const auto visible = visibility.visible_vertices(camera.viewpoint(direction), run.quiet());
   double total = 0.0;
   for (const double value : shape.map.of_vertex) {
     total += value;
@@ -73,9 +73,10 @@ ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& v
 
 ReportedView describe_scored_view(const ShapeAnalysis& shape, const VertexVisibility& visibility,
                                   const ViewScorer& scorer, const Vec3& direction,
-                                  const ModelFrame& frame, const ViewOptions& options) {
+                                  const ModelFrame& frame, const ViewOptions& options,
+                                  const RunContext& run) {
   ReportedView view =
-      describe_view(shape, visibility, scorer.camera(), direction, frame.up, options);
+      describe_view(shape, visibility, scorer.camera(), direction, frame.up, options, run);
   if (options.weight == Weight::Area) {
     view.score = scorer.score(direction);
     view.score_fraction = scorer.total() > 0.0 ? view.score / scorer.total() : 0.0;

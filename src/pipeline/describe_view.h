@@ -13,6 +13,7 @@ void frame_view(ReportedView& view, const ShapeAnalysis& shape, UpAxis up,
 /// \pre the scorer adds up options.weight.
 ReportedView describe_scored_view(const ShapeAnalysis& shape, const VertexVisibility& visibility,
                                   const ViewScorer& scorer, const Vec3& direction,
-                                  const ModelFrame& frame, const ViewOptions& options);
+                                  const ModelFrame& frame, const ViewOptions& options,
+                                  const RunContext& run);
 
 }  // namespace vantage

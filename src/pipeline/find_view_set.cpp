@@ -20,8 +20,6 @@ namespace {
 // The view set of measures built on the channel, and what its table may take. [ours]
 constexpr int kChannelLevel = 3;
 constexpr double kMostChannelBytes = 1024.0 * 1024.0 * 1024.0;
-// Empty border of the tour's pictures, as frame_points() leaves it.
-constexpr double kMargin = 0.04;
 // What an exploration sees if nothing is asked for: the last slivers take most of the way. [ours]
 constexpr double kExploredShare = 0.95;
 // How often the corners of its way, 60 degrees and more on the set of views, are cut. [ours]
@@ -187,7 +185,7 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
   for (const ChosenView& view : result.choice.views) {
     directions.push_back(view.direction);
     result.views.push_back(
-        describe_scored_view(shape, visibility, scorer, view.direction, frame, options));
+        describe_scored_view(shape, visibility, scorer, view.direction, frame, options, run));
   }
   if (faces != nullptr) {  // sets know what is seen of a face to an eighth; nothing was seen before
     result.choice.views.front().gain = result.views.front().score;
@@ -201,7 +199,7 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
 
 std::vector<Camera> tour_cameras(const ShapeAnalysis& shape, const ReportedViewSet& set,
                                  const ScoringCamera& camera, UpAxis up, double aspect,
-                                 std::size_t count) {
+                                 std::size_t count, double margin_percent) {
   std::vector<Vec3> stops;
   if (set.way) {
     stops = set.way->stops;
@@ -231,7 +229,8 @@ std::vector<Camera> tour_cameras(const ShapeAnalysis& shape, const ReportedViewS
                        .up = pose.up});
   }
   // The border is a part of the shorter side.
-  extent /= 1.0 - 2.0 * kMargin * std::min(1.0, aspect) / std::max(1.0, aspect);
+  const double margin = margin_percent / 100.0;
+  extent /= 1.0 - 2.0 * margin * std::min(1.0, aspect) / std::max(1.0, aspect);
   for (Camera& c : cameras) {
     c.fov_y_deg = 2.0 * std::atan(extent) * 180.0 / std::numbers::pi;
     c.height = 2.0 * extent;

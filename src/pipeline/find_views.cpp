@@ -63,7 +63,7 @@ ViewReport find_views_by_map(const ShapeAnalysis& shape, const FrameChoice& choi
   const double search_share = options.view_set || options.certify ? 0.25 : 1.0;  // of the bar
   FoundViews found = search_best_and_worst(objective, options.search, run.part(0.0, search_share));
   auto& [best, worst, highest] = found;
-  report.twins = twins_of(best.direction, shape, scorer, preference);
+  report.twins = twins_of(best.direction, shape, scorer, preference, run);
   if (!preference.is_score()) {
     settle_on_the_front(best, report.twins, upright_frame(choice.frame));
   }
@@ -73,7 +73,7 @@ ViewReport find_views_by_map(const ShapeAnalysis& shape, const FrameChoice& choi
   }
   const auto described = [&](const FoundView& view) {
     return describe_scored_view(shape, map.visibility(), scorer, view.direction, choice.frame,
-                                options);
+                                options, run);
   };
   report.best = described(best);
   report.best.objective = preference(best.direction, report.best.score);
@@ -128,11 +128,11 @@ ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const FrameChoice&
   const Preference preference(shape, choice, options, map.scorer().total());
   FoundView found = search_view(map.objective(preference), goal, options.search, run);
   if (goal == Goal::Best && !preference.is_score()) {
-    std::vector<TwinView> twins = twins_of(found.direction, shape, map.scorer(), preference);
+    std::vector<TwinView> twins = twins_of(found.direction, shape, map.scorer(), preference, run);
     settle_on_the_front(found, twins, upright_frame(choice.frame));
   }
   ReportedView view = describe_scored_view(shape, map.visibility(), map.scorer(), found.direction,
-                                           choice.frame, options);
+                                           choice.frame, options, run);
   view.objective = goal == Goal::Best ? preference(view.direction, view.score) : view.score;
   return view;
 }

@@ -15,7 +15,7 @@ constexpr double kFinestDeg = 0.25;
 MeasureObjective::MeasureObjective(ViewMeasurer& measurer, std::size_t m, const RunContext& run)
     : measurer_(&measurer),
       measure_(m),
-      quiet_{.stop = run.stop, .max_threads = run.max_threads},
+      quiet_(run.quiet()),
       is_falling_(measurer.measures()[m].better == Better::Less) {
   const SetSurvey survey = measurer.survey_of(m, run);
   has_estimates_ = !survey.is_exact;
@@ -27,20 +27,25 @@ MeasureObjective::MeasureObjective(ViewMeasurer& measurer, std::size_t m, const 
 }
 
 void MeasureObjective::take(const std::vector<double>& of_set) {
-  highest_ = 0.0;
+  highest_ = lowest_ = 0.0;
+  bool is_first = true;
   for (std::size_t i = 0; i < of_set.size(); ++i) {
     const Vec3& d = measurer_->set().directions[i];
     of_set_[{d.x(), d.y(), d.z()}] = of_set[i];
-    highest_ = std::isfinite(of_set[i]) ? std::max(highest_, of_set[i]) : highest_;
+    if (std::isfinite(of_set[i])) {
+      highest_ = is_first ? of_set[i] : std::max(highest_, of_set[i]);
+      lowest_ = is_first ? of_set[i] : std::min(lowest_, of_set[i]);
+      is_first = false;
+    }
   }
 }
 
 double MeasureObjective::score(double value) const {
-  return is_falling_ ? highest_ - value : value;
+  return is_falling_ ? highest_ - value : value - floor();
 }
 
 double MeasureObjective::value(double score) const {
-  return is_falling_ ? highest_ - score : score;
+  return is_falling_ ? highest_ - score : score + floor();
 }
 
 std::vector<double> MeasureObjective::scores(const std::vector<Vec3>& directions) const {
@@ -83,8 +88,8 @@ ViewObjective MeasureObjective::objective() const {
       return estimates;
     };
   }
-  objective.total = highest_;
-  objective.survey_level = 3;  // that of the set, whose values are known
+  objective.total = highest_ - floor();
+  objective.survey_level = measurer_->set_level();  // of which values are known
   objective.finest_deg = kFinestDeg;
   return objective;
 }

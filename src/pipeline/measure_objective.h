@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <vector>
@@ -11,8 +12,9 @@
 
 namespace vantage {
 
-/// A measure of a view as a search takes it: a score that grows with how good the view is. Where less
-/// is better, that is the largest finite value of the set of views less the value. The set is
+/// A measure of a view as a search takes it: a score that grows with how good the view is and is 0 or
+/// more in the set of views. Where less is better, that is the largest finite value of the set less
+/// the value; else the value, less the smallest one of the set if that is negative. The set is
 /// estimated where the measure allows it and it was not looked at before.
 class MeasureObjective {
  public:
@@ -30,6 +32,8 @@ class MeasureObjective {
   [[nodiscard]] double value(double score) const;
 
  private:
+  [[nodiscard]] double floor() const { return std::min(0.0, lowest_); }
+
   void take(const std::vector<double>& of_set);
   [[nodiscard]] std::vector<double> scores(const std::vector<Vec3>& directions) const;
 
@@ -39,7 +43,8 @@ class MeasureObjective {
   bool is_falling_;
   std::map<std::array<double, 3>, double> of_set_{};
   bool has_estimates_ = false;  // of_set_ are
-  double highest_ = 0.0;
+  double highest_ = 0.0;        // of the finite values of the set
+  double lowest_ = 0.0;
 };
 
 }  // namespace vantage

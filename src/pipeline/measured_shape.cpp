@@ -85,7 +85,7 @@ MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m, const SearchO
   if (options.strategy == SearchStrategy::Gradient) {
     require_gradient(measurer.measures()[m]);
   }
-  const RunContext quiet{.stop = run.stop, .max_threads = run.max_threads};
+  const RunContext quiet = run.quiet();
   const MeasureObjective by(measurer, m, quiet);
   const FoundViews found = search_best_and_worst(by.objective(), options, quiet);
   return {measured(found.best, by), measured(found.worst, by),
@@ -93,7 +93,7 @@ MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m, const SearchO
 }
 
 MeasuredView best_view(ViewMeasurer& measurer, std::size_t m, const RunContext& run) {
-  const RunContext quiet{.stop = run.stop, .max_threads = run.max_threads};
+  const RunContext quiet = run.quiet();
   const MeasureObjective by(measurer, m, quiet);
   return measured(search_view(by.objective(), Goal::Best, {}, quiet), by);
 }
@@ -136,8 +136,8 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, const FrameChoice& 
   report.total = kNone;
   const std::shared_ptr<const VertexVisibility> visibility = visibility_of(shape, 2);
   const auto described = [&](const FoundView& found) {
-    ReportedView view =
-        describe_view(shape, *visibility, report.camera, found.direction, choice.frame.up, options);
+    ReportedView view = describe_view(shape, *visibility, report.camera, found.direction,
+                                      choice.frame.up, options, run);
     view.score = measurer.values(std::vector<Vec3>{found.direction}).front().front();
     view.score_fraction = kNone;
     return view;

@@ -27,11 +27,11 @@ constexpr double kNearlyCurve = 0.04;
 /// What of the surface and of its significance such components may hold: more, and the views hang on
 /// them. [ours]
 constexpr double kMinorShare = 0.25;
-/// SPEC: of the skeleton's length at most 2 % is outside on any model.
+/// Of the skeleton's length so much is outside on no sound model. [ours]
 constexpr double kMostOutside = 0.02;
-/// SPEC: maps of one surface agree to 0.85 on all models.
+/// Maps of one surface should agree to this. [ours, docs/kssm.md]
 constexpr double kLeastAgreement = 0.85;
-/// How far vertices are moved, of the diameter. SPEC
+/// How far vertices are moved, of the diameter. [ours]
 constexpr double kMoved = 1e-4;
 /// Vertices looked at again for each view, about. [ours]
 constexpr std::size_t kAskedAgain = 4096;
@@ -208,7 +208,7 @@ double map_agreement_when_moved(const ShapeAnalysis& shape, const ViewOptions& o
   ShapeAnalysis moved;
   moved.surface = is_small ? shape.surface : proxy.mesh;
   move_vertices(moved.surface, kMoved * shape.sphere.diameter);
-  const RunContext quiet{.stop = run.stop, .max_threads = run.max_threads};
+  const RunContext quiet = run.quiet();
   add_history(moved, options, quiet);
   add_skeleton(moved, options, quiet);
   add_map(moved, options, quiet);

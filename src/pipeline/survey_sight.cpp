@@ -30,7 +30,7 @@ SurveySight::SurveySight(const VertexVisibility& visibility, const ScoringCamera
   const std::vector<Vec3> directions =
       direction_set(ViewSphereBase::Icosahedron, kLevel).directions;
   visible_.resize(directions.size());
-  const RunContext quiet{.stop = run.stop, .max_threads = run.max_threads};
+  const RunContext quiet = run.quiet();
   parallel_items(quiet, directions.size(), [&](std::size_t i, const RunContext& own) {
     visible_[i] = visibility.visible_vertices(camera.viewpoint(directions[i]), own);
   });

@@ -20,8 +20,7 @@ CoarseSurface proxy_of(const ShapeAnalysis& shape, const RunContext& run) {
   if (shape.surface.positions.size() <= ViewPreparation::kLargeSurface) {
     return {};
   }
-  return coarse_surface(shape.surface, shape.sides, ViewPreparation::kProxyVertices,
-                        {.stop = run.stop});
+  return coarse_surface(shape.surface, shape.sides, ViewPreparation::kProxyVertices, run.quiet());
 }
 
 /// The coarse copy, made from the proxy if there is one.
@@ -29,10 +28,10 @@ CoarseSurface coarse_of(const ShapeAnalysis& shape, const CoarseSurface& proxy,
                         const RunContext& run) {
   if (proxy.of_vertex.empty()) {
     return coarse_surface(shape.surface, shape.sides, ViewPreparation::kCoarseVertices,
-                          {.stop = run.stop});
+                          run.quiet());
   }
   CoarseSurface coarse =
-      coarse_surface(proxy.mesh, proxy.sides, ViewPreparation::kCoarseVertices, {.stop = run.stop});
+      coarse_surface(proxy.mesh, proxy.sides, ViewPreparation::kCoarseVertices, run.quiet());
   std::vector<std::uint32_t> of_vertex;
   of_vertex.reserve(proxy.of_vertex.size());
   for (const std::uint32_t v : proxy.of_vertex) {

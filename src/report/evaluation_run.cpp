@@ -253,7 +253,7 @@ std::vector<EvaluatedModel> evaluate_records(const std::vector<RecordedModel>& r
   const std::size_t workers = std::max<std::size_t>(1, std::min(threads, left.size()));
   // Models side by side need no threads of their own; few models share the cores.
   const RunContext within{.stop = run.stop, .max_threads = static_cast<int>(threads / workers)};
-  const RunContext beside{.stop = run.stop, .max_threads = run.max_threads};
+  const RunContext beside = run.quiet();
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<std::size_t> next{0};
   parallel_for(beside, workers, 1, [&](std::size_t /*begin*/, std::size_t /*end*/) {

@@ -167,8 +167,8 @@ void add_set(Json& data, const ViewReport& report, const ShapeAnalysis& shape,
   const double degrees = report.set->way_rad() * 180.0 / std::numbers::pi;
   const auto count = static_cast<std::size_t>(std::max(12.0, std::ceil(degrees / kTourStepDeg)));
   Json poses = Json::array();
-  for (const Camera& camera :
-       tour_cameras(shape, *report.set, report.camera, report.up, 1.0, count)) {
+  for (const Camera& camera : tour_cameras(shape, *report.set, report.camera, report.up, 1.0, count,
+                                           options.margin_percent)) {
     poses.push_back({{"eye", numbers(frame.to(camera.eye))},
                      {"target", numbers(frame.to(camera.target))},
                      {"up", numbers(camera.up)},

@@ -152,6 +152,7 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
   const std::vector<double> level_weight =
       level_weights(history, skeleton, other, options.level_agreement, run);
   std::vector<double> moved(vertex_count);
+  map.level_factor.assign(velocity ? 1 : 0, 0.0);  // no step led to the input
   for (std::size_t j = velocity ? 1 : 0; j < map.displacement.size(); ++j) {
     if (velocity) {
       for (std::size_t v = 0; v < vertex_count; ++v) {

@@ -10,8 +10,8 @@
 #include "vantage/mesh/curve_graph.h"
 #include "vantage/mesh/tri_mesh.h"
 
+#include "mesh/handle_guard.h"
 #include "mesh/place_order.h"
-#include "skeleton/handle_guard.h"
 
 namespace vantage {
 

@@ -8,7 +8,7 @@
 
 #include "vantage/skeleton/skeleton.h"
 
-#include "skeleton/shell.h"
+#include "spatial/shell.h"
 
 namespace vantage {
 

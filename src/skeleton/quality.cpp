@@ -7,8 +7,8 @@
 #include "vantage/skeleton/skeleton.h"
 
 #include "skeleton/routing.h"
-#include "skeleton/shell.h"
 #include "spatial/graph_distance.h"
+#include "spatial/shell.h"
 
 namespace vantage {
 namespace {

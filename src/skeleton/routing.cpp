@@ -12,7 +12,7 @@
 
 #include "mesh/disjoint_sets.h"
 #include "mesh/place_order.h"
-#include "skeleton/interior_path.h"
+#include "spatial/interior_path.h"
 
 namespace vantage {
 namespace {

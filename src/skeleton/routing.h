@@ -8,7 +8,7 @@
 #include "vantage/mesh/curve_graph.h"
 #include "vantage/mesh/tri_mesh.h"
 
-#include "skeleton/shell.h"
+#include "spatial/shell.h"
 
 namespace vantage {
 

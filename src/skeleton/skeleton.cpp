@@ -9,15 +9,15 @@
 #include "vantage/mesh/measures.h"
 
 #include "core/parallel.h"
+#include "mesh/close_nodes.h"
 #include "mesh/decimation.h"
 #include "skeleton/cluster_complex.h"
 #include "skeleton/collapsed.h"
 #include "skeleton/curve_fitting.h"
 #include "skeleton/embedding.h"
-#include "skeleton/resampling.h"
 #include "skeleton/routing.h"
-#include "skeleton/shell.h"
 #include "skeleton/surgery.h"
+#include "spatial/shell.h"
 
 namespace vantage {
 namespace {

@@ -57,10 +57,6 @@ double projected_area(const TriMesh& mesh, const Triangle& face, FaceSides side,
   return side == FaceSides::Both ? std::abs(area) : area;
 }
 
-RunContext without_progress(const RunContext& run) {
-  return {.stop = run.stop, .max_threads = run.max_threads};
-}
-
 /// What Feixas's merge keeps of v̂: Σ a_z, Σ a_t and Σ_z s_z log(s_z / p_z).
 class MergedView {
  public:
@@ -122,7 +118,7 @@ std::vector<ChannelPick> greedy_entropy_views(const ViewChannel& channel, std::s
   std::vector<ChannelPick> picks;
   std::vector<double> entropy(channel.views.size(), 0.0);
   while (picks.size() < count) {
-    parallel_for(without_progress(run), entropy.size(), kDirectionsPerTask,
+    parallel_for(run.quiet(), entropy.size(), kDirectionsPerTask,
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t v = begin; v < end; ++v) {
                      double sum = 0.0;
@@ -189,7 +185,7 @@ MergedViews merge_views(const ViewChannel& channel, std::size_t count, double ra
                  [](double area) { return area > 0.0 ? std::uint8_t{1} : std::uint8_t{0}; });
   MergedViews result;
   while (result.picks.size() < count) {
-    parallel_for(without_progress(run), information.size(), kDirectionsPerTask,
+    parallel_for(run.quiet(), information.size(), kDirectionsPerTask,
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t v = begin; v < end; ++v) {
                      information[v] = seen[v] > 0.0 ? merged.with(v) : 0.0;
@@ -224,7 +220,7 @@ ViewChannel channel_table(const TriMesh& mesh, std::span<const FaceSides> sides,
   ViewChannel channel;
   channel.face_count = mesh.triangles.size();
   channel.views.resize(eyes.size());
-  parallel_for(without_progress(run), eyes.size(), 1, [&](std::size_t begin, std::size_t end) {
+  parallel_for(run.quiet(), eyes.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
         const auto& [a, b, c] = mesh.triangles[f];
@@ -249,8 +245,8 @@ ViewChannel channel_table(const FaceVisibility& faces, std::size_t face_count,
   ViewChannel channel;
   channel.face_count = face_count;
   channel.views.resize(eyes.size());
-  parallel_for(without_progress(run), eyes.size(), 1, [&](std::size_t begin, std::size_t end) {
-    const RunContext alone{.stop = run.stop, .max_threads = 1};
+  parallel_for(run.quiet(), eyes.size(), 1, [&](std::size_t begin, std::size_t end) {
+    const RunContext alone = run.alone();
     for (std::size_t i = begin; i < end; ++i) {
       for (const SeenFace& face : faces.seen_faces(eyes[i], alone)) {
         const auto stored = static_cast<float>(face.projected_area);

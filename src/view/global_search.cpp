@@ -23,7 +23,9 @@ constexpr double kStartsApartRad = 5.0 * kRadPerDeg;  // … so far apart: not b
 constexpr double kNotWorthARing = 3e-4;  // share of the range that is not worth a finer ring
 constexpr std::size_t kProxyEnds = 2;    // of the ends by a proxy, ascend once more by the score
 
-constexpr double kSurveyShare = 0.5;  // of the progress bar
+// Of the progress bar: where the survey ends, and the ascent after it.
+constexpr double kSurveyed = 0.5;
+constexpr double kAscended = 0.8;
 
 /// About half the angle between neighbours of an icosahedron level.
 double half_spacing_rad(int level) {
@@ -163,7 +165,7 @@ std::vector<Candidate> ascended(std::vector<Candidate> candidates, const AscentR
 Candidate search_globally(const SearchTarget& target, const RunContext& run) {
   const SearchTarget cheapest = target.has_proxy() ? target.by_proxy() : target;
   const double first_rad = half_spacing_rad(target.objective().survey_level);
-  Survey survey(cheapest, 1.5 * first_rad, run.part(0.0, kSurveyShare));
+  Survey survey(cheapest, 1.5 * first_rad, run.part(0.0, kSurveyed));
   survey.score_axes();
   survey.score_promising(2 * kBatch, kBatch);
   for (std::size_t batch = 0; batch < kBatches; ++batch) {
@@ -173,11 +175,12 @@ Candidate search_globally(const SearchTarget& target, const RunContext& run) {
                     .last_rad = target.finest_deg() * kRadPerDeg,
                     .flat = kNotWorthARing * survey.range(),
                     .drops_losers = true};
-  const RunContext ascent = run.part(kSurveyShare, 1.0);
   std::vector<Candidate> candidates =
-      ascended(largest_apart(survey.scored(), kStarts, kStartsApartRad), rules, cheapest, ascent);
+      ascended(largest_apart(survey.scored(), kStarts, kStartsApartRad), rules, cheapest,
+               run.part(kSurveyed, kAscended));
   if (target.has_proxy()) {
-    candidates = ascended(best_by_score(candidates, target), rules, target, ascent);
+    candidates =
+        ascended(best_by_score(candidates, target), rules, target, run.part(kAscended, 1.0));
   }
   candidates.resize(1);
   // Where it is rough to the finest ring a second ascent, on another lattice, may gain.
@@ -186,8 +189,9 @@ Candidate search_globally(const SearchTarget& target, const RunContext& run) {
        candidates[0].value > before && candidates[0].spread >= rules.flat;) {
     before = candidates[0].value;
     candidates[0].place = {};
-    ascend(candidates, rules, target, 1, ascent);
+    ascend(candidates, rules, target, 1, run.quiet());
   }
+  run.advance("search", 1.0);
   return candidates[0];
 }
 

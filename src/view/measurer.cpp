@@ -68,10 +68,6 @@ bool is_kept(const MeasureNeeds& needs) {
   return !needs.vertices && !needs.outline;
 }
 
-RunContext quiet(const RunContext& run) {
-  return {.stop = run.stop, .max_threads = run.max_threads};
-}
-
 }  // namespace
 
 struct ViewMeasurer::State {
@@ -83,7 +79,8 @@ struct ViewMeasurer::State {
   std::optional<OutlineTracer> outlines{};
   MeasureValues of_set{};
   bool is_measured = false;  // all of of_set
-  ViewChannel channel{};     // unless the subject brings it; what model.set_views refers to
+  int set_level = 0;
+  ViewChannel channel{};  // unless the subject brings it; what model.set_views refers to
 
   void prepare(const RunContext& run);
   void prepare_maps(const RunContext& run);
@@ -163,7 +160,7 @@ void ViewMeasurer::State::prepare_maps(const RunContext& run) {
   if (needs.saliency) {
     model.saliency.assign(model.given.saliency.begin(), model.given.saliency.end());
     if (model.saliency.size() != mesh.positions.size()) {
-      model.saliency = compute_mesh_saliency(mesh, {}, quiet(run)).of_vertex;
+      model.saliency = compute_mesh_saliency(mesh, {}, run.quiet()).of_vertex;
     }
   }
 }
@@ -299,7 +296,7 @@ void ViewMeasurer::State::measure_late(std::size_t i) {
 std::vector<double> ViewMeasurer::State::estimates_of_set(std::size_t m,
                                                           const RunContext& run) const {
   std::vector<double> estimates(model.set.directions.size(), 0.0);
-  parallel_for(quiet(run), estimates.size(), 1, [&](std::size_t begin, std::size_t end) {
+  parallel_for(run.quiet(), estimates.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       estimates[i] = value(m, kept_sight(i), FaceDetail::ByCorners);
     }
@@ -325,7 +322,7 @@ void ViewMeasurer::State::look_at_set(const RunContext& run) {
   constexpr std::size_t kBatch = 64;
   for (std::size_t start = 0; start < count; start += kBatch) {
     run.advance("views", 0.8 * static_cast<double>(start) / static_cast<double>(count));
-    parallel_for(quiet(run), std::min(kBatch, count - start), 1,
+    parallel_for(run.quiet(), std::min(kBatch, count - start), 1,
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t i = start + begin; i < start + end; ++i) {
                      std::vector<FaceArea> faces_seen = measure_early(i);
@@ -350,11 +347,11 @@ void ViewMeasurer::State::take(const ViewChannel& seen, const RunContext& run) {
   }
   run.advance("views", 0.8);
   if (needs.channel) {
-    model.terms = channel_terms(seen, *model.given.surface, quiet(run));
+    model.terms = channel_terms(seen, *model.given.surface, run.quiet());
   }
   run.advance("views", 0.9);
   if (needs.neighbours) {
-    model.divergences = neighbour_divergences(model.set_views, model.next_views, quiet(run));
+    model.divergences = neighbour_divergences(model.set_views, model.next_views, run.quiet());
   }
 }
 
@@ -376,7 +373,7 @@ void ViewMeasurer::State::measure_set(const RunContext& run) {
     survey(run);
   }
   if (!is_measured && (needs.channel || needs.neighbours)) {
-    parallel_for(quiet(run), model.set.directions.size(), 1,
+    parallel_for(run.quiet(), model.set.directions.size(), 1,
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t i = begin; i < end; ++i) {
                      measure_late(i);
@@ -393,6 +390,7 @@ ViewMeasurer::ViewMeasurer(const MeasureSubject& subject, std::vector<Measure> m
     throw InvalidInput("measuring needs a surface and a set of views of level 0 to 6");
   }
   state_->model.given = subject;
+  state_->set_level = level;
   state_->model.set = direction_set(ViewSphereBase::Icosahedron, level);
   state_->model.coarse_set = direction_set(ViewSphereBase::Icosahedron, std::max(0, level - 1));
   state_->measures = std::move(measures);
@@ -415,6 +413,10 @@ const std::vector<Measure>& ViewMeasurer::measures() const {
 
 const MeasuredModel& ViewMeasurer::model() const {
   return state_->model;
+}
+
+int ViewMeasurer::set_level() const {
+  return state_->set_level;
 }
 
 const DirectionSet& ViewMeasurer::set() const {
@@ -469,7 +471,7 @@ SetSurvey ViewMeasurer::survey_of(std::size_t m, const RunContext& run) {
     return {state_->estimates_of_set(m, run), false};
   }
   if (!state_->is_measured && !measure.is_of_set() && has_estimates(m)) {
-    return {estimates_of(m, set().directions, quiet(run)), false};
+    return {estimates_of(m, set().directions, run.quiet()), false};
   }
   return {set_values(run)[m], true};
 }

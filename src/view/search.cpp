@@ -54,11 +54,16 @@ Candidate search_from_a_set(const SearchTarget& target, const SearchOptions& opt
 
 Candidate search_for(const SearchTarget& target, const SearchOptions& options,
                      const RunContext& run) {
-  if (options.strategy == SearchStrategy::Gradient) {
-    return search_by_gradient(target, options, run);
-  }
-  if (options.strategy == SearchStrategy::Global && !target.is_flat()) {
-    return search_globally(target, run);
+  switch (options.strategy) {
+    case SearchStrategy::Gradient:
+      return search_by_gradient(target, options, run);
+    case SearchStrategy::Global:
+      return target.is_flat() ? search_from_a_set(target, options, run)
+                              : search_globally(target, run);
+    case SearchStrategy::Rapid:
+    case SearchStrategy::Exhaustive:
+    case SearchStrategy::Dense:
+      break;
   }
   return search_from_a_set(target, options, run);
 }

@@ -72,10 +72,7 @@ using SetsOf = std::function<VisibleSets(std::span<const Vec3>, const RunContext
 class Selection {
  public:
   Selection(SetsOf sets_of, std::size_t bits, const ViewSetOptions& options, const RunContext& run)
-      : sets_of_(std::move(sets_of)),
-        options_(options),
-        bits_(bits),
-        quiet_{.stop = run.stop, .max_threads = run.max_threads} {}
+      : sets_of_(std::move(sets_of)), options_(options), bits_(bits), quiet_(run.quiet()) {}
 
   /// \param given the views to measure; if only one, the first of those to choose.
   ViewSet make(std::span<const Vec3> given, bool choose, std::span<const double> significance,

@@ -19,7 +19,7 @@ VisibleSets sets_of(const ScoringCamera& camera, std::span<const Vec3> direction
   VisibleSets sets(directions.size(), bits);
   RunContext quiet = run;
   quiet.report = nullptr;
-  const RunContext alone{.stop = run.stop, .max_threads = 1};
+  const RunContext alone = run.alone();
   for (std::size_t first = 0; first < directions.size(); first += kBatch) {
     run.advance("views", static_cast<double>(first) / static_cast<double>(directions.size()));
     const std::size_t count = std::min(kBatch, directions.size() - first);

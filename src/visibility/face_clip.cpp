@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "visibility/picture_cells.h"
+#include "spatial/picture_cells.h"
 #include "visibility/segment.h"
 
 namespace vantage {

@@ -13,7 +13,7 @@
 #include "vantage/core/camera.h"
 #include "vantage/core/vec3.h"
 
-#include "visibility/convex_polygon.h"
+#include "spatial/convex_polygon.h"
 #include "visibility/surface.h"
 
 /// \file

@@ -73,7 +73,7 @@ class FaceLook {
     const auto count = static_cast<std::uint32_t>(surface_.faces.size());
     const double cells = kCellsPerFace * static_cast<double>(count);
     PictureCells& picture = memory_.picture;
-    picture.begin(surface_, local_, static_cast<std::size_t>(cells) + 1);
+    picture.begin(surface_.sites, local_, static_cast<std::size_t>(cells) + 1);
     is_outside_ = picture.is_flat();
     memory_.extents.resize(count);
     while (set_extents() > kMostInCells * count && picture.coarsen()) {
@@ -366,8 +366,9 @@ FaceScene::FaceScene(const TriMesh& mesh, std::span<const FaceSides> sides)
     face_of_mesh[surface.face_of_mesh[f]] = f;
   }
   if (!surface.faces.empty()) {
-    edges = surface_edges(surface);
-    meetings = find_meetings(surface, edges);
+    const TriMesh framed{surface.sites, surface.faces};
+    edges = surface_edges(framed);
+    meetings = find_meetings(framed, edges);
   }
 }
 

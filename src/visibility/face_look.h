@@ -13,11 +13,11 @@
 #include "vantage/mesh/tri_mesh.h"
 #include "vantage/visibility/face_visibility.h"
 
+#include "mesh/surface_edges.h"
+#include "spatial/face_meetings.h"
+#include "spatial/picture_cells.h"
 #include "visibility/face_clip.h"
-#include "visibility/hiding_backs.h"
-#include "visibility/picture_cells.h"
 #include "visibility/sight.h"
-#include "visibility/surface_edges.h"
 
 /// \file
 /// One look of an eye at a surface's faces. What is seen of a face changes only where a *contour*

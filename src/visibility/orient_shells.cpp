@@ -287,7 +287,7 @@ OrientedMesh orient_shells(const TriMesh& mesh, const RunContext& run) {
   run.check();
   const Nesting nesting(shells);
   std::vector<std::uint8_t> turned(shells.members.size(), 0);
-  const RunContext quiet{.stop = run.stop, .max_threads = run.max_threads};
+  const RunContext quiet = run.quiet();
   parallel_items(quiet, turned.size(), [&](std::size_t i, const RunContext& own) {
     own.check();
     const auto s = static_cast<std::uint32_t>(i);

@@ -7,7 +7,6 @@
 
 #include "vantage/core/camera.h"
 #include "vantage/mesh/tri_mesh.h"
-#include "vantage/visibility/vertex_visibility.h"
 
 #include "spatial/ray_scene.h"
 
@@ -54,7 +53,7 @@ struct Surface {
   FloatPoints rounded{};                        ///< The sites.
   FacePlanes planes{};                          ///< Of each face.
   FaceBlocks blocks{};                          ///< Of faces 0 … kFaces−1 and so on.
-  std::vector<std::uint8_t> backs{};            ///< hiding_backs(); none: not known.
+  std::vector<std::uint8_t> backs{};            ///< FaceMeetings::hiding_backs; none: not known.
 };
 
 /// The points in single precision.

@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "visibility/hiding_backs.h"
+#include "mesh/surface_edges.h"
+#include "spatial/face_meetings.h"
 #include "visibility/sight.h"
-#include "visibility/surface_edges.h"
 
 namespace vantage {
 
@@ -24,7 +24,8 @@ constexpr std::size_t kManyEyes = 100;
 Surface surface_for(const TriMesh& mesh, std::span<const FaceSides> sides, std::size_t eyes) {
   Surface surface = prepare_surface(mesh, sides);
   if (eyes >= kManyEyes && !surface.faces.empty()) {
-    surface.backs = find_meetings(surface, surface_edges(surface)).hiding_backs;
+    const TriMesh framed{surface.sites, surface.faces};
+    surface.backs = find_meetings(framed, surface_edges(framed)).hiding_backs;
   }
   return surface;
 }

@@ -218,6 +218,19 @@ class Results(BatchTest):
         self.assertEqual(rows["a.off"]["folder"], rows["c.off"]["folder"])
         self.assertEqual(len(list((self.dir / "out/models").iterdir())), 2)
 
+    def test_a_gradient_search_takes_the_seed(self):
+        self.write("a.off", box(1))
+        rows = {}
+        for seed in (0, 7):
+            self.vantage("batch", "a.off", "-o", f"out{seed}", "--write", "json", "--search", "gradient", "--starts", "1",
+                         "--seed", seed)
+            rows[seed] = self.rows(f"out{seed}")["a.off"]
+        self.assertNotEqual(rows[0]["options"], rows[7]["options"])
+        self.vantage("view", "a.off", "-o", "v", "--no-images", "--search", "gradient", "--starts", "1", "--seed", "7")
+        made = json.loads((self.dir / "out7" / "models" / rows[7]["folder"] / "view.json").read_text())
+        alone = json.loads((self.dir / "v" / "view.json").read_text())
+        self.assertEqual(made["best"]["direction"], alone["best"]["direction"])
+
     def test_a_second_run_does_nothing_and_changes_no_byte(self):
         for i in range(4):
             self.write(f"{i}.off", box(1 + i))

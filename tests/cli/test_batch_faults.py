@@ -142,6 +142,20 @@ class WholeBatch(FaultTest):
         while not (done() and at_work()) and time.monotonic() < deadline:
             time.sleep(0.01)
 
+    def worker_that_hangs(self, batch):
+        """The one that sleeps; others wait for what to do."""
+        is_told = False
+        deadline = time.monotonic() + 20
+        while time.monotonic() < deadline:
+            for worker in pathlib.Path(f"/proc/{batch}/task/{batch}/children").read_text().split():
+                waits_in = pathlib.Path(f"/proc/{worker}/wchan").read_text()
+                is_told = is_told or waits_in != "0"
+                if "nanosleep" in waits_in:
+                    return int(worker)
+            time.sleep(0.01)
+        self.assertFalse(is_told, "no worker hangs")
+        self.skipTest("LOUD: this kernel does not tell what a process waits for")
+
     def test_signals_stop_it_cleanly_and_it_goes_on_where_it_was(self):
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 75)):
             with self.subTest(signal=number):
@@ -170,6 +184,18 @@ class WholeBatch(FaultTest):
         self.assertEqual(process.returncode, 130)
         self.assertEqual(self.rows(), {})
         self.assertEqual(list((self.dir / "out/.work").glob("local/*")), [])
+
+    def test_what_waited_for_a_model_goes_on_when_that_is_another_one_at_its_second_attempt(self):
+        self.write("twin.off", box(3))  # as m2
+        process = self.start(*self.names, "twin.off", fault="hang:m2")
+        self.addCleanup(process.kill)
+        self.wait_for_results(5)
+        self.write("m2.off", box(1))  # as m0
+        os.kill(self.worker_that_hangs(process.pid), signal.SIGSEGV)
+        process.communicate(timeout=60)
+        rows = self.rows()
+        self.assertEqual({key: row["status"] for key, row in rows.items() if row["status"] != "done"}, {})
+        self.assertEqual((rows["m2.off"]["duplicate_of"], rows["twin.off"]["duplicate_of"]), ("m0.off", ""))
 
     def test_a_second_batch_into_the_same_folder_is_refused(self):
         process = self.start(*self.names, fault="hang:m4")

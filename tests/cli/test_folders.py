@@ -52,6 +52,10 @@ class Stale(ProgramTest):
         self.assert_as_alone(full, ("view", "cup.off", *FAST, "--no-images"), "v")
         self.assert_as_alone(full, ("view", "cup.off", *FAST, "--views", "2", "--weight", "area", "--no-report"), "v")
 
+    def test_an_orthographic_view_after_one_in_perspective(self):
+        self.assert_as_alone(("view", "horse.off", *FAST, "--no-images"),
+                             ("view", "cup.off", *FAST, "--no-images", "--projection", "orthographic"), "v")
+
     def test_a_comparison_without_its_page_after_one_with_it(self):
         self.assert_as_alone(("compare", "horse.off", "--method", "silhouette-length"),
                              ("compare", "cup.off", "--method", "silhouette-length", "--no-images"), "c")

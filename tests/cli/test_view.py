@@ -35,7 +35,7 @@ class View(ProgramTest):
             self.assertEqual(contraction["levels_used"][0], 0)
             self.assertLessEqual(contraction["levels_used"][-1], contraction["levels"])
 
-    def test_report_holds_what_the_specification_lists(self):
+    def test_view_json_holds_what_the_manual_lists(self):
         self.vantage("view", MODELS / "fan.ply", "-o", "out", "--no-images")
         report = json.loads((self.dir / "out" / "view.json").read_text())
         self.assertEqual(report["schema"], 1)

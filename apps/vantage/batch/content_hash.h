@@ -7,8 +7,9 @@
 
 namespace vantage::batch {
 
-/// SHA-256 of the file as `sha256sum` prints it. A .gltf that names buffer files in its folder is
-/// hashed together with them, in the order in which it names them.
+/// SHA-256 of the file as `sha256sum` prints it. A .gltf is hashed together with the buffers and
+/// pictures that it names in its folder, an OBJ with its material libraries and their pictures, in the
+/// order in which they are named.
 /// \throw IoError
 std::string content_hash(const std::string& path);
 

@@ -33,15 +33,11 @@ Crew::Crew(const RunnerOptions& options, const ConfinedFolder& root, const std::
       root_(root),
       stop_event_(::eventfd(0, EFD_CLOEXEC)),
       on_stop_(stop,
-               [event = stop_event_] {
+               [event = stop_event_.number()] {
                  const std::uint64_t one = 1;
                  [[maybe_unused]] const auto done = ::write(event, &one, sizeof one);
                }),
       seats_(static_cast<std::size_t>(options.workers)) {}
-
-Crew::~Crew() {
-  ::close(stop_event_);
-}
 
 bool Crew::has_idle() const {
   return std::any_of(seats_.begin(), seats_.end(), [](const Seat& seat) { return !seat.job; });
@@ -98,7 +94,7 @@ Job& Crew::leave(Seat& seat) {
 }
 
 std::vector<CrewEvent> Crew::wait() {
-  std::vector<pollfd> files{{stop_event_, POLLIN, 0}};
+  std::vector<pollfd> files{{stop_event_.number(), POLLIN, 0}};
   std::vector<Seat*> busy;
   for (Seat& seat : seats_) {
     if (seat.job != nullptr) {

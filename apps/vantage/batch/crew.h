@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "batch/confined_folder.h"
+#include "batch/descriptor.h"
 #include "batch/entry_source.h"
 #include "batch/model_record.h"
 #include "batch/runner.h"
@@ -70,7 +71,6 @@ class Crew {
   Crew(const RunnerOptions& options, const ConfinedFolder& root, const std::stop_token& stop);
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
-  ~Crew();
 
   [[nodiscard]] bool has_idle() const;
   /// Gives a job to an idle worker. \param last whether no other job will follow, so that idle
@@ -98,7 +98,7 @@ class Crew {
 
   const RunnerOptions& options_;
   const ConfinedFolder& root_;
-  int stop_event_;
+  Descriptor stop_event_;  // outlives what writes to it
   std::stop_callback<std::function<void()>> on_stop_;
   std::int64_t staged_ = 0;
   std::vector<Seat> seats_;

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <span>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include <fnmatch.h>
 
 #include "vantage/io/import_stream.h"
+#include "vantage/io/model.h"
 
 #include "batch/archive_reader.h"
 #include "batch/naming.h"
@@ -25,8 +28,6 @@ bool matches(const std::string& pattern, const std::string& path) {
          ::fnmatch(pattern.c_str(), file.c_str(), FNM_CASEFOLD) == 0;
 }
 
-constexpr const char* kReadable[] = {"*.obj", "*.off", "*.ply", "*.stl", "*.gltf", "*.glb",
-                                     "*.xyz", "*.pts", "*.pwn", "*.pcd", "*.3mf"};
 constexpr const char* kArchives[] = {"*.zip",     "*.tar",    "*.tar.gz", "*.tgz",
                                      "*.tar.bz2", "*.tar.xz", "*.tar.zst"};
 
@@ -182,11 +183,14 @@ bool EntryFilter::accepts(const std::string& path_below) const {
     return matches(pattern, path_below);
   };
   const auto readable = [&] {
-    return std::any_of(std::begin(kReadable), std::end(kReadable), matches_path) ||
-           (imports && std::any_of(kImportFormats.begin(), kImportFormats.end(),
-                                   [&](const ImportFormat& format) {
-                                     return matches_path("*." + std::string(format.extension));
-                                   }));
+    const auto ends_so = [&](std::string_view ending) {
+      return matches_path("*." + std::string(ending));
+    };
+    const std::span<const std::string_view> own = model_endings();
+    return std::any_of(own.begin(), own.end(), ends_so) ||
+           (imports &&
+            std::any_of(kImportFormats.begin(), kImportFormats.end(),
+                        [&](const ImportFormat& format) { return ends_so(format.extension); }));
   };
   const bool included =
       include.empty() ? readable() : std::any_of(include.begin(), include.end(), matches_path);

@@ -203,7 +203,7 @@ std::map<std::string, std::string> labels_of(ResultsStore& store) {
   return labels;
 }
 
-/// One row of the page's table; see kIndexScript for the order of its cells.
+/// One row of the page's table; index_page.cpp has the order of its cells.
 std::string row_of(const Statement& row, const ConfinedFolder& root) {
   const std::string folder = ConfinedFolder::is_name(row.text(5)) ? row.text(5) : "";
   const auto shown = [&](const char* file, int bit) {

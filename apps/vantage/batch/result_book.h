@@ -30,7 +30,8 @@ class ResultBook {
   /// When the last record was finished, ms since 1970; 0 if there is none. \throw IoError
   virtual std::int64_t latest_ms() = 0;
 
-  /// Adds or replaces a record; on disk when it returns. \throw IoError
+  /// Adds or replaces a record. It outlives the process; the last ones may be lost with the power, and
+  /// their models are done again. \throw IoError
   virtual void put(const ModelRecord& record) = 0;
 
   /// Puts everything in its final place. \throw IoError

@@ -59,7 +59,7 @@ class ResultsStore : public ResultBook {
   /// Models whose answers should not be trusted, each content once.
   std::int64_t count_doubted();
 
-  /// Size of the sound database; throws IoError if SQLite's own check finds damage.
+  /// Lets SQLite check the database. \throw IoError if it finds damage.
   void check_integrity();
 
  private:

@@ -243,6 +243,7 @@ class Runner {
     }
     release(job);
     if (may_pass_next_time(event.reason) && job.attempts < options_.attempts) {
+      part_from_equals(job);
       job.stage = Stage::Ready;
       ready_.push_front(&job);
       return;
@@ -285,18 +286,17 @@ class Runner {
       settle_as_equal(job, *first);
       return;
     }
-    if (!job.equals.empty() && job.equals.front()->record.content != record.content) {
-      part_from_equals(job);  // the file has changed since the attempt before
-    }
     if (claim_folder(job)) {
       running_[content_key(record)] = &job;
       Crew::go(job);
     }
   }
 
+  /// Before another attempt: the file may be another one by then. Those that waited are read again.
   void part_from_equals(Job& job) {
     for (Job* other : std::exchange(job.equals, {})) {
       other->stage = Stage::Ready;
+      other->attempts = 0;
       ready_.push_back(other);
       --waiting_;
     }

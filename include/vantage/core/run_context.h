@@ -31,6 +31,12 @@ struct RunContext {
 
   /// The same context reporting into [begin, end] of this part.
   [[nodiscard]] RunContext part(double begin, double end) const;
+
+  /// The same context without reports: for a part whose progress is told otherwise.
+  [[nodiscard]] RunContext quiet() const;
+
+  /// The same without reports and on one thread.
+  [[nodiscard]] RunContext alone() const;
 };
 
 }  // namespace vantage

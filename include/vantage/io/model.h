@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,9 @@ namespace vantage {
 
 /// File formats that can be read. Imported: one of kImportFormats, by ReadOptions::importer.
 enum class ModelFormat { Obj, Off, Ply, Stl, Gltf, Glb, Xyz, Pts, Pwn, Pcd, Threemf, Imported };
+
+/// How names of files end that are read without an importer: lower case, without the dot.
+std::span<const std::string_view> model_endings();
 
 /// Lower-case name as used in results, e.g. "obj".
 std::string_view format_name(ModelFormat format);

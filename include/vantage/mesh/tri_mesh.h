@@ -19,4 +19,10 @@ struct TriMesh {
   std::vector<Triangle> triangles{};  ///< |F| triples of indices below |V|.
 };
 
+/// Which side of a face can be seen.
+enum class FaceSides {
+  Front,  ///< Only the side the winding points to: closed, consistently wound shells.
+  Both,   ///< Both: open, inconsistently wound or non-manifold surfaces.
+};
+
 }  // namespace vantage

@@ -102,7 +102,7 @@ struct ViewReport {
   ReportedView worst{};                    ///< Of the least score.
   double total = 0.0;                      ///< The score if everything were visible.
   Vec3 highest_direction = Vec3::UnitZ();  ///< The view that the score alone would take.
-  double highest_score = 0.0;              ///< The best that any view attains; NaN for measures.
+  double highest_score = 0.0;              ///< The best that any view attains.
   FoundView best_search{};                 ///< How it was found.
   FoundView worst_search{};                ///< Evaluations beyond the best view's.
   std::optional<DenseGap> dense_gap{};     ///< If options.certify.
@@ -150,7 +150,7 @@ PictureView find_picture_view(const Model& model, const ShapeAnalysis& prepared,
 /// Describes the view from a given direction. \pre the map is there.
 ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& visibility,
                            const ScoringCamera& camera, const Vec3& direction, UpAxis up,
-                           const ViewOptions& options);
+                           const ViewOptions& options, const RunContext& run = {});
 
 /// Chooses several views as options.view_set asks. \pre the map is there, and options.view_set.
 /// \param best the best view, where the choice by significance begins.
@@ -168,10 +168,10 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
 
 /// Cameras along the tour of a set, or its way, `count` at equal distances, all with the field of view that
 /// shows the whole surface from every one of them. \pre at least two different views.
-/// \param aspect width over height.
+/// \param aspect width over height. \param margin_percent empty border, of the shorter side.
 std::vector<Camera> tour_cameras(const ShapeAnalysis& shape, const ReportedViewSet& set,
                                  const ScoringCamera& camera, UpAxis up, double aspect,
-                                 std::size_t count);
+                                 std::size_t count, double margin_percent = 4.0);
 
 /// What a picture shows, and its size.
 struct PictureFrame {

@@ -29,8 +29,8 @@ namespace vantage {
 
 /// Wall-clock seconds of each stage.
 struct StageSeconds {
-  double load = 0.0;      ///< Reading the file.
-  double contract = 0.0;  ///< Repairs and contraction.
+  double load = 0.0;      ///< Reading the file, and repairs.
+  double contract = 0.0;  ///< Contraction.
   double skeleton = 0.0;  ///< Surgery, centring, pruning; and what views still wait for then.
   double map = 0.0;       ///< Distances and their sum.
   double search = 0.0;    ///< Both views.
@@ -50,7 +50,7 @@ struct ViewPreparation;
 /// The surface as the method works on it, and what it found out about its shape.
 struct ShapeAnalysis {
   TriMesh surface{};                            ///< Welded, closed shells turned outwards.
-  std::vector<FaceSides> sides{};               ///< One per component of `surface`.
+  std::vector<FaceSides> sides{};               ///< One per component of `surface`, or one for all.
   std::vector<std::uint32_t> surface_vertex{};  ///< For each input vertex its one in `surface`.
   MeshReport check{};                           ///< Of the welded surface.
   TextureFlow flow{};                           ///< How pictures lie on it.

@@ -26,7 +26,7 @@ namespace vantage {
 
 /// A named set of choices.
 enum class Preset {
-  Default,  ///< Ours wherever the specification gives two.
+  Default,  ///< Ours wherever it differs from the paper's.
   Paper,    ///< The paper's: box scaling, cube of 8, rapid search, ε = 0.1 as a raw sum.
 };
 

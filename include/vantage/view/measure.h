@@ -249,6 +249,7 @@ class ViewMeasurer {
   [[nodiscard]] const std::vector<Measure>& measures() const;  ///< As given.
   [[nodiscard]] const MeasuredModel& model() const;            ///< What is known of the model.
   [[nodiscard]] const DirectionSet& set() const;               ///< The set of views.
+  [[nodiscard]] int set_level() const;                         ///< How often it was split.
 
   /// Values over the set; computed once. \throw Cancelled
   const MeasureValues& set_values(const RunContext& run = {});

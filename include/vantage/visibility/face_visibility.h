@@ -12,7 +12,6 @@
 #include "vantage/core/run_context.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/tri_mesh.h"
-#include "vantage/visibility/vertex_visibility.h"
 
 /// \file
 /// How much of each face an eye sees, exactly. docs/visibility.md says how.

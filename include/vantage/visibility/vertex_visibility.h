@@ -15,12 +15,6 @@
 
 namespace vantage {
 
-/// Which side of a face can be seen.
-enum class FaceSides {
-  Front,  ///< Only the side the winding points to: closed, consistently wound shells.
-  Both,   ///< Both: open, inconsistently wound or non-manifold surfaces.
-};
-
 /// Answers visibility queries on one surface. Immutable after construction; queries are const and
 /// may run on many threads at once. Answers are the same at any scale and position of the model
 /// (up to the rounding of its coordinates) and for any number of threads.

@@ -13,8 +13,8 @@
 #include "vantage/skeleton/skeleton.h"
 
 #include "core/random.h"
+#include "mesh/close_nodes.h"
 #include "skeleton/cluster_complex.h"
-#include "skeleton/resampling.h"
 #include "skeleton/surgery.h"
 #include "support/shapes.h"
 #include "unit/skeleton/genus_two.h"

@@ -103,6 +103,10 @@ TEST(Orientation, IsWhatIsGivenOrCertainWhateverTheShape) {
   // The front is at right angles to up, and up to a front that is given.
   EXPECT_EQ(certain.front.direction.dot(certain.up.direction), 0.0);
   EXPECT_EQ(evidence.find({.front = Vec3::UnitX()}).up.direction.dot(Vec3::UnitX()), 0.0);
+  EXPECT_THROW(
+      evidence.find(
+          {.front = -Vec3::UnitY(), .usual_up = Vec3::UnitY(), .usual_up_is_certain = true}),
+      InvalidInput);
 }
 
 TEST(Orientation, HasNoUsualFrontWhereUpIsNotUsual) {

@@ -19,7 +19,7 @@ TEST(Twins, OfAViewOfABoxAreItsMirrorImages) {
   ViewOptions options;
   options.objective = Objective::Significance;
   const Preference preference(shape, {}, options, scorer.total());
-  const auto twins = twins_of(best, shape, scorer, preference);
+  const auto twins = twins_of(best, shape, scorer, preference, {});
   // Three planes make 2³ images, the view itself among them; on an even map all see as much.
   ASSERT_EQ(twins.size(), 7U);
   for (const TwinView& twin : twins) {

@@ -66,8 +66,9 @@ TEST(ComputeKssm, FromVelocitiesNeedsAStep) {
   }
   const KssmMap map =
       compute_kssm(made.mesh, made.history, made.graph, {.kinematics = Kinematics::Velocity});
-  // Velocities ½ (1, 2, 3, 5): the same shape as the displacement.
-  ASSERT_EQ(map.level_factor.size(), 1U);
+  // Velocities ½ (1, 2, 3, 5): the same shape as the displacement. No step led to level 0.
+  EXPECT_EQ(map.level_factor, (std::vector<double>{0.0, 0.75 * 0.75}));
+  EXPECT_EQ(map.levels_used, (std::vector<std::size_t>{1}));
   EXPECT_DOUBLE_EQ(map.of_vertex[2], 0.5 * 0.75 * 0.75);
 }
 

@@ -35,6 +35,13 @@ TEST(SkeletonOfATetrahedron, IsOneComponentWithoutCycles) {
   EXPECT_EQ(cycle_count(skeleton.graph), 0U);
 }
 
+TEST(SkeletonOfATetrahedron, TakesNoHarmFromAFaceOfNoAreaBesideIt) {
+  const TriMesh mesh{
+      .positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {3, 0, 0}, {4, 0, 0}},
+      .triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {4, 4, 5}}};
+  EXPECT_GE(component_count(skeleton_of(mesh).graph), 1U);
+}
+
 TEST(SkeletonOfACylinder, IsAsThickAsItInItsMiddle) {
   const double radius = 0.25;
   const Skeleton skeleton = skeleton_of(test::cylinder(radius, 4.0, 24, 48));

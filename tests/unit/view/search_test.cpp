@@ -280,6 +280,18 @@ TEST_P(SearchBy, ReportsFractionsThatNeverDecreaseAndEndAtOne) {
   EXPECT_EQ(last, 1.0);
 }
 
+TEST(GlobalSearch, ReportsFractionsThatNeverDecreaseWhereThereIsAProxy) {
+  double last = 0.0;
+  const RunContext run{.report = [&](std::string_view, double fraction) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+  }};
+  ViewObjective objective{scoring(three_hills), 1.0};
+  objective.proxy = objective.score;
+  search_view(objective, Goal::Best, {}, run);
+  EXPECT_EQ(last, 1.0);
+}
+
 TEST_P(SearchBy, StopsOnRequest) {
   std::stop_source source;
   const auto stopping = scoring([&](const Vec3& d) {
@@ -293,7 +305,8 @@ TEST_P(SearchBy, StopsOnRequest) {
 
 INSTANTIATE_TEST_SUITE_P(Strategies, SearchBy,
                          testing::Values(SearchStrategy::Rapid, SearchStrategy::Exhaustive,
-                                         SearchStrategy::Global, SearchStrategy::Dense));
+                                         SearchStrategy::Global, SearchStrategy::Dense,
+                                         SearchStrategy::Gradient));
 
 TEST(SearchView, RefusesOptionsOutsideTheirRange) {
   EXPECT_THROW(search_view({scoring(three_hills), 1.0}, Goal::Best, {.subdivisions = 9}),

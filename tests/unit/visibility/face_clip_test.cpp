@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "spatial/picture_cells.h"
 #include "support/shapes.h"
-#include "visibility/picture_cells.h"
 #include "visibility/segment.h"
 
 namespace vantage {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "visibility/hiding_backs.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -12,8 +10,10 @@
 #include "vantage/visibility/face_visibility.h"
 #include "vantage/visibility/vertex_visibility.h"
 
+#include "spatial/face_meetings.h"
 #include "support/shapes.h"
 #include "support/voxel_surface.h"
+#include "visibility/surface.h"
 
 namespace vantage {
 namespace {
@@ -28,7 +28,8 @@ struct Count {
 Count backs_of(const TriMesh& mesh) {
   const std::vector<FaceSides> sides{FaceSides::Front};
   const Surface surface = prepare_surface(mesh, sides);
-  const auto asked = find_meetings(surface, surface_edges(surface)).hiding_backs;
+  const TriMesh framed{surface.sites, surface.faces};
+  const auto asked = find_meetings(framed, surface_edges(framed)).hiding_backs;
   return {static_cast<std::size_t>(std::count(asked.begin(), asked.end(), 1)), asked.size()};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "skeleton/handle_guard.h"
+#include "mesh/handle_guard.h"
 
 #include <algorithm>
 #include <array>

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "visibility/picture_cells.h"
+#include "spatial/picture_cells.h"
 
 #include <cmath>
 
 #include <Eigen/Geometry>
 
-#include "visibility/convex_polygon.h"
+#include "spatial/convex_polygon.h"
 
 namespace vantage {
 
-void PictureCells::begin(const Surface& surface, const Viewpoint& eye, std::size_t cells) {
-  surface_ = &surface;
+void PictureCells::begin(std::span<const Vec3> sites, const Viewpoint& eye, std::size_t cells) {
+  sites_ = sites;
   eye_ = eye;
   is_flat_ = project();
   const double sides = is_flat_ ? 1.0 : static_cast<double>(kSides);
@@ -50,9 +50,9 @@ bool PictureCells::project() {
   const Vec3 towards = eye_.position / distance;
   const Vec3 right = towards.unitOrthogonal();
   const Vec3 up = towards.cross(right);
-  exact_.resize(surface_->sites.size());
+  exact_.resize(sites_.size());
   for (std::size_t site = 0; site < exact_.size(); ++site) {
-    const Vec3& place = surface_->sites[site];
+    const Vec3& place = sites_[site];
     const double along = place.dot(towards);
     const double depth = is_perspective ? distance - along : 1.0;
     if (!(depth > 0.0)) {

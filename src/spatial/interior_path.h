@@ -9,7 +9,7 @@
 #include "vantage/mesh/topology.h"
 #include "vantage/mesh/tri_mesh.h"
 
-#include "skeleton/shell.h"
+#include "spatial/shell.h"
 
 namespace vantage {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "skeleton/resampling.h"
+#include "mesh/close_nodes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "skeleton/shell.h"
+#include "spatial/shell.h"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "visibility/close_faces.h"
+#include "spatial/close_faces.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -16,15 +16,10 @@ namespace {
 
 using Pairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
-Surface surface_of(const TriMesh& mesh) {
-  const std::vector<FaceSides> sides{FaceSides::Front};
-  return prepare_surface(mesh, sides);
-}
-
-Pairs pairs_of(const Surface& surface) {
+Pairs pairs_of(const TriMesh& mesh) {
   Pairs pairs;
   const bool complete =
-      for_each_close_pair(surface, 10'000'000, [&](std::uint32_t f, std::uint32_t g) {
+      for_each_close_pair(mesh, 10'000'000, [&](std::uint32_t f, std::uint32_t g) {
         EXPECT_LT(f, g);
         EXPECT_TRUE(pairs.emplace(f, g).second) << "twice";
       });
@@ -33,12 +28,13 @@ Pairs pairs_of(const Surface& surface) {
 }
 
 /// How far the boxes of two faces are apart along some axis; below 0 if they overlap.
-double gap_between(const Surface& surface, std::uint32_t f, std::uint32_t g) {
+double gap_between(const TriMesh& mesh, std::uint32_t f, std::uint32_t g) {
   double gap = -1.0;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const auto span_of = [&](std::uint32_t face) {
-      const auto& [a, b, c] = surface.faces[face];
-      return std::minmax({surface.sites[a][axis], surface.sites[b][axis], surface.sites[c][axis]});
+      const auto& [a, b, c] = mesh.triangles[face];
+      return std::minmax(
+          {mesh.positions[a][axis], mesh.positions[b][axis], mesh.positions[c][axis]});
     };
     const auto [low, high] = span_of(f);
     const auto [other_low, other_high] = span_of(g);
@@ -48,12 +44,12 @@ double gap_between(const Surface& surface, std::uint32_t f, std::uint32_t g) {
 }
 
 /// Pairs that are wrongly among those found, or missing.
-std::size_t mistakes_in(const Surface& surface, const Pairs& found) {
+std::size_t mistakes_in(const TriMesh& mesh, const Pairs& found) {
   constexpr double kNearly = 1e-6;  // some roundings to float
   std::size_t mistakes = 0;
-  for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
-    for (std::uint32_t g = f + 1; g < surface.faces.size(); ++g) {
-      const double gap = gap_between(surface, f, g);
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (std::uint32_t g = f + 1; g < mesh.triangles.size(); ++g) {
+      const double gap = gap_between(mesh, f, g);
       const bool is_found = found.contains({f, g});
       mistakes += is_found ? (gap > kNearly ? 1 : 0) : (gap <= 0.0 ? 1 : 0);
     }
@@ -65,29 +61,28 @@ TEST(CloseFaces, AreAllPairsWhoseBoxesOverlap) {
   for (const TriMesh& mesh :
        {test::torus(1.0, 0.3, 23, 11), test::soup(test::sphere(2)), test::box(1.0, 2.0, 3.0, 4),
         test::together(test::sphere(2), test::sphere(3), Vec3(0.5, 0.0, 0.0))}) {
-    const Surface surface = surface_of(mesh);
-    const Pairs found = pairs_of(surface);
-    EXPECT_GT(found.size(), surface.faces.size());
-    EXPECT_EQ(mistakes_in(surface, found), 0U);
+    const Pairs found = pairs_of(mesh);
+    EXPECT_GT(found.size(), mesh.triangles.size());
+    EXPECT_EQ(mistakes_in(mesh, found), 0U);
   }
 }
 
 TEST(CloseFaces, OfNextToNothingAreNone) {
-  EXPECT_TRUE(pairs_of(surface_of({})).empty());
-  EXPECT_TRUE(pairs_of(surface_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}})).empty());
+  EXPECT_TRUE(pairs_of({}).empty());
+  EXPECT_TRUE(pairs_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}).empty());
 }
 
 TEST(CloseFaces, EndWhereThereAreTooMany) {
-  const Surface surface = surface_of(test::sphere(3));
-  const std::size_t all = pairs_of(surface).size();
+  const TriMesh mesh = test::sphere(3);
+  const std::size_t all = pairs_of(mesh).size();
   std::size_t visited = 0;
   const auto count = [&](std::uint32_t, std::uint32_t) { ++visited; };
-  EXPECT_FALSE(for_each_close_pair(surface, 0, count));
+  EXPECT_FALSE(for_each_close_pair(mesh, 0, count));
   EXPECT_EQ(visited, 0U);
-  EXPECT_FALSE(for_each_close_pair(surface, all, count));
+  EXPECT_FALSE(for_each_close_pair(mesh, all, count));
   EXPECT_LT(visited, all);
   visited = 0;
-  EXPECT_TRUE(for_each_close_pair(surface, 40 * surface.faces.size(), count));
+  EXPECT_TRUE(for_each_close_pair(mesh, 40 * mesh.triangles.size(), count));
   EXPECT_EQ(visited, all);
 }
 

@@ -11,8 +11,7 @@
 
 #include "vantage/core/camera.h"
 #include "vantage/core/vec3.h"
-
-#include "visibility/surface.h"
+#include "vantage/mesh/tri_mesh.h"
 
 /// \file
 /// The picture of a surface divided into cells, to find faces and edges that lie before or behind
@@ -46,9 +45,9 @@ class PictureCells {
     }
   };
 
-  /// \param eye in the surface's frame. \param cells about how many there shall be. Both must
-  ///            outlive the use of this.
-  void begin(const Surface& surface, const Viewpoint& eye, std::size_t cells);
+  /// \param sites places of the surface's vertices, which must outlive the use of this.
+  /// \param eye in their frame. \param cells about how many there shall be.
+  void begin(std::span<const Vec3> sites, const Viewpoint& eye, std::size_t cells);
 
   /// Whether all of the surface is ahead of the eye: the picture is one plane.
   [[nodiscard]] bool is_flat() const { return is_flat_; }
@@ -129,7 +128,7 @@ class PictureCells {
     }
     std::array<Vec3, Count> from_eye;
     for (std::size_t k = 0; k < Count; ++k) {
-      from_eye[k] = surface_->sites[sites[k]] - eye_.position;
+      from_eye[k] = sites_[sites[k]] - eye_.position;
     }
     for (std::uint32_t side = 0; side < kSides; ++side) {
       Cells cells;
@@ -182,7 +181,7 @@ class PictureCells {
   [[nodiscard]] bool on_side(const Vec3* from_eye, std::size_t count, std::uint32_t side,
                              Cells& cells) const;
 
-  const Surface* surface_ = nullptr;
+  std::span<const Vec3> sites_{};
   Viewpoint eye_{};
   bool is_flat_ = true;
   std::uint32_t side_ = 1;       // cells along a side

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "visibility/close_faces.h"
+#include "spatial/close_faces.h"
 
 #include <algorithm>
 #include <array>
@@ -58,12 +58,12 @@ struct Boxes {
   }
 };
 
-Boxes boxes_of_faces(const Surface& surface) {
-  Boxes boxes(surface.faces.size());
+Boxes boxes_of_faces(const TriMesh& mesh) {
+  Boxes boxes(mesh.triangles.size());
   for (std::size_t f = 0; f < boxes.count; ++f) {
-    for (const std::uint32_t site : surface.faces[f]) {
+    for (const std::uint32_t v : mesh.triangles[f]) {
       for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        const auto at = static_cast<float>(surface.sites[site][axis]);
+        const auto at = static_cast<float>(mesh.positions[v][axis]);
         float& low = boxes.low[static_cast<std::size_t>(axis)][f];
         float& high = boxes.high[static_cast<std::size_t>(axis)][f];
         low = std::min(low, at - kRoundedBy);
@@ -90,10 +90,10 @@ Boxes boxes_around(const Boxes& inner) {
 /// Goes down from pairs of boxes to pairs of faces.
 class Descent {
  public:
-  Descent(const Surface& surface, std::size_t patience,
+  Descent(const TriMesh& mesh, std::size_t patience,
           const std::function<void(std::uint32_t, std::uint32_t)>& visit)
       : left_(patience), visit_(visit) {
-    levels_.push_back(boxes_of_faces(surface));
+    levels_.push_back(boxes_of_faces(mesh));
     while (levels_.back().count > 1) {
       levels_.push_back(boxes_around(levels_.back()));
     }
@@ -144,9 +144,9 @@ class Descent {
 
 }  // namespace
 
-bool for_each_close_pair(const Surface& surface, std::size_t patience,
+bool for_each_close_pair(const TriMesh& mesh, std::size_t patience,
                          const std::function<void(std::uint32_t, std::uint32_t)>& visit) {
-  return Descent(surface, patience, visit).go();
+  return Descent(mesh, patience, visit).go();
 }
 
 }  // namespace vantage

@@ -4,8 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "visibility/surface.h"
-#include "visibility/surface_edges.h"
+#include "vantage/mesh/tri_mesh.h"
+
+#include "mesh/surface_edges.h"
 
 /// \file
 /// Faces that meet others elsewhere than at corners and edges that they share, and what that says of
@@ -24,6 +25,7 @@ struct FaceMeetings {
   std::vector<std::uint8_t> crossed{};
 };
 
-FaceMeetings find_meetings(const Surface& surface, const SurfaceEdges& edges);
+/// \param mesh in a UnitFrame, without faces of zero area. \param edges of it.
+FaceMeetings find_meetings(const TriMesh& mesh, const SurfaceEdges& edges);
 
 }  // namespace vantage

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "skeleton/shell.h"
+#include "spatial/shell.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 /// Faces a cell of the grid, on average, if all were the same size.
 constexpr double kFacesPerCell = 2.0;
-constexpr int kMostCells = 2048;  // along one side
+constexpr int kMostCellsAlong = 2048;  // along one side
 /// Entries of the grid for each face, beyond which its cells are made larger: large faces that lie
 /// over one another touch every cell, and thousands of them fill gigabytes [ours].
 constexpr std::size_t kMostEntries = 64;
@@ -27,7 +27,7 @@ constexpr double kSkip = 1e-4;
 /// Parts of a segment shorter than this share of it are rounding errors of where it is cut.
 constexpr double kRounding = 1e-9;
 /// A point nearer to the surface than this share of the model is on it.
-constexpr double kMargin = 1e-6;
+constexpr double kAside = 1e-6;
 /// Rows of cells are taken this much wider, in cells, so that rounding loses no face.
 constexpr double kSlack = 0.01;
 /// A segment that passes a face's plane farther than this share of the model from the face does not
@@ -75,11 +75,17 @@ Shell::Shell(const TriMesh& mesh, std::span<const std::uint32_t> component_of_ve
 
 void Shell::look_at_edges() {
   const EdgeTable table = build_edge_table(mesh_);
+  std::size_t components = 0;
+  for (const Triangle& t : mesh_.triangles) {
+    components = std::max(components, component_of_vertex_[t[0]] + std::size_t{1});
+  }
+  is_open_.assign(components, 1);  // what has no edge has no inside
+  for (const auto& edge : table.edges) {
+    is_open_[component_of_vertex_[edge[0]]] = 0;
+  }
   for (std::size_t e = 0; e < table.edges.size(); ++e) {
-    const std::uint32_t component = component_of_vertex_[table.edges[e][0]];
-    is_open_.resize(std::max<std::size_t>(is_open_.size(), component + std::size_t{1}), 0);
     if (table.faces_of_edge[e].size() % 2 == 1) {
-      is_open_[component] = 1;
+      is_open_[component_of_vertex_[table.edges[e][0]]] = 1;
     }
   }
   std::vector<std::size_t> faces(is_open_.size(), 0);
@@ -88,7 +94,7 @@ void Shell::look_at_edges() {
     ++faces[component_of_vertex_[t[0]]];
   }
   for (const std::uint32_t component : component_of_vertex_) {
-    if (component < most.size()) {  // not a lone vertex
+    if (component < components) {  // not a lone vertex
       most[component] += kMostAtVertex;
     }
   }
@@ -108,7 +114,7 @@ void Shell::sort_into_cells() {
   const double height = size[(up_ + 2) % 3];
   const double wanted = std::max(1.0, static_cast<double>(mesh_.triangles.size()) / kFacesPerCell);
   double cell_size =
-      std::max(std::sqrt(width * height / wanted), std::max(width, height) / kMostCells);
+      std::max(std::sqrt(width * height / wanted), std::max(width, height) / kMostCellsAlong);
   if (!(cell_size > 0.0)) {
     cell_size = 1.0;
   }
@@ -276,7 +282,7 @@ bool Shell::inside(std::uint32_t component, const Vec3& point) const {
 bool Shell::well_inside(std::uint32_t component, const Vec3& point) const {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sense : {-1.0, 1.0}) {
-      if (!inside(component, point + sense * kMargin * size_ * Vec3::Unit(axis))) {
+      if (!inside(component, point + sense * kAside * size_ * Vec3::Unit(axis))) {
         return false;
       }
     }

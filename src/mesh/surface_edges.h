@@ -6,11 +6,10 @@
 #include <vector>
 
 #include "vantage/mesh/topology.h"
-
-#include "visibility/surface.h"
+#include "vantage/mesh/tri_mesh.h"
 
 /// \file
-/// How the faces of a surface hang together.
+/// How the faces of a mesh hang together.
 
 namespace vantage {
 
@@ -18,7 +17,7 @@ namespace vantage {
 /// that run along it the same way; or not two.
 enum class EdgePair : std::uint8_t { Opposite, Same, None };
 
-/// Edges of a surface, numbered as in their table.
+/// Edges of a mesh, numbered as in their table.
 struct SurfaceEdges {
   EdgeTable table{};
   std::vector<EdgePair> pairs{};                        ///< Of each edge.
@@ -27,7 +26,7 @@ struct SurfaceEdges {
   std::vector<std::uint32_t> shell_of_face{};  ///< Alike for faces that edges hold together.
 };
 
-/// \pre no face of the surface names a site twice.
-SurfaceEdges surface_edges(const Surface& surface);
+/// \pre no face names a vertex twice.
+SurfaceEdges surface_edges(const TriMesh& mesh);
 
 }  // namespace vantage

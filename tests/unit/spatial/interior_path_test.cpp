@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "skeleton/interior_path.h"
+#include "spatial/interior_path.h"
 
 #include <cmath>
 #include <numeric>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "visibility/surface_edges.h"
+#include "mesh/surface_edges.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-/// Whether the face runs along the edge from its lower to its higher site.
+/// Whether the face runs along the edge from its lower to its higher vertex.
 bool runs_up(const Triangle& face, const std::array<std::uint32_t, 2>& edge) {
   const auto at = std::find(face.begin(), face.end(), edge[0]) - face.begin();
   return face[static_cast<std::size_t>(at + 1) % 3] == edge[1];
@@ -17,18 +17,18 @@ bool runs_up(const Triangle& face, const std::array<std::uint32_t, 2>& edge) {
 
 }  // namespace
 
-SurfaceEdges surface_edges(const Surface& surface) {
+SurfaceEdges surface_edges(const TriMesh& mesh) {
   SurfaceEdges edges;
-  edges.table = build_edge_table({surface.sites, surface.faces});
-  edges.of_face.resize(surface.faces.size());
-  std::vector<std::uint8_t> filled(surface.faces.size(), 0);
-  DisjointSets shells(surface.faces.size());
+  edges.table = build_edge_table(mesh);
+  edges.of_face.resize(mesh.triangles.size());
+  std::vector<std::uint8_t> filled(mesh.triangles.size(), 0);
+  DisjointSets shells(mesh.triangles.size());
   for (std::uint32_t e = 0; e < edges.table.edges.size(); ++e) {
     const auto faces = edges.table.faces_of_edge[e];
     const auto& ends = edges.table.edges[e];
     const bool is_pair = faces.size() == 2;
-    const bool is_alike =
-        is_pair && runs_up(surface.faces[faces[0]], ends) == runs_up(surface.faces[faces[1]], ends);
+    const bool is_alike = is_pair && runs_up(mesh.triangles[faces[0]], ends) ==
+                                         runs_up(mesh.triangles[faces[1]], ends);
     edges.pairs.push_back(!is_pair   ? EdgePair::None
                           : is_alike ? EdgePair::Same
                                      : EdgePair::Opposite);
@@ -38,7 +38,7 @@ SurfaceEdges surface_edges(const Surface& surface) {
       shells.join(faces[0], f);
     }
   }
-  for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
     edges.shell_of_face.push_back(shells.root(f));
   }
   return edges;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "visibility/hiding_backs.h"
+#include "spatial/face_meetings.h"
 
 #include <algorithm>
 #include <array>
@@ -9,9 +9,10 @@
 
 #include <Eigen/Geometry>
 
+#include "vantage/mesh/measures.h"
 #include "vantage/mesh/tri_mesh.h"
 
-#include "visibility/close_faces.h"
+#include "spatial/close_faces.h"
 
 namespace vantage {
 namespace {
@@ -56,11 +57,15 @@ bool meets(const Vec3& from, const Vec3& to, const Corners& corners, const Vec3&
 
 class BackCheck {
  public:
-  BackCheck(const Surface& surface, const SurfaceEdges& edges)
-      : surface_(surface),
+  BackCheck(const TriMesh& mesh, const SurfaceEdges& edges)
+      : mesh_(mesh),
         edges_(edges),
-        hides_(surface.faces.size(), 0),
-        crossed_(surface.faces.size(), 0) {}
+        hides_(mesh.triangles.size(), 0),
+        crossed_(mesh.triangles.size(), 0) {
+    for (const Triangle& face : mesh.triangles) {
+      normals_.push_back(area_vector(mesh, face));
+    }
+  }
 
   FaceMeetings of_faces() {
     check_edges();
@@ -89,7 +94,7 @@ class BackCheck {
     std::vector<double> size(hides_.size(), 0.0);
     for (std::uint32_t f = 0; f < hides_.size(); ++f) {
       const std::uint32_t shell = edges_.shell_of_face[f];
-      const double part = surface_.area_vectors[f].dot(surface_.sites[surface_.faces[f][0]]);
+      const double part = normals_[f].dot(mesh_.positions[mesh_.triangles[f][0]]);
       volume[shell] += part;
       size[shell] += std::abs(part);
     }
@@ -110,7 +115,7 @@ class BackCheck {
         }
       }
     };
-    if (!for_each_close_pair(surface_, kStepsPerFace * surface_.faces.size(), meet)) {
+    if (!for_each_close_pair(mesh_, kStepsPerFace * mesh_.triangles.size(), meet)) {
       std::fill(hides_.begin(), hides_.end(), 1);
       std::fill(crossed_.begin(), crossed_.end(), 1);
     }
@@ -118,9 +123,9 @@ class BackCheck {
 
   /// Whether every edge of either face shares a site with the other.
   [[nodiscard]] bool share_edge(std::uint32_t f, std::uint32_t g) const {
-    const auto& [a, b, c] = surface_.faces[f];
+    const auto& [a, b, c] = mesh_.triangles[f];
     int shared = 0;
-    for (const std::uint32_t site : surface_.faces[g]) {
+    for (const std::uint32_t site : mesh_.triangles[g]) {
       shared +=
           static_cast<int>(site == a) + static_cast<int>(site == b) + static_cast<int>(site == c);
     }
@@ -131,54 +136,39 @@ class BackCheck {
   /// in it, so does its other end, or it passes over an edge of that face, and a face beside it meets
   /// that.
   [[nodiscard]] bool has_edge_in(std::uint32_t of, std::uint32_t face) const {
-    const Triangle& own = surface_.faces[of];
-    const Triangle& other = surface_.faces[face];
+    const Triangle& own = mesh_.triangles[of];
+    const Triangle& other = mesh_.triangles[face];
     const auto is_shared = [&](std::uint32_t site) {
       return site == other[0] || site == other[1] || site == other[2];
     };
     const std::array<bool, 3> shared{is_shared(own[0]), is_shared(own[1]), is_shared(own[2])};
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t next = (k + 1) % 3;
-      if (!shared[k] && !shared[next] && !is_beside_plane(own[k], own[next], face) &&
-          meets(surface_.sites[own[k]], surface_.sites[own[next]],
-                {surface_.sites[other[0]], surface_.sites[other[1]], surface_.sites[other[2]]},
-                surface_.area_vectors[face])) {
+      if (!shared[k] && !shared[next] &&
+          meets(mesh_.positions[own[k]], mesh_.positions[own[next]],
+                {mesh_.positions[other[0]], mesh_.positions[other[1]], mesh_.positions[other[2]]},
+                normals_[face])) {
         return true;
       }
     }
     return false;
   }
 
-  /// Whether both sites are clearly beyond all of the face's corners along its normal, however that is
-  /// rounded, by single precision.
-  [[nodiscard]] bool is_beside_plane(std::uint32_t a, std::uint32_t b, std::uint32_t face) const {
-    constexpr float kRoundings = 0x1p-18F;  // a dozen of numbers below 1, and far more than kClear
-    const FloatPoints& at = surface_.rounded;
-    const FacePlanes& planes = surface_.planes;
-    const auto height = [&](std::uint32_t site) {
-      return planes.x[face] * at.x[site] + planes.y[face] * at.y[site] +
-             planes.z[face] * at.z[site];
-    };
-    const auto [low, high] = std::minmax({height(a), height(b)});
-    const auto& [i, j, k] = surface_.faces[face];
-    const auto [lowest, highest] = std::minmax({height(i), height(j), height(k)});
-    return low > highest + kRoundings || high < lowest - kRoundings;
-  }
-
   [[nodiscard]] std::uint32_t shell_at(std::size_t edge) const {
     return edges_.shell_of_face[edges_.beside[edge][0]];
   }
 
-  const Surface& surface_;
+  const TriMesh& mesh_;
   const SurfaceEdges& edges_;
+  std::vector<Vec3> normals_{};        // of each face, of twice its area
   std::vector<std::uint8_t> hides_;    // of the face that each shell is named after
   std::vector<std::uint8_t> crossed_;  // of each face
 };
 
 }  // namespace
 
-FaceMeetings find_meetings(const Surface& surface, const SurfaceEdges& edges) {
-  return BackCheck(surface, edges).of_faces();
+FaceMeetings find_meetings(const TriMesh& mesh, const SurfaceEdges& edges) {
+  return BackCheck(mesh, edges).of_faces();
 }
 
 }  // namespace vantage
