@@ -7,8 +7,9 @@
 
 views.csv has archive, model, overlap, azimuth_deg, elevation_deg, dx, dy, dz and second_* of each entry: the
 direction from the model's centre to the eye of its icon, y up and +z in front after the catalogue's rotation.
-Overlaps below 0.88 are left out; where another direction within 0.02 of the overlap is in front, it is taken. A table
-of rebuild_catalogue.py, with a column confidence, is taken as it is: it has told front from back by colours.
+Overlaps below 0.88 are left out, and overlaps of 1 in two directions: such an icon has no silhouette, it is opaque all
+over. Where another direction within 0.02 of the overlap is not from below, or else is in front, it is taken. A
+table of rebuild_catalogue.py, with a column confidence, is taken as it is: it has told front from back by colours.
 --write replaces src/choice/choice_table.txt, --check compares it with what it would be, --page puts the table
 of errors on models left out between the marks of a page. docs/people.md explains the model.
 """
@@ -30,7 +31,9 @@ import orientation_data  # noqa: E402
 TABLE = pathlib.Path(__file__).resolve().parents[1] / "src/choice/choice_table.txt"
 BEGIN, END = "<!-- fit_choices.py begins -->", "<!-- fit_choices.py ends -->"
 LEAST_OVERLAP = 0.88   # of the icon's silhouette with the model's
-AMBIGUOUS = 0.02       # overlaps so near do not tell front from back
+OPAQUE = 0.9995        # overlaps of icons that are opaque all over
+FROM_BELOW = -0.1      # what is lower is seldom meant
+AMBIGUOUS = 0.02       # overlaps so near do not tell front from back, nor above from below
 OUTLIERS = 0.05        # share of choices that the likelihood lets come from anywhere
 KERNEL = np.radians(10)  # a choice is as good as its neighbourhood
 LEAST_WEIGHT = 1e-4    # as src/choice/view_habit.cpp has it
@@ -51,11 +54,18 @@ def chosen(row):
     direction = unit([float(row[k]) for k in ("dx", "dy", "dz")])
     if "confidence" in row:
         return direction
-    if direction[2] < 0 and float(row["second_overlap"]) > float(row["overlap"]) - AMBIGUOUS:
+    if float(row["second_overlap"]) > float(row["overlap"]) - AMBIGUOUS:
         a, e = (np.radians(float(row[k])) for k in ("second_azimuth_deg", "second_elevation_deg"))
         second = np.array([np.sin(a) * np.cos(e), np.sin(e), np.cos(a) * np.cos(e)])
-        return second if second[2] > 0 else direction
+        return max(direction, second, key=lambda d: (d[1] > FROM_BELOW, d[2] > 0))  # the first of equals
     return direction
+
+
+def tells_a_pose(row):
+    """Whether the icon's silhouette says from where it shows the model."""
+    if "confidence" in row:
+        return True
+    return float(row["overlap"]) >= LEAST_OVERLAP and float(row["second_overlap"]) < OPAQUE
 
 
 def measured(program, file, cache):
@@ -104,7 +114,7 @@ class Entry:
 
 def read_entries(arguments, folder):
     with open(arguments.views, newline="", encoding="utf-8") as file:
-        rows = [row for row in csv.DictReader(file) if "confidence" in row or float(row["overlap"]) >= LEAST_OVERLAP]
+        rows = [row for row in csv.DictReader(file) if tells_a_pose(row)]
     listed = {row["model"].lstrip("/"): row for row in rows}
     files = []
     for path in sorted(arguments.packages.rglob("*.sh3f")):

@@ -7,6 +7,7 @@
 #include "vantage/pipeline/option_table.h"
 
 #include "output_file.h"
+#include "picture_check.h"
 
 namespace vantage::cli {
 
@@ -57,15 +58,19 @@ ReadOptions LookFlags::reading(int width, int height) const {
   return {.appearance = of_asset(), .texture_side = kTexelsPerPixel * std::max(width, height)};
 }
 
-void LookFlags::write(const std::string& path, const Model& model, const ShapeAnalysis& shape,
-                      const Camera& camera, Picture picture, const ViewOptions& options,
-                      const Vec3& up, const RunContext& run) const {
+std::string LookFlags::write(const std::string& path, const Model& model,
+                             const ShapeAnalysis& shape, const Camera& camera, Picture picture,
+                             const ViewOptions& options, const Vec3& up,
+                             const RunContext& run) const {
   const Model* asset = of_asset() ? &model : nullptr;
-  write_output(
-      path,
-      depth_ == 8
-          ? picture_bytes(path, draw_picture(shape, camera, picture, options, look(up), run, asset))
-          : png_bytes(draw_picture_deep(shape, camera, picture, options, look(up), run, asset)));
+  if (depth_ != 8) {
+    write_output(
+        path, png_bytes(draw_picture_deep(shape, camera, picture, options, look(up), run, asset)));
+    return {};
+  }
+  const Image image = draw_picture(shape, camera, picture, options, look(up), run, asset);
+  write_output(path, picture_bytes(path, image));
+  return doubt_about_picture(image);
 }
 
 RenderOptions LookFlags::look(const Vec3& up) const {

@@ -48,10 +48,11 @@ class LookFlags {
   [[nodiscard]] ReadOptions reading(int width, int height) const;
 
   /// Takes the picture that was asked for and writes it, in as many bits as were asked for.
+  /// \return doubt_about_picture(), of one of 8 bits.
   /// \throw IoError, InvalidInput, Cancelled
-  void write(const std::string& path, const Model& model, const ShapeAnalysis& shape,
-             const Camera& camera, Picture picture, const ViewOptions& options, const Vec3& up,
-             const RunContext& run) const;
+  std::string write(const std::string& path, const Model& model, const ShapeAnalysis& shape,
+                    const Camera& camera, Picture picture, const ViewOptions& options,
+                    const Vec3& up, const RunContext& run) const;
 
   /// Of all pictures of a model, on the ground if its up axis is known. \param model must outlive it.
   [[nodiscard]] PictureLook of(const Model& model, const Vec3& up = Vec3::UnitY()) const {

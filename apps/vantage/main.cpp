@@ -13,13 +13,13 @@
 #include "vantage/core/version.h"
 
 #include "commands.h"
-#include "finite_numbers.h"
 #include "import_program.h"
 #include "option_text.h"
 #include "session.h"
 #include "standard_output.h"
 #include "terminal.h"
 #include "usage_hint.h"
+#include "value_checks.h"
 
 namespace {
 
@@ -96,7 +96,7 @@ int main(int argc, char** argv) {
     add_figures_command(program, session);
     add_completion_command(program, session);
     add_manual_command(program, session);
-    require_finite_numbers(program);
+    check_values(program);
     program.parse(argc, argv);
     session.end_progress();
     finish_standard_output();

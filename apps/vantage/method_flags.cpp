@@ -53,6 +53,14 @@ ViewOptions MethodFlags::resolve(std::uint64_t seed) const {
     throw CLI::ValidationError("--starts", "goes with --search gradient only");
   }
   search.seed = by_gradient ? seed : 0;
+  if (flags_.has("objective") && flags_.has("prior")) {
+    throw CLI::ValidationError("--prior", "says what is maximised, as --objective does: give one");
+  }
+  if (flags_.has("objective") && all.view.objective == Objective::People &&
+      objective_of(all.view) != Objective::People) {
+    throw CLI::ValidationError("--objective",
+                               "people goes with --search global, dense and exhaustive only");
+  }
   return all.view;
 }
 

@@ -91,9 +91,12 @@ struct RenderCommand {
                                        : RenderOptions{}.up;
     const std::map<std::string, Picture> pictures{
         {"plain", Picture::Plain}, {"kssm", Picture::Map}, {"skeleton", Picture::Skeleton}};
-    look.write(file, loaded, shape, frame->camera, pictures.at(show),
-               with_size(options, frame->size), up, run.part(0.9, 1.0));
+    const std::string doubt = look.write(file, loaded, shape, frame->camera, pictures.at(show),
+                                         with_size(options, frame->size), up, run.part(0.9, 1.0));
     report(session, *frame, options);
+    if (!doubt.empty()) {
+      session.say("warning: " + doubt);
+    }
     if (look.of_asset()) {
       for (const std::string& note : loaded.notes) {
         session.say("note: " + note);
@@ -105,7 +108,8 @@ struct RenderCommand {
   static Vec3 unit(const Vec3& v) {
     const double length = v.stableNorm();
     if (!(length > 0.0) || !std::isfinite(length)) {
-      throw CLI::ValidationError("--direction", "must not be zero");
+      throw CLI::ValidationError("--direction",
+                                 "must be three finite numbers, not all of them zero");
     }
     return v / length;
   }

@@ -98,11 +98,15 @@ struct ThumbCommand {
     const Camera& camera = found.view.picture;
     const Vec3 above = up_vector(found.choice.frame.up);
     options = with_size(options, found.view.size);
-    look.write(file, loaded, shape, camera, Picture::Plain, options, above, run.part(0.7, 1.0));
+    const std::string doubt =
+        look.write(file, loaded, shape, camera, Picture::Plain, options, above, run.part(0.7, 1.0));
     if (file != "-") {
       preview.show(session, shape, camera, options, look.of(loaded, above), run);
     }
     report(session, found);
+    if (!doubt.empty()) {
+      session.say("warning: " + doubt);
+    }
     for (const std::string& note : loaded.notes) {
       if (session.flags.verbose || note == kMadeOpaque) {
         session.say("note: " + note);

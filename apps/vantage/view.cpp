@@ -25,7 +25,8 @@ namespace vantage::cli {
 namespace {
 
 std::string direction_text(const Vec3& d) {
-  return "(" + rounded(d.x(), 3) + ", " + rounded(d.y(), 3) + ", " + rounded(d.z(), 3) + ")";
+  const auto part = [](double x) { return rounded(std::abs(x) < 5e-4 ? 0.0 : x, 3); };
+  return "(" + part(d.x()) + ", " + part(d.y()) + ", " + part(d.z()) + ")";
 }
 
 std::string view_line(const ReportedView& view) {
@@ -42,8 +43,10 @@ std::string objective_line(const ViewReport& report, const ViewOptions& options)
   if (objective_of(options) == Objective::Significance) {
     return options.prior.is_uniform ? "significance" : "significance, by the prior";
   }
-  const double attained =
-      report.highest_score > 0.0 ? 100.0 * report.best.score / report.highest_score : 100.0;
+  if (!(report.highest_score > 0.0)) {
+    return "people; no view sees anything significant";
+  }
+  const double attained = 100.0 * report.best.score / report.highest_score;
   return "people, with " + rounded(attained, 3) +
          " % of the score of any view; the score alone takes " +
          direction_text(report.highest_direction);

@@ -14,6 +14,8 @@
 #include "vantage/render/render.h"
 #include "vantage/report/view_report.h"
 
+#include "picture_check.h"
+
 namespace vantage::cli {
 namespace {
 
@@ -117,18 +119,8 @@ std::optional<Image> add_pictures(OutputFolder& output, const OutputKinds& kinds
 }
 
 void doubt_empty_picture(const std::optional<Image>& best, ViewReport& report) {
-  if (!best || best->rgba.size() < 4) {
-    return;
-  }
-  const auto first = best->rgba.begin();
-  bool is_empty = true;
-  for (auto pixel = first; is_empty && pixel != best->rgba.end(); pixel += 4) {
-    is_empty = std::equal(pixel, pixel + 4, first);
-  }
-  if (is_empty) {
-    report.doubts.emplace_back(
-        "the picture of the best view shows nothing: the model is too thin from there, or as "
-        "transparent as its materials say; try --style clay, --front or a larger --size");
+  if (std::string doubt = best ? doubt_about_picture(*best) : ""; !doubt.empty()) {
+    report.doubts.push_back(std::move(doubt));
   }
 }
 

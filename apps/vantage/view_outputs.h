@@ -43,7 +43,7 @@ std::optional<Image> add_pictures(OutputFolder& output, const OutputKinds& kinds
                                   ShapePictures& pictures, const ViewReport& report,
                                   const ViewOptions& options, const RunContext& run);
 
-/// Adds a doubt if the picture of the best view is of one colour alone.
+/// Adds a doubt if the picture of the best view shows next to nothing.
 void doubt_empty_picture(const std::optional<Image>& best, ViewReport& report);
 
 /// Adds report.html if it is among `kinds`. \throw Cancelled

@@ -40,8 +40,10 @@ std::string note_on(const DirectionChoice& choice, const std::string& word, cons
     const bool favours_other = choice.likeliest.dot(choice.direction) < 0.5;
     return word + " is unsure: " + chosen + " is taken, the usual one of its format (" +
            percent(choice.confidence) + " sure)" +
-           (favours_other ? ", the shape suggests " + name_of(choice.likeliest) : "") + "; --" +
-           word + " sets it";
+           (favours_other ? ", the shape suggests " + name_of(choice.likeliest) + " (" +
+                                percent(choice.likeliest_confidence) + ")"
+                          : "") +
+           "; --" + word + " sets it";
   }
   return {};
 }
@@ -52,8 +54,9 @@ std::string summary_of(const DirectionChoice& choice, const std::string& word) {
     return text + ", as given";
   }
   const bool is_likeliest = choice.likeliest.dot(choice.direction) > 0.5;
+  const bool is_formats = choice.source == "format";
   return text + ", " + percent(choice.confidence) + " sure" +
-         (is_likeliest && !choice.reasons.empty() ? by(choice) : ", its format's");
+         (!is_likeliest || (is_formats && choice.reasons.empty()) ? ", its format's" : by(choice));
 }
 
 }  // namespace

@@ -33,6 +33,18 @@ bool has_aspect_of(const Image& image, int width, int height) {
   return 2 * std::abs(off) <= std::int64_t{image.width} + image.height;
 }
 
+/// The colours of a cloud's points on the surface that joins them; none if it has none.
+std::vector<Rgb8> colours_of_points(const ShapeAnalysis& shape, const Model& cloud) {
+  if (cloud.vertex_colours.empty()) {
+    return {};
+  }
+  std::vector<Rgb8> colours(shape.surface.positions.size());
+  for (std::size_t v = cloud.vertex_colours.size(); v-- > 0;) {  // of points at one place the first
+    colours[shape.surface_vertex[v]] = cloud.vertex_colours[v];
+  }
+  return colours;
+}
+
 /// What a picture shows, and in which colours.
 class Canvas {
  public:
@@ -52,6 +64,8 @@ class Canvas {
       mesh_ = &asset->mesh;
       colours_ = asset->vertex_colours;
       appearance_ = &asset->appearance;
+    } else if (asset != nullptr) {
+      colours_ = colours_of_points(shape, *asset);
     }
   }
 
@@ -91,6 +105,9 @@ ShapePictures::ShapePictures(const ShapeAnalysis& shape, const PictureLook& look
   const bool is_plain = asset == nullptr || asset->mesh.triangles.empty() ||
                         (asset->vertex_colours.empty() && asset->appearance.materials.empty());
   look_.asset = is_plain ? nullptr : asset;
+  if (asset != nullptr && asset->mesh.triangles.empty()) {
+    point_colours_ = colours_of_points(shape, *asset);
+  }
 }
 
 const PictureSurface& ShapePictures::surface(const RunContext& run) {
@@ -126,6 +143,9 @@ std::vector<Image> ShapePictures::take(const Camera& camera, std::span<const Pic
     if (picture != Picture::Plain || look_.asset == nullptr) {
       canvases.emplace_back(*shape_, picture, options, look, nullptr);
       paints.push_back(canvases.back().paint());
+      if (picture == Picture::Plain) {
+        paints.back().vertex_colours = point_colours_;
+      }
     }
   }
   std::vector<Image> painted;
@@ -177,7 +197,7 @@ Image ShapePictures::take_plain(const Camera& camera, const RenderOptions& look,
     const Paint own{look_.asset->vertex_colours, {}, &look_.asset->appearance};
     return std::move(asset_surface(run).render(camera, std::span(&own, 1), look, run).front());
   }
-  const Paint clay;
+  const Paint clay{point_colours_, {}, nullptr};
   return std::move(surface(run).render(camera, std::span(&clay, 1), look, run).front());
 }
 

@@ -248,6 +248,9 @@ class Serve(ProgramTest):
             taken.listen()
             done = self.vantage("serve", folder, "--port", taken.getsockname()[1], exit_code=1)
         self.assertIn("--port", done.err)
+        with self.served(folder) as address:
+            done = self.vantage("serve", folder, "--port", address.rstrip("/").rsplit(":", 1)[1], exit_code=1)
+            self.assertIn("--port", done.err)
 
 
 if __name__ == "__main__":

@@ -96,6 +96,27 @@ class Thumb(ProgramTest):
             rows = read_png((self.dir / (name + ".png")).read_bytes())[2]
             self.assertGreater(sum(a > 128 for row in rows for a in row[3::4]), 200, name)
 
+    def test_what_shows_next_to_nothing_says_so(self):
+        self.write("needle.off", box(2e-5, 2e-5))
+        done = self.vantage("thumb", "needle.off", "needle.png")
+        self.assertRegex(done.err, "warning: the picture shows .*--size")
+        done = self.vantage("view", "needle.off", "-o", "v", "--size", "64x64", "--no-report")
+        self.assertTrue(any("the picture shows" in d for d in
+                            json.loads((self.dir / "v/view.json").read_text())["doubts"]), done.err)
+
+    def test_points_have_their_own_colours(self):
+        rows = [f"{x / 9} {y / 9} {0.1 * x * y / 81} 255 {10 * x} 0" for x in range(10) for y in range(10)]
+        names = "".join(f"property {t} {n}\n" for t, n in (("float", "x"), ("float", "y"), ("float", "z"), ("uchar", "red"),
+                                                          ("uchar", "green"), ("uchar", "blue")))
+        self.write("points.ply", f"ply\nformat ascii 1.0\nelement vertex 100\n{names}end_header\n" + "\n".join(rows) + "\n")
+        for style, coloured in (("asset", True), ("clay", False)):
+            self.vantage("thumb", "points.ply", "points.png", "--style", style, "--force")
+            pixels = [row[4 * x:4 * x + 4] for row in read_png((self.dir / "points.png").read_bytes())[2] for x in range(256)]
+            opaque = [p for p in pixels if p[3] == 255]
+            self.assertGreater(len(opaque), 1000)
+            red = sum(p[0] > p[2] + 60 for p in opaque)
+            self.assertEqual(red > 0.9 * len(opaque), coloured, style)
+
     def test_json_says_from_where(self):
         done = self.vantage("thumb", FAN, "fan.png", "--json", "--up", "z")
         said = json.loads(done.out)

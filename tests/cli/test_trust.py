@@ -68,7 +68,7 @@ class Doubts(ProgramTest):
     def test_a_picture_that_shows_nothing_is(self):
         self.write("needle.off", needle())
         done, report = self.view("needle.off", "--strict", exit_code=1)
-        self.assertRegex(report["doubts"][-1], "picture of the best view shows nothing")
+        self.assertRegex(report["doubts"][-1], "the picture shows nothing")
         self.assertTrue((self.dir / "out/best.png").exists(), done.err)
 
     def test_a_batch_stores_counts_and_lists_what_is_doubted(self):

@@ -45,6 +45,14 @@ class WhatWasMeant(ProgramTest):
         self.assertIn("'abc'", self.complaint("view", FAN, "--size", "abc", "--foo"))
         self.assertIn("--foo", self.complaint("view", FAN, "--foo", "--size", "abc"))
 
+    def test_flags_that_contradict_each_other_are_refused(self):
+        self.write("a.off", box(1))
+        for flags, named in ((("--search", "rapid", "--objective", "people"), "--objective"),
+                             (("--prior", "none", "--objective", "people"), "--prior"), (("-o", ""), "--output")):
+            with self.subTest(flags=flags):
+                self.assertIn(named, self.vantage("view", "a.off", *flags, exit_code=2).err)
+        self.assertEqual([p.name for p in self.dir.iterdir()], ["a.off"])
+
     def test_values_that_begin_with_a_dash_are_no_flags(self):
         self.assertIn("--foo", self.complaint("view", FAN, "--up", "-y", "--foo"))
         self.assertIn("--foo", self.complaint("render", FAN, "--direction", "-1,0,0", "-o", "x.png", "--foo"))

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+import { Vector3 } from 'three';
+
 import { asBytes, readData } from './decode.js';
 import { ModelView } from './model_view.js';
 import * as panel from './panel.js';
@@ -7,6 +9,7 @@ import { ScoreSphere } from './score_sphere.js';
 
 const element = (id) => document.getElementById(id);
 const PLAY_LEVELS_PER_S = 1.5;
+const SPACING_RAD = 0.14; // of the directions of the sphere
 
 const data = readData();
 const { view } = data;
@@ -22,12 +25,19 @@ const sphere = new ScoreSphere(element('sphere'), data, (direction) => {
   model.fly({ ...data.lens, eye: direction.clone().multiplyScalar(data.lens.distance).toArray(),
     up: data.up, target: [0, 0, 0] });
 });
+/** The value there, from those of the sphere; near a view that is known, towards its own. */
+const valueNear = (direction, values, known, at) => {
+  const share = Math.min(1, direction.angleTo(at) / SPACING_RAD);
+  return (1 - share) * known + share * sphere.valueAt(direction, values);
+};
+const bestEye = new Vector3(...view.best.direction);
+
 let model; // the first report of a direction comes from its constructor
 model = new ModelView(element('model'), data, (direction, up) => {
   sphere.turn(direction, up);
   const { scores, objective } = data.sphere;
-  panel.showDirection(direction, sphere.valueAt(direction, scores), view.total,
-    sphere.hasObjective ? sphere.valueAt(direction, objective) / view.best.objective : undefined);
+  panel.showDirection(direction, valueNear(direction, scores, view.best.score, bestEye), view.total,
+    sphere.hasObjective ? valueNear(direction, objective, view.best.objective, bestEye) / view.best.objective : undefined);
 });
 const press = panel.fillViews(data.views, (picked) => {
   press(picked.name);

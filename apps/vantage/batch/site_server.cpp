@@ -179,6 +179,10 @@ struct SiteServer::Parts {
 SiteServer::SiteServer(FolderSite site, int port)
     : parts_(std::make_unique<Parts>(std::move(site))) {
   Server& server = parts_->server;
+  server.set_socket_options([](socket_t socket) {
+    const int yes = 1;  // httplib would also let another program share the port
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
   server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
   server.set_pre_routing_handler(refuse_writing);
   server.set_post_routing_handler(add_headers);

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "vantage/core/image.h"
+
+namespace vantage::cli {
+
+/// Why a picture of a model cannot be what was wanted, in a sentence with what to do; empty for one that
+/// shows something in a two-thousandth of its pixels or more. What all its border has counts as nothing.
+std::string doubt_about_picture(const Image& picture);
+
+}  // namespace vantage::cli
