@@ -58,7 +58,7 @@ ViewReport find_views_by_map(const ShapeAnalysis& shape, const FrameChoice& choi
   const MapObjective map(shape, options, run);
   const ViewScorer& scorer = map.scorer();
   report.total = scorer.total();
-  const Preference preference(shape, choice, options, report.total, map.estimates());
+  const Preference preference(shape, choice, options, report.total);
   const ViewObjective objective = map.objective(preference);
   const double search_share = options.view_set || options.certify ? 0.25 : 1.0;  // of the bar
   FoundViews found = search_best_and_worst(objective, options.search, run.part(0.0, search_share));
@@ -125,7 +125,7 @@ ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const FrameChoice&
     return goal == Goal::Best ? both.best : both.worst;
   }
   const MapObjective map(shape, options, run);
-  const Preference preference(shape, choice, options, map.scorer().total(), map.estimates());
+  const Preference preference(shape, choice, options, map.scorer().total());
   FoundView found = search_view(map.objective(preference), goal, options.search, run);
   if (goal == Goal::Best && !preference.is_score()) {
     std::vector<TwinView> twins = twins_of(found.direction, shape, map.scorer(), preference, run);

@@ -79,10 +79,6 @@ std::vector<double> MapObjective::estimates(const std::vector<Vec3>& directions)
   return scores;
 }
 
-ScoreBatch MapObjective::estimates() const {
-  return [this](const std::vector<Vec3>& directions) { return estimates(directions); };
-}
-
 ViewObjective MapObjective::objective(const Preference& preference) const {
   ViewObjective objective;
   objective.total = scorer_.total();
@@ -93,7 +89,9 @@ ViewObjective MapObjective::objective(const Preference& preference) const {
     return scorer_.score_all(directions, quiet_);
   };
   if (prepared_->is_coarse() || is_sampled(*prepared_) || faces_) {
-    objective.surrogate = estimates();
+    objective.surrogate = [this](const std::vector<Vec3>& directions) {
+      return estimates(directions);
+    };
   }
   // By area the score is an integral over faces, which the proxy's vertices are too few to follow.
   if (!faces_ && prepared_->has_proxy()) {

@@ -29,9 +29,6 @@ class MapObjective {
   /// Estimates of the scores, by vertices. \throw Cancelled
   [[nodiscard]] std::vector<double> estimates(const std::vector<Vec3>& directions) const;
 
-  /// The same as a function, which refers to this.
-  [[nodiscard]] ScoreBatch estimates() const;
-
   /// Refers to this and to `preference`.
   [[nodiscard]] ViewObjective objective(const Preference& preference) const;
 

@@ -6,8 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "vantage/spatial/directions.h"
-
 #include "pipeline/view_preparation.h"
 
 namespace vantage {
@@ -15,8 +13,6 @@ namespace {
 
 // Fronts less likely than this have no say. [ours]
 constexpr double kLeastOdds = 0.01;
-// Directions by which fronts are weighed: level of the icosahedron, 642, 8° apart. [ours]
-constexpr int kWeighingLevel = 3;
 // Shares of the score below this count as this: their logarithm is taken. [ours]
 constexpr double kLeastShare = 1e-3;
 
@@ -27,7 +23,7 @@ Vec3 along(const UprightFrame& frame, const Vec3& direction) {
 }  // namespace
 
 Preference::Preference(const ShapeAnalysis& shape, const FrameChoice& choice,
-                       const ViewOptions& options, double total, const ScoreBatch& estimates)
+                       const ViewOptions& options, double total)
     : options_(&options), total_(total), frame_(upright_frame(choice.frame)) {
   if (objective_of(options) != Objective::People) {
     return;
@@ -43,42 +39,6 @@ Preference::Preference(const ShapeAnalysis& shape, const FrameChoice& choice,
     }
     front = frame_.up.cross(front);
   }
-  if (fronts_.size() > 1) {
-    weigh_fronts(estimates);
-  }
-}
-
-/// If a side is the front, what a person takes is a view's share of all views. So what can be seen
-/// from around a side does not make it more likely to be the front.
-void Preference::weigh_fronts(const ScoreBatch& estimates) {
-  const std::vector<Vec3> directions =
-      direction_set(ViewSphereBase::Icosahedron, kWeighingLevel).directions;
-  std::vector<double> powers = estimates(directions);
-  for (double& power_of : powers) {
-    power_of = power(power_of);
-  }
-  std::vector<double> sums;
-  double mean = 0.0;
-  for (const Hypothesis& front : fronts_) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < directions.size(); ++i) {
-      sum += front.habit_of(directions[i]) * powers[i];
-    }
-    sums.push_back(sum);
-    mean += front.weight * sum;
-  }
-  for (std::size_t k = 0; k < fronts_.size(); ++k) {
-    fronts_[k].weight *= sums[k] > 0.0 ? mean / sums[k] : 0.0;
-  }
-}
-
-double Preference::power(double score) const {
-  const double share = total_ > 0.0 ? score / total_ : 0.0;
-  return std::pow(std::max(share, kLeastShare), choice_table().significance_weight);
-}
-
-double Preference::Hypothesis::habit_of(const Vec3& direction) const {
-  return std::exp(-choice_table().habit_weight * habit.distance(along(frame, direction)));
 }
 
 double Preference::finest_deg() const {
@@ -95,11 +55,14 @@ double Preference::operator()(const Vec3& direction, double score) const {
   if (fronts_.empty()) {
     return score * options_->prior.factor(frame_, direction);
   }
+  const ChoiceTable& table = choice_table();
   double habit = 0.0;
   for (const Hypothesis& front : fronts_) {
-    habit += front.weight * front.habit_of(direction);
+    habit += front.probability *
+             std::exp(-table.habit_weight * front.habit.distance(along(front.frame, direction)));
   }
-  return habit * power(score);
+  const double share = total_ > 0.0 ? score / total_ : 0.0;
+  return habit * std::pow(std::max(share, kLeastShare), table.significance_weight);
 }
 
 }  // namespace vantage

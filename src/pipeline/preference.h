@@ -13,9 +13,8 @@ namespace vantage {
 class Preference {
  public:
   /// Refers to `options`. \param total of the scores: their share of it is what counts.
-  /// \param estimates of scores, by which the choices that each possible front allows are weighed.
   Preference(const ShapeAnalysis& shape, const FrameChoice& choice, const ViewOptions& options,
-             double total, const ScoreBatch& estimates);
+             double total);
 
   /// How finely it is worth being searched, degrees.
   [[nodiscard]] double finest_deg() const;
@@ -27,17 +26,11 @@ class Preference {
   [[nodiscard]] double operator()(const Vec3& direction, double score) const;
 
  private:
-  void weigh_fronts(const ScoreBatch& estimates);
-  [[nodiscard]] double power(double score) const;
-
   /// One of the four sides that may be the front.
   struct Hypothesis {
-    double weight = 1.0;  ///< Its probability over what all views come to, if it is the front.
+    double probability = 1.0;
     UprightFrame frame{};
     ViewHabit habit;
-
-    /// How near a direction is to what people take if this is the front, in (0, 1].
-    [[nodiscard]] double habit_of(const Vec3& direction) const;
   };
 
   const ViewOptions* options_;

@@ -229,12 +229,11 @@ ScoreBatch estimated_scores(const ShapeAnalysis& shape, const ViewReport& report
 /// What the best view maximises, by estimated scores; empty if that is the score.
 std::vector<double> objectives(const ShapeAnalysis& shape, const ViewReport& report,
                                const ViewOptions& options, const std::vector<Vec3>& directions,
-                               const std::vector<double>& scores, const ScoreBatch& score,
-                               const RunContext& run) {
+                               const std::vector<double>& scores, const RunContext& run) {
   FrameChoice choice;
   choice.frame = {report.up, report.front};
   choice.orientation = report.orientation;
-  const Preference preference(shape, choice, options, report.total, score);
+  const Preference preference(shape, choice, options, report.total);
   if (preference.is_score()) {
     return {};
   }
@@ -278,8 +277,8 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, ShapePic
   data["skeleton"] = skeleton_part(shape.skeleton.graph, frame);
   run.advance("report", 0.2);
   const std::vector<double> scores = score(set.directions);
-  data["sphere"] = sphere_part(
-      set, scores, objectives(shape, report, options, set.directions, scores, score, quiet));
+  data["sphere"] =
+      sphere_part(set, scores, objectives(shape, report, options, set.directions, scores, quiet));
   run.advance("report", 0.7);
   data["rapid"] = {{"best", rapid_part(score, report.total, Goal::Best, quiet)},
                    {"worst", rapid_part(score, report.total, Goal::Worst, quiet)}};

@@ -73,7 +73,7 @@ TEST_F(ReportOfAY, UnderAPriorTheObjectiveIsScoreTimesPriorAndTheRestIsPure) {
 TEST_F(ReportOfAY, WhatPeopleTakeIsComparedOnlyForTheBestView) {
   options_.objective = Objective::People;
   const ViewReport found = find_views(shape_, UpAxis::Y, options_);
-  const Preference preference(shape_, {}, options_, found.total, {});
+  const Preference preference(shape_, {}, options_, found.total);
   EXPECT_EQ(found.best.objective, preference(found.best.direction, found.best.score));
   for (const SearchStep& step : found.best_search.trace) {
     EXPECT_LE(preference(step.direction, step.score), found.best.objective);

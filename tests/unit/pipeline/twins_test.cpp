@@ -18,7 +18,7 @@ TEST(Twins, OfAViewOfABoxAreItsMirrorImages) {
   const Vec3 best = Vec3(1.0, 2.0, 3.0).normalized();
   ViewOptions options;
   options.objective = Objective::Significance;
-  const Preference preference(shape, {}, options, scorer.total(), {});
+  const Preference preference(shape, {}, options, scorer.total());
   const auto twins = twins_of(best, shape, scorer, preference, {});
   // Three planes make 2³ images, the view itself among them; on an even map all see as much.
   ASSERT_EQ(twins.size(), 7U);
