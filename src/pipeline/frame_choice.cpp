@@ -65,7 +65,7 @@ Eigen::Matrix3d stand_along_axes(Model& model, const ViewOptions& options) {
   if (options.up != UpAxis::Any) {
     return Eigen::Matrix3d::Identity();
   }
-  const Eigen::Matrix3d rotation = standing_rotation(model.mesh);
+  Eigen::Matrix3d rotation = standing_rotation(model.mesh);
   if (rotation.isIdentity(0.0)) {
     return rotation;
   }

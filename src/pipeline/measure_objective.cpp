@@ -75,6 +75,7 @@ ViewObjective MeasureObjective::objective() const {
   if (has_estimates_) {
     objective.surrogate = [this](const std::vector<Vec3>& directions) {
       std::vector<double> estimates;
+      estimates.reserve(directions.size());
       for (const Vec3& d : directions) {
         estimates.push_back(score(of_set_.at({d.x(), d.y(), d.z()})));
       }
