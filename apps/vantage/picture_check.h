@@ -7,8 +7,9 @@
 
 namespace vantage::cli {
 
-/// Why a picture of a model cannot be what was wanted, in a sentence with what to do; empty for one that
-/// shows something in a two-thousandth of its pixels or more. What all its border has counts as nothing.
+/// Why a picture of a model cannot be what was wanted, in a sentence with what to do; empty for one
+/// that shows something in a two-thousandth of its pixels or more. Pixels that are as its first one,
+/// in the corner, show nothing.
 std::string doubt_about_picture(const Image& picture);
 
 }  // namespace vantage::cli

@@ -75,8 +75,8 @@ std::vector<double> odds_of(std::vector<double> scores) {
   return scores;
 }
 
-// No choice is called surer: of those that the fit calls 98 % sure and more, 97 % are right, on
-// models left out of it (docs/orientation.md); and there are shapes unlike all of its.
+// No choice is called surer: of ups that the fit calls 98 % sure, 97 % are right on models left out
+// of it (docs/orientation.md), and there are shapes unlike all of its.
 constexpr double kMostSure = 0.98;
 
 /// Chooses among candidates.
@@ -88,7 +88,7 @@ DirectionChoice choose(const std::vector<AxisDirection>& candidates,
                        const std::vector<double>& odds, std::size_t usual, double threshold,
                        Alike&& alike) {
   std::vector<double> confidence(odds.size(), 0.0);  // of the candidate or one that looks like it
-  std::vector<double> most(odds.size(), 1.0);        // that may be said
+  std::vector<double> most(odds.size(), 1.0);        // that it may be called: 1 if all look like it
   for (std::size_t a = 0; a < odds.size(); ++a) {
     for (std::size_t b = 0; b < odds.size(); ++b) {
       const bool is_like = a == b || alike(candidates[a], candidates[b]);

@@ -19,8 +19,8 @@ std::vector<std::string> doubts_about(const ShapeAnalysis& shape, const ViewRepo
                                       const ViewOptions& options, const RunContext& run);
 
 /// How well the ranks of the map's values agree with those on a copy of the surface whose vertices
-/// are moved by 1e-4 of its diameter (Spearman), of the proxy where there is one; 1 where the map is flat.
-/// \pre shape.views \throw Cancelled
+/// are moved by 1e-4 of its diameter (Spearman), of the proxy where there is one; 1 where the map is
+/// flat. \pre shape.views \throw Cancelled
 double map_agreement_when_moved(const ShapeAnalysis& shape, const ViewOptions& options,
                                 const RunContext& run);
 

@@ -54,8 +54,8 @@ struct SurfacePoints {
 class EyeGrid {
  public:
   /// Begins with an eye in the surface's frame: fills turned().
-  /// \param backs FaceMeetings::hiding_backs of the surface, which must outlive the eye's queries; none: all
-  ///              backs are asked what they hide, to the same answers.
+  /// \param backs FaceMeetings::hiding_backs of the surface, which must outlive the eye's queries;
+  ///              none: all backs are asked what they hide, to the same answers.
   void begin(const Surface& surface, const Viewpoint& eye, std::span<const std::uint8_t> backs,
              const RunContext& run);
 

@@ -32,7 +32,8 @@ struct DirectionChoice {
   /// "given", "format" (its convention), or "shape" (the shape speaks against the convention).
   std::string source = "given";
   /// Calibrated probability that `direction` is right, or looks just like what is right; in [0, 1].
-  /// 1 if it was given or is certain.
+  /// 1 if it was given or is certain, or all candidates look alike; else 0.98 at most, as the fit is
+  /// no surer than that on models left out of it.
   double confidence = 1.0;
   Vec3 likeliest = Vec3::UnitY();     ///< What the shape and the convention together favour.
   double likeliest_confidence = 1.0;  ///< Its probability, in [0, 1].

@@ -147,7 +147,7 @@ struct PictureView {
 PictureView find_picture_view(const Model& model, const ShapeAnalysis& prepared,
                               const ViewOptions& options, const RunContext& run = {});
 
-/// Describes the view from a given direction. \pre the map is there.
+/// Describes the view from a given direction. \pre the map is there. \throw Cancelled
 ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& visibility,
                            const ScoringCamera& camera, const Vec3& direction, UpAxis up,
                            const ViewOptions& options, const RunContext& run = {});

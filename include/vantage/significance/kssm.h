@@ -62,7 +62,8 @@ inline constexpr auto kKssmFields = std::tuple{
 struct KssmMap {
   std::vector<double> of_vertex{};                  ///< |V| values ≥ 0; 0 for isolated vertices.
   std::vector<std::vector<double>> displacement{};  ///< d^(j) per level, model units.
-  /// (1 − m̄)² per level, times how much of the level counts; 0 where it is left out.
+  /// (1 − m̄)² per level, times how much of the level counts; 0 where it is left out, and of velocities
+  /// for level 0, which no step led to.
   std::vector<double> level_factor{};
   std::vector<std::size_t> levels_used{};  ///< Ascending; those that contribute.
 

@@ -60,6 +60,16 @@ TEST(FrameChoice, IsTheUsersWhateverTheShape) {
   EXPECT_EQ(frame_summary(choice), "up: -x, as given; front: y, as given");
 }
 
+TEST(FrameChoice, SaysItsFormatsOnlyOfWhatIsItsFormats) {
+  FrameChoice choice;
+  choice.orientation.up = {.source = "shape", .confidence = 0.7};
+  choice.orientation.front = {.direction = Vec3::UnitZ(),
+                              .source = "format",
+                              .confidence = 0.6,
+                              .likeliest = Vec3::UnitZ()};
+  EXPECT_EQ(frame_summary(choice), "up: y, 70 % sure; front: z, 60 % sure, its format's");
+}
+
 TEST(FrameChoice, RefusesUpAndFrontOfOneAxis) {
   ViewOptions options;
   options.up = UpAxis::Y;
