@@ -37,19 +37,26 @@ Json choice_json(const DirectionChoice& choice) {
 
 /// Every candidate's features: what scripts/fit_orientation.py reads.
 std::string features_json(const ShapeAnalysis& shape) {
-  Json json = {{"up_features", orientation_feature_names(false)},
-               {"front_features", orientation_feature_names(true)},
+  Json json = {{"up_features", Json::array()},
+               {"front_features", Json::array()},
                {"ups", Json::array()},
                {"fronts", Json::array()}};
   for (const OrientationFeatures& row : OrientationEvidence(shape.surface, shape.flow).features()) {
+    Json names = Json::array();
+    Json values = Json::array();
+    for (const OrientationFeature& feature : row.values) {
+      names.push_back(feature.name);
+      values.push_back(feature.value);
+    }
+    json[row.front ? "front_features" : "up_features"] = std::move(names);
     if (!row.front) {
-      json["ups"].push_back({{"up", axis_name(row.up)}, {"values", row.values}});
+      json["ups"].push_back({{"up", axis_name(row.up)}, {"values", std::move(values)}});
     } else {
       json["fronts"].push_back({{"up", axis_name(row.up)},
                                 {"front", axis_name(*row.front)},
                                 {"back_difference", row.back_difference},
                                 {"side_difference", row.side_difference},
-                                {"values", row.values}});
+                                {"values", std::move(values)}});
     }
   }
   return json.dump() + "\n";

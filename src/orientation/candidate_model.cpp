@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "vantage/core/error.h"
 
@@ -31,23 +33,6 @@ std::optional<double> number_of(std::string_view word) {
   return value;
 }
 
-/// Column of "NAME", "NAME-opposite" or "NAME-mean".
-std::optional<std::size_t> column_of(std::string_view word,
-                                     std::span<const std::string_view> features) {
-  std::size_t block = 0;
-  if (word.ends_with("-opposite")) {
-    block = 1;
-  } else if (word.ends_with("-mean")) {
-    block = 2;
-  }
-  const std::string_view name = word.substr(0, block == 0 ? word.size() : word.rfind('-'));
-  const auto found = std::find(features.begin(), features.end(), name);
-  if (found == features.end()) {
-    return std::nullopt;
-  }
-  return block * features.size() + static_cast<std::size_t>(found - features.begin());
-}
-
 [[noreturn]] void refuse(std::string_view line) {
   throw InvalidInput("the orientation table has a line that is not understood: " +
                      std::string(line));
@@ -58,9 +43,8 @@ std::optional<std::size_t> column_of(std::string_view word,
 /// Reads one line's tree.
 class TreeReader {
  public:
-  TreeReader(CandidateModel& model, std::span<const std::string_view> words,
-             std::span<const std::string_view> features, std::string_view line)
-      : model_(model), words_(words), features_(features), line_(line) {}
+  TreeReader(CandidateModel& model, std::span<const std::string_view> words, std::string_view line)
+      : model_(model), words_(words), line_(line) {}
 
   void read() {
     model_.roots_.push_back(model_.nodes_.size());
@@ -86,6 +70,16 @@ class TreeReader {
     return *value;
   }
 
+  /// "NAME", "NAME-opposite" or "NAME-mean".
+  static CandidateModel::Term term_of(std::string_view word) {
+    using Less = CandidateModel::Less;
+    const Less less = word.ends_with("-opposite") ? Less::Opposite
+                      : word.ends_with("-mean")   ? Less::Mean
+                                                  : Less::Nothing;
+    return {std::string(word.substr(0, less == Less::Nothing ? word.size() : word.rfind('-'))),
+            less};
+  }
+
   void node(int depth) {
     constexpr int kDeepest = 16;
     const std::size_t here = model_.nodes_.size();
@@ -95,11 +89,10 @@ class TreeReader {
       model_.nodes_[here].limit = *leaf;
       return;
     }
-    const std::optional<std::size_t> column = column_of(first, features_);
-    if (!column || depth == kDeepest) {
+    if (depth == kDeepest) {
       refuse(line_);
     }
-    model_.nodes_[here].column = *column;
+    model_.nodes_[here].term = model_.place_of(term_of(first));
     model_.nodes_[here].limit = number(word());
     node(depth + 1);
     model_.nodes_[here].above = model_.nodes_.size();
@@ -108,13 +101,11 @@ class TreeReader {
 
   CandidateModel& model_;
   std::span<const std::string_view> words_;
-  std::span<const std::string_view> features_;
   std::string_view line_;
   std::size_t next_ = 0;
 };
 
-CandidateModel::CandidateModel(std::string_view table, std::string_view subject,
-                               std::span<const std::string_view> features) {
+CandidateModel::CandidateModel(std::string_view table, std::string_view subject) {
   while (!table.empty()) {
     const std::string_view line = table.substr(0, table.find('\n'));
     table.remove_prefix(std::min(line.size() + 1, table.size()));
@@ -124,7 +115,7 @@ CandidateModel::CandidateModel(std::string_view table, std::string_view subject,
     }
     const std::optional<double> value = number_of(words[2]);
     if (words[1] == "tree") {
-      TreeReader(*this, std::span(words).subspan(2), features, line).read();
+      TreeReader(*this, std::span(words).subspan(2), line).read();
     } else if (words[1] == "witness" && value) {
       witness = *value;
     } else if (words[1] == "threshold" && value) {
@@ -137,28 +128,51 @@ CandidateModel::CandidateModel(std::string_view table, std::string_view subject,
   }
 }
 
-std::vector<double> CandidateModel::scores(const std::vector<std::vector<double>>& values) const {
-  const std::size_t features = values.front().size();
-  std::vector<double> mean(features, 0.0);
-  for (const std::vector<double>& of_one : values) {
-    for (std::size_t i = 0; i < features; ++i) {
-      mean[i] += of_one[i] / static_cast<double>(values.size());
-    }
+std::size_t CandidateModel::place_of(Term term) {
+  const auto found = std::find(terms_.begin(), terms_.end(), term);
+  const auto place = static_cast<std::size_t>(found - terms_.begin());
+  if (found == terms_.end()) {
+    terms_.push_back(std::move(term));
   }
-  std::vector<double> result(values.size(), 0.0);
+  return place;
+}
+
+std::vector<double> CandidateModel::values_of(const Term& term,
+                                              const std::vector<Evidence>& candidates) {
+  std::vector<double> plain;
+  double mean = 0.0;
+  for (const Evidence& candidate : candidates) {
+    const auto found = std::find_if(
+        candidate.begin(), candidate.end(),
+        [&](const OrientationFeature& feature) { return feature.name == term.feature; });
+    if (found == candidate.end()) {
+      throw InvalidInput("the orientation table names a feature that is not measured: " +
+                         term.feature);
+    }
+    plain.push_back(found->value);
+    mean += found->value / static_cast<double>(candidates.size());
+  }
+  std::vector<double> values = plain;
   for (std::size_t c = 0; c < values.size(); ++c) {
-    const std::vector<double>& opposite = values[c ^ std::size_t{1}];
-    const auto value_at = [&](std::size_t column) {
-      const std::size_t i = column % features;
-      const double plain = values[c][i];
-      return column < features       ? plain
-             : column < 2 * features ? plain - opposite[i]
-                                     : plain - mean[i];
-    };
+    values[c] -= term.less == Less::Opposite ? plain[c ^ std::size_t{1}]
+                 : term.less == Less::Mean   ? mean
+                                             : 0.0;
+  }
+  return values;
+}
+
+std::vector<double> CandidateModel::scores(const std::vector<Evidence>& candidates) const {
+  std::vector<std::vector<double>> values;  // of each term
+  values.reserve(terms_.size());
+  for (const Term& term : terms_) {
+    values.push_back(values_of(term, candidates));
+  }
+  std::vector<double> result(candidates.size(), 0.0);
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
     for (const std::size_t root : roots_) {
       std::size_t at = root;
       while (nodes_[at].above != 0) {
-        at = value_at(nodes_[at].column) < nodes_[at].limit ? at + 1 : nodes_[at].above;
+        at = values[nodes_[at].term][c] < nodes_[at].limit ? at + 1 : nodes_[at].above;
       }
       result[c] += nodes_[at].limit;
     }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -27,10 +26,10 @@ struct AxisDirection {
 /// +x, −x, +y, −y, +z, −z.
 std::array<AxisDirection, 6> axis_directions();
 
-/// Names of what upright_evidence() gives, in its order.
-std::span<const std::string_view> upright_evidence_names();
-/// Names of what front_evidence() gives, in its order.
-std::span<const std::string_view> front_evidence_names();
+using Evidence = std::vector<OrientationFeature>;
+
+/// \pre there is one of that name
+double value_of(std::string_view name, const Evidence& evidence);
 
 /// Everything that evidence is made of, measured once.
 class SideLooks {
@@ -38,9 +37,9 @@ class SideLooks {
   SideLooks(const TriMesh& surface, const TextureFlow& flow);
 
   /// Evidence for a direction being up.
-  [[nodiscard]] std::vector<double> upright_evidence(AxisDirection up) const;
+  [[nodiscard]] Evidence upright_evidence(AxisDirection up) const;
   /// Evidence for a direction being the front, if `up` is up. \pre they have different axes.
-  [[nodiscard]] std::vector<double> front_evidence(AxisDirection up, AxisDirection front) const;
+  [[nodiscard]] Evidence front_evidence(AxisDirection up, AxisDirection front) const;
   /// How much the surface changes when it is turned about `up` so that `front` comes to lie on
   /// `other`, or mirrored so; in [0, 1]. \pre both have another axis than `up`.
   [[nodiscard]] double difference(AxisDirection up, AxisDirection front, AxisDirection other) const;

@@ -26,12 +26,12 @@ constexpr double kMirror = 0.15;
 constexpr double kHollow = 0.15;
 
 const CandidateModel& up_model() {
-  static const CandidateModel model(kOrientationTable, "up", upright_evidence_names());
+  static const CandidateModel model(kOrientationTable, "up");
   return model;
 }
 
 const CandidateModel& front_model() {
-  static const CandidateModel model(kOrientationTable, "front", front_evidence_names());
+  static const CandidateModel model(kOrientationTable, "front");
   return model;
 }
 
@@ -109,12 +109,6 @@ DirectionChoice choose(const std::vector<AxisDirection>& candidates,
           .likeliest_confidence = std::min(confidence[best], most[best])};
 }
 
-double value_of(std::string_view name, std::span<const std::string_view> names,
-                const std::vector<double>& values) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  return values[static_cast<std::size_t>(found - names.begin())];
-}
-
 std::string joined(const std::vector<std::string>& parts) {
   std::string text;
   for (std::size_t i = 0; i < std::min<std::size_t>(parts.size(), 2); ++i) {
@@ -125,10 +119,8 @@ std::string joined(const std::vector<std::string>& parts) {
 
 /// The two plainest things that speak for a direction being up, in words.
 std::string reasons_for_up(const SideLooks& looks, AxisDirection up) {
-  const std::vector<double> values = looks.upright_evidence(up);
-  const auto value = [&](std::string_view name) {
-    return value_of(name, upright_evidence_names(), values);
-  };
+  const Evidence evidence = looks.upright_evidence(up);
+  const auto value = [&](std::string_view name) { return value_of(name, evidence); };
   std::vector<std::string> parts;
   const bool stands = value("base_margin") > 0.05;
   if (stands && value("base_touch") > 0.5) {
@@ -157,10 +149,8 @@ std::string reasons_for_up(const SideLooks& looks, AxisDirection up) {
 
 /// The same of a direction being the front.
 std::string reasons_for_front(const SideLooks& looks, AxisDirection up, AxisDirection front) {
-  const std::vector<double> values = looks.front_evidence(up, front);
-  const auto value = [&](std::string_view name) {
-    return value_of(name, front_evidence_names(), values);
-  };
+  const Evidence evidence = looks.front_evidence(up, front);
+  const auto value = [&](std::string_view name) { return value_of(name, evidence); };
   std::vector<std::string> parts;
   if (value("mirror_side") < kMirror) {
     parts.emplace_back("mirror plane");
@@ -188,11 +178,11 @@ std::size_t place_of(AxisDirection direction, const std::vector<AxisDirection>& 
 
 /// Log odds of the sides, if `up` is up, by the shape alone.
 std::vector<double> front_scores(const SideLooks& looks, AxisDirection up) {
-  std::vector<std::vector<double>> values;
+  std::vector<Evidence> evidence;
   for (const AxisDirection front : around(up)) {
-    values.push_back(looks.front_evidence(up, front));
+    evidence.push_back(looks.front_evidence(up, front));
   }
-  return front_model().scores(values);
+  return front_model().scores(evidence);
 }
 
 /// What the side that the convention has in front adds to the log odds of its up: of files that are
@@ -213,13 +203,13 @@ DirectionChoice find_up(const SideLooks& looks, const OrientationRequest& reques
     return known(request.usual_up, "format");
   }
   std::vector<AxisDirection> candidates;
-  std::vector<std::vector<double>> values;
+  std::vector<Evidence> evidence;
   const std::optional<AxisDirection> front =
       request.front ? std::optional(axis_of(*request.front)) : std::nullopt;
   for (const AxisDirection up : axis_directions()) {
     if (!front || front->axis != up.axis) {
       candidates.push_back(up);
-      values.push_back(looks.upright_evidence(up));
+      evidence.push_back(looks.upright_evidence(up));
     }
   }
   const auto found = std::find(candidates.begin(), candidates.end(), usual);
@@ -227,7 +217,7 @@ DirectionChoice find_up(const SideLooks& looks, const OrientationRequest& reques
     throw InvalidInput("the front is along the up axis: give the up axis, too");
   }
   const auto usual_index = static_cast<std::size_t>(found - candidates.begin());
-  std::vector<double> scores = up_model().scores(values);
+  std::vector<double> scores = up_model().scores(evidence);
   scores[usual_index] +=
       up_model().witness + (front ? 0.0 : facing_witness(looks, request.usual_up));
   DirectionChoice choice = choose(
@@ -277,11 +267,6 @@ void find_front(const SideLooks& looks, const OrientationRequest& request, Orien
 }
 
 }  // namespace
-
-std::vector<std::string> orientation_feature_names(bool of_front) {
-  const auto names = of_front ? front_evidence_names() : upright_evidence_names();
-  return {names.begin(), names.end()};
-}
 
 OrientationEvidence::OrientationEvidence(const TriMesh& surface, const TextureFlow& flow)
     : looks_(std::make_shared<const SideLooks>(surface, flow)) {}

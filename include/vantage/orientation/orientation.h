@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vantage/core/vec3.h"
@@ -82,17 +83,21 @@ struct TextureFlow {
 /// materials are not looked at. \complexity O(|F|)
 TextureFlow texture_flow(const TriMesh& mesh, const Appearance& appearance);
 
+/// A number that speaks for or against a direction.
+struct OrientationFeature {
+  std::string_view name{};  ///< Lives as long as the program.
+  double value = 0.0;
+};
+
 /// One direction's features.
 struct OrientationFeatures {
-  Vec3 up = Vec3::UnitY();       ///< The candidate for up.
-  std::optional<Vec3> front{};   ///< If they speak of the front: the candidate, `up` being up.
-  std::vector<double> values{};  ///< One a name of orientation_feature_names().
+  Vec3 up = Vec3::UnitY();      ///< The candidate for up.
+  std::optional<Vec3> front{};  ///< If they speak of the front: the candidate, `up` being up.
+  std::vector<OrientationFeature>
+      values{};                  ///< The same names in the same order for all of a kind.
   double back_difference = 0.0;  ///< Of the front: how unlike its back it is, in [0, 1].
   double side_difference = 0.0;  ///< Of the front: how unlike its sides it is, in [0, 1].
 };
-
-/// Names of the features of up (or of the front), in their order.
-std::vector<std::string> orientation_feature_names(bool of_front);
 
 /// What a shape says about its orientation. Depends on neither its unit nor the order of vertices
 /// and faces. Copies share it.

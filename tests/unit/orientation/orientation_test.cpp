@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <cstddef>
+#include <set>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -53,7 +55,7 @@ TriMesh turned(TriMesh mesh, const Eigen::Matrix3d& rotation) {
 }
 
 /// What speaks for a direction as up.
-std::vector<double> evidence_for(const OrientationEvidence& evidence, const Vec3& up) {
+std::vector<OrientationFeature> evidence_for(const OrientationEvidence& evidence, const Vec3& up) {
   for (const OrientationFeatures& row : evidence.features()) {
     if (row.up == up) {
       return row.values;
@@ -66,16 +68,17 @@ TEST(Orientation, OfAChairTurnsWithIt) {
   const OrientationEvidence plain(chair());
   const Vec3 up = plain.find({.usual_up = Vec3::UnitZ()}).up.direction;
   EXPECT_EQ(up, Vec3::UnitZ());
-  const std::vector<double> values = evidence_for(plain, up);
+  const std::vector<OrientationFeature> values = evidence_for(plain, up);
   EXPECT_EQ(axis_rotations().size(), 24U);
   for (const Eigen::Matrix3d& rotation : axis_rotations()) {
     // The convention's up turns along.
     const OrientationEvidence turned_too(turned(chair(), rotation));
     EXPECT_EQ(turned_too.find({.usual_up = rotation * Vec3::UnitZ()}).up.direction, rotation * up);
-    const std::vector<double> found = evidence_for(turned_too, rotation * up);
+    const std::vector<OrientationFeature> found = evidence_for(turned_too, rotation * up);
     ASSERT_EQ(found.size(), values.size());
     for (std::size_t k = 0; k < found.size(); ++k) {
-      EXPECT_NEAR(found[k], values[k], 1e-9) << k;
+      EXPECT_EQ(found[k].name, values[k].name);
+      EXPECT_NEAR(found[k].value, values[k].value, 1e-9) << found[k].name;
     }
   }
 }
@@ -149,10 +152,12 @@ TEST(Orientation, HasFeaturesOfSixUpsAndTwentyFourFronts) {
   const std::vector<OrientationFeatures> rows = OrientationEvidence(chair()).features();
   ASSERT_EQ(rows.size(), 30U);
   for (const OrientationFeatures& row : rows) {
-    EXPECT_EQ(row.values.size(), orientation_feature_names(row.front.has_value()).size());
-    for (const double value : row.values) {
-      EXPECT_TRUE(std::isfinite(value));
+    std::set<std::string_view> names;
+    for (const OrientationFeature& feature : row.values) {
+      EXPECT_TRUE(std::isfinite(feature.value)) << feature.name;
+      EXPECT_TRUE(names.insert(feature.name).second) << feature.name << " stands twice";
     }
+    EXPECT_GT(names.size(), 80U);
   }
 }
 

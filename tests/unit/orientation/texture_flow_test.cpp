@@ -59,11 +59,14 @@ TEST(TextureFlow, SpeaksForUpInTheEvidence) {
   flow.share = 1.0;
   flow.up = 0.9 * Vec3::UnitX();
   const std::vector<OrientationFeatures> rows = OrientationEvidence(cube, flow).features();
-  const std::vector<std::string> names = orientation_feature_names(false);
-  const auto at = std::find(names.begin(), names.end(), "texture_up") - names.begin();
-  EXPECT_NEAR(rows[0].values[static_cast<std::size_t>(at)], 0.9, 1e-12);   // x
-  EXPECT_NEAR(rows[1].values[static_cast<std::size_t>(at)], -0.9, 1e-12);  // -x
-  EXPECT_NEAR(rows[2].values[static_cast<std::size_t>(at)], 0.0, 1e-12);
+  const auto texture_up = [](const OrientationFeatures& row) {
+    return std::find_if(row.values.begin(), row.values.end(),
+                        [](const OrientationFeature& f) { return f.name == "texture_up"; })
+        ->value;
+  };
+  EXPECT_NEAR(texture_up(rows[0]), 0.9, 1e-12);   // x
+  EXPECT_NEAR(texture_up(rows[1]), -0.9, 1e-12);  // -x
+  EXPECT_NEAR(texture_up(rows[2]), 0.0, 1e-12);
 }
 
 }  // namespace
