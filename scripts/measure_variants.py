@@ -279,7 +279,7 @@ def agreement(values, others):
 
 
 def moved_file(ask, file, folder):
-    """Correlations of the map with those of the file moved and quartered, processor seconds, vertices, strategies and
+    """Correlations of the map with those of the file moved and quartered, whether `view` doubts the map, processor seconds, vertices, strategies and
     the report's contraction; None where there is no map."""
     def values_of(name, *mesh):
         write_ply(f"{folder}/{name}.ply", *mesh)
@@ -305,7 +305,8 @@ def moved_file(ask, file, folder):
     if len(value) != len(other) or len(finer) < len(value):
         return None
     strategies = collections.Counter(re.sub("[0-9]+", "N", s) for s in report["contraction"]["strategy"])
-    return (agreement(value, other), agreement(value, finer[:len(value)]),
+    doubted = any("map" in doubt for doubt in report["doubts"])
+    return (agreement(value, other), agreement(value, finer[:len(value)]), doubted,
             after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, len(vertices),
             ", ".join(f"{n} × {s}" if n > 1 else s for s, n in strategies.most_common(3)), report["contraction"])
 
@@ -319,14 +320,17 @@ def moved_table(program, *files):
             found = moved_file(ask, file, folder)
         if found:
             rows.append((found[0], pathlib.Path(file).name, *found[1:]))
-    print("| file | vertices | contracted | levels used | CPU, s | moved | quartered |\n" + "| --- " * 7 + "|")
-    for same, name, finer, seconds, count, how, contraction in sorted(rows, key=lambda r: r[:3]):
+    print("| file | vertices | contracted | levels used | CPU, s | moved | quartered | doubted |\n" + "| --- " * 8 + "|")
+    for same, name, finer, doubted, seconds, count, how, contraction in sorted(rows, key=lambda r: r[:3]):
         print(f"| {name} | {count} | {how} | {len(contraction['levels_used'])} of {1 + contraction['levels']} | {seconds:.2f} "
-              f"| {same:.3f} | {finer:.3f} |")
-    print(f"\n{len(rows)} files with a map of {len(files)}; {numpy.mean([r[3] for r in rows]):.2f} s of processor time in the mean.")
+              f"| {same:.3f} | {finer:.3f} | {'yes' if doubted else 'no'} |")
+    print(f"\n{len(rows)} files with a map of {len(files)}; {numpy.mean([r[4] for r in rows]):.2f} s of processor time in the mean.")
     for name, of in (("moved", [r[0] for r in rows]), ("quartered", [r[2] for r in rows])):
         print(f"- {name}: mean {numpy.mean(of):.3f}, at least {GOOD} on {sum(x >= GOOD for x in of)}, at least {FAIR} on "
               f"{sum(x >= FAIR for x in of)}, least {min(of):.3f}")
+    silent = [r[1] for r in rows if r[0] < FAIR and not r[3]]
+    print(f"- `view` doubts the map of {sum(r[3] for r in rows)}; moved below {FAIR} and not doubted: "
+          + (", ".join(sorted(silent)) or "none"))
 
 
 if __name__ == "__main__":
