@@ -5,12 +5,14 @@
 #include <cstddef>
 #include <set>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "vantage/core/error.h"
+#include "vantage/mesh/measures.h"
 
 #include "support/shapes.h"
 
@@ -140,6 +142,31 @@ TEST(Orientation, HasNoUsualFrontWhereUpIsNotUsual) {
   const OrientationEvidence evidence(turned(chair(), rotation.array().round().matrix()));
   const DirectionChoice front = evidence.find({.up = Vec3::UnitX()}).front;
   EXPECT_EQ(front.direction, front.likeliest);
+}
+
+TEST(Orientation, OfAScanOfOneSideIsTheSideThatWasScanned) {
+  // A bump on a sheet that stands upright and looks along -z, turned about y.
+  TriMesh scan = sheet(1.0, 1.5, 12);
+  for (Vec3& p : scan.positions) {
+    const double bump = std::exp(-8.0 * p.head<2>().squaredNorm());
+    p.z() = -0.3 * bump;
+  }
+  const Vec3 normal = area_vector(scan, scan.triangles.front());
+  if (normal.z() > 0.0) {
+    for (Triangle& t : scan.triangles) {
+      std::swap(t[1], t[2]);
+    }
+  }
+  Vec3 front = -Vec3::UnitZ();
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const Orientation found = OrientationEvidence(scan).find({.up = Vec3::UnitY()});
+    EXPECT_EQ(found.front.direction, front);
+    EXPECT_GT(found.front.confidence, 0.9);
+    for (Vec3& p : scan.positions) {
+      p = {p.z(), p.y(), -p.x()};
+    }
+    front = {front.z(), front.y(), -front.x()};
+  }
 }
 
 TEST(Orientation, RefusesDirectionsThatMakeNoFrame) {
