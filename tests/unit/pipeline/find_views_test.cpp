@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -208,6 +209,20 @@ TEST(FindPictureView, IsTheBestView) {
   EXPECT_EQ(found.view.direction,
             find_views(shape, choose_frame(model, shape, options), options).best.direction);
   EXPECT_EQ(found.vertices, shape.surface.positions.size());
+}
+
+TEST(FindPictureView, LooksAtTheSideThatWasScanned) {
+  const TriMesh scan = y_of_tubes(0.25, 20);
+  for (const Vec3& side : {Vec3(-Vec3::UnitZ()), Vec3(Vec3::UnitX())}) {
+    TriMesh half = scan;
+    std::erase_if(half.triangles, [&](const Triangle& face) {
+      const Vec3 normal = area_vector(half, face);
+      return !(normal.dot(side) > 0.15 * normal.norm());
+    });
+    const Model model = model_of(half);
+    const PictureView found = find_picture_view(model, prepare_surface(model), ViewOptions{});
+    EXPECT_GT(found.view.direction.dot(side), 0.3) << side.transpose();
+  }
 }
 
 TEST(FindViews, SeesAsMuchOfAnInsideOutModel) {
