@@ -8,7 +8,7 @@ Every file below FOLDER whose format the program reads is scored by all measures
 icosahedron level 1, and from eyes inside, far away and at odd places; and compared without pictures. Checked
 are: how the program ends (done, or one sentence and exit code 1 or 3), that no file holds nan or inf in any
 spelling, and that a value is null only where less is better and the view sees no face. Exits with 1 if a model
-fails. With --quick there are 12 views instead of 42, and nothing is compared: for a whole collection.
+fails or there is none. With --quick there are 12 views instead of 42, and nothing is compared: for a whole collection.
 """
 
 import argparse
@@ -118,6 +118,8 @@ def main():
     options = parser.parse_args()
     program = Program(options.vantage, options.seconds)
     files = sorted(p for p in options.folder.rglob("*") if p.is_file() and p.suffix.lower() in SUFFIXES)
+    if not files:
+        sys.exit(f"{options.folder}: holds no model to check")
     part, parts = map(int, options.part.split("/"))
     done, refused, views, blind, failures = 0, 0, 0, 0, []
     for model in files[part::parts]:

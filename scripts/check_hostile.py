@@ -8,7 +8,7 @@
 --timeout is the program's own, --seconds this script's; --table counts by ending, and how often vantage-import broke down.
 Prints a table of exit codes, the slowest files and those with the largest peak of memory for each byte; exit code 1 if a
 run crashed, hung, failed without one clear sentence, or took more than --most-bytes of memory for each byte of its file
-(and 100 MB for itself). Works with a sanitizer's build too (without --max-memory).
+(and 100 MB for itself), or if there was nothing to run. Works with a sanitizer's build too (without --max-memory).
 """
 import argparse
 import collections
@@ -101,6 +101,8 @@ def main():
         parser.error("--most-bytes goes with one command")
     files = sorted(p for p in options.folder.resolve().rglob("*")
                    if p.is_file() and p.suffix.lower() in MODELS and p.stat().st_size <= options.largest)
+    if not files:  # a mistyped folder must not pass
+        sys.exit(f"{options.folder}: holds no file to check")
     commands = COMMANDS if options.command == "all" else (options.command,)
     problems = [problem for command in commands for problem in check(command, files[::options.stride], options)]
     sys.exit(1 if problems else 0)

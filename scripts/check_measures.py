@@ -7,7 +7,7 @@
 FOLDER holds closed meshes (.off .obj .ply .stl .glb), of which the N smallest are taken. Identities are of
 the 642 views of the set; similarity moves,
 turns and scales the model and its views together, and moves every vertex at random by 1e-15 diameters. Exits
-with 1 if an identity is off by more than 1e-9.
+with 1 if an identity is off by more than 1e-9 or is no number, or if the folder holds no mesh.
 """
 
 import argparse
@@ -73,7 +73,7 @@ def identities(program, models):
         total = s["i2"] + s["viewpoint-entropy"]
         means = {name: float(p @ s[name]) for name in ("vmi", "i2", "i3")}
         errors = [float(np.ptp(total)), abs(means["vmi"] - means["i2"]), abs(means["i2"] - means["i3"])]
-        worst = max(worst, *errors)
+        worst = float(np.max([worst, *errors]))  # max() would pass over a NaN
         holds = [s["vmi"].min() >= 0, np.all(s["viewpoint-entropy"] <= np.log2(s["visible-triangles"]) + 1e-12),
                  s["instability"].min() >= 0 and s["instability"].max() <= 1]
         worst = worst if all(holds) else math.inf
@@ -126,7 +126,7 @@ def similarity(program, models, folder):
             for name, v in values.items():
                 span_of = max(np.ptp(here[name]), 1e-300)
                 change = float(np.max(np.abs(v - here[name])) / span_of)
-                changes[what][name] = max(change, changes[what].get(name, 0.0))
+                changes[what][name] = float(np.max([change, changes[what].get(name, 0.0)]))
     names = list(next(iter(changes.values())))
     lines = ["| measure | " + " | ".join(changes) + " |", "| --- |" + " --- |" * len(changes)]
     for name in names:
@@ -143,8 +143,10 @@ def main():
     parser.add_argument("--page", type=Path, help="also put the tables into this page, between its marks")
     options = parser.parse_args()
     program = Program(options.vantage)
-    models = sorted((p for p in options.folder.iterdir() if p.suffix in SUFFIXES),
+    models = sorted((p for p in options.folder.glob("*") if p.suffix in SUFFIXES),
                     key=lambda p: (p.stat().st_size, p.name))[:options.models]
+    if not models:
+        sys.exit(f"{options.folder}: holds no mesh to check")
     moved = [m for m in models if m.suffix == ".off"][:options.moved]
     text, worst = identities(program, models)
     lines = [f"### Identities on {len(models)} real meshes", "", *text, "",

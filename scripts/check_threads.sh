@@ -5,6 +5,8 @@
 #
 #   scripts/check_threads.sh [MODEL…]     default: models/*
 #
+# Exit code 1 if there was a report, or a run that did not end with 0: what does not run has no races.
+#
 # Without a oneTBB of its own the sanitizer does not see how its tasks wait for each other, and reports races that are
 # none. Embree is the distribution's, not instrumented; its tasks run in that oneTBB. Needs dpkg-dev and the network.
 set -euo pipefail
@@ -27,15 +29,18 @@ cmake --preset tsan -DVANTAGE_QUICK_BUILD=ON -DTBB_DIR="$folder/installed/lib/cm
 nice cmake --build build/tsan --target vantage_program >/dev/null
 
 models=("$@")
-((${#models[@]} > 0)) || models=(models/*.ply models/*.obj models/*.off)
+if ((${#models[@]} == 0)); then
+  shopt -s nullglob
+  models=(models/*.ply models/*.obj models/*.off)
+  shopt -u nullglob
+fi
 threads=$(($(nproc) > 4 ? $(nproc) : 4))
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 export LD_LIBRARY_PATH=$folder/installed/lib
 export TSAN_OPTIONS="halt_on_error=0 exitcode=66 log_path=$out/report suppressions=$PWD/scripts/tsan_suppressions.txt"
-runs=0
+runs=0 failed=0
 for model in "${models[@]}"; do
-  [[ -f $model ]] || continue
   # Pictures of few pixels: their stages are the same, and the sanitizer takes fifteen times as long.
   for words in "info --json" "view -o $out/view --size 120x90 --force -q" "map -o $out/map.ply --force -q" \
     "skeleton -o $out/graph.obj --force -q" "thumb -o $out/thumb.png --size 64 --force -q" \
@@ -44,10 +49,11 @@ for model in "${models[@]}"; do
     code=0 started=$SECONDS
     build/tsan/apps/vantage/vantage "${command[0]}" "$model" "${command[@]:1}" --threads "$threads" >/dev/null || code=$?
     ((runs += 1))
+    ((code == 0)) || ((failed += 1))
     echo "${command[0]} $model: exit code $code, $((SECONDS - started)) s"
   done
 done
 races=$(cat "$out"/report* 2>/dev/null | grep -c "WARNING: ThreadSanitizer" || true)
-echo "$runs runs with $threads threads, $races reports"
+echo "$runs runs with $threads threads, $failed failed, $races reports"
 [[ -z $(ls "$out"/report* 2>/dev/null) ]] || cat "$out"/report* | head -200
-((races == 0))
+((runs > 0 && failed == 0 && races == 0))

@@ -5,7 +5,8 @@
     compare_graphs.py PROGRAM MODEL...
 
 One row a model, as Markdown: Spearman's correlation of the two maps, and what the best view of one scores
-under the other's map, against that map's own best view.
+under the other's map, against that map's own best view. Best is what scores most, whatever people would take
+(--objective significance); a ratio above 1 is by how much the search missed.
 """
 
 import json
@@ -66,7 +67,8 @@ def row(program, model, folder):
     for graph in GRAPHS:
         run(program, "map", model, "-o", folder / f"{graph}.ply", "--graph", graph)
         maps[graph] = quality(folder / f"{graph}.ply")
-        report = run(program, "view", model, "-o", folder / "view", "--no-images", "--json", "--graph", graph)
+        report = run(program, "view", model, "-o", folder / "view", "--no-images", "--json",
+                     "--objective", "significance", "--graph", graph)
         best[graph] = json.loads(report)["best"]["direction"]
     (folder / "directions.csv").write_text(
         "dx,dy,dz\n" + "".join(",".join(map(repr, best[graph])) + "\n" for graph in GRAPHS))

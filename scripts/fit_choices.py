@@ -11,12 +11,14 @@ Overlaps below 0.88 are left out, and overlaps of 1 in two directions: such an i
 over. Where another direction within 0.02 of the overlap is not from below, or else is in front, it is taken. A
 table of rebuild_catalogue.py, with a column confidence, is taken as it is: it has told front from back by colours.
 --write replaces src/choice/choice_table.txt, --check compares it with what it would be, --page puts the table
-of errors on models left out between the marks of a page. docs/people.md explains the model.
+of errors on models left out between the marks of a page. docs/people.md explains the model. What --cache keeps counts
+for the very program and model that it was measured with; what failed or took too long is tried anew the next time.
 """
 import argparse
 import csv
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -26,6 +28,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import number_cache  # noqa: E402
 import orientation_data  # noqa: E402
 
 TABLE = pathlib.Path(__file__).resolve().parents[1] / "src/choice/choice_table.txt"
@@ -68,24 +71,28 @@ def tells_a_pose(row):
     return float(row["overlap"]) >= LEAST_OVERLAP and float(row["second_overlap"]) < OPAQUE
 
 
-def measured(program, file, cache):
-    """Proportions and KSSM shares of 642 views, by the program; None where it cannot."""
+def measured(program, made_by, file, cache):
+    """Proportions and KSSM shares of 642 views, by the program of that fingerprint; None where it cannot."""
     kept = cache / (file.stem + ".json")
-    if not kept.exists():
-        try:
-            with tempfile.TemporaryDirectory() as folder:
-                flags = ["--up", "y", "--front", "z", "--search", "exhaustive", "--subdivisions", "0"]
-                view = json.loads(subprocess.run([program, "view", file, "-o", folder, "--no-images", "--json", *flags],
-                                                 capture_output=True, check=True, timeout=120).stdout)
-            lines = subprocess.run([program, "score", file, "--sphere", "3"], capture_output=True, check=True,
-                                   text=True, timeout=120).stdout.splitlines()
-            rows = [[float(x) for x in line.split(",")[-4:]] for line in lines if line.startswith("kssm,")]
-            result = {"proportions": view["proportions"], "total": view["total"], "rows": rows}
-        except (subprocess.CalledProcessError, subprocess.TimeoutExpired, json.JSONDecodeError, KeyError) as error:
-            result = {"failed": str(error)[:200]}
-        kept.write_text(json.dumps(result), encoding="utf-8")
-    result = json.loads(kept.read_text(encoding="utf-8"))
-    return None if "failed" in result else result
+    made_from = [made_by, number_cache.fingerprint(file)]
+    if kept.exists():
+        result = json.loads(kept.read_text(encoding="utf-8"))
+        if result.get("made_from") == made_from:
+            return result
+    try:
+        with tempfile.TemporaryDirectory() as folder:
+            flags = ["--up", "y", "--front", "z", "--search", "exhaustive", "--subdivisions", "0"]
+            view = json.loads(subprocess.run([program, "view", file, "-o", folder, "--no-images", "--json", *flags],
+                                             capture_output=True, check=True, timeout=120).stdout)
+        lines = subprocess.run([program, "score", file, "--sphere", "3"], capture_output=True, check=True,
+                               text=True, timeout=120).stdout.splitlines()
+        rows = [[float(x) for x in line.split(",")[-4:]] for line in lines if line.startswith("kssm,")]
+        result = {"made_from": made_from, "proportions": view["proportions"], "total": view["total"], "rows": rows}
+    except (subprocess.CalledProcessError, subprocess.TimeoutExpired, json.JSONDecodeError, KeyError) as error:
+        print(f"{file.stem}: {error}", file=sys.stderr)  # not kept: a busy machine is no property of the model
+        return None
+    kept.write_text(json.dumps(result), encoding="utf-8")
+    return result
 
 
 class Entry:
@@ -126,8 +133,9 @@ def read_entries(arguments, folder):
                 files.append((file, path.stem))
     by_stem = {(row["archive"], pathlib.Path(row["model"]).stem): row for row in rows}
     arguments.cache.mkdir(parents=True, exist_ok=True)
+    made_by = number_cache.fingerprint(shutil.which(arguments.vantage) or arguments.vantage)
     with ThreadPoolExecutor(2) as pool:
-        results = list(pool.map(lambda f: measured(arguments.vantage, f[0], arguments.cache), files))
+        results = list(pool.map(lambda f: measured(arguments.vantage, made_by, f[0], arguments.cache), files))
     entries, directions = [], None
     for (file, archive), result in sorted(zip(files, results), key=lambda pair: pair[0][0].name):
         row = by_stem.get((archive, file.stem.split("__", 1)[1]))

@@ -89,7 +89,7 @@ def farthest(nodes, other_nodes, other_edges):
     worst = 0.0
     for node in nodes:
         t = np.clip(((node - a) * along).sum(1) / length2, 0.0, 1.0)
-        worst = max(worst, np.sqrt((((a + t[:, None] * along) - node) ** 2).sum(1).min()))
+        worst = np.maximum(worst, np.sqrt((((a + t[:, None] * along) - node) ** 2).sum(1).min()))  # max() hides NaN
     return worst
 
 
@@ -130,7 +130,7 @@ def row(program, model, folder):
             cells += [f"{topology[0]}, {topology[1]}", str(ends)]
             continue
         back = (nodes - shift) @ np.linalg.inv(matrix).T
-        gap = max(farthest(back, first[1], first[2]), farthest(first[1], back, edges)) / limit
+        gap = np.maximum(farthest(back, first[1], first[2]), farthest(first[1], back, edges)) / limit
         is_same = is_same and topology == first[0]
         told = "" if topology == first[0] else f"; {topology[0]}, {topology[1]}"
         cells.append(f"{ends}; {gap:.2f}{told}")
@@ -151,7 +151,7 @@ def stages(program, *models):
                     _, _, nodes, edges = skeleton(program, path, pathlib.Path(folder), *flags)
                     back = (nodes - shift) @ np.linalg.inv(matrix).T
                     plain = first.setdefault(stage, (nodes, edges))
-                    gap = max(farthest(back, *plain), farthest(plain[0], back, edges)) / limit
+                    gap = np.maximum(farthest(back, *plain), farthest(plain[0], back, edges)) / limit
                     gaps.setdefault(name, []).append(gap)
             worst = max(gaps, key=lambda name: gaps[name][-1])
             cells = [pathlib.Path(model).name, worst] + [f"{gap:.2f}" for gap in gaps[worst]]

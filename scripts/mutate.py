@@ -5,8 +5,8 @@
     mutate.py [--count 50] [--seed 1] [--build build/mutate] [FILE…]
 
 Works on a copy of the tree; rebuilds what the change touches, runs the unit and property tests of the module, then of the
-other modules of the method, and lists the mutants that no test killed. Exit code 1: the share of killed ones is below
---least (0.9).
+other modules of the method, and lists the mutants that no test killed. Before the first, the tests have to pass on the
+copy as it is. Exit code 1: they do not, or the share of killed ones is below --least (0.9).
 """
 import argparse
 import os
@@ -63,18 +63,26 @@ def run(command, folder, seconds):
         return None
 
 
-def judged(tree, build, module, seconds):
-    """"killed", "survived" or "not compiled"."""
-    for name in (module, *(other for other in MODULES if other != module)):
+def judged(tree, build, modules, seconds, build_seconds=1200):
+    """"killed", "survived" or "not compiled", by the tests of these modules, then of the method's others."""
+    for name in dict.fromkeys((*modules, *MODULES)):
         targets = [f"{layer}_{name}" for layer in ("unit", "property")
                    if (tree / f"tests/{layer}/{name}/CMakeLists.txt").exists()]
-        if run(["cmake", "--build", build, "-j", str(os.cpu_count()), "--target", *targets], tree, 1200) != 0:
+        if run(["cmake", "--build", build, "-j", str(os.cpu_count()), "--target", *targets], tree, build_seconds) != 0:
             return "not compiled"
         for target in targets:
             layer = target.split("_")[0]
             if run([build / "tests" / layer / name / target], build, seconds) != 0:
                 return "killed"
     return "survived"
+
+
+def refuse_broken(tree, build, modules, seconds):
+    """Ends the script where tests fail without a change: they would seem to notice every one."""
+    verdict = judged(tree, build, modules, seconds, None)  # the first build takes as long as it takes
+    if verdict != "survived":
+        what = "does not compile" if verdict == "not compiled" else "fails its tests"
+        sys.exit(f"{tree}: {what} without any change, so that no mutant would tell anything")
 
 
 def main():
@@ -100,13 +108,14 @@ def main():
     subprocess.run(["cmake", "-G", "Ninja", "-S", tree, "-B", build, "-DCMAKE_BUILD_TYPE=Release",
                     "-DCMAKE_CXX_FLAGS_RELEASE=-O2"], check=True, capture_output=True)
 
+    refuse_broken(tree, build, sorted({path.parent.name for path, *_ in chosen}), options.timeout)
     counts = {"killed": 0, "survived": 0}
     for mutant in chosen:
         if sum(counts.values()) == options.count:
             break
         path, number, _, old, new = mutant
         target, before = apply(mutant, tree)
-        verdict = judged(tree, build, path.parent.name, options.timeout)
+        verdict = judged(tree, build, [path.parent.name], options.timeout)
         target.write_text(before, encoding="utf-8")
         if verdict in counts:
             counts[verdict] += 1

@@ -60,6 +60,7 @@ struct MapCommand {
       throw CLI::ValidationError(levels.empty() ? "--focus" : "--levels",
                                  "goes with --method kssm or thickness only");
     }
+    session.leave_output_to(file, "-o");
     check_output(file, OutputKind::Shape, session.flags);
     check_levels(levels, session.flags);
     const Model loaded = session.load(model);

@@ -12,6 +12,7 @@
 #include <optional>
 #include <system_error>
 
+#include <CLI/CLI.hpp>
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
 #include <sys/file.h>
@@ -177,16 +178,27 @@ void OutputFolder::check(bool force) const {
   }
 }
 
+bool OutputFolder::is_in(const std::string& path) const {
+  std::error_code error;
+  const fs::path folder = fs::path(path).parent_path();
+  return path != "-" && fs::weakly_canonical(folder.empty() ? "." : folder, error) ==
+                            fs::weakly_canonical(path_, error);
+}
+
+void OutputFolder::refuse_own_name(const std::string& path, const std::string& option) const {
+  const std::string name = fs::path(path).filename().string();
+  if (kind_.named(name) && is_in(path)) {
+    throw CLI::ValidationError(option, "'" + name + "' is the name of one of the results in " +
+                                           path_ + "; choose another");
+  }
+}
+
 void OutputFolder::add(std::string name, std::string bytes) {
   files_.emplace_back(std::move(name), std::move(bytes));
 }
 
 void OutputFolder::add_named(const std::string& path, std::string bytes) {
-  std::error_code error;
-  const fs::path folder = fs::path(path).parent_path();
-  const bool is_here = path != "-" && fs::weakly_canonical(folder.empty() ? "." : folder, error) ==
-                                          fs::weakly_canonical(path_, error);
-  if (is_here) {
+  if (is_in(path)) {
     add(fs::path(path).filename().string(), std::move(bytes));
   } else {
     beside_.emplace_back(path, std::move(bytes));

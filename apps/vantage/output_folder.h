@@ -39,7 +39,11 @@ class OutputFolder {
   /// \throw IoError if writing there would replace somebody else's files, or it is not a folder.
   void check(bool force) const;
 
-  /// Takes a file to write, by its name in the folder; "sub/name" for one in a folder below.
+  /// \throw CLI::ValidationError if a path that the user gave is that of one of the results.
+  void refuse_own_name(const std::string& path, const std::string& option) const;
+
+  /// Takes a file to write, by its name in the folder; "sub/name" for one in a folder below. Each name
+  /// once.
   void add(std::string name, std::string bytes);
 
   /// Takes a file under a path that the user gave: one in this folder belongs to the results, another
@@ -63,6 +67,7 @@ class OutputFolder {
  private:
   using File = std::pair<std::string, std::string>;  // name and bytes
 
+  [[nodiscard]] bool is_in(const std::string& path) const;
   void exchange();
   [[nodiscard]] bool writes(std::string_view name) const;
   /// Files of a former run that are there, relative to the folder; the marker first.

@@ -58,6 +58,7 @@ struct RenderCommand {
 
   void run(Session& session) {
     look.check(file);
+    session.leave_output_to(file, "-o");
     check_output(file, OutputKind::Picture, session.flags);
     ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
     options.margin_percent = look.margin_percent();

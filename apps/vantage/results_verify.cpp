@@ -63,7 +63,8 @@ class Verification {
       return;
     }
     if (record.status == "done" && record.folder.empty()) {
-      return;  // its results gave way to those of the same content with other options
+      complain(record.key + ": has no results; run the batch again");
+      return;
     }
     if (record.status == "done") {
       known_.insert(batch::model_folder(record.folder));

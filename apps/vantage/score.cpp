@@ -146,8 +146,12 @@ struct ScoreCommand {
   void write(Session& session, const std::vector<Measure>& measures,
              const std::vector<Vec3>& points, const MeasureValues& values) const {
     session.end_progress();
-    const bool as_json = session.flags.json && file == "-";
-    write_output(file, as_json ? json(measures, points, values) : csv(measures, points, values));
+    if (session.flags.json) {
+      write_output("-", json(measures, points, values));
+    }
+    if (!session.flags.json || file != "-") {
+      write_output(file, csv(measures, points, values));
+    }
   }
 
   [[nodiscard]] std::vector<Vec3> points_to_score() const {

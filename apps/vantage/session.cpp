@@ -141,13 +141,23 @@ void Session::say(const std::string& text) {
   }
 }
 
+void Session::leave_output_to(const std::string& path, const std::string& option) {
+  if (path == "-" && flags.json) {
+    throw CLI::ValidationError(
+        option,
+        "- is standard output, where --json writes: give it a file, or leave "
+        "--json out");
+  }
+  output_is_taken_ = output_is_taken_ || path == "-";
+}
+
 void Session::tell(const std::string& text) {
   show(printable_lines(text));
 }
 
 void Session::show(const std::string& text) {
   progress_.finish();
-  if (!flags.quiet && !flags.json) {
+  if (!flags.quiet && !flags.json && !output_is_taken_) {
     std::printf("%s\n", text.c_str());
   }
 }

@@ -95,7 +95,12 @@ class Session {
 
   /// Writes a message to standard error unless `-q` was given.
   void say(const std::string& text);
-  /// Writes a result to standard output unless `-q` or `--json` was given.
+  /// Leaves standard output to a file that goes there.
+  /// \param path `-` if it does. \param option that names it.
+  /// \throw CLI::ValidationError if `--json` would write there, too.
+  void leave_output_to(const std::string& path, const std::string& option);
+
+  /// Writes a result to standard output unless `-q` or `--json` was given, or a file goes there.
   void tell(const std::string& text);
   /// The same for text that drives the terminal, a picture.
   void show(const std::string& text);
@@ -108,6 +113,7 @@ class Session {
 
  private:
   std::stop_source stop_{};
+  bool output_is_taken_ = false;
   Progress progress_{};
   void limit_threads();
 

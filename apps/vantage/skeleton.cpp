@@ -37,11 +37,13 @@ struct SkeletonCommand {
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("MODEL", model, "file to read, or -")->required();
     app.add_option("-o,--output", file,
-                   "file to write: .json, .obj (lines), .ply (edges), .swc (loops cut) or .graphml")
+                   "file to write: .json, .obj (lines), .ply (edges), .swc (loops cut) or "
+                   ".graphml; - is standard output (JSON)")
         ->required()
         ->check([](const std::string& name) {
           const std::string extension = std::filesystem::path(name).extension().string();
-          return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end()
+          return name == "-" || std::find(kExtensions.begin(), kExtensions.end(), extension) !=
+                                    kExtensions.end()
                      ? std::string()
                      : "the skeleton's file must end in .json, .obj, .ply, .swc or .graphml, not "
                        "'" +
@@ -61,6 +63,7 @@ struct SkeletonCommand {
   void run(Session& session) {
     const ViewOptions options = method.resolve();
     const RunContext run = session.run();
+    session.leave_output_to(file, "-o");
     check_output(file, OutputKind::Shape, session.flags);
     check_output(meso, OutputKind::Shape, session.flags);
     check_levels(levels, session.flags);

@@ -76,6 +76,7 @@ struct ThumbCommand {
       throw CLI::RequiredError("FILE");
     }
     look.check(file);
+    session.leave_output_to(file, "FILE");
     check_output(file, OutputKind::Picture, session.flags);
     AllOptions given;
     frame.apply(given);
@@ -130,7 +131,7 @@ struct ThumbCommand {
 
   void report(Session& session, const PictureView& found) const {
     session.end_progress();
-    if (session.flags.json && file != "-") {
+    if (session.flags.json) {
       const Vec3& d = found.view.direction;
       const PictureSize& of = found.view.size;
       const nlohmann::ordered_json json = {{"file", file},

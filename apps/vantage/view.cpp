@@ -43,11 +43,10 @@ std::string objective_line(const ViewReport& report, const ViewOptions& options)
   if (objective_of(options) == Objective::Significance) {
     return options.prior.is_uniform ? "significance" : "significance, by the prior";
   }
-  if (!(report.highest_score > 0.0)) {
+  if (!report.score_of_attainable) {
     return "people; no view sees anything significant";
   }
-  const double attained = 100.0 * report.best.score / report.highest_score;
-  return "people, with " + rounded(attained, 3) +
+  return "people, with " + rounded(100.0 * *report.score_of_attainable, 3) +
          " % of the score of any view; the score alone takes " +
          direction_text(report.highest_direction);
 }
@@ -104,6 +103,7 @@ struct ViewCommand {
     const RunContext run = session.run();
 
     StageSeconds seconds;
+    session.leave_output_to(trace, "--trace");
     check_output(trace, OutputKind::Table, session.flags);
     const Sidecar sidecar = session.read([&] { return sidecar_of(model); });
     sidecar.apply(options);
@@ -116,6 +116,8 @@ struct ViewCommand {
     OutputFolder output(folder.empty() ? folder_named(loaded.name, ".vantage") : folder,
                         kViewResults);
     output.check(session.flags.force);
+    output.refuse_own_name(trace, "--trace");
+    several.check_names(output);
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_shape(loaded, options, run.part(0.02, 0.5), &seconds); });
     if (!sums_a_map(options.method)) {

@@ -166,6 +166,13 @@ void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, Shape
   }
 }
 
+void ViewSetFlags::check_names(const OutputFolder& output) const {
+  const std::string name = std::filesystem::path(tour_).filename().string();
+  if (name != "tour.webp" && name != "tour.png") {  // which are left to it
+    output.refuse_own_name(tour_, "--tour");
+  }
+}
+
 void ViewSetFlags::write_tour(OutputFolder& output, const ShapeAnalysis& shape,
                               ShapePictures& pictures, const ViewReport& report, UpAxis up,
                               double margin_percent, const RunContext& run) const {

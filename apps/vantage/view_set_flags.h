@@ -30,6 +30,9 @@ class ViewSetFlags {
   /// What was asked for, or `views` of them where no flag says how many.
   [[nodiscard]] ViewSetRequest request_or(int views) const;
 
+  /// \throw CLI::ValidationError if the tour's file would be another one of the results.
+  void check_names(const OutputFolder& output) const;
+
   /// Adds pictures and cameras of the set, and the moving camera, to the folder; writes --tour.
   void write(OutputFolder& output, const ShapeAnalysis& shape, ShapePictures& pictures,
              const ViewReport& report, UpAxis up, const ViewOptions& options,

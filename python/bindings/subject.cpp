@@ -115,6 +115,18 @@ void define_analysis(py::module_& module) {
           "warnings", [=](const AnalysisHandle& h) { return texts_of(shape_of(h).warnings); });
 }
 
+/// The same analysis with the map that these settings sum.
+std::shared_ptr<const Analysis> with_other_map(const Analysis& analysis, const Settings& settings,
+                                               const RunContext& run) {
+  auto other = std::make_shared<Analysis>(analysis);
+  other->settings = settings;
+  add_map(other->shape, settings.view, run);
+  if (const std::string& focus = settings.view.focus; !focus.empty()) {
+    focus_on(other->shape, find_object(list_objects(*other->model, other->shape), focus));
+  }
+  return other;
+}
+
 }  // namespace
 
 Subject::Subject(const py::object& model, const py::object& faces) {
@@ -141,7 +153,9 @@ Settings Subject::settings(const py::dict& keywords) const {
 std::shared_ptr<const Analysis> Subject::analysed(const Settings& settings, const Analyser& analyse,
                                                   const RunContext& run, bool is_drawn) const {
   if (analysis_) {
-    return analysis_;
+    const bool is_other_map =
+        sums_a_map(settings.view.method) && settings.view.method != analysis_->settings.view.method;
+    return is_other_map ? with_other_map(*analysis_, settings, run) : analysis_;
   }
   auto made = std::make_shared<Analysis>();
   made->model = model_ ? model_

@@ -47,10 +47,20 @@ def _arrays_of(model: Any) -> "Tuple[Any, Any] | None":
     if hasattr(model, "dump") and hasattr(model, "geometry"):  # the same before trimesh 4.6
         return _arrays_of(model.dump(concatenate=True))
     if hasattr(model, "points") and hasattr(model, "cells_dict"):  # meshio
-        return np.asarray(model.points), _or_none(model.cells_dict.get("triangle", ()))
+        return np.asarray(model.points), _or_none(_triangles_of_cells(model.cells))
     if hasattr(model, "points"):  # Open3D's PointCloud
         return np.asarray(model.points), None
     return None
+
+
+def _triangles_of_cells(cells: Any) -> Any:
+    """Faces of meshio's cells; quads and polygons are cut as fans. Lines and vertices are none, nor are solids."""
+    fans = [np.empty((0, 3), np.int64)]
+    for block in cells:
+        if block.type in ("triangle", "quad", "polygon"):
+            faces = np.asarray(block.data)
+            fans += [faces[:, [0, k, k + 1]] for k in range(1, faces.shape[1] - 1)]
+    return np.concatenate(fans)
 
 
 def _or_none(faces: Any) -> Any:

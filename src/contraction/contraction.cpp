@@ -151,9 +151,6 @@ void place(const Piece& piece, const PieceResult& result, const TriMesh& mesh,
   while (history.levels.size() < levels.size()) {
     history.levels.push_back(history.levels.empty() ? mesh.positions : history.levels.back());
   }
-  if (levels.size() == 1) {
-    return;  // stays at its exact input position
-  }
   const auto carry = [&](const std::vector<Vec3>& from, std::vector<Vec3>& to) {
     parallel_for(
         run, piece.vertices.size(), kVerticesPerTask, [&](std::size_t begin, std::size_t end) {
@@ -164,7 +161,8 @@ void place(const Piece& piece, const PieceResult& result, const TriMesh& mesh,
           }
         });
   };
-  for (std::size_t level = 1; level < history.levels.size(); ++level) {
+  // What takes no step stays at its exact input position.
+  for (std::size_t level = 1; levels.size() > 1 && level < history.levels.size(); ++level) {
     carry(levels[std::min(level, levels.size() - 1)], history.levels[level]);
   }
   if (!result.history.thinned.empty()) {

@@ -10,6 +10,7 @@
 
 #include "io/base64.h"
 #include "io/byte_cursor.h"
+#include "io/camera_axes.h"
 
 namespace vantage {
 namespace {
@@ -21,14 +22,7 @@ constexpr int kFloat = 5126;
 
 /// Rotation of a node whose −z looks at the target and whose y is up.
 Eigen::Quaterniond rotation_of(const Camera& camera) {
-  Eigen::Matrix3d axes;
-  axes.col(2) = (camera.eye - camera.target).normalized();
-  axes.col(0) = camera.up.cross(axes.col(2)).normalized();
-  axes.col(1) = axes.col(2).cross(axes.col(0));
-  if (!axes.allFinite()) {
-    throw InvalidInput("a camera must look from one finite point at another, and not along its up");
-  }
-  return Eigen::Quaterniond(axes);
+  return Eigen::Quaterniond(camera_axes(camera));
 }
 
 /// The buffer of an animation with the views and accessors that describe it.

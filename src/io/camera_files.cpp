@@ -12,6 +12,7 @@
 #include "vantage/io/write.h"
 
 #include "core/degrees.h"
+#include "io/camera_axes.h"
 
 namespace vantage {
 namespace {
@@ -20,16 +21,9 @@ using OrderedJson = nlohmann::ordered_json;
 
 /// Camera-to-world: columns are the camera's x (right), y (up), −(view direction), and the eye.
 Eigen::Matrix4d camera_to_world(const Camera& camera) {
-  const Vec3 back = (camera.eye - camera.target).normalized();
-  const Vec3 right = camera.up.cross(back).normalized();
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
-  matrix.block<3, 1>(0, 0) = right;
-  matrix.block<3, 1>(0, 1) = back.cross(right);
-  matrix.block<3, 1>(0, 2) = back;
+  matrix.block<3, 3>(0, 0) = camera_axes(camera);
   matrix.block<3, 1>(0, 3) = camera.eye;
-  if (!matrix.allFinite()) {
-    throw InvalidInput("a camera must look from one finite point at another, and not along its up");
-  }
   return matrix;
 }
 

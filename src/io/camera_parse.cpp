@@ -36,7 +36,8 @@ class CameraReader : private JsonReader {
       return gltf_aspect();
     }
     if (has(root(), "frames")) {
-      return ratio(root(), "w", "h");
+      const Json& frame = entry(root().at("frames"), 0, "frame");
+      return ratio(has(frame, "w") ? frame : root(), "w", "h");
     }
     if (has(root(), "best") && has(root().at("best"), "size")) {
       const Json& size = root().at("best").at("size");
@@ -118,15 +119,35 @@ class CameraReader : private JsonReader {
   Camera from_gltf() const {
     const Json& node = gltf_node();
     const Json& lens = gltf_lens(node);
-    const Json& matrix = member(node, "matrix");
-    Eigen::Matrix4d world;
-    for (Eigen::Index i = 0; i < 16; ++i) {  // column by column
-      world(i % 4, i / 4) =
-          number(entry(matrix, static_cast<std::size_t>(i), "matrix entry"), "a matrix entry");
-    }
-    Camera camera = camera_at(world, has(node, "extras") ? node.at("extras") : Json());
+    Camera camera = camera_at(gltf_pose(node), has(node, "extras") ? node.at("extras") : Json());
     read_gltf_lens(lens, camera);
     return camera;
+  }
+
+  /// A node's matrix, or what its translation and rotation make; of an animated one, as a tour's, they
+  /// are those of its begin.
+  Eigen::Matrix4d gltf_pose(const Json& node) const {
+    Eigen::Matrix4d world = Eigen::Matrix4d::Identity();
+    if (has(node, "matrix")) {
+      for (Eigen::Index i = 0; i < 16; ++i) {  // column by column
+        world(i % 4, i / 4) =
+            number(entry(node.at("matrix"), static_cast<std::size_t>(i), "matrix entry"),
+                   "a matrix entry");
+      }
+      return world;
+    }
+    if (has(node, "translation")) {
+      world.block<3, 1>(0, 3) = vector(node.at("translation"), "translation");
+    }
+    if (has(node, "rotation")) {
+      Eigen::Vector4d turn;  // x, y, z, w
+      for (Eigen::Index i = 0; i < 4; ++i) {
+        turn[i] =
+            number(entry(node.at("rotation"), static_cast<std::size_t>(i), "rotation"), "rotation");
+      }
+      world.block<3, 3>(0, 0) = Eigen::Quaterniond(turn.normalized()).toRotationMatrix();
+    }
+    return world;
   }
 
   void read_gltf_lens(const Json& lens, Camera& camera) const {
@@ -152,16 +173,20 @@ class CameraReader : private JsonReader {
       }
     }
     Camera camera = camera_at(world, frame);
-    if (has(root(), "orthographic_height")) {
+    // Frames that differ have each their own lens.
+    const auto has_lens = [&](const char* name) { return has(frame, name) || has(root(), name); };
+    const auto lens = [&](const char* name) {
+      return number(has(frame, name) ? frame.at(name) : member(root(), name), name);
+    };
+    if (has_lens("orthographic_height")) {
       camera.projection = Projection::Orthographic;
-      camera.height = number(root().at("orthographic_height"), "orthographic_height");
-    } else if (has(root(), "camera_angle_y")) {
-      camera.fov_y_deg = number(root().at("camera_angle_y"), "camera_angle_y") * kDegPerRad;
+      camera.height = lens("orthographic_height");
+    } else if (has_lens("camera_angle_y")) {
+      camera.fov_y_deg = lens("camera_angle_y") * kDegPerRad;
     } else {
-      const double width = number(member(root(), "w"), "w");
-      const double height = number(member(root(), "h"), "h");
-      const double half =
-          std::tan(0.5 * number(member(root(), "camera_angle_x"), "camera_angle_x"));
+      const double width = lens("w");
+      const double height = lens("h");
+      const double half = std::tan(0.5 * lens("camera_angle_x"));
       camera.fov_y_deg = 2.0 * std::atan(half * height / width) * kDegPerRad;
     }
     return camera;
@@ -190,6 +215,8 @@ class CameraReader : private JsonReader {
     if (has(scoring, "projection") && scoring.at("projection") == "orthographic") {
       camera.projection = Projection::Orthographic;
       camera.height = number(member(frame, "height"), "height");
+      // The target is the picture's centre; the eye's own is that of the sphere.
+      camera.eye += camera.target - vector(member(scoring, "target"), "camera.target");
     } else {
       camera.fov_y_deg = number(member(frame, "fov_y_deg"), "fov_y_deg");
     }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -210,14 +211,20 @@ class SceneReader {
   }
 
   /// Elements of an accessor; of one that is not there none, which is complained of when it is read.
-  [[nodiscard]] std::size_t elements(int accessor) const {
+  [[nodiscard]] std::size_t elements(int accessor) {
     const auto a = static_cast<std::size_t>(accessor);
-    return accessor >= 0 && a < gltf_.accessors.size()
-               ? GltfAccessor(document_, accessor, budget_, builder_).count()
-               : 0;
+    if (accessor < 0 || a >= gltf_.accessors.size()) {
+      return 0;
+    }
+    const auto [known, is_new] = elements_.try_emplace(accessor, 0);
+    if (is_new) {  // a sparse one is read for it, and many primitives may share one
+      builder_.run().check();
+      known->second = GltfAccessor(document_, accessor, budget_, builder_).count();
+    }
+    return known->second;
   }
 
-  [[nodiscard]] Amount amount_of(const tinygltf::Mesh& mesh) const {
+  [[nodiscard]] Amount amount_of(const tinygltf::Mesh& mesh) {
     Amount amount{.spent = mesh.primitives.size()};
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
       const auto position = primitive.attributes.find("POSITION");
@@ -419,6 +426,7 @@ class SceneReader {
   ModelBuilder& builder_;
   std::size_t most_faces_;
   std::vector<std::optional<Amount>> of_mesh_;  // where it was asked for
+  std::map<int, std::size_t> elements_{};       // of accessors that were asked for
   bool is_counting_ = false;
   std::size_t faces_ = 0;  // counted
   std::size_t budget_ = 0;

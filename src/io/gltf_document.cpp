@@ -126,6 +126,19 @@ bool names(const Json& root, const char* list, std::string_view extension) {
          });
 }
 
+/// Whether one of a list's entries weighs a morph target.
+bool is_morphed(const Json& root, const char* list) {
+  const auto found = root.find(list);
+  return found != root.end() && found->is_array() &&
+         std::any_of(found->begin(), found->end(), [](const Json& entry) {
+           const auto weights = entry.is_object() ? entry.find("weights") : entry.end();
+           return weights != entry.end() && weights->is_array() &&
+                  std::any_of(weights->begin(), weights->end(), [](const Json& weight) {
+                    return weight.is_number() && weight.get<double>() != 0.0;
+                  });
+         });
+}
+
 void check_extensions(const Json& root, ModelBuilder& builder) {
   if (names(root, "extensionsRequired", "KHR_meshopt_compression")) {
     builder.fail(
@@ -137,7 +150,10 @@ void check_extensions(const Json& root, ModelBuilder& builder) {
     builder.note("EXT_mesh_gpu_instancing is not read: one instance of each mesh is shown");
   }
   if (root.contains("skins")) {
-    builder.note("skinned meshes are read in their rest pose");
+    builder.note("skinned meshes are read as their vertices stand, without their skeletons");
+  }
+  if (is_morphed(root, "meshes") || is_morphed(root, "nodes")) {
+    builder.note("morph targets are left out: meshes are shown as they are without them");
   }
 }
 

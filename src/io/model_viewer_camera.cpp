@@ -11,6 +11,7 @@
 #include "vantage/io/camera_files.h"
 
 #include "core/degrees.h"
+#include "io/camera_axes.h"
 
 namespace vantage {
 namespace {
@@ -21,21 +22,6 @@ constexpr double kLevel = 1e-9;  // a sine below this is rounding
 // Moving the target to the middle of what is seen leaves a picture rolled by a degree or two; the
 // element shows it upright. Beyond this, a camera that someone meant so, the model is turned instead.
 constexpr double kMostRoll = 10.0 / kDegPerRad;
-
-/// Right, up and back of the camera, as rows.
-Matrix3 camera_axes(const Camera& camera) {
-  Matrix3 axes;
-  const Vec3 back = (camera.eye - camera.target).normalized();
-  const Vec3 right = camera.up.cross(back).normalized();
-  axes.row(0) = right;
-  axes.row(1) = back.cross(right);
-  axes.row(2) = back;
-  // What has no direction normalises to zero, not to NaN.
-  if (!axes.allFinite() || axes.row(0).isZero()) {
-    throw InvalidInput("a camera must look from one finite point at another, and not along its up");
-  }
-  return axes;
-}
 
 /// The angle between the camera's right and that of an upright camera; 0 where that has none.
 double roll_against(const Matrix3& axes, const Vec3& up) {
@@ -114,7 +100,7 @@ std::vector<std::pair<std::string, std::string>> model_viewer_attributes(const C
   if (camera.projection != Projection::Perspective) {
     return {};
   }
-  const Matrix3 axes = camera_axes(camera);
+  const Matrix3 axes = camera_axes(camera).transpose();  // right, up and back as rows
   const Matrix3 turn = roll_against(axes, up) < kMostRoll ? turn_to_y(up) : axes;
   const Matrix3 turned = axes * turn.transpose();  // the camera's axes in the element's scene
   // Straight above or below, right says it: (cos, 0, −sin).

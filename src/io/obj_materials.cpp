@@ -120,10 +120,9 @@ Material ObjMaterials::material(const MtlMaterial& source) {
 void ObjMaterials::finish() {
   std::size_t left_out = 0;
   for (const std::string& names : libraries_) {
-    bool found = read_library(names);
-    std::string_view rest = names;
-    for (std::string_view name = take_token(rest); !found && !name.empty();
-         name = take_token(rest)) {
+    bool found = read_library(names);  // one whose name has spaces, or else several
+    std::string_view rest = found ? std::string_view() : std::string_view(names);
+    for (std::string_view name = take_token(rest); !name.empty(); name = take_token(rest)) {
       found = read_library(name) || found;
     }
     if (!found && left_out++ < kMostTextureNotes) {

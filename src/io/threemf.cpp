@@ -194,6 +194,7 @@ class PlateReader {
     if (visits_left_-- == 0) {
       builder_.fail("shows its objects so often that the model is out of proportion to the file");
     }
+    builder_.run().check();
     if (!object.is_model) {
       ++left_out_;
       return;

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/error.h"
+#include "vantage/io/model.h"
 #include "vantage/io/write.h"
 
 namespace vantage {
@@ -87,6 +91,28 @@ std::string turned_text(std::string_view bytes, std::string_view name, const Axi
   return result;
 }
 
+/// Keywords of STL are read in any case.
+bool is_keyword(std::string_view word, std::string_view keyword) {
+  return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
+                    [](unsigned char a, char b) { return std::tolower(a) == b; });
+}
+
+/// Whether a file, read anew, has every vertex where the turn takes it: its lines may be written as no
+/// line is here.
+void require_turned(std::string_view bytes, std::string_view turned, std::string_view name,
+                    const AxisTurn& turn) {
+  const Model before = parse_model(bytes, name);
+  const Model after = parse_model(turned, name);
+  const bool is_turned = std::equal(before.mesh.positions.begin(), before.mesh.positions.end(),
+                                    after.mesh.positions.begin(), after.mesh.positions.end(),
+                                    [&](const Vec3& a, const Vec3& b) { return turn(a) == b; });
+  if (!is_turned || before.mesh.triangles != after.mesh.triangles) {
+    throw InvalidInput(
+        std::string(name) +
+        ": its lines are written in a way that is not turned in place; write a .ply");
+  }
+}
+
 std::string turned_obj(std::string_view bytes, std::string_view name, const AxisTurn& turn) {
   return turned_text(bytes, name, turn, [](const std::vector<std::string_view>& words) {
     return !words.empty() && (words[0] == "v" || words[0] == "vn") ? std::size_t{1} : 0;
@@ -95,10 +121,10 @@ std::string turned_obj(std::string_view bytes, std::string_view name, const Axis
 
 std::string turned_ascii_stl(std::string_view bytes, std::string_view name, const AxisTurn& turn) {
   return turned_text(bytes, name, turn, [](const std::vector<std::string_view>& words) {
-    if (words.size() > 1 && words[0] == "facet" && words[1] == "normal") {
+    if (words.size() > 1 && is_keyword(words[0], "facet") && is_keyword(words[1], "normal")) {
       return std::size_t{2};
     }
-    return !words.empty() && words[0] == "vertex" ? std::size_t{1} : std::size_t{0};
+    return !words.empty() && is_keyword(words[0], "vertex") ? std::size_t{1} : std::size_t{0};
   });
 }
 
@@ -148,14 +174,24 @@ std::string turned_gltf_text(std::string_view text, std::string_view name, const
       !root["nodes"].is_array()) {
     fail("has no scene to turn");
   }
+  std::map<json, std::size_t> turned;  // by the node of a scene, the one above it
   for (json& scene : root["scenes"]) {
     if (!scene.is_object() || !scene.contains("nodes") || !scene["nodes"].is_array() ||
         scene["nodes"].empty()) {
       continue;
     }
-    root["nodes"].push_back(
-        {{"name", "upright"}, {"rotation", turn.quaternion()}, {"children", scene["nodes"]}});
-    scene["nodes"] = json::array({root["nodes"].size() - 1});
+    for (json& node : scene["nodes"]) {  // one that several scenes show is turned once
+      const auto known = turned.find(node);
+      if (known == turned.end()) {
+        root["nodes"].push_back({{"name", "upright"},
+                                 {"rotation", turn.quaternion()},
+                                 {"children", json::array({node})}});
+        turned.emplace(node, root["nodes"].size() - 1);
+        node = root["nodes"].size() - 1;
+      } else {
+        node = known->second;
+      }
+    }
   }
   return root.dump(indent, ' ', false, json::error_handler_t::replace);
 }
@@ -222,12 +258,15 @@ std::array<double, 4> AxisTurn::quaternion() const {
 
 std::string turned_bytes(std::string_view bytes, std::string_view name, ModelFormat format,
                          const AxisTurn& turn) {
+  if (format == ModelFormat::Obj || (format == ModelFormat::Stl && !is_binary_stl(bytes))) {
+    std::string turned = format == ModelFormat::Obj ? turned_obj(bytes, name, turn)
+                                                    : turned_ascii_stl(bytes, name, turn);
+    require_turned(bytes, turned, name, turn);
+    return turned;
+  }
   switch (format) {
-    case ModelFormat::Obj:
-      return turned_obj(bytes, name, turn);
     case ModelFormat::Stl:
-      return is_binary_stl(bytes) ? turned_binary_stl(bytes, turn)
-                                  : turned_ascii_stl(bytes, name, turn);
+      return turned_binary_stl(bytes, turn);
     case ModelFormat::Gltf:
       return turned_gltf_text(bytes, name, turn, 2) + "\n";
     case ModelFormat::Glb:

@@ -326,8 +326,8 @@ class Decimator {
 
 /// Costs are fourth powers of lengths, held in float: they need lengths of about 1.
 int unit_exponent(const TriMesh& mesh) {
-  return std::ilogb(
-      std::max(bounding_box(mesh.positions).longest_side(), std::numeric_limits<double>::min()));
+  return std::ilogb(std::max(bounding_box(referenced_points(mesh)).longest_side(),
+                             std::numeric_limits<double>::min()));
 }
 
 /// A power of two never rounds.
@@ -370,9 +370,15 @@ TwoDecimations decimate_twice(const TriMesh& fine, std::size_t between, std::siz
 
 Decimation merge_short_edges(const TriMesh& fine, const std::vector<double>& weights,
                              double longest, const RunContext& run) {
-  Decimator decimator(fine, ByLength(weights), run);
-  decimator.reduce_to(0, longest * longest);
-  return decimator.result();
+  const int exponent = unit_exponent(fine);
+  TriMesh scaled = fine;
+  scale_by_power(scaled, -exponent);
+  const double most = std::ldexp(longest, -exponent);
+  Decimator decimator(scaled, ByLength(weights), run);
+  decimator.reduce_to(0, most * most);
+  Decimation merged = decimator.result();
+  scale_by_power(merged.mesh, exponent);
+  return merged;
 }
 
 }  // namespace vantage

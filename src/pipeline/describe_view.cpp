@@ -85,4 +85,16 @@ ReportedView describe_scored_view(const ShapeAnalysis& shape, const VertexVisibi
   return view;
 }
 
+void compare_with_highest(ViewReport& report, const Vec3& direction, double score, Better better) {
+  const double own = report.best.score;
+  const bool is_better = better == Better::More ? score > own : score < own;
+  report.highest_direction = is_better ? direction : report.best.direction;
+  report.highest_score = is_better ? score : own;
+  const double most = better == Better::More ? report.highest_score : own;
+  const double least = better == Better::More ? own : report.highest_score;
+  if (most > 0.0 && least >= 0.0) {
+    report.score_of_attainable = least / most;
+  }
+}
+
 }  // namespace vantage

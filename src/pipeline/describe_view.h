@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vantage/pipeline/find_views.h"
+#include "vantage/view/measure.h"
 
 namespace vantage {
 
@@ -15,5 +16,8 @@ ReportedView describe_scored_view(const ShapeAnalysis& shape, const VertexVisibi
                                   const ViewScorer& scorer, const Vec3& direction,
                                   const ModelFrame& frame, const ViewOptions& options,
                                   const RunContext& run);
+
+/// Takes the best score that was found, unless the best view's is better still, into the report.
+void compare_with_highest(ViewReport& report, const Vec3& direction, double score, Better better);
 
 }  // namespace vantage

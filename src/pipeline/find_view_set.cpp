@@ -213,14 +213,16 @@ std::vector<Camera> tour_cameras(const ShapeAnalysis& shape, const ReportedViewS
   const double distance = camera.distance();
   const bool is_perspective = camera.projection == Projection::Perspective;
   double extent = 0.0;  // half the picture's height; perspective: over the distance
+  // The margins of both sides, parts of the shorter side, in picture heights.
+  const double border = 2.0 * margin_percent / 100.0 * std::min(aspect, 1.0);
   std::vector<Camera> cameras;
   for (const TourPose& pose : tour_path(stops, up_vector(up), count)) {
     const Vec3 right = pose.up.cross(pose.direction);
     for (const Vec3& p : points) {
       const Vec3 offset = p - centre;
       const double depth = is_perspective ? distance - offset.dot(pose.direction) : 1.0;
-      const double reach =
-          std::max(std::abs(offset.dot(right)) / aspect, std::abs(offset.dot(pose.up)));
+      const double reach = std::max(std::abs(offset.dot(right)) / (aspect - border),
+                                    std::abs(offset.dot(pose.up)) / (1.0 - border));
       extent = std::max(extent, reach / depth);
     }
     cameras.push_back({.projection = camera.projection,
@@ -228,9 +230,6 @@ std::vector<Camera> tour_cameras(const ShapeAnalysis& shape, const ReportedViewS
                        .target = centre,
                        .up = pose.up});
   }
-  // The border is a part of the shorter side.
-  const double margin = margin_percent / 100.0;
-  extent /= 1.0 - 2.0 * margin * std::min(1.0, aspect) / std::max(1.0, aspect);
   for (Camera& c : cameras) {
     c.fov_y_deg = 2.0 * std::atan(extent) * 180.0 / std::numbers::pi;
     c.height = 2.0 * extent;

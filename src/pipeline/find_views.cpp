@@ -78,8 +78,7 @@ ViewReport find_views_by_map(const ShapeAnalysis& shape, const FrameChoice& choi
   report.best = described(best);
   report.best.objective = preference(best.direction, report.best.score);
   report.worst = described(worst);
-  report.highest_direction = highest.score > best.score ? highest.direction : best.direction;
-  report.highest_score = std::max(highest.score, best.score);
+  compare_with_highest(report, highest.direction, highest.score, Better::More);
   if (options.view_set) {
     report.set =
         find_view_set(shape, map.visibility(), scorer, best.direction, choice.frame, options,

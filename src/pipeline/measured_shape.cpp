@@ -14,6 +14,7 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/significance/mesh_saliency.h"
 
+#include "pipeline/describe_view.h"
 #include "pipeline/measure_objective.h"
 #include "pipeline/preference.h"
 #include "pipeline/view_preparation.h"
@@ -146,8 +147,8 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, const FrameChoice& 
   report.best.objective = best.preference;
   report.worst = described(worst);
   report.worst.objective = report.worst.score;
-  report.highest_direction = highest.direction;
-  report.highest_score = by.value(highest.score);
+  compare_with_highest(report, highest.direction, by.value(highest.score),
+                       measurer.measures().front().better);
   for (FoundView* found : {&best, &worst}) {
     for (SearchStep& step : found->trace) {
       step.score = by.value(step.score);

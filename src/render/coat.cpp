@@ -2,6 +2,7 @@
 #include "render/coat.h"
 
 #include "core/srgb.h"
+#include "render/colour_scale.h"
 
 namespace vantage {
 
@@ -9,6 +10,7 @@ Coat::Coat(const Paint& paint, const DrawnSurface& surface, const PictureRays& r
            const RenderOptions& options)
     : surface_(&surface),
       colour_(linear_of_srgb(options.colour)),
+      share_of_vertex_(shares_of_range(paint.vertex_values)),
       skin_(paint.appearance != nullptr ? surface.skin() : nullptr),
       tube_colour_(linear_of_srgb(paint.overlay.colour)) {
   colour_of_vertex_.reserve(paint.vertex_colours.size());
@@ -27,6 +29,15 @@ Coat::Coat(const Paint& paint, const DrawnSurface& surface, const PictureRays& r
 
 Skin::Shown Coat::shown(const RayHit& hit, double width) const {
   Skin::Shown shown;
+  const Triangle& t = surface_->mesh().triangles[hit.face];
+  const auto mixed = [&](const auto& of_vertex) {
+    return (1.0F - hit.u - hit.v) * of_vertex[t[0]] + hit.u * of_vertex[t[1]] +
+           hit.v * of_vertex[t[2]];
+  };
+  if (!share_of_vertex_.empty()) {
+    shown.colour = linear_cool_warm(mixed(share_of_vertex_));
+    return shown;
+  }
   if (skin_ != nullptr) {
     shown = skin_->at(hit.face, hit.u, hit.v, width);
   }
@@ -34,9 +45,7 @@ Skin::Shown Coat::shown(const RayHit& hit, double width) const {
     shown.colour = shown.has_material ? shown.colour : colour_;
     return shown;
   }
-  const Triangle& t = surface_->mesh().triangles[hit.face];
-  const Vec3f colour = (1.0F - hit.u - hit.v) * colour_of_vertex_[t[0]] +
-                       hit.u * colour_of_vertex_[t[1]] + hit.v * colour_of_vertex_[t[2]];
+  const Vec3f colour = mixed(colour_of_vertex_);
   shown.colour = shown.colour.cwiseProduct(colour.cast<double>().cwiseMax(0.0).cwiseMin(1.0));
   return shown;
 }

@@ -21,7 +21,9 @@ class Coat {
        const RenderOptions& options);
 
   /// Whether the whole surface has one colour.
-  [[nodiscard]] bool is_uniform() const { return skin_ == nullptr && colour_of_vertex_.empty(); }
+  [[nodiscard]] bool is_uniform() const {
+    return skin_ == nullptr && colour_of_vertex_.empty() && share_of_vertex_.empty();
+  }
 
   /// Whether any place of the surface may be seen through.
   [[nodiscard]] bool has_openings() const { return skin_ != nullptr && skin_->has_openings(); }
@@ -39,6 +41,7 @@ class Coat {
   const DrawnSurface* surface_;
   Vec3 colour_;
   std::vector<Vec3f> colour_of_vertex_{};  // linear; empty: colour_
+  std::vector<float> share_of_vertex_{};   // of a map's range; empty: none
   const Skin* skin_;
   std::optional<Tubes> tubes_{};
   Vec3 tube_colour_;

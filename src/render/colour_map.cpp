@@ -9,6 +9,7 @@
 #include "vantage/render/render.h"
 
 #include "core/srgb.h"
+#include "render/colour_scale.h"
 
 namespace vantage {
 namespace {
@@ -63,7 +64,7 @@ Rgb8 cool_warm(double value) {
   return srgb_of_linear(Vec3(rgb_of_lms * lms));
 }
 
-std::vector<Rgb8> colour_map(std::span<const double> values) {
+std::vector<float> shares_of_range(std::span<const double> values) {
   double low = 0.0;
   double high = 0.0;
   bool any = false;
@@ -76,14 +77,39 @@ std::vector<Rgb8> colour_map(std::span<const double> values) {
   }
   // Halves, so that the span of a map that fills the range of double stays finite.
   const double half_span = 0.5 * high - 0.5 * low;
-  std::vector<Rgb8> colours;
-  colours.reserve(values.size());
+  std::vector<float> shares;
+  shares.reserve(values.size());
   for (const double value : values) {
     const bool scales = std::isfinite(value) && half_span > 0.0;
     const double flat = std::isfinite(value) ? 0.0 : value;
-    colours.push_back(cool_warm(scales ? (0.5 * value - 0.5 * low) / half_span : flat));
+    const double share = scales ? (0.5 * value - 0.5 * low) / half_span : flat;
+    shares.push_back(static_cast<float>(std::isnan(share) ? share : std::clamp(share, 0.0, 1.0)));
+  }
+  return shares;
+}
+
+std::vector<Rgb8> colour_map(std::span<const double> values) {
+  std::vector<Rgb8> colours;
+  colours.reserve(values.size());
+  for (const float share : shares_of_range(values)) {
+    colours.push_back(cool_warm(static_cast<double>(share)));
   }
   return colours;
+}
+
+const Vec3& linear_cool_warm(float share) {
+  constexpr std::size_t kSteps = 2048;  // eight times as many as a channel has
+  static const std::vector<Vec3> colours = [] {
+    std::vector<Vec3> table;
+    for (std::size_t i = 0; i <= kSteps; ++i) {
+      table.push_back(linear_of_srgb(cool_warm(static_cast<double>(i) / kSteps)));
+    }
+    table.push_back(linear_of_srgb(kGrey));
+    return table;
+  }();
+  return std::isnan(share)
+             ? colours.back()
+             : colours[static_cast<std::size_t>(std::clamp(share, 0.0F, 1.0F) * kSteps + 0.5F)];
 }
 
 }  // namespace vantage

@@ -49,6 +49,10 @@ void check_input(const TriMesh& mesh, const Paint& paint, const RenderOptions& o
     throw InvalidInput("there are " + std::to_string(vertex_colours.size()) + " colours for " +
                        std::to_string(mesh.positions.size()) + " vertices");
   }
+  if (!paint.vertex_values.empty() && paint.vertex_values.size() != mesh.positions.size()) {
+    throw InvalidInput("there are " + std::to_string(paint.vertex_values.size()) + " values for " +
+                       std::to_string(mesh.positions.size()) + " vertices");
+  }
   if (!(options.up.norm() > 0.0) || !options.up.allFinite()) {
     throw InvalidInput("the up direction of a ground must be finite and not zero");
   }
@@ -208,7 +212,8 @@ DeepImage render_deep(const TriMesh& mesh, const Camera& camera, const Paint& pa
 
 Image render(const TriMesh& mesh, const Camera& camera, std::span<const Rgb8> vertex_colours,
              const TubeOverlay& overlay, const RenderOptions& options, const RunContext& run) {
-  return render_painted(mesh, camera, {vertex_colours, overlay, nullptr}, options, run);
+  return render_painted(mesh, camera, {.vertex_colours = vertex_colours, .overlay = overlay},
+                        options, run);
 }
 
 }  // namespace vantage

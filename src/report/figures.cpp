@@ -118,7 +118,7 @@ class Panels {
     if (field.empty()) {
       return render(mesh, camera_, {}, {}, look_, run_);
     }
-    Image picture = render(mesh, camera_, colour_map(field), {}, look_, run_);
+    Image picture = render_painted(mesh, camera_, {.vertex_values = field}, look_, run_);
     draw_legend(picture);
     return picture;
   }

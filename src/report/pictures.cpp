@@ -55,7 +55,7 @@ class Canvas {
     look.width = options.width;
     look.height = options.height;
     if (picture == Picture::Map) {
-      colours_ = colour_map(shape.map.of_vertex);
+      values_ = shape.map.of_vertex;
     } else if (picture == Picture::Skeleton) {
       overlay_.graph = &shape.skeleton.graph;
       overlay_.radius = kTubeRadius * shape.sphere.diameter;
@@ -71,11 +71,17 @@ class Canvas {
 
   [[nodiscard]] const TriMesh& mesh() const { return *mesh_; }
 
-  [[nodiscard]] Paint paint() const { return {colours_, overlay_, appearance_}; }
+  [[nodiscard]] Paint paint() const {
+    return {.vertex_colours = colours_,
+            .vertex_values = values_,
+            .overlay = overlay_,
+            .appearance = appearance_};
+  }
 
  private:
   const TriMesh* mesh_;
   std::vector<Rgb8> colours_{};
+  std::span<const double> values_{};
   TubeOverlay overlay_{};
   const Appearance* appearance_ = nullptr;
 };
@@ -194,10 +200,11 @@ Image ShapePictures::take_small(const Camera& camera, int width, int height,
 Image ShapePictures::take_plain(const Camera& camera, const RenderOptions& look,
                                 const RunContext& run) {
   if (look_.asset != nullptr) {
-    const Paint own{look_.asset->vertex_colours, {}, &look_.asset->appearance};
+    const Paint own{.vertex_colours = look_.asset->vertex_colours,
+                    .appearance = &look_.asset->appearance};
     return std::move(asset_surface(run).render(camera, std::span(&own, 1), look, run).front());
   }
-  const Paint clay{point_colours_, {}, nullptr};
+  const Paint clay{.vertex_colours = point_colours_};
   return std::move(surface(run).render(camera, std::span(&clay, 1), look, run).front());
 }
 

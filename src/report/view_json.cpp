@@ -179,7 +179,7 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
   json["best"] =
       view_of(report.best, options.pictures ? Json("best.png") : Json(nullptr), report.up);
   json["best"]["score_of_attainable"] =
-      report.highest_score > 0.0 ? Json(report.best.score / report.highest_score) : Json(nullptr);
+      report.score_of_attainable ? Json(*report.score_of_attainable) : Json(nullptr);
   json["highest_score"] = {{"direction", point(report.highest_direction)},
                            {"score", report.highest_score}};
   json["worst"] =

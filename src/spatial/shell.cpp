@@ -105,7 +105,7 @@ void Shell::look_at_edges() {
 }
 
 void Shell::sort_into_cells() {
-  const Box box = bounding_box(mesh_.positions);
+  const Box box = bounding_box(referenced_points(mesh_));  // a lone vertex may be anywhere
   const Vec3 size = box.size();
   size.minCoeff(&up_);  // along the shortest side, projections overlap least
   low_ = box.low;

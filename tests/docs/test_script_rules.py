@@ -1,15 +1,25 @@
-"""What scripts decide by rules of their own: which inputs a fuzzer keeps, and how many tests a run was made of."""
+"""What scripts decide by rules of their own: which inputs a fuzzer keeps, how many tests a run was made of, and that what
+checks something fails where nothing was checked."""
 
 import contextlib
+import importlib.util
 import io
+import json
 import pathlib
+import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
+sys.path.insert(0, str(SCRIPTS))
 import choose_inputs  # noqa: E402
 import count_tests  # noqa: E402
+import mutate  # noqa: E402
+
+HAS_NUMPY = importlib.util.find_spec("numpy") is not None
 
 # As ctest writes build/…/Testing/Temporary/LastTest.log.
 LOG = """1/4 Testing: unit.core.0
@@ -50,6 +60,98 @@ class Scripts(unittest.TestCase):
         self.assertEqual(len(lines), 3)
         self.assertIn("Sandbox.Confines", lines[1])
         self.assertIn("open3d", lines[2])
+
+    def program(self, text, name="vantage"):
+        """A program that does what the lines of shell say."""
+        file = self.dir / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text("#!/bin/sh\n" + text)
+        file.chmod(0o755)
+        return file
+
+    def test_what_checks_a_folder_says_that_it_is_empty(self):
+        program = self.program("echo '[]'\n")
+        flags = {"check_hostile.py": "--program", "check_finite.py": "--vantage"}
+        if HAS_NUMPY:
+            flags["check_measures.py"] = "--vantage"
+        (self.dir / "empty").mkdir()
+        for script, flag in flags.items():
+            for folder in ("empty", "mistyped"):
+                with self.subTest(script=script, folder=folder):
+                    done = subprocess.run([sys.executable, SCRIPTS / script, self.dir / folder, flag, program],
+                                          capture_output=True, text=True, check=False)
+                    self.assertEqual(done.returncode, 1)
+                    self.assertRegex(done.stderr, rf"^\S+/{folder}: holds no \w+ to check\n$")
+
+    @unittest.skipUnless(HAS_NUMPY, "numpy is not installed")
+    def test_an_identity_that_is_no_number_is_not_held(self):
+        import check_measures
+        import numpy
+
+        class Program:
+            def scores(self, model, methods, *_):
+                values = {name: numpy.ones(2) for name in methods.split(",")}
+                values["visible-triangles"] *= 4  # of which the entropy is at most 2
+                values["i2"][1] = 1 if model.stem == "good" else numpy.nan
+                return None, values
+        good, bad = pathlib.Path("good.off"), pathlib.Path("bad.off")
+        for models, holds in (([good], True), ([bad], False), ([good, bad], False), ([bad, good], False)):
+            worst = check_measures.identities(Program(), models)[1]
+            self.assertEqual(worst <= check_measures.IDENTITY_BAR, holds)
+
+    def test_mutants_are_made_of_a_tree_whose_tests_pass_only(self):
+        (self.dir / "tests/unit/view").mkdir(parents=True)
+        (self.dir / "tests/unit/view/CMakeLists.txt").touch()
+        for build, tests, said in ((0, 0, None), (1, 0, "does not compile"), (0, 1, "fails its"), (0, None, "fails its")):
+            def run(command, *_):
+                return build if command[0] == "cmake" else tests
+            with unittest.mock.patch.object(mutate, "run", run):
+                with self.assertRaisesRegex(SystemExit, said) if said else contextlib.nullcontext():
+                    mutate.refuse_broken(self.dir, self.dir, ["view"], 1)
+
+    def threads(self, text, *models):
+        """check_threads.sh in a tree whose build is there, with a program of such lines."""
+        for name in ("scripts", "models", "bin", "build/tsan-tbb/installed"):
+            (self.dir / name).mkdir(parents=True, exist_ok=True)
+        shutil.copy(SCRIPTS / "check_threads.sh", self.dir / "scripts")
+        self.program("", "bin/cmake")
+        self.program(text, "build/tsan/apps/vantage/vantage")
+        return subprocess.run([self.dir / "scripts/check_threads.sh", *models], capture_output=True, text=True, check=False,
+                              env={"PATH": f"{self.dir / 'bin'}:/usr/bin:/bin"})
+
+    def test_runs_that_fail_or_are_none_do_not_count_as_free_of_races(self):
+        self.assertEqual(self.threads("exit 0").returncode, 1)  # no models
+        (self.dir / "models/a.ply").touch()
+        self.assertEqual(self.threads("exit 0").returncode, 0)
+        done = self.threads('[ "$1" != thumb ] || exit 127')
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("6 runs", done.stdout)
+        self.assertIn("1 failed, 0 reports", done.stdout)
+        self.assertEqual(self.threads('[ -f "$2" ] || exit 3', "models/mistyped.ply").returncode, 1)
+        report = self.threads('echo "WARNING: ThreadSanitizer" >"$(echo "$TSAN_OPTIONS" | sed "s/.*log_path=//; s/ .*//").1"')
+        self.assertEqual(report.returncode, 1)
+        self.assertIn("0 failed, 1 reports", report.stdout)
+
+    @unittest.skipUnless(HAS_NUMPY, "numpy is not installed")
+    def test_what_is_measured_for_a_fit_is_kept_for_its_program_and_model_and_failures_are_not(self):
+        import fit_choices
+        program, model = self.dir / "vantage", self.dir / "chair.obj"
+        view = json.dumps({"proportions": {}, "total": 1})
+        works = f"[ $1 = score ] && echo kssm,0,0,1,2 || echo '{view}'\n"
+        model.write_text("v 0 0 0\n")
+
+        def measure(text, made_by):
+            self.program(text)
+            with contextlib.redirect_stderr(io.StringIO()):
+                return fit_choices.measured(program, made_by, model, self.dir)
+        self.assertIsNone(measure("exit 1", "a"))
+        self.assertEqual(measure(works, "a")["rows"], [[0, 0, 1, 2]])  # that it failed was not kept
+        self.assertEqual(measure("exit 1", "a")["rows"], [[0, 0, 1, 2]])
+        self.assertIsNone(measure("exit 1", "b"))
+        model.write_text("v 0 0 1\n")
+        self.assertIsNone(measure("exit 1", "a"))
+        (self.dir / "chair.json").write_text('{"failed": "timed out"}')  # of an older form
+        self.assertEqual(measure(works, "a")["total"], 1)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,8 @@
 
 #include <Eigen/Dense>
 
+#include "support/worst.h"
+
 namespace vantage::test {
 namespace {
 
@@ -240,8 +242,7 @@ double backward_error(const TriMesh& now, std::span<const Vec3> next, const Step
   const DenseMatrix residual = A * x - b;
   Real worst = 0;
   for (Eigen::Index c = 0; c < 3; ++c) {
-    worst =
-        std::max(worst, residual.col(c).norm() / (A.norm() * x.col(c).norm() + b.col(c).norm()));
+    worst = larger(worst, residual.col(c).norm() / (A.norm() * x.col(c).norm() + b.col(c).norm()));
   }
   return static_cast<double>(worst);
 }
@@ -250,7 +251,7 @@ double brute_force_distance(const CurveGraph& graph, const Vec3& point) {
   const Real3 p = point.cast<Real>();
   Real nearest = std::numeric_limits<Real>::infinity();
   for (const Vec3& node : graph.nodes) {
-    nearest = std::min(nearest, (p - node.cast<Real>()).norm());
+    nearest = smaller(nearest, (p - node.cast<Real>()).norm());
   }
   for (const auto& [i, j] : graph.edges) {
     const Real3 a = graph.nodes[i].cast<Real>();
@@ -258,7 +259,7 @@ double brute_force_distance(const CurveGraph& graph, const Vec3& point) {
     const Real along = (p - a).dot(b - a);
     const Real length_squared = (b - a).squaredNorm();
     if (along > 0 && along < length_squared) {
-      nearest = std::min(nearest, (p - a).cross(b - a).norm() / std::sqrt(length_squared));
+      nearest = smaller(nearest, (p - a).cross(b - a).norm() / std::sqrt(length_squared));
     }
   }
   return static_cast<double>(nearest);

@@ -41,6 +41,7 @@ struct Job {
   std::uint64_t unpacked_bytes = 0;               ///< What that takes on the disk.
   ModelRecord record{};                           ///< As far as it is known.
   std::optional<ModelRecord> before{};            ///< What the book said when it was taken up.
+  std::string replaces{};                         ///< Key of the model whose folder it takes.
   Stage stage = Stage::Ready;                     ///< Where it is.
   Seat* seat = nullptr;                           ///< Where a worker is at it.
   int attempts = 0;                               ///< Begun so far.

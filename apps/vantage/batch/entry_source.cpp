@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
 #include <span>
 #include <string_view>
 #include <system_error>
@@ -16,6 +17,8 @@
 
 #include "batch/archive_reader.h"
 #include "batch/naming.h"
+#include "batch/results_store.h"
+#include "result_names.h"
 
 namespace vantage::batch {
 namespace {
@@ -26,6 +29,15 @@ bool matches(const std::string& pattern, const std::string& path) {
   const std::string file = path.substr(path.find_last_of('/') + 1);
   return ::fnmatch(pattern.c_str(), path.c_str(), FNM_CASEFOLD) == 0 ||
          ::fnmatch(pattern.c_str(), file.c_str(), FNM_CASEFOLD) == 0;
+}
+
+/// Whether `view` has put results there, which are no models.
+bool is_viewed(const std::string& folder) {
+  constexpr std::string_view kOurs = "{\n  \"vantage\": ";
+  std::string beginning(kOurs.size(), '\0');
+  std::ifstream file(fs::path(folder) / "view.json", std::ios::binary);
+  file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  return file && beginning == kOurs;
 }
 
 constexpr const char* kArchives[] = {"*.zip",     "*.tar",    "*.tar.gz", "*.tgz",
@@ -74,6 +86,9 @@ class FolderWalk {
     if (!skipped_.empty() && fs::equivalent(path, skipped_, error)) {
       return;
     }
+    if (!levels_.empty() && fs::is_regular_file(fs::path(path) / ResultsStore::kFileName, error)) {
+      return;  // of an earlier batch
+    }
     Level level{.path = path};
     fs::directory_iterator files(path, error);
     for (; !error && files != fs::directory_iterator{}; files.increment(error)) {
@@ -83,6 +98,11 @@ class FolderWalk {
       if (is_folder || !files->is_directory(ignored)) {
         level.names.emplace_back(files->path().filename().string(), is_folder);
       }
+    }
+    if (is_viewed(path)) {
+      std::erase_if(level.names, [](const auto& each) {
+        return cli::is_view_file(each.first) || cli::is_level_file(each.first);
+      });
     }
     if (error) {
       problem_path_ = path;

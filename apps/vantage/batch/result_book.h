@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "batch/model_record.h"
 
@@ -23,6 +24,9 @@ class ResultBook {
   /// The first model by position that was really run on this content with these options and
   /// version. \throw IoError
   virtual std::optional<ModelRecord> find_content(const ModelRecord& like) = 0;
+
+  /// All models of this content, these options and this version. \throw IoError
+  virtual std::vector<ModelRecord> find_equals(const ModelRecord& like) = 0;
 
   /// Key of the model whose results are in this folder; empty if there is none. \throw IoError
   virtual std::string owner_of(const std::string& folder) = 0;

@@ -186,6 +186,18 @@ std::optional<ModelRecord> ResultsStore::find_content(const ModelRecord& like) {
   return record;
 }
 
+std::vector<ModelRecord> ResultsStore::find_equals(const ModelRecord& like) {
+  Statement equals(database_, std::string("SELECT ") + kColumns +
+                                  "WHERE m.content <> '' AND m.content = ?1 AND m.options = ?2 AND "
+                                  "m.version = ?3 ORDER BY m.key");
+  equals.bind(1, like.content).bind(2, like.options).bind(3, like.version);
+  std::vector<ModelRecord> records;
+  while (equals.step()) {
+    records.push_back(record_of(equals));
+  }
+  return records;
+}
+
 std::string ResultsStore::owner_of(const std::string& folder) {
   Statement& owner = statements_->owner;
   owner.bind(1, folder);

@@ -8,6 +8,7 @@
 #include <list>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <sys/stat.h>
@@ -149,6 +150,7 @@ class Runner {
     record.position = entry.position;
     record.stamp = stamp_of(entry.path);
     record.options = options_.options_hash(entry);
+    asked_.insert(record.options);
     record.version = version();
     record.name =
         key_of_path(entry.name.empty() ? fs::path(entry.shown_path()).stem().string() : entry.name);
@@ -204,7 +206,7 @@ class Runner {
       return !options_.retry_failed;
     }
     if (before.duplicate_of.empty()) {
-      return root_.is_folder(model_folder(before.folder));
+      return !before.folder.empty() && root_.is_folder(model_folder(before.folder));
     }
     const std::optional<ModelRecord> first = book_.find(before.duplicate_of);
     return first && first->duplicate_of.empty() && first->content == before.content &&
@@ -232,6 +234,7 @@ class Runner {
       job.record.status = "done";
       ++counts_.done;
       counts_.doubted += is_doubted(job.record) ? 1 : 0;
+      take_over(job);
       settle(job);
       return;
     }
@@ -328,13 +331,18 @@ class Runner {
                                                          .name = job.entry.name,
                                                          .key = record.key,
                                                          .content = record.content});
-    std::string owner = book_.owner_of(record.folder);
-    if (const auto claim = claims_.find(record.folder); claim != claims_.end()) {
-      owner = claim->second;
-    }
-    if (!owner.empty() && owner != record.key && !give_way(owner, record.content)) {
-      refuse_name(job, "holds those of " + owner + "; use a --name with {hash8} or {key8}");
-      return false;
+    const auto claim = claims_.find(record.folder);
+    const bool is_claimed = claim != claims_.end();
+    const std::string owner = is_claimed ? claim->second : book_.owner_of(record.folder);
+    job.replaces.clear();
+    if (!owner.empty() && owner != record.key) {
+      if (is_claimed || !may_take_over(owner, record)) {
+        refuse_name(job,
+                    "holds those of " + owner +
+                        "; use a --name with {key8}, or with {hash8} if they are other models");
+        return false;
+      }
+      job.replaces = owner;
     }
     if (!may_be_replaced(record.folder)) {
       refuse_name(job, "is not a folder of results of vantage; move it away, then --retry failed");
@@ -370,15 +378,31 @@ class Runner {
     return root_.beginning_of(place + "/view.json", kEnough).starts_with("{\n  \"vantage\": ");
   }
 
-  /// Whether results of the same content, made with other options, may be replaced.
-  bool give_way(const std::string& owner, const std::string& content) {
-    std::optional<ModelRecord> holder = book_.find(owner);
-    if (!holder || holder->content != content) {
-      return false;
+  /// Whether results of the same content, made by an earlier run with what no model of this one asks
+  /// for, may be replaced.
+  bool may_take_over(const std::string& owner, const ModelRecord& record) {
+    const std::optional<ModelRecord> holder = book_.find(owner);
+    return holder && holder->content == record.content &&
+           (holder->version != record.version || asked_.count(holder->options) == 0);
+  }
+
+  /// Where a model's results have replaced those of equal models, these have its results from now on.
+  void take_over(const Job& job) {
+    const std::optional<ModelRecord> holder =
+        job.replaces.empty() ? std::nullopt : book_.find(job.replaces);
+    if (!holder || holder->folder != job.record.folder) {
+      return;
     }
-    holder->folder.clear();
-    book_.put(*holder);
-    return true;
+    for (ModelRecord& equal : book_.find_equals(*holder)) {
+      if (equal.key != job.record.key && equal.status == "done") {
+        equal.folder.clear();
+        equal.result.clear();
+        equal.options = job.record.options;
+        equal.version = job.record.version;
+        equal.duplicate_of = job.record.key;
+        book_.put(equal);
+      }
+    }
   }
 
   void release(const Job& job) {
@@ -457,6 +481,7 @@ class Runner {
   std::deque<Job*> ready_{};
   std::map<std::string, Job*> running_{};        // by content and options
   std::map<std::string, std::string> claims_{};  // folder → key of the running model
+  std::set<std::string> asked_{};                // options of all models so far
   std::size_t waiting_ = 0;
   std::size_t unpacked_ = 0;
   std::uint64_t unpacked_bytes_ = 0;

@@ -144,7 +144,9 @@ void ShardLog::read(const std::string& name) {
 void ShardLog::remember(const ModelRecord& record) {
   if (const auto old = records_.find(record.key); old != records_.end()) {
     runs_of_content_[versioned_content_key(old->second)].erase({old->second.position, record.key});
-    owner_of_folder_.erase(old->second.folder);
+    if (owner_of(old->second.folder) == record.key) {
+      owner_of_folder_.erase(old->second.folder);
+    }
   }
   records_[record.key] = record;
   if (stands_for_its_content(record)) {
@@ -166,6 +168,16 @@ std::optional<ModelRecord> ShardLog::find_content(const ModelRecord& like) {
     return std::nullopt;
   }
   return records_.at(found->second.begin()->second);
+}
+
+std::vector<ModelRecord> ShardLog::find_equals(const ModelRecord& like) {
+  std::vector<ModelRecord> equals;
+  for (const auto& [key, record] : records_) {
+    if (!record.content.empty() && versioned_content_key(record) == versioned_content_key(like)) {
+      equals.push_back(record);
+    }
+  }
+  return equals;
 }
 
 std::string ShardLog::owner_of(const std::string& folder) {

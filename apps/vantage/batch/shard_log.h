@@ -40,6 +40,7 @@ class ShardLog : public ResultBook {
 
   std::optional<ModelRecord> find(const std::string& key) override;
   std::optional<ModelRecord> find_content(const ModelRecord& like) override;
+  std::vector<ModelRecord> find_equals(const ModelRecord& like) override;
   std::string owner_of(const std::string& folder) override;
   std::int64_t latest_ms() override;
   void put(const ModelRecord& record) override;

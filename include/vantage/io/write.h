@@ -142,7 +142,8 @@ struct AxisTurn {
 };
 
 /// The bytes of an OBJ, STL, glTF or GLB with its shape turned; whatever else it holds stays. Numbers
-/// of text files change their place and sign alone. A glTF gets a node above those of each scene.
+/// of text files change their place and sign alone. A glTF gets a node above each node of its
+/// scenes.
 /// \param format as parse_model() found it. \param name shown in messages.
 /// \throw FormatError; InvalidInput for other formats.
 std::string turned_bytes(std::string_view bytes, std::string_view name, ModelFormat format,

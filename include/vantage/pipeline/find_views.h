@@ -103,10 +103,13 @@ struct ViewReport {
   double total = 0.0;                      ///< The score if everything were visible.
   Vec3 highest_direction = Vec3::UnitZ();  ///< The view that the score alone would take.
   double highest_score = 0.0;              ///< The best that any view attains.
-  FoundView best_search{};                 ///< How it was found.
-  FoundView worst_search{};                ///< Evaluations beyond the best view's.
-  std::optional<DenseGap> dense_gap{};     ///< If options.certify.
-  std::vector<std::string> warnings{};     ///< One sentence each.
+  /// Of that, what the best view's score is; of measures of which less is better that over it. In
+  /// [0, 1]; nothing where no view sees anything.
+  std::optional<double> score_of_attainable{};
+  FoundView best_search{};              ///< How it was found.
+  FoundView worst_search{};             ///< Evaluations beyond the best view's.
+  std::optional<DenseGap> dense_gap{};  ///< If options.certify.
+  std::vector<std::string> warnings{};  ///< One sentence each.
   /// Why the answer should not be trusted, and what to do, one sentence each; see doubts_about().
   /// Empty almost always. They are among the `warnings` of view.json.
   std::vector<std::string> doubts{};

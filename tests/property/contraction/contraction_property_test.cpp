@@ -12,6 +12,7 @@
 
 #include "support/named_mesh.h"
 #include "support/shapes.h"
+#include "support/worst.h"
 
 namespace vantage {
 namespace {
@@ -42,7 +43,7 @@ class ContractionOf : public ::testing::TestWithParam<Shape> {};
 double deviation(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double diameter) {
   double worst = 0.0;
   for (std::size_t v = 0; v < a.size(); ++v) {
-    worst = std::max(worst, (a[v] - b[v]).norm() / diameter);
+    worst = test::larger(worst, (a[v] - b[v]).norm() / diameter);
   }
   return worst;
 }
@@ -80,7 +81,7 @@ TEST_P(ContractionOf, CommutesWithSimilarities) {
     for (std::size_t j = 0; j < plain.levels.size(); ++j) {
       const TriMesh expected =
           test::moved({.positions = plain.levels[j], .triangles = {}}, scale, 0.7, axis, shift);
-      worst = std::max(worst, deviation(other.levels[j], expected.positions, scale * diameter));
+      worst = test::larger(worst, deviation(other.levels[j], expected.positions, scale * diameter));
     }
   }
   RecordProperty("worst_deviation", std::to_string(worst * 1e12) + "e-12 D");

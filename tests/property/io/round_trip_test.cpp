@@ -1,18 +1,28 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "vantage/core/error.h"
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
 
 #include "core/random.h"
 #include "support/shapes.h"
+#include "unit/io/error_text.h"
 
 namespace vantage::test {
 namespace {
+
+using testing::StartsWith;
+
+/// Files are cut in as many shares of places: all places in all.
+constexpr unsigned kSeeds = 24;
 
 /// A shape with coordinates of random magnitude, so that every digit of a double counts.
 TriMesh shape(unsigned seed) {
@@ -101,21 +111,66 @@ TEST_P(RoundTrip, BinaryPlyKeepsEveryBit) {
   expect_same(shape(GetParam()), ply_bytes(shape(GetParam()), {}, {}, true), "a.ply");
 }
 
-TEST_P(RoundTrip, CutAnywhereAFileIsReadOrRefused) {
-  Pcg32 random(GetParam(), 1);
-  for (const std::string& whole : {obj_text(sphere(0)), off_text(sphere(0)), ply_text(sphere(0)),
-                                   ply_bytes(sphere(0), {}, {}, false)}) {
-    const std::size_t length = random.below(static_cast<std::uint32_t>(whole.size()));
-    try {
-      const Model model = parse_model(whole.substr(0, length), "a.obj");
-      EXPECT_LE(model.mesh.triangles.size(), 20U);
-    } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()), "");
+/// Expects the first `whole_records` of what the whole file holds, and at most one beyond: the one that
+/// was cut, whose last number may lack digits.
+template <class Record>
+void expect_start(const std::vector<Record>& read, const std::vector<Record>& of_whole,
+                  std::size_t whole_records) {
+  ASSERT_GE(read.size(), whole_records);
+  EXPECT_LE(read.size(), std::min(whole_records + 1, of_whole.size()));
+  EXPECT_TRUE(std::equal(read.begin(), read.begin() + static_cast<std::ptrdiff_t>(whole_records),
+                         of_whole.begin()));
+}
+
+TEST_P(RoundTrip, CutAnywhereAnObjFileIsReadUpToThereUnlessThatIsInAVertex) {
+  const TriMesh mesh = sphere(0);
+  const std::string whole = obj_text(mesh);
+  for (std::size_t length = GetParam(); length < whole.size(); length += kSeeds) {
+    SCOPED_TRACE("the first " + std::to_string(length) + " bytes");
+    const std::string cut = whole.substr(0, length);
+    const std::string last_line = cut.substr(cut.find_last_of('\n') + 1);
+    if (const std::string problem = error_text(cut, "a.obj"); problem != "nothing") {
+      EXPECT_THAT(problem, StartsWith("a.obj"));
+      EXPECT_TRUE(length == 0 || last_line.starts_with("v")) << problem;
+      continue;
     }
+    const TriMesh read = parse_model(cut, "a.obj").mesh;
+    const auto lines = static_cast<std::size_t>(std::count(cut.begin(), cut.end(), '\n'));
+    const std::size_t points = std::min(lines, mesh.positions.size());
+    expect_start(read.positions, mesh.positions, points);
+    expect_start(read.triangles, mesh.triangles, lines - points);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RoundTrip, testing::Range(0U, 24U));
+/// Cuts a file that says how much it holds. It is refused where anything is missing but digits of its
+/// last number, of which the first `enough` bytes have at least one.
+void expect_all_or_nothing(const std::string& name, const std::string& whole, std::size_t enough,
+                           unsigned seed) {
+  const TriMesh mesh = sphere(0);
+  for (std::size_t length = seed; length < whole.size(); length += kSeeds) {
+    SCOPED_TRACE(name + ", the first " + std::to_string(length) + " bytes");
+    const std::string cut = whole.substr(0, length);
+    if (length < enough) {
+      EXPECT_THAT(error_text(cut, name), StartsWith(name));
+      continue;
+    }
+    const TriMesh read = parse_model(cut, name).mesh;
+    EXPECT_EQ(read.positions, mesh.positions);
+    EXPECT_EQ(read.triangles.size(), mesh.triangles.size());
+    expect_start(read.triangles, mesh.triangles, mesh.triangles.size() - 1);
+  }
+}
+
+TEST_P(RoundTrip, CutAnywhereAFileThatSaysHowMuchItHoldsIsRefused) {
+  for (const auto& [name, text] :
+       {std::pair("a.off", off_text(sphere(0))), std::pair("a.ply", ply_text(sphere(0)))}) {
+    expect_all_or_nothing(name, text, text.find_last_of(' ') + 2, GetParam());
+  }
+  const std::string binary = ply_bytes(sphere(0), {}, {}, false);
+  expect_all_or_nothing("a.ply", binary, binary.size(), GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RoundTrip, testing::Range(0U, kSeeds));
 
 }  // namespace
 }  // namespace vantage::test

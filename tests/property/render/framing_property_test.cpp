@@ -12,6 +12,7 @@
 
 #include "core/random.h"
 #include "support/shapes.h"
+#include "support/worst.h"
 
 namespace vantage {
 namespace {
@@ -42,10 +43,10 @@ Borders borders_of(const TriMesh& mesh, const Camera& camera, double aspect) {
     EXPECT_GT(offset.dot(forward), 0.0);
     const double x = offset.dot(right) / (depth * half);
     const double y = offset.dot(camera.up) / (depth * half);
-    borders.left = std::min(borders.left, 0.5 * height_px * (aspect + x));
-    borders.right = std::min(borders.right, 0.5 * height_px * (aspect - x));
-    borders.top = std::min(borders.top, 0.5 * height_px * (1.0 - y));
-    borders.bottom = std::min(borders.bottom, 0.5 * height_px * (1.0 + y));
+    borders.left = test::smaller(borders.left, 0.5 * height_px * (aspect + x));
+    borders.right = test::smaller(borders.right, 0.5 * height_px * (aspect - x));
+    borders.top = test::smaller(borders.top, 0.5 * height_px * (1.0 - y));
+    borders.bottom = test::smaller(borders.bottom, 0.5 * height_px * (1.0 + y));
   }
   return borders;
 }
@@ -82,15 +83,17 @@ struct Worst {
 
   void add(const Borders& borders, const Camera& camera) {
     const double margin_px = kMargin * kPicturePx;
-    const double least = std::min({borders.left, borders.right, borders.top, borders.bottom});
-    clipped_px = std::max(clipped_px, margin_px - least);
-    const double across = std::max(borders.left, borders.right);
-    const double down = std::max(borders.top, borders.bottom);
-    unfilled_px = std::max(unfilled_px, std::min(across, down) - margin_px);
-    off_centre_px = std::max({off_centre_px, std::abs(borders.left - borders.right),
-                              std::abs(borders.top - borders.bottom)});
-    up_off_square =
-        std::max(up_off_square, std::abs(camera.up.dot((camera.target - camera.eye).normalized())));
+    const double least = test::smaller(test::smaller(borders.left, borders.right),
+                                       test::smaller(borders.top, borders.bottom));
+    clipped_px = test::larger(clipped_px, margin_px - least);
+    const double across = test::larger(borders.left, borders.right);
+    const double down = test::larger(borders.top, borders.bottom);
+    unfilled_px = test::larger(unfilled_px, test::smaller(across, down) - margin_px);
+    off_centre_px =
+        test::larger(off_centre_px, test::larger(std::abs(borders.left - borders.right),
+                                                 std::abs(borders.top - borders.bottom)));
+    up_off_square = test::larger(
+        up_off_square, std::abs(camera.up.dot((camera.target - camera.eye).normalized())));
   }
 };
 

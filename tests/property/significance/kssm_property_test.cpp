@@ -14,6 +14,7 @@
 #include "support/dense_oracles.h"
 #include "support/named_mesh.h"
 #include "support/shapes.h"
+#include "support/worst.h"
 
 namespace vantage {
 namespace {
@@ -79,7 +80,7 @@ TEST_P(KssmOf, AgreesWithADirectEvaluation) {
     const std::vector<double> expected =
         test::direct_kssm(shape_mesh, shape_history, shape_skeleton.raw, options);
     for (std::size_t v = 0; v < expected.size(); ++v) {
-      worst = std::max(worst, std::abs(map.of_vertex[v] - expected[v]));
+      worst = test::larger(worst, std::abs(map.of_vertex[v] - expected[v]));
     }
   }
   RecordProperty("worst_difference", std::to_string(worst * 1e15) + "e-15");

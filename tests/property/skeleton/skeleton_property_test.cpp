@@ -18,6 +18,7 @@
 #include "support/shapes.h"
 #include "support/skeletons.h"
 #include "support/voxel_surface.h"
+#include "support/worst.h"
 #include "unit/skeleton/genus_two.h"
 
 namespace vantage {
@@ -173,10 +174,10 @@ TEST_P(SkeletonProperty, IsInsideAndSeesTheWholeSurface) {
 double node_distance(const CurveGraph& one, const CurveGraph& other) {
   double farthest = 0.0;
   for (const Vec3& p : one.nodes) {
-    farthest = std::max(farthest, test::brute_force_distance(other, p));
+    farthest = test::larger(farthest, test::brute_force_distance(other, p));
   }
   for (const Vec3& p : other.nodes) {
-    farthest = std::max(farthest, test::brute_force_distance(one, p));
+    farthest = test::larger(farthest, test::brute_force_distance(one, p));
   }
   return farthest;
 }

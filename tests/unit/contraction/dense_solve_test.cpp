@@ -10,6 +10,7 @@
 #include "support/dense_oracles.h"
 #include "support/named_mesh.h"
 #include "support/shapes.h"
+#include "support/worst.h"
 
 /// \file
 /// The contraction against a second implementation: dense, in long double, by a QR factorisation of
@@ -68,7 +69,7 @@ TEST_P(Against, EveryLaterStepSolvesItsSystemToRounding) {
     const auto weights = test::step_weights(mesh, now.positions, static_cast<int>(j), options);
     const double error =
         test::backward_error(now, history.levels[j + 1], weights, options.diagonal_limit);
-    worst = std::max(worst, error);
+    worst = test::larger(worst, error);
     EXPECT_LE(error, 1e-12) << "step " << j + 1;
   }
   RecordProperty("worst_backward_error", std::to_string(worst * 1e15) + "e-15");

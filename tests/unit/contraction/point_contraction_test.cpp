@@ -12,6 +12,7 @@
 
 #include "skeleton/point_skeleton.h"
 #include "support/shapes.h"
+#include "support/worst.h"
 
 namespace vantage::test {
 namespace {
@@ -25,7 +26,7 @@ TEST(PointContraction, BringsACylinderToItsAxis) {
   const PointContraction cloud = contracted(points);
   double farthest = 0.0;
   for (const Vec3& p : cloud.history.levels.back()) {
-    farthest = std::max(farthest, std::hypot(p.x(), p.y()));
+    farthest = larger(farthest, std::hypot(p.x(), p.y()));
   }
   EXPECT_LT(farthest, 0.1 * 0.2);
 }
@@ -60,7 +61,7 @@ TEST(PointContraction, CommutesWithScaling) {
   ASSERT_EQ(small.levels.size(), large.levels.size());
   double worst = 0.0;
   for (std::size_t i = 0; i < shape.positions.size(); ++i) {
-    worst = std::max(worst, (large.levels.back()[i] / kScale - small.levels.back()[i]).norm());
+    worst = larger(worst, (large.levels.back()[i] / kScale - small.levels.back()[i]).norm());
   }
   EXPECT_LT(worst, 1e-6);
 }
@@ -118,7 +119,7 @@ TEST(PointContraction, CarriesManyPointsToTheAxisOverSamples) {
   EXPECT_LT(cloud.samples.positions.size(), points.size());
   double farthest = 0.0;
   for (const Vec3& p : cloud.history.levels.back()) {
-    farthest = std::max(farthest, std::hypot(p.x(), p.y()));
+    farthest = larger(farthest, std::hypot(p.x(), p.y()));
   }
   EXPECT_LT(farthest, 0.1 * 0.2);
 }

@@ -14,6 +14,7 @@
 #include "vantage/mesh/measures.h"
 
 #include "support/shapes.h"
+#include "support/worst.h"
 
 /// \file
 /// Contraction by a decimated proxy, and of surfaces that are refined first.
@@ -137,7 +138,7 @@ TEST(ContractByProxy, ShrinksAsAllVerticesDoStepByStep) {
   for (std::size_t level = 1; level < exact.levels.size(); ++level) {
     double worst = 0.0;
     for (std::size_t v = 0; v < torus.positions.size(); ++v) {
-      worst = std::max(worst, (proxy.levels[level][v] - exact.levels[level][v]).norm());
+      worst = test::larger(worst, (proxy.levels[level][v] - exact.levels[level][v]).norm());
     }
     EXPECT_LE(worst, 0.02 * 0.3) << level;  // 2 % of the tube's radius
   }

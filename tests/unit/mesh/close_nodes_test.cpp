@@ -6,6 +6,8 @@
 
 #include "vantage/skeleton/skeleton.h"
 
+#include "support/worst.h"
+
 namespace vantage {
 namespace {
 
@@ -40,8 +42,8 @@ TEST(MergeCloseNodes, KeepsEndsWhereTheyAre) {
   double low = 1.0;
   double high = 0.0;
   for (const Vec3& p : merged.nodes) {
-    low = std::min(low, p.x());
-    high = std::max(high, p.x());
+    low = test::smaller(low, p.x());
+    high = test::larger(high, p.x());
   }
   EXPECT_EQ(low, 0.0);
   EXPECT_EQ(high, 1.0);

@@ -9,6 +9,7 @@
 
 #include "core/random.h"
 #include "support/shapes.h"
+#include "support/worst.h"
 
 namespace vantage {
 namespace {
@@ -53,7 +54,7 @@ TEST(MeanCurvature, OfAnUnevenTorusConvergesToTheSmoothOne) {
     for (std::size_t v = 0; v < h.size(); ++v) {
       // H = (1/r + cos φ / (R + r cos φ)) / 2
       const double ring = std::hypot(mesh.positions[v].x(), mesh.positions[v].y());
-      worst = std::max(worst, std::abs(h[v] - 0.5 * (2.0 + (ring - 2.0) / 0.5 / ring)));
+      worst = test::larger(worst, std::abs(h[v] - 0.5 * (2.0 + (ring - 2.0) / 0.5 / ring)));
     }
     EXPECT_LT(worst, 0.7 * last) << n;
     last = worst;

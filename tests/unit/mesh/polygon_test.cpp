@@ -14,6 +14,7 @@
 #include "vantage/mesh/measures.h"
 
 #include "core/random.h"
+#include "support/worst.h"
 
 namespace vantage::test {
 namespace {
@@ -34,7 +35,7 @@ TriMesh triangulated(std::vector<Vec3> points) {
 double least_signed_area(const TriMesh& mesh, const Vec3& normal) {
   double least = 1e300;
   for (const Triangle& t : mesh.triangles) {
-    least = std::min(least, 0.5 * area_vector(mesh, t).dot(normal));
+    least = smaller(least, 0.5 * area_vector(mesh, t).dot(normal));
   }
   return least;
 }

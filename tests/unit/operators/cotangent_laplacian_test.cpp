@@ -26,7 +26,7 @@ TEST(CotangentLaplacian, HasRowsThatSumToZero) {
   const Sparse L = laplacian(mesh);
   const Eigen::VectorXd sums = L * Eigen::VectorXd::Ones(L.cols());
   // Six or so terms of order 1 a row.
-  EXPECT_LE(sums.cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_LE(sums.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 1e-14);
 }
 
 TEST(CotangentLaplacian, IsSymmetricBeforeRowsAreScaled) {

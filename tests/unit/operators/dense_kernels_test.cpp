@@ -35,7 +35,7 @@ double product_error(Eigen::Index rows, Eigen::Index columns, Eigen::Index depth
                    {static_cast<std::size_t>(rows), static_cast<std::size_t>(columns),
                     static_cast<std::size_t>(depth)},
                    false);
-  return (C - expected).cwiseAbs().maxCoeff();
+  return (C - expected).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
 }
 
 TEST(SubtractProduct, IsThatOfMatricesForWholeTiles) {
@@ -54,7 +54,11 @@ TEST(SubtractProduct, LeavesTheUpperTilesAloneIfOnlyTheLowerAreWanted) {
   EXPECT_EQ(C(0, 23), 0.0);
   const Eigen::MatrixXd expected = -A * A.transpose();
   const Eigen::MatrixXd difference = C - expected;
-  EXPECT_LT(difference.triangularView<Eigen::Lower>().toDenseMatrix().cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LT(difference.triangularView<Eigen::Lower>()
+                .toDenseMatrix()
+                .cwiseAbs()
+                .maxCoeff<Eigen::PropagateNaN>(),
+            1e-15);
 }
 
 TEST(FactorizePanel, IsTheCholeskyFactorOfTheWholeMatrix) {
@@ -64,7 +68,11 @@ TEST(FactorizePanel, IsTheCholeskyFactorOfTheWholeMatrix) {
   ASSERT_TRUE(factorize_panel(panel.data(), 50, 37));
   const Eigen::MatrixXd expected = M.llt().matrixL();
   const Eigen::MatrixXd difference = panel - expected.leftCols(37);
-  EXPECT_LT(difference.triangularView<Eigen::Lower>().toDenseMatrix().cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT(difference.triangularView<Eigen::Lower>()
+                .toDenseMatrix()
+                .cwiseAbs()
+                .maxCoeff<Eigen::PropagateNaN>(),
+            1e-12);
 }
 
 TEST(FactorizePanel, SaysThatAPivotIsNotPositive) {
@@ -97,14 +105,14 @@ TEST(SolvePanel, IsTheTriangularSolveOfItsTopAndTheProductOfTheRest) {
     RightSides expected = given;
     expected.topRows(columns) = top.triangularView<Eigen::Lower>().solve(given.topRows(columns));
     expected.bottomRows(6) -= rest * expected.topRows(columns);
-    EXPECT_LT((forward - expected).cwiseAbs().maxCoeff(), 1e-13) << columns;
+    EXPECT_LT((forward - expected).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 1e-13) << columns;
 
     RightSides backward = given;
     solve_backward(panel.data(), h, c, backward.data());
     expected = given;
     const RightSides left = given.topRows(columns) - rest.transpose() * given.bottomRows(6);
     expected.topRows(columns) = top.transpose().triangularView<Eigen::Upper>().solve(left);
-    EXPECT_LT((backward - expected).cwiseAbs().maxCoeff(), 1e-13) << columns;
+    EXPECT_LT((backward - expected).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), 1e-13) << columns;
   }
 }
 

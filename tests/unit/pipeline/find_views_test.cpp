@@ -13,6 +13,7 @@
 #include "pipeline/preference.h"
 #include "support/model_of.h"
 #include "support/shapes.h"
+#include "support/worst.h"
 
 namespace vantage::test {
 namespace {
@@ -148,7 +149,7 @@ TEST(FindViews, CertifiesTheViewThatIsReportedWhereTiesWereSettled) {
   options.search.strategy = SearchStrategy::Dense;
   double highest = 0.0;
   for (const SearchStep& step : find_views(shape, UpAxis::Y, options).best_search.trace) {
-    highest = std::max(highest, step.score * options.prior.factor(frame, step.direction));
+    highest = larger(highest, step.score * options.prior.factor(frame, step.direction));
   }
   ASSERT_TRUE(report.dense_gap.has_value());
   EXPECT_NEAR(report.dense_gap->best_ratio, report.best.objective / highest, 1e-12);

@@ -10,6 +10,7 @@
 #include "vantage/mesh/measures.h"
 
 #include "support/shapes.h"
+#include "support/worst.h"
 
 namespace vantage {
 namespace {
@@ -25,7 +26,8 @@ double worst_deviation(const TriMesh& mesh, const Expected& expected) {
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     for (std::size_t c = 0; c < 3; ++c) {
       const Vec3 normal = normals[f][c].cast<double>();
-      worst = std::max(worst, (normal - expected(f, mesh.positions[mesh.triangles[f][c]])).norm());
+      worst =
+          test::larger(worst, (normal - expected(f, mesh.positions[mesh.triangles[f][c]])).norm());
     }
   }
   return worst;

@@ -49,13 +49,13 @@ TEST(Shading, OcclusionOnlyDarkens) {
 
 TEST(Shading, ABlackSurfaceShowsNothingButItsSheen) {
   for (const SurfacePoint& point : points(0.0, 1.0)) {
-    ASSERT_LT(shade_surface(point).maxCoeff(), 0.12);
+    ASSERT_LT(shade_surface(point).maxCoeff<Eigen::PropagateNaN>(), 0.12);
   }
 }
 
 TEST(Shading, EveryDirectionStaysReadable) {
   for (const SurfacePoint& point : points(0.55, 1.0)) {
-    ASSERT_GT(shade_surface(point).minCoeff(), 0.02);  // sRGB 39 of 255
+    ASSERT_GT(shade_surface(point).minCoeff<Eigen::PropagateNaN>(), 0.02);  // sRGB 39 of 255
   }
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "support/worst.h"
 
 namespace vantage {
 namespace {
@@ -49,9 +50,9 @@ TEST(Tubes, EveryHitLiesOnATubeOrAJoint) {
       const double to_axis = std::min(segment_distance(p, graph.nodes[0], graph.nodes[1]),
                                       segment_distance(p, graph.nodes[1], graph.nodes[2]));
       const double to_end = std::min((p - graph.nodes[0]).norm(), (p - graph.nodes[2]).norm());
-      worst = std::max(
-          {worst, std::min(std::abs(to_axis - radius), std::abs(to_end - kJointThickness * radius)),
-           std::abs(hit.normal.norm() - 1.0)});
+      const double off =
+          test::smaller(std::abs(to_axis - radius), std::abs(to_end - kJointThickness * radius));
+      worst = test::larger(worst, test::larger(off, std::abs(hit.normal.norm() - 1.0)));
     }
   }
   EXPECT_LT(worst, 1e-9);

@@ -14,6 +14,7 @@
 #include "report/agreement.h"
 #include "report/constant_camera.h"
 #include "support/shapes.h"
+#include "support/worst.h"
 
 namespace vantage {
 namespace {
@@ -144,7 +145,7 @@ TEST(Agreement, OfTheBestViewIsTheLeastOfTheSetAndOfRandomItsMean) {
   const auto rows = reference_rows(record, set, upright_frame(Vec3::UnitY()));
   double least = 180.0;
   for (const Vec3& d : set.directions) {
-    least = std::min(least, angle_deg(d, Vec3::UnitZ()));
+    least = test::smaller(least, angle_deg(d, Vec3::UnitZ()));
   }
   EXPECT_EQ(row_of(rows, "best possible single view")->mean_deg, least);
   EXPECT_NEAR(row_of(rows, "random")->mean_deg, 90.0, 1e-9);  // the set has d and −d

@@ -14,6 +14,7 @@
 #include "core/random.h"
 #include "support/dense_oracles.h"
 #include "support/shapes.h"
+#include "support/worst.h"
 
 namespace vantage {
 namespace {
@@ -63,8 +64,8 @@ double relative_difference(const std::vector<double>& a, const std::vector<doubl
   double difference = 0.0;
   double largest = 0.0;
   for (std::size_t v = 0; v < a.size(); ++v) {
-    difference = std::max(difference, std::abs(a[v] - b[v]));
-    largest = std::max(largest, std::abs(b[v]));
+    difference = test::larger(difference, std::abs(a[v] - b[v]));
+    largest = test::larger(largest, std::abs(b[v]));
   }
   return difference / largest;
 }

@@ -13,6 +13,7 @@
 
 #include "mesh/curvature.h"
 #include "support/shapes.h"
+#include "support/worst.h"
 
 namespace vantage {
 namespace {
@@ -94,7 +95,7 @@ std::vector<double> direct_saliency(const TriMesh& mesh, const MeshSaliencyOptio
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
   double largest = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    largest = std::max(largest, std::abs(a[i] - b[i]));
+    largest = test::larger(largest, std::abs(a[i] - b[i]));
   }
   return largest;
 }

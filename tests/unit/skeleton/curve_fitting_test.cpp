@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "spatial/graph_distance.h"
+#include "support/worst.h"
 
 namespace vantage {
 namespace {
@@ -38,7 +39,7 @@ double farthest(const CurveGraph& graph) {
   const GraphDistance distance(graph);
   double farthest = 0.0;
   for (const Vec3& p : arc()) {
-    farthest = std::max(farthest, distance(p));
+    farthest = test::larger(farthest, distance(p));
   }
   return farthest;
 }

@@ -14,6 +14,7 @@
 #include "support/shapes.h"
 #include "support/skeletons.h"
 #include "support/voxel_surface.h"
+#include "support/worst.h"
 
 namespace vantage {
 namespace {
@@ -28,7 +29,7 @@ TEST(ExtractSkeleton, OfATorusIsOneCycleNearItsCoreCircle) {
   EXPECT_EQ(component_count(skeleton.graph), 1U);
   double worst = 0.0;
   for (const Vec3& p : skeleton.graph.nodes) {
-    worst = std::max(worst, std::hypot(std::hypot(p.x(), p.y()) - 1.0, p.z()));
+    worst = test::larger(worst, std::hypot(std::hypot(p.x(), p.y()) - 1.0, p.z()));
   }
   RecordProperty("farthest_from_circle_in_tube_radii", std::to_string(worst / minor));
   EXPECT_LE(worst, minor);
@@ -95,7 +96,7 @@ TEST(ExtractSkeleton, OfAYHasOneJunctionAndThreeEndsNearItsTips) {
     const Vec3 axis_end(std::cos(angle), std::sin(angle), 0.0);
     double nearest = 1e9;
     for (const Vec3& end : ends) {
-      nearest = std::min(nearest, (end - axis_end).norm());
+      nearest = test::smaller(nearest, (end - axis_end).norm());
     }
     EXPECT_LE(nearest, 2.0 * radius) << degrees;
   }

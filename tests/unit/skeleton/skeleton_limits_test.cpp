@@ -15,6 +15,7 @@
 #include "support/shapes.h"
 #include "support/skeletons.h"
 #include "support/voxel_surface.h"
+#include "support/worst.h"
 
 namespace vantage {
 namespace {
@@ -62,7 +63,7 @@ TEST(SkeletonOfAYOfTubes, EndsWithinATubeRadiusOfTheTips) {
     const Vec3 tip = (1.0 + radius) * Vec3(std::cos(angle), std::sin(angle), 0.0);
     double nearest = 1e9;
     for (const Vec3& end : ends) {
-      nearest = std::min(nearest, (end - tip).norm());
+      nearest = test::smaller(nearest, (end - tip).norm());
     }
     EXPECT_LE(nearest, radius) << degrees;
   }

@@ -10,6 +10,7 @@
 
 #include "core/random.h"
 #include "support/dense_oracles.h"
+#include "support/worst.h"
 
 namespace vantage {
 namespace {
@@ -46,7 +47,8 @@ double worst_error(const CurveGraph& graph, Pcg32& random, int queries) {
   double worst = 0.0;
   for (int q = 0; q < queries; ++q) {
     const Vec3 point = random_point(random, q % 2 == 0 ? 1.0 : 10.0);
-    worst = std::max(worst, std::abs(distance(point) - test::brute_force_distance(graph, point)));
+    worst =
+        test::larger(worst, std::abs(distance(point) - test::brute_force_distance(graph, point)));
   }
   return worst;
 }
@@ -113,7 +115,7 @@ TEST(GraphDistance, IsZeroOnEveryNode) {
   const GraphDistance distance(graph);
   double worst = 0.0;
   for (const Vec3& node : graph.nodes) {
-    worst = std::max(worst, distance(node));
+    worst = test::larger(worst, distance(node));
   }
   EXPECT_LT(worst, kRounding);
 }

@@ -15,6 +15,7 @@
 
 #include "support/channel_identities.h"
 #include "support/shapes.h"
+#include "support/worst.h"
 
 namespace vantage {
 namespace {
@@ -183,9 +184,9 @@ double change_when_halved(double OutlineMeasures::*member) {
     const Outline outline = tracer.trace(camera.viewpoint(d));
     const double value = measure_outline(outline).*member;
     const double finer = measure_outline(outline, 2 * kTurningPhases).*member;
-    low = std::min(low, finer);
-    high = std::max(high, finer);
-    change = std::max(change, std::abs(value - finer));
+    low = test::smaller(low, finer);
+    high = test::larger(high, finer);
+    change = test::larger(change, std::abs(value - finer));
   }
   return change / (high - low);
 }

@@ -20,6 +20,7 @@
 
 #include "support/data_pack.h"
 #include "support/shapes.h"
+#include "support/worst.h"
 
 namespace vantage {
 namespace {
@@ -127,7 +128,7 @@ class MeasuresOfAMovedModel : public test::DataPackTest<testing::TestWithParam<C
       const auto [low, high] = std::minmax_element(here[m].begin(), here[m].end());
       double change = 0.0;
       for (std::size_t i = 0; i < to.size(); ++i) {
-        change = std::max(change, std::abs(here[m][i] - there[m][to[i]]));
+        change = test::larger(change, std::abs(here[m][i] - there[m][to[i]]));
       }
       EXPECT_LE(change, of_range * (*high - *low)) << measures[m].name;
     }

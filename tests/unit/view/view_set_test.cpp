@@ -182,7 +182,7 @@ TEST(SelectViews, ByAreaCoverACubeFromTwoOppositeCorners) {
       select_views(faces, scorer.shares(), cube().camera, Vec3(1, 1, 1).normalized(), {.level = 2});
   ASSERT_EQ(set.views.size(), 2U);
   EXPECT_NEAR(set.views[0].gain, 0.5, 1e-12);
-  EXPECT_LT(set.views[1].direction.maxCoeff(), 0.0);
+  EXPECT_LT(set.views[1].direction.maxCoeff<Eigen::PropagateNaN>(), 0.0);
   EXPECT_NEAR(set.views[1].coverage, 1.0, 1e-12);
 }
 
