@@ -52,6 +52,9 @@ ViewOptions MethodFlags::resolve(std::uint64_t seed) const {
   if (!by_gradient && search.starts != SearchOptions{}.starts) {
     throw CLI::ValidationError("--starts", "goes with --search gradient only");
   }
+  if (flags_.has("epsilon") && search.strategy != SearchStrategy::Rapid) {
+    throw CLI::ValidationError("--epsilon", "goes with --search rapid only");
+  }
   search.seed = by_gradient ? seed : 0;
   if (flags_.has("objective") && flags_.has("prior")) {
     throw CLI::ValidationError("--prior", "says what is maximised, as --objective does: give one");

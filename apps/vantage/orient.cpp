@@ -165,7 +165,7 @@ struct OrientCommand {
                    number_text(q[3]));
     } else {
       session.tell(printable(loaded.name) + ": " + frame_summary(choice) +
-                   (is_none ? "; it stands as it should" : ""));
+                   (is_none ? "; nothing to turn" : ""));
     }
     if (!stood.isIdentity(0.0)) {
       session.say("note: " + loaded.notes.back());

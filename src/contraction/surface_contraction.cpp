@@ -41,10 +41,12 @@ ComponentHistory contract_evenly(const TriMesh& scaled, const ContractionOptions
     const RunContext part = run.part(done, 0.5 * (1.0 + done));
     done = 0.5 * (1.0 + done);
     ComponentHistory attempt = contract_component(scaled, options, part, shares, is_careful);
-    if (again > 0 && (attempt.is_stuck || attempt.shrinkage.back() >= history.shrinkage.back())) {
-      return history;
+    if (again == 0 || !attempt.is_stuck) {  // larger steps may pass where these do not
+      if (again > 0 && attempt.shrinkage.back() >= history.shrinkage.back()) {
+        return history;
+      }
+      history = std::move(attempt);
     }
-    history = std::move(attempt);
     if (!may_begin_again || history.summary.stop != ContractionStop::Shrunk ||
         !is_plate(history.shrinkage.back())) {
       return history;

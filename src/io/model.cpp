@@ -138,7 +138,9 @@ Model load_model(const std::string& path, const RunContext& run, const ReadOptio
     const Surroundings surroundings{
         [&](const std::string& relative) { return read_beside(path, relative, known); },
         [&path](const std::string& relative) { return side_file(path, relative); }, options};
-    return parse_with(bytes, path, run, surroundings);
+    Model model = parse_with(bytes, path, run, surroundings);
+    model.file_name = fs::path(path).filename().string();
+    return model;
   } catch (const std::bad_alloc&) {
     throw IoError(path, "does not fit into memory", ENOMEM);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -73,6 +74,22 @@ std::string orientation_of(const Matrix3& turn) {
          degrees(yaw * kDegPerRad);
 }
 
+/// A file's name as a relative address (RFC 3986).
+std::string url_of(std::string_view name) {
+  constexpr std::string_view kPlain = "-._~/!$&'()*+,;=@";
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  std::string url;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte < 0x80 && std::isalnum(byte) != 0) || kPlain.find(c) != std::string_view::npos) {
+      url += c;
+    } else {
+      url += {'%', kDigits[byte / 16], kDigits[byte % 16]};
+    }
+  }
+  return url;
+}
+
 std::string html_text(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -134,7 +151,7 @@ std::vector<std::pair<std::string, std::string>> model_viewer_attributes(const C
 }
 
 std::string camera_model_viewer(const Camera& camera, const Vec3& up, std::string_view model) {
-  std::string line = "<model-viewer src=\"" + html_text(model) + '"';
+  std::string line = "<model-viewer src=\"" + html_text(url_of(model)) + '"';
   for (const auto& [name, value] : model_viewer_attributes(camera, up)) {
     for (const std::string_view part :
          {std::string_view(" "), std::string_view(name), std::string_view("=\""),

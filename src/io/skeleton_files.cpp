@@ -26,9 +26,9 @@ std::string json_list(const char* name, const Items& items, const Text& text) {
 }
 
 std::string index_list(const std::vector<std::uint32_t>& indices) {
-  std::string text;
+  std::string text = "[";
   for (const std::uint32_t i : indices) {
-    text += (text.empty() ? "[" : ", ") + std::to_string(i);
+    text += (text.size() == 1 ? "" : ", ") + std::to_string(i);
   }
   return text + "]";
 }

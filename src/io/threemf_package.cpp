@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <new>
 
 #include <archive.h>
 #include <archive_entry.h>
@@ -87,6 +88,9 @@ std::string part_name(std::string_view name) {
 void read_package(std::string_view bytes, const PartSink& sink, const ModelBuilder& builder) {
   const ArchiveLocale names_beyond_ascii;
   const Reader reader(archive_read_new());
+  if (reader == nullptr) {
+    throw std::bad_alloc();
+  }
   archive* const a = reader.get();
   archive_read_support_format_zip(a);
   if (archive_read_open_memory(a, bytes.data(), bytes.size()) != ARCHIVE_OK) {

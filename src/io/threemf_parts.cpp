@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <new>
 #include <optional>
 #include <unordered_set>
 #include <utility>
@@ -106,6 +107,9 @@ class ThreemfPartReader::State {
         builder_(builder),
         records_left_(records_left),
         parser_(XML_ParserCreateNS(nullptr, kBetween)) {
+    if (parser_ == nullptr) {
+      throw std::bad_alloc();
+    }
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(parser_.get(), &on_start, &on_end);
     XML_SetStartNamespaceDeclHandler(parser_.get(), &on_namespace);
@@ -373,6 +377,9 @@ std::string threemf_root(std::string_view relationships) {
   } found;
 
   const Parser parser(XML_ParserCreateNS(nullptr, kBetween));
+  if (parser == nullptr) {
+    throw std::bad_alloc();
+  }
   XML_SetUserData(parser.get(), &found);
   XML_SetStartElementHandler(
       parser.get(), [](void* state, const XML_Char* name, const XML_Char** attributes) {

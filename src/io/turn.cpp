@@ -97,16 +97,24 @@ bool is_keyword(std::string_view word, std::string_view keyword) {
                     [](unsigned char a, char b) { return std::tolower(a) == b; });
 }
 
-/// Whether a file, read anew, has every vertex where the turn takes it: its lines may be written as no
-/// line is here.
+/// Whether a file, read anew, has every vertex where the turn takes it.
+bool is_turned(const Model& before, std::string_view turned, std::string_view name,
+               const AxisTurn& turn) {
+  try {
+    const Model after = parse_model(turned, name);
+    return before.mesh.triangles == after.mesh.triangles &&
+           std::equal(before.mesh.positions.begin(), before.mesh.positions.end(),
+                      after.mesh.positions.begin(), after.mesh.positions.end(),
+                      [&](const Vec3& a, const Vec3& b) { return turn(a) == b; });
+  } catch (const FormatError&) {
+    return false;
+  }
+}
+
+/// \throw InvalidInput if lines are written as no line is here, and so were not turned.
 void require_turned(std::string_view bytes, std::string_view turned, std::string_view name,
                     const AxisTurn& turn) {
-  const Model before = parse_model(bytes, name);
-  const Model after = parse_model(turned, name);
-  const bool is_turned = std::equal(before.mesh.positions.begin(), before.mesh.positions.end(),
-                                    after.mesh.positions.begin(), after.mesh.positions.end(),
-                                    [&](const Vec3& a, const Vec3& b) { return turn(a) == b; });
-  if (!is_turned || before.mesh.triangles != after.mesh.triangles) {
+  if (!is_turned(parse_model(bytes, name), turned, name, turn)) {
     throw InvalidInput(
         std::string(name) +
         ": its lines are written in a way that is not turned in place; write a .ply");
@@ -115,7 +123,10 @@ void require_turned(std::string_view bytes, std::string_view turned, std::string
 
 std::string turned_obj(std::string_view bytes, std::string_view name, const AxisTurn& turn) {
   return turned_text(bytes, name, turn, [](const std::vector<std::string_view>& words) {
-    return !words.empty() && (words[0] == "v" || words[0] == "vn") ? std::size_t{1} : 0;
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    std::string_view keyword = words.empty() ? std::string_view() : words[0];
+    keyword.remove_prefix(keyword.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
+    return keyword == "v" || keyword == "vn" ? std::size_t{1} : std::size_t{0};
   });
 }
 

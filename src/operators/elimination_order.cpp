@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <iostream>  // Eigen 3.4's MetisSupport uses std::cerr without including it
+#include <mutex>
 
 #include <Eigen/MetisSupport>
 #include <Eigen/OrderingMethods>
@@ -22,6 +23,9 @@ std::vector<int> elimination_order(const Eigen::SparseMatrix<double>& A) {
     Eigen::AMDOrdering<int>()(A.selfadjointView<Eigen::Lower>(), order);
   } else {
     const Eigen::SparseMatrix<double> both = A.selfadjointView<Eigen::Lower>();
+    // METIS draws from the process's one random sequence, which it begins anew.
+    static std::mutex turn;
+    const std::lock_guard lock(turn);
     Eigen::MetisOrdering<int>()(both, order);
   }
   const auto* unknowns = order.indices().data();

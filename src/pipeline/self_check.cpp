@@ -40,12 +40,15 @@ std::string in_percent(double share) {
   return std::to_string(static_cast<int>(std::lround(100.0 * share))) + " %";
 }
 
+/// Moves each vertex so far, anywhere.
 void move_vertices(TriMesh& mesh, double distance) {
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     Pcg32 random(1, v);
-    for (double& x : mesh.positions[v]) {
-      x += distance * (2.0 * random.uniform() - 1.0) / std::sqrt(3.0);
+    Vec3 way;
+    for (double& x : way) {
+      x = 2.0 * random.uniform() - 1.0;
     }
+    mesh.positions[v] += distance * way.normalized();
   }
 }
 

@@ -78,7 +78,7 @@ Comparison compare_methods(const ShapeAnalysis& shape, const ViewOptions& option
                       static_cast<double>(m) / static_cast<double>(measurer.measures().size()));
     const auto begun = Clock::now();
     comparison.methods.push_back(
-        {measurer.measures()[m], extreme_views(measurer, m, options.search, run), values[m]});
+        {measurer.measures()[m], extreme_views(measurer, m, options.search, searching), values[m]});
     comparison.methods.back().seconds = seconds_since(begun);
   }
   for (const ComparedMethod& a : comparison.methods) {

@@ -23,7 +23,7 @@ double number_of(const std::string& text, const fs::path& file, std::size_t line
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
   double value = 0.0;
-  if (!(stream >> value) || !std::isfinite(value)) {
+  if (!(stream >> value) || !std::isfinite(value) || !(stream >> std::ws).eof()) {
     throw FormatError(file.string(), "line " + std::to_string(line),
                       "expected a number, found '" + text.substr(0, 40) + "'");
   }

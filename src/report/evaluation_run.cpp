@@ -96,7 +96,7 @@ class Fingerprint {
 /// Of all that a record's rows depend on; the program itself too, whose version stays the same while
 /// it is worked on.
 std::string key_of(const RecordedModel& record, const ViewOptions& options,
-                   const std::vector<Measure>& measures) {
+                   const std::vector<Measure>& measures, const RunContext& run) {
   Fingerprint print;
   print.add(version());
   print.add(library_versions());
@@ -104,6 +104,11 @@ std::string key_of(const RecordedModel& record, const ViewOptions& options,
   print.add(options_hash(options));
   print.add(record.name);
   print.add(read_file(record.path));
+  if (record.path.ends_with(".gltf")) {  // whose vertices are in other files
+    for (const Vec3& p : load_model(record.path, run).mesh.positions) {
+      print.add(p);
+    }
+  }
   for (const Measure& measure : measures) {
     print.add(measure.name);
   }
@@ -238,7 +243,7 @@ std::vector<EvaluatedModel> evaluate_records(const std::vector<RecordedModel>& r
   std::vector<std::string> keys;
   std::vector<std::size_t> left;
   for (std::size_t i = 0; i < records.size(); ++i) {
-    keys.push_back(key_of(records[i], options_for(records[i], options), measures));
+    keys.push_back(key_of(records[i], options_for(records[i], options), measures, run.quiet()));
     if (const EvaluatedModel* found = journal.find(keys[i])) {
       results[i] = *found;
     } else {

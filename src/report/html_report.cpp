@@ -118,6 +118,11 @@ Json rapid_part(const ScoreBatch& score, double total, Goal goal, const RunConte
   return steps;
 }
 
+/// What commands call the model by.
+const std::string& file_of(const Model& model) {
+  return model.file_name.empty() ? model.name : model.file_name;
+}
+
 Json view_part(const char* name, const ReportedView& view, const ShapeAnalysis& shape,
                ShapePictures& pictures, const Model& model, const ViewOptions& options,
                const PageFrame& frame, const RunContext& run) {
@@ -143,7 +148,7 @@ Json view_part(const char* name, const ReportedView& view, const ShapeAnalysis& 
            {{"glTF", camera_gltf(view.picture, size, shape.sphere.diameter)},
             {"NeRF transforms.json",
              camera_transforms_json(view.picture, size, std::string(name) + ".png")},
-            {"f3d", camera_f3d(view.picture, size, model.name)}}}};
+            {"f3d", camera_f3d(view.picture, size, file_of(model))}}}};
 }
 
 /// The views of a set after the first, which is the best one, and the round over all of them.
@@ -183,7 +188,7 @@ void add_web_camera(Json& view, const ReportedView& of, const ViewReport& report
                     const Model& model) {
   if (of.picture.projection == Projection::Perspective) {
     view["cameras"]["model-viewer"] =
-        camera_model_viewer(of.picture, up_vector(report.up), model.name);
+        camera_model_viewer(of.picture, up_vector(report.up), file_of(model));
   }
 }
 

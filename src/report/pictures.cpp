@@ -73,9 +73,9 @@ class Canvas {
 
   [[nodiscard]] Paint paint() const {
     return {.vertex_colours = colours_,
-            .vertex_values = values_,
             .overlay = overlay_,
-            .appearance = appearance_};
+            .appearance = appearance_,
+            .vertex_values = values_};
   }
 
  private:

@@ -292,22 +292,15 @@ void ViewMeasurer::State::measure_late(std::size_t i) {
   }
 }
 
-/// Views between two of the coarse set get the mean of theirs.
 /// \pre the measure is of the set, has an estimate and looks at no more than is kept.
 std::vector<double> ViewMeasurer::State::estimates_of_set(std::size_t m,
                                                           const RunContext& run) const {
-  const std::size_t coarse = model.coarse_set.directions.size();  // the first of the set
   std::vector<double> estimates(model.set.directions.size(), 0.0);
-  parallel_for(run.quiet(), coarse, 1, [&](std::size_t begin, std::size_t end) {
+  parallel_for(run.quiet(), estimates.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       estimates[i] = value(m, kept_sight(i), FaceDetail::ByCorners);
     }
   });
-  for (std::size_t i = coarse; i < estimates.size(); ++i) {
-    for (const std::uint32_t beside : model.next_views[i]) {
-      estimates[i] += beside < coarse ? 0.5 * estimates[beside] : 0.0;  // two of the six
-    }
-  }
   return estimates;
 }
 

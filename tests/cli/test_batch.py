@@ -286,6 +286,35 @@ class Results(BatchTest):
         self.assertIn("a/same.off", rows["b/same.off"]["error"])
         self.assertIn("{hash8}", rows["b/same.off"]["error"])
 
+    def test_one_file_asked_for_in_two_ways_needs_two_names(self):
+        self.write("a.off", box(1, 2, 3))
+        self.write("list.csv", "path,key,up,front\na.off,k1,z,-y\na.off,k2,y,z\n")
+        for _ in range(2):  # nothing changes hands when it runs again
+            self.batch("--manifest", "list.csv", exit_code=4)
+            rows = self.rows()
+            self.assertEqual((rows["k1"]["status"], rows["k2"]["status"]), ("done", "failed"))
+            self.assertIn("which holds those of k1; use a --name with {key8}", rows["k2"]["error"])
+            self.assertIn("all sound", self.vantage("results", "verify", "out").out)
+        self.batch("--manifest", "list.csv", "--name", "{stem}-{key8}", out="both")
+        rows = self.rows("both")
+        self.assertEqual((rows["k1"]["up"], rows["k2"]["up"]), ("z", "y"))
+        self.assertIn("2 folders of results: all sound", self.vantage("results", "verify", "both").out)
+
+    def test_results_that_replace_those_of_an_equal_model_are_its_results(self):
+        for folder in ("a", "b"):
+            (self.dir / folder).mkdir()
+        self.write("a/x.off", box(1, 2, 3))
+        self.write("a/y.off", box(1, 2, 3))
+        self.batch("a")
+        (self.dir / "a/x.off").rename(self.dir / "b/x.off")  # known by another path, and asked for otherwise
+        self.batch("b", "--fov", "40")
+        rows = self.rows()
+        self.assertEqual({row["folder"] for row in rows.values()}, {rows["b/x.off"]["folder"]})
+        self.assertEqual(rows["a/y.off"]["best"], rows["b/x.off"]["best"])
+        self.assertIn("1 folder of results: all sound", self.vantage("results", "verify", "out").out)
+        self.assertEqual(self.batch("b", "--fov", "40")["skipped"], 1)
+        self.assertEqual(self.batch("a")["done"], 1)  # as it was asked for at first
+
     def test_templates_are_checked_before_any_work(self):
         self.write("a.off", box(1))
         for template in ("{nothing}", "../{stem}/", "{stem", "a//b", "/abs"):

@@ -1,5 +1,6 @@
 """What may be replaced by a result, and under which names results can be written."""
 
+import json
 import os
 import pathlib
 import signal
@@ -104,6 +105,38 @@ class Foreign(ProgramTest):
             journal = self.write("mine/rows.jsonl", text)
             self.vantage("eval", "people", "--method", "silhouette-length", "-o", "mine", exit_code=3)
             self.assertEqual(journal.read_text(), text)
+
+
+class StandardOutput(ProgramTest):
+    """What goes there is one thing: a file, or JSON, or a summary."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("a.off", box(1, 2, 3))
+
+    def test_a_file_that_goes_there_is_all_that_does(self):
+        self.vantage("map", "a.off", "-o", "map.ply", "--force")
+        self.vantage("skeleton", "a.off", "-o", "skeleton.json", "--force")
+        self.vantage("view", "a.off", "-o", "r", "--no-images", "--search", "rapid", "--trace", "trace.csv")
+        for words, file in ((("map", "a.off", "-o"), "map.ply"), (("skeleton", "a.off", "-o"), "skeleton.json"),
+                            (("view", "a.off", "-o", "r2", "--no-images", "--search", "rapid", "--trace"), "trace.csv")):
+            done = subprocess.run([os.environ["VANTAGE"], *words, "-"], cwd=self.dir, capture_output=True, check=True)
+            self.assertEqual(done.stdout, (self.dir / file).read_bytes())
+
+    def test_json_does_not_share_it_with_a_file(self):
+        for words in (("map", "a.off", "-o", "-"), ("render", "a.off", "--direction", "0,0,1", "-o", "-"), ("thumb", "a.off", "-"),
+                      ("view", "a.off", "--no-images", "--trace", "-")):
+            done = self.vantage(*words, "--json", exit_code=2)
+            self.assertIn("standard output, where --json writes", done.err)
+        scores = self.vantage("score", "a.off", "--sphere", "0", "-o", "scores.csv", "--json").out
+        self.assertEqual(len(json.loads(scores)), 12)
+        self.assertEqual(len((self.dir / "scores.csv").read_text().splitlines()), 13)
+
+    def test_no_file_that_the_user_names_replaces_one_of_the_same_results(self):
+        for flags in (("--trace", "r/view.json"), ("--views", "2", "--tour", "r/best.png")):
+            done = self.vantage("view", "a.off", "-o", "r", "--no-images", *flags, exit_code=2)
+            self.assertIn("is the name of one of the results", done.err)
+        self.assertFalse((self.dir / "r").exists())
 
 
 class Links(ProgramTest):

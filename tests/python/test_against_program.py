@@ -44,6 +44,9 @@ def test_arrays_and_another_method_give_what_a_file_does(program, tmp_path):
     program("view", "torus.off", "-o", "out", "--no-images", "--method", "mesh-saliency", "--size", "800x600")
     written = json.loads((tmp_path / "out/view.json").read_text())
     ours = json.loads(vantage.best_view(V, F, method="mesh-saliency").json)
+    by_analysis = json.loads(vantage.best_view(vantage.analyse(V, F), method="mesh-saliency").json)
+    assert by_analysis["best"]["direction"] == ours["best"]["direction"]
+    assert by_analysis["total"] == ours["total"]
     ours["model"]["name"], ours["model"]["format"] = "torus", "off"
     assert ours == written
 

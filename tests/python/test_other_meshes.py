@@ -72,12 +72,27 @@ def test_vtk_data_that_is_no_surface_is_refused_by_name():
         vantage.best_view(vtkImageData())
 
 
+def meshio_of(*blocks):
+    cells = [types.SimpleNamespace(type=name, data=data) for name, data in blocks]
+    return types.SimpleNamespace(points=V, cells=cells, cells_dict=dict(blocks))
+
+
+def test_quads_and_polygons_of_meshio_are_cut_as_fans():
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0.5, 1.0]])
+    block = types.SimpleNamespace
+    mesh = types.SimpleNamespace(points=points, cells_dict={}, cells=[
+        block(type="line", data=np.array([[0, 1]])), block(type="quad", data=np.array([[3, 2, 1, 0]])),
+        block(type="triangle", data=np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]))])
+    faces = np.array([[3, 2, 1], [3, 1, 0], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+    assert (vantage.kssm(mesh).of_vertex == vantage.kssm(points, faces).of_vertex).all()
+
+
 def test_members_of_trimesh_tuples_and_scenes_are_taken():
     mesh = types.SimpleNamespace(vertices=V, faces=F)
     same_view(mesh)
     same_view((V, F))
     same_view(types.SimpleNamespace(geometry={}, to_geometry=lambda: mesh))
-    same_view(types.SimpleNamespace(points=V, cells_dict={"triangle": F}))
+    same_view(meshio_of(("triangle", F)))
     cloud = types.SimpleNamespace(vertices=V)
     assert vantage.best_view(cloud).json == vantage.best_view(V).json
     with pytest.raises(TypeError, match="F goes with an array of vertices only"):

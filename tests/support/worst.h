@@ -5,9 +5,9 @@
 #include <concepts>
 
 /// \file
-/// Largest and least of what a test computes. std::max() and std::min() pass over what is no number,
-/// so that a worst error found with them is small where every error is NaN; these keep it, and no
-/// comparison with a limit holds.
+/// Largest and least of what a test computes. std::max() and std::min() pass over what is no
+/// number: a worst error found with them is small where every error is NaN. These keep it, so that
+/// no comparison with a limit holds.
 
 namespace vantage::test {
 

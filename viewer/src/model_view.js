@@ -16,18 +16,28 @@ const THICKENING = 0.006;
 const FLIGHT_MS = 700;
 const KEY_STEP_RAD = Math.PI / 36;
 
-function colours(values, table) {
-  const rgb = new Float32Array(3 * values.length);
-  const palette = Array.from({ length: 256 }, (_, i) =>
-    new THREE.Color().setRGB(table[3 * i] / 255, table[3 * i + 1] / 255, table[3 * i + 2] / 255, THREE.SRGBColorSpace));
-  values.forEach((value, v) => palette[value].toArray(rgb, 3 * v));
-  return rgb;
+/** The legend's colours, looked up after values are mixed within a face: none has a colour that the legend has not. */
+function palette(table) {
+  const rgba = new Uint8Array(4 * 256).fill(255);
+  for (let i = 0; i < 256; i += 1) {
+    rgba.set(table.subarray(3 * i, 3 * i + 3), 4 * i);
+  }
+  const texture = new THREE.DataTexture(rgba, 256, 1);
+  texture.colorSpace = THREE.SRGBColorSpace;
+  texture.minFilter = texture.magFilter = THREE.LinearFilter;
+  texture.needsUpdate = true;
+  return texture;
 }
 
-function surface(part, positions, table) {
-  let geometry = new THREE.BufferGeometry();
+function surface(part, positions) {
+  const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
-  geometry.setAttribute('color', new THREE.BufferAttribute(colours(asBytes(part.significance), table), 3));
+  const values = asBytes(part.significance);
+  const places = new Float32Array(2 * values.length).fill(0.5);
+  values.forEach((value, v) => {
+    places[2 * v] = (value + 0.5) / 256;
+  });
+  geometry.setAttribute('uv', new THREE.BufferAttribute(places, 2));
   geometry.setIndex(new THREE.BufferAttribute(asIndices(part.indices), 1));
   return geometry;
 }
@@ -68,14 +78,14 @@ export class ModelView {
   }
 
   addSurface(data) {
-    const table = asBytes(data.colours);
-    const indexed = surface(data.mesh, asPositions(data.mesh.positions), table);
+    this.palette = palette(asBytes(data.colours));
+    const indexed = surface(data.mesh, asPositions(data.mesh.positions));
     const coarse = indexed.index.count / 3 <= CREASE_LIMIT;
     const geometry = coarse ? toCreasedNormals(indexed, CREASE_RAD) : indexed;
     if (!coarse) {
       geometry.computeVertexNormals();
     }
-    this.material = new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 0.75, side: THREE.DoubleSide });
+    this.material = new THREE.MeshStandardMaterial({ map: this.palette, roughness: 0.75, side: THREE.DoubleSide });
     this.mesh = new THREE.Mesh(geometry, this.material);
     this.scene.add(this.mesh);
   }
@@ -142,7 +152,7 @@ export class ModelView {
 
   addHistory(data) {
     const levels = data.history.levels.map(asPositions);
-    const geometry = surface(data.history, levels[0].slice(), asBytes(data.colours));
+    const geometry = surface(data.history, levels[0].slice());
     geometry.computeVertexNormals();
     const normals = geometry.attributes.normal.array.slice();
     this.history = { levels, normals, mesh: new THREE.Mesh(geometry, this.material) };
@@ -174,7 +184,7 @@ export class ModelView {
 
   showMap(on) {
     this.mapped = on;
-    this.material.vertexColors = on;
+    this.material.map = on ? this.palette : null;
     this.material.color = on ? new THREE.Color(1, 1, 1) : PLAIN;
     this.material.needsUpdate = true;
     this.choose();

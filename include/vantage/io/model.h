@@ -47,6 +47,7 @@ struct ModelPart {
 /// What a file holds.
 struct Model {
   std::string name{};                     ///< File name without folder and extension.
+  std::string file_name{};                ///< With extension; empty if it is no file's.
   ModelFormat format = ModelFormat::Obj;  ///< What it was read as.
   TriMesh mesh{};                         ///< Polygons already triangulated. Faces may be absent.
   std::vector<Rgb8> vertex_colours{};     ///< |V| sRGB colours, or empty.

@@ -108,12 +108,12 @@ Image render(const TriMesh& mesh, const Camera& camera, std::span<const Rgb8> ve
 /// What a surface is coloured by, and what is drawn through it.
 struct Paint {
   std::span<const Rgb8> vertex_colours{};  ///< |V|, or empty.
+  TubeOverlay overlay{};                   ///< Curves through the surface.
+  /// Materials of the mesh; null or none at all: `options.colour`. Times the vertices' colours.
+  const Appearance* appearance = nullptr;
   /// |V| values of a map, or empty: coloured as colour_map() does, but mixed within a face before they
   /// are, so that no face has a colour that the scale does not. In place of all other colours.
   std::span<const double> vertex_values{};
-  TubeOverlay overlay{};  ///< Curves through the surface.
-  /// Materials of the mesh; null or none at all: `options.colour`. Times the vertices' colours.
-  const Appearance* appearance = nullptr;
 };
 
 /// Renders `mesh` from `camera`. \throw InvalidInput, Cancelled

@@ -111,8 +111,8 @@ TEST_P(RoundTrip, BinaryPlyKeepsEveryBit) {
   expect_same(shape(GetParam()), ply_bytes(shape(GetParam()), {}, {}, true), "a.ply");
 }
 
-/// Expects the first `whole_records` of what the whole file holds, and at most one beyond: the one that
-/// was cut, whose last number may lack digits.
+/// Expects the first `whole_records` of what the whole file holds, and at most one beyond: the one
+/// that was cut, whose last number may lack digits.
 template <class Record>
 void expect_start(const std::vector<Record>& read, const std::vector<Record>& of_whole,
                   std::size_t whole_records) {
@@ -142,8 +142,8 @@ TEST_P(RoundTrip, CutAnywhereAnObjFileIsReadUpToThereUnlessThatIsInAVertex) {
   }
 }
 
-/// Cuts a file that says how much it holds. It is refused where anything is missing but digits of its
-/// last number, of which the first `enough` bytes have at least one.
+/// Cuts a file that says how much it holds. It is refused where anything is missing but digits of
+/// its last number, of which the first `enough` bytes have at least one.
 void expect_all_or_nothing(const std::string& name, const std::string& whole, std::size_t enough,
                            unsigned seed) {
   const TriMesh mesh = sphere(0);

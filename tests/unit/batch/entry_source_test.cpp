@@ -47,6 +47,25 @@ TEST(EntriesOfPaths, WalkFoldersByTheBytesOfNames) {
   EXPECT_EQ(names, (std::vector<std::string>{"B.ply", "a.ply", "b/z.ply", "c.ply"}));
 }
 
+TEST(EntriesOfPaths, AreNoResultsOfOurOwn) {
+  const ScratchFolder scratch;
+  for (const char* folder : {"a.vantage", "results", "results/models", "theirs"}) {
+    std::filesystem::create_directory(scratch.path(folder));
+  }
+  for (const char* name : {"a.vantage/a.ply", "a.vantage/map.ply", "a.vantage/camera-best.gltf",
+                           "results/results.sqlite", "results/models/b.ply", "theirs/map.ply"}) {
+    static_cast<void>(scratch.write(name, ""));
+  }
+  static_cast<void>(scratch.write("a.vantage/view.json", "{\n  \"vantage\": \"0.1.0\"}"));
+  static_cast<void>(scratch.write("theirs/view.json", "{}"));
+  std::vector<std::string> names;
+  for (const Entry& entry : all_of(*entries_of_paths({scratch.path("")}, {}, "", {}))) {
+    names.push_back(
+        std::filesystem::path(entry.path).lexically_relative(scratch.path("")).string());
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"a.vantage/a.ply", "theirs/map.ply"}));
+}
+
 TEST(EntriesOfPaths, DoNotFollowLinksToFolders) {
   const ScratchFolder scratch;
   std::filesystem::create_directory_symlink(".", scratch.path("loop"));

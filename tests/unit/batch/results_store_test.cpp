@@ -85,6 +85,22 @@ TEST(ResultsStore, AFileThatIsNoDatabaseIsRefused) {
   EXPECT_THROW(ResultsStore(scratch.path(), Database::Mode::Create), IoError) << path;
 }
 
+TEST(ResultsStore, FindsAllModelsOfOneContentOptionsAndVersion) {
+  const ScratchFolder scratch;
+  ResultsStore store(scratch.path(), Database::Mode::Create);
+  ModelRecord other = record("d", 3, "A");
+  other.options = "another";
+  for (const ModelRecord& each :
+       {record("b", 0, "A"), record("a", 1, "A"), record("c", 2, "B"), other}) {
+    store.put(each);
+  }
+  std::string keys;
+  for (const ModelRecord& equal : store.find_equals(record("new", 9, "A"))) {
+    keys += equal.key;
+  }
+  EXPECT_EQ(keys, "ab");
+}
+
 TEST(ResultsStore, KeysMayHoldQuotesAndLineEnds) {
   const ScratchFolder scratch;
   ResultsStore store(scratch.path(), Database::Mode::Create);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "contraction/proxy.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <set>

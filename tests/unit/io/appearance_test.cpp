@@ -220,6 +220,15 @@ TEST_F(ObjAppearance, FindsPicturesThatAreNamedAsOnTheAuthorsDisk) {
   }
 }
 
+TEST_F(ObjAppearance, HasTheMaterialsOfAllLibrariesOfALine) {
+  write_file(folder_.file("b.mtl"), "newmtl blue\nKd 0 0 1\n");
+  const Model model = loaded("mtllib a.mtl b.mtl\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 3 4\n",
+                             "newmtl red\nKd 1 0 0\n");
+  ASSERT_EQ(model.appearance.materials.size(), 2U);
+  EXPECT_THAT(model.appearance.materials[1].colour, ElementsAre(0.0, 0.0, 1.0));
+  EXPECT_THAT(model.notes, IsEmpty());
+}
+
 TEST_F(ObjAppearance, WithoutItsLibraryIsANote) {
   const Model model = loaded("mtllib b.mtl\nusemtl m\nf 1 2 3\n", "");
   EXPECT_THAT(model.appearance.materials, IsEmpty());

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
@@ -140,6 +142,50 @@ TEST(ParseCamera, TakesTheAspectOfAViewJsonFromTheSizeOfItsBestView) {
   EXPECT_FALSE(parse_camera_aspect(R"({"best":{"size":[300,0]}})", "view.json").has_value());
   EXPECT_THROW(parse_camera_aspect(R"({"best":{"size":[300]}})", "view.json"), FormatError);
   EXPECT_THROW(parse_camera_aspect(R"({"best":{"size":["a",2]}})", "view.json"), FormatError);
+}
+
+TEST(ParseCamera, OfAnOrthographicViewJsonLooksTheWayOfTheView) {
+  const Camera camera = parse_camera(
+      R"({"camera":{"projection":"orthographic","target":[1,0,0],"distance":4},
+          "best":{"eye":[1,0,4],"up":[0,1,0],"frame":{"target":[2,0.5,0],"height":3}}})",
+      "view.json");
+  EXPECT_EQ(camera.projection, Projection::Orthographic);
+  EXPECT_EQ(camera.eye, Vec3(2, 0.5, 4));  // along z, as the view is
+  EXPECT_EQ(camera.target, Vec3(2, 0.5, 0));
+  EXPECT_EQ(camera.height, 3.0);
+}
+
+TEST_P(CameraFile, OfSeveralViewsIsTheFirst) {
+  Camera other = slanted(GetParam());
+  other.eye = Vec3(9, 9, 9);
+  const std::vector<NamedCamera> cameras{{slanted(GetParam()), "1.png", {640, 400}},
+                                         {other, "2.png", {200, 300}}};
+  const std::string file = views_transforms_json(cameras);
+  expect_same(parse_camera(file, "views.transforms.json"), slanted(GetParam()));
+  EXPECT_NEAR(parse_camera_aspect(file, "views.transforms.json").value(), 1.6, 1e-12);
+}
+
+TEST_P(CameraFile, OfATourIsWhereItBegins) {
+  Camera other = slanted(GetParam());
+  other.eye = Vec3(9, 9, 9);
+  const std::vector<Camera> cameras{slanted(GetParam()), other};
+  const Camera read =
+      parse_camera(camera_animation_gltf(cameras, 3.0, {640, 480}, 2.0), "tour.gltf");
+  EXPECT_LT(difference(read, slanted(GetParam())), 1e-9);
+}
+
+TEST(CameraFiles, AreNotWrittenOfACameraThatLooksAtItsOwnEyeOrAlongItsUp) {
+  Camera nowhere = slanted(Projection::Perspective);
+  nowhere.target = nowhere.eye;
+  Camera along = slanted(Projection::Perspective);
+  along.up = along.eye - along.target;
+  for (const Camera& camera : {nowhere, along}) {
+    EXPECT_THROW((void)camera_gltf(camera, {64, 48}, 1.0), InvalidInput);
+    EXPECT_THROW((void)camera_transforms_json(camera, {64, 48}, "a.png"), InvalidInput);
+    EXPECT_THROW(
+        (void)camera_animation_gltf(std::vector<Camera>{camera, camera}, 1.0, {64, 48}, 1.0),
+        InvalidInput);
+  }
 }
 
 TEST(ParseCamera, RefusesWhatHoldsNoCamera) {

@@ -86,6 +86,14 @@ TEST(Gltf, AMirroredNodeKeepsItsSurfaceRightSideOut) {
   EXPECT_THAT(scene.parsed().mesh.triangles, ElementsAre(Triangle{0, 2, 1}, Triangle{2, 3, 1}));
 }
 
+TEST(Gltf, SaysThatMorphTargetsAreLeftOutWhereOneIsWeighed) {
+  Scene scene;
+  scene.nodes = R"([{"mesh":0,"weights":[0, 0.5]}])";
+  EXPECT_THAT(scene.parsed().notes, testing::Contains(testing::HasSubstr("morph targets")));
+  scene.nodes = R"([{"mesh":0,"weights":[0]}])";
+  EXPECT_THAT(scene.parsed().notes, testing::IsEmpty());
+}
+
 TEST(Gltf, ShowsAMeshOnceForEachNode) {
   Scene scene;
   scene.nodes = R"([{"children":[1,2]},{"name":"left","mesh":0},{"mesh":0,"translation":[0,0,9]}])";

@@ -82,9 +82,9 @@ TEST(ModelViewerCamera, HasNothingForAnOrthographicCameraAndRefusesOneThatLooksN
   EXPECT_THROW((void)model_viewer_attributes(camera, Vec3::UnitY()), InvalidInput);
 }
 
-TEST(ModelViewerCamera, QuotesTheNameOfTheModelForHtml) {
+TEST(ModelViewerCamera, EncodesTheNameOfTheModelForAnAddressInHtml) {
   EXPECT_THAT(camera_model_viewer({}, Vec3::UnitY(), "a\"<&.glb"),
-              testing::StartsWith("<model-viewer src=\"a&quot;&lt;&amp;.glb\" camera-orbit="));
+              testing::StartsWith("<model-viewer src=\"a%22%3C&amp;.glb\" camera-orbit="));
 }
 
 }  // namespace

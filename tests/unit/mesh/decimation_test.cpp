@@ -124,6 +124,21 @@ TEST(MergeShortEdges, LeavesNoEdgeThatIsShortAndMayGo) {
   EXPECT_EQ(euler_characteristic(merged.mesh), 0);
 }
 
+TEST(MergeShortEdges, MergesTheSameAtAnyScale) {
+  const TriMesh torus = test::torus(1.0, 0.3, 60, 24);
+  const std::vector<double> weights(torus.positions.size(), 1.0);
+  const Decimation merged = merge_short_edges(torus, weights, 0.15, {});
+  for (const int exponent : {-90, 130}) {  // squares of lengths are beyond what float holds
+    TriMesh scaled = torus;
+    for (Vec3& p : scaled.positions) {
+      p *= std::ldexp(1.0, exponent);
+    }
+    const Decimation found = merge_short_edges(scaled, weights, std::ldexp(0.15, exponent), {});
+    EXPECT_EQ(found.mesh.triangles, merged.mesh.triangles);
+    EXPECT_EQ(found.mesh.positions[0], std::ldexp(1.0, exponent) * merged.mesh.positions[0]);
+  }
+}
+
 TEST(MergeShortEdges, LeavesLongEdgesAlone) {
   const TriMesh box = test::box(1, 1, 1, 2);
   const std::vector<double> weights(box.positions.size(), 1.0);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "operators/intrinsic_delaunay.h"
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>

@@ -39,6 +39,18 @@ TEST(PrepareSurface, LeavesIsolatedVerticesOutOfTheSphere) {
   EXPECT_NEAR(prepare_surface(model_of(mesh)).sphere.diameter, 2.0, 1e-9);
 }
 
+TEST(AnalyseShape, DoesNotHangOnWhereALoneVertexIs) {
+  TriMesh mesh = y_of_tubes(0.2, 24);
+  mesh.positions.emplace_back(Vec3::Zero());
+  const ShapeAnalysis near = analyse_shape(model_of(mesh), {});
+  for (const double far : {30.0, 1e9}) {
+    mesh.positions.back() = Vec3(far, -far, 0.0);
+    const ShapeAnalysis other = analyse_shape(model_of(mesh), {});
+    EXPECT_EQ(other.map.of_vertex, near.map.of_vertex) << far;
+    EXPECT_EQ(other.skeleton.graph.nodes, near.skeleton.graph.nodes) << far;
+  }
+}
+
 TEST(PrepareSurface, JoinsPointsWithoutFacesByTheirNeighbourhoods) {
   const TriMesh points{.positions = sphere(3).positions, .triangles = {}};
   const ShapeAnalysis shape = prepare_surface(model_of(points));

@@ -188,6 +188,20 @@ TEST(PictureSurface, TakesThePicturesOfSeveralPaintsAndCamerasThatEachWouldTakeA
   }
 }
 
+TEST(Render, AMapHasWithinAFaceTheColoursOfItsScale) {
+  const TriMesh face{.positions = {Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0)},
+                     .triangles = {{0, 1, 2}}};
+  const std::vector<double> values{0.0, 10.0, 10.0};
+  const std::vector<double> fine{0.0, 2.5, 5.0, 7.5, 10.0};
+  const Image image = render_painted(face, front(2.2), {.vertex_values = values}, square(64));
+  // Halfway the scale is green; blue and red mixed are not.
+  const auto* middle = image.pixel(26, 32);
+  EXPECT_GT(middle[1], middle[0]);
+  EXPECT_GT(middle[1], middle[2]);
+  EXPECT_THROW((void)render_painted(face, front(2.2), {.vertex_values = fine}, square(64)),
+               InvalidInput);
+}
+
 TEST(Render, ABackgroundMakesThePictureOpaque) {
   RenderOptions options = square(32);
   options.background = Rgb8{10, 200, 30};

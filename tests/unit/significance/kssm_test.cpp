@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/significance/kssm.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>

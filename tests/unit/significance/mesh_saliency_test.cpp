@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "vantage/core/error.h"
@@ -139,6 +140,7 @@ TEST(MeshSaliency, OfAFlatSheetIsZeroEverywhere) {
 TEST(MeshSaliency, IsGreatestOnTheBumpOfASphere) {
   const TriMesh mesh = sphere_with_bump(5);
   const std::vector<double> s = compute_mesh_saliency(mesh).of_vertex;
+  ASSERT_THAT(s, testing::Each(testing::Ge(0.0)));
   const auto peak = static_cast<std::size_t>(std::max_element(s.begin(), s.end()) - s.begin());
   EXPECT_LT((mesh.positions[peak].normalized() - Vec3::UnitZ()).norm(), 0.3);
 }

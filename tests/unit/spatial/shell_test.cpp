@@ -46,6 +46,22 @@ TEST(ShellInside, AgreesWithSolidAnglesAtRandomPoints) {
   }
 }
 
+TEST(ShellInside, DoesNotHangOnWhereALoneVertexIs) {
+  const TriMesh ball = test::sphere(3);
+  TriMesh with_stray = ball;
+  with_stray.positions.emplace_back(1e9, 0.0, 0.0);
+  const auto components = one_component(ball);
+  const auto with_stray_components = one_component(with_stray);
+  const Shell shell(ball, components);
+  const Shell other(with_stray, with_stray_components);
+  Pcg32 random(5);
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 p =
+        2.4 * Vec3(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5);
+    EXPECT_EQ(other.inside(0, p), shell.inside(0, p)) << p.transpose();
+  }
+}
+
 TEST(ShellInside, TakesLittleMemoryWhereThousandsOfFacesLieOverOneAnother) {
   // 20 000 tetrahedra in one place: each face reaches over half the grid, 1.6e9 entries of cells.
   TriMesh mesh;

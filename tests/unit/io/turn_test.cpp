@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Files turned in place: what they hold afterwards is what the readers find in them.
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/error.h"
+#include "vantage/io/model.h"
+#include "vantage/io/write.h"
+
+namespace vantage::test {
+namespace {
+
+/// z up and −y in front becomes y up and z in front: (x, y, z) goes to (x, z, −y).
+const AxisTurn kToY(Vec3::UnitZ(), -Vec3::UnitY(), Vec3::UnitY(), Vec3::UnitZ());
+
+std::string turned(const std::string& text, const std::string& name, ModelFormat format) {
+  return turned_bytes(text, name, format, kToY);
+}
+
+TEST(TurnedBytes, OfAnObjHaveEveryVertexTurned) {
+  for (const std::string text :
+       {"v 1 2 3\nv 4 5 6\nv 7 8 10\nf 1 2 3\n", "v 1 2 3\r\nv 4 5 6\r\nv 7 8 10\r\nf 1 2 3\r\n",
+        "\xEF\xBB\xBFv 1 2 3\nv 4 5 6\nv 7 8 10\nf 1 2 3\n",
+        "  v\t1 2 3 0.5 0.5 0.5\nv 4 5 6 0 0 0\nv 7 8 10 1 1 1\nf 1 2 3\n"}) {
+    const Model model = parse_model(turned(text, "a.obj", ModelFormat::Obj), "a.obj");
+    EXPECT_THAT(model.mesh.positions,
+                testing::ElementsAre(Vec3(1, 3, -2), Vec3(4, 6, -5), Vec3(7, 10, -8)))
+        << text;
+  }
+}
+
+TEST(TurnedBytes, OfAnObjThatIsWrittenOtherwiseAreRefused) {
+  for (const std::string text :
+       {"v 1 2 3\rv 4 5 6\rv 7 8 10\rf 1 2 3\r", "v 1 2 3\\\n\nv 4 5 6\nv 7 8 10\nf 1 2 3\n"}) {
+    EXPECT_THROW((void)turned(text, "a.obj", ModelFormat::Obj), InvalidInput) << text;
+  }
+}
+
+TEST(TurnedBytes, OfAnStlInCapitalsAreTurned) {
+  const std::string text =
+      "SOLID A\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 1\nVERTEX 1 0 1\nVERTEX 0 1 1\nENDLOOP\n"
+      "ENDFACET\nENDSOLID A\n";
+  const std::string after = turned(text, "a.stl", ModelFormat::Stl);
+  EXPECT_THAT(parse_model(after, "a.stl").mesh.positions,
+              testing::UnorderedElementsAre(Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(0, 1, -1)));
+  EXPECT_THAT(after, testing::HasSubstr("FACET NORMAL 0 1 -0\n"));
+}
+
+TEST(TurnedBytes, OfAnStlWithSeveralVerticesALineAreRefused) {
+  const std::string text =
+      "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 1 vertex 1 0 1 vertex 0 1 1\nendloop\n"
+      "endfacet\nendsolid a\n";
+  EXPECT_THROW((void)turned(text, "a.stl", ModelFormat::Stl), Error);
+}
+
+TEST(TurnedBytes, OfAGltfTurnEachNodeOnceHoweverManyScenesShowIt) {
+  const std::string text =
+      R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0,1]},{"nodes":[1]}],"nodes":[{},{}]})";
+  const auto root = nlohmann::json::parse(turned(text, "a.gltf", ModelFormat::Gltf));
+  std::vector<int> parents(root["nodes"].size(), 0);
+  for (const auto& node : root["nodes"]) {
+    for (const auto& child : node.value("children", nlohmann::json::array())) {
+      ++parents[child.get<std::size_t>()];
+    }
+  }
+  EXPECT_EQ(root["nodes"].size(), 4U);
+  EXPECT_THAT(parents, testing::Each(testing::Le(1)));
+  for (const auto& scene : root["scenes"]) {
+    for (const auto& node : scene["nodes"]) {
+      EXPECT_TRUE(root["nodes"][node.get<std::size_t>()].contains("rotation"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vantage::test
