@@ -188,22 +188,29 @@ struct InfoCommand {
 
   static std::vector<std::string> defects_of(const WeldedMesh& welded, const MeshReport& as_read,
                                              const MeshReport& check, const Model& loaded) {
-    const std::pair<std::size_t, const char*> counts[] = {
-        {as_read.duplicate_vertices,
-         "vertices at the position of an earlier one (welded for all work)"},
-        {as_read.isolated_vertices, "vertices that belong to no face"},
-        {loaded.skipped_faces, "faces with fewer than three corners, left out"},
-        {welded.dropped_faces, "faces that name one position twice"},
-        {check.zero_area_faces, "faces without area"},
-        {check.duplicate_faces, "faces that stand there twice"},
-        {check.boundary_loops, "open boundaries"},
-        {check.non_manifold_edges, "edges with three or more faces"},
-        {check.non_manifold_vertices, "vertices where sheets touch"},
-        {check.inconsistent_edges, "edges whose faces are wound against each other"}};
+    struct Defect {
+      std::size_t count;
+      const char* noun;
+      const char* rest;
+    };
+
+    const bool is_cloud = as_read.faces == 0;
+    const Defect all[] = {
+        {as_read.duplicate_vertices, "vertex",
+         " at the position of an earlier one (welded for all work)"},
+        {is_cloud ? 0 : as_read.isolated_vertices, "vertex", " belonging to no face"},
+        {loaded.skipped_faces, "face", " with fewer than three corners, left out"},
+        {welded.dropped_faces, "face", " naming one position twice"},
+        {check.zero_area_faces, "face", " without area"},
+        {check.duplicate_faces, "face", " standing there twice"},
+        {check.boundary_loops, "open boundary", ""},
+        {check.non_manifold_edges, "edge", " with three or more faces"},
+        {check.non_manifold_vertices, "vertex", " where sheets touch"},
+        {check.inconsistent_edges, "edge", " whose faces are wound against each other"}};
     std::vector<std::string> defects;
-    for (const auto& [count, what] : counts) {
-      if (count > 0) {
-        defects.push_back(grouped(count) + " " + what);
+    for (const Defect& defect : all) {
+      if (defect.count > 0) {
+        defects.push_back(plural(defect.count, defect.noun) + defect.rest);
       }
     }
     if (check.closed && check.oriented && check.signed_volume < 0.0) {

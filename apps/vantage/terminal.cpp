@@ -99,6 +99,9 @@ std::string plural(std::size_t count, std::string_view noun) {
   if (noun == "vertex") {
     return grouped(count) + " vertices";
   }
+  if (noun.ends_with("ary")) {
+    return text.substr(0, text.size() - 1) + "ies";
+  }
   return text + "s";
 }
 

@@ -208,7 +208,7 @@ struct ViewCommand {
     if (const auto& gap = report.dense_gap) {
       session.tell("  certified   best " + rounded(100.0 * gap->best_ratio, 5) +
                    " % of a dense search's, worst " + rounded(100.0 * gap->worst_above, 3) +
-                   " % of the range above its");
+                   " % of the range from its");
     }
     session.tell("  time        " + timing_line(seconds));
     session.tell("  results in  " + printable(output.path()) + "/");

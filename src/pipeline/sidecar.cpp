@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <optional>
+
+#include <Eigen/Geometry>
 
 #include "vantage/core/error.h"
 
@@ -96,11 +99,22 @@ class SidecarReader : JsonReader {
   }
 };
 
+/// Whether both are there and lie along one axis.
+bool are_along(const std::optional<UpAxis>& a, const std::optional<UpAxis>& b) {
+  return a && b && *a != UpAxis::Any && *b != UpAxis::Any &&
+         up_vector(*a).cross(up_vector(*b)).isZero();
+}
+
 }  // namespace
 
 void Sidecar::apply(ViewOptions& options) const {
-  options.up = options.up ? options.up : up;
-  options.front = options.front ? options.front : front;
+  // What is given overrules what it leaves no room for, too.
+  if (!options.up && !are_along(up, options.front)) {
+    options.up = up;
+  }
+  if (!options.front && !are_along(front, options.up)) {
+    options.front = front;
+  }
 }
 
 Sidecar parse_sidecar(std::string_view bytes, std::string_view name) {

@@ -189,6 +189,13 @@ class Sidecars(ProgramTest):
         self.assertEqual(self.up_and_front(), ("-y", "x"))
         self.assertEqual(self.up_and_front("--up", "z", "--front", "y"), ("z", "y"))
 
+    def test_a_flag_overrules_what_it_leaves_no_room_for(self):
+        self.write("a.obj", obj())
+        self.write("vantage.json", '{"up": "z", "front": "y"}')
+        self.assertEqual(self.up_and_front("--up", "y"), ("y", "z"))
+        self.assertEqual(self.up_and_front("--up", "x"), ("x", "y"))
+        self.assertEqual(self.up_and_front("--front=-z"), ("y", "-z"))
+
     def test_view_thumb_render_and_batch_obey_it(self):
         self.write("a.obj", obj())
         self.write("vantage.json", '{"up": "-x", "front": "y", "view": [0, 0, -2]}')
