@@ -199,6 +199,9 @@ void OutputFolder::add(std::string name, std::string bytes) {
 
 void OutputFolder::add_named(const std::string& path, std::string bytes) {
   if (is_in(path)) {
+    if (writes(fs::path(path).filename().string())) {
+      throw IoError(path, "is the name of two files of this run; choose another");
+    }
     add(fs::path(path).filename().string(), std::move(bytes));
   } else {
     beside_.emplace_back(path, std::move(bytes));

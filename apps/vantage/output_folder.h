@@ -42,12 +42,12 @@ class OutputFolder {
   /// \throw CLI::ValidationError if a path that the user gave is that of one of the results.
   void refuse_own_name(const std::string& path, const std::string& option) const;
 
-  /// Takes a file to write, by its name in the folder; "sub/name" for one in a folder below. Each name
-  /// once.
+  /// Takes a file to write, by its name in the folder; "sub/name" for one in a folder below.
   void add(std::string name, std::string bytes);
 
   /// Takes a file under a path that the user gave: one in this folder belongs to the results, another
-  /// is written after them, in a folder that is made if it is missing.
+  /// is written after them, in a folder that is made if it is missing. \throw IoError if a file of that
+  /// name is there already.
   void add_named(const std::string& path, std::string bytes);
 
   /// Says that former results may also be in a folder below. \param sub its name.

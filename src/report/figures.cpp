@@ -272,10 +272,14 @@ Image view_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, const V
     RunContext quiet = run;
     quiet.report = nullptr;
     const Camera camera = camera_for(view, {options.width, options.height});
-    panels.push_back(with_caption(pictures.take(camera, kPlain, options, {}, quiet).front(),
-                                  std::to_string(i + 1) + ": sees " +
-                                      percent_text(view.score_fraction) + ", together " +
-                                      percent_text(chosen.coverage)));
+    // Shares of what can be seen at all.
+    const double before = i == 0 ? 0.0 : set.choice.views[i - 1].coverage;
+    panels.push_back(
+        with_caption(pictures.take(camera, kPlain, options, {}, quiet).front(),
+                     std::to_string(i + 1) + ": " +
+                         (i == 0 ? percent_text(chosen.coverage)
+                                 : percent_text(chosen.coverage - before) + " more, together " +
+                                       percent_text(chosen.coverage))));
   }
   run.advance("pictures", 1.0);
   return in_rows(panels, static_cast<std::size_t>(std::ceil(std::sqrt(count))));

@@ -171,9 +171,10 @@ std::optional<ModelRecord> ShardLog::find_content(const ModelRecord& like) {
 }
 
 std::vector<ModelRecord> ShardLog::find_equals(const ModelRecord& like) {
+  const std::string wanted = versioned_content_key(like);
   std::vector<ModelRecord> equals;
   for (const auto& [key, record] : records_) {
-    if (!record.content.empty() && versioned_content_key(record) == versioned_content_key(like)) {
+    if (!record.content.empty() && versioned_content_key(record) == wanted) {
       equals.push_back(record);
     }
   }

@@ -93,8 +93,7 @@ struct OrientationFeature {
 struct OrientationFeatures {
   Vec3 up = Vec3::UnitY();      ///< The candidate for up.
   std::optional<Vec3> front{};  ///< If they speak of the front: the candidate, `up` being up.
-  std::vector<OrientationFeature>
-      values{};                  ///< The same names in the same order for all of a kind.
+  std::vector<OrientationFeature> values{};  ///< The same names for all of a kind.
   double back_difference = 0.0;  ///< Of the front: how unlike its back it is, in [0, 1].
   double side_difference = 0.0;  ///< Of the front: how unlike its sides it is, in [0, 1].
 };
