@@ -112,6 +112,11 @@ class Verification {
   void look_into(const batch::ModelRecord& record) {
     const std::string folder = batch::model_folder(record.folder);
     const std::string remedy = "; remove " + folder + " and run the batch again";
+    const auto complain_of = [&](const std::string& file, const std::string& problem) {
+      std::string text = record.key;
+      complain(
+          text.append(": ").append(folder).append("/").append(file).append(problem).append(remedy));
+    };
     ++counts_.folders;
     if (!root_.is_folder(folder)) {
       complain(record.key + ": its results, " + folder + ", are not there; run the batch again");
@@ -121,26 +126,25 @@ class Verification {
     for (const fs::directory_entry& entry : fs::directory_iterator(root_.path_of(folder), error)) {
       const std::string name = entry.path().filename().string();
       if (const std::string flaw = flaw_of(name, bytes_of(folder + "/" + name)); !flaw.empty()) {
-        complain(record.key + ": " + folder + "/" + name + " " + flaw + remedy);
+        complain_of(name, " " + flaw);
       }
     }
     const Json view = Json::parse(bytes_of(folder + "/view.json"), nullptr, false);
     if (!view.is_object()) {
-      complain(record.key + ": " + folder + "/view.json is not there or damaged" + remedy);
+      complain_of("view.json", " is not there or damaged");
       return;
     }
     const Json result = Json::parse(record.result, nullptr, false);
     for (const char* part : {"total", "best", "worst"}) {
       if (!result.is_object() || result.value(part, Json()) != view.value(part, Json())) {
-        complain(record.key + ": " + folder + "/view.json is not what its record says" + remedy);
+        complain_of("view.json", " is not what its record says");
         return;
       }
     }
     for (const char* side : {"best", "worst"}) {
       const Json image = view.value(side, Json::object()).value("image", Json());
       if (image.is_string() && !root_.exists(folder + "/" + image.get<std::string>())) {
-        complain(record.key + ": " + folder + "/" + image.get<std::string>() + " is not there" +
-                 remedy);
+        complain_of(image.get<std::string>(), " is not there");
       }
     }
   }

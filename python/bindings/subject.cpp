@@ -5,6 +5,7 @@
 
 #include "vantage/core/error.h"
 #include "vantage/io/model.h"
+#include "vantage/pipeline/measured_shape.h"
 
 #include "arrays.h"
 #include "released_run.h"

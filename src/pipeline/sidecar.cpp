@@ -16,7 +16,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kLargest = 64 * 1024;  // bytes
+constexpr std::size_t kLargest = std::size_t{64} * 1024;  // bytes
 
 std::string_view checked_size(std::string_view bytes, std::string_view name) {
   if (bytes.size() > kLargest) {

@@ -107,9 +107,9 @@ const Vec3& linear_cool_warm(float share) {
     table.push_back(linear_of_srgb(kGrey));
     return table;
   }();
-  return std::isnan(share)
-             ? colours.back()
-             : colours[static_cast<std::size_t>(std::clamp(share, 0.0F, 1.0F) * kSteps + 0.5F)];
+  return std::isnan(share) ? colours.back()
+                           : colours[static_cast<std::size_t>(
+                                 std::lround(std::clamp(share, 0.0F, 1.0F) * kSteps))];
 }
 
 }  // namespace vantage
