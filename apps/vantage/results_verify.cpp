@@ -114,8 +114,13 @@ class Verification {
     const std::string remedy = "; remove " + folder + " and run the batch again";
     const auto complain_of = [&](const std::string& file, const std::string& problem) {
       std::string text = record.key;
-      complain(
-          text.append(": ").append(folder).append("/").append(file).append(problem).append(remedy));
+      complain(text.append(": ")
+                   .append(folder)
+                   .append("/")
+                   .append(file)
+                   .append(" ")
+                   .append(problem)
+                   .append(remedy));
     };
     ++counts_.folders;
     if (!root_.is_folder(folder)) {
@@ -126,25 +131,25 @@ class Verification {
     for (const fs::directory_entry& entry : fs::directory_iterator(root_.path_of(folder), error)) {
       const std::string name = entry.path().filename().string();
       if (const std::string flaw = flaw_of(name, bytes_of(folder + "/" + name)); !flaw.empty()) {
-        complain_of(name, " " + flaw);
+        complain_of(name, flaw);
       }
     }
     const Json view = Json::parse(bytes_of(folder + "/view.json"), nullptr, false);
     if (!view.is_object()) {
-      complain_of("view.json", " is not there or damaged");
+      complain_of("view.json", "is not there or damaged");
       return;
     }
     const Json result = Json::parse(record.result, nullptr, false);
     for (const char* part : {"total", "best", "worst"}) {
       if (!result.is_object() || result.value(part, Json()) != view.value(part, Json())) {
-        complain_of("view.json", " is not what its record says");
+        complain_of("view.json", "is not what its record says");
         return;
       }
     }
     for (const char* side : {"best", "worst"}) {
       const Json image = view.value(side, Json::object()).value("image", Json());
       if (image.is_string() && !root_.exists(folder + "/" + image.get<std::string>())) {
-        complain_of(image.get<std::string>(), " is not there");
+        complain_of(image.get<std::string>(), "is not there");
       }
     }
   }
