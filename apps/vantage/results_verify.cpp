@@ -130,7 +130,9 @@ class Verification {
     std::error_code error;
     for (const fs::directory_entry& entry : fs::directory_iterator(root_.path_of(folder), error)) {
       const std::string name = entry.path().filename().string();
-      if (const std::string flaw = flaw_of(name, bytes_of(folder + "/" + name)); !flaw.empty()) {
+      if (const std::string flaw =
+              flaw_of(name, bytes_of(std::string(folder).append("/").append(name)));
+          !flaw.empty()) {
         complain_of(name, flaw);
       }
     }
