@@ -222,13 +222,19 @@ void EvaluationJournal::add(const std::string& key, const EvaluatedModel& rows) 
   constexpr mode_t kMode = 0644;
   const int file =
       ::open(state_->file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, kMode);
-  const bool is_written =
-      file >= 0 && ::write(file, line.data(), line.size()) == static_cast<ssize_t>(line.size()) &&
-      (::fsync(file) == 0 || errno == EINVAL);
-  const int problem = is_written ? 0 : errno;
-  if (file >= 0) {
-    ::close(file);
+  if (file < 0) {
+    throw IoError(state_->file, "cannot be written", errno);
   }
+  const off_t before = ::lseek(file, 0, SEEK_END);
+  const ssize_t written = ::write(file, line.data(), line.size());
+  const bool is_whole = written == static_cast<ssize_t>(line.size());
+  const bool is_written = is_whole && (::fsync(file) == 0 || errno == EINVAL);
+  const int problem = is_written ? 0 : written >= 0 && !is_whole ? ENOSPC : errno;
+  if (!is_written && before >= 0) {
+    // No part of a row stays, to which the next one would be joined.
+    static_cast<void>(::ftruncate(file, before) == 0);
+  }
+  ::close(file);
   if (!is_written) {
     throw IoError(state_->file, "cannot be written", problem);
   }

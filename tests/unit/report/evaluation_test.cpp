@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
+#include <filesystem>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "vantage/core/error.h"
 #include "vantage/spatial/directions.h"
@@ -15,6 +19,7 @@
 #include "report/constant_camera.h"
 #include "support/shapes.h"
 #include "support/worst.h"
+#include "unit/io/temporary_folder.h"
 
 namespace vantage {
 namespace {
@@ -301,6 +306,32 @@ TEST(ConstantCamera, NeedsAnotherModelWhereSomebodyMoved) {
   EXPECT_TRUE(std::isnan(results[1].views[0].mean_folded_deg));
   EXPECT_NEAR(results[1].views[0].all_folded_deg, 0.0, 1e-9);
   EXPECT_TRUE(results[2].views.empty());
+}
+
+TEST(EvaluationJournal, KeepsNoPartOfARowThatDoesNotFit) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.file("rows.jsonl");
+  EvaluationJournal journal(file);
+  journal.add("first", {});
+  const auto size = std::filesystem::file_size(file);
+
+  struct rlimit limit {};
+
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
+
+  const struct rlimit small { size + 10, limit.rlim_max };
+
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  EXPECT_THROW(journal.add("second", {}), IoError);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+  std::signal(SIGXFSZ, before);
+  EXPECT_EQ(std::filesystem::file_size(file), size);
+  journal.add("third", {});
+  const EvaluationJournal again(file);
+  EXPECT_NE(again.find("first"), nullptr);
+  EXPECT_EQ(again.find("second"), nullptr);
+  EXPECT_NE(again.find("third"), nullptr);
 }
 
 TEST(AgreementCsv, HoldsNamesWithCommasAndQuotes) {
