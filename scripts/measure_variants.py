@@ -279,8 +279,8 @@ def agreement(values, others):
 
 
 def moved_file(ask, file, folder):
-    """Correlations of the map with those of the file moved and quartered, whether `view` doubts the map, processor seconds, vertices, strategies and
-    the report's contraction; None where there is no map."""
+    """Correlations of the map with those of the file moved and quartered, whether `view` doubts the map, processor
+    seconds, vertices, strategies and the report's contraction; None where there is no map."""
     def values_of(name, *mesh):
         write_ply(f"{folder}/{name}.ply", *mesh)
         ask("map", f"{folder}/{name}.ply", "-o", f"{folder}/map.ply", "--force", "-q")

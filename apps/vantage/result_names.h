@@ -9,6 +9,9 @@
 
 namespace vantage::cli {
 
+/// How every view.json of ours begins.
+inline constexpr std::string_view kViewBegins = "{\n  \"vantage\": ";
+
 /// Whether `view` and `batch` write files of this name.
 bool is_view_file(std::string_view name);
 /// Whether `compare` does.

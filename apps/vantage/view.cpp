@@ -207,8 +207,9 @@ struct ViewCommand {
                  " evaluated" + estimated(report));
     if (const auto& gap = report.dense_gap) {
       session.tell("  certified   best " + rounded(100.0 * gap->best_ratio, 5) +
-                   " % of a dense search's, worst " + rounded(100.0 * gap->worst_above, 3) +
-                   " % of the range from its");
+                   " % of a dense search's, worst " +
+                   rounded(100.0 * std::abs(gap->worst_above), 3) + " % of the range " +
+                   (gap->worst_above < 0.0 ? "below" : "above") + " its");
     }
     session.tell("  time        " + timing_line(seconds));
     session.tell("  results in  " + printable(output.path()) + "/");

@@ -45,7 +45,7 @@ class Decimator {
       : run_(run),
         mesh_(fine),
         policy_(std::move(policy)),
-        order_(fine.positions),
+        order_(referenced_points(fine)),
         of_fine_(fine.positions.size()),
         live_(fine.positions.size()),
         faces_a_(fine.positions.size(), 0),

@@ -94,6 +94,8 @@ void compare_with_highest(ViewReport& report, const Vec3& direction, double scor
   const double least = better == Better::More ? own : report.highest_score;
   if (most > 0.0 && least >= 0.0) {
     report.score_of_attainable = least / most;
+  } else if (better == Better::Less && most == least) {
+    report.score_of_attainable = 1.0;  // 0 as it can be
   }
 }
 

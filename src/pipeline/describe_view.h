@@ -18,6 +18,7 @@ ReportedView describe_scored_view(const ShapeAnalysis& shape, const VertexVisibi
                                   const RunContext& run);
 
 /// Takes the best score that was found, unless the best view's is better still, into the report.
+/// \pre report.best
 void compare_with_highest(ViewReport& report, const Vec3& direction, double score, Better better);
 
 }  // namespace vantage

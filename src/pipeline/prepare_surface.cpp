@@ -26,19 +26,6 @@ std::string counted(std::size_t count, std::string_view one, std::string_view ma
   return text;
 }
 
-/// Puts vertices of no face where they change no extent: they are left out, wherever they are.
-void put_lone_vertices(TriMesh& mesh, const Vec3& place) {
-  std::vector<bool> is_used(mesh.positions.size(), false);
-  for (const Triangle& t : mesh.triangles) {
-    is_used[t[0]] = is_used[t[1]] = is_used[t[2]] = true;
-  }
-  for (std::size_t v = 0; v < is_used.size(); ++v) {
-    if (!is_used[v]) {
-      mesh.positions[v] = place;
-    }
-  }
-}
-
 void list_repairs(const WeldedMesh& welded, const OrientedMesh& oriented, const MeshReport& check,
                   std::vector<std::string>& warnings) {
   const auto add = [&](std::size_t count, std::string_view one, std::string_view many,
@@ -99,7 +86,6 @@ ShapeAnalysis prepare_surface(const Model& model, const RunContext& run) {
   list_coarse_coordinates(points, shape.warnings);
   run.check();
   shape.sphere = enclosing_sphere(points);
-  put_lone_vertices(oriented.mesh, shape.sphere.centre);
   if (model.format == ModelFormat::Obj) {  // whose reader always keeps them
     shape.flow = texture_flow(model.mesh, model.appearance);
   }

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 
 namespace vantage {
@@ -34,7 +35,7 @@ std::array<std::uint32_t, 2> others(const Triangle& t, std::uint32_t corner) {
 ClusterComplex::ClusterComplex(const TriMesh& mesh, std::vector<Vec3> positions,
                                std::vector<double> weights)
     : position_(std::move(positions)),
-      order_(position_),
+      order_(referenced_points({position_, mesh.triangles})),
       weight_(std::move(weights)),
       parent_(position_.size()),
       links_(position_.size()),

@@ -170,6 +170,10 @@ class Measures(ProgramTest):
         for command in ("view", "compare"):
             self.assertIn("--starts", self.vantage(command, FAN, "-o", "out", "--starts", 3, exit_code=2).err)
 
+    def test_epsilon_goes_with_the_rapid_search_only(self):
+        self.assertIn("--epsilon", self.vantage("view", FAN, "-o", "out", "--epsilon", "0.5", exit_code=2).err)
+        self.vantage("view", FAN, "-o", "out", "--epsilon", "0.5", "--search", "rapid", "--no-images")
+
     def test_a_surface_without_area_is_named(self):
         self.write("line.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n")
         for command in (["score", "line.off", "--sphere", 0], ["view", "line.off", "-o", "v"],

@@ -65,6 +65,15 @@ class Verify(ProgramTest):
         store.close()
         self.assertIn("again.off: has the results of gone.off, which has no record", self.problems())
 
+    def test_a_model_that_is_done_without_results_is_done_again(self):
+        with sqlite3.connect(self.dir / "out/results.sqlite") as store:
+            store.execute("UPDATE models SET folder = '' WHERE key = 'm2.off'")
+        store.close()
+        done = self.vantage("results", "verify", "out", exit_code=1)
+        self.assertIn("m2.off: has no results; run the batch again", done.out + done.err)
+        self.vantage(*self.words, exit_code=4)
+        self.assertEqual(self.problems(), [])
+
 
 if __name__ == "__main__":
     unittest.main()

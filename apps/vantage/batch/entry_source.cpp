@@ -33,11 +33,15 @@ bool matches(const std::string& pattern, const std::string& path) {
 
 /// Whether `view` has put results there, which are no models.
 bool is_viewed(const std::string& folder) {
-  constexpr std::string_view kOurs = "{\n  \"vantage\": ";
-  std::string beginning(kOurs.size(), '\0');
-  std::ifstream file(fs::path(folder) / "view.json", std::ios::binary);
+  const fs::path marker = fs::path(folder) / "view.json";
+  std::error_code error;
+  if (!fs::is_regular_file(marker, error)) {  // nobody may ever write to a pipe
+    return false;
+  }
+  std::string beginning(cli::kViewBegins.size(), '\0');
+  std::ifstream file(marker, std::ios::binary);
   file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  return file && beginning == kOurs;
+  return file && beginning == cli::kViewBegins;
 }
 
 constexpr const char* kArchives[] = {"*.zip",     "*.tar",    "*.tar.gz", "*.tgz",

@@ -11,13 +11,13 @@
 #include <set>
 #include <utility>
 
-#include <sys/stat.h>
-
 #include "vantage/core/error.h"
 #include "vantage/core/version.h"
 
 #include "batch/crew.h"
+#include "batch/file_stamp.h"
 #include "batch/naming.h"
+#include "result_names.h"
 
 namespace vantage::batch {
 namespace {
@@ -31,27 +31,6 @@ constexpr std::size_t kMostUnpacked = 64;
 constexpr std::uint64_t kMostUnpackedBytes = 1'000'000'000;
 
 constexpr const char* kNoRoom = "cannot hold more results; make room and run it again";
-
-/// What a file takes on the disk.
-std::uint64_t bytes_on_disk(const std::string& path) {
-  constexpr std::uint64_t kBytesPerBlock = 512;
-
-  struct stat status {};
-
-  return ::stat(path.c_str(), &status) == 0
-             ? static_cast<std::uint64_t>(status.st_blocks) * kBytesPerBlock
-             : 0;
-}
-
-FileStamp stamp_of(const std::string& path) {
-  struct stat status {};
-
-  if (path.empty() || ::stat(path.c_str(), &status) != 0) {
-    return {};
-  }
-  return {status.st_size, status.st_mtim.tv_sec * 1'000'000'000LL + status.st_mtim.tv_nsec,
-          status.st_ino};
-}
 
 std::int64_t now_ms() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(
@@ -374,8 +353,7 @@ class Runner {
 
   /// Whether a folder is one that a worker has made: only such a one is ever removed.
   [[nodiscard]] bool holds_results(const std::string& place) const {
-    constexpr std::size_t kEnough = 64;
-    return root_.beginning_of(place + "/view.json", kEnough).starts_with("{\n  \"vantage\": ");
+    return root_.beginning_of(place + "/view.json", cli::kViewBegins.size()) == cli::kViewBegins;
   }
 
   /// Whether results of the same content, made by an earlier run with what no model of this one asks

@@ -90,9 +90,8 @@ class ShapePictures {
   const PictureSurface& asset_surface(const RunContext& run);
 
   const ShapeAnalysis* shape_;
-  PictureLook look_{};  // without an asset that has no look of its own
-  std::vector<Rgb8>
-      point_colours_{};  // of the shape's vertices, where the asset is a coloured cloud
+  PictureLook look_{};                 // without an asset that has no look of its own
+  std::vector<Rgb8> point_colours_{};  // of the shape's vertices, of a coloured cloud
   std::optional<PictureSurface> surface_{};
   std::vector<std::pair<Camera, Image>> plain_{};  ///< What take() took, for take_small().
   std::optional<PictureSurface> asset_surface_{};  // the file's own faces, with their materials

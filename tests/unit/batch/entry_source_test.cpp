@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "vantage/core/error.h"
 
@@ -64,6 +65,13 @@ TEST(EntriesOfPaths, AreNoResultsOfOurOwn) {
         std::filesystem::path(entry.path).lexically_relative(scratch.path("")).string());
   }
   EXPECT_EQ(names, (std::vector<std::string>{"a.vantage/a.ply", "theirs/map.ply"}));
+}
+
+TEST(EntriesOfPaths, DoNotWaitForAPipeThatIsNamedLikeResults) {
+  const ScratchFolder scratch;
+  ASSERT_EQ(::mkfifo(scratch.path("view.json").c_str(), 0600), 0);
+  static_cast<void>(scratch.write("map.ply", ""));
+  EXPECT_EQ(all_of(*entries_of_paths({scratch.path("")}, {}, "", {})).size(), 1U);
 }
 
 TEST(EntriesOfPaths, DoNotFollowLinksToFolders) {

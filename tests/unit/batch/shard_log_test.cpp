@@ -50,6 +50,21 @@ TEST(ParseShard, TakesAnIndexBelowItsCount) {
   }
 }
 
+TEST(ShardLog, FindsAllOfOneContentAndKeepsAFolderWithTheOneThatTookIt) {
+  const ScratchFolder scratch;
+  ShardLog log(scratch.path(), {0, 2});
+  ModelRecord first = record("first", 1, "same");
+  ModelRecord second = record("second", 2, "same");
+  second.folder = first.folder;
+  log.put(first);
+  log.put(second);
+  log.put(record("third", 3, "other"));
+  EXPECT_EQ(log.find_equals(record("new", 5, "same")).size(), 2U);
+  first.folder.clear();
+  log.put(first);
+  EXPECT_EQ(log.owner_of("first-folder"), "second");
+}
+
 TEST(ShardLog, FindsTheFirstOfEqualContentByPosition) {
   const ScratchFolder scratch;
   ShardLog log(scratch.path(), {0, 2});

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "vantage/pipeline/find_views.h"
+
 #include "support/model_of.h"
 #include "support/shapes.h"
 
@@ -42,6 +44,23 @@ TEST(ExtremeViews, AreTheSameWhereverTheMeasureHasItsZero) {
   const MeasuredViews falling = extremes(moved_area(Better::Less, -100.0));
   EXPECT_NEAR(falling.worst.value + 100.0, plain.best.value, 1e-3 * plain.best.value);
   EXPECT_NEAR(falling.best.value + 100.0, plain.worst.value, 1e-3 * plain.best.value);
+}
+
+TEST(FindViews, SayWhatShareOfTheBestScoreTheViewHasWhereLessIsBetterToo) {
+  const Model model = model_of(y_of_tubes(0.25, 16));
+  for (const char* const name : {"projected-area", "instability"}) {
+    ViewOptions options;
+    options.method = name;
+    const ShapeAnalysis shape = analyse_shape(model, options);
+    const ViewReport report = find_views(shape, UpAxis::Y, options);
+    const double own = report.best.score;
+    const double best = report.highest_score;
+    const bool is_less = find_measure(name).better == Better::Less;
+    EXPECT_TRUE(is_less ? best <= own : best >= own) << name;
+    ASSERT_TRUE(report.score_of_attainable.has_value()) << name;
+    EXPECT_LE(*report.score_of_attainable, 1.0) << name;
+    EXPECT_NEAR(*report.score_of_attainable, is_less ? best / own : own / best, 1e-12) << name;
+  }
 }
 
 TEST(ExtremeViews, AreFoundFromACoarserSetToo) {

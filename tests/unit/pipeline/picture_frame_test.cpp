@@ -9,6 +9,8 @@
 #include "vantage/pipeline/find_views.h"
 #include "vantage/report/view_report.h"
 
+#include "core/degrees.h"
+#include "support/model_of.h"
 #include "support/shapes.h"
 
 namespace vantage::test {
@@ -92,6 +94,39 @@ TEST(FramePicture, IsNoLongerThanTwiceItsShorterSide) {
   EXPECT_NEAR(aspect(tall.size), 0.5, 0.005);
   const PictureFrame end_on = frame_picture(shape, Vec3::UnitX(), UpAxis::Y, fitting());
   EXPECT_NEAR(aspect(end_on.size), 1.0, 0.005);
+}
+
+TEST(TourCameras, LeaveTheMarginOfTheShorterSideInAnyAspect) {
+  ViewOptions options;
+  options.search.strategy = SearchStrategy::Exhaustive;
+  options.search.subdivisions = 1;
+  options.objective = Objective::Significance;
+  options.view_set.emplace().set.views = 3;
+  for (const Projection projection : {Projection::Perspective, Projection::Orthographic}) {
+    options.projection = projection;
+    const ShapeAnalysis shape = analyse_shape(model_of(y_of_tubes(0.2, 16)), options);
+    const ViewReport report = find_views(shape, UpAxis::Y, options);
+    for (const double aspect : {0.25, 1.0, 4.0}) {
+      constexpr double kMargin = 0.1;
+      double least = 1.0;  // border, of the shorter side
+      for (const Camera& camera : tour_cameras(shape, *report.set, report.camera, UpAxis::Y, aspect,
+                                               40, 100.0 * kMargin)) {
+        const Vec3 back = (camera.eye - camera.target).normalized();
+        const Vec3 right = camera.up.cross(back);
+        for (const Vec3& p : shape.surface.positions) {
+          const Vec3 offset = p - camera.eye;
+          const double half = projection == Projection::Perspective
+                                  ? -offset.dot(back) * std::tan(camera.fov_y_deg * kRadPerDeg / 2)
+                                  : camera.height / 2;
+          // Halves of the picture's height.
+          const double x = aspect - std::abs(offset.dot(right)) / half;
+          const double y = 1.0 - std::abs(offset.dot(camera.up)) / half;
+          least = std::min(least, std::min(x, y) / (2.0 * std::min(aspect, 1.0)));
+        }
+      }
+      EXPECT_NEAR(least, kMargin, 1e-9) << aspect;
+    }
+  }
 }
 
 TEST(SizeWithAspect, OfASizeItGaveIsThatSize) {

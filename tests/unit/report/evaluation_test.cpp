@@ -13,8 +13,10 @@
 #include <sys/resource.h>
 
 #include "vantage/core/error.h"
+#include "vantage/io/write.h"
 #include "vantage/spatial/directions.h"
 
+#include "io/byte_cursor.h"
 #include "report/agreement.h"
 #include "report/constant_camera.h"
 #include "support/shapes.h"
@@ -306,6 +308,66 @@ TEST(ConstantCamera, NeedsAnotherModelWhereSomebodyMoved) {
   EXPECT_TRUE(std::isnan(results[1].views[0].mean_folded_deg));
   EXPECT_NEAR(results[1].views[0].all_folded_deg, 0.0, 1e-9);
   EXPECT_TRUE(results[2].views.empty());
+}
+
+/// A folder of one model, a glTF with its vertices beside it, and a view that somebody chose.
+class RecordedFolder {
+ public:
+  RecordedFolder() {
+    std::filesystem::create_directory(folder_.path() / "models");
+    write_vertices(1.0F);
+    write_views("1");
+    write_file(folder_.file("models/a.gltf"),
+               R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+                   "meshes":[{"primitives":[{"attributes":{"POSITION":0},"mode":5}]}],
+                   "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}],
+                   "bufferViews":[{"buffer":0,"byteLength":48}],
+                   "buffers":[{"byteLength":48,"uri":"a.bin"}]})");
+  }
+
+  void write_vertices(float height) const {
+    std::string bytes;
+    for (const float x : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, height, 0.F, 1.F, 1.F, 1.F}) {
+      append_little_endian(bytes, x);
+    }
+    write_file(folder_.file("models/a.bin"), bytes);
+  }
+
+  void write_views(const std::string& z) const {
+    write_file(folder_.file("views.csv"),
+               "model,subject,status,vx,vy,vz\na.gltf,A,moved,0,0," + z + "\n");
+  }
+
+  [[nodiscard]] std::vector<RecordedModel> records() const {
+    return read_records(folder_.path().string());
+  }
+
+  /// How many records a run with this journal has from former ones.
+  [[nodiscard]] std::size_t known() const {
+    EvaluationJournal journal(folder_.file("rows.jsonl"));
+    std::size_t known = 0;
+    static_cast<void>(
+        evaluate_records(records(), {}, {find_measure("principal-axis")}, journal, known));
+    return known;
+  }
+
+ private:
+  test::TemporaryFolder folder_{};
+};
+
+TEST(EvaluationJournal, KnowsNoRowsOfAnotherBuffer) {
+  const RecordedFolder folder;
+  EXPECT_EQ(folder.known(), 0U);
+  EXPECT_EQ(folder.known(), 1U);
+  folder.write_vertices(2.0F);
+  EXPECT_EQ(folder.known(), 0U);
+}
+
+TEST(ReadRecords, RefuseANumberThatGoesOnAsSomethingElse) {
+  const RecordedFolder folder;
+  EXPECT_EQ(folder.records().size(), 1U);
+  folder.write_views("1.0abc");
+  EXPECT_THROW((void)folder.records(), FormatError);
 }
 
 TEST(EvaluationJournal, KeepsNoPartOfARowThatDoesNotFit) {
