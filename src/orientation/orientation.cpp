@@ -24,9 +24,6 @@ constexpr double kAlike = 0.1;
 constexpr double kMirror = 0.15;
 // Rain that a tub holds, over its height. [ours]
 constexpr double kHollow = 0.15;
-// Where no side is likelier to be the front, the shape does not say: it is unlike those of the fit,
-// an animal or a bust. [ours]
-constexpr double kSureEnough = 0.5;
 // Area vectors of a closed surface add up to nothing. Where what they leave is more than this share of
 // the area, the surface has one side to be seen from, as scans and reliefs have: what is beyond adds so
 // much to the log odds that the front is there. [ours]
@@ -261,16 +258,6 @@ double front_witness(AxisDirection up, bool is_formats) {
   return up.is_positive && up.axis != 0 ? std::log(3.0 * share / (1.0 - share)) : 0.0;
 }
 
-/// Where the shape does not say which side is the front, the usual one is as often as in other files.
-std::vector<double> with_habit(std::vector<double> odds, std::size_t usual, double share) {
-  const double others = 1.0 - odds[usual];
-  for (double& of_side : odds) {
-    of_side *= others > 0.0 ? (1.0 - share) / others : 0.0;
-  }
-  odds[usual] = share;
-  return odds;
-}
-
 /// Sets the front and the odds of all sides. \pre result.up
 void find_front(const SideLooks& looks, const OrientationRequest& request, Orientation& result) {
   if (request.front) {
@@ -290,13 +277,9 @@ void find_front(const SideLooks& looks, const OrientationRequest& request, Orien
       choose(candidates, odds, usual_index, is_formats ? front_model().threshold : 0.0,
              [&](AxisDirection a, AxisDirection b) { return looks.difference(up, a, b) < kAlike; });
   result.front.reasons = reasons_for_front(looks, up, axis_of(result.front.likeliest));
-  const bool has_habit = is_formats || (up.is_positive && up.axis != 0);
-  const bool is_unsure = result.front.likeliest_confidence < kSureEnough;
-  const std::vector<double> believed =
-      has_habit && is_unsure ? with_habit(odds, usual_index, front_model().share) : odds;
   Vec3 side = result.front.direction;
   for (double& of_side : result.front_odds) {
-    of_side = believed[place_of(axis_of(side), candidates)];
+    of_side = odds[place_of(axis_of(side), candidates)];
     side = up_vector.cross(side);
   }
 }

@@ -45,8 +45,7 @@ struct DirectionChoice {
 struct Orientation {
   DirectionChoice up{};     ///< Against gravity.
   DirectionChoice front{};  ///< Toward a viewer in front; at right angles to up.
-  /// Probabilities that the front is front.direction, up × that, its opposite, or the last side. Where
-  /// none is above one half, the usual front has the share of files that face so.
+  /// Probabilities that the front is front.direction, up × that, its opposite, or the last side.
   std::array<double, 4> front_odds{1.0, 0.0, 0.0, 0.0};
 };
 

@@ -169,27 +169,6 @@ TEST(Orientation, OfAScanOfOneSideIsTheSideThatWasScanned) {
   }
 }
 
-TEST(Orientation, LeavesAFrontThatTheShapeDoesNotTellToHabit) {
-  // No side of these is like a front, and none like another one.
-  std::size_t unsure = 0;
-  for (const double shift : {0.1, 0.2, 0.3, 0.4}) {
-    TriMesh lump = together(box(1.0, 1.0, 1.0, 4), box(0.5, 0.7, 0.3, 3), {shift, 1.0, 0.6});
-    lump = together(lump, box(0.3, 0.4, 0.6, 2), {-0.3, 0.2, shift});
-    const Orientation found = OrientationEvidence(lump).find({.up = Vec3::UnitY()});
-    double sum = 0.0;
-    for (const double odds : found.front_odds) {
-      sum += odds;
-    }
-    EXPECT_NEAR(sum, 1.0, 1e-12);
-    if (found.front.likeliest_confidence < 0.5) {
-      ++unsure;
-      EXPECT_EQ(found.front.direction, Vec3::UnitZ());
-      EXPECT_NEAR(found.front_odds[0], 0.65, 1e-12);  // the share of files that face so
-    }
-  }
-  EXPECT_GT(unsure, 0U);
-}
-
 TEST(Orientation, RefusesDirectionsThatMakeNoFrame) {
   const OrientationEvidence evidence(chair());
   EXPECT_THROW((void)evidence.find({.up = Vec3::UnitX(), .front = -Vec3::UnitX()}), InvalidInput);
