@@ -193,26 +193,37 @@ class Contraction {
   /// A step that is not sound is repeated more safely. A curve is done where the first way fails:
   /// what a safer one could still gain is not worth the risk.
   Attempt attempt_step() {
+    const bool is_curve = !is_sheet(state_.shrinkage);
     StepFlaw first = StepFlaw::None;
-    for (std::size_t manner = manner_;; ++manner) {
-      Attempt attempt = attempt_in(kManners[manner]);
-      first = first == StepFlaw::None ? attempt.flaw : first;
-      was_unsound_ = was_unsound_ || (first != StepFlaw::None && state_.shrinkage > kEarly);
-      const bool is_done = !is_sheet(state_.shrinkage) && attempt.flaw != StepFlaw::Unsolved;
-      if (attempt.flaw == StepFlaw::None || is_done || manner + 1 == kManners.size()) {
-        if (attempt.flaw == StepFlaw::None && first != StepFlaw::None) {
-          remedies_.push_back("step " + std::to_string(state_.steps + 1) + " " + told(first) +
-                              " and was " + told(kManners[manner]));
-          state_.contraction *= kManners[manner].share;
-          manner_ = kSafer;
-        } else if (attempt.flaw != StepFlaw::None && is_sheet(state_.shrinkage)) {
-          is_stuck_ = true;
-          remedies_.push_back("ended at step " + std::to_string(state_.steps + 1) + ", which " +
-                              told(attempt.flaw) + " however it was taken");
+    Attempt attempt;
+    for (std::size_t manner = manner_; manner < kManners.size(); ++manner) {
+      attempt = attempt_in(kManners[manner]);
+      if (attempt.flaw == StepFlaw::None) {
+        if (first != StepFlaw::None) {
+          go_on_by(kManners[manner], first);
         }
         return attempt;
       }
+      first = first == StepFlaw::None ? attempt.flaw : first;
+      was_unsound_ = was_unsound_ || state_.shrinkage > kEarly;
+      if (is_curve && attempt.flaw != StepFlaw::Unsolved) {
+        return attempt;
+      }
     }
+    if (!is_curve) {
+      is_stuck_ = true;
+      remedies_.push_back("ended at step " + std::to_string(state_.steps + 1) + ", which " +
+                          told(attempt.flaw) + " however it was taken");
+    }
+    return attempt;
+  }
+
+  /// After a step that was sound by this way only.
+  void go_on_by(const StepManner& manner, StepFlaw else_flaw) {
+    remedies_.push_back("step " + std::to_string(state_.steps + 1) + " " + told(else_flaw) +
+                        " and was " + told(manner));
+    state_.contraction *= manner.share;
+    manner_ = kSafer;
   }
 
   Attempt attempt_in(const StepManner& manner) {

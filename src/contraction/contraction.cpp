@@ -22,7 +22,6 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kVerticesPerTask = 8192;
 constexpr double kSphereSide = 2.0;  // ours: D = 2
 constexpr double kBoxSide = 1.6;     // Cao 2010: the longest side of the box
 
@@ -152,14 +151,14 @@ void place(const Piece& piece, const PieceResult& result, const TriMesh& mesh,
     history.levels.push_back(history.levels.empty() ? mesh.positions : history.levels.back());
   }
   const auto carry = [&](const std::vector<Vec3>& from, std::vector<Vec3>& to) {
-    parallel_for(
-        run, piece.vertices.size(), kVerticesPerTask, [&](std::size_t begin, std::size_t end) {
-          for (std::size_t i = begin; i < end; ++i) {
-            to[piece.vertices[i]] =
-                result.proxy ? position_of(result.proxy->place[i], result.proxy->mesh, from)
-                             : from[i];
-          }
-        });
+    std::vector<Vec3> fine;
+    if (result.proxy) {
+      fine = carried(*result.proxy, from, run);
+    }
+    const std::vector<Vec3>& here = result.proxy ? fine : from;
+    for (std::size_t i = 0; i < piece.vertices.size(); ++i) {
+      to[piece.vertices[i]] = here[i];
+    }
   };
   // What takes no step stays at its exact input position.
   for (std::size_t level = 1; levels.size() > 1 && level < history.levels.size(); ++level) {

@@ -110,6 +110,17 @@ Vec3 position_of(const CoarsePlace& place, const TriMesh& coarse,
          place.weight[2] * positions[t[2]];
 }
 
+std::vector<Vec3> carried(const Proxy& proxy, const std::vector<Vec3>& positions,
+                          const RunContext& run) {
+  std::vector<Vec3> fine(proxy.place.size());
+  parallel_for(run, fine.size(), kFineVerticesPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      fine[v] = position_of(proxy.place[v], proxy.mesh, positions);
+    }
+  });
+  return fine;
+}
+
 Proxy make_proxy(const TriMesh& fine, std::size_t between, std::size_t target,
                  const RunContext& run) {
   Proxy proxy;

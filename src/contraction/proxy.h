@@ -36,4 +36,8 @@ Proxy make_proxy(const TriMesh& fine, std::size_t between, std::size_t target,
 Vec3 position_of(const CoarsePlace& place, const TriMesh& coarse,
                  const std::vector<Vec3>& positions);
 
+/// Where the vertices of the fine surface are when the coarse ones stand at `positions`.
+std::vector<Vec3> carried(const Proxy& proxy, const std::vector<Vec3>& positions,
+                          const RunContext& run);
+
 }  // namespace vantage

@@ -2,6 +2,8 @@
 #include "contraction/surface_contraction.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,13 +27,18 @@ EvenShares shares_of(const TriMesh& mesh, const ContractionOptions& options) {
   return options.weights == ContractionWeights::Vertex ? EvenShares{} : even_shares(mesh);
 }
 
+ContractionOptions without_thinning(ContractionOptions options) {
+  options.sheet_limit = options.contraction_limit;
+  return options;
+}
+
 /// Contracts a surface by even shares. The rim of a plate may become a line that holds the rest
 /// where it is, by steps that are too small for so wide a surface: then all is done again by larger
-/// ones.
+/// ones, as long as that leads farther.
 ComponentHistory contract_evenly(const TriMesh& scaled, const ContractionOptions& options,
                                  const RunContext& run, EvenShares shares,
                                  bool is_careful = false) {
-  ComponentHistory history;
+  ComponentHistory best;
   double done = 0.0;
   for (int again = 0;; ++again) {
     const bool may_begin_again =
@@ -41,15 +48,17 @@ ComponentHistory contract_evenly(const TriMesh& scaled, const ContractionOptions
     const RunContext part = run.part(done, 0.5 * (1.0 + done));
     done = 0.5 * (1.0 + done);
     ComponentHistory attempt = contract_component(scaled, options, part, shares, is_careful);
-    if (again == 0 || !attempt.is_stuck) {  // larger steps may pass where these do not
-      if (again > 0 && attempt.shrinkage.back() >= history.shrinkage.back()) {
-        return history;
+    if (again == 0) {
+      best = std::move(attempt);
+    } else if (!attempt.is_stuck) {  // larger steps may pass where these do not
+      if (attempt.shrinkage.back() >= best.shrinkage.back()) {
+        return best;
       }
-      history = std::move(attempt);
+      best = std::move(attempt);
     }
-    if (!may_begin_again || history.summary.stop != ContractionStop::Shrunk ||
-        !is_plate(history.shrinkage.back())) {
-      return history;
+    if (!may_begin_again || best.summary.stop != ContractionStop::Shrunk ||
+        !is_plate(best.shrinkage.back())) {
+      return best;
     }
     shares.first_pull *= options.contraction_growth;
   }
@@ -68,9 +77,7 @@ ComponentHistory contract_by(const TriMesh& mesh, const ContractionOptions& opti
 /// ones are not thinned: their W_L begins far below its limit.
 ComponentHistory contract_exactly(const TriMesh& scaled, const ContractionOptions& options,
                                   const RunContext& run) {
-  ContractionOptions no_thinning = options;
-  no_thinning.sheet_limit = options.contraction_limit;
-  ComponentHistory history = contract_by(scaled, no_thinning, run.part(0.0, 0.9));
+  ComponentHistory history = contract_by(scaled, without_thinning(options), run.part(0.0, 0.9));
   const bool may_be_thinned =
       options.sheet_limit > options.contraction_limit && scaled.positions.size() > kProxyFrom;
   // A proxy's share of the area is not quite the same; far below the bound neither is a sheet.
@@ -80,89 +87,106 @@ ComponentHistory contract_exactly(const TriMesh& scaled, const ContractionOption
         contract_component(proxy.mesh, options, run.part(0.9, 1.0), proxy.shares);
     const std::vector<Vec3>& curve =
         is_sheet(coarse.shrinkage.back()) ? coarse.thinned : coarse.levels.back();
-    for (std::size_t v = 0; v < scaled.positions.size() && !curve.empty(); ++v) {
-      history.thinned.push_back(position_of(proxy.place[v], proxy.mesh, curve));
+    if (!curve.empty()) {
+      history.thinned = carried(proxy, curve, run);
+      history.summary.strategy += ", thinned";
     }
-    history.summary.strategy += curve.empty() ? "" : ", thinned";
   }
   return history;
 }
 
-/// Takes all steps with weights that slivers do not upset where `history` is stuck, if that leads
-/// farther.
-void contract_carefully(const TriMesh& scaled, const ContractionOptions& options,
-                        const RunContext& run, ComponentHistory& history) {
-  ContractionOptions no_thinning = options;
-  no_thinning.sheet_limit = options.contraction_limit;
+/// A contraction that led farther than another one, and in words what it is of.
+struct Farther {
+  ComponentHistory history{};
+  std::string remedy{};
+};
+
+/// All steps by weights that slivers do not upset.
+std::optional<Farther> contract_carefully(const TriMesh& scaled, const ComponentHistory& before,
+                                          const ContractionOptions& options,
+                                          const RunContext& run) {
   ComponentHistory careful =
-      contract_component(scaled, no_thinning, run, shares_of(scaled, options), true);
-  if (careful.is_stuck && careful.shrinkage.back() >= history.shrinkage.back()) {
-    return;
+      contract_component(scaled, without_thinning(options), run, shares_of(scaled, options), true);
+  if (careful.is_stuck && careful.shrinkage.back() >= before.shrinkage.back()) {
+    return std::nullopt;
   }
-  careful.summary.strategy = history.summary.strategy;
-  careful.summary.remedies = history.summary.remedies;
-  careful.summary.remedies.push_back(
-      "so all steps were taken with weights that thin triangles do not upset");
-  history = std::move(careful);
+  careful.summary.strategy = before.summary.strategy;
+  return Farther{std::move(careful),
+                 "so all steps were taken with weights that thin triangles do not upset"};
 }
 
-/// Contracts a copy of a surface with fewer vertices and evener triangles where `history` shows that
-/// those of the surface itself are in the way: thin ones throw parts of it about.
-void contract_even_copy(const TriMesh& scaled, const ContractionOptions& options,
-                        const RunContext& run, ComponentHistory& history) {
+/// A copy with fewer vertices and evener triangles: thin ones throw parts of a surface about.
+std::optional<Farther> contract_even_copy(const TriMesh& scaled, const ComponentHistory& before,
+                                          const ContractionOptions& options,
+                                          const RunContext& run) {
   const auto most =
       static_cast<std::size_t>(kProxyShare * static_cast<double>(scaled.positions.size()));
   const std::size_t target = std::min(kEvenCopy, most);
   const Proxy proxy = make_proxy(scaled, target, target, run);
   if (proxy.mesh.positions.size() > most) {
-    return;
+    return std::nullopt;
   }
   ComponentHistory copy = contract_evenly(proxy.mesh, options, run, proxy.shares, true);
   if (copy.is_stuck || copy.summary.steps == 0) {
-    return;
+    return std::nullopt;
   }
   for (auto& level : copy.levels) {
-    std::vector<Vec3> carried;
-    carried.reserve(scaled.positions.size());
-    for (const CoarsePlace& place : proxy.place) {
-      carried.push_back(position_of(place, proxy.mesh, level));
-    }
-    level = std::move(carried);
+    level = carried(proxy, level, run);
   }
   copy.levels.front() = scaled.positions;
-  copy.thinned.clear();
-  copy.summary.vertices = scaled.positions.size();
-  copy.summary.strategy = history.summary.strategy;
-  copy.summary.remedies = history.summary.remedies;
-  copy.summary.remedies.push_back("so a copy with evener triangles was contracted, of " +
-                                  std::to_string(proxy.mesh.positions.size()) + " vertices");
-  history = std::move(copy);
+  copy.summary.strategy = before.summary.strategy;
+  return Farther{std::move(copy), "so a copy with evener triangles was contracted, of " +
+                                      std::to_string(proxy.mesh.positions.size()) + " vertices"};
 }
 
-/// Contracts a finer copy of a surface on which `history` is stuck: coarse meshes have too few
-/// vertices to move. The steps are those of the copy, of the surface's own vertices.
-void contract_finer_copy(const TriMesh& scaled, const ContractionOptions& options,
-                         const RunContext& run, ComponentHistory& history) {
+/// A finer copy, whose first vertices are the surface's own: coarse meshes have too few to move.
+std::optional<Farther> contract_finer_copy(const TriMesh& scaled, const ComponentHistory& before,
+                                           const ContractionOptions& options,
+                                           const RunContext& run) {
   const TriMesh finer = refine_whole(scaled, run);
   if (finer.positions.size() == scaled.positions.size()) {
-    return;
+    return std::nullopt;
   }
   ComponentHistory copy = contract_by(finer, options, run);
-  if (copy.is_stuck || copy.summary.steps <= history.summary.steps) {
-    return;
+  if (copy.is_stuck || copy.summary.steps <= before.summary.steps) {
+    return std::nullopt;
   }
   for (auto& level : copy.levels) {
     level.resize(scaled.positions.size());
   }
-  copy.thinned.clear();
-  copy.summary.vertices = scaled.positions.size();
-  copy.summary.strategy = "refined " + std::to_string(finer.positions.size());
-  copy.summary.remedies.insert(copy.summary.remedies.begin(), history.summary.remedies.begin(),
-                               history.summary.remedies.end());
-  copy.summary.remedies.push_back("so a finer copy of the surface was contracted, of " +
-                                  std::to_string(finer.positions.size()) + " vertices");
-  history = std::move(copy);
+  const std::string size = std::to_string(finer.positions.size());
+  copy.summary.strategy = "refined " + size;
+  return Farther{std::move(copy),
+                 "so a finer copy of the surface was contracted, of " + size + " vertices"};
 }
+
+bool is_stuck(const ComponentHistory& history, const TriMesh&, const ContractionOptions&) {
+  return history.is_stuck;
+}
+
+bool is_stuck_and_small(const ComponentHistory& history, const TriMesh& mesh,
+                        const ContractionOptions&) {
+  return history.is_stuck && mesh.positions.size() <= kProxyFrom;
+}
+
+/// Whether triangles may be in the way of a surface with enough of them for a copy.
+bool is_unsound(const ComponentHistory& history, const TriMesh& mesh,
+                const ContractionOptions& options) {
+  return (history.was_unsound || history.is_stuck) && options.weights == ContractionWeights::Area &&
+         mesh.positions.size() >= kFewestEven;
+}
+
+/// A way to contract a surface, and when it is worth a try.
+struct SaferWay {
+  bool (*is_called_for)(const ComponentHistory&, const TriMesh&, const ContractionOptions&);
+  std::optional<Farther> (*contract)(const TriMesh&, const ComponentHistory&,
+                                     const ContractionOptions&, const RunContext&);
+};
+
+/// Tried in this order, each after what the ones before have led to.
+constexpr std::array<SaferWay, 3> kSaferWays{{{is_unsound, contract_even_copy},
+                                              {is_stuck, contract_carefully},
+                                              {is_stuck_and_small, contract_finer_copy}}};
 
 }  // namespace
 
@@ -179,20 +203,25 @@ ComponentHistory contract_surface(const TriMesh& scaled, const std::optional<Pro
   if (options.method == ContractionMethod::Exact) {
     history = contract_exactly(scaled, options, run.part(0.0, 0.7));
   } else {
-    ContractionOptions no_thinning = options;
-    no_thinning.sheet_limit = options.contraction_limit;
-    history = contract_by(scaled, no_thinning, run.part(0.0, 0.7));
+    history = contract_by(scaled, without_thinning(options), run.part(0.0, 0.7));
     history.summary.strategy = "direct";
   }
-  if ((history.was_unsound || history.is_stuck) && options.weights == ContractionWeights::Area &&
-      scaled.positions.size() >= kFewestEven) {
-    contract_even_copy(scaled, options, run.part(0.7, 0.8), history);
-  }
-  if (history.is_stuck) {
-    contract_carefully(scaled, options, run.part(0.8, 0.9), history);
-  }
-  if (history.is_stuck && scaled.positions.size() <= kProxyFrom) {
-    contract_finer_copy(scaled, options, run.part(0.9, 1.0), history);
+  double done = 0.7;
+  for (const SaferWay& way : kSaferWays) {
+    const RunContext part = run.part(done, done + 0.1);
+    done += 0.1;
+    if (!way.is_called_for(history, scaled, options)) {
+      continue;
+    }
+    if (std::optional<Farther> farther = way.contract(scaled, history, options, part)) {
+      std::vector<std::string> remedies = std::move(history.summary.remedies);
+      remedies.push_back(std::move(farther->remedy));
+      history = std::move(farther->history);
+      history.thinned.clear();
+      history.summary.vertices = scaled.positions.size();
+      std::vector<std::string>& own = history.summary.remedies;
+      own.insert(own.begin(), remedies.begin(), remedies.end());
+    }
   }
   return history;
 }

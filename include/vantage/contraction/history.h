@@ -59,7 +59,7 @@ struct ContractedRefinement {
 struct MergedSurface {
   std::size_t vertex_count = 0;
   std::vector<Triangle> triangles{};       ///< Of merged vertices.
-  std::vector<std::uint32_t> of_vertex{};  ///< |V| merged vertex that each vertex is part of.
+  std::vector<std::uint32_t> of_vertex{};  ///< Of each vertex, of `refinement` if there is one.
 };
 
 /// A second mesh of the same surface, coarser, contracted by itself. Where the two contractions agree, they tell of
