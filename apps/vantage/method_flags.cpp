@@ -55,6 +55,18 @@ ViewOptions MethodFlags::resolve(std::uint64_t seed) const {
   if (flags_.has("epsilon") && search.strategy != SearchStrategy::Rapid) {
     throw CLI::ValidationError("--epsilon", "goes with --search rapid only");
   }
+  for (const char* const flag : {"base", "subdivisions"}) {
+    if (flags_.has(flag) && search.strategy != SearchStrategy::Rapid &&
+        search.strategy != SearchStrategy::Exhaustive) {
+      throw CLI::ValidationError(std::string("--") + flag,
+                                 "goes with --search rapid and exhaustive only");
+    }
+  }
+  if (flags_.has("level-agreement") &&
+      (all.view.kssm_to_finished_graph || !all.view.skeleton.fit)) {
+    throw CLI::ValidationError(
+        "--level-agreement", "compares two fitted curves: leave out --graph finished and --no-fit");
+  }
   search.seed = by_gradient ? seed : 0;
   if (flags_.has("objective") && flags_.has("prior")) {
     throw CLI::ValidationError("--prior", "says what is maximised, as --objective does: give one");

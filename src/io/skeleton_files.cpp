@@ -51,11 +51,7 @@ struct Forest {
 Forest spanning_forest(const CurveGraph& graph, const std::vector<std::uint32_t>& degree) {
   constexpr std::uint32_t kNone = 0xffffffffU;
   const std::size_t count = graph.nodes.size();
-  std::vector<std::vector<std::uint32_t>> lists(count);
-  for (const auto& [a, b] : graph.edges) {
-    lists[a].push_back(b);
-    lists[b].push_back(a);
-  }
+  const std::vector<std::vector<std::uint32_t>> lists = node_neighbours(graph);
   Forest forest{.order = {},
                 .place = std::vector<std::uint32_t>(count, 0),
                 .parent = std::vector<std::uint32_t>(count, kNone),

@@ -30,14 +30,10 @@ class MergingGraph {
   MergingGraph(const CurveGraph& graph, std::vector<double> weight)
       : position_(graph.nodes),
         weight_(std::move(weight)),
-        neighbours_(graph.nodes.size()),
+        neighbours_(node_neighbours(graph)),
         parent_(graph.nodes.size()) {
     for (std::uint32_t i = 0; i < parent_.size(); ++i) {
       parent_[i] = i;
-    }
-    for (const auto& [a, b] : graph.edges) {
-      neighbours_[a].push_back(b);
-      neighbours_[b].push_back(a);
     }
     for (auto& list : neighbours_) {
       std::sort(list.begin(), list.end());

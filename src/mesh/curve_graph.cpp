@@ -11,15 +11,6 @@ namespace {
 
 using Lists = std::vector<std::vector<std::uint32_t>>;
 
-Lists adjacency(const CurveGraph& graph) {
-  Lists lists(graph.nodes.size());
-  for (const auto& [a, b] : graph.edges) {
-    lists[a].push_back(b);
-    lists[b].push_back(a);
-  }
-  return lists;
-}
-
 /// Walks from `start` over `next` until a node that is not in the middle of a chain, or `start`.
 std::vector<std::uint32_t> walk(const Lists& lists, std::uint32_t start, std::uint32_t next) {
   std::vector<std::uint32_t> run{start, next};
@@ -31,6 +22,15 @@ std::vector<std::uint32_t> walk(const Lists& lists, std::uint32_t start, std::ui
 }
 
 }  // namespace
+
+std::vector<std::vector<std::uint32_t>> node_neighbours(const CurveGraph& graph) {
+  std::vector<std::vector<std::uint32_t>> lists(graph.nodes.size());
+  for (const auto& [a, b] : graph.edges) {
+    lists[a].push_back(b);
+    lists[b].push_back(a);
+  }
+  return lists;
+}
 
 std::size_t component_count(const CurveGraph& graph) {
   DisjointSets sets(graph.nodes.size());
@@ -57,7 +57,7 @@ std::vector<std::uint32_t> node_degrees(const CurveGraph& graph) {
 }
 
 std::vector<std::vector<std::uint32_t>> graph_branches(const CurveGraph& graph) {
-  const Lists lists = adjacency(graph);
+  const Lists lists = node_neighbours(graph);
   std::vector<std::vector<std::uint32_t>> branches;
   std::vector<bool> done(graph.nodes.size(), false);  // only of nodes within chains
   const auto add_from = [&](std::uint32_t start) {

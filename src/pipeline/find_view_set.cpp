@@ -56,9 +56,14 @@ SeenSphere seen_sphere(const ShapeAnalysis& shape, const ScoringCamera& camera,
   return sphere;
 }
 
-/// Views chosen on the channel from views to faces, as directions.
-std::vector<Vec3> channel_views(const SeenSphere& sphere, const ViewSetRequest& request,
-                                std::vector<std::string>& warnings, const RunContext& run) {
+/// Views chosen on the channel from views to faces, and why there are no more.
+struct ChannelViews {
+  std::vector<Vec3> directions{};
+  ViewSetStop stop = ViewSetStop::Count;
+};
+
+ChannelViews channel_views(const SeenSphere& sphere, const ViewSetRequest& request,
+                           std::vector<std::string>& warnings, const RunContext& run) {
   const auto& [set, channel] = sphere;
   const std::vector<Vec3>& directions = set.directions;
   const std::size_t count =
@@ -67,13 +72,17 @@ std::vector<Vec3> channel_views(const SeenSphere& sphere, const ViewSetRequest& 
       request.selection == ViewSelection::Vazquez
           ? greedy_entropy_views(channel, count, run)
           : merge_views(channel, count, request.information, run).picks;
-  std::vector<Vec3> chosen;
-  chosen.reserve(picks.size());
+  ChannelViews chosen;
   for (const ChannelPick& pick : picks) {
-    chosen.push_back(directions[pick.view]);
+    chosen.directions.push_back(directions[pick.view]);
   }
-  if (chosen.empty()) {
-    chosen.push_back(directions.front());
+  if (picks.size() < count) {
+    chosen.stop = request.selection == ViewSelection::Feixas && request.information > 0.0
+                      ? ViewSetStop::Information
+                      : ViewSetStop::Exhausted;
+  }
+  if (picks.empty()) {
+    chosen.directions.push_back(directions.front());
     warnings.emplace_back(
         "no view sees more than one face, so the first of all directions is shown");
   }
@@ -126,7 +135,8 @@ void warn_of(const ViewSet& set, const ViewSetRequest& request,
     warnings.push_back("the set's views were chosen from " + std::to_string(set.candidates) +
                        " directions to save memory");
   }
-  const bool is_enough = request.set.coverage && set.stop == ViewSetStop::Coverage;
+  const bool is_enough = (request.set.coverage && set.stop == ViewSetStop::Coverage) ||
+                         set.stop == ViewSetStop::Information;
   if (request.set.views && static_cast<std::size_t>(*request.set.views) > set.views.size() &&
       !is_enough) {
     warnings.push_back(std::to_string(set.views.size()) + " of " +
@@ -177,8 +187,12 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
   if (request.selection == ViewSelection::Kssm) {
     result.choice = faces != nullptr ? select(*faces) : select(visibility);
   } else {
-    const std::vector<Vec3> chosen = channel_views(*sphere, request, warnings, rest.part(0.0, 0.0));
-    result.choice = faces != nullptr ? measure(*faces, chosen) : measure(visibility, chosen);
+    const ChannelViews chosen = channel_views(*sphere, request, warnings, rest.part(0.0, 0.0));
+    result.choice = faces != nullptr ? measure(*faces, chosen.directions)
+                                     : measure(visibility, chosen.directions);
+    if (result.choice.stop != ViewSetStop::Coverage) {
+      result.choice.stop = chosen.stop;
+    }
   }
   warn_of(result.choice, request, warnings);
   std::vector<Vec3> directions;
@@ -186,9 +200,6 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
     directions.push_back(view.direction);
     result.views.push_back(
         describe_scored_view(shape, visibility, scorer, view.direction, frame, options, run));
-  }
-  if (faces != nullptr) {  // sets know what is seen of a face to an eighth; nothing was seen before
-    result.choice.views.front().gain = result.views.front().score;
   }
   result.tour = shortest_tour(directions, run);
   if (request.path == TourPath::Explore) {

@@ -13,40 +13,11 @@
 #include "pipeline/map_objective.h"
 #include "pipeline/preference.h"
 #include "pipeline/self_check.h"
-#include "pipeline/twins.h"
+#include "pipeline/settled_search.h"
 #include "pipeline/view_preparation.h"
 
 namespace vantage {
 namespace {
-
-/// Compares what was found with a dense search of the same objective.
-DenseGap gap_to_dense(const FoundViews& found, const ViewObjective& objective,
-                      const RunContext& run) {
-  const FoundViews dense =
-      search_best_and_worst(objective, {.strategy = SearchStrategy::Dense}, run);
-  double highest = dense.best.score;
-  for (const SearchStep& step : dense.best.trace) {
-    highest = std::max(highest, step.score);
-  }
-  DenseGap gap;
-  gap.evaluations = dense.best.evaluations + dense.worst.evaluations;
-  if (dense.best.preference > 0.0) {
-    gap.best_ratio = found.best.preference / dense.best.preference;
-  }
-  if (highest > dense.worst.score) {
-    gap.worst_above = (found.worst.score - dense.worst.score) / (highest - dense.worst.score);
-  }
-  return gap;
-}
-
-/// Of the best view and what mirror planes make of it, the one most toward the front.
-void settle_on_the_front(FoundView& best, std::vector<TwinView>& twins, const UprightFrame& frame) {
-  TwinView first{best.direction, best.score, best.preference};
-  settle_near_ties(first, twins, frame);
-  best.direction = first.direction;
-  best.score = first.score;
-  best.preference = first.objective;
-}
 
 /// find_views() by a map that is summed.
 ViewReport find_views_by_map(const ShapeAnalysis& shape, const FrameChoice& choice,
@@ -60,17 +31,12 @@ ViewReport find_views_by_map(const ShapeAnalysis& shape, const FrameChoice& choi
   report.total = scorer.total();
   const Preference preference(shape, choice, options, report.total);
   const ViewObjective objective = map.objective(preference);
-  const double search_share = options.view_set || options.certify ? 0.25 : 1.0;  // of the bar
-  FoundViews found = search_best_and_worst(objective, options.search, run.part(0.0, search_share));
-  auto& [best, worst, highest] = found;
-  report.twins = twins_of(best.direction, shape, scorer, preference, run);
-  if (!preference.is_score()) {
-    settle_on_the_front(best, report.twins, upright_frame(choice.frame));
-  }
-  if (options.certify) {  // what is reported, and so not before near-ties are settled
-    report.dense_gap =
-        gap_to_dense(found, objective, run.part(search_share, options.view_set ? 0.6 : 1.0));
-  }
+  const double share = !options.view_set ? 1.0 : options.certify ? 0.6 : 0.25;  // of the bar
+  SettledViews settled =
+      search_settled(objective, preference, shape, choice.frame, options, run.part(0.0, share));
+  auto& [best, worst, highest] = settled.found;
+  report.twins = std::move(settled.twins);
+  report.dense_gap = settled.dense_gap;
   const auto described = [&](const FoundView& view) {
     return describe_scored_view(shape, map.visibility(), scorer, view.direction, choice.frame,
                                 options, run);
@@ -80,9 +46,8 @@ ViewReport find_views_by_map(const ShapeAnalysis& shape, const FrameChoice& choi
   report.worst = described(worst);
   compare_with_highest(report, highest.direction, highest.score, Better::More);
   if (options.view_set) {
-    report.set =
-        find_view_set(shape, map.visibility(), scorer, best.direction, choice.frame, options,
-                      report.warnings, run.part(options.certify ? 0.6 : search_share, 1.0));
+    report.set = find_view_set(shape, map.visibility(), scorer, best.direction, choice.frame,
+                               options, report.warnings, run.part(share, 1.0));
     for (ReportedView& view : report.set->views) {
       view.objective = preference(view.direction, view.score);
     }
@@ -125,10 +90,10 @@ ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const FrameChoice&
   }
   const MapObjective map(shape, options, run);
   const Preference preference(shape, choice, options, map.scorer().total());
-  FoundView found = search_view(map.objective(preference), goal, options.search, run);
+  const ViewObjective objective = map.objective(preference);
+  FoundView found = search_view(objective, goal, options.search, run);
   if (goal == Goal::Best && !preference.is_score()) {
-    std::vector<TwinView> twins = twins_of(found.direction, shape, map.scorer(), preference, run);
-    settle_on_the_front(found, twins, upright_frame(choice.frame));
+    settle_on_the_front(found, objective, preference, shape, choice.frame);
   }
   ReportedView view = describe_scored_view(shape, map.visibility(), map.scorer(), found.direction,
                                            choice.frame, options, run);

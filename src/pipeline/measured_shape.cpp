@@ -17,6 +17,7 @@
 #include "pipeline/describe_view.h"
 #include "pipeline/measure_objective.h"
 #include "pipeline/preference.h"
+#include "pipeline/settled_search.h"
 #include "pipeline/view_preparation.h"
 
 namespace vantage {
@@ -24,6 +25,15 @@ namespace {
 
 MeasuredView measured(const FoundView& found, const MeasureObjective& by) {
   return {found.direction, by.value(found.score)};
+}
+
+/// \throw InvalidInput if only one object is to count and none of the measures asks for the map.
+void require_focus_tells(const ViewOptions& options, std::span<const Measure> measures) {
+  if (!options.focus.empty() && std::none_of(measures.begin(), measures.end(),
+                                             [](const Measure& m) { return m.needs.kssm; })) {
+    throw InvalidInput("only what sums a map can look at one object alone; leave out --focus " +
+                       options.focus + ", or take --method kssm");
+  }
 }
 
 }  // namespace
@@ -34,6 +44,7 @@ bool sums_a_map(std::string_view method) {
 
 ShapeAnalysis analyse_for(const Model& model, const ViewOptions& options,
                           std::span<const Measure> measures, const RunContext& run) {
+  require_focus_tells(options, measures);
   const bool deep = std::any_of(measures.begin(), measures.end(),
                                 [](const Measure& m) { return m.needs.kssm || m.needs.skeleton; });
   return deep || !options.focus.empty()
@@ -115,6 +126,7 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, const FrameChoice& 
         "--coverage, or --method " +
         options.method);
   }
+  require_focus_tells(options, std::array{find_measure(options.method)});
   if (options.search.strategy == SearchStrategy::Gradient) {
     require_gradient(find_measure(options.method));
   }
@@ -128,9 +140,15 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, const FrameChoice& 
     objective.preference = std::cref(preference);
     objective.finest_preferred_deg = std::max(objective.finest_deg, preference.finest_deg());
   }
-  auto [best, worst, highest] =
-      search_best_and_worst(objective, options.search, run.part(0.6, 1.0));
+  SettledViews settled =
+      search_settled(objective, preference, shape, choice.frame, options, run.part(0.6, 1.0));
+  auto& [best, worst, highest] = settled.found;
   ViewReport report;
+  report.twins = std::move(settled.twins);
+  for (TwinView& twin : report.twins) {
+    twin.score = by.value(twin.score);
+  }
+  report.dense_gap = settled.dense_gap;
   report.camera = scoring_camera(shape, options);
   report.up = choice.frame.up;
   report.front = choice.frame.front;

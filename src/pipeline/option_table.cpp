@@ -50,8 +50,6 @@ std::vector<Option> make_table() {
   }
   also(table.rows, "preset", [](AllOptions& all) { all.view = preset_options(all.view.preset); });
   also(table.rows, "search", begin_search);
-  also(table.rows, "weight",
-       [](AllOptions& all) { all.view.kssm.area_weighted_mean = all.view.weight == Weight::Area; });
   return std::move(table.rows);
 }
 

@@ -51,9 +51,11 @@ void add_skeleton(ShapeAnalysis& shape, const ViewOptions& options, const RunCon
 
 void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
   const Skeleton& skeleton = shape.skeleton;
+  KssmOptions kssm = options.kssm;
+  kssm.area_weighted_mean |= options.weight == Weight::Area;
   shape.map = options.kssm_to_finished_graph
-                  ? compute_kssm(shape.surface, shape.history, skeleton.graph, options.kssm, run)
-                  : compute_kssm(shape.surface, shape.history, skeleton.curve, options.kssm, run,
+                  ? compute_kssm(shape.surface, shape.history, skeleton.graph, kssm, run)
+                  : compute_kssm(shape.surface, shape.history, skeleton.curve, kssm, run,
                                  skeleton.other_curve);
   if (options.method == "mesh-saliency") {
     shape.map.of_vertex = compute_mesh_saliency(shape.surface, options.saliency, run).of_vertex;

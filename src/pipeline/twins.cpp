@@ -34,10 +34,9 @@ bool ahead(const Vec3& a, const Vec3& b, const UprightFrame& frame) {
 }  // namespace
 
 std::vector<TwinView> twins_of(const Vec3& best, const ShapeAnalysis& shape,
-                               const ViewScorer& scorer, const Preference& preference,
-                               const RunContext& run) {
+                               const ScoreBatch& score, const Preference& preference) {
   const std::vector<Vec3> images = mirror_images(best, planes_of(shape), kApartRad);
-  const std::vector<double> scores = scorer.score_all(images, run.quiet());
+  const std::vector<double> scores = score(images);
   std::vector<TwinView> twins;
   for (std::size_t i = 1; i < images.size(); ++i) {
     if (scores[i] >= kTwinShare * scores.front()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vantage/pipeline/find_views.h"
+#include "vantage/view/search.h"
 
 #include "pipeline/preference.h"
 
@@ -13,8 +14,7 @@ namespace vantage {
 /// Mirror images of `best` whose score is at least kTwinShare of its score, as the model's own
 /// mirror planes make them; in the order of mirror_images().
 std::vector<TwinView> twins_of(const Vec3& best, const ShapeAnalysis& shape,
-                               const ViewScorer& scorer, const Preference& preference,
-                               const RunContext& run);
+                               const ScoreBatch& score, const Preference& preference);
 
 /// Of the best view and its twins within kNearTie of its objective, the one most toward the front,
 /// then the one most to the side (of which there is one); swaps it with the best.

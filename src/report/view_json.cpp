@@ -100,7 +100,7 @@ Json views_of(const ReportedViewSet& set, bool pictures, UpAxis up) {
 }
 
 Json set_of(const ReportedViewSet& set, ViewSelection selection) {
-  constexpr std::array<std::string_view, 3> kStops{"count", "coverage", "exhausted"};
+  constexpr std::array<std::string_view, 4> kStops{"count", "coverage", "exhausted", "information"};
   Json json = {{"selection", selection_name(selection)},
                {"stop", kStops[static_cast<std::size_t>(set.choice.stop)]},
                {"candidates", set.choice.candidates},
@@ -162,7 +162,9 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
   json["preset"] = echo["preset"];
   json["weight"] = echo["weight"];
   json["objective"] = objective_of(options) == Objective::People ? "people" : "significance";
-  json["prior"] = prior_text(options);
+  ViewOptions as_searched = options;
+  as_searched.objective = objective_of(options);
+  json["prior"] = prior_text(as_searched);
   json["up"] = up_name(report.up);
   json["up_source"] = report.orientation.up.source;
   json["up_confidence"] = in_thousandths(report.orientation.up.confidence);

@@ -10,6 +10,7 @@
 
 #include "vantage/mesh/topology.h"
 
+#include "mesh/disjoint_sets.h"
 #include "skeleton/cluster_complex.h"
 #include "skeleton/surgery.h"
 
@@ -24,21 +25,6 @@ constexpr std::size_t kSmallPart = 4;
 constexpr std::size_t kFirmLink = 2;
 /// Share of a point that stands for no sample.
 constexpr double kNoWeight = 1e-6;
-
-/// The root of a node in a forest of parents.
-std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t i) {
-  while (parent[i] != i) {
-    parent[i] = parent[parent[i]];
-    i = parent[i];
-  }
-  return i;
-}
-
-void unite(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint32_t b) {
-  a = root_of(parent, a);
-  b = root_of(parent, b);
-  parent[std::max(a, b)] = std::min(a, b);
-}
 
 /// For each point the farthest-point sample of its component that is nearest to it; samples are
 /// taken until no point is farther than `spacing` from all.
@@ -94,40 +80,39 @@ std::vector<std::uint32_t> nearest_centres(const std::vector<Vec3>& points,
 std::vector<std::uint32_t> connected_parts(const std::vector<std::uint32_t>& centre,
                                            const IndexLists& neighbours, std::size_t& count) {
   const std::size_t n = centre.size();
-  std::vector<std::uint32_t> parent(n);
-  std::iota(parent.begin(), parent.end(), 0U);
+  DisjointSets parts(n);
   for (std::uint32_t i = 0; i < n; ++i) {
     for (const std::uint32_t j : neighbours[i]) {
       if (centre[i] == centre[j]) {
-        unite(parent, i, j);
+        parts.join(i, j);
       }
     }
   }
   std::vector<std::size_t> size(n, 0);
   for (std::uint32_t i = 0; i < n; ++i) {
-    ++size[root_of(parent, i)];
+    ++size[parts.root(i)];
   }
   for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t part = root_of(parent, i);
+    const std::uint32_t part = parts.root(i);
     if (size[part] >= kSmallPart) {
       continue;
     }
     const auto larger = [&](std::uint32_t a, std::uint32_t b) {
-      return size[root_of(parent, a)] < size[root_of(parent, b)];
+      return size[parts.root(a)] < size[parts.root(b)];
     };
     const auto around = neighbours[i];
     const auto best = std::max_element(around.begin(), around.end(), larger);
-    if (best != around.end() && size[root_of(parent, *best)] >= kSmallPart) {
-      const std::uint32_t into = root_of(parent, *best);
+    if (best != around.end() && size[parts.root(*best)] >= kSmallPart) {
+      const std::uint32_t into = parts.root(*best);
       const std::size_t both = size[part] + size[into];
-      unite(parent, i, *best);
-      size[root_of(parent, i)] = both;
+      parts.join(i, *best);
+      size[parts.root(i)] = both;
     }
   }
   std::vector<std::uint32_t> cluster(n);
   count = 0;
   for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t part = root_of(parent, i);
+    const std::uint32_t part = parts.root(i);
     cluster[i] = part == i ? static_cast<std::uint32_t>(count++) : cluster[part];
   }
   return cluster;
@@ -147,8 +132,7 @@ Links links_of(const std::vector<std::uint32_t>& cluster, const IndexLists& neig
     }
   }
   std::sort(pairs.begin(), pairs.end());
-  std::vector<std::uint32_t> parent(count);
-  std::iota(parent.begin(), parent.end(), 0U);
+  DisjointSets parts(count);
   Links links;
   Links single;
   for (std::size_t begin = 0; begin < pairs.size();) {
@@ -158,16 +142,15 @@ Links links_of(const std::vector<std::uint32_t>& cluster, const IndexLists& neig
     }
     if (end - begin >= kFirmLink) {
       links.push_back(pairs[begin]);
-      unite(parent, pairs[begin][0], pairs[begin][1]);
+      parts.join(pairs[begin][0], pairs[begin][1]);
     } else {
       single.push_back(pairs[begin]);
     }
     begin = end;
   }
   for (const auto& pair : single) {
-    if (root_of(parent, pair[0]) != root_of(parent, pair[1])) {
+    if (parts.join(pair[0], pair[1])) {
       links.push_back(pair);
-      unite(parent, pair[0], pair[1]);
     }
   }
   std::sort(links.begin(), links.end());

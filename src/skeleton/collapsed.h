@@ -19,14 +19,15 @@ struct Collapsed {
   std::size_t lost_handles = 0;
 };
 
-/// What finish_skeleton() asks about the inside of the surface; null if the options do not need
-/// it. Mesh and history must outlive it.
-std::unique_ptr<const Shell> shell_to_finish(const TriMesh& mesh, const ContractionHistory& history,
-                                             const SkeletonOptions& options);
+/// What finish_skeleton() asks about the inside of the surface; null without faces. Mesh and history
+/// must outlive it.
+std::unique_ptr<const Shell> shell_to_finish(const TriMesh& mesh,
+                                             const ContractionHistory& history);
 
 /// Resamples it, which gives the raw graph, and centres, prunes and routes that.
-/// \param shell of shell_to_finish(). \pre the history belongs to the mesh.
+/// \param shell of shell_to_finish(). \pre the history belongs to the mesh. \throw Cancelled
 Skeleton finish_skeleton(const TriMesh& mesh, const ContractionHistory& history,
-                         Collapsed collapsed, const Shell* shell, const SkeletonOptions& options);
+                         Collapsed collapsed, const Shell* shell, const SkeletonOptions& options,
+                         const RunContext& run);
 
 }  // namespace vantage

@@ -41,11 +41,7 @@ class FinerCurve {
       curve_.edges.push_back({std::min(previous, b), std::max(previous, b)});
     }
     std::sort(curve_.edges.begin(), curve_.edges.end());
-    neighbours_.resize(curve_.nodes.size());
-    for (const auto& [a, b] : curve_.edges) {
-      neighbours_[a].push_back(b);
-      neighbours_[b].push_back(a);
-    }
+    neighbours_ = node_neighbours(curve_);
   }
 
   /// The node nearest to a point that belongs to `node` of the first graph.

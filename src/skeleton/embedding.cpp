@@ -13,15 +13,6 @@ namespace {
 
 using Adjacency = std::vector<std::vector<std::uint32_t>>;
 
-Adjacency adjacency(const CurveGraph& graph) {
-  Adjacency lists(graph.nodes.size());
-  for (const auto& [a, b] : graph.edges) {
-    lists[a].push_back(b);
-    lists[b].push_back(a);
-  }
-  return lists;
-}
-
 /// An end of the graph: the nodes from its tip up to, not including, the junction.
 struct End {
   double length = 0.0;
@@ -72,7 +63,7 @@ End shortest_spurious_end(const CurveGraph& graph, const Adjacency& lists, doubl
 /// Gives nodes that stand for no vertex the mean radius of their neighbours, ring by ring.
 void fill_from_neighbours(const CurveGraph& graph, std::vector<double>& count,
                           std::vector<double>& radius) {
-  const Adjacency lists = adjacency(graph);
+  const Adjacency lists = node_neighbours(graph);
   for (bool changed = true; changed;) {
     changed = false;
     const std::vector<double> known = count;
@@ -130,7 +121,7 @@ CurveGraph centre_nodes(const CurveGraph& graph, const TriMesh& mesh,
       centred.nodes[i] += sum[i] / weight[i];
     }
   }
-  const Adjacency lists = adjacency(graph);
+  const Adjacency lists = node_neighbours(graph);
   CurveGraph smooth = centred;
   for (std::size_t i = 0; i < lists.size(); ++i) {
     if (lists[i].size() == 2) {
@@ -143,7 +134,7 @@ CurveGraph centre_nodes(const CurveGraph& graph, const TriMesh& mesh,
 
 CurveGraph prune_ends(const CurveGraph& graph, double ratio, std::vector<double>& radius,
                       std::vector<std::uint32_t>& node_of_vertex) {
-  Adjacency lists = adjacency(graph);
+  Adjacency lists = node_neighbours(graph);
   std::vector<std::uint32_t> stands_for(graph.nodes.size());
   for (std::uint32_t i = 0; i < stands_for.size(); ++i) {
     stands_for[i] = i;

@@ -151,11 +151,7 @@ void close_short_loops(CurveGraph& graph, const TriMesh& samples,
   while (cycle_count(graph) > 0) {
     run.check();
     const std::vector<double> radius = node_radii(graph, samples, node_of_vertex);
-    Adjacency lists(graph.nodes.size());
-    for (const auto& [a, b] : graph.edges) {
-      lists[a].push_back(b);
-      lists[b].push_back(a);
-    }
+    const Adjacency lists = node_neighbours(graph);
     double most = kCircumference * *std::max_element(radius.begin(), radius.end());
     std::vector<std::uint32_t> shortest;
     for (const auto& edge : graph.edges) {
@@ -185,7 +181,7 @@ Skeleton extract_point_skeleton(const TriMesh& samples, const ContractionHistory
   const double spacing = sample_spacing(samples, options);
   Skeleton skeleton =
       finish_skeleton(samples, history, thin_cloud(samples, history, spacing, run.part(0.0, 0.9)),
-                      shell_to_finish(samples, history, options).get(), options);
+                      shell_to_finish(samples, history).get(), options, run);
   close_short_loops(skeleton.raw, samples, skeleton.raw_node_of_vertex, run);
   skeleton.curve = skeleton.raw;
   close_short_loops(skeleton.graph, samples, skeleton.node_of_vertex, run);

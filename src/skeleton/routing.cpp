@@ -20,16 +20,6 @@ namespace {
 /// How far a way may leave the part of the surface that its edge stands for, in edges [ours].
 constexpr int kMostRings = 2;
 
-/// The nodes next to each node.
-std::vector<std::vector<std::uint32_t>> neighbours_of_nodes(const CurveGraph& graph) {
-  std::vector<std::vector<std::uint32_t>> lists(graph.nodes.size());
-  for (const auto& [a, b] : graph.edges) {
-    lists[a].push_back(b);
-    lists[b].push_back(a);
-  }
-  return lists;
-}
-
 /// The vertices of each node, ascending.
 std::vector<std::vector<std::uint32_t>> vertices_of_nodes(
     std::size_t node_count, std::span<const std::uint32_t> node_of_vertex) {
@@ -78,7 +68,7 @@ class EdgeRouter {
         node_of_vertex_(node_of_vertex),
         component_(components_of_nodes(graph_, node_of_vertex, routing.component_of_vertex)),
         vertices_(vertices_of_nodes(graph_.nodes.size(), node_of_vertex)),
-        neighbours_(neighbours_of_nodes(graph_)) {}
+        neighbours_(node_neighbours(graph_)) {}
 
   /// Every way is looked for below the same vertices, and only then do the new nodes take theirs:
   /// no way depends on which edge comes first.
@@ -86,6 +76,7 @@ class EdgeRouter {
     const std::vector<std::array<std::uint32_t, 2>> edges = std::move(graph_.edges);
     graph_.edges.clear();
     for (const auto& [a, b] : edges) {
+      routing_.run.check();
       const std::uint32_t component = component_[a];
       if (component == Skeleton::kNone ||
           routing_.shell.inside(component, graph_.nodes[a], graph_.nodes[b])) {
@@ -232,9 +223,10 @@ CurveGraph move_nodes_inside(const CurveGraph& centred, const CurveGraph& raw,
                              std::span<const std::uint32_t> node_of_vertex) {
   CurveGraph graph = centred;
   const auto vertices = vertices_of_nodes(graph.nodes.size(), node_of_vertex);
-  const auto neighbours = neighbours_of_nodes(graph);
+  const auto neighbours = node_neighbours(graph);
   const auto components = components_of_nodes(graph, node_of_vertex, routing.component_of_vertex);
   for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
+    routing.run.check();
     const std::uint32_t component = components[i];
     if (component == Skeleton::kNone) {
       continue;

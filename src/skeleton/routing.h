@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "vantage/core/run_context.h"
 #include "vantage/mesh/curve_graph.h"
 #include "vantage/mesh/tri_mesh.h"
 
@@ -17,6 +18,7 @@ struct Routing {
   const TriMesh& mesh;
   std::span<const std::uint32_t> component_of_vertex;
   const Shell& shell;
+  RunContext run{};
 };
 
 /// The component of each node: that of any vertex of a node that hangs together with it; kNone if

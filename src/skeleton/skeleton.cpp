@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "vantage/mesh/measures.h"
@@ -73,12 +74,14 @@ void place_nodes(CurveGraph& graph, const std::vector<Vec3>& positions,
   }
 }
 
-/// Sums of the weights of the vertices that were merged in each of `count`.
-std::vector<double> sums_of_merged(const std::vector<double>& weights,
-                                   const std::vector<std::uint32_t>& of_vertex, std::size_t count) {
+/// Sums of the weights of the vertices that are part of each of `count` nodes, or merged vertices.
+std::vector<double> sums_of_parts(const std::vector<double>& weights,
+                                  const std::vector<std::uint32_t>& part_of, std::size_t count) {
   std::vector<double> sums(count, 0.0);
   for (std::size_t v = 0; v < weights.size(); ++v) {
-    sums[of_vertex[v]] += weights[v];
+    if (part_of[v] != Skeleton::kNone) {
+      sums[part_of[v]] += weights[v];
+    }
   }
   return sums;
 }
@@ -94,80 +97,80 @@ std::vector<std::uint32_t> nodes_of_merged(const std::vector<std::uint32_t>& of_
   return nodes;
 }
 
-/// Collapses the surface with its vertices at `positions`. Large surfaces lose their shortest edges
-/// first, in passes; the graph is as fine as before, because spacing is much longer than they are.
-Collapsed collapse_level(const TriMesh& mesh, const std::vector<Vec3>& positions,
-                         const std::vector<double>& weights, double merged_length,
-                         std::size_t merge_from, const RunContext& run) {
-  Collapsed collapsed;
-  if (positions.size() < merge_from) {
-    ClusterComplex complex(mesh, positions, weights);
-    collapsed.lost_handles = collapse_to_graph(complex, run);
-    collapsed.graph = complex.graph(collapsed.node_of_vertex);
+/// Collapses the edges of a contracted surface until a graph is left.
+class SurfaceCollapse {
+ public:
+  SurfaceCollapse(const TriMesh& mesh, const ContractionHistory& history, double spacing)
+      : mesh_(mesh),
+        history_(history),
+        merged_length_(kMergedLength * spacing),
+        weights_(cluster_weights(mesh)) {}
+
+  /// Where the surface is thinnest. Where several handles have shrunk into one another there, the
+  /// order of collapses is taken from the last level at which no handle is lost; nodes stand at the
+  /// mean of their vertices' thinnest positions all the same.
+  Collapsed thinnest(const RunContext& run) const {
+    Collapsed best = at(history_.thinnest(), run.part(0.0, 0.5));
+    double share = 0.5;
+    const std::size_t before = history_.levels.size() - (history_.thinned.empty() ? 1 : 0);
+    for (std::size_t level = before; level-- > 0 && best.lost_handles > 0;) {
+      Collapsed trial = at(history_.levels[level], run.part(share, 0.5 * (1.0 + share)));
+      share = 0.5 * (1.0 + share);
+      if (trial.lost_handles < best.lost_handles) {
+        best = std::move(trial);
+      }
+    }
+    place_nodes(best.graph, history_.thinnest(), weights_, best.node_of_vertex);
+    return best;
+  }
+
+ private:
+  /// With the vertices at `positions`; each merged one at the mean of what was merged in it.
+  [[nodiscard]] Collapsed at(const std::vector<Vec3>& positions, const RunContext& run) const {
+    if (!history_.merged) {
+      return collapse(mesh_.triangles, positions, weights_, run);
+    }
+    const MergedSurface& merged = *history_.merged;
+    const std::vector<double> sums = sums_of_parts(weights_, merged.of_vertex, merged.vertex_count);
+    std::vector<Vec3> means(merged.vertex_count, Vec3::Zero());
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+      const std::uint32_t to = merged.of_vertex[v];
+      means[to] += (weights_[v] / sums[to]) * positions[v];
+    }
+    Collapsed collapsed = collapse(merged.triangles, means, sums, run);
+    collapsed.node_of_vertex = nodes_of_merged(merged.of_vertex, collapsed.node_of_vertex);
     return collapsed;
   }
-  const Decimation merged =
-      merge_short_edges({positions, mesh.triangles}, weights, merged_length, run);
-  ClusterComplex complex(merged.mesh, merged.mesh.positions,
-                         sums_of_merged(weights, merged.of_vertex, merged.mesh.positions.size()));
-  collapsed.lost_handles = collapse_to_graph(complex, run);
-  std::vector<std::uint32_t> node_of_merged;
-  collapsed.graph = complex.graph(node_of_merged);
-  collapsed.node_of_vertex = nodes_of_merged(merged.of_vertex, node_of_merged);
-  return collapsed;
-}
 
-/// collapse_level() of the surface with vertices merged, each at the weighted mean of what was merged in it.
-Collapsed collapse_merged(const MergedSurface& merged, const std::vector<Vec3>& positions,
-                          const std::vector<double>& weights, double merged_length,
-                          std::size_t merge_from, const RunContext& run) {
-  const std::vector<double> sums = sums_of_merged(weights, merged.of_vertex, merged.vertex_count);
-  TriMesh mesh{.positions = std::vector<Vec3>(merged.vertex_count, Vec3::Zero()),
-               .triangles = merged.triangles};
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    const std::uint32_t to = merged.of_vertex[v];
-    mesh.positions[to] += (weights[v] / sums[to]) * positions[v];
-  }
-  Collapsed collapsed = collapse_level(mesh, mesh.positions, sums, merged_length, merge_from, run);
-  collapsed.node_of_vertex = nodes_of_merged(merged.of_vertex, collapsed.node_of_vertex);
-  return collapsed;
-}
-
-/// Collapses the surface, or what it was merged to, with its vertices at `positions`.
-Collapsed collapse_at(const TriMesh& mesh, const ContractionHistory& history,
-                      const std::vector<Vec3>& positions, const std::vector<double>& weights,
-                      double merged_length, std::size_t merge_from, const RunContext& run) {
-  return history.merged
-             ? collapse_merged(*history.merged, positions, weights, merged_length, merge_from, run)
-             : collapse_level(mesh, positions, weights, merged_length, merge_from, run);
-}
-
-/// Collapses the surface where it is thinnest. Where several handles have shrunk into one another
-/// there, the order of collapses is taken from the last level at which no handle is lost; nodes
-/// stand at the mean of their vertices' thinnest positions all the same.
-Collapsed collapse_history(const TriMesh& mesh, const ContractionHistory& history, double spacing,
-                           const RunContext& run) {
-  const std::vector<double> weights = cluster_weights(mesh);
-  Collapsed best;
-  double share = 0.0;
-  const std::size_t past_levels = history.levels.size() + (history.thinned.empty() ? 0 : 1);
-  for (std::size_t level = past_levels; level-- > 0;) {
-    const std::vector<Vec3>& positions =
-        level < history.levels.size() ? history.levels[level] : history.thinned;
-    const RunContext part = run.part(share, 0.5 * (1.0 + share));
-    Collapsed trial =
-        collapse_at(mesh, history, positions, weights, kMergedLength * spacing, kMergeFrom, part);
-    share = 0.5 * (1.0 + share);
-    if (best.graph.nodes.empty() || trial.lost_handles < best.lost_handles) {
-      best = std::move(trial);
+  /// Large surfaces lose their shortest edges first, in passes; the graph is as fine as before,
+  /// because spacing is much longer than they are.
+  [[nodiscard]] Collapsed collapse(const std::vector<Triangle>& triangles,
+                                   const std::vector<Vec3>& positions,
+                                   const std::vector<double>& weights,
+                                   const RunContext& run) const {
+    const TriMesh mesh{positions, triangles};
+    Collapsed collapsed;
+    if (positions.size() < kMergeFrom) {
+      ClusterComplex complex(mesh, positions, weights);
+      collapsed.lost_handles = collapse_to_graph(complex, run);
+      collapsed.graph = complex.graph(collapsed.node_of_vertex);
+      return collapsed;
     }
-    if (best.lost_handles == 0) {
-      break;
-    }
+    const Decimation merged = merge_short_edges(mesh, weights, merged_length_, run);
+    ClusterComplex complex(merged.mesh, merged.mesh.positions,
+                           sums_of_parts(weights, merged.of_vertex, merged.mesh.positions.size()));
+    collapsed.lost_handles = collapse_to_graph(complex, run);
+    std::vector<std::uint32_t> node_of_merged;
+    collapsed.graph = complex.graph(node_of_merged);
+    collapsed.node_of_vertex = nodes_of_merged(merged.of_vertex, node_of_merged);
+    return collapsed;
   }
-  place_nodes(best.graph, history.thinnest(), weights, best.node_of_vertex);
-  return best;
-}
+
+  const TriMesh& mesh_;
+  const ContractionHistory& history_;
+  double merged_length_;
+  std::vector<double> weights_;
+};
 
 /// Whether every level, and the table of components, has an entry for each vertex.
 bool belongs_to(const ContractionHistory& history, const TriMesh& mesh) {
@@ -222,24 +225,28 @@ double outside_share(const CurveGraph& graph, const Routing& routing,
 
 /// From the raw graph to the finished one.
 void finish(const TriMesh& mesh, const ContractionHistory& history, const Shell* shell,
-            const SkeletonOptions& options, Skeleton& skeleton) {
+            const SkeletonOptions& options, const RunContext& run, Skeleton& skeleton) {
   skeleton.graph = skeleton.raw;
   skeleton.node_of_vertex = skeleton.raw_node_of_vertex;
+  std::optional<Routing> routing;
   if (shell) {
-    const Routing routing{mesh, history.component_of_vertex, *shell};
+    routing.emplace(Routing{mesh, history.component_of_vertex, *shell, run});
+  }
+  if (routing && options.centre) {
     skeleton.graph = centre_nodes(skeleton.graph, mesh, skeleton.node_of_vertex);
     skeleton.graph =
-        move_nodes_inside(skeleton.graph, skeleton.raw, routing, skeleton.node_of_vertex);
+        move_nodes_inside(skeleton.graph, skeleton.raw, *routing, skeleton.node_of_vertex);
   }
   if (options.prune) {
     std::vector<double> radius = node_radii(skeleton.graph, mesh, skeleton.node_of_vertex);
     skeleton.graph =
         prune_ends(skeleton.graph, options.prune_ratio, radius, skeleton.node_of_vertex);
   }
-  if (shell) {
-    const Routing routing{mesh, history.component_of_vertex, *shell};
-    skeleton.graph = route_edges_inside(skeleton.graph, routing, skeleton.node_of_vertex);
-    skeleton.outside_share = outside_share(skeleton.graph, routing, skeleton.node_of_vertex);
+  if (routing && options.centre) {
+    skeleton.graph = route_edges_inside(skeleton.graph, *routing, skeleton.node_of_vertex);
+  }
+  if (routing) {
+    skeleton.outside_share = outside_share(skeleton.graph, *routing, skeleton.node_of_vertex);
   }
   skeleton.radius = node_radii(skeleton.graph, mesh, skeleton.node_of_vertex);
 }
@@ -252,6 +259,14 @@ CurveGraph fitted(const CurveGraph& raw, const TriMesh& mesh, const ContractionH
                    kPiece * sample_spacing(mesh, options));
 }
 
+/// The graph with nodes that are `spacing` apart, each at the mean of what it stands for.
+CurveGraph resampled(const CurveGraph& fine, const TriMesh& mesh, double spacing,
+                     std::vector<std::uint32_t>& node_of_vertex) {
+  return merge_close_nodes(fine, spacing,
+                           sums_of_parts(cluster_weights(mesh), node_of_vertex, fine.nodes.size()),
+                           node_of_vertex);
+}
+
 /// What fitted() makes of the surface meshed anew: another curve as good as that.
 CurveGraph curve_of(const SecondMesh& second, const SkeletonOptions& options,
                     const RunContext& run) {
@@ -259,14 +274,8 @@ CurveGraph curve_of(const SecondMesh& second, const SkeletonOptions& options,
   history.levels = second.levels;
   history.component_of_vertex = second.component_of_vertex;
   const double spacing = sample_spacing(second.mesh, options);
-  Collapsed collapsed = collapse_history(second.mesh, history, spacing, run);
-  const std::vector<double> areas = cluster_weights(second.mesh);
-  std::vector<double> weight(collapsed.graph.nodes.size(), 0.0);
-  for (std::size_t v = 0; v < areas.size(); ++v) {
-    weight[collapsed.node_of_vertex[v]] += areas[v];
-  }
-  const CurveGraph raw =
-      merge_close_nodes(collapsed.graph, spacing, std::move(weight), collapsed.node_of_vertex);
+  Collapsed collapsed = SurfaceCollapse(second.mesh, history, spacing).thinnest(run);
+  const CurveGraph raw = resampled(collapsed.graph, second.mesh, spacing, collapsed.node_of_vertex);
   return fitted(raw, second.mesh, history, collapsed.node_of_vertex, options);
 }
 
@@ -279,15 +288,15 @@ double sample_spacing(const TriMesh& mesh, const SkeletonOptions& options) {
                                 : enclosing_sphere(points).diameter);
 }
 
-std::unique_ptr<const Shell> shell_to_finish(const TriMesh& mesh, const ContractionHistory& history,
-                                             const SkeletonOptions& options) {
-  return options.centre && !mesh.triangles.empty()
-             ? std::make_unique<Shell>(mesh, history.component_of_vertex)
-             : nullptr;
+std::unique_ptr<const Shell> shell_to_finish(const TriMesh& mesh,
+                                             const ContractionHistory& history) {
+  return mesh.triangles.empty() ? nullptr
+                                : std::make_unique<Shell>(mesh, history.component_of_vertex);
 }
 
 Skeleton finish_skeleton(const TriMesh& mesh, const ContractionHistory& history,
-                         Collapsed collapsed, const Shell* shell, const SkeletonOptions& options) {
+                         Collapsed collapsed, const Shell* shell, const SkeletonOptions& options,
+                         const RunContext& run) {
   Skeleton skeleton;
   if (collapsed.lost_handles > 0) {
     skeleton.warnings.push_back("the skeleton may have lost " +
@@ -296,17 +305,9 @@ Skeleton finish_skeleton(const TriMesh& mesh, const ContractionHistory& history,
   }
   skeleton.raw_node_of_vertex = std::move(collapsed.node_of_vertex);
   const CurveGraph fine = without_isolated(collapsed.graph, history, skeleton.raw_node_of_vertex);
-  std::vector<double> weight(fine.nodes.size(), 0.0);
-  const std::vector<double> areas = cluster_weights(mesh);
-  for (std::size_t v = 0; v < areas.size(); ++v) {
-    if (skeleton.raw_node_of_vertex[v] != Skeleton::kNone) {
-      weight[skeleton.raw_node_of_vertex[v]] += areas[v];
-    }
-  }
-  skeleton.raw = merge_close_nodes(fine, sample_spacing(mesh, options), std::move(weight),
-                                   skeleton.raw_node_of_vertex);
+  skeleton.raw = resampled(fine, mesh, sample_spacing(mesh, options), skeleton.raw_node_of_vertex);
   skeleton.curve = skeleton.raw;
-  finish(mesh, history, shell, options, skeleton);
+  finish(mesh, history, shell, options, run, skeleton);
   return skeleton;
 }
 
@@ -320,9 +321,11 @@ Skeleton skeleton_of(const TriMesh& mesh, const ContractionHistory& history,
   Collapsed collapsed;
   std::unique_ptr<const Shell> shell;
   run_both(
-      run, [&] { collapsed = collapse_history(mesh, history, spacing, run.part(0.0, 0.9)); },
-      [&] { shell = shell_to_finish(mesh, history, options); });
-  Skeleton skeleton = finish_skeleton(mesh, history, std::move(collapsed), shell.get(), options);
+      run,
+      [&] { collapsed = SurfaceCollapse(mesh, history, spacing).thinnest(run.part(0.0, 0.9)); },
+      [&] { shell = shell_to_finish(mesh, history); });
+  Skeleton skeleton =
+      finish_skeleton(mesh, history, std::move(collapsed), shell.get(), options, run);
   if (options.fit) {
     skeleton.curve = fitted(skeleton.raw, mesh, history, skeleton.raw_node_of_vertex, options);
   }

@@ -10,6 +10,8 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 
+#include "spatial/enclosing.h"
+
 namespace vantage {
 namespace {
 
@@ -19,9 +21,6 @@ constexpr int kMostCellsAlong = 2048;  // along one side
 /// Entries of the grid for each face, beyond which its cells are made larger: large faces that lie
 /// over one another touch every cell, and thousands of them fill gigabytes [ours].
 constexpr std::size_t kMostEntries = 64;
-/// Faces a vertex, in the mean, beyond which a component encloses nothing, while asking all of them
-/// takes minutes: a closed surface has two [ours].
-constexpr std::size_t kMostAtVertex = 16;
 /// A ray from a vertex passes over the faces at that vertex: a ten-thousandth of the model.
 constexpr double kSkip = 1e-4;
 /// Parts of a segment shorter than this share of it are rounding errors of where it is cut.
@@ -75,32 +74,7 @@ Shell::Shell(const TriMesh& mesh, std::span<const std::uint32_t> component_of_ve
 
 void Shell::look_at_edges() {
   const EdgeTable table = build_edge_table(mesh_);
-  std::size_t components = 0;
-  for (const Triangle& t : mesh_.triangles) {
-    components = std::max(components, component_of_vertex_[t[0]] + std::size_t{1});
-  }
-  is_open_.assign(components, 1);  // what has no edge has no inside
-  for (const auto& edge : table.edges) {
-    is_open_[component_of_vertex_[edge[0]]] = 0;
-  }
-  for (std::size_t e = 0; e < table.edges.size(); ++e) {
-    if (table.faces_of_edge[e].size() % 2 == 1) {
-      is_open_[component_of_vertex_[table.edges[e][0]]] = 1;
-    }
-  }
-  std::vector<std::size_t> faces(is_open_.size(), 0);
-  std::vector<std::size_t> most(is_open_.size(), 0);
-  for (const Triangle& t : mesh_.triangles) {
-    ++faces[component_of_vertex_[t[0]]];
-  }
-  for (const std::uint32_t component : component_of_vertex_) {
-    if (component < components) {  // not a lone vertex
-      most[component] += kMostAtVertex;
-    }
-  }
-  for (std::size_t c = 0; c < faces.size(); ++c) {
-    is_open_[c] = faces[c] > most[c] ? 1 : is_open_[c];
-  }
+  is_open_ = open_components(mesh_, table, component_of_vertex_);
   neighbours_ = vertex_neighbours(table, mesh_.positions.size());
 }
 

@@ -42,21 +42,6 @@ double divergence_term(double x, double y) {
   return x > 0.0 ? x * std::log2(x / y) : 0.0;
 }
 
-/// Solid angle of a small face seen from the eye; orthographic: its projected area. Negative if it
-/// is turned away and only its front can be seen.
-double projected_area(const TriMesh& mesh, const Triangle& face, FaceSides side,
-                      const Viewpoint& eye) {
-  const Vec3 twice = area_vector(mesh, face);
-  const Vec3 middle =
-      (mesh.positions[face[0]] + mesh.positions[face[1]] + mesh.positions[face[2]]) / 3.0;
-  const bool is_perspective = eye.projection == Projection::Perspective;
-  const Vec3 sight = is_perspective ? Vec3(eye.position - middle) : eye.position;
-  const double distance = sight.norm();
-  const double area =
-      0.5 * twice.dot(sight) / distance / (is_perspective ? distance * distance : 1.0);
-  return side == FaceSides::Both ? std::abs(area) : area;
-}
-
 /// What Feixas's merge keeps of v̂: Σ a_z, Σ a_t and Σ_z s_z log(s_z / p_z).
 class MergedView {
  public:
@@ -209,47 +194,17 @@ MergedViews merge_views(const ViewChannel& channel, std::size_t count, double ra
   return result;
 }
 
-ViewChannel channel_table(const TriMesh& mesh, std::span<const FaceSides> sides,
-                          const VisibleSets& sets, std::span<const Viewpoint> eyes,
-                          const RunContext& run) {
-  const Components components = connected_components(mesh);
-  if (sets.view_count() != eyes.size() || sets.vertex_count() != mesh.positions.size() ||
-      (sides.size() != 1 && sides.size() != components.count)) {
-    throw InvalidInput("a channel needs one eye a view, one bit a vertex, one rule a component");
-  }
-  ViewChannel channel;
-  channel.face_count = mesh.triangles.size();
-  channel.views.resize(eyes.size());
-  parallel_for(run.quiet(), eyes.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-        const auto& [a, b, c] = mesh.triangles[f];
-        const int corners = static_cast<int>(sets.sees(i, a)) + static_cast<int>(sets.sees(i, b)) +
-                            static_cast<int>(sets.sees(i, c));
-        if (corners > 0) {
-          const FaceSides side = sides.size() == 1 ? sides[0] : sides[components.of_vertex[a]];
-          const double area = projected_area(mesh, mesh.triangles[f], side, eyes[i]);
-          const auto stored = static_cast<float>(area * corners / 3.0);
-          if (stored > 0.0F && std::isfinite(stored)) {
-            channel.views[i].push_back({f, stored});
-          }
-        }
-      }
-    }
-  });
-  return channel;
-}
-
 ViewChannel channel_table(const FaceVisibility& faces, std::size_t face_count,
                           std::span<const Viewpoint> eyes, const RunContext& run) {
   ViewChannel channel;
   channel.face_count = face_count;
   channel.views.resize(eyes.size());
+  const double unit = faces.area_unit();
   parallel_for(run.quiet(), eyes.size(), 1, [&](std::size_t begin, std::size_t end) {
     const RunContext alone = run.alone();
     for (std::size_t i = begin; i < end; ++i) {
       for (const SeenFace& face : faces.seen_faces(eyes[i], alone)) {
-        const auto stored = static_cast<float>(face.projected_area);
+        const auto stored = static_cast<float>(face.projected_area / unit);
         if (stored > 0.0F && std::isfinite(stored)) {
           channel.views[i].push_back({face.face, stored});
         }

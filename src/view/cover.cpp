@@ -72,8 +72,7 @@ void GreedyCover::mark_seen(std::span<const std::uint64_t> row) {
 
 std::vector<double> GreedyCover::gains(const RunContext& run) const {
   std::vector<double> result(sets_->view_count(), 0.0);
-  RunContext quiet = run;
-  quiet.report = nullptr;
+  const RunContext quiet = run.quiet();
   parallel_for(quiet, result.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       result[i] = gain(sets_->row(i));

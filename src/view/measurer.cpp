@@ -173,8 +173,9 @@ void ViewMeasurer::State::look_at_faces(const MeasureNeeds& wanted, FaceDetail d
   if (wanted.vertices) {
     sight.vertices = std::move(seen.vertices);
   }
+  const double unit = faces->area_unit();
   for (const SeenFace& face : seen.faces) {
-    const auto area = static_cast<float>(face.projected_area);
+    const auto area = static_cast<float>(face.projected_area / unit);
     if (area > 0.0F && std::isfinite(area)) {
       sight.faces.push_back({face.face, area});
       sight.projected_area += area;
@@ -199,7 +200,8 @@ SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& w
   SightTable sight;
   sight.eye = eye;
   sight.towards = disc.towards;
-  sight.disc_area = 0.25 * std::numbers::pi * disc.diameter * disc.diameter;
+  sight.disc_area =
+      0.25 * std::numbers::pi * disc.diameter * disc.diameter / (faces ? faces->area_unit() : 1.0);
   if (wanted.faces) {
     look_at_faces(wanted, detail, sight);
   } else if (wanted.vertices) {

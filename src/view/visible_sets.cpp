@@ -17,8 +17,7 @@ template <class SeenFrom>
 VisibleSets sets_of(const ScoringCamera& camera, std::span<const Vec3> directions, std::size_t bits,
                     const RunContext& run, const SeenFrom& seen_from) {
   VisibleSets sets(directions.size(), bits);
-  RunContext quiet = run;
-  quiet.report = nullptr;
+  const RunContext quiet = run.quiet();
   const RunContext alone = run.alone();
   for (std::size_t first = 0; first < directions.size(); first += kBatch) {
     run.advance("views", static_cast<double>(first) / static_cast<double>(directions.size()));

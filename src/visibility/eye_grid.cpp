@@ -69,8 +69,7 @@ VANTAGE_INLINE void keep_cells(const typename Registers<Lanes>::Floats& at, floa
 
 }  // namespace
 
-void EyeGrid::sort_points(const SurfacePoints& points) {
-  const std::size_t sites = points.sites.size();
+void EyeGrid::sort_sites() {
   begin_.assign(std::size_t{rows_} * columns_ + 1, 0);
   for (const std::uint32_t cell : cell_) {
     ++begin_[cell];
@@ -80,20 +79,18 @@ void EyeGrid::sort_points(const SurfacePoints& points) {
     total += count;
     count = total;  // for now the end of the cell: filling walks back to its begin
   }
-  point_of_.resize(total);
   hidden_.assign(total, 0);
   for (std::vector<float>* field : {&x_, &y_, &depth_}) {
     field->resize(total + kWideLanes);  // so that the last cell can be read by whole lanes
   }
-  key_.resize(total + kWideLanes);
+  site_of_.resize(total + kWideLanes);
   for (std::size_t k = asked_.size(); k-- > 0;) {
     const std::uint32_t i = asked_[k];
     const std::uint32_t slot = --begin_[cell_[k]];
-    point_of_[slot] = i;
-    key_[slot] = i < sites ? i : key_of_face(points.owner[i - sites]);
-    x_[slot] = spots_[k][0];
-    y_[slot] = spots_[k][1];
-    depth_[slot] = spots_[k][2];
+    site_of_[slot] = i;
+    x_[slot] = corners_[i][0];
+    y_[slot] = corners_[i][1];
+    depth_[slot] = corners_[i][2];
   }
 }
 
@@ -130,13 +127,9 @@ VANTAGE_INLINE bool EyeGrid::behind_all(float nearest, const CellRange& cells) c
   return true;
 }
 
-bool EyeGrid::blocks(const Surface& surface, const SurfacePoints& points, std::uint32_t point,
-                     std::uint32_t face) const {
+bool EyeGrid::blocks(const Surface& surface, std::uint32_t site, std::uint32_t face) const {
   const Triangle& corners = surface.faces[face];
-  if (points.held(point, face, corners)) {
-    return false;
-  }
-  return segment_to(points.place(point), eye_)
+  return segment_to(surface.sites[site], eye_)
       .crosses(surface.sites[corners[0]], surface.sites[corners[1]], surface.sites[corners[2]],
                surface.twice_areas[face]);
 }
@@ -193,22 +186,19 @@ VANTAGE_INLINE void EyeGrid::make_ready(const Surface& surface, FacePacket<Lanes
   keep(sense * area > error_bound ? -error_bound : zero - kInfinity, h.least);
 }
 
-/// How far the point is behind the face's plane as the eye sees it; 0 for faces seen edge on.
-float EyeGrid::depth_behind(const Surface& surface, const SurfacePoints& points,
-                            std::uint32_t point, std::uint32_t face) const {
-  const bool is_site = point < points.sites.size();
-  const FloatPoints& places = is_site ? surface.rounded : *points.rounded;
-  const std::size_t at = is_site ? point : point - points.sites.size();
+/// How far the site is behind the face's plane as the eye sees it; 0 for faces seen edge on.
+float EyeGrid::depth_behind(const Surface& surface, std::uint32_t site, std::uint32_t face) const {
+  const FloatPoints& places = surface.rounded;
   const FacePlanes& planes = surface.planes;
-  const float height = planes.x[face] * places.x[at] + planes.y[face] * places.y[at] +
-                       planes.z[face] * places.z[at] - planes.offset[face];
+  const float height = planes.x[face] * places.x[site] + planes.y[face] * places.y[site] +
+                       planes.z[face] * places.z[site] - planes.offset[face];
   return turned_[face] == 1 ? -height : turned_[face] == 2 ? height : 0.0F;
 }
 
 template <unsigned Lanes>
-void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points,
-                           const FacePacket<Lanes>& h, unsigned lane, std::size_t slot) {
-  // Other threads may strike out the same point meanwhile; they can only agree.
+void EyeGrid::strike_site(const Surface& surface, const FacePacket<Lanes>& h, unsigned lane,
+                          std::size_t slot) {
+  // Other threads may strike out the same site meanwhile; they can only agree.
   const std::atomic_ref<std::uint8_t> hidden(hidden_[slot]);
   if (hidden.load(std::memory_order_relaxed) != 0) {
     return;
@@ -222,13 +212,13 @@ void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points,
   bool is_hidden =
       inside > h.error_bound[lane] && depth_[slot] > h.farthest[lane] && steep_[face] != 0;
   if (!is_hidden) {
-    const std::uint32_t point = point_of_[slot];
-    const float behind = depth_behind(surface, points, point, face);
+    const std::uint32_t site = site_of_[slot];
+    const float behind = depth_behind(surface, site, face);
     if (behind < -kHeightError) {
       return;  // on the eye's side
     }
-    is_hidden = (behind > kHeightError && inside > h.error_bound[lane]) ||
-                blocks(surface, points, point, face);
+    is_hidden =
+        (behind > kHeightError && inside > h.error_bound[lane]) || blocks(surface, site, face);
   }
   if (is_hidden) {
     hidden.store(1, std::memory_order_relaxed);
@@ -236,12 +226,12 @@ void EyeGrid::strike_point(const Surface& surface, const SurfacePoints& points,
 }
 
 template <unsigned Lanes>
-VANTAGE_INLINE std::size_t EyeGrid::strike(const Surface& surface, const SurfacePoints& points,
-                                           const FacePacket<Lanes>& h, unsigned lane) {
+VANTAGE_INLINE std::size_t EyeGrid::strike(const Surface& surface, const FacePacket<Lanes>& h,
+                                           unsigned lane) {
   const CellRange cells = cells_of(h, lane);
   const std::uint32_t face = h.face[lane];
-  const FaceTest<Lanes> test(h, lane, surface.faces[face], key_of_face(face));
-  const PointColumns columns{x_.data(), y_.data(), depth_.data(), key_.data()};
+  const FaceTest<Lanes> test(h, lane, surface.faces[face]);
+  const SiteColumns columns{x_.data(), y_.data(), depth_.data(), site_of_.data()};
   std::size_t work = 1;
   for (std::uint32_t row = cells.top; row <= cells.bottom; ++row) {
     const std::size_t first = std::size_t{row} * columns_;
@@ -254,8 +244,8 @@ VANTAGE_INLINE std::size_t EyeGrid::strike(const Surface& surface, const Surface
         found &= (1U << (end - slot)) - 1U;
       }
       for (; found != 0; found &= found - 1) {
-        strike_point<Lanes>(surface, points, h, lane,
-                            slot + static_cast<std::uint32_t>(std::countr_zero(found)));
+        strike_site<Lanes>(surface, h, lane,
+                           slot + static_cast<std::uint32_t>(std::countr_zero(found)));
       }
     }
   }
@@ -264,9 +254,8 @@ VANTAGE_INLINE std::size_t EyeGrid::strike(const Surface& surface, const Surface
 
 /// Of some of the faces those of one side, or of both where it is 0.
 struct EyeGrid::Walk {
-  Walk(const Surface& of, const SurfacePoints& among, std::uint8_t which, std::size_t most)
+  Walk(const Surface& of, std::uint8_t which, std::size_t most)
       : surface(of),
-        points(among),
         side(which),
         limit(most),
         limit_each(most / std::max<std::size_t>(1, of.faces.size()) + 1),
@@ -278,7 +267,6 @@ struct EyeGrid::Walk {
   }
 
   const Surface& surface;
-  const SurfacePoints& points;
   std::uint8_t side;
   std::size_t limit;       // of work, for all faces
   std::size_t limit_each;  // for one
@@ -293,11 +281,11 @@ VANTAGE_INLINE std::size_t EyeGrid::strike_all(Walk& walk, FacePacket<Lanes>& h)
   }
   make_ready<Lanes>(walk.surface, h);
   // Fronts have their own corners behind them then, as far as boxes can tell.
-  const bool holds_asked = walk.side == 1 && !walk.points.sites.empty();
+  const bool holds_asked = walk.side == 1;
   std::size_t work = 0;
   for (unsigned lane = 0; lane < h.count; ++lane) {
     if (holds_asked || !behind_all(h.nearest[lane], cells_of(h, lane))) {
-      work += strike<Lanes>(walk.surface, walk.points, h, lane);
+      work += strike<Lanes>(walk.surface, h, lane);
     }
   }
   h.count = 0;
@@ -359,12 +347,11 @@ bool EyeGrid::walk(Walk& walk, std::size_t first, std::size_t count, const RunCo
 /// Fronts first, and what is seen edge on: most of what is hidden lies behind one. The backs then have
 /// little left to do, or nothing: the eye is outside of every shell, because all sites are ahead of it
 /// where cells were chosen. \return false if the patience was not enough.
-bool EyeGrid::walk_sides(const Surface& surface, const SurfacePoints& points,
-                         const RunContext& run) {
+bool EyeGrid::walk_sides(const Surface& surface, const RunContext& run) {
   const std::size_t count = surface.faces.size();
-  const std::size_t limit = kPatience * (point_of_.size() + count);
+  const std::size_t limit = kPatience * (hidden_.size() + count);
   find_deepest();
-  Walk fronts{surface, points, 1, limit};
+  Walk fronts{surface, 1, limit};
   if (!walk(fronts, 0, count, run)) {
     return false;
   }
@@ -372,16 +359,16 @@ bool EyeGrid::walk_sides(const Surface& surface, const SurfacePoints& points,
     return true;
   }
   find_deepest();
-  Walk backs{surface, points, 2, limit};
+  Walk backs{surface, 2, limit};
   return walk(backs, 0, count, run);
 }
 
 /// For large faces that lie in a heap: the nearest of them hide most points, and all others are soon
 /// asked about the few that are left. \return false if even this patience was not enough.
-bool EyeGrid::walk_sorted(const Surface& surface, const SurfacePoints& points,
-                          std::vector<std::uint8_t>& seen, const RunContext& run) {
+bool EyeGrid::walk_sorted(const Surface& surface, std::vector<std::uint8_t>& seen,
+                          const RunContext& run) {
   const std::size_t count = surface.faces.size();
-  Walk both{surface, points, 0, kMostPatience * (point_of_.size() + count)};
+  Walk both{surface, 0, kMostPatience * (hidden_.size() + count)};
   sort_faces(surface);
   std::size_t left = mark_hidden(seen);
   project(surface.rounded, corners_, run);
@@ -396,8 +383,8 @@ bool EyeGrid::walk_sorted(const Surface& surface, const SurfacePoints& points,
       laid_out = left;
       lay_out(surface, left, run);
     }
-    place_points(points, seen, run);
-    sort_points(points);
+    place_sites(seen, run);
+    sort_sites();
     find_deepest();
     const bool complete = walk(both, done, next, run);
     left = mark_hidden(seen);
@@ -409,8 +396,7 @@ bool EyeGrid::walk_sorted(const Surface& surface, const SurfacePoints& points,
   return true;
 }
 
-bool EyeGrid::hide(const Surface& surface, const SurfacePoints& points,
-                   std::vector<std::uint8_t>& seen, const RunContext& run) {
+bool EyeGrid::hide(const Surface& surface, std::vector<std::uint8_t>& seen, const RunContext& run) {
   if (aim_ == Aim::None) {
     aim_ = aim(surface, run) ? Aim::Taken : Aim::Failed;
     if (aim_ == Aim::Taken) {
@@ -420,13 +406,13 @@ bool EyeGrid::hide(const Surface& surface, const SurfacePoints& points,
   if (aim_ == Aim::Failed) {
     return surface.faces.empty();
   }
-  place_points(points, seen, run);
-  sort_points(points);
-  if (walk_sides(surface, points, run)) {
+  place_sites(seen, run);
+  sort_sites();
+  if (walk_sides(surface, run)) {
     mark_hidden(seen);
     return true;
   }
-  return walk_sorted(surface, points, seen, run);
+  return walk_sorted(surface, seen, run);
 }
 
 }  // namespace vantage

@@ -13,42 +13,11 @@
 #include "visibility/surface.h"
 
 /// \file
-/// Which of many points one eye sees, all at once. All segments of one query end in the same
-/// eye, so the points are sorted into a flat grid over the picture, and every face strikes out the
-/// points behind it: what a hierarchy in space would do, at a fraction of the cost.
+/// Which of a surface's sites one eye sees, all at once. All segments of one query end in the same
+/// eye, so the sites are sorted into a flat grid over the picture, and every face strikes out the
+/// sites behind it: what a hierarchy in space would do, at a fraction of the cost.
 
 namespace vantage {
-
-/// Points on a surface whose sight is asked for. Refers to data that must outlive it. They are
-/// numbered: the surface's sites first, if they are asked for, then points on faces.
-struct SurfacePoints {
-  std::span<const Vec3> sites{};           ///< All of the surface's, or none.
-  std::span<const Vec3> exact{};           ///< Points on faces, in the surface's frame.
-  const FloatPoints* rounded = nullptr;    ///< The same, rounded.
-  std::span<const std::uint32_t> owner{};  ///< The face each of these lies on.
-  std::span<const std::uint32_t> also{};   ///< Another face of the last of them, on its edge.
-
-  [[nodiscard]] std::size_t size() const { return sites.size() + exact.size(); }
-
-  [[nodiscard]] const Vec3& place(std::uint32_t point) const {
-    return point < sites.size() ? sites[point] : exact[point - sites.size()];
-  }
-
-  /// Another face that a point on faces lies on; the same if none is known.
-  [[nodiscard]] std::uint32_t also_of(std::size_t on_faces) const {
-    const std::size_t before = exact.size() - also.size();
-    return on_faces < before ? owner[on_faces] : also[on_faces - before];
-  }
-
-  /// Whether the face holds the point and therefore never blocks it.
-  [[nodiscard]] bool held(std::uint32_t point, std::uint32_t face, const Triangle& corners) const {
-    if (point < sites.size()) {
-      return corners[0] == point || corners[1] == point || corners[2] == point;
-    }
-    const std::size_t at = point - sites.size();
-    return owner[at] == face || also_of(at) == face;
-  }
-};
 
 /// Working memory of one eye's queries. Made for reuse: another eye allocates nothing new.
 class EyeGrid {
@@ -59,14 +28,13 @@ class EyeGrid {
   void begin(const Surface& surface, const Viewpoint& eye, std::span<const std::uint8_t> backs,
              const RunContext& run);
 
-  /// Sets seen[i] to 0 for every point that some face hides from the eye. Float arithmetic with
+  /// Sets seen[i] to 0 for every site that some face hides from the eye. Float arithmetic with
   /// error bounds settles clear cases, the double test of segment.h the doubtful ones.
-  /// The first query of an eye chooses the cells; ask about most points there.
-  /// \param seen 0 for points not to be asked about. \pre begin() with this surface.
+  /// The first query of an eye chooses the cells; ask about most sites there.
+  /// \param seen 0 for sites not to be asked about. \pre begin() with this surface.
   /// \return false if the answer is not complete: the eye is too near for a flat grid, or the faces
   ///         are so long and thin that a grid is slow. What is 0 by then is hidden all the same.
-  bool hide(const Surface& surface, const SurfacePoints& points, std::vector<std::uint8_t>& seen,
-            const RunContext& run);
+  bool hide(const Surface& surface, std::vector<std::uint8_t>& seen, const RunContext& run);
 
   /// Which side each face turns to the eye: 1 its front, 2 its back, 0 neither.
   [[nodiscard]] const std::vector<std::uint8_t>& turned() const { return turned_; }
@@ -103,9 +71,8 @@ class EyeGrid {
   void lay_out(const Surface& surface, std::size_t active, const RunContext& run);
   void choose_cells(std::size_t active);
   void to_cells(std::vector<Spot>& spots, const RunContext& run) const;
-  void place_points(const SurfacePoints& points, const std::vector<std::uint8_t>& seen,
-                    const RunContext& run);
-  void sort_points(const SurfacePoints& points);
+  void place_sites(const std::vector<std::uint8_t>& seen, const RunContext& run);
+  void sort_sites();
 
   VANTAGE_INLINE static Spot lower(const Spot& a, const Spot& b) { return b < a ? b : a; }
 
@@ -118,11 +85,6 @@ class EyeGrid {
   }
 
   [[nodiscard]] Spot in_cells(const Spot& spot) const { return (spot - origin_) * scale_; }
-
-  /// What marks a point that a face holds: keys of corners come first.
-  [[nodiscard]] std::uint32_t key_of_face(std::uint32_t face) const {
-    return static_cast<std::uint32_t>(corners_.size()) + face;
-  }
 
   template <unsigned Lanes>
   [[nodiscard]] static CellRange cells_of(const FacePacket<Lanes>& faces, unsigned lane) {
@@ -144,25 +106,22 @@ class EyeGrid {
   void walk_some(Walk& walk, std::size_t begin, std::size_t end);
   void walk_wide(Walk& walk, std::size_t begin, std::size_t end);
   bool walk(Walk& walk, std::size_t first, std::size_t count, const RunContext& run);
-  bool walk_sides(const Surface& surface, const SurfacePoints& points, const RunContext& run);
+  bool walk_sides(const Surface& surface, const RunContext& run);
   void sort_faces(const Surface& surface);
   std::size_t mark_hidden(std::vector<std::uint8_t>& seen) const;
-  bool walk_sorted(const Surface& surface, const SurfacePoints& points,
-                   std::vector<std::uint8_t>& seen, const RunContext& run);
+  bool walk_sorted(const Surface& surface, std::vector<std::uint8_t>& seen, const RunContext& run);
   template <unsigned Lanes>
   std::size_t strike_all(Walk& walk, FacePacket<Lanes>& h);
   template <unsigned Lanes>
   void make_ready(const Surface& surface, FacePacket<Lanes>& h) const;
   template <unsigned Lanes>
-  std::size_t strike(const Surface& surface, const SurfacePoints& points,
-                     const FacePacket<Lanes>& h, unsigned lane);
-  [[nodiscard]] float depth_behind(const Surface& surface, const SurfacePoints& points,
-                                   std::uint32_t point, std::uint32_t face) const;
+  std::size_t strike(const Surface& surface, const FacePacket<Lanes>& h, unsigned lane);
+  [[nodiscard]] float depth_behind(const Surface& surface, std::uint32_t site,
+                                   std::uint32_t face) const;
   template <unsigned Lanes>
-  void strike_point(const Surface& surface, const SurfacePoints& points, const FacePacket<Lanes>& h,
-                    unsigned lane, std::size_t slot);
-  [[nodiscard]] bool blocks(const Surface& surface, const SurfacePoints& points,
-                            std::uint32_t point, std::uint32_t face) const;
+  void strike_site(const Surface& surface, const FacePacket<Lanes>& h, unsigned lane,
+                   std::size_t slot);
+  [[nodiscard]] bool blocks(const Surface& surface, std::uint32_t site, std::uint32_t face) const;
 
   /// Whether the eye's picture has cells, or cannot have any.
   enum class Aim { None, Taken, Failed };
@@ -184,20 +143,18 @@ class EyeGrid {
   std::vector<Spot> corners_{};             // of each site
   std::vector<Spot> centres_{};             // of each block of faces
   std::vector<Extent> blocks_{};            // of each block
-  std::vector<std::uint32_t> asked_{};      // points asked about, ascending
-  std::vector<Spot> spots_{};               // of each of them
+  std::vector<std::uint32_t> asked_{};      // sites asked about, ascending
   std::vector<std::uint32_t> cell_{};       // of each of them
   std::vector<std::uint8_t> turned_{};      // of each face
   std::vector<std::uint8_t> steep_{};       // of each face: far from edge on
   std::vector<std::uint8_t> block_side_{};  // of each block: that of all its faces, or 0
   std::vector<std::uint32_t> begin_{};      // where each cell begins in the arrays below
-  std::vector<std::uint32_t> point_of_{};   // points, one cell after the other
+  std::vector<std::uint32_t> site_of_{};    // sites, one cell after the other
   std::vector<float> x_{}, y_{};            // of each of them
   std::vector<float> depth_{};              // of each of them; minus infinity if known hidden
-  std::vector<std::uint32_t> key_{};        // of each: the site, or past them the face it lies on
   std::vector<std::uint8_t> hidden_{};      // of each
   std::vector<std::uint32_t> order_{};      // of the faces, nearest first
-  std::vector<float> deepest_{};            // of the points left in each tile of cells
+  std::vector<float> deepest_{};            // of the sites left in each tile of cells
 };
 
 }  // namespace vantage

@@ -140,9 +140,8 @@ void EyeGrid::outline_blocks(const FaceBlocks& blocks, const RunContext& run) {
   }
 }
 
-/// Lists the points asked about and where they are.
-void EyeGrid::place_points(const SurfacePoints& points, const std::vector<std::uint8_t>& seen,
-                           const RunContext& run) {
+/// Lists the sites asked about and where they are.
+void EyeGrid::place_sites(const std::vector<std::uint8_t>& seen, const RunContext& run) {
   asked_.resize(seen.size());
   std::size_t count = 0;
   for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -150,14 +149,11 @@ void EyeGrid::place_points(const SurfacePoints& points, const std::vector<std::u
     count += seen[i] != 0 ? 1 : 0;
   }
   asked_.resize(count);
-  spots_.resize(count);
   cell_.resize(count);
-  const std::size_t sites = points.sites.size();
   parallel_for(run, count, kSpotsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      const std::size_t i = asked_[k];
-      spots_[k] = i < sites ? corners_[i] : in_cells(in_picture(*points.rounded, i - sites));
-      const CellRange at = cells_of({spots_[k], spots_[k]});
+      const Spot& spot = corners_[asked_[k]];
+      const CellRange at = cells_of({spot, spot});
       cell_[k] = at.top * columns_ + at.left;
     }
   });
@@ -176,12 +172,12 @@ void EyeGrid::sort_faces(const Surface& surface) {
             [&](std::uint32_t f, std::uint32_t g) { return nearest[f] < nearest[g]; });
 }
 
-/// \return the number of points left.
+/// \return the number of sites left.
 std::size_t EyeGrid::mark_hidden(std::vector<std::uint8_t>& seen) const {
-  std::size_t left = point_of_.size();
-  for (std::size_t slot = 0; slot < point_of_.size(); ++slot) {
+  std::size_t left = hidden_.size();
+  for (std::size_t slot = 0; slot < hidden_.size(); ++slot) {
     if (hidden_[slot] != 0) {
-      seen[point_of_[slot]] = 0;
+      seen[site_of_[slot]] = 0;
       --left;
     }
   }

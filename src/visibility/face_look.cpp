@@ -313,7 +313,7 @@ class FaceLook {
       const Eigen::Vector2d w = (part[0] + part[1] + part[2]) / 3.0;
       const Vec3 place = w.x() * surface_.sites[a] + w.y() * surface_.sites[b] +
                          (1.0 - w.x() - w.y()) * surface_.sites[c];
-      if (!scene_.sight.hidden({.exact = {&place, 1}, .owner = {&face, 1}}, 0, local_)) {
+      if (!scene_.sight.hides_place(place, face, local_)) {
         by_points_.add(part);
       }
     };

@@ -48,51 +48,48 @@ struct FacePacket {
   Floats least;        // points with less than this are outside
 };
 
-/// The points of an EyeGrid in the order of their cells, a column each.
-struct PointColumns {
+/// The sites of an EyeGrid in the order of their cells, a column each.
+struct SiteColumns {
   const float* x;
   const float* y;
   const float* depth;
-  const std::uint32_t* key;  ///< The corner of faces, or past them the face, that holds the point.
+  const std::uint32_t* site;
 };
 
 /// One face of a packet, spread over registers.
 template <unsigned Lanes>
 class FaceTest {
  public:
-  VANTAGE_INLINE FaceTest(const FacePacket<Lanes>& of, unsigned lane, const Triangle& corners,
-                          std::uint32_t key_of_face) {
+  VANTAGE_INLINE FaceTest(const FacePacket<Lanes>& of, unsigned lane, const Triangle& corners) {
     const Floats zero{};
-    const Keys none{};
+    const Sites none{};
     nearest_ = zero + of.nearest[lane];
     least_ = zero + of.least[lane];
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& side = of.sides[k];
       sides_[k] = {zero + side.along_x[lane], zero + side.along_y[lane], zero + side.offset[lane]};
-      held_[k] = none + corners[k];
+      corners_[k] = none + corners[k];
     }
-    held_[3] = none + key_of_face;
   }
 
-  /// Bit i is set if the point in slot + i may lie behind the face.
-  [[nodiscard]] VANTAGE_INLINE unsigned may_hide(const PointColumns& points,
-                                                 std::size_t slot) const {
-    const auto x = load<Floats>(points.x + slot);
-    const auto y = load<Floats>(points.y + slot);
-    typename Registers<Lanes>::Truths out = load<Floats>(points.depth + slot) < nearest_;
+  /// Bit i is set if the site in slot + i may lie behind the face and is none of its corners.
+  [[nodiscard]] VANTAGE_INLINE unsigned may_hide(const SiteColumns& sites, std::size_t slot) const {
+    const auto x = load<Floats>(sites.x + slot);
+    const auto y = load<Floats>(sites.y + slot);
+    typename Registers<Lanes>::Truths out = load<Floats>(sites.depth + slot) < nearest_;
     for (const Side& side : sides_) {
       out |= x * side.along_x + y * side.along_y + side.offset < least_;
     }
-    const auto key = load<Keys>(points.key + slot);
-    for (const Keys& held : held_) {
-      out |= key == held;
+    const auto site = load<Sites>(sites.site + slot);
+    for (const Sites& corner : corners_) {
+      out |= site == corner;
     }
     return bits_of(out) ^ ((1U << Lanes) - 1U);
   }
 
  private:
   using Floats = typename Registers<Lanes>::Floats;
-  using Keys = typename Registers<Lanes>::Keys;
+  using Sites = typename Registers<Lanes>::Keys;
 
   struct Side {
     Floats along_x, along_y, offset;
@@ -100,7 +97,7 @@ class FaceTest {
 
   Floats nearest_, least_;
   std::array<Side, 3> sides_;
-  std::array<Keys, 4> held_;  // keys of the points that the face holds
+  std::array<Sites, 3> corners_;
 };
 
 }  // namespace vantage

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/visibility/face_visibility.h"
 
+#include <cmath>
+
 #include "visibility/face_look.h"
 
 namespace vantage {
@@ -14,6 +16,11 @@ FaceVisibility& FaceVisibility::operator=(FaceVisibility&&) noexcept = default;
 
 double FaceVisibility::total_area() const {
   return scene_->total_area;
+}
+
+double FaceVisibility::area_unit() const {
+  const double area = total_area();
+  return area > 0.0 && std::isfinite(area) ? std::exp2(std::ilogb(area)) : 1.0;
 }
 
 std::size_t FaceVisibility::face_count() const {

@@ -17,6 +17,7 @@
 #include "core/parallel.h"
 #include "mesh/disjoint_sets.h"
 #include "mesh/triangle_corners.h"
+#include "spatial/enclosing.h"
 #include "spatial/ray_scene.h"
 
 namespace vantage {
@@ -29,8 +30,6 @@ constexpr int kMaxRays = 40;
 // A crossing nearer to an edge, or a start nearer to a plane, than this is not trusted: relative to
 // the products it is computed from; some thousand rounding errors.
 constexpr double kErrorBound = 1e-12;
-// A shell whose volume is below this share of area times size has no inside to speak of.
-constexpr double kFlatShell = 1e-12;
 
 /// The faces of the mesh over welded vertices, grouped in shells that edges hold together.
 struct Shells {

@@ -14,9 +14,9 @@ constexpr std::size_t kPointsPerTask = 2048;  // a few tenths of a millisecond
 
 }  // namespace
 
-bool Sight::hidden(const SurfacePoints& points, std::uint32_t point, const Viewpoint& eye) {
+template <typename Holds>
+bool Sight::hidden(const Vec3& start, const Viewpoint& eye, const Holds& holds) {
   std::call_once(candidates_once_, [&] { candidates_.emplace(surface_.sites, surface_.faces); });
-  const Vec3& start = points.place(point);
   const bool bounded = eye.projection == Projection::Perspective;
   const Vec3 direction = bounded ? Vec3(eye.position - start) : eye.position;
   if (!(direction.squaredNorm() > 0.0)) {
@@ -27,10 +27,20 @@ bool Sight::hidden(const SurfacePoints& points, std::uint32_t point, const Viewp
   const double reach = bounded ? length : std::numeric_limits<double>::infinity();
   return candidates_->any(start, direction / length, reach, [&](std::uint32_t f) {
     const Triangle& t = surface_.faces[f];
-    return !points.held(point, f, t) &&
-           segment.crosses(surface_.sites[t[0]], surface_.sites[t[1]], surface_.sites[t[2]],
-                           surface_.twice_areas[f]);
+    return !holds(f) && segment.crosses(surface_.sites[t[0]], surface_.sites[t[1]],
+                                        surface_.sites[t[2]], surface_.twice_areas[f]);
   });
+}
+
+bool Sight::hides_site(std::uint32_t site, const Viewpoint& eye) {
+  return hidden(surface_.sites[site], eye, [&](std::uint32_t f) {
+    const Triangle& t = surface_.faces[f];
+    return t[0] == site || t[1] == site || t[2] == site;
+  });
+}
+
+bool Sight::hides_place(const Vec3& place, std::uint32_t face, const Viewpoint& eye) {
+  return hidden(place, eye, [&](std::uint32_t f) { return f == face; });
 }
 
 Look::Look(Sight& sight, const Viewpoint& eye, const RunContext& run,
@@ -76,10 +86,9 @@ std::vector<std::uint8_t> Look::seen_by_segments(std::span<const std::uint8_t> s
 }
 
 void Look::strike_hidden(std::vector<std::uint8_t>& asked) {
-  const SurfacePoints points{.sites = sight_.surface_.sites};
   parallel_for(run_, asked.size(), kPointsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (asked[i] != 0 && sight_.hidden(points, static_cast<std::uint32_t>(i), eye_)) {
+      if (asked[i] != 0 && sight_.hides_site(static_cast<std::uint32_t>(i), eye_)) {
         asked[i] = 0;
       }
     }
@@ -87,9 +96,7 @@ void Look::strike_hidden(std::vector<std::uint8_t>& asked) {
 }
 
 std::vector<std::uint8_t> Look::not_hidden(std::vector<std::uint8_t> asked) {
-  const Surface& surface = sight_.surface_;
-  const SurfacePoints points{.sites = surface.sites};
-  if (!grid_->hide(surface, points, asked, run_)) {
+  if (!grid_->hide(sight_.surface_, asked, run_)) {
     strike_hidden(asked);
   }
   return asked;

@@ -69,12 +69,18 @@ class Sight {
 
   [[nodiscard]] const Surface& surface() const { return surface_; }
 
-  /// Whether a face hides the point from the eye; asks the hierarchy in space, which is built when
-  /// first needed. Whether a face at the point is turned to the eye is not asked.
-  bool hidden(const SurfacePoints& points, std::uint32_t point, const Viewpoint& eye);
+  /// Whether a face hides the site from the eye; asks the hierarchy in space, which is built when
+  /// first needed. Whether a face at the site is turned to the eye is not asked.
+  bool hides_site(std::uint32_t site, const Viewpoint& eye);
+
+  /// The same of a place on a face, in the surface's frame.
+  bool hides_place(const Vec3& place, std::uint32_t face, const Viewpoint& eye);
 
  private:
   friend class Look;
+
+  template <typename Holds>
+  bool hidden(const Vec3& start, const Viewpoint& eye, const Holds& holds);
 
   Surface surface_;
   LentMemory<EyeGrid> grids_{};
@@ -105,7 +111,7 @@ class Look {
   /// The same of those sites that have a 1.
   [[nodiscard]] std::vector<std::uint8_t> seen_among(std::span<const std::uint8_t> sites);
 
-  /// seen_among() by Sight::hidden() alone.
+  /// seen_among() by Sight::hides_site() alone.
   [[nodiscard]] std::vector<std::uint8_t> seen_by_segments(std::span<const std::uint8_t> sites);
 
   /// 1 for each site asked about that no face hides. \param asked 1 for each such site, else 0.

@@ -26,6 +26,9 @@ std::size_t cycle_count(const CurveGraph& graph);
 /// Number of edges at each node.
 std::vector<std::uint32_t> node_degrees(const CurveGraph& graph);
 
+/// The nodes that share an edge with each node, in the order of edges.
+std::vector<std::vector<std::uint32_t>> node_neighbours(const CurveGraph& graph);
+
 /// The graph as polylines, each a run of node indices: from an end or junction to the next, or, where
 /// a component is a plain loop, from its lowest node around to it again. Every edge is in exactly
 /// one. Each run starts at the lower of its ends (of its second nodes, where it comes back to where it

@@ -120,7 +120,7 @@ struct ViewReport {
 /// The scoring camera of a model.
 ScoringCamera scoring_camera(const ShapeAnalysis& shape, const ViewOptions& options);
 
-/// The samples that scores by area need; nothing for other weights.
+/// What scores by area ask about faces; nothing for other weights.
 std::optional<FaceVisibility> faces_to_score(const ShapeAnalysis& shape,
                                              const ViewOptions& options);
 

@@ -57,8 +57,8 @@ MeasuredView best_view(ViewMeasurer& measurer, std::size_t m, const RunContext& 
 void require_gradient(const Measure& measure);
 
 /// find_views() for options.method among the measures that sum no map: `score` is the measure's
-/// value, `total` and `score_fraction` are NaN. The prior multiplies the value, or, where less is
-/// better, what is left of it to the largest of the set. \throw InvalidInput, Cancelled
+/// value, `total` and `score_fraction` are NaN. The objective takes as score the value or, where less
+/// is better, what is left of it to the largest of the set. \throw InvalidInput, Cancelled
 ViewReport find_views_by_measure(const ShapeAnalysis& shape, const FrameChoice& choice,
                                  const ViewOptions& options, const RunContext& run = {});
 

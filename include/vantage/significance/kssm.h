@@ -27,14 +27,14 @@ enum class Suppression {
 /// What is measured at each level.
 enum class Kinematics {
   Displacement,  ///< d^(j), distance to the skeleton (the paper).
-  Velocity,      ///< d^(j−1) − d^(j), j = 1..K, clamped at nothing: may be negative.
+  Velocity,      ///< d^(j−1) − d^(j), j = 1..K, may be negative.
 };
 
 /// Options of compute_kssm().
 struct KssmOptions {
   Suppression suppression = Suppression::Mean;       ///< How even levels are lowered.
   Kinematics kinematics = Kinematics::Displacement;  ///< What is summed.
-  bool area_weighted_mean = false;  ///< Weight m̄ by vertex area (`--weight area`).
+  bool area_weighted_mean = false;                   ///< Weight m̄ by vertex area.
   /// Levels after the input whose displacement spans at most this fraction of D contribute nothing;
   /// 0 keeps all that span more than 1e-6 D.
   double flat_level = 0.0;

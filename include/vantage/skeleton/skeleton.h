@@ -15,9 +15,8 @@
 #include "vantage/mesh/tri_mesh.h"
 
 /// \file
-/// From a contracted surface to a graph. docs/skeleton.md explains the steps and the choices.
-/// How good a skeleton is, measured against its surface: the properties of Cornea et al. (2007)
-/// that can be measured. docs/skeleton.md defines each number.
+/// From a contracted surface to a graph, and how good that is, measured against the surface: the
+/// properties of Cornea et al. (2007) that can be. docs/skeleton.md explains steps and choices.
 
 namespace vantage {
 

@@ -15,21 +15,16 @@
 #include "vantage/visibility/vertex_visibility.h"
 
 /// \file
-/// The channel from views to faces, and two published ways to choose several views on it:
-/// Vázquez, Feixas, Sbert, Heidrich, "Automatic View Selection Using Viewpoint Entropy and its
-/// Application to Image-Based Modelling", Computer Graphics Forum 22(4), 2003;
-/// Feixas, Sbert, González, "A Unified Information-Theoretic Framework for Viewpoint Selection and
-/// Mesh Saliency", ACM Transactions on Applied Perception 6(1), 2009.
-/// Logarithms are base 2: entropies and informations are in bits.
-/// Measures of a view made of the projected areas of the faces it sees, and the terms that
-/// they take from a whole set of views. Feixas, Sbert, González, "A Unified Information-Theoretic
-/// Framework for Viewpoint Selection and Mesh Saliency", ACM Transactions on Applied Perception
-/// 6(1), 2009; Bonaventura, Feixas, Sbert, "Viewpoint Information", 2011. docs/measures.md defines
-/// each.
+/// The channel from views to faces: two published ways to choose several views on it, and measures
+/// of a view with the terms that they take from a whole set of views. Vázquez, Feixas, Sbert, Heidrich,
+/// "Automatic View Selection Using Viewpoint Entropy and its Application to Image-Based Modelling",
+/// Computer Graphics Forum 22(4), 2003; Feixas, Sbert, González, "A Unified Information-Theoretic
+/// Framework for Viewpoint Selection and Mesh Saliency", ACM Transactions on Applied Perception 6(1),
+/// 2009; Bonaventura, Feixas, Sbert, "Viewpoint Information", 2011. docs/measures.md defines each.
 ///
 /// [a_z(v)] is the area that view v sees of face z, [a_t(v)] their sum; p(v) = a_t(v) / Σ a_t,
 /// p(z|v) = a_z(v) / a_t(v), p(z) = Σ p(v) p(z|v), p(v|z) = a_z(v) / Σ_v a_z(v). All logarithms are
-/// base 2, 0 · log 0 = 0.
+/// base 2, so entropies and informations are in bits; 0 · log 0 = 0.
 
 namespace vantage {
 
@@ -90,16 +85,8 @@ struct MergedViews {
 MergedViews merge_views(const ViewChannel& channel, std::size_t count, double ratio = 0.0,
                         const RunContext& run = {});
 
-/// A channel from vertex visibility alone, approximate and quick: a face turned to the eye counts its projected
-/// area (perspective: its solid angle) times the share of its corners that are visible.
-/// \param sides as for VertexVisibility. \param sets row i belongs to eyes[i].
-/// \throw InvalidInput, Cancelled
-ViewChannel channel_table(const TriMesh& mesh, std::span<const FaceSides> sides,
-                          const VisibleSets& sets, std::span<const Viewpoint> eyes,
-                          const RunContext& run = {});
-
 /// The channel of what is seen of each face, however little and whether a corner is seen or not: the
-/// projected areas that FaceVisibility measures. \param face_count faces of its mesh.
+/// projected areas that FaceVisibility measures, in its area_unit(). \param face_count faces of its mesh.
 /// \throw Cancelled
 ViewChannel channel_table(const FaceVisibility& faces, std::size_t face_count,
                           std::span<const Viewpoint> eyes, const RunContext& run = {});

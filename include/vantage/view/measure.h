@@ -28,10 +28,9 @@
 /// \file
 /// Measures of a view behind one interface: given the sight table of a view, a number. Those built
 /// in are listed by builtin_measures(), and anybody can make another: examples/own_measure.cpp.
-/// docs/measures.md defines each.
-/// The outline of the shape that an eye sees, and what measures make of it. Lengths are in
-/// diameters of the silhouette disc: the picture of the model's enclosing sphere. docs/measures.md.
-/// Looks at a model and hands what it sees to measures.
+/// docs/measures.md defines each. ViewMeasurer looks at a model and hands what it sees to them.
+/// Lengths in outlines are in diameters of the silhouette disc, the picture of the model's enclosing
+/// sphere.
 
 namespace vantage {
 
@@ -107,9 +106,10 @@ struct SkeletonSight {
 
 /// What a view sees. Parts that no measure asked for are empty.
 struct SightTable {
-  Viewpoint eye{};                       ///< Where it is seen from.
-  Vec3 towards = Vec3::UnitZ();          ///< Unit, from the centre of the sphere to the eye.
-  double disc_area = 1.0;                ///< Of the picture of the enclosing sphere; > 0.
+  Viewpoint eye{};               ///< Where it is seen from.
+  Vec3 towards = Vec3::UnitZ();  ///< Unit, from the centre of the sphere to the eye.
+  /// Of the picture of the enclosing sphere; > 0. All areas are in FaceVisibility::area_unit().
+  double disc_area = 1.0;
   bool sees_vertices = false;            ///< Any, if vertices were asked for.
   std::vector<std::uint8_t> vertices{};  ///< 1 for each vertex seen.
   std::vector<FaceArea> faces{};         ///< [a_z] of the faces seen, ascending.

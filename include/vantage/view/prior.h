@@ -11,7 +11,7 @@
 
 /// \file
 /// A prior on the view direction: what people look at a thing from, whatever its shape. The search
-/// for the best view may multiply its score by it; docs/prior.md says what it is worth.
+/// for the best view may multiply its score by it; docs/lab/2026-11-prior.md says what it is worth.
 
 namespace vantage {
 
@@ -45,7 +45,7 @@ struct ShapeProportions {
 ///     exp(−elevation_strength (u − elevation_sine)² − corner_strength (1 − 4 s² f²)
 ///         − front_strength (1 − f) − side_strength (1 − s))
 /// All constants are ours. The first three were fitted to views that people chose, under the map of
-/// an earlier version; scripts/fit_prior.py no longer gives them (docs/prior.md).
+/// an earlier version; scripts/fit_prior.py no longer gives them (docs/lab/2026-11-prior.md).
 struct UprightPrior {
   double elevation_sine = 0.315;      ///< Sine of the elevation people prefer: 18°.
   double elevation_strength = 8.481;  ///< How much they do, ≥ 0.
@@ -89,7 +89,7 @@ ViewPrior no_prior();
 /// `--prior upright`: the constants above.
 ViewPrior upright_prior();
 
-/// Reads a prior file; docs/prior.md describes it. JSON such as
+/// Reads a prior file; docs/lab/2026-11-prior.md describes it. JSON such as
 ///     {"vantage_prior": 1,
 ///      "upright": {"elevation_sine": 0.3, "elevation_strength": 4},
 ///      "lobes": [{"direction": [0, 0.3, 1], "weight": 2, "width_deg": 30}]}

@@ -16,9 +16,8 @@
 #include "vantage/visibility/vertex_visibility.h"
 
 /// \file
-/// Several views that together tell most: greedy by newly seen significance. docs/view_sets.md.
-/// A closed path over several views, with the eye never leaving the view sphere. docs/view_sets.md.
-/// What each of many views sees, one bit a vertex.
+/// Several views that together tell most, greedy by newly seen significance; what each of many views
+/// sees, a bit a vertex; and a closed path over views on the view sphere. docs/view_sets.md.
 
 namespace vantage {
 
@@ -53,9 +52,10 @@ struct ChosenView {
 
 /// Why no further view was added. None of these is an error.
 enum class ViewSetStop {
-  Count,      ///< There are as many as were asked for.
-  Coverage,   ///< What was to be seen is seen.
-  Exhausted,  ///< No candidate far enough from the others sees anything new.
+  Count,        ///< There are as many as were asked for.
+  Coverage,     ///< What was to be seen is seen.
+  Exhausted,    ///< No candidate far enough from the others sees anything new.
+  Information,  ///< The views merged hold no more of the information than was asked for.
 };
 
 /// Result of select_views().

@@ -67,7 +67,9 @@ class FaceVisibility {
   FaceVisibility(FaceVisibility&&) noexcept;             ///< Leaves the other unusable.
   FaceVisibility& operator=(FaceVisibility&&) noexcept;  ///< The same.
 
-  [[nodiscard]] double total_area() const;       ///< Of all faces, model units squared.
+  [[nodiscard]] double total_area() const;  ///< Of all faces, model units squared.
+  /// A power of two near total_area(), > 0: areas over it fit into a float, whatever the model's unit.
+  [[nodiscard]] double area_unit() const;
   [[nodiscard]] std::size_t face_count() const;  ///< Of the mesh.
 
   /// Model units squared; 0 for faces that repeat another one. \param face of the mesh.

@@ -172,6 +172,19 @@ TEST(FindViews, OfAMapThatIsZeroGivesTheFirstDirectionAndAWarning) {
   EXPECT_NE(report.doubts.front().find("zero everywhere"), std::string::npos);
 }
 
+TEST(FindViews, CountsAndTracesTheSearchForTheHighestScore) {
+  const ViewOptions options;
+  const ShapeAnalysis shape = analyse_shape(model_of(y_of_tubes(0.2, 24)), options);
+  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  const std::vector<SearchStep>& trace = report.best_search.trace;
+  EXPECT_EQ(report.best_search.evaluations, trace.size());
+  double largest = 0.0;
+  for (const SearchStep& step : trace) {
+    largest = larger(largest, step.score);
+  }
+  EXPECT_EQ(largest, report.highest_score);
+}
+
 TEST(FindViews, FindsTheSameWhereNothingWasPrepared) {
   const ViewOptions options;
   const Model model = model_of(y_of_tubes(0.2, 24));

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "vantage/core/error.h"
 #include "vantage/pipeline/find_views.h"
 
 #include "support/model_of.h"
@@ -67,6 +68,61 @@ TEST(ExtremeViews, AreFoundFromACoarserSetToo) {
   const MeasuredViews coarse = extremes(find_measure("projected-area"), 2);
   const MeasuredViews usual = extremes(find_measure("projected-area"));
   EXPECT_NEAR(coarse.best.value, usual.best.value, 1e-3 * usual.best.value);
+}
+
+/// find_views() of the box 1 × 2 × 3 by the area seen of each face.
+ViewReport views_of_a_box(ViewOptions options) {
+  options.method = "viewpoint-entropy";
+  options.search.subdivisions = 2;
+  const std::vector<Measure> measures{find_measure(options.method)};
+  const ShapeAnalysis shape = analyse_for(model_of(box(1.0, 2.0, 3.0, 4)), options, measures);
+  return find_views(shape, UpAxis::Y, options);
+}
+
+TEST(FindViewsByAMeasure, TakesOfMirrorImagesTheOneTowardTheFront) {
+  const ViewReport report = views_of_a_box({});
+  ASSERT_EQ(report.twins.size(), 7U);
+  const UprightFrame frame = upright_frame(Vec3::UnitY());
+  EXPECT_GT(frame.front.dot(report.best.direction), 0.0);
+  EXPECT_GT(frame.side.dot(report.best.direction), 0.0);
+  for (const TwinView& twin : report.twins) {
+    EXPECT_NEAR(twin.score, report.best.score, 0.02 * report.best.score);
+  }
+}
+
+TEST(FindViewsByAMeasure, SaysHowFarItIsFromTheDenseSearch) {
+  const ViewReport report = views_of_a_box({.certify = true});
+  ASSERT_TRUE(report.dense_gap.has_value());
+  EXPECT_GT(report.dense_gap->evaluations, 10'000U);
+  EXPECT_GT(report.dense_gap->best_ratio, 0.99);
+  EXPECT_LT(report.dense_gap->best_ratio, 1.01);
+}
+
+TEST(FindViewsByAMeasure, RefusesAnObjectThatItCannotLookAtAlone) {
+  Model model = model_of(together(box(1.0, 1.0, 1.0, 2), box(0.5, 1.0, 1.0, 2), {3.0, 0.0, 0.0}));
+  model.parts = {{"left", 0, 48}, {"right", 48, 48}};
+  const ViewOptions options{.method = "viewpoint-entropy", .focus = "right"};
+  const std::vector<Measure> areas{find_measure("viewpoint-entropy")};
+  EXPECT_THROW((void)analyse_for(model, options, areas), InvalidInput);
+  const std::vector<Measure> with_map{find_measure("viewpoint-entropy"), find_measure("kssm")};
+  EXPECT_NO_THROW((void)analyse_for(model, options, with_map));
+}
+
+TEST(FindViewsByAMeasure, DoNotHangOnTheUnit) {
+  ViewOptions options;
+  options.method = "vmi";
+  options.search.subdivisions = 1;
+  const std::vector<Measure> measures{find_measure("vmi")};
+  std::vector<ViewReport> found;
+  for (const double scale : {1.0, 0x1p70, 0x1p-70}) {
+    const Model model =
+        model_of(moved(y_of_tubes(0.2, 16), scale, 0.0, Vec3::UnitX(), Vec3::Zero()));
+    found.push_back(find_views(analyse_for(model, options, measures), UpAxis::Y, options));
+  }
+  for (const ViewReport& report : found) {
+    EXPECT_NEAR(report.best.score, found[0].best.score, 1e-6 * found[0].best.score);
+    EXPECT_NEAR(report.worst.score, found[0].worst.score, 1e-6 * found[0].worst.score);
+  }
 }
 
 }  // namespace

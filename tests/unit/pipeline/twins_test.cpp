@@ -19,7 +19,8 @@ TEST(Twins, OfAViewOfABoxAreItsMirrorImages) {
   ViewOptions options;
   options.objective = Objective::Significance;
   const Preference preference(shape, {}, options, scorer.total());
-  const auto twins = twins_of(best, shape, scorer, preference, {});
+  const auto twins = twins_of(
+      best, shape, [&](const std::vector<Vec3>& at) { return scorer.score_all(at); }, preference);
   // Three planes make 2³ images, the view itself among them; on an even map all see as much.
   ASSERT_EQ(twins.size(), 7U);
   for (const TwinView& twin : twins) {

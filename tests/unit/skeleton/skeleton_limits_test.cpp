@@ -39,17 +39,48 @@ TEST(SkeletonOfATetrahedron, TakesNoHarmFromAFaceOfNoAreaBesideIt) {
   const TriMesh mesh{
       .positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {3, 0, 0}, {4, 0, 0}},
       .triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {4, 4, 5}}};
-  EXPECT_GE(component_count(skeleton_of(mesh).graph), 1U);
+  const Skeleton skeleton = skeleton_of(mesh);
+  // Of the face of no area two places are left.
+  EXPECT_EQ(component_count(skeleton.graph), 3U);
+  for (std::size_t v = 0; v < 4; ++v) {
+    EXPECT_LT((skeleton.graph.nodes[skeleton.node_of_vertex[v]] - mesh.positions[v]).norm(), 1.0);
+  }
 }
 
 TEST(SkeletonOfACylinder, IsAsThickAsItInItsMiddle) {
   const double radius = 0.25;
   const Skeleton skeleton = skeleton_of(test::cylinder(radius, 4.0, 24, 48));
+  std::size_t in_the_middle = 0;
   for (std::size_t i = 0; i < skeleton.graph.nodes.size(); ++i) {
     if (std::abs(skeleton.graph.nodes[i].z() - 2.0) < 1.0) {
       EXPECT_NEAR(skeleton.radius[i], radius, 0.05 * radius);
+      ++in_the_middle;
     }
   }
+  EXPECT_GT(in_the_middle, 10U);
+}
+
+TEST(SkeletonThatIsNotCentred, IsMeasuredAllTheSame) {
+  // Samples so far apart that lines between them leave a thin ring.
+  const TriMesh ring = test::torus(1.0, 0.05, 64, 8);
+  const ContractionHistory history = contract(ring);
+  const SkeletonOptions centred{.spacing = 0.3};
+  SkeletonOptions left = centred;
+  left.centre = false;
+  EXPECT_EQ(extract_skeleton(ring, history, centred).outside_share, 0.0);
+  EXPECT_GT(extract_skeleton(ring, history, left).outside_share, 0.2);
+}
+
+TEST(SkeletonOfPaperWithTwoSides, HasNothingToBeOutsideOf) {
+  TriMesh paper = test::sheet(1.0, 0.6, 16);
+  const std::size_t count = paper.triangles.size();
+  for (std::size_t f = 0; f < count; ++f) {
+    const auto [a, b, c] = paper.triangles[f];
+    paper.triangles.push_back({b, a, c});
+  }
+  const Skeleton skeleton = skeleton_of(paper);
+  EXPECT_FALSE(skeleton.graph.nodes.empty());
+  EXPECT_EQ(skeleton.outside_share, 0.0);
 }
 
 TEST(SkeletonOfAYOfTubes, EndsWithinATubeRadiusOfTheTips) {

@@ -313,6 +313,41 @@ TEST(ShellInside, FacesThatMeetByHundredsAtFewVerticesEncloseNothing) {
   EXPECT_FALSE(shell.is_open(0)) << "the box beside it";
 }
 
+/// A wavy sheet with both sides: no place is between them.
+TriMesh paper(int cells) {
+  TriMesh mesh = test::sheet(1.0, 1.0, cells);
+  for (Vec3& p : mesh.positions) {
+    p.z() = 0.1 * std::sin(3.0 * p.x()) * std::cos(2.0 * p.y());
+  }
+  const std::size_t count = mesh.triangles.size();
+  for (std::size_t f = 0; f < count; ++f) {
+    const auto [a, b, c] = mesh.triangles[f];
+    mesh.triangles.push_back({b, a, c});
+  }
+  return mesh;
+}
+
+TEST(ShellInside, OfPaperWithTwoSidesIsNowhere) {
+  for (const double scale : {1e-20, 1.0, 1e20}) {
+    TriMesh mesh = paper(12);
+    for (Vec3& p : mesh.positions) {
+      p *= scale;
+    }
+    const auto component = one_component(mesh);
+    EXPECT_TRUE(Shell(mesh, component).is_open(0)) << scale;
+  }
+}
+
+TEST(ShellInside, OfACubeIsThereHoweverItsFacesAreWound) {
+  TriMesh mesh = test::box(1.0, 1.0, 1.0, 2);
+  // Every other face turned: what the volumes add up to tells nothing.
+  for (std::size_t f = 0; f < mesh.triangles.size(); f += 2) {
+    std::swap(mesh.triangles[f][0], mesh.triangles[f][1]);
+  }
+  const auto component = one_component(mesh);
+  EXPECT_FALSE(Shell(mesh, component).is_open(0));
+}
+
 TEST(ShellInside, OfPlacesThatAreNoNumbersEnds) {
   const TriMesh mesh = test::torus(1.0, 0.3, 20, 10);
   const auto components = one_component(mesh);

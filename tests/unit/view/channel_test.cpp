@@ -161,16 +161,13 @@ TEST(Channel, MalformedTablesAreRefused) {
 TEST(ChannelTable, HoldsTheProjectedAreaOfACubesSide) {
   const TriMesh cube = test::box(1.0, 1.0, 1.0, 1);
   const std::vector<Viewpoint> eyes{{Projection::Orthographic, Vec3::UnitX()}};
-  const VertexVisibility visibility(cube, {FaceSides::Front});
-  VisibleSets sets(1, cube.positions.size());
-  sets.set(0, visibility.visible_vertices(eyes[0]));
-  const std::vector<FaceSides> sides{FaceSides::Front};
-  const ViewChannel channel = channel_table(cube, sides, sets, eyes);
+  const FaceVisibility faces(cube, {FaceSides::Front});
+  const ViewChannel channel = channel_table(faces, cube.triangles.size(), eyes);
   double area = 0.0;
   for (const FaceArea& a : channel.views[0]) {
     area += static_cast<double>(a.area);
   }
-  EXPECT_NEAR(area, 1.0, 1e-6);
+  EXPECT_NEAR(area * faces.area_unit(), 1.0, 1e-6);
 }
 
 /// A triangle of area 18 at x = 0 with a square of area 4 in front of each corner, seen from +x.
@@ -199,15 +196,15 @@ TEST_F(TriangleBehindPlates, IsInTheChannelThoughNoCornerIsSeen) {
   const VertexVisibility visibility(mesh, sides);
   const auto visible = visibility.visible_vertices(eyes[0]);
   EXPECT_EQ(std::count(visible.begin(), visible.begin() + 3, 0), 3);
-  const ViewChannel channel =
-      channel_table(FaceVisibility(mesh, sides), mesh.triangles.size(), eyes);
+  const FaceVisibility faces(mesh, sides);
+  const ViewChannel channel = channel_table(faces, mesh.triangles.size(), eyes);
   ASSERT_EQ(channel.views[0].size(), 7U);
   EXPECT_EQ(channel.face_count, 7U);
   // The squares hide 1, 1/2 and 1/2 of the triangle.
   EXPECT_EQ(channel.views[0][0].face, 0U);
-  EXPECT_NEAR(static_cast<double>(channel.views[0][0].area), 16.0, 0.16);
+  EXPECT_NEAR(static_cast<double>(channel.views[0][0].area) * faces.area_unit(), 16.0, 0.16);
   for (std::size_t f = 1; f < 7; ++f) {
-    EXPECT_NEAR(static_cast<double>(channel.views[0][f].area), 2.0, 1e-5);
+    EXPECT_NEAR(static_cast<double>(channel.views[0][f].area) * faces.area_unit(), 2.0, 1e-5);
   }
 }
 

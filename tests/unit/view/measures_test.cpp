@@ -362,7 +362,7 @@ TEST(Measures, CompareAViewOffTheSetWithTheCornersOfItsTriangle) {
   std::vector<FaceArea> seen;
   const FaceVisibility faces(ring.mesh, ring.sides);
   for (const SeenFace& face : faces.seen_faces(ring.given.camera.viewpoint(inside))) {
-    seen.push_back({face.face, static_cast<float>(face.projected_area)});
+    seen.push_back({face.face, static_cast<float>(face.projected_area / faces.area_unit())});
   }
   double sum = 0.0;
   for (const std::uint32_t view : {a, b, c}) {

@@ -83,6 +83,7 @@ TEST(SelectViews, GainsNeverGrowWithoutRefinement) {
 TEST(SelectViews, GainsAddUpToTheCoverage) {
   const SeenShape scene(test::torus(1.0, 0.4, 24, 12));
   const ViewSet set = scene.select(Vec3::UnitX(), {.views = 5, .level = 3});
+  ASSERT_EQ(set.views.size(), 3U) << "which see all of it";
   double seen = 0.0;
   for (const ChosenView& view : set.views) {
     seen += view.gain;
@@ -103,6 +104,7 @@ TEST(SelectViews, KeepsViewsApart) {
   const SeenShape scene(test::torus(1.0, 0.4, 24, 12));
   const ViewSet set =
       scene.select(Vec3::UnitX(), {.views = 4, .min_separation_deg = 80.0, .level = 3});
+  ASSERT_EQ(set.views.size(), 3U) << "no fourth is as far";
   for (std::size_t i = 0; i < set.views.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const double cosine = set.views[i].direction.dot(set.views[j].direction);

@@ -36,13 +36,12 @@ TEST(EyeGrid, IsEnoughForAHeapOfLargeFaces) {
   Sight sight(prepare_surface(heap(4000), sides));
   const Surface& surface = sight.surface();
   const Viewpoint eye{Projection::Perspective, Vec3(2.0, 3.0, 4.0)};
-  const SurfacePoints points{.sites = surface.sites};
   EyeGrid grid;
   grid.begin(surface, eye, {}, {});
   std::vector<std::uint8_t> seen(surface.sites.size(), 1);
-  EXPECT_TRUE(grid.hide(surface, points, seen, {}));
+  EXPECT_TRUE(grid.hide(surface, seen, {}));
   for (std::uint32_t i = 0; i < seen.size(); i += 7) {
-    EXPECT_EQ(seen[i] == 0, sight.hidden(points, i, eye)) << i;
+    EXPECT_EQ(seen[i] == 0, sight.hides_site(i, eye)) << i;
   }
 }
 
