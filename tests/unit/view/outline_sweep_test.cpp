@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "spatial/convex_polygon.h"
 
 namespace vantage {
 namespace {
@@ -167,15 +168,15 @@ double covered_at(const std::vector<Polygon>& triangles, double y) {
 }
 
 TEST(OutlineSweep, OfRandomTrianglesCoversWhatTheyCover) {
-  // The area that 40 triangles cover, by lines across them.
+  // The area that 40 triangles cover.
   Pcg32 random(7);
   std::vector<LayerEdge> edges;
   std::vector<Polygon> triangles;
   for (int i = 0; i < 40; ++i) {
     Polygon t;
-    const PicturePoint middle(random.uniform(), random.uniform());
+    const PicturePoint middle{random.uniform(), random.uniform()};
     for (int k = 0; k < 3; ++k) {
-      t.emplace_back(middle + 0.2 * PicturePoint(random.uniform() - 0.5, random.uniform() - 0.5));
+      t.emplace_back(middle + 0.2 * PicturePoint{random.uniform() - 0.5, random.uniform() - 0.5});
     }
     const PicturePoint ab = t[1] - t[0];
     const PicturePoint ac = t[2] - t[0];
@@ -185,14 +186,27 @@ TEST(OutlineSweep, OfRandomTrianglesCoversWhatTheyCover) {
     add(edges, t);
     triangles.push_back(t);
   }
-  constexpr int kLines = 4000;
-  constexpr double kApart = 1.4 / kLines;
-  double covered = 0.0;
-  for (int line = 0; line < kLines; ++line) {
-    covered += kApart * covered_at(triangles, -0.2 + kApart * (line + 0.5));
+  // What a line covers is linear between the heights of corners and crossings.
+  std::vector<double> heights;
+  for (const LayerEdge& one : edges) {
+    heights.push_back(one.from.y());
+    for (const LayerEdge& other : edges) {
+      const PicturePoint along = one.to - one.from;
+      const PicturePoint across = other.to - other.from;
+      const PicturePoint apart = other.from - one.from;
+      const double share = cross(apart, across) / cross(along, across);
+      if (share > 0.0 && share < 1.0) {
+        heights.push_back(one.from.y() + share * along.y());
+      }
+    }
   }
-  // What a line covers is linear between corners and crossings, of which there are some hundred, and may jump by 0.2 at each.
-  EXPECT_NEAR(area(boundary_of_layers(edges)), covered, 100 * 0.2 * kApart * kApart);
+  std::sort(heights.begin(), heights.end());
+  double covered = 0.0;
+  for (std::size_t k = 1; k < heights.size(); ++k) {
+    covered +=
+        (heights[k] - heights[k - 1]) * covered_at(triangles, 0.5 * (heights[k] + heights[k - 1]));
+  }
+  EXPECT_NEAR(area(boundary_of_layers(edges)), covered, 1e-12);
 }
 
 }  // namespace
