@@ -2,10 +2,10 @@
 #include <algorithm>
 
 #include "vantage/io/write.h"
-#include "vantage/pipeline/sidecar.h"
 #include "vantage/report/comparison.h"
 
 #include "commands.h"
+#include "load_posed.h"
 #include "look_flags.h"
 #include "measure_flags.h"
 #include "method_flags.h"
@@ -50,14 +50,9 @@ struct CompareCommand {
   void run(Session& session) {
     ViewOptions options = method.resolve();
     options.margin_percent = look.margin_percent();
-    const Sidecar sidecar = session.read([&] { return sidecar_of(model); });
-    sidecar.apply(options);
-    look.suggest(sidecar.style);
     const std::vector<Measure> measures = chosen_measures(session, options);
     const RunContext run = session.run();
-    Model loaded = no_images ? session.load(model)
-                             : session.load(model, look.reading(options.width, options.height));
-    session.computing([&] { return stand_along_axes(loaded, options); });
+    const Model loaded = load_posed(session, model, options, no_images ? nullptr : &look);
     OutputFolder output(folder.empty() ? folder_named(loaded.name, ".compare") : folder,
                         kCompareResults);
     output.check(session.flags.force);

@@ -15,6 +15,7 @@
 
 #include "clock.h"
 #include "commands.h"
+#include "load_posed.h"
 #include "look_flags.h"
 #include "method_flags.h"
 #include "output_file.h"
@@ -83,13 +84,14 @@ struct FiguresCommand {
   }
 
  private:
-  StageTimes draw(Session& session, const std::string& model, const ViewOptions& options,
+  StageTimes draw(Session& session, const std::string& model, ViewOptions options,
                   OutputFolder& output) {
     const RunContext run = session.run();
     const auto start = Clock::now();
     StageTimes times;
-    Model loaded = session.load(model, look.reading(options.width, options.height));
-    session.computing([&] { return stand_along_axes(loaded, options); });
+    LookFlags own_look = look;
+    const Model loaded = load_posed(session, model, options, &own_look);
+    options.best_view.reset();  // figures show what was found
     times.seconds.load = seconds_since(start);
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_shape(loaded, options, run.part(0.0, 0.4), &times.seconds); });
@@ -104,8 +106,9 @@ struct FiguresCommand {
     report.set = find_view_set(shape, VertexVisibility(shape.surface, shape.sides, 1000),
                                report.camera, report.best.direction, choice.frame, options,
                                report.warnings, run.part(0.5, 0.6));
-    const std::vector<Figure> figures = paper_figures(shape, report, options, run.part(0.6, 1.0),
-                                                      look.of(loaded, up_vector(choice.frame.up)));
+    const std::vector<Figure> figures =
+        paper_figures(shape, report, options, run.part(0.6, 1.0),
+                      own_look.of(loaded, up_vector(choice.frame.up)));
     const std::string place = models.size() == 1 ? "" : own_folder(loaded) + "/";
     for (const Figure& figure : figures) {
       output.add(place + figure.name + ".png", png_bytes(figure.image));

@@ -9,11 +9,11 @@
 #include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/find_views.h"
-#include "vantage/pipeline/sidecar.h"
 #include "vantage/report/view_report.h"
 
 #include "commands.h"
 #include "input_text.h"
+#include "load_posed.h"
 #include "look_flags.h"
 #include "method_flags.h"
 #include "output_file.h"
@@ -63,19 +63,16 @@ struct RenderCommand {
     ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
     options.margin_percent = look.margin_percent();
     const RunContext run = session.run();
-    const Sidecar sidecar = session.read([&] { return sidecar_of(model); });
-    sidecar.apply(options);
-    look.suggest(sidecar.style);
-    const Vec3 direction = direction_text.empty()
-                               ? sidecar.view.value_or(Vec3::UnitZ())
-                               : unit(parse_vector(direction_text, "--direction"));
-    const bool is_sought = !view.empty() && !(view == "best" && sidecar.view);
+    std::optional<Vec3> direction;
+    if (!direction_text.empty()) {
+      direction = unit(parse_vector(direction_text, "--direction"));
+    }
     std::optional<PictureFrame> frame;
     if (!camera_file.empty()) {
       frame = session.read([&] { return given_camera(options); });
     }
-    Model loaded = session.load(model, look.reading(options.width, options.height));
-    session.computing([&] { return stand_along_axes(loaded, options); });
+    const Model loaded = load_posed(session, model, options, &look);
+    const bool is_sought = !view.empty() && !(view == "best" && options.best_view);
     const bool needs_map = is_sought || show != "plain";
     const ShapeAnalysis shape = session.computing([&] {
       const AnalysisUse use = is_sought ? AnalysisUse::Views : AnalysisUse::Map;
@@ -84,8 +81,10 @@ struct RenderCommand {
     });
     if (!frame) {
       frame = session.computing([&] {
-        return !is_sought ? framed(shape, loaded, direction, options)
-                          : found(shape, loaded, options, run.part(0.5, 0.9));
+        return !is_sought
+                   ? framed(shape, loaded,
+                            direction.value_or(options.best_view.value_or(Vec3::UnitZ())), options)
+                   : found(shape, loaded, options, run.part(0.5, 0.9));
       });
     }
     const Vec3 up = look.look().ground ? up_vector(choose_frame(loaded, shape, options).frame.up)

@@ -7,11 +7,11 @@
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/find_views.h"
-#include "vantage/pipeline/sidecar.h"
 #include "vantage/render/render.h"
 #include "vantage/report/view_report.h"
 
 #include "commands.h"
+#include "load_posed.h"
 #include "look_flags.h"
 #include "method_flags.h"
 #include "output_file.h"
@@ -86,16 +86,10 @@ struct ThumbCommand {
     options.fit_size = size.fit_size;
     options.margin_percent = look.margin_percent();
     const RunContext run = session.run();
-    const Sidecar sidecar = session.read([&] { return sidecar_of(model); });
-    sidecar.apply(options);
-    look.suggest(sidecar.style);
-    Model loaded = session.load(model, look.reading(size.width, size.height));
-    session.computing([&] { return stand_along_axes(loaded, options); });
+    const Model loaded = load_posed(session, model, options, &look);
     const ShapeAnalysis shape = session.computing([&] { return prepare_surface(loaded, run); });
-    const PictureView found = session.computing([&] {
-      return sidecar.view ? framed(loaded, shape, *sidecar.view, options)
-                          : find_picture_view(loaded, shape, options, run.part(0.1, 0.7));
-    });
+    const PictureView found = session.computing(
+        [&] { return find_picture_view(loaded, shape, options, run.part(0.1, 0.7)); });
     const Camera& camera = found.view.picture;
     const Vec3 above = up_vector(found.choice.frame.up);
     options = with_size(options, found.view.size);
@@ -116,19 +110,6 @@ struct ThumbCommand {
   }
 
  private:
-  /// The view that a sidecar names.
-  static PictureView framed(const Model& loaded, const ShapeAnalysis& shape, const Vec3& direction,
-                            const ViewOptions& options) {
-    PictureView found;
-    found.choice = choose_frame(loaded, shape, options);
-    found.vertices = shape.surface.positions.size();
-    found.view.direction = direction;
-    const PictureFrame frame = frame_picture(shape, direction, found.choice.frame.up, options);
-    found.view.picture = frame.camera;
-    found.view.size = frame.size;
-    return found;
-  }
-
   void report(Session& session, const PictureView& found) const {
     session.end_progress();
     if (session.flags.json) {

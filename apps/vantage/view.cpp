@@ -6,11 +6,11 @@
 #include "vantage/io/write.h"
 #include "vantage/pipeline/find_views.h"
 #include "vantage/pipeline/measured_shape.h"
-#include "vantage/pipeline/sidecar.h"
 #include "vantage/report/view_report.h"
 
 #include "clock.h"
 #include "commands.h"
+#include "load_posed.h"
 #include "look_flags.h"
 #include "measure_flags.h"
 #include "method_flags.h"
@@ -105,13 +105,8 @@ struct ViewCommand {
     StageSeconds seconds;
     session.leave_output_to(trace, "--trace");
     check_output(trace, OutputKind::Table, session.flags);
-    const Sidecar sidecar = session.read([&] { return sidecar_of(model); });
-    sidecar.apply(options);
-    look.suggest(sidecar.style);
-    Model loaded = no_images && !preview.is_given()
-                       ? session.load(model)
-                       : session.load(model, look.reading(options.width, options.height));
-    session.computing([&] { return stand_along_axes(loaded, options); });
+    const bool is_drawn = !no_images || preview.is_given();
+    const Model loaded = load_posed(session, model, options, is_drawn ? &look : nullptr);
     seconds.load = seconds_since(start);
     OutputFolder output(folder.empty() ? folder_named(loaded.name, ".vantage") : folder,
                         kViewResults);

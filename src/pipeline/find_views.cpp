@@ -66,6 +66,9 @@ ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
                           ? find_views_by_map(shape, choice, options, run)
                           : find_views_by_measure(shape, choice, options, run);
   report.orientation = choice.orientation;
+  if (options.best_view) {
+    report.warnings.emplace_back("the best view is the one that the sidecar names, not one found");
+  }
   report.proportions = proportions_of(shape.surface, shape.sphere.diameter / 2.0, planes_of(shape),
                                       upright_frame(choice.frame));
   report.warnings.insert(report.warnings.end(), choice.notes.begin(), choice.notes.end());
@@ -91,9 +94,14 @@ ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const FrameChoice&
   const MapObjective map(shape, options, run);
   const Preference preference(shape, choice, options, map.scorer().total());
   const ViewObjective objective = map.objective(preference);
-  FoundView found = search_view(objective, goal, options.search, run);
-  if (goal == Goal::Best && !preference.is_score()) {
-    settle_on_the_front(found, objective, preference, shape, choice.frame);
+  FoundView found;
+  if (goal == Goal::Best && options.best_view) {
+    found.direction = *options.best_view;
+  } else {
+    found = search_view(objective, goal, options.search, run);
+    if (goal == Goal::Best && !preference.is_score()) {
+      settle_on_the_front(found, objective, preference, shape, choice.frame);
+    }
   }
   ReportedView view = describe_scored_view(shape, map.visibility(), map.scorer(), found.direction,
                                            choice.frame, options, run);
@@ -104,6 +112,13 @@ ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const FrameChoice&
 PictureView find_picture_view(const Model& model, const ShapeAnalysis& prepared,
                               const ViewOptions& options, const RunContext& run) {
   constexpr std::size_t kLarge = 200'000;  // vertices [ours]
+  if (options.best_view) {
+    PictureView given{.choice = choose_frame(model, prepared, options),
+                      .vertices = prepared.surface.positions.size()};
+    given.view.direction = *options.best_view;
+    frame_view(given.view, prepared, given.choice.frame.up, options);
+    return given;
+  }
   ShapeAnalysis surface = prepared;
   const bool is_large = !prepared.cloud && prepared.surface.positions.size() > kLarge;
   if (is_large) {

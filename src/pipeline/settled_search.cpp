@@ -60,7 +60,14 @@ SettledViews search_settled(const ViewObjective& objective, const Preference& pr
   const double share = options.certify ? 0.25 : 1.0;  // of the bar
   found = with_all_scores(search_best_and_worst(objective, options.search, run.part(0.0, share)),
                           objective);
-  settled.twins = settle_on_the_front(found.best, objective, preference, shape, frame);
+  if (options.best_view) {
+    FoundView& best = found.best;
+    best.direction = *options.best_view;
+    best.score = objective.score({best.direction}).front();
+    best.preference = preference(best.direction, best.score);
+  } else {
+    settled.twins = settle_on_the_front(found.best, objective, preference, shape, frame);
+  }
   if (options.certify) {  // what is reported, and so not before near-ties are settled
     settled.dense_gap = gap_to_dense(found, objective, run.part(share, 1.0));
   }

@@ -13,8 +13,8 @@ namespace vantage {
 
 /// What was found and what else a report says of it.
 struct SettledViews {
-  FoundViews found{};  ///< The best's trace has the highest's, too.
-  std::vector<TwinView> twins{};
+  FoundViews found{};                   ///< The best's trace has the highest's, too.
+  std::vector<TwinView> twins{};        ///< None of a view that was given.
   std::optional<DenseGap> dense_gap{};  ///< If options.certify.
 };
 

@@ -115,6 +115,7 @@ void Sidecar::apply(ViewOptions& options) const {
   if (!options.front && !are_along(front, options.up)) {
     options.front = front;
   }
+  options.best_view = options.best_view ? options.best_view : view;
 }
 
 Sidecar parse_sidecar(std::string_view bytes, std::string_view name) {

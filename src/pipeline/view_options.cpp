@@ -130,6 +130,9 @@ std::string options_hash(const ViewOptions& options) {
   json["version"] = version();
   json["prior"] = prior_echo(options.prior);
   json["view-set"] = options.view_set.has_value();
+  if (options.best_view) {
+    json["best-view"] = {options.best_view->x(), options.best_view->y(), options.best_view->z()};
+  }
 
   // FNV-1a, 64 bit: a fingerprint to compare runs by, not a seal.
   std::uint64_t hash = 0xcbf29ce484222325ULL;

@@ -200,7 +200,10 @@ class Sidecars(ProgramTest):
         self.write("a.obj", obj())
         self.write("vantage.json", '{"up": "-x", "front": "y", "view": [0, 0, -2]}')
         self.vantage("view", "a.obj", "-o", "r", "--no-images")
-        self.assertEqual(json.loads((self.dir / "r" / "view.json").read_text())["up"], "-x")
+        report = json.loads((self.dir / "r" / "view.json").read_text())
+        self.assertEqual((report["up"], report["front"], report["best"]["direction"]), ("-x", "y", [0, 0, -1]))
+        self.assertLess(report["best"]["score_of_attainable"], 1)
+        self.assertTrue(any("sidecar" in warning for warning in report["warnings"]), report["warnings"])
         said = json.loads(self.vantage("thumb", "a.obj", "t.png", "-s", 32, "--json").out)
         self.assertEqual((said["up"], said["front"], said["direction"]), ("-x", "y", [0, 0, -1]))
         self.vantage("render", "a.obj", "-o", "b.png", "--view", "best", "--size", 32)
@@ -209,6 +212,22 @@ class Sidecars(ProgramTest):
         self.vantage("batch", "a.obj", "-o", "out", "--write", "json")
         row = json.loads(self.vantage("results", "export", "out", "--format", "jsonl").out.splitlines()[0])
         self.assertEqual(row["up"], "-x")
+        self.assertEqual(row["best"]["direction"], [0, 0, -1])
+
+    def test_figures_obey_it(self):
+        (self.dir / "plain").mkdir()
+        for folder in (".", "plain"):
+            self.write(f"{folder}/a.obj", obj())
+        self.write("a.vantage.json", '{"up": "-x", "front": "y"}')
+        flags = ("--size", 64, "--contraction", "auto")
+        self.vantage("figures", "a.obj", "-o", "by-sidecar", *flags)
+        self.vantage("figures", "plain/a.obj", "-o", "by-flags", "--up=-x", "--front", "y", *flags)
+        self.vantage("figures", "plain/a.obj", "-o", "neither", *flags)
+        pictures = {folder: {path.name: path.read_bytes() for path in (self.dir / folder).glob("figure*.png")}
+                    for folder in ("by-sidecar", "by-flags", "neither")}
+        self.assertGreater(len(pictures["neither"]), 5)
+        self.assertEqual(pictures["by-sidecar"], pictures["by-flags"])
+        self.assertNotEqual(pictures["by-sidecar"], pictures["neither"])
 
     def test_a_manifest_may_name_the_front(self):
         self.write("a.obj", obj())

@@ -22,7 +22,7 @@ struct Sidecar {
   std::optional<Vec3> view{};     ///< "view": [x, y, z], unit, from the centre to the eye.
   std::optional<Style> style{};   ///< "style": "clay", "asset" or "technical".
 
-  /// Sets up and front of `options` where they are not set: flags come first.
+  /// Sets up, front and the best view of `options` where they are not set: flags come first.
   void apply(ViewOptions& options) const;
 };
 

@@ -137,6 +137,8 @@ struct ViewOptions {
   bool fit_size = false;        ///< Pictures of a view take its aspect, and width × height pixels.
   double margin_percent = 4.0;  ///< Of pictures, of the shorter side, [0, 50).
   bool pictures = true;         ///< Whether view.json names pictures.
+  /// Unit, from the centre to the eye: taken for the best view, as a sidecar may say.
+  std::optional<Vec3> best_view{};
   /// Several views besides best and worst.
   std::optional<ViewSetRequest> view_set{};
   /// Object whose significance alone counts, see find_object(); empty: all.
