@@ -44,7 +44,7 @@ std::vector<double> estimated_shares(const ViewPreparation& prepared,
 
 MapObjective::MapObjective(const ShapeAnalysis& shape, const ViewOptions& options,
                            const RunContext& run)
-    : prepared_(preparation_of(shape)),
+    : prepared_(preparation_of(shape, run.quiet())),
       quiet_(run.quiet()),
       faces_(faces_to_score(shape, options)),
       scorer_(faces_ ? ViewScorer(*faces_, shape.map.of_vertex, scoring_camera(shape, options))

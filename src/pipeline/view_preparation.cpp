@@ -85,8 +85,9 @@ bool ViewPreparation::has_proxy() const {
   return is_worthwhile(proxy);
 }
 
-std::shared_ptr<const ViewPreparation> preparation_of(const ShapeAnalysis& shape) {
-  return shape.views ? shape.views : std::make_shared<ViewPreparation>(shape);
+std::shared_ptr<const ViewPreparation> preparation_of(const ShapeAnalysis& shape,
+                                                      const RunContext& run) {
+  return shape.views ? shape.views : std::make_shared<ViewPreparation>(shape, run);
 }
 
 std::shared_ptr<const VertexVisibility> visibility_of(const ShapeAnalysis& shape,

@@ -69,7 +69,8 @@ struct ViewPreparation {
 };
 
 /// That of the shape, or one made now.
-std::shared_ptr<const ViewPreparation> preparation_of(const ShapeAnalysis& shape);
+std::shared_ptr<const ViewPreparation> preparation_of(const ShapeAnalysis& shape,
+                                                      const RunContext& run);
 
 /// The visibility of the shape's, or one made now for about so many eyes.
 std::shared_ptr<const VertexVisibility> visibility_of(const ShapeAnalysis& shape, std::size_t eyes);
