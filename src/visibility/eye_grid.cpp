@@ -12,8 +12,8 @@
 #include <Eigen/Geometry>
 
 #include "core/parallel.h"
+#include "spatial/segment.h"
 #include "visibility/face_packet.h"
-#include "visibility/segment.h"
 
 namespace vantage {
 namespace {

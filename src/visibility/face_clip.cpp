@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "spatial/picture_cells.h"
-#include "visibility/segment.h"
+#include "spatial/segment.h"
 
 namespace vantage {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/parallel.h"
-#include "visibility/segment.h"
+#include "spatial/segment.h"
 
 namespace vantage {
 namespace {

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "spatial/picture_cells.h"
+#include "spatial/segment.h"
 #include "support/shapes.h"
-#include "visibility/segment.h"
 
 namespace vantage {
 namespace {
