@@ -172,6 +172,20 @@ TEST(FindViews, OfAMapThatIsZeroGivesTheFirstDirectionAndAWarning) {
   EXPECT_NE(report.doubts.front().find("zero everywhere"), std::string::npos);
 }
 
+TEST(FindViews, OfAMapThatIsZeroTakesWhatPeopleChooseAndTheFirstForTheWorst) {
+  ViewOptions options = quick_search();
+  options.objective = Objective::People;
+  ShapeAnalysis shape = analyse_shape(model_of(box(1.0, 2.0, 3.0, 4)), options);
+  const Vec3 with_map = find_views(shape, UpAxis::Y, options).best.direction;
+  shape.map.of_vertex.assign(shape.map.of_vertex.size(), 0.0);
+  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  const Vec3 first =
+      direction_set(ViewSphereBase::Icosahedron, options.search.subdivisions).directions.front();
+  EXPECT_EQ(report.worst.direction, first);
+  EXPECT_GT(report.best.direction.dot(with_map), 0.9) << "proportions decide as before";
+  EXPECT_EQ(report.best.score_fraction, 0.0);
+}
+
 TEST(FindViews, CountsAndTracesTheSearchForTheHighestScore) {
   const ViewOptions options;
   const ShapeAnalysis shape = analyse_shape(model_of(y_of_tubes(0.2, 24)), options);

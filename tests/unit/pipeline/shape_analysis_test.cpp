@@ -98,6 +98,22 @@ TEST(PrepareSurface, RefusesAModelWithoutExtent) {
   EXPECT_THROW(prepare_surface(model_of(dot)), InvalidInput);
 }
 
+TEST(AnalyseShape, CountsAllLevelsWhereThereIsNoSecondCurve) {
+  const Model model = model_of(y_of_tubes(0.2, 24));
+  const auto used = [&](const ViewOptions& options) {
+    const ShapeAnalysis shape = analyse_shape(model, options);
+    return std::pair(shape.map.levels_used.size(), shape.history.levels.size());
+  };
+  const auto [some, all] = used({.kssm = {.level_agreement = 0.9999}});
+  EXPECT_LT(some, all);
+  const auto [unfitted, all_unfitted] =
+      used({.skeleton = {.fit = false}, .kssm = {.level_agreement = 0.9999}});
+  EXPECT_EQ(unfitted, all_unfitted);
+  const auto [finished, all_finished] =
+      used({.kssm = {.level_agreement = 0.9999}, .kssm_to_finished_graph = true});
+  EXPECT_EQ(finished, all_finished);
+}
+
 TEST(AnalyseShape, GivesEveryInputVertexItsValueAndNode) {
   TriMesh mesh = soup(torus(1.0, 0.3, 24, 12));
   mesh.positions.emplace_back(0.0, 0.0, 0.0);  // belongs to no face
