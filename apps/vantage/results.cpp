@@ -15,6 +15,7 @@
 #include "batch/shard_merge.h"
 #include "commands.h"
 #include "method_flags.h"
+#include "output_file.h"
 #include "results_diff.h"
 #include "results_table.h"
 #include "results_verify.h"
@@ -51,6 +52,7 @@ struct ExportCommand {
         ->capture_default_str();
     app.add_flag("--timings", timings,
                  "also seconds, memory and attempts, which differ every time");
+    add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
 
@@ -59,6 +61,7 @@ struct ExportCommand {
     if (timings) {
       columns.insert(columns.end(), batch::timing_columns().begin(), batch::timing_columns().end());
     }
+    check_output(output, OutputKind::Table, session.flags);
     RowFile file(output);
     if (format == "csv") {
       file.add(csv_line(columns));
