@@ -26,12 +26,6 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-std::string extension_of(std::string_view name) {
-  const std::string_view file = name.substr(name.find_last_of('/') + 1);
-  const std::size_t dot = file.find_last_of('.');
-  return dot == std::string_view::npos ? "" : lower(file.substr(dot + 1));
-}
-
 std::optional<ModelFormat> format_of_extension(std::string_view extension) {
   const auto endings = model_endings();
   const auto entry = std::find(endings.begin(), endings.end(), extension);
@@ -85,6 +79,12 @@ std::optional<ModelFormat> format_of_content(std::string_view bytes) {
 
 std::span<const std::string_view> model_endings() {
   return std::span(kFormatNames).first(kFormatNames.size() - 1);  // no file is called .imported
+}
+
+std::string extension_of(std::string_view name) {
+  const std::string_view file = name.substr(name.find_last_of('/') + 1);
+  const std::size_t dot = file.find_last_of('.');
+  return dot == std::string_view::npos ? "" : lower(file.substr(dot + 1));
 }
 
 std::string_view format_name(ModelFormat format) {
