@@ -348,6 +348,37 @@ class Results(BatchTest):
         self.assertEqual(query("--sort", "-vertices")[-1], "bad")
         self.vantage("results", "query", "out", "--where", "name;drop table models=1", exit_code=2)
 
+    def test_query_compares_numbers_with_numbers_only(self):
+        self.write("a.off", box(1))
+        self.batch("a.off")
+        query = lambda *where: json.loads(self.vantage("results", "query", "out", "--json", "--where", *where).out)
+        for nonsense in ("best_fraction<0,4", "best_fraction<abc", "vertices>5k", "vertices=", "closed=yes", "genus<nan"):
+            done = self.vantage("results", "query", "out", "--where", nonsense, exit_code=2)
+            self.assertIn("is no number", done.err, nonsense)
+        self.assertEqual([len(query(f"closed{sign}")) for sign in ("=true", "=1", "=false", "!=true")], [1, 1, 0, 0])
+        self.assertEqual([len(query(f"{where}")) for where in ("vertices=8", "vertices~8", "best_field_of_view~deg")], [1, 1, 1])
+
+    def test_query_sorts_and_limits_the_rows_of_all_folders_together(self):
+        for name in ("1", "2", "3", "4"):
+            self.write(f"{name}.off", box(1))
+        self.write("bad.off", "no OFF")
+        self.batch("1.off", "4.off", "bad.off", out="a", exit_code=4)
+        self.batch("2.off", "3.off", out="b")
+        query = lambda *flags: [row["name"] for row in json.loads(
+            self.vantage("results", "query", "a", "b", "--columns", "name", "--json", *flags).out)]
+        self.assertEqual(query("--sort", "name", "--limit", "2"), ["1", "2"])
+        self.assertEqual(query("--sort", "-name"), ["bad", "4", "3", "2", "1"])
+        self.assertEqual([query("--sort", sort)[-1] for sort in ("vertices", "-vertices")], ["bad", "bad"])
+        self.assertEqual(query("--limit", "3"), ["1", "4", "bad"])
+
+    def test_columns_of_a_query_stand_below_each_other(self):
+        for name in ("größe", "plain"):
+            self.write(f"{name}.off", box(1))
+        self.batch("größe.off", "plain.off")
+        lines = self.vantage("results", "query", "out", "--columns", "name,status").out.splitlines()
+        self.assertEqual([line.split()[1] for line in lines], ["status", "done", "done"])
+        self.assertEqual({line.index(line.split()[1]) for line in lines}, {7})
+
     def test_diff_lists_what_came_went_and_changed(self):
         for i in range(3):
             self.write(f"{i}.off", box(1 + i))
