@@ -70,6 +70,27 @@ class Inputs(BatchTest):
         self.assertEqual(len(exports[0].splitlines()), 2)
         self.assertEqual(exports, [exports[0]] * 5)
 
+    def test_tables_are_known_however_their_header_is_written(self):
+        self.write("a b.off", box(1))
+        for i, text in enumerate(("Path,Name\na b.off,chair\n", "path;name\na b.off;chair\n", "name\tPATH\nchair\ta b.off\n",
+                                  ' "path" , Name\n a b.off ,"chair" \n', 'PATH, name\n"a b.off", chair\n')):
+            self.batch("--manifest", self.write(f"m{i}", text), out=f"out{i}")
+            row = self.rows(f"out{i}")["a b.off"]
+            self.assertEqual((row["status"], row["name"]), ("done", "chair"), text)
+        self.write("spaces", 'path,name\n"a b.off"," chair "\n')
+        self.batch("--manifest", "spaces", out="spaced")
+        self.assertEqual(self.rows("spaced")["a b.off"]["name"], " chair ")
+
+    def test_a_list_in_json_is_refused_in_one_sentence(self):
+        self.write("a.off", box(1))
+        self.write("[1] b.off", box(2))
+        for text in ('[{"path": "a.off"}]\n', '[\n  {"path": "a.off"}\n]\n', '["a.off"]\n'):
+            done = self.vantage("batch", "--manifest", self.write("m.json", text), "-o", "out", *FAST, exit_code=3)
+            self.assertIn("line 1: is the begin of a JSON list; write one object a line", done.err)
+            self.assertEqual(len(done.err.splitlines()), 1, done.err)
+        self.batch("--manifest", self.write("paths", "[1] b.off\n"))
+        self.assertEqual(self.rows()["[1] b.off"]["status"], "done")
+
     def test_a_manifest_on_standard_input_may_name_and_turn_models(self):
         self.write("a.off", box(1))
         objects = '{"path": "a.off", "key": "first", "name": "A/../B", "up": "x"}\n{"path": "a.off", "key": "second"}\n'
