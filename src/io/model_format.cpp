@@ -34,10 +34,10 @@ std::optional<ModelFormat> format_of_magic(std::string_view bytes) {
   if (is_threemf(bytes)) {
     return ModelFormat::Threemf;
   }
-  if (bytes.starts_with("# .PCD")) {
+  if (without_bom(bytes).starts_with("# .PCD")) {
     return ModelFormat::Pcd;
   }
-  const std::string_view first_line = TextCursor(bytes).next_line().value_or("");
+  const std::string_view first_line = TextCursor(without_bom(bytes)).next_line().value_or("");
   if (trimmed(first_line) == "ply") {
     return ModelFormat::Ply;
   }

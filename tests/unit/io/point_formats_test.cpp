@@ -26,6 +26,12 @@ TEST(Pcd, ReadsText) {
   EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(1, 2, 3), Vec3(4, 5, 6)));
 }
 
+TEST(Pcd, PassesOverAByteOrderMark) {
+  const Model model = parse_model("\xEF\xBB\xBF" + pcd("1", "ascii") + "1 2 3 9\n", "a");
+  EXPECT_EQ(model.format, ModelFormat::Pcd);
+  EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(1, 2, 3)));
+}
+
 TEST(Pcd, LeavesOutPointsWithoutAPosition) {
   const Model model = parse_model(pcd("2", "ascii") + "nan nan nan 9\n4 5 6 9\n", "a.pcd");
   EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(4, 5, 6)));
