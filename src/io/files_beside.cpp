@@ -16,6 +16,7 @@
 #include "io/obj_libraries.h"
 #include "io/obj_lines.h"
 #include "io/side_files.h"
+#include "io/text_cursor.h"
 
 namespace vantage {
 namespace {
@@ -86,7 +87,8 @@ void FilesBeside::pass(std::string_view bytes) {
 
 void FilesBeside::keep_libraries(std::string_view bytes) {
   while (!bytes.empty() && text_.size() < kMostText) {
-    const std::size_t end = std::min(bytes.find_first_of("\r\n"), bytes.size());
+    const auto end = static_cast<std::size_t>(
+        std::find_if(bytes.begin(), bytes.end(), is_line_end) - bytes.begin());
     if (!skips_) {
       line_.append(bytes.substr(0, end));
       skips_ = !goes_on_ && !may_name_library(without_bom(line_));
