@@ -133,35 +133,11 @@ struct CompareCommand {
       row.push_back(rounded(method.seconds, 2));
       rows.push_back(std::move(row));
     }
-    session.tell(columns(rows));
+    session.tell(aligned(rows, Alignment::FirstLeft));
     session.tell("best °, worst °, rank: angles and rank correlation with " +
                  comparison.methods.front().measure.name + ", mirror images folded");
     session.tell("all views of the set: " + rounded(comparison.survey_seconds, 3) +
                  " s; results in " + printable(path) + "/");
-  }
-
-  /// The first column to the left, the others to the right, two blanks between them.
-  static std::string columns(const std::vector<std::vector<std::string>>& rows) {
-    const auto letters = [](const std::string& text) {  // of UTF-8
-      return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-        return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-      }));
-    };
-    std::vector<std::size_t> widths(rows.front().size());
-    for (const auto& row : rows) {
-      for (std::size_t c = 0; c < row.size(); ++c) {
-        widths[c] = std::max(widths[c], letters(row[c]));
-      }
-    }
-    std::string text;
-    for (const auto& row : rows) {
-      text += text.empty() ? "" : "\n";
-      for (std::size_t c = 0; c < row.size(); ++c) {
-        const std::string blanks(widths[c] - letters(row[c]), ' ');
-        text += c == 0 ? row[c] + blanks : "  " + blanks + row[c];
-      }
-    }
-    return text;
   }
 };
 

@@ -62,6 +62,7 @@ std::string LookFlags::write(const std::string& path, const Model& model,
                              const ShapeAnalysis& shape, const Camera& camera, Picture picture,
                              const ViewOptions& options, const Vec3& up,
                              const RunContext& run) const {
+  check_sides(path, options.width, options.height);  // of a size that fits the view
   const Model* asset = of_asset() ? &model : nullptr;
   if (depth_ != 8) {
     write_output(

@@ -42,7 +42,12 @@ class LookFlags {
   [[nodiscard]] bool of_asset() const { return look().style == Style::Asset; }
 
   /// Refuses what a picture of this name cannot hold; before any work. \throw CLI::ValidationError
-  void check(const std::string& path) const { check_depth(path, depth_); }
+  void check(const std::string& path, const ViewOptions& options) const {
+    check_depth(path, depth_);
+    if (!options.fit_size) {  // else the view says what its sides are
+      check_sides(path, options.width, options.height);
+    }
+  }
 
   /// What to read of the file for a picture of that size.
   [[nodiscard]] ReadOptions reading(int width, int height) const;

@@ -62,7 +62,7 @@ struct MapCommand {
     }
     session.leave_output_to(file, "-o");
     check_output(file, OutputKind::Shape, session.flags);
-    check_levels(levels, session.flags);
+    check_levels(levels, {{"-o", file}}, session.flags);
     const Model loaded = session.load(model);
     const ShapeAnalysis shape = session.computing([&] {
       return by_skeleton ? analyse_shape(loaded, options, session.run(), nullptr, AnalysisUse::Map)

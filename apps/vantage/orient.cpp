@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/error.h"
+#include "vantage/io/files_beside.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/find_views.h"
 #include "vantage/pipeline/sidecar.h"
@@ -100,13 +101,13 @@ struct OrientCommand {
       write_output("-", features_json(shape));
       return;
     }
-    const FrameChoice choice =
-        session.computing([&] { return choose_frame(loaded, shape, given.view); });
+    FrameChoice choice = session.computing([&] { return choose_frame(loaded, shape, given.view); });
     const UpAxis new_up = default_up(loaded);
     const AxisTurn turn(up_vector(choice.frame.up), up_vector(choice.frame.front),
                         up_vector(new_up), up_vector(default_front(new_up)));
     if (!file.empty()) {
       write_output(file, turned(session, loaded, turn, stood.isIdentity(0.0)));
+      note_what_stays_behind(loaded, choice);
     }
     report(session, loaded, choice, turn, stood);
   }
@@ -135,11 +136,38 @@ struct OrientCommand {
     if (model == "-") {
       throw IoError(model, "can be turned to a .ply only; name the file, or write a .ply");
     }
-    if (loaded.format == ModelFormat::Gltf && std::filesystem::absolute(file).parent_path() !=
-                                                  std::filesystem::absolute(model).parent_path()) {
+    if (loaded.format == ModelFormat::Gltf && !is_beside_model()) {
       throw IoError(file, "must be beside the model, whose buffers and pictures it names");
     }
     return session.read([&] { return turned_bytes(read_text(model), model, loaded.format, turn); });
+  }
+
+  [[nodiscard]] bool is_beside_model() const {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    return fs::weakly_canonical(fs::absolute(file), error).parent_path() ==
+           fs::weakly_canonical(fs::absolute(model), error).parent_path();
+  }
+
+  /// An OBJ without its materials is sound, but grey.
+  void note_what_stays_behind(const Model& loaded, FrameChoice& choice) const {
+    namespace fs = std::filesystem;
+    if (loaded.format != ModelFormat::Obj || is_beside_model() || file == "-" ||
+        fs::path(file).extension() == ".ply") {
+      return;
+    }
+    FilesBeside beside(model);
+    beside.pass(read_text(model));
+    std::vector<FileBeside> files = beside.find();
+    std::erase_if(files, [&](const FileBeside& f) {
+      return fs::exists(fs::path(file).parent_path() / f.name);
+    });
+    if (!files.empty()) {
+      choice.notes.push_back(
+          "materials are in " + files.front().name +
+          (files.size() > 1 ? " and " + plural(files.size() - 1, "more file") : "") +
+          " beside the model; copy " + (files.size() > 1 ? "them" : "it") + " beside " + file);
+    }
   }
 
   void report(Session& session, const Model& loaded, const FrameChoice& choice,

@@ -5,6 +5,8 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <map>
 #include <optional>
 #include <span>
 #include <system_error>
@@ -12,18 +14,20 @@
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
 
+#include "output_folder.h"
+
 namespace vantage::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 2> kPictureNames{".png", ".webp"};
-constexpr std::array<std::string_view, 4> kShapes{".json", ".swc", ".graphml", ".npy"};
+constexpr std::array<std::string_view, 3> kShapes{".swc", ".graphml", ".npy"};
 /// How tables of ours begin. Other CSV files may be directions, eyes or choices of people.
-constexpr std::array<std::string_view, 8> kTableHeads{
+constexpr std::array<std::string_view, 9> kTableHeads{
     "method,dx,dy,dz,score\n",      "method,x,y,z,score\n", "method,model,mean_deg,",
     "map,model,correlation,",       "goal,step,level,",     "model,vertices,faces,",
-    "| model | vertices | faces |", "Made by vantage "};
+    "| model | vertices | faces |", "Made by vantage ",     "key,name,status,"};
 /// In PLY and OBJ files, which are models too.
 constexpr std::string_view kMark = " written by vantage\n";
 
@@ -36,21 +40,42 @@ bool is_only_written(const fs::path& path, OutputKind kind) {
          extensions.end();
 }
 
-bool is_ours(std::string_view head, OutputKind kind) {
+bool contains(std::string_view text, std::string_view part) {
+  return text.find(part) != std::string_view::npos;
+}
+
+/// Tables, and lines of JSON as `results export` writes them.
+bool is_table(std::string_view head) {
+  return std::any_of(kTableHeads.begin(), kTableHeads.end(),
+                     [&](std::string_view known) { return head.starts_with(known); }) ||
+         (head.starts_with("{\"key\":") && contains(head, ",\"duplicate_of\":"));
+}
+
+/// Other JSON may be a glTF, cameras, a manifest or options of people: a skeleton says which vertex is
+/// of which node.
+bool is_skeleton(const fs::path& path, std::string_view head) {
+  if (!head.starts_with("{\n  \"nodes\": [")) {
+    return false;
+  }
+  std::ifstream stream(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  return contains(text, "\n  \"vertex_node\": [");
+}
+
+bool is_ours(const fs::path& path, std::string_view head, OutputKind kind) {
   if (kind == OutputKind::Picture) {
     return head.starts_with("\x89PNG\r\n") ||
            (head.starts_with("RIFF") && head.substr(8).starts_with("WEBP"));
   }
   if (kind == OutputKind::Shape) {
-    return head.find(kMark) != std::string_view::npos;
+    return contains(head, kMark) || is_skeleton(path, head);
   }
-  return std::any_of(kTableHeads.begin(), kTableHeads.end(),
-                     [&](std::string_view known) { return head.starts_with(known); });
+  return is_table(head);
 }
 
 /// The first bytes of a regular file; nothing if there is none.
 std::optional<std::string> head_of(const fs::path& path) {
-  constexpr std::size_t kHead = 128;
+  constexpr std::size_t kHead = 1 << 14;  // a row of an export begins with the path of a model
   std::error_code error;
   if (!fs::is_regular_file(path, error)) {
     return std::nullopt;
@@ -70,12 +95,30 @@ void add_force_flag(CLI::App& app, CommonFlags& flags) {
       ->group("Common");
 }
 
+void require_distinct(const std::vector<NamedOutput>& outputs) {
+  std::map<std::string, std::string_view> option_of_file;
+  for (const auto& [option, path] : outputs) {
+    std::error_code error;
+    if (path.empty() || fs::is_character_file(path, error)) {  // /dev/null takes all
+      continue;
+    }
+    const fs::path place =
+        path == "-" ? fs::path(path) : fs::weakly_canonical(fs::absolute(path), error);
+    const auto [known, is_new] = option_of_file.try_emplace(error ? path : place.string(), option);
+    if (!is_new) {
+      throw CLI::ValidationError(std::string(option), "is " + path + ", the file of " +
+                                                          std::string(known->second) +
+                                                          ", too; give each its own name");
+    }
+  }
+}
+
 void check_output(const std::string& path, OutputKind kind, const CommonFlags& flags) {
   if (path == "-" || flags.force || is_only_written(path, kind)) {
     return;
   }
   const std::optional<std::string> head = head_of(path);
-  if (head && !head->empty() && !is_ours(*head, kind)) {
+  if (head && !head->empty() && !is_ours(path, *head, kind)) {
     throw IoError(path,
                   "is there already, and vantage did not write it; choose another name, or say "
                   "--force to replace it");
@@ -89,7 +132,15 @@ void check_result(const std::string& path, OutputKind kind, const CommonFlags& f
   }
 }
 
-void check_levels(const std::string& folder, const CommonFlags& flags) {
+void check_levels(const std::string& folder, const std::vector<NamedOutput>& others,
+                  const CommonFlags& flags) {
+  if (folder.empty()) {
+    return;
+  }
+  const OutputFolder output(folder, kLevelResults);
+  for (const auto& [option, path] : others) {
+    output.refuse_own_name(path, std::string(option));
+  }
   std::error_code error;
   for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator();
        entry.increment(error)) {

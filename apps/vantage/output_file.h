@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -19,17 +20,29 @@ enum class OutputKind { Picture, Shape, Table };
 /// Adds --force to a command that writes under names of the user's choice.
 void add_force_flag(CLI::App& app, CommonFlags& flags);
 
+/// A file that an option names; an empty path: none.
+struct NamedOutput {
+  std::string_view option{};
+  std::string path{};
+};
+
+/// Refuses outputs of one run that would replace each other, also under names that differ, before any
+/// work. \throw CLI::ValidationError
+void require_distinct(const std::vector<NamedOutput>& outputs);
+
 /// Refuses to replace a file that may be somebody's input, before any work. Replaced are files whose
-/// extension says that they only ever are output (pictures: .png, .webp; shapes: .json, .swc,
-/// .graphml, .npy), empty ones, and what Vantage wrote of the same kind, which shows in its first
-/// bytes; any file with --force. \throw IoError
+/// extension says that they only ever are output (pictures: .png, .webp; shapes: .swc, .graphml,
+/// .npy), empty ones, and what Vantage wrote of the same kind, which shows in its content; any file
+/// with --force. \throw IoError
 void check_output(const std::string& path, OutputKind kind, const CommonFlags& flags);
 
 /// The same for a file of a folder of results, where a link is replaced and not written through.
 void check_result(const std::string& path, OutputKind kind, const CommonFlags& flags);
 
-/// The same for all files level-NN.ply of a folder.
-void check_levels(const std::string& folder, const CommonFlags& flags);
+/// The same for all files level-NN.ply of a folder, which no other output of the run may be.
+/// \throw IoError, CLI::ValidationError
+void check_levels(const std::string& folder, const std::vector<NamedOutput>& others,
+                  const CommonFlags& flags);
 
 /// Writes to a name that the user gave, "-" for standard output. A signal ends the program while a
 /// pipe waits for a reader. \throw IoError

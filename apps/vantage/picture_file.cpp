@@ -40,6 +40,15 @@ std::string picture_bytes(const std::string& path, const Image& image) {
   return extension_of(path) == ".webp" ? webp_bytes(image) : png_bytes(image);
 }
 
+void check_sides(const std::string& path, int width, int height, const std::string& option) {
+  constexpr int kLargest = 16383;  // of the format, px
+  if (extension_of(path) == ".webp" && std::max(width, height) > kLargest) {
+    throw CLI::ValidationError(
+        option, "a WebP has sides of at most " + std::to_string(kLargest) + " pixels, not " +
+                    std::to_string(std::max(width, height)) + "; write a PNG");
+  }
+}
+
 void check_depth(const std::string& path, int depth) {
   if (depth != 8 && extension_of(path) == ".webp") {
     throw CLI::ValidationError("--depth", "a WebP has 8 bits a channel; write a PNG");

@@ -17,6 +17,11 @@ std::string checked_picture_name(const std::string& path);
 /// A WebP if the name ends so, else a PNG. \throw IoError, InvalidInput
 std::string picture_bytes(const std::string& path, const Image& image);
 
+/// Refuses sides, in pixels, that a file of that name cannot hold. \param option that says them.
+/// \throw CLI::ValidationError
+void check_sides(const std::string& path, int width, int height,
+                 const std::string& option = "--size");
+
 /// Refuses 16 bit for a name that means another format than PNG. \throw CLI::ValidationError
 void check_depth(const std::string& path, int depth);
 

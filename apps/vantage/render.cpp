@@ -57,10 +57,10 @@ struct RenderCommand {
   }
 
   void run(Session& session) {
-    look.check(file);
     session.leave_output_to(file, "-o");
     check_output(file, OutputKind::Picture, session.flags);
     ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
+    look.check(file, options);
     options.margin_percent = look.margin_percent();
     const RunContext run = session.run();
     std::optional<Vec3> direction;

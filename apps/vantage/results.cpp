@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -15,6 +17,7 @@
 #include "batch/shard_merge.h"
 #include "commands.h"
 #include "method_flags.h"
+#include "output_file.h"
 #include "results_diff.h"
 #include "results_table.h"
 #include "results_verify.h"
@@ -51,6 +54,7 @@ struct ExportCommand {
         ->capture_default_str();
     app.add_flag("--timings", timings,
                  "also seconds, memory and attempts, which differ every time");
+    add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
   }
 
@@ -59,6 +63,7 @@ struct ExportCommand {
     if (timings) {
       columns.insert(columns.end(), batch::timing_columns().begin(), batch::timing_columns().end());
     }
+    check_output(output, OutputKind::Table, session.flags);
     RowFile file(output);
     if (format == "csv") {
       file.add(csv_line(columns));
@@ -68,7 +73,7 @@ struct ExportCommand {
     const RunContext context = session.run();
     for (const std::string& folder : folders) {
       const auto store = open_store(session, folder);
-      batch::Statement rows = select_rows(*store, selected, {}, "");
+      batch::Statement rows = select_rows(*store, selected, {}, {});
       while (rows.step()) {
         context.check();
         file.add(format == "csv" ? csv_row(rows, columns.size()) : json_row(rows, columns));
@@ -140,26 +145,52 @@ struct QueryCommand {
     }
     std::vector<std::vector<std::string>> table{wanted};
     Json list = Json::array();
-    for (const std::string& folder : folders) {
-      const auto store = open_store(session, folder);
-      batch::Statement rows = select_rows(*store, wanted, conditions, sort);
-      for (std::size_t i = 0; (limit == 0 || i < limit) && rows.step(); ++i) {
-        if (session.flags.json) {
-          list.push_back(object_of(rows, wanted));
-        } else {
-          table.push_back(cells_of(rows));
-        }
-      }
+    for (FoundRow& row : found(session, wanted, conditions)) {
+      list.push_back(std::move(row.json));
+      table.push_back(std::move(row.cells));
     }
     if (session.flags.json) {
       std::printf("%s\n", text_of(list, 2).c_str());
     } else {
-      print(table);
+      std::printf("%s\n", aligned(table, Alignment::Left).c_str());
     }
     finish_standard_output();
   }
 
  private:
+  struct FoundRow {
+    RankedRow rank;
+    Json json{};
+    std::vector<std::string> cells{};
+  };
+
+  /// Rows of all folders in one order, at most as many as are wanted.
+  [[nodiscard]] std::vector<FoundRow> found(Session& session,
+                                            const std::vector<std::string>& wanted,
+                                            const std::vector<Condition>& conditions) const {
+    const Order order = parse_order(sort);
+    std::vector<std::string> selected = wanted;
+    selected.push_back(order.column.empty() ? wanted.front() : order.column);
+    const int rank = static_cast<int>(wanted.size());
+    std::vector<FoundRow> all;
+    for (const std::string& folder : folders) {
+      const auto store = open_store(session, folder);
+      batch::Statement rows = select_rows(*store, selected, conditions, order);
+      for (std::size_t i = 0; (limit == 0 || i < limit) && rows.step(); ++i) {
+        all.push_back({RankedRow(rows, rank), object_of(rows, wanted), cells_of(rows, rank)});
+      }
+    }
+    if (!order.column.empty()) {
+      std::stable_sort(all.begin(), all.end(), [&](const FoundRow& a, const FoundRow& b) {
+        return a.rank.comes_before(b.rank, order.is_down);
+      });
+    }
+    if (limit > 0 && all.size() > limit) {
+      all.erase(all.begin() + static_cast<std::ptrdiff_t>(limit), all.end());
+    }
+    return all;
+  }
+
   static Json object_of(const batch::Statement& row, const std::vector<std::string>& names) {
     Json json;
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -168,30 +199,12 @@ struct QueryCommand {
     return json;
   }
 
-  static std::vector<std::string> cells_of(const batch::Statement& row) {
+  static std::vector<std::string> cells_of(const batch::Statement& row, int count) {
     std::vector<std::string> cells;
-    cells.reserve(static_cast<std::size_t>(row.columns()));
-    for (int i = 0; i < row.columns(); ++i) {
+    for (int i = 0; i < count; ++i) {
       cells.push_back(printable(row.is_real(i) ? rounded(row.number(i)) : row.text(i)));
     }
     return cells;
-  }
-
-  static void print(const std::vector<std::vector<std::string>>& table) {
-    std::vector<std::size_t> widths(table.front().size(), 0);
-    for (const auto& row : table) {
-      for (std::size_t i = 0; i < row.size(); ++i) {
-        widths[i] = std::max(widths[i], row[i].size());
-      }
-    }
-    for (const auto& row : table) {
-      std::string line;
-      for (std::size_t i = 0; i < row.size(); ++i) {
-        line += row[i] + std::string(widths[i] - row[i].size() + 2, ' ');
-      }
-      line.erase(line.find_last_not_of(' ') + 1);
-      std::printf("%s\n", line.c_str());
-    }
   }
 };
 

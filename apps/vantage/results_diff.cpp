@@ -44,8 +44,8 @@ Difference compared(const batch::Statement& a, const batch::Statement& b, double
 
 DiffCounts diff_results(batch::ResultsStore& a, batch::ResultsStore& b, double tolerance,
                         const std::function<void(const Difference&)>& take) {
-  batch::Statement left = select_rows(a, compared_columns(), {}, "");
-  batch::Statement right = select_rows(b, compared_columns(), {}, "");
+  batch::Statement left = select_rows(a, compared_columns(), {}, {});
+  batch::Statement right = select_rows(b, compared_columns(), {}, {});
   DiffCounts counts;
   bool in_a = left.step();
   bool in_b = right.step();

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <tuple>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -22,11 +25,38 @@ bool is_column(const std::string& name) {
   return in(batch::result_columns()) || in(batch::timing_columns());
 }
 
-/// Columns of text come first in the list of columns, up to and with `format`.
+/// Columns of text come first in the list of columns, up to and with `format`; cameras for web pages
+/// follow.
 bool holds_text(const std::string& name) {
   const auto& columns = batch::result_columns();
   const auto last_text = std::find(columns.begin(), columns.end(), "format");
-  return std::find(columns.begin(), last_text + 1, name) != last_text + 1;
+  return std::find(columns.begin(), last_text + 1, name) != last_text + 1 ||
+         name.starts_with("best_camera_") || name == "best_field_of_view";
+}
+
+std::optional<double> number_of(const std::string& text) {
+  double number = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, number);
+  return parsed.ec == std::errc{} && parsed.ptr == end && std::isfinite(number)
+             ? std::optional(number)
+             : std::nullopt;
+}
+
+/// What a column of numbers is compared with. \throw CLI::ValidationError
+double number_for(const Condition& condition) {
+  const std::string& value = condition.value;
+  if (condition.column == "closed" && (value == "true" || value == "false")) {
+    return value == "true" ? 1.0 : 0.0;
+  }
+  const std::optional<double> number = number_of(value);
+  if (!number) {
+    throw CLI::ValidationError("--where", "'" + value + "' is no number, which " +
+                                              condition.column +
+                                              " is compared with; write one like 0.4" +
+                                              (condition.column == "closed" ? " or true" : ""));
+  }
+  return *number;
 }
 
 void require_column(const std::string& name, const std::string& flag) {
@@ -58,11 +88,9 @@ Condition parse_condition(const std::string& text) {
     require_column(condition.column, "--where");
     condition.comparison = *sql == '\0' ? "instr(lower(" + condition.column + "), lower(?)) > 0"
                                         : condition.column + sql;
-    double number = 0.0;
-    const char* const end = condition.value.data() + condition.value.size();
-    const auto parsed = std::from_chars(condition.value.data(), end, number);
-    condition.is_number =
-        !holds_text(condition.column) && parsed.ec == std::errc{} && parsed.ptr == end;
+    if (*sql != '\0' && !holds_text(condition.column)) {
+      condition.number = number_for(condition);
+    }
     return condition;
   }
   throw CLI::ValidationError("--where",
@@ -86,27 +114,48 @@ std::vector<std::string> parse_columns(const std::string& text) {
   return columns;
 }
 
+Order parse_order(const std::string& text) {
+  Order order;
+  order.is_down = text.starts_with('-');
+  order.column = text.substr(order.is_down ? 1 : 0);
+  if (!text.empty()) {
+    require_column(order.column, "--sort");
+  }
+  return order;
+}
+
+RankedRow::RankedRow(const batch::Statement& row, int column) {
+  if (row.is_real(column) || row.is_integer(column)) {
+    kind_ = 0;
+    number_ = row.number(column);
+  } else if (!row.is_null(column)) {
+    kind_ = 1;
+    text_ = row.text(column);
+  }
+}
+
+bool RankedRow::comes_before(const RankedRow& other, bool is_down) const {
+  if (kind_ == 2 || other.kind_ == 2) {  // no value is last in both directions
+    return kind_ < other.kind_;
+  }
+  const auto [first, second] = is_down ? std::pair(&other, this) : std::pair(this, &other);
+  return std::tie(first->kind_, first->number_, first->text_) <
+         std::tie(second->kind_, second->number_, second->text_);
+}
+
 batch::Statement select_rows(batch::ResultsStore& store, const std::vector<std::string>& columns,
-                             const std::vector<Condition>& conditions, const std::string& sort) {
+                             const std::vector<Condition>& conditions, const Order& sort) {
   std::string where;
   for (const Condition& condition : conditions) {
     where += (where.empty() ? "" : " AND ") + condition.comparison;
   }
-  std::string order;
-  if (!sort.empty()) {
-    const bool down = sort.front() == '-';
-    const std::string column = sort.substr(down ? 1 : 0);
-    require_column(column, "--sort");
-    order = column + (down ? " DESC NULLS LAST" : " NULLS LAST");
-  }
+  const std::string order =
+      sort.column.empty() ? "" : sort.column + (sort.is_down ? " DESC NULLS LAST" : " NULLS LAST");
   batch::Statement rows = store.select(joined(columns), where, order);
   int index = 0;
   for (const Condition& condition : conditions) {
-    if (condition.is_number) {
-      double number = 0.0;
-      std::from_chars(condition.value.data(), condition.value.data() + condition.value.size(),
-                      number);
-      rows.bind(++index, number);
+    if (condition.number) {
+      rows.bind(++index, *condition.number);
     } else {
       rows.bind(++index, condition.value);
     }

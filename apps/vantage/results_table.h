@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,26 @@ struct Condition {
   std::string column{};
   std::string comparison{};  ///< SQL with a ? for the value.
   std::string value{};
-  bool is_number = false;
+  std::optional<double> number{};  ///< Of a column of numbers, what it is compared with.
+};
+
+/// A column to sort by, or none.
+struct Order {
+  std::string column{};
+  bool is_down = false;  ///< The largest first.
+};
+
+/// What a row is sorted by, to join rows of several stores: numbers come before texts.
+class RankedRow {
+ public:
+  RankedRow(const batch::Statement& row, int column);
+
+  [[nodiscard]] bool comes_before(const RankedRow& other, bool is_down) const;
+
+ private:
+  int kind_ = 2;  ///< 0: a number, 1: text, 2: no value.
+  double number_ = 0.0;
+  std::string text_{};
 };
 
 /// \throw CLI::ValidationError
@@ -27,9 +47,12 @@ Condition parse_condition(const std::string& text);
 /// The columns of "name,status", all of which exist. \throw CLI::ValidationError
 std::vector<std::string> parse_columns(const std::string& text);
 
-/// Rows that fulfil all conditions, in the order of `sort` ("column" or "-column", "": by key).
+/// "column", "-column" or "". \throw CLI::ValidationError
+Order parse_order(const std::string& text);
+
+/// Rows that fulfil all conditions, sorted; without a column by key.
 batch::Statement select_rows(batch::ResultsStore& store, const std::vector<std::string>& columns,
-                             const std::vector<Condition>& conditions, const std::string& sort);
+                             const std::vector<Condition>& conditions, const Order& sort);
 
 /// A cell's text as exports write it; numbers in the shortest form that reads back the same.
 std::string cell_text(const batch::Statement& row, int column);

@@ -49,6 +49,10 @@ RowFile::RowFile(std::string path) : path_(std::move(path)) {
     // A device or a pipe must not be replaced by a file.
     file_ = std::fopen(path_.c_str(), "wbe");
   } else {
+    if (fs::is_symlink(path_, error)) {  // the file that the link names is replaced, not the link
+      const fs::path target = fs::canonical(path_, error);
+      path_ = error ? path_ : target.string();
+    }
     part_ = create_beside(path_, file_);
   }
   if (file_ == nullptr) {

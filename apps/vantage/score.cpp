@@ -72,6 +72,7 @@ struct ScoreCommand {
       throw CLI::ValidationError("--visible", "needs directions: --sphere or --directions");
     }
     const std::vector<Vec3> points = session.read([&] { return points_to_score(); });
+    require_distinct({{"-o", file}, {"--visible", visible}});
     check_output(file, OutputKind::Table, session.flags);
     check_output(visible, OutputKind::Shape, session.flags);
     const Model loaded = session.load(model);

@@ -64,9 +64,10 @@ struct SkeletonCommand {
     const ViewOptions options = method.resolve();
     const RunContext run = session.run();
     session.leave_output_to(file, "-o");
+    require_distinct({{"-o", file}, {"--meso", meso}});
     check_output(file, OutputKind::Shape, session.flags);
     check_output(meso, OutputKind::Shape, session.flags);
-    check_levels(levels, session.flags);
+    check_levels(levels, {{"-o", file}, {"--meso", meso}}, session.flags);
     const Model loaded = session.load(model);
     ShapeAnalysis shape = session.computing([&] {
       ShapeAnalysis result = prepare_surface(loaded, session.run());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "terminal.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -103,6 +104,32 @@ std::string plural(std::size_t count, std::string_view noun) {
     return text.substr(0, text.size() - 1) + "ies";
   }
   return text + "s";
+}
+
+std::string aligned(const std::vector<std::vector<std::string>>& rows, Alignment alignment) {
+  const auto letters = [](const std::string& text) {  // of UTF-8
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+      return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+    }));
+  };
+  std::vector<std::size_t> widths(rows.empty() ? 0 : rows.front().size());
+  for (const auto& row : rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      widths[c] = std::max(widths[c], letters(row[c]));
+    }
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string blanks(widths[c] - letters(row[c]), ' ');
+      const bool is_left = c == 0 || alignment == Alignment::Left;
+      line += (c == 0 ? "" : "  ") + (is_left ? row[c] + blanks : blanks + row[c]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += (text.empty() ? "" : "\n") + line;
+  }
+  return text;
 }
 
 }  // namespace vantage::cli

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vantage::cli {
 
@@ -22,5 +23,14 @@ std::string rounded(double value, int digits = 4);
 
 /// `count` with its noun: "1 cycle", "2 cycles".
 std::string plural(std::size_t count, std::string_view noun);
+
+/// Where cells of a table stand in their columns.
+enum class Alignment {
+  Left,
+  FirstLeft,  ///< The first column; the others, of numbers, to the right.
+};
+
+/// Rows as lines, two blanks between columns, no line end after the last. \pre rows of one length
+std::string aligned(const std::vector<std::vector<std::string>>& rows, Alignment alignment);
 
 }  // namespace vantage::cli

@@ -75,7 +75,6 @@ struct ThumbCommand {
     if (file.empty()) {
       throw CLI::RequiredError("FILE");
     }
-    look.check(file);
     session.leave_output_to(file, "FILE");
     check_output(file, OutputKind::Picture, session.flags);
     AllOptions given;
@@ -84,6 +83,7 @@ struct ThumbCommand {
     options.width = size.width;
     options.height = size.height;
     options.fit_size = size.fit_size;
+    look.check(file, options);
     options.margin_percent = look.margin_percent();
     const RunContext run = session.run();
     const Model loaded = load_posed(session, model, options, &look);

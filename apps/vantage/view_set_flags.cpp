@@ -14,6 +14,7 @@
 #include "vantage/render/render.h"
 #include "vantage/report/figures.h"
 
+#include "picture_file.h"
 #include "terminal.h"
 
 namespace vantage::cli {
@@ -97,6 +98,7 @@ std::optional<ViewSetRequest> ViewSetFlags::request() const {
     throw CLI::ValidationError("--views",
                                "say how many views are wanted, with --views N or --coverage C");
   }
+  check_sides(tour_, width_, height_, "--tour-size");
   return request;
 }
 

@@ -13,6 +13,8 @@
 namespace vantage {
 namespace {
 
+constexpr std::size_t kMostLevels = 100;  // [ours] of nodes above that of a camera
+
 class CameraReader : private JsonReader {
  public:
   using JsonReader::JsonReader;
@@ -61,7 +63,7 @@ class CameraReader : private JsonReader {
   }
 
   std::optional<double> gltf_aspect() const {
-    const Json& lens = gltf_lens(gltf_node());
+    const Json& lens = gltf_lens(gltf_nodes()[gltf_node()]);
     if (has(lens, "orthographic")) {
       return ratio(lens.at("orthographic"), "xmag", "ymag");
     }
@@ -71,14 +73,39 @@ class CameraReader : private JsonReader {
     return quotient(number(lens.at("perspective").at("aspectRatio"), "aspectRatio"), 1.0);
   }
 
+  const Json& gltf_nodes() const {
+    const Json& nodes = member(root(), "nodes");
+    if (!nodes.is_array()) {
+      fail("its nodes are no list");
+    }
+    return nodes;
+  }
+
   /// The first node that has a camera.
-  const Json& gltf_node() const {
-    for (const Json& node : member(root(), "nodes")) {
-      if (has(node, "camera")) {
-        return node;
+  std::size_t gltf_node() const {
+    const Json& nodes = gltf_nodes();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (has(nodes[i], "camera")) {
+        return i;
       }
     }
     fail("holds no node with a camera");
+  }
+
+  /// The node that another one is a child of.
+  std::optional<std::size_t> gltf_parent(std::size_t child) const {
+    const Json& nodes = gltf_nodes();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (!has(nodes[i], "children") || !nodes[i].at("children").is_array()) {
+        continue;
+      }
+      for (const Json& index : nodes[i].at("children")) {
+        if (index.is_number_unsigned() && index.get<std::size_t>() == child) {
+          return i;
+        }
+      }
+    }
+    return {};
   }
 
   const Json& gltf_lens(const Json& node) const {
@@ -117,14 +144,26 @@ class CameraReader : private JsonReader {
   }
 
   Camera from_gltf() const {
-    const Json& node = gltf_node();
-    const Json& lens = gltf_lens(node);
-    Camera camera = camera_at(gltf_pose(node), has(node, "extras") ? node.at("extras") : Json());
-    read_gltf_lens(lens, camera);
+    const Json& nodes = gltf_nodes();
+    const std::size_t index = gltf_node();
+    const Json& node = nodes[index];
+    Eigen::Matrix4d world = gltf_pose(node);
+    std::size_t levels = 0;
+    for (auto above = gltf_parent(index); above; above = gltf_parent(*above)) {
+      world = gltf_pose(nodes[*above]) * world;
+      if (++levels > kMostLevels) {
+        fail("the node of its camera stands below itself, or too deep");
+      }
+    }
+    // The point looked at is of the scene, as we write it; whoever put the node below another one may
+    // have moved it.
+    const bool has_target = levels == 0 && has(node, "extras");
+    Camera camera = camera_at(world, has_target ? node.at("extras") : Json());
+    read_gltf_lens(gltf_lens(node), camera);
     return camera;
   }
 
-  /// A node's matrix, or what its translation and rotation make; of an animated one, as a tour's, they
+  /// A node's matrix, or what its translation, rotation and scale make; of an animated one, as a tour's, they
   /// are those of its begin.
   Eigen::Matrix4d gltf_pose(const Json& node) const {
     Eigen::Matrix4d world = Eigen::Matrix4d::Identity();
@@ -146,6 +185,9 @@ class CameraReader : private JsonReader {
             number(entry(node.at("rotation"), static_cast<std::size_t>(i), "rotation"), "rotation");
       }
       world.block<3, 3>(0, 0) = Eigen::Quaterniond(turn.normalized()).toRotationMatrix();
+    }
+    if (has(node, "scale")) {
+      world.block<3, 3>(0, 0) *= vector(node.at("scale"), "scale").asDiagonal();
     }
     return world;
   }
@@ -183,11 +225,17 @@ class CameraReader : private JsonReader {
       camera.height = lens("orthographic_height");
     } else if (has_lens("camera_angle_y")) {
       camera.fov_y_deg = lens("camera_angle_y") * kDegPerRad;
-    } else {
+    } else if (has_lens("camera_angle_x")) {
       const double width = lens("w");
       const double height = lens("h");
       const double half = std::tan(0.5 * lens("camera_angle_x"));
       camera.fov_y_deg = 2.0 * std::atan(half * height / width) * kDegPerRad;
+    } else if (has_lens("fl_y") || has_lens("fl_x")) {
+      // Nerfstudio: focal lengths in pixels; with one alone, pixels are square.
+      const double focal_length = lens(has_lens("fl_y") ? "fl_y" : "fl_x");
+      camera.fov_y_deg = 2.0 * std::atan2(lens("h"), 2.0 * focal_length) * kDegPerRad;
+    } else {
+      fail("says nothing of the camera's lens: expected camera_angle_x, or fl_y and h");
     }
     return camera;
   }

@@ -60,6 +60,10 @@ class SceneReader {
       builder_.note("texture coordinates of a primitive left out: they are not in the file (" +
                     std::to_string(untextured_primitives_) + " of such)");
     }
+    if (hidden_nodes_ > 0) {
+      builder_.note("nodes that the file hides left out, with all below them: " +
+                    std::to_string(hidden_nodes_));
+    }
     if (skipped_primitives_ > 0) {
       builder_.note("primitives of points or lines left out: " +
                     std::to_string(skipped_primitives_));
@@ -140,6 +144,10 @@ class SceneReader {
       builder_.fail(
           "its nodes share their children so often that the model is out of proportion "
           "to the file");
+    }
+    if (n < document_.hidden_nodes.size() && document_.hidden_nodes[n]) {
+      hidden_nodes_ += is_counting_ ? 1 : 0;
+      return;
     }
     const tinygltf::Node& node = gltf_.nodes[n];
     const Transform world = parent * local_transform(node, n);
@@ -433,6 +441,7 @@ class SceneReader {
   std::size_t visits_left_ = 0;
   bool has_triangles_ = false;
   bool has_colours_ = false;
+  std::size_t hidden_nodes_ = 0;
   std::size_t skipped_primitives_ = 0;
   std::size_t shapeless_primitives_ = 0;
   std::size_t untextured_primitives_ = 0;

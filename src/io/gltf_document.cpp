@@ -126,6 +126,55 @@ bool names(const Json& root, const char* list, std::string_view extension) {
          });
 }
 
+/// Whether the file is read as it should be in spite of an extension that it needs. Materials only look
+/// otherwise without one.
+bool is_read_extension(std::string_view extension) {
+  constexpr std::array<std::string_view, 9> kRead{
+      "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization",
+      "KHR_texture_transform",      "EXT_texture_webp",        "KHR_texture_basisu",
+      "KHR_lights_punctual",        "KHR_node_visibility",     "EXT_mesh_gpu_instancing"};
+  return extension.starts_with("KHR_materials_") ||
+         std::find(kRead.begin(), kRead.end(), extension) != kRead.end();
+}
+
+void note_unread_extensions(const Json& root, ModelBuilder& builder) {
+  const auto list = root.find("extensionsRequired");
+  if (list == root.end() || !list->is_array()) {
+    return;
+  }
+  std::set<std::string> unread;
+  for (const Json& entry : *list) {
+    if (entry.is_string() && !is_read_extension(entry.get_ref<const std::string&>())) {
+      unread.insert(entry.get<std::string>());
+    }
+  }
+  constexpr std::size_t kMostNotes = 5;  // [ours] the rest would say nothing new
+  std::size_t told = 0;
+  for (const std::string& extension : unread) {
+    if (told++ < kMostNotes) {
+      builder.note("needs the extension " + in_quotes(extension) +
+                   ", which is not read: what it changes is not shown");
+    }
+  }
+}
+
+/// Nodes that KHR_node_visibility hides, with all below them.
+std::vector<bool> hidden_nodes(const Json& root) {
+  std::vector<bool> hidden;
+  const auto nodes = root.find("nodes");
+  if (nodes == root.end() || !nodes->is_array()) {
+    return hidden;
+  }
+  for (const Json& node : *nodes) {
+    const Json extension =
+        node.is_object() && node.contains("extensions") && node["extensions"].is_object()
+            ? node["extensions"].value("KHR_node_visibility", Json())
+            : Json();
+    hidden.push_back(extension.is_object() && extension.value("visible", Json(true)) == false);
+  }
+  return hidden;
+}
+
 /// Whether one of a list's entries weighs a morph target.
 bool is_morphed(const Json& root, const char* list) {
   const auto found = root.find(list);
@@ -149,6 +198,7 @@ void check_extensions(const Json& root, ModelBuilder& builder) {
   if (names(root, "extensionsUsed", "EXT_mesh_gpu_instancing")) {
     builder.note("EXT_mesh_gpu_instancing is not read: one instance of each mesh is shown");
   }
+  note_unread_extensions(root, builder);
   if (root.contains("skins")) {
     builder.note("skinned meshes are read as their vertices stand, without their skeletons");
   }
@@ -303,6 +353,7 @@ GltfDocument read_gltf_document(std::string_view bytes, const Surroundings& surr
   check_extensions(root, builder);
   GltfDocument document;
   document.structure = parse_structure(root, builder);
+  document.hidden_nodes = hidden_nodes(root);
   document.base_colours = gltf_base_colours(root);
   document.texcoord_sets = gltf_texcoord_sets(root);
   document.total_bytes = bytes.size();

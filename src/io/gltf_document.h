@@ -22,8 +22,9 @@ struct GltfDocument {
   std::vector<std::array<double, 3>> base_colours{};
   /// Which TEXCOORD_n the colour texture of each material uses.
   std::vector<int> texcoord_sets{};
-  std::size_t total_bytes = 0;     ///< Of the file and its buffers, each counted once.
-  std::size_t unpacked_bytes = 0;  ///< Of what was packed in them.
+  std::vector<bool> hidden_nodes{};  ///< Nodes that are not shown, nor what is below them.
+  std::size_t total_bytes = 0;       ///< Of the file and its buffers, each counted once.
+  std::size_t unpacked_bytes = 0;    ///< Of what was packed in them.
 };
 
 /// Reads the container, the JSON and the buffers. tinygltf sees only the part of the JSON that

@@ -45,26 +45,6 @@ std::optional<std::string> decode_base64(std::string_view text) {
   return bytes;
 }
 
-std::optional<std::string> decode_percent(std::string_view text) {
-  std::string decoded;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '%') {
-      decoded += text[i];
-      continue;
-    }
-    unsigned value = 0;
-    const std::string_view digits = text.substr(i + 1, 2);
-    const auto [end, error] =
-        std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
-    if (error != std::errc() || digits.size() != 2 || end != digits.data() + 2) {
-      return std::nullopt;
-    }
-    decoded += static_cast<char>(value);
-    i += 2;
-  }
-  return decoded;
-}
-
 bool climbs(std::string_view path) {
   std::size_t begin = 0;
   while (begin <= path.size()) {
@@ -86,6 +66,26 @@ std::optional<std::string> decode_data_uri(std::string_view uri) {
     return std::nullopt;
   }
   return decode_base64(uri.substr(marker + kMarker.size()));
+}
+
+std::optional<std::string> decode_percent(std::string_view text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      decoded += text[i];
+      continue;
+    }
+    unsigned value = 0;
+    const std::string_view digits = text.substr(i + 1, 2);
+    const auto [end, error] =
+        std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+    if (error != std::errc() || digits.size() != 2 || end != digits.data() + 2) {
+      return std::nullopt;
+    }
+    decoded += static_cast<char>(value);
+    i += 2;
+  }
+  return decoded;
 }
 
 std::optional<std::string> relative_path_of_uri(std::string_view uri) {

@@ -10,6 +10,9 @@ namespace vantage {
 /// The bytes of a "data:…;base64,…" URI; nothing if it is not well formed.
 std::optional<std::string> decode_data_uri(std::string_view uri);
 
+/// The text with each %XX as a byte; nothing if a percent sign stands before anything else.
+std::optional<std::string> decode_percent(std::string_view text);
+
 /// The relative path a URI names, percent signs decoded; nothing if it has a scheme, is absolute,
 /// or climbs with "..".
 std::optional<std::string> relative_path_of_uri(std::string_view uri);

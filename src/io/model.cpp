@@ -13,6 +13,7 @@
 #include "io/files.h"
 #include "io/model_format.h"
 #include "io/readers.h"
+#include "io/side_files.h"
 
 namespace vantage {
 namespace {
@@ -70,15 +71,6 @@ Model parse_with(std::string_view bytes, std::string_view name, const RunContext
   return model;
 }
 
-/// Where a file beside the model is; empty if it lies outside the model's folder, also by links.
-fs::path place_beside(const std::string& model_path, const std::string& relative,
-                      std::error_code& error) {
-  const fs::path folder = fs::canonical(fs::absolute(model_path).parent_path(), error);
-  const fs::path wanted = error ? fs::path() : fs::canonical(folder / relative, error);
-  const fs::path inside = wanted.lexically_relative(folder);
-  return inside.empty() || *inside.begin() == ".." ? fs::path() : wanted;
-}
-
 /// Buffers that were read, by where they are.
 using KnownBuffers = std::map<fs::path, SharedBytes>;
 
@@ -100,23 +92,6 @@ SharedBytes read_beside(const std::string& model_path, const std::string& relati
     bytes = std::make_shared<const std::string>(read_file(wanted.string()));
   }
   return bytes;
-}
-
-/// The same for a file that the model can do without.
-SideFile side_file(const std::string& model_path, const std::string& relative) {
-  std::error_code error;
-  const fs::path wanted = place_beside(model_path, relative, error);
-  if (error) {
-    return {std::nullopt, "cannot be opened"};
-  }
-  if (wanted.empty()) {
-    return {std::nullopt, "lies outside the model's folder"};
-  }
-  try {
-    return {read_file(wanted.string()), {}};
-  } catch (const IoError&) {  // the model is sound without it
-    return {std::nullopt, "cannot be read"};
-  }
 }
 
 }  // namespace

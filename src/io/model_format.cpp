@@ -9,6 +9,7 @@
 #include "io/foreign_format.h"
 #include "io/number_parsing.h"
 #include "io/readers.h"
+#include "io/stl_layout.h"
 #include "io/text_cursor.h"
 #include "io/threemf_package.h"
 
@@ -17,20 +18,6 @@ namespace {
 
 constexpr std::array<std::string_view, 12> kFormatNames = {
     "obj", "off", "ply", "stl", "gltf", "glb", "xyz", "pts", "pwn", "pcd", "3mf", "imported"};
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  }
-  return result;
-}
-
-std::string extension_of(std::string_view name) {
-  const std::string_view file = name.substr(name.find_last_of('/') + 1);
-  const std::size_t dot = file.find_last_of('.');
-  return dot == std::string_view::npos ? "" : lower(file.substr(dot + 1));
-}
 
 std::optional<ModelFormat> format_of_extension(std::string_view extension) {
   const auto endings = model_endings();
@@ -47,10 +34,10 @@ std::optional<ModelFormat> format_of_magic(std::string_view bytes) {
   if (is_threemf(bytes)) {
     return ModelFormat::Threemf;
   }
-  if (bytes.starts_with("# .PCD")) {
+  if (without_bom(bytes).starts_with("# .PCD")) {
     return ModelFormat::Pcd;
   }
-  const std::string_view first_line = TextCursor(bytes).next_line().value_or("");
+  const std::string_view first_line = TextCursor(without_bom(bytes)).next_line().value_or("");
   if (trimmed(first_line) == "ply") {
     return ModelFormat::Ply;
   }
@@ -67,7 +54,7 @@ std::optional<ModelFormat> format_of_content(std::string_view bytes) {
   }
   TextCursor cursor(without_bom(bytes));
   const std::string_view word = cursor.next_token('#');
-  if (lower(word.substr(0, 5)) == "solid") {
+  if (lower_case(word.substr(0, 5)) == "solid") {
     return ModelFormat::Stl;
   }
   if (word.starts_with("{")) {
@@ -85,6 +72,12 @@ std::optional<ModelFormat> format_of_content(std::string_view bytes) {
 
 std::span<const std::string_view> model_endings() {
   return std::span(kFormatNames).first(kFormatNames.size() - 1);  // no file is called .imported
+}
+
+std::string extension_of(std::string_view name) {
+  const std::string_view file = name.substr(name.find_last_of('/') + 1);
+  const std::size_t dot = file.find_last_of('.');
+  return dot == std::string_view::npos ? "" : lower_case(file.substr(dot + 1));
 }
 
 std::string_view format_name(ModelFormat format) {

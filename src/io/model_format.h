@@ -22,6 +22,9 @@ struct DetectedFormat {
 DetectedFormat detect_format(std::string_view bytes, std::string_view name,
                              bool may_import = false);
 
+/// What follows the last dot of the file's name, in lower-case ASCII; empty if there is no dot.
+std::string extension_of(std::string_view name);
+
 /// File name without folder and without extension.
 std::string model_name(std::string_view path);
 

@@ -7,6 +7,7 @@
 
 #include "io/model_builder.h"
 #include "io/number_parsing.h"
+#include "io/obj_lines.h"
 #include "io/obj_materials.h"
 #include "io/readers.h"
 #include "io/text_cursor.h"
@@ -27,7 +28,7 @@ class ObjReader {
  public:
   ObjReader(std::string_view bytes, std::string_view name, const RunContext& run,
             const Surroundings& surroundings)
-      : cursor_(without_bom(bytes)),
+      : lines_(bytes),
         size_(bytes.size()),
         builder_(ModelFormat::Obj, name, run, 1),
         materials_(surroundings, builder_) {
@@ -37,9 +38,9 @@ class ObjReader {
   }
 
   Model read() {
-    while (std::optional<std::string_view> line = next_logical_line()) {
+    while (std::optional<std::string_view> line = lines_.next()) {
       read_line(*line);
-      builder_.advance(cursor_.offset(), size_);
+      builder_.advance(lines_.offset(), size_);
     }
     finish_notes();
     if (builder_.keeps_appearance()) {
@@ -49,22 +50,6 @@ class ObjReader {
   }
 
  private:
-  /// The next line, joined with the lines that it continues on (\ at its end).
-  std::optional<std::string_view> next_logical_line() {
-    std::optional<std::string_view> line = cursor_.next_line();
-    place_ = cursor_.place();
-    if (!line || line->empty() || line->back() != '\\' || trimmed(*line).front() == '#') {
-      return line;
-    }
-    joined_.clear();
-    while (line && !line->empty() && line->back() == '\\') {
-      joined_.append(line->substr(0, line->size() - 1)).append(" ");
-      line = cursor_.next_line();
-    }
-    joined_.append(line.value_or(""));
-    return joined_;
-  }
-
   void read_line(std::string_view rest) {
     const std::string_view keyword = take_token(rest);
     if (keyword.empty() || keyword.front() == '#') {
@@ -87,7 +72,7 @@ class ObjReader {
     } else if (std::find(kSilentKeywords.begin(), kSilentKeywords.end(), keyword) ==
                kSilentKeywords.end()) {
       if (unknown_++ == 0) {
-        first_unknown_ = in_quotes(keyword) + " in " + place_.text();
+        first_unknown_ = in_quotes(keyword) + " in " + lines_.place().text();
       }
     }
   }
@@ -115,7 +100,7 @@ class ObjReader {
   double number(std::string_view token, bool may_be_nan) {
     const std::optional<double> value = number_from(token);
     if (!value || !(std::isfinite(*value) || may_be_nan)) {
-      builder_.fail(place_, number_problem(token));
+      builder_.fail(lines_.place(), number_problem(token));
     }
     return *value;
   }
@@ -123,10 +108,10 @@ class ObjReader {
   void read_vertex(std::string_view rest) {
     std::array<double, 7> values{};
     std::size_t count = 0;
-    for (std::string_view token = take_token(rest); !token.empty() && token.front() != '#';
-         token = take_token(rest)) {
+    rest = rest.substr(0, rest.find('#'));
+    for (std::string_view token = take_token(rest); !token.empty(); token = take_token(rest)) {
       if (count == values.size()) {
-        builder_.fail(place_, "a vertex has more than 7 numbers");
+        builder_.fail(lines_.place(), "a vertex has more than 7 numbers");
       }
       values[count] = number(token, count >= 3);
       if (count < 3 && !builder_.double_precision() && needs_double(token, values[count])) {
@@ -135,24 +120,24 @@ class ObjReader {
       ++count;
     }
     if (count < 3) {
-      builder_.fail(place_, "expected 3 coordinates, found " + std::to_string(count));
+      builder_.fail(lines_.place(), "expected 3 coordinates, found " + std::to_string(count));
     }
-    builder_.add_point({values[0], values[1], values[2]}, place_);
+    builder_.add_point({values[0], values[1], values[2]}, lines_.place());
     if (count >= 6) {
       builder_.add_colour(values[3], values[4], values[5]);
     } else if (count == 4) {
       weights_ += values[3] != 1.0 ? 1 : 0;
     } else if (count == 5) {
-      builder_.fail(place_,
+      builder_.fail(lines_.place(),
                     "a vertex has 3 coordinates and 2 more numbers; expected a weight (1 "
                     "number) or a colour (3 or 4)");
     }
   }
 
   void read_face(std::string_view rest) {
-    for (std::string_view token = take_token(rest); !token.empty() && token.front() != '#';
-         token = take_token(rest)) {
-      builder_.add_corner(corner_vertex(token), place_);
+    rest = rest.substr(0, rest.find('#'));
+    for (std::string_view token = take_token(rest); !token.empty(); token = take_token(rest)) {
+      builder_.add_corner(corner_vertex(token), lines_.place());
       read_corner_uv(token);
     }
     builder_.end_polygon();
@@ -182,18 +167,19 @@ class ObjReader {
     const std::size_t slash = std::min(token.find('/'), token.size());
     const std::optional<std::int64_t> index = integer_from(token.substr(0, slash));
     if (!index || token.find_first_not_of("+-0123456789/", slash) != std::string_view::npos) {
-      builder_.fail(place_, "expected a corner such as 7 or 7/2/5, found " + in_quotes(token));
+      builder_.fail(lines_.place(),
+                    "expected a corner such as 7 or 7/2/5, found " + in_quotes(token));
     }
     if (*index == 0) {
-      builder_.fail(place_, "face names vertex 0, but vertices are counted from 1");
+      builder_.fail(lines_.place(), "face names vertex 0, but vertices are counted from 1");
     }
     if (*index > 0) {
       return static_cast<std::uint64_t>(*index) - 1;
     }
     const auto seen = static_cast<std::int64_t>(builder_.point_count());
     if (*index < -seen) {
-      builder_.fail(place_, "face names vertex " + std::to_string(*index) + ", but only " +
-                                std::to_string(seen) + " vertices come before it");
+      builder_.fail(lines_.place(), "face names vertex " + std::to_string(*index) + ", but only " +
+                                        std::to_string(seen) + " vertices come before it");
     }
     return static_cast<std::uint64_t>(seen + *index);
   }
@@ -215,12 +201,10 @@ class ObjReader {
     }
   }
 
-  TextCursor cursor_;
+  ObjLines lines_;
   std::size_t size_;
   ModelBuilder builder_;
   ObjMaterials materials_;
-  Place place_{};
-  std::string joined_{};
   std::size_t weights_ = 0;
   std::size_t lines_and_points_ = 0;
   std::size_t curves_ = 0;

@@ -5,73 +5,12 @@
 #include <utility>
 
 #include "core/srgb.h"
-#include "io/gltf_uri.h"
 #include "io/number_parsing.h"
-#include "io/text_cursor.h"
 
 namespace vantage {
-namespace {
-
-/// Programs of Windows write backslashes.
-std::string with_slashes(std::string_view name) {
-  std::string path(name);
-  std::replace(path.begin(), path.end(), '\\', '/');
-  return path;
-}
-
-std::string folder_of(const std::string& path) {
-  return path.substr(0, path.find_last_of('/') + 1);
-}
-
-/// A relative path as the file names it; nothing if it leaves the folder.
-std::optional<std::string> inside_folder(const std::string& path) {
-  // The rules are those of glTF; a percent sign is none of an OBJ's ways to write a character.
-  std::string escaped;
-  for (const char c : path) {
-    escaped += c == '%' ? std::string("%25") : std::string(1, c);
-  }
-  return relative_path_of_uri(escaped);
-}
-
-}  // namespace
-
-void ObjMaterials::add_library(std::string_view names) {
-  if (!names.empty() && known_libraries_.emplace(names).second) {
-    libraries_.emplace_back(names);
-  }
-}
-
 void ObjMaterials::use(std::string_view name) {
   const auto next = static_cast<std::uint32_t>(index_of_name_.size());
   builder_.begin_material(index_of_name_.try_emplace(std::string(name), next).first->second);
-}
-
-bool ObjMaterials::read_library(std::string_view name) {
-  const std::optional<std::string> path = inside_folder(with_slashes(name));
-  if (!path || !surroundings_.side_files) {
-    return false;
-  }
-  const auto known = library_is_read_.find(*path);
-  if (known != library_is_read_.end()) {
-    return known->second;
-  }
-  const bool is_read = read_materials(*path);
-  library_is_read_[*path] = is_read;
-  return is_read;
-}
-
-bool ObjMaterials::read_materials(const std::string& path) {
-  const SideFile file = surroundings_.side_files(path);
-  if (!file.bytes) {
-    return false;
-  }
-  const std::string folder = folder_of(path);
-  for (auto& [material, look] : parse_mtl(*file.bytes)) {
-    look.picture = look.picture.empty() ? "" : folder + with_slashes(look.picture);
-    look.mask = look.mask.empty() ? "" : folder + with_slashes(look.mask);
-    materials_.try_emplace(material, look);
-  }
-  return true;
 }
 
 std::optional<std::uint32_t> ObjMaterials::texture(const MtlMaterial& source) {
@@ -80,11 +19,7 @@ std::optional<std::uint32_t> ObjMaterials::texture(const MtlMaterial& source) {
     return known->second;
   }
   std::optional<std::uint32_t>& place = known_pictures_[key];
-  // A path of the author's own disk: the picture has usually been put beside the model.
-  std::optional<std::string> path = inside_folder(source.picture);
-  if (!path || (surroundings_.side_files && !surroundings_.side_files(*path).bytes)) {
-    path = inside_folder(source.picture.substr(source.picture.find_last_of('/') + 1));
-  }
+  const std::optional<std::string> path = libraries_.place_of(source.picture);
   std::optional<Image> image = path ? loader_.beside(*path) : std::nullopt;
   if (image) {
     const TextureWrap wrap = source.clamp ? TextureWrap::Clamp : TextureWrap::Repeat;
@@ -118,28 +53,23 @@ Material ObjMaterials::material(const MtlMaterial& source) {
 }
 
 void ObjMaterials::finish() {
-  std::size_t left_out = 0;
-  for (const std::string& names : libraries_) {
-    bool found = read_library(names);  // one whose name has spaces, or else several
-    std::string_view rest = found ? std::string_view() : std::string_view(names);
-    for (std::string_view name = take_token(rest); !name.empty(); name = take_token(rest)) {
-      found = read_library(name) || found;
-    }
-    if (!found && left_out++ < kMostTextureNotes) {
-      builder_.note("the material library " + in_quotes(names) +
-                    " was left out: it cannot be read in the model's folder");
-    }
+  libraries_.read();
+  const std::vector<std::string>& missing = libraries_.missing();
+  const std::size_t told = std::min(missing.size(), kMostTextureNotes);
+  for (std::size_t i = 0; i < told; ++i) {
+    builder_.note("the material library " + in_quotes(missing[i]) +
+                  " was left out: it cannot be read in the model's folder");
   }
-  if (left_out > kMostTextureNotes) {
+  if (told < missing.size()) {
     builder_.note("more material libraries were left out: " +
-                  std::to_string(left_out - kMostTextureNotes));
+                  std::to_string(missing.size() - told));
   }
   std::vector<Material> materials(index_of_name_.size());
   std::size_t unknown = 0;
   for (const auto& [name, index] : index_of_name_) {
-    const auto found = materials_.find(name);
-    unknown += found == materials_.end() ? 1 : 0;
-    if (found != materials_.end()) {
+    const auto found = libraries_.materials().find(name);
+    unknown += found == libraries_.materials().end() ? 1 : 0;
+    if (found != libraries_.materials().end()) {
       materials[index] = material(found->second);
     }
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "io/number_parsing.h"
 #include "io/readers.h"
@@ -126,8 +127,6 @@ class OffReader {
   }
 
   void read_points() {
-    const std::size_t normal = layout_.normal ? 3 : 0;
-    const std::size_t texture = layout_.texture ? 2 : 0;
     for (std::size_t v = 0; v < points_; ++v) {
       std::array<double, 4> position{};
       Place place{};
@@ -145,16 +144,14 @@ class OffReader {
         }
       }
       add_off_point(builder_, layout_, position.data(), place);
-      by_line_ ? read_attributes_on_line(normal, texture) : read_attributes(normal, texture);
+      by_line_ ? read_attributes_on_line() : read_attributes();
       builder_.advance(cursor_.offset(), bytes_.size());
     }
   }
 
   /// Free form: counts of numbers are as the header word says.
-  void read_attributes(std::size_t normal, std::size_t texture) {
-    for (std::size_t i = 0; i < normal; ++i) {
-      cursor_.next_token(kComment);
-    }
+  void read_attributes() {
+    pass_numbers(layout_.before_colour());
     if (layout_.colour) {
       std::array<double, 4> colour{};
       for (double& channel : colour) {
@@ -162,13 +159,17 @@ class OffReader {
       }
       builder_.add_colour(colour[0], colour[1], colour[2]);
     }
-    for (std::size_t i = 0; i < texture; ++i) {
+    pass_numbers(layout_.beside_colour() - layout_.before_colour());
+  }
+
+  void pass_numbers(std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
       cursor_.next_token(kComment);
     }
   }
 
   /// Line by line: a colour may have three numbers or four, and plain OFF may have a surplus.
-  void read_attributes_on_line(std::size_t normal, std::size_t texture) {
+  void read_attributes_on_line() {
     std::array<std::string_view, 9> tokens{};
     std::size_t found = 0;
     for (std::string_view token = cursor_.token_on_line(kComment); !token.empty();
@@ -178,10 +179,11 @@ class OffReader {
       }
       ++found;
     }
-    const std::size_t without_colour = normal + texture;
+    const std::size_t without_colour = layout_.beside_colour();
     if (layout_.colour && found >= without_colour + 3) {
-      builder_.add_colour(number(tokens[normal]), number(tokens[normal + 1]),
-                          number(tokens[normal + 2]));
+      const std::size_t first = layout_.before_colour();
+      builder_.add_colour(number(tokens[first]), number(tokens[first + 1]),
+                          number(tokens[first + 2]));
     } else if (!layout_.colour && found > without_colour) {
       ++lines_with_surplus_;
     }
@@ -239,11 +241,21 @@ std::optional<OffLayout> off_layout(std::string_view word) {
   if (word == "off") {
     return layout;
   }
-  layout.texture = take_prefix(word, "ST");
-  layout.colour = take_prefix(word, "C");
-  layout.normal = take_prefix(word, "N");
-  layout.homogeneous = take_prefix(word, "4");
-  layout.any_dimension = take_prefix(word, "n");
+  const std::array<std::pair<std::string_view, bool*>, 5> letters{{{"ST", &layout.texture},
+                                                                   {"C", &layout.colour},
+                                                                   {"N", &layout.normal},
+                                                                   {"4", &layout.homogeneous},
+                                                                   {"n", &layout.any_dimension}}};
+  for (bool goes_on = true; goes_on;) {
+    goes_on = false;
+    layout.colour_first = layout.colour_first || (layout.normal && word.starts_with("C"));
+    for (const auto& [prefix, said] : letters) {
+      if (!*said && take_prefix(word, prefix)) {
+        *said = goes_on = true;
+        break;
+      }
+    }
+  }
   return word == "OFF" ? std::optional(layout) : std::nullopt;
 }
 

@@ -17,10 +17,21 @@ struct OffLayout {
   bool homogeneous = false;    ///< 4: a fourth coordinate that divides the others.
   bool any_dimension = false;  ///< n: the dimension follows the header word.
 
+  bool colour_first = false;  ///< As MeshLab writes it, which says NC: the colour, then the normal.
+
   [[nodiscard]] std::size_t coordinates() const { return homogeneous ? 4 : 3; }
+
+  /// Numbers between coordinates and colour.
+  [[nodiscard]] std::size_t before_colour() const { return normal && !colour_first ? 3 : 0; }
+
+  /// Numbers that are neither coordinates nor colour.
+  [[nodiscard]] std::size_t beside_colour() const {
+    return (normal ? 3U : 0U) + (texture ? 2U : 0U);
+  }
 };
 
-/// The layout of a header word such as "OFF" or "STCN4OFF"; nothing if it is none.
+/// The layout of a header word such as "OFF" or "STCN4OFF", its letters in any order; nothing if it
+/// is none.
 std::optional<OffLayout> off_layout(std::string_view word);
 
 /// Reads the vertex x y z [w] whose numbers are given. \throw FormatError if w is 0.

@@ -76,8 +76,8 @@ bool is_little_endian(std::string_view bytes, std::size_t start, std::size_t poi
 
 void read_binary_off(std::string_view bytes, std::size_t start, const OffLayout& layout,
                      ModelBuilder& builder) {
-  const std::size_t point_words = layout.coordinates() + (layout.normal ? 3 : 0) +
-                                  (layout.colour ? 4 : 0) + (layout.texture ? 2 : 0);
+  const std::size_t point_words =
+      layout.coordinates() + layout.beside_colour() + (layout.colour ? 4 : 0);
   const bool little_endian = is_little_endian(bytes, start, point_words);
   if (little_endian) {
     builder.note("the numbers stand lowest byte first, against the format's rule");
@@ -93,7 +93,7 @@ void read_binary_off(std::string_view bytes, std::size_t start, const OffLayout&
       position[c] = words.real();
     }
     add_off_point(builder, layout, position.data(), place);
-    words.skip(layout.normal ? 3 : 0);
+    words.skip(layout.before_colour());
     if (layout.colour) {
       const double red = words.real();
       const double green = words.real();
@@ -101,7 +101,7 @@ void read_binary_off(std::string_view bytes, std::size_t start, const OffLayout&
       builder.add_colour(red, green, blue);
       words.skip(1);
     }
-    words.skip(layout.texture ? 2 : 0);
+    words.skip(layout.beside_colour() - layout.before_colour());
     builder.advance(words.offset(), bytes.size());
   }
   for (std::size_t f = 0; f < faces; ++f) {

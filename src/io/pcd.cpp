@@ -120,6 +120,7 @@ void read_binary(std::string_view body, std::size_t begin, bool by_column, const
 }  // namespace
 
 Model parse_pcd(std::string_view bytes, std::string_view name, const RunContext& run) {
+  bytes = without_bom(bytes);
   ModelBuilder builder(ModelFormat::Pcd, name, run, 0);
   const PcdHeader header = read_pcd_header(bytes, builder);
   PointSink sink(builder, bytes.size());

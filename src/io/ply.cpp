@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -12,21 +13,24 @@
 #include "io/ply_header.h"
 #include "io/ply_source.h"
 #include "io/readers.h"
+#include "io/text_cursor.h"
 
 namespace vantage {
 namespace {
 
-/// Value of a full colour channel of this type.
-double full_colour(PlyScalar type) {
+/// Value of a full colour channel of this type. \param largest of all that there are.
+double full_colour(PlyScalar type, double largest) {
+  constexpr double kFullByte = 255.0;  // programs put bytes into wider numbers too
   switch (type) {
     case PlyScalar::U16:
+      return largest > kFullByte ? 65535.0 : kFullByte;
     case PlyScalar::I16:
-      return 65535.0;
+      return largest > kFullByte ? 32767.0 : kFullByte;
     case PlyScalar::F32:
     case PlyScalar::F64:
       return 1.0;
     default:
-      return 255.0;
+      return kFullByte;
   }
 }
 
@@ -72,22 +76,42 @@ class BodyReader {
 
   void read_vertices(const PlyElement& element) {
     builder_.reserve_points(static_cast<std::size_t>(element.count));
-    bool has_colour[3] = {false, false, false};
+    std::array<std::optional<PlyScalar>, 3> types{};
     for (const PlyProperty& property : element.properties) {
-      has_colour[0] = has_colour[0] || property.role == PlyRole::Red;
-      has_colour[1] = has_colour[1] || property.role == PlyRole::Green;
-      has_colour[2] = has_colour[2] || property.role == PlyRole::Blue;
+      if (property.role >= PlyRole::Red && property.role <= PlyRole::Blue) {
+        types[channel(property)] = property.type;
+      }
     }
-    const bool coloured = has_colour[0] && has_colour[1] && has_colour[2];
+    const bool coloured = types[0] && types[1] && types[2];
     for (std::uint64_t v = 0; v < element.count; ++v) {
       read_vertex(element, coloured);
       builder_.advance(source_.offset(), all_bytes_);
+    }
+    if (coloured) {
+      add_colours({*types[0], *types[1], *types[2]});
+    }
+  }
+
+  static std::size_t channel(const PlyProperty& property) {
+    return static_cast<std::size_t>(property.role) - static_cast<std::size_t>(PlyRole::Red);
+  }
+
+  void add_colours(const std::array<PlyScalar, 3>& types) {
+    double largest = 0.0;
+    for (const std::array<float, 3>& colour : colours_) {
+      largest = std::max({largest, static_cast<double>(colour[0]), static_cast<double>(colour[1]),
+                          static_cast<double>(colour[2])});
+    }
+    for (const std::array<float, 3>& colour : colours_) {
+      builder_.add_colour(static_cast<double>(colour[0]) / full_colour(types[0], largest),
+                          static_cast<double>(colour[1]) / full_colour(types[1], largest),
+                          static_cast<double>(colour[2]) / full_colour(types[2], largest));
     }
   }
 
   void read_vertex(const PlyElement& element, bool coloured) {
     Vec3 point = Vec3::Zero();
-    Vec3 colour = Vec3::Zero();
+    std::array<float, 3> colour{};
     const Place binary_place = source_.place();
     source_.begin_row();
     for (const PlyProperty& property : element.properties) {
@@ -101,8 +125,7 @@ class BodyReader {
         case PlyRole::Red:
         case PlyRole::Green:
         case PlyRole::Blue:
-          colour[static_cast<int>(property.role) - static_cast<int>(PlyRole::Red)] =
-              source_.next(property.type) / full_colour(property.type);
+          colour[channel(property)] = static_cast<float>(source_.next(property.type));
           break;
         default:
           skip_property(property);
@@ -111,7 +134,7 @@ class BodyReader {
     source_.end_row();
     builder_.add_point(point, binary_place.unit[0] == 'b' ? binary_place : source_.place());
     if (coloured) {
-      builder_.add_colour(colour.x(), colour.y(), colour.z());
+      colours_.push_back(colour);
     }
   }
 
@@ -204,6 +227,7 @@ class BodyReader {
   Source source_;
   ModelBuilder& builder_;
   std::size_t all_bytes_;
+  std::vector<std::array<float, 3>> colours_{};  ///< As they stand there.
 };
 
 /// Reads text, and says how many values the header does not declare. \throw FormatError
@@ -252,6 +276,7 @@ Model read_text(std::string_view bytes, std::string_view name, const RunContext&
 }  // namespace
 
 Model parse_ply(std::string_view bytes, std::string_view name, const RunContext& run) {
+  bytes = without_bom(bytes);
   ModelBuilder builder(ModelFormat::Ply, name, run, 0);
   const PlyHeader header = read_ply_header(bytes, builder);
   if (header.encoding == PlyEncoding::Ascii) {

@@ -57,9 +57,10 @@ constexpr std::array<RoleName, 12> kVertexRoles = {{{"x", PlyRole::X},
 PlyRole role_of(const PlyElement& element, const PlyProperty& property) {
   PlyRole role = PlyRole::Other;
   if (element.kind == PlyElement::Kind::Vertex && !property.is_list) {
+    const std::string name = lower_case(property.name);
     const auto* const entry =
         std::find_if(kVertexRoles.begin(), kVertexRoles.end(),
-                     [&](const RoleName& known) { return known.name == property.name; });
+                     [&](const RoleName& known) { return known.name == name; });
     role = entry == kVertexRoles.end() ? PlyRole::Other : entry->role;
   } else if ((element.kind == PlyElement::Kind::Face || element.kind == PlyElement::Kind::Strips) &&
              property.is_list &&

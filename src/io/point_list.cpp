@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "io/model_builder.h"
 #include "io/number_parsing.h"
@@ -12,71 +15,186 @@
 namespace vantage {
 namespace {
 
-/// Takes the next column off a line; columns are parted by blanks, commas or semicolons.
-std::string_view take_column(std::string_view& line) {
-  const auto parts = [](char c) { return is_blank(c) || c == ',' || c == ';'; };
-  while (!line.empty() && parts(line.front())) {
-    line.remove_prefix(1);
+/// What parts two columns.
+struct Separator {
+  bool has_comma = false;
+  bool has_semicolon = false;
+  bool has_blank = false;
+};
+
+/// Columns of a line, parted by blanks, commas or semicolons.
+class Columns {
+ public:
+  explicit Columns(std::string_view line) : rest_(line) { take_separator(); }
+
+  /// The next column; empty at the end of the line.
+  std::string_view take() {
+    std::size_t end = 0;
+    while (end < rest_.size() && !is_blank(rest_[end]) && rest_[end] != ',' && rest_[end] != ';') {
+      ++end;
+    }
+    const std::string_view column = rest_.substr(0, end);
+    rest_.remove_prefix(end);
+    return column;
   }
-  std::size_t end = 0;
-  while (end < line.size() && !parts(line[end])) {
-    ++end;
+
+  /// What comes before the next column.
+  Separator take_separator() {
+    Separator separator;
+    std::size_t end = 0;
+    for (; end < rest_.size(); ++end) {
+      const char c = rest_[end];
+      if (c != ',' && c != ';' && !is_blank(c)) {
+        break;
+      }
+      separator.has_comma = separator.has_comma || c == ',';
+      separator.has_semicolon = separator.has_semicolon || c == ';';
+      separator.has_blank = separator.has_blank || is_blank(c);
+    }
+    rest_.remove_prefix(end);
+    return separator;
   }
-  const std::string_view column = line.substr(0, end);
-  line.remove_prefix(end);
-  return column;
-}
+
+  [[nodiscard]] bool at_end() const { return rest_.empty(); }
+
+ private:
+  std::string_view rest_;
+};
+
+/// Tells lines in which a comma may belong to a number: "0,5 2,5 3,5".
+class DecimalCommas {
+ public:
+  /// What comes before another of the three coordinates.
+  void see(const Separator& separator) {
+    has_comma_ = has_comma_ || separator.has_comma;
+    has_tight_comma_ = has_tight_comma_ || is_tight_comma(separator);
+    has_semicolon_ = has_semicolon_ || separator.has_semicolon;
+    has_blanks_ = has_blanks_ || (!separator.has_comma && !separator.has_semicolon);
+  }
+
+  /// What comes behind the last one, as in "1 2 3,5".
+  void see_end(const Separator& separator) {
+    if (is_tight_comma(separator)) {
+      see(separator);
+    }
+  }
+
+  [[nodiscard]] bool are_possible() const {
+    return (has_tight_comma_ && has_blanks_) || (has_comma_ && has_semicolon_);
+  }
+
+ private:
+  static bool is_tight_comma(const Separator& separator) {
+    return separator.has_comma && !separator.has_semicolon && !separator.has_blank;
+  }
+
+  bool has_comma_ = false;
+  bool has_tight_comma_ = false;
+  bool has_semicolon_ = false;
+  bool has_blanks_ = false;
+};
 
 bool is_comment(std::string_view line) {
   return line.empty() || line.front() == '#' || line.substr(0, 2) == "//";
 }
 
-/// Whether a line stands above the points: a count, or names of columns.
-bool is_heading(std::string_view line) {
-  const std::string_view first = take_column(line);
-  return !number_from(first) || take_column(line).empty();
-}
+class PointListReader {
+ public:
+  PointListReader(std::string_view bytes, std::string_view name, ModelFormat format,
+                  const RunContext& run)
+      : cursor_(without_bom(bytes)),
+        size_(bytes.size()),
+        has_scans_(format == ModelFormat::Pts),
+        builder_(format, name, run, 0) {}
+
+  Model read() {
+    for (auto text = cursor_.next_line(); text; text = cursor_.next_line()) {
+      const std::string_view line = trimmed(*text);
+      if (!is_comment(line) && !is_heading(line)) {
+        read_point(line);
+        builder_.advance(cursor_.offset(), size_);
+      }
+    }
+    if (is_flat_) {
+      builder_.note("points of two coordinates were read with z = 0");
+    }
+    if (scans_ > 1) {
+      builder_.note("scans of the file, all read: " + std::to_string(scans_));
+    }
+    return builder_.finish();
+  }
+
+ private:
+  /// Whether a line stands above the points: a count, or names of columns. In a .pts each scan has one.
+  bool is_heading(std::string_view line) {
+    Columns columns(line);
+    const std::string_view first = columns.take();
+    columns.take_separator();
+    const std::optional<std::int64_t> count = columns.at_end() ? integer_from(first) : std::nullopt;
+    const bool is_first = builder_.point_count() == 0;
+    const bool ends_scan = has_scans_ && builder_.point_count() == scan_end_;
+    if (count && *count >= 0 && (is_first || ends_scan)) {
+      scan_end_ = builder_.point_count() + static_cast<std::size_t>(*count);
+      ++scans_;
+      return true;
+    }
+    return is_first && (!number_from(first) || columns.at_end());
+  }
+
+  void read_point(std::string_view line) {
+    Columns columns(line);
+    DecimalCommas commas;
+    std::array<std::string_view, 3> column;
+    int found = 0;
+    while (found < 3 && !columns.at_end()) {
+      column[static_cast<std::size_t>(found++)] = columns.take();
+      const Separator separator = columns.take_separator();
+      if (!columns.at_end()) {
+        found < 3 ? commas.see(separator) : commas.see_end(separator);
+      }
+    }
+    if (commas.are_possible()) {
+      builder_.fail(cursor_.place(),
+                    "a comma may part columns here or belong to a number; write numbers with a "
+                    "point, or nothing but commas between columns");
+    }
+    add_point(std::span(column).first(static_cast<std::size_t>(found)));
+  }
+
+  void add_point(std::span<const std::string_view> column) {
+    Vec3 point = Vec3::Zero();
+    for (std::size_t c = 0; c < column.size(); ++c) {
+      const std::optional<double> value = number_from(column[c]);
+      if (!value || !std::isfinite(*value)) {
+        builder_.fail(cursor_.place(), number_problem(column[c]));
+      }
+      point[static_cast<Eigen::Index>(c)] = *value;
+      if (!builder_.double_precision() && needs_double(column[c], *value)) {
+        builder_.coordinates_need_double();
+      }
+    }
+    if (column.size() < 2 || (column.size() == 2 && builder_.point_count() > 0 && !is_flat_)) {
+      builder_.fail(cursor_.place(),
+                    "expected 3 coordinates, found " + std::to_string(column.size()));
+    }
+    is_flat_ = is_flat_ || column.size() == 2;
+    builder_.add_point(point, cursor_.place());
+  }
+
+  TextCursor cursor_;
+  std::size_t size_;
+  bool has_scans_;
+  ModelBuilder builder_;
+  bool is_flat_ = false;
+  std::size_t scan_end_ = 0;  ///< How many points there are after the scan, as the file says.
+  std::size_t scans_ = 0;
+};
 
 }  // namespace
 
 Model parse_point_list(std::string_view bytes, std::string_view name, ModelFormat format,
                        const RunContext& run) {
-  ModelBuilder builder(format, name, run, 0);
-  TextCursor cursor(without_bom(bytes));
-  bool flat = false;
-  for (auto text = cursor.next_line(); text; text = cursor.next_line()) {
-    std::string_view line = trimmed(*text);
-    if (is_comment(line) || (builder.point_count() == 0 && is_heading(line))) {
-      continue;
-    }
-    std::array<std::string_view, 3> column;
-    Vec3 point = Vec3::Zero();
-    int found = 0;
-    for (std::string_view token = take_column(line); !token.empty() && found < 3;
-         token = take_column(line)) {
-      const std::optional<double> value = number_from(token);
-      if (!value || !std::isfinite(*value)) {
-        builder.fail(cursor.place(), number_problem(token));
-      }
-      column[static_cast<std::size_t>(found)] = token;
-      point[found++] = *value;
-    }
-    if (found < 3 && (found < 2 || (builder.point_count() > 0 && !flat))) {
-      builder.fail(cursor.place(), "expected 3 coordinates, found " + std::to_string(found));
-    }
-    flat = flat || found == 2;
-    for (int c = 0; c < found && !builder.double_precision(); ++c) {
-      if (needs_double(column[static_cast<std::size_t>(c)], point[c])) {
-        builder.coordinates_need_double();
-      }
-    }
-    builder.add_point(point, cursor.place());
-    builder.advance(cursor.offset(), bytes.size());
-  }
-  if (flat) {
-    builder.note("points of two coordinates were read with z = 0");
-  }
-  return builder.finish();
+  return PointListReader(bytes, name, format, run).read();
 }
 
 }  // namespace vantage

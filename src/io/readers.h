@@ -78,9 +78,6 @@ inline std::string too_many_faces(std::size_t most, bool is_cloud = false) {
          ", the most that --max-faces allows; decimate it, or allow more if there is the memory";
 }
 
-/// Whether the bytes are a binary STL by their size: 84 bytes and 50 for each declared triangle.
-bool has_binary_stl_size(std::string_view bytes);
-
 /// Whether the text starts with a header word of the OFF family.
 bool has_off_header(std::string_view bytes);
 

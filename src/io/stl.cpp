@@ -12,35 +12,11 @@
 #include "io/model_builder.h"
 #include "io/number_parsing.h"
 #include "io/readers.h"
+#include "io/stl_layout.h"
 #include "io/text_cursor.h"
 
 namespace vantage {
 namespace {
-
-constexpr std::size_t kHeaderBytes = 80;
-constexpr std::size_t kPreambleBytes = 84;  // header and number of triangles
-constexpr std::size_t kTriangleBytes = 50;  // normal, three corners, two bytes of attributes
-
-bool equals_ignoring_case(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
-    return (x >= 'A' && x <= 'Z' ? static_cast<char>(x - 'A' + 'a') : x) == y;
-  });
-}
-
-std::uint64_t declared_triangles(std::string_view bytes) {
-  return decode<std::uint32_t>(bytes.data() + kHeaderBytes, ByteOrder::Little);
-}
-
-bool looks_like_text(std::string_view bytes) {
-  TextCursor cursor(without_bom(bytes));
-  if (!equals_ignoring_case(cursor.next_token(), "solid")) {
-    return false;
-  }
-  cursor.skip_line();
-  const std::string_view second = cursor.next_token();
-  return equals_ignoring_case(second, "facet") || equals_ignoring_case(second, "endsolid") ||
-         second.empty();
-}
 
 class TextReader {
  public:
@@ -59,6 +35,10 @@ class TextReader {
     if (in_facet_) {
       builder_.fail(cursor_.place(), "the file ends inside a facet");
     }
+    if (left_out_ > 0) {
+      builder_.note("lines before facets left out: " + std::to_string(left_out_) +
+                    ", the first is line " + std::to_string(first_left_out_));
+    }
   }
 
  private:
@@ -68,6 +48,7 @@ class TextReader {
       read_vertex();
     } else if (is("facet")) {
       in_facet_ = true;
+      is_before_facets_ = false;
       cursor_.skip_line();  // the normal, which the corners imply
     } else if (is("endfacet") || is("endloop")) {
       in_facet_ = in_facet_ && !is("endfacet");
@@ -77,8 +58,12 @@ class TextReader {
       cursor_.skip_line();
     } else if (is("solid")) {
       read_solid_name();
+      is_before_facets_ = true;
     } else if (is("endsolid")) {
       cursor_.token_on_line();
+      cursor_.skip_line();
+    } else if (is_before_facets_) {  // comments, colours and the like
+      first_left_out_ = left_out_++ == 0 ? cursor_.place().value : first_left_out_;
       cursor_.skip_line();
     } else if (!is("loop") && cursor_.place().value != line_of_end_) {
       // Some writers put words of their own behind the end of a facet; elsewhere they are errors.
@@ -131,28 +116,31 @@ class TextReader {
   ModelBuilder& builder_;
   bool in_facet_ = false;
   bool has_open_polygon_ = false;
+  bool is_before_facets_ = true;
+  std::size_t left_out_ = 0;
+  std::size_t first_left_out_ = 0;
   std::size_t line_of_end_ = 0;
 };
 
 void read_binary(std::string_view bytes, ModelBuilder& builder) {
-  if (bytes.size() < kPreambleBytes) {
+  if (bytes.size() < kStlPreamble) {
     builder.fail(
         "is neither a text STL, which starts with the word solid, nor long enough for a "
         "binary one");
   }
-  const std::uint64_t declared = declared_triangles(bytes);
-  const std::uint64_t held = (bytes.size() - kPreambleBytes) / kTriangleBytes;
+  const std::uint64_t declared = stl_triangle_count(bytes);
+  const std::uint64_t held = (bytes.size() - kStlPreamble) / kStlTriangle;
   if (declared > held) {
-    builder.fail({"byte", kHeaderBytes}, "the file declares " + std::to_string(declared) +
-                                             " triangles but has room for " + std::to_string(held) +
-                                             "; it may be cut short");
+    builder.fail({"byte", kStlHeader}, "the file declares " + std::to_string(declared) +
+                                           " triangles but has room for " + std::to_string(held) +
+                                           "; it may be cut short");
   }
-  const std::size_t end = kPreambleBytes + static_cast<std::size_t>(declared) * kTriangleBytes;
+  const std::size_t end = kStlPreamble + static_cast<std::size_t>(declared) * kStlTriangle;
   if (end < bytes.size()) {
     builder.note("bytes after the last triangle left out: " + std::to_string(bytes.size() - end));
   }
   builder.reserve_points(static_cast<std::size_t>(declared) * 3);
-  for (std::size_t at = kPreambleBytes; at < end; at += kTriangleBytes) {
+  for (std::size_t at = kStlPreamble; at < end; at += kStlTriangle) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const Place place{"byte", at + 12 * (corner + 1)};
       const char* here = bytes.data() + place.value;
@@ -180,14 +168,9 @@ void join_equal_positions(TriMesh& mesh) {
 
 }  // namespace
 
-bool has_binary_stl_size(std::string_view bytes) {
-  return bytes.size() >= kPreambleBytes &&
-         bytes.size() - kPreambleBytes == declared_triangles(bytes) * kTriangleBytes;
-}
-
 Model parse_stl(std::string_view bytes, std::string_view name, const RunContext& run) {
   ModelBuilder builder(ModelFormat::Stl, name, run, 0);
-  if (!has_binary_stl_size(bytes) && looks_like_text(bytes)) {
+  if (is_text_stl(bytes)) {
     TextReader(bytes, builder).read();
   } else {
     read_binary(bytes, builder);

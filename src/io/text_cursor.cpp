@@ -1,7 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "io/text_cursor.h"
 
+#include <algorithm>
+
 namespace vantage {
+namespace {
+
+char small_letter(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+}  // namespace
+
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(), small_letter);
+  return result;
+}
+
+bool equals_ignoring_case(std::string_view word, std::string_view keyword) {
+  return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
+                    [](char a, char b) { return small_letter(a) == b; });
+}
 
 std::string_view trimmed(std::string_view line) {
   while (!line.empty() && is_blank(line.front())) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "io/place.h"
@@ -38,6 +39,12 @@ inline std::string_view take_token(std::string_view& line) {
 
 /// `line` without blanks at both ends.
 std::string_view trimmed(std::string_view line);
+
+/// `text` with the letters A to Z small.
+std::string lower_case(std::string_view text);
+
+/// Whether `word` is `keyword`, which is in small letters, in any case of A to Z.
+bool equals_ignoring_case(std::string_view word, std::string_view keyword);
 
 /// `bytes` without a UTF-8 byte order mark.
 std::string_view without_bom(std::string_view bytes);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -116,11 +117,17 @@ class PlateReader {
     if (left_out_ > 0) {
       builder_.note("objects that only support others left out: " + std::to_string(left_out_));
     }
+    if (part.unprinted > 0) {
+      builder_.note("items that are not to be printed are shown too: " +
+                    std::to_string(part.unprinted));
+    }
     if (part.unit != "millimeter") {
       builder_.note("the file's unit is the " + in_quotes(part.unit) +
                     "; coordinates are in that unit, as they stand there");
     }
   }
+
+  [[nodiscard]] bool shows_triangles() const { return faces_ > 0; }
 
   [[nodiscard]] std::vector<Material> materials() const {
     std::vector<Material> all;
@@ -249,6 +256,15 @@ class PlateReader {
   std::map<std::string, std::uint32_t, std::less<>> first_material_{};
 };
 
+/// Extensions that the file needs and nobody reads here, such as lattices of beams.
+std::set<std::string> unread_extensions(const Parts& parts) {
+  std::set<std::string> unread;
+  for (const auto& [name, part] : parts) {
+    unread.insert(part.unread_extensions.begin(), part.unread_extensions.end());
+  }
+  return unread;
+}
+
 }  // namespace
 
 Model parse_threemf(std::string_view bytes, std::string_view name, const RunContext& run,
@@ -269,6 +285,14 @@ Model parse_threemf(std::string_view bytes, std::string_view name, const RunCont
   }
   PlateReader reader(parts, bytes.size(), surroundings.options.max_faces, builder);
   reader.read(root);
+  for (const std::string& extension : unread_extensions(parts)) {
+    if (!reader.shows_triangles()) {
+      builder.fail("has no triangles but for what the extension " + in_quotes(extension) +
+                   " makes, which is not read; save it as a mesh");
+    }
+    builder.note("needs the extension " + in_quotes(extension) +
+                 ", which is not read: what it adds is not shown");
+  }
   if (builder.keeps_appearance()) {
     builder.set_materials(reader.materials(), {});
   }

@@ -10,7 +10,9 @@
 #include <archive_entry.h>
 
 #include "io/archive_locale.h"
+#include "io/gltf_uri.h"
 #include "io/number_parsing.h"
+#include "io/text_cursor.h"
 
 namespace vantage {
 namespace {
@@ -78,11 +80,8 @@ bool is_threemf(std::string_view bytes) {
 }
 
 std::string part_name(std::string_view name) {
-  std::string result(name.starts_with('/') ? name.substr(1) : name);
-  for (char& c : result) {
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  }
-  return result;
+  const std::string_view relative = name.starts_with('/') ? name.substr(1) : name;
+  return lower_case(decode_percent(relative).value_or(std::string(relative)));
 }
 
 void read_package(std::string_view bytes, const PartSink& sink, const ModelBuilder& builder) {

@@ -11,7 +11,7 @@ namespace vantage {
 
 /// Receives the parts of a package, piece by piece; of each part all pieces in a row.
 struct PartSink {
-  /// Whether this part is wanted. \param name lower case, without a slash in front.
+  /// Whether this part is wanted. \param name as part_name() gives it.
   std::function<bool(const std::string& name)> begin{};
   std::function<void(std::string_view piece)> piece{};
   std::function<void()> end{};
@@ -20,7 +20,7 @@ struct PartSink {
 /// Whether the bytes are a ZIP archive that holds a 3MF model.
 bool is_threemf(std::string_view bytes);
 
-/// The name by which parts are compared: lower case, without a slash in front.
+/// The name by which parts are compared: lower case, without a slash in front, %20 as a blank.
 std::string part_name(std::string_view name);
 
 /// Unpacks a package (a ZIP archive) in memory; nothing is ever written. What comes out is bounded

@@ -65,6 +65,23 @@ bool is_usual(std::string_view name) {
   return std::find(kUsualNames.begin(), kUsualNames.end(), name) != kUsualNames.end();
 }
 
+constexpr std::size_t kMostUnread = 5;  // [ours] more would say nothing new
+
+/// What tells an extension's namespace from others: "beamlattice/2017/02".
+std::string_view extension_name(std::string_view space) {
+  constexpr std::string_view kCommon = "/3dmanufacturing/";
+  const std::size_t at = space.find(kCommon);
+  return at == std::string_view::npos ? space : space.substr(at + kCommon.size());
+}
+
+/// Whether an extension of that name is read, or changes no shape.
+bool is_read(std::string_view extension) {
+  constexpr std::array<std::string_view, 4> kRead{"core/", "material/", "production/",
+                                                  "trianglesets/"};
+  return std::any_of(kRead.begin(), kRead.end(),
+                     [&](std::string_view known) { return extension.starts_with(known); });
+}
+
 /// Half a byte, or 16.
 unsigned hexadecimal(char c) {
   return c >= '0' && c <= '9'   ? static_cast<unsigned>(c - '0')
@@ -155,6 +172,9 @@ class ThreemfPartReader::State {
       for (const XML_Char* name : {prefix, uri}) {
         self.count_name(name == nullptr ? "" : name);
       }
+      if (prefix != nullptr && uri != nullptr && self.depth_ == 0) {
+        self.namespaces_[prefix] = uri;
+      }
     });
   }
 
@@ -221,8 +241,11 @@ class ThreemfPartReader::State {
       object_->components.push_back(use(attributes));
     } else if (element == "item") {
       part_.items.push_back(use(attributes));
+      const std::string_view printable = trimmed(attributes.text("printable").value_or("1"));
+      part_.unprinted += printable == "0" || printable == "false" ? 1 : 0;
     } else if (element == "model") {
       part_.unit = attributes.text("unit").value_or("millimeter");
+      check_extensions(attributes.text("requiredextensions").value_or(""));
     } else {
       add_colour(element, attributes);
     }
@@ -232,6 +255,20 @@ class ThreemfPartReader::State {
     --depth_;
     if (element == "object") {
       object_ = nullptr;
+    }
+  }
+
+  /// \param prefixes of the namespaces that the part needs.
+  void check_extensions(std::string_view prefixes) {
+    TextCursor words(prefixes);
+    for (std::string_view prefix = words.next_token(); !prefix.empty();
+         prefix = words.next_token()) {
+      const auto known = namespaces_.find(prefix);
+      const std::string_view extension =
+          known == namespaces_.end() ? prefix : extension_name(known->second);
+      if (part_.unread_extensions.size() < kMostUnread && !is_read(extension)) {
+        part_.unread_extensions.emplace_back(extension);
+      }
     }
   }
 
@@ -347,7 +384,8 @@ class ThreemfPartReader::State {
   Parser parser_;
   XML_Index added_ = 0;  ///< Bytes of the part.
   int depth_ = 0;
-  std::unordered_set<std::string> names_{};  ///< But for the usual ones.
+  std::map<std::string, std::string, std::less<>> namespaces_{};  ///< Of the root, by prefix.
+  std::unordered_set<std::string> names_{};                       ///< But for the usual ones.
   std::exception_ptr failure_{};
   ThreemfPart part_{};
   ThreemfObject* object_ = nullptr;  ///< Being read; a map keeps its place.

@@ -51,6 +51,9 @@ struct ThreemfPart {
   std::vector<ThreemfUse> items{};    ///< What is to be built.
   std::vector<Material> materials{};  ///< Colours only.
   bool needs_double = false;          ///< Coordinates say more than a float holds.
+  std::size_t unprinted = 0;          ///< Items that are not to be printed.
+  /// Extensions that the part needs and nobody reads here: the ends of their namespaces.
+  std::vector<std::string> unread_extensions{};
 };
 
 /// Names of elements, attributes and namespaces that are not those of 3MF; each is kept. [ours]

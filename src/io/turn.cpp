@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -14,6 +13,9 @@
 #include "vantage/core/error.h"
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
+
+#include "io/stl_layout.h"
+#include "io/text_cursor.h"
 
 namespace vantage {
 namespace {
@@ -91,12 +93,6 @@ std::string turned_text(std::string_view bytes, std::string_view name, const Axi
   return result;
 }
 
-/// Keywords of STL are read in any case.
-bool is_keyword(std::string_view word, std::string_view keyword) {
-  return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
-                    [](unsigned char a, char b) { return std::tolower(a) == b; });
-}
-
 /// Whether a file, read anew, has every vertex where the turn takes it.
 bool is_turned(const Model& before, std::string_view turned, std::string_view name,
                const AxisTurn& turn) {
@@ -132,33 +128,26 @@ std::string turned_obj(std::string_view bytes, std::string_view name, const Axis
 
 std::string turned_ascii_stl(std::string_view bytes, std::string_view name, const AxisTurn& turn) {
   return turned_text(bytes, name, turn, [](const std::vector<std::string_view>& words) {
-    if (words.size() > 1 && is_keyword(words[0], "facet") && is_keyword(words[1], "normal")) {
+    if (words.size() > 1 && equals_ignoring_case(words[0], "facet") &&
+        equals_ignoring_case(words[1], "normal")) {
       return std::size_t{2};
     }
-    return !words.empty() && is_keyword(words[0], "vertex") ? std::size_t{1} : std::size_t{0};
+    return !words.empty() && equals_ignoring_case(words[0], "vertex") ? std::size_t{1}
+                                                                      : std::size_t{0};
   });
 }
 
-constexpr std::size_t kStlHeader = 84;  // bytes
-constexpr std::size_t kStlFacet = 50;   // bytes: a normal, three corners, two more
-
-bool is_binary_stl(std::string_view bytes) {
-  if (bytes.size() < kStlHeader) {
-    return false;
+std::string turned_binary_stl(std::string_view bytes, std::string_view name, const AxisTurn& turn) {
+  const std::size_t held =
+      bytes.size() < kStlPreamble ? 0 : (bytes.size() - kStlPreamble) / kStlTriangle;
+  if (bytes.size() < kStlPreamble || stl_triangle_count(bytes) > held) {
+    throw FormatError(std::string(name), "byte 80", "the file is cut short");
   }
-  std::uint32_t facets = 0;
-  std::memcpy(&facets, bytes.data() + 80, sizeof facets);
-  return bytes.size() >= kStlHeader + std::size_t{facets} * kStlFacet &&
-         (facets > 0 || !bytes.starts_with("solid"));
-}
-
-std::string turned_binary_stl(std::string_view bytes, const AxisTurn& turn) {
   std::string result(bytes);
-  std::uint32_t facets = 0;
-  std::memcpy(&facets, bytes.data() + 80, sizeof facets);
-  for (std::size_t f = 0; f < facets; ++f) {
+  const std::size_t end = kStlPreamble + stl_triangle_count(bytes) * kStlTriangle;
+  for (std::size_t triangle = kStlPreamble; triangle < end; triangle += kStlTriangle) {
     for (std::size_t point = 0; point < 4; ++point) {
-      const std::size_t at = kStlHeader + f * kStlFacet + point * 3 * sizeof(float);
+      const std::size_t at = triangle + point * 3 * sizeof(float);
       std::array<float, 3> before{};
       std::array<float, 3> after{};
       std::memcpy(before.data(), bytes.data() + at, sizeof before);
@@ -269,7 +258,7 @@ std::array<double, 4> AxisTurn::quaternion() const {
 
 std::string turned_bytes(std::string_view bytes, std::string_view name, ModelFormat format,
                          const AxisTurn& turn) {
-  if (format == ModelFormat::Obj || (format == ModelFormat::Stl && !is_binary_stl(bytes))) {
+  if (format == ModelFormat::Obj || (format == ModelFormat::Stl && is_text_stl(bytes))) {
     std::string turned = format == ModelFormat::Obj ? turned_obj(bytes, name, turn)
                                                     : turned_ascii_stl(bytes, name, turn);
     require_turned(bytes, turned, name, turn);
@@ -277,7 +266,7 @@ std::string turned_bytes(std::string_view bytes, std::string_view name, ModelFor
   }
   switch (format) {
     case ModelFormat::Stl:
-      return turned_binary_stl(bytes, turn);
+      return turned_binary_stl(bytes, name, turn);
     case ModelFormat::Gltf:
       return turned_gltf_text(bytes, name, turn, 2) + "\n";
     case ModelFormat::Glb:

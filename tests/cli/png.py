@@ -1,4 +1,4 @@
-"""Reads the pictures that the program writes."""
+"""Reads the pictures that the program writes, and makes pictures of one colour for it."""
 
 import struct
 import zlib
@@ -24,3 +24,12 @@ def read_png(data):
         above = bytes(line)
         rows.append(above)
     return width, height, rows
+
+
+def png(rgba, width=2, height=2):
+    """A PNG of one colour."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    rows = b"".join(b"\0" + bytes(rgba) * width for _ in range(height))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))

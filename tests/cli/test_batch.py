@@ -70,6 +70,27 @@ class Inputs(BatchTest):
         self.assertEqual(len(exports[0].splitlines()), 2)
         self.assertEqual(exports, [exports[0]] * 5)
 
+    def test_tables_are_known_however_their_header_is_written(self):
+        self.write("a b.off", box(1))
+        for i, text in enumerate(("Path,Name\na b.off,chair\n", "path;name\na b.off;chair\n", "name\tPATH\nchair\ta b.off\n",
+                                  ' "path" , Name\n a b.off ,"chair" \n', 'PATH, name\n"a b.off", chair\n')):
+            self.batch("--manifest", self.write(f"m{i}", text), out=f"out{i}")
+            row = self.rows(f"out{i}")["a b.off"]
+            self.assertEqual((row["status"], row["name"]), ("done", "chair"), text)
+        self.write("spaces", 'path,name\n"a b.off"," chair "\n')
+        self.batch("--manifest", "spaces", out="spaced")
+        self.assertEqual(self.rows("spaced")["a b.off"]["name"], " chair ")
+
+    def test_a_list_in_json_is_refused_in_one_sentence(self):
+        self.write("a.off", box(1))
+        self.write("[1] b.off", box(2))
+        for text in ('[{"path": "a.off"}]\n', '[\n  {"path": "a.off"}\n]\n', '["a.off"]\n'):
+            done = self.vantage("batch", "--manifest", self.write("m.json", text), "-o", "out", *FAST, exit_code=3)
+            self.assertIn("line 1: is the begin of a JSON list; write one object a line", done.err)
+            self.assertEqual(len(done.err.splitlines()), 1, done.err)
+        self.batch("--manifest", self.write("paths", "[1] b.off\n"))
+        self.assertEqual(self.rows()["[1] b.off"]["status"], "done")
+
     def test_a_manifest_on_standard_input_may_name_and_turn_models(self):
         self.write("a.off", box(1))
         objects = '{"path": "a.off", "key": "first", "name": "A/../B", "up": "x"}\n{"path": "a.off", "key": "second"}\n'
@@ -347,6 +368,37 @@ class Results(BatchTest):
         self.assertEqual(query("--sort", "vertices")[-1], "bad")
         self.assertEqual(query("--sort", "-vertices")[-1], "bad")
         self.vantage("results", "query", "out", "--where", "name;drop table models=1", exit_code=2)
+
+    def test_query_compares_numbers_with_numbers_only(self):
+        self.write("a.off", box(1))
+        self.batch("a.off")
+        query = lambda *where: json.loads(self.vantage("results", "query", "out", "--json", "--where", *where).out)
+        for nonsense in ("best_fraction<0,4", "best_fraction<abc", "vertices>5k", "vertices=", "closed=yes", "genus<nan"):
+            done = self.vantage("results", "query", "out", "--where", nonsense, exit_code=2)
+            self.assertIn("is no number", done.err, nonsense)
+        self.assertEqual([len(query(f"closed{sign}")) for sign in ("=true", "=1", "=false", "!=true")], [1, 1, 0, 0])
+        self.assertEqual([len(query(f"{where}")) for where in ("vertices=8", "vertices~8", "best_field_of_view~deg")], [1, 1, 1])
+
+    def test_query_sorts_and_limits_the_rows_of_all_folders_together(self):
+        for name in ("1", "2", "3", "4"):
+            self.write(f"{name}.off", box(1))
+        self.write("bad.off", "no OFF")
+        self.batch("1.off", "4.off", "bad.off", out="a", exit_code=4)
+        self.batch("2.off", "3.off", out="b")
+        query = lambda *flags: [row["name"] for row in json.loads(
+            self.vantage("results", "query", "a", "b", "--columns", "name", "--json", *flags).out)]
+        self.assertEqual(query("--sort", "name", "--limit", "2"), ["1", "2"])
+        self.assertEqual(query("--sort", "-name"), ["bad", "4", "3", "2", "1"])
+        self.assertEqual([query("--sort", sort)[-1] for sort in ("vertices", "-vertices")], ["bad", "bad"])
+        self.assertEqual(query("--limit", "3"), ["1", "4", "bad"])
+
+    def test_columns_of_a_query_stand_below_each_other(self):
+        for name in ("größe", "plain"):
+            self.write(f"{name}.off", box(1))
+        self.batch("größe.off", "plain.off")
+        lines = self.vantage("results", "query", "out", "--columns", "name,status").out.splitlines()
+        self.assertEqual([line.split()[1] for line in lines], ["status", "done", "done"])
+        self.assertEqual({line.index(line.split()[1]) for line in lines}, {7})
 
     def test_diff_lists_what_came_went_and_changed(self):
         for i in range(3):

@@ -14,6 +14,7 @@ import unittest
 import zipfile
 
 from hostile import FAST, TRIANGLE, gltf, HostileTest
+from png import png
 from program import PROGRAM
 from program import contract_quickly as setUpModule
 from shapes import box
@@ -185,6 +186,37 @@ class Inputs(HostileTest):
         self.write("in/below/real.bin", struct.pack("<9f", 0, 0, 0, 2, 0, 0, 0, 1, 0))
         self.batch("in", "--verify")
         self.assertNotEqual(self.rows()["in/a.gltf"]["content"], before)
+
+    def textured(self, name, library, folder, colour):
+        """A triangle in folder `name` whose library, in `folder` below that, names a picture beside it."""
+        place = self.dir / name / folder
+        place.mkdir(parents=True, exist_ok=True)
+        self.write(f"{name}/m.obj", f"mtllib {library}\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n")
+        for file in ("a.mtl", "b.mtl"):
+            material = "m" if file == library.replace("\\", "/").split("/")[-1].split()[-1] else "other"
+            (place / file).write_text(f"newmtl {material}\nmap_Kd t.png\n")
+        (place / "t.png").write_bytes(png(colour))
+
+    def test_models_whose_pictures_differ_are_not_called_equal(self):
+        cases = (("mats/a.mtl", "mats"), ("a.mtl b.mtl", "."), (".\\mats\\a.mtl", "mats"))
+        for i, (library, folder) in enumerate(cases):
+            self.textured(f"{i}/red", library, folder, (200, 0, 0, 255))
+            self.textured(f"{i}/blue", library, folder, (0, 0, 200, 255))
+            self.textured(f"{i}/same", library, folder, (0, 0, 200, 255))
+            self.batch(f"{i}/red", f"{i}/blue", f"{i}/same", out=f"out{i}")
+            rows = self.rows(f"out{i}")
+            self.assertEqual([rows[f"{i}/{name}/m.obj"]["duplicate_of"] for name in ("red", "blue", "same")],
+                             ["", "", f"{i}/blue/m.obj"], library)
+
+    def test_a_picture_or_library_that_changes_makes_a_new_content(self):
+        self.textured("in", "mats\\a.mtl", "mats", (200, 0, 0, 255))
+        contents = []
+        for change in (lambda: None, lambda: self.write("in/mats/t.png", png((9, 9, 9, 255))),
+                       lambda: self.write("in/mats/a.mtl", "newmtl m\nKd 0 1 0\n"), (self.dir / "in/mats/a.mtl").unlink):
+            change()
+            self.batch("in", "--verify")
+            contents.append(self.rows()["in/m.obj"]["content"])
+        self.assertEqual(len(set(contents)), 4, contents)
 
     def test_what_is_no_regular_file_fails_at_once(self):
         (self.dir / "in").mkdir()

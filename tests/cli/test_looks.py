@@ -5,9 +5,8 @@ import json
 import os
 import struct
 import unittest
-import zlib
 
-from png import read_png
+from png import png, read_png
 from program import ProgramTest, read_ply
 from program import contract_quickly as setUpModule
 from shapes import box
@@ -22,15 +21,6 @@ def obj_box(material):
     rows = box(1.0, 1.2, 0.8).splitlines()
     text = "mtllib m.mtl\n" + "".join(f"v {row}\n" for row in rows[2:10]) + f"usemtl {material}\n"
     return text + "".join("f " + " ".join(str(int(i) + 1) for i in row.split()[1:]) + "\n" for row in rows[10:])
-
-
-def png(rgba, width=2, height=2):
-    """A PNG of one colour."""
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    rows = b"".join(b"\0" + bytes(rgba) * width for _ in range(height))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)) +
-            chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
 def gltf_box(material, textures=()):

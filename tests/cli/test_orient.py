@@ -75,6 +75,21 @@ class Orient(ProgramTest):
         for found, wanted in zip(after["low"] + after["high"], [-2, 0, 0, 0, 1, 0]):
             self.assertAlmostEqual(found, wanted, 6)
 
+    def test_materials_that_stay_beside_the_model_are_noted(self):
+        (self.dir / "mats").mkdir()
+        (self.dir / "other").mkdir()
+        self.write("a.obj", "mtllib mats/a.mtl\nusemtl m\n" + obj())
+        self.write("mats/a.mtl", "newmtl m\nKd 1 0 0\nmap_Kd t.png\n")
+        self.write("mats/t.png", "x")
+        note = "materials are in mats/a.mtl and 1 more file beside the model; copy them beside other/a.obj"
+        orient = ("orient", "a.obj", "--up", "y", "--front", "z", "-o")
+        self.assertIn("note: " + note, self.vantage(*orient, "other/a.obj").err)
+        self.assertIn(note, json.loads(self.vantage(*orient, "other/a.obj", "--force", "--json").out)["warnings"])
+        for name in ("./b.obj", "other/a.ply"):
+            self.assertNotIn("materials", self.vantage(*orient, name).err)
+        (self.dir / "mats").rename(self.dir / "other/mats")
+        self.assertNotIn("materials", self.vantage(*orient, "other/a.obj", "--force").err)
+
     def test_binary_stl_is_turned_with_its_normals(self):
         facet = struct.pack("<12fH", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 2, 0, 7)
         (self.dir / "t.stl").write_bytes(b"made by hand".ljust(80) + struct.pack("<I", 1) + facet)

@@ -72,6 +72,27 @@ class Foreign(ProgramTest):
         self.write("empty.tmp", "")  # as file managers make one
         self.vantage("thumb", "a.off", "empty.tmp")
 
+    def test_json_that_may_be_an_input_is_not_replaced_by_a_skeleton(self):
+        for theirs in ('{"camera_angle_x": 1, "frames": []}\n', '{\n  "nodes": [\n    {"mesh": 0}\n  ],\n  "asset": {}\n}\n'):
+            (self.dir / "x.json").unlink(missing_ok=True)
+            self.assert_kept("x.json", theirs, "skeleton", "a.off", "-o", "x.json")
+        self.vantage("skeleton", "a.off", "-o", "x.json")  # ours by now
+
+    def test_an_export_replaces_exports_only(self):
+        self.vantage("batch", "a.off", "-o", "out", "--search", "rapid", "--write", "json")
+        export = ("results", "export", "out", "-o")
+        self.assert_kept("notes.csv", PEOPLE, *export, "notes.csv")
+        self.assert_kept("b.ply", THEIRS, *export, "b.ply")
+        for name, form in (("rows.csv", "csv"), ("rows.jsonl", "jsonl")):
+            self.vantage(*export, name, "--format", form)
+            before = (self.dir / name).read_bytes()
+            self.vantage(*export, name, "--format", form)
+            self.assertEqual((self.dir / name).read_bytes(), before)
+        os.symlink("rows.csv", self.dir / "link.csv")
+        self.vantage(*export, "link.csv", "--format", "jsonl")
+        self.assertTrue((self.dir / "link.csv").is_symlink())
+        self.assertEqual((self.dir / "rows.csv").read_bytes(), (self.dir / "rows.jsonl").read_bytes())
+
     def test_a_folder_of_somebody_else_is_written_to_by_force_only(self):
         os.mkdir(self.dir / "theirs")
         self.assert_kept("theirs/view.json", '{"holiday": 1}', "view", "a.off", "-o", "theirs", "--no-images", *FAST)
@@ -105,6 +126,24 @@ class Foreign(ProgramTest):
             journal = self.write("mine/rows.jsonl", text)
             self.vantage("eval", "people", "--method", "silhouette-length", "-o", "mine", exit_code=3)
             self.assertEqual(journal.read_text(), text)
+
+    def test_two_outputs_of_a_run_need_two_names(self):
+        os.mkdir(self.dir / "l")
+        os.symlink("l", self.dir / "link")
+        self.eval_dataset()
+        for words in (("skeleton", "a.off", "-o", "s.ply", "--meso", "l/../s.ply"),
+                      ("skeleton", "a.off", "-o", "l/s.ply", "--meso", "link/s.ply"),
+                      ("skeleton", "a.off", "-o", "l/level-01.ply", "--levels", "link"),
+                      ("map", "a.off", "-o", "l/level-00.ply", "--levels", "l"),
+                      ("score", "a.off", "--sphere", "0", "-o", "q.csv", "--visible", "./q.csv"),
+                      ("eval", "people", "--views-csv", "q.csv", "--gaze-csv", "q.csv"),
+                      ("eval", "people", "-o", "l", "--gaze-csv", "l/views.csv")):
+            with self.subTest(words=words):
+                before = sorted(self.dir.rglob("*"))
+                done = self.vantage(*words, exit_code=2)
+                self.assertRegex(done.err, r"give each its own name|is the name of one of the results")
+                self.assertEqual(sorted(self.dir.rglob("*")), before)
+        self.vantage("score", "a.off", "--sphere", "0", "-o", "/dev/null", "--visible", "/dev/null")
 
 
 class StandardOutput(ProgramTest):

@@ -109,6 +109,12 @@ class Looks(ProgramTest):
         for command in (("render", "--direction", "1,0,0"), ("thumb",)):
             self.vantage(command[0], MODELS / "fan.ply", "-o", "p.webp", "--depth", "16", *command[1:], exit_code=2)
 
+    def test_a_webp_that_is_too_large_is_refused_before_any_work(self):
+        for command in (("render", "gone.off", "-o", "p.webp", "--direction", "1,0,0", "--size", "100x16384"),
+                        ("view", "gone.off", "--views", "2", "--tour", "t.webp", "--tour-size", "16384x64")):
+            self.assertIn("a WebP has sides of at most 16383 pixels, not 16384", self.vantage(*command, exit_code=2).err)
+        self.vantage("render", "gone.off", "-o", "p.png", "--direction", "1,0,0", "--size", "100x16384", exit_code=3)
+
     def test_the_map_can_be_drawn_too(self):
         rows = self.picture("--show", "kssm", "--style", "technical")[2]
         colourful = [p for row in rows for p in zip(row[0::4], row[1::4], row[2::4], row[3::4])

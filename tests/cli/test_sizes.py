@@ -26,6 +26,7 @@ class Sizes(ProgramTest):
         self.vantage("view", MODELS / "fan.ply", "-o", "v", *FAST)
         view = json.loads((self.dir / "v/view.json").read_text())
         self.assertEqual(view["options"]["size"], "auto")
+        inside_limits = []
         for which in ("best", "worst"):
             for suffix in ("", "-kssm", "-skeleton"):
                 self.assertEqual(list(self.size_of(f"v/{which}{suffix}.png")), view[which]["size"])
@@ -33,8 +34,10 @@ class Sizes(ProgramTest):
             self.assertLess(abs(width * height - 800 * 600), 500)
             margin = 0.04 * min(width, height)
             if 0.51 < width / height < 1.96:  # not at a limit
+                inside_limits.append(which)
                 for border in self.borders(f"v/{which}.png"):
                     self.assertLess(abs(border - margin), 2.5, which)
+        self.assertTrue(inside_limits, "no picture had borders on all four sides to check")
         self.assertNotEqual(view["best"]["size"], view["worst"]["size"])
         self.vantage("view", MODELS / "fan.ply", "-o", "v", "--size", "80x60", *FAST)
         self.assertEqual(self.size_of("v/best.png"), (80, 60))

@@ -272,9 +272,18 @@ test('the tour goes on until something else is asked for', async () => {
 
 test('every camera format of the result folder is in the box', async () => {
   const page = await open(browser, report);
-  const files = { glTF: 'gltf', 'NeRF transforms.json': 'transforms.json', f3d: 'f3d.txt', Blender: 'py', 'model-viewer': 'html' };
-  const formats = await page.locator('#format option').evaluateAll((all) => all.map((o) => o.value));
-  assert.deepEqual(formats.sort(), Object.keys(files).sort());
+  const texts = new Map();
+  for (const format of await page.locator('#format option').evaluateAll((all) => all.map((o) => o.value))) {
+    await page.selectOption('#format', format);
+    texts.set(format, await page.inputValue('#camera'));
+  }
+  const cameras = fs.readdirSync(out).filter((name) => name.startsWith('camera-best.'));
+  assert.ok(cameras.length >= 4, cameras.join(' '));
+  for (const name of cameras) {
+    assert.ok([...texts.values()].includes(fs.readFileSync(path.join(out, name), 'utf8')), name);
+  }
+  assert.equal(new Set(texts.values()).size, cameras.length + 1); // and a script for Blender, which is no file
+  assert.match(texts.get('Blender'), /bpy/);
   await page.context().close();
 });
 

@@ -7,9 +7,8 @@
 
 namespace vantage::batch {
 
-/// SHA-256 of the file as `sha256sum` prints it. A .gltf is hashed together with the buffers and
-/// pictures that it names in its folder, an OBJ with its material libraries and their pictures, in the
-/// order in which they are named.
+/// SHA-256 of the file as `sha256sum` prints it, if the model is one file. Those that it consists of
+/// besides, see FilesBeside, are hashed after it, each after its name and a zero byte.
 /// \throw IoError
 std::string content_hash(const std::string& path);
 

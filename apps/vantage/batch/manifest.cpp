@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "vantage/core/error.h"
+
 #include "batch/entry_source.h"
 #include "batch/naming.h"
 #include "batch/stoppable_bytes.h"
@@ -26,7 +28,9 @@ using Fields = std::map<std::string, std::string>;
 class ManifestSource : public EntrySource {
  public:
   ManifestSource(const std::string& path, std::stop_token stop)
-      : folder_(std::filesystem::path(path).parent_path()), bytes_(path, std::move(stop)) {}
+      : manifest_(path),
+        folder_(std::filesystem::path(path).parent_path()),
+        bytes_(path, std::move(stop)) {}
 
   std::optional<Entry> next() override {
     while (true) {
@@ -87,16 +91,55 @@ class ManifestSource : public EntrySource {
       kind_ = ManifestForm::JsonLines;
       return false;
     }
-    header_ = cells_of(line);
-    const bool csv =
-        !zero_ended_ && std::find(header_.begin(), header_.end(), "path") != header_.end();
-    kind_ = csv ? ManifestForm::Csv : ManifestForm::Paths;
-    return csv;
+    if (!zero_ended_ && is_json_list(line)) {
+      throw FormatError(manifest_, "line 1",
+                        "is the begin of a JSON list; write one object a line, like "
+                        "{\"path\": \"a.obj\"}, without brackets and commas around them");
+    }
+    const bool is_table = !zero_ended_ && take_header(line);
+    kind_ = is_table ? ManifestForm::Csv : ManifestForm::Paths;
+    return is_table;
   }
 
-  static std::vector<std::string> cells_of(const std::string& line) {
+  static bool is_json_list(const std::string& line) {
+    const std::size_t begin = line.find_first_not_of(" \t");
+    const std::size_t next =
+        begin == std::string::npos ? begin : line.find_first_not_of(" \t", begin + 1);
+    return begin != std::string::npos && line[begin] == '[' &&
+           (next == std::string::npos || line[next] == '{' || line[next] == '"');
+  }
+
+  /// Finds by which character the columns are parted, if one of them is called path.
+  bool take_header(const std::string& line) {
+    for (const char separator : {',', ';', '\t'}) {
+      separator_ = separator;
+      header_ = cells_of(line);
+      for (std::string& name : header_) {
+        std::transform(name.begin(), name.end(), name.begin(), [](char c) {
+          return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        });
+      }
+      if (std::find(header_.begin(), header_.end(), "path") != header_.end()) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  static bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
+  /// Ends a cell: blanks at its end that are not quoted are none of it. \param quoted its length up to
+  /// the last quote.
+  static void end_cell(std::string& cell, std::size_t quoted) {
+    while (cell.size() > quoted && is_blank(cell.back())) {
+      cell.pop_back();
+    }
+  }
+
+  [[nodiscard]] std::vector<std::string> cells_of(const std::string& line) const {
     std::vector<std::string> cells(1);
     bool inside = false;
+    std::size_t quoted = 0;
     for (std::size_t i = 0; i < line.size(); ++i) {
       const char c = line[i];
       if (c == '"' && inside && i + 1 < line.size() && line[i + 1] == '"') {
@@ -104,12 +147,16 @@ class ManifestSource : public EntrySource {
         ++i;
       } else if (c == '"') {
         inside = !inside;
-      } else if (c == ',' && !inside) {
+        quoted = cells.back().size();
+      } else if (c == separator_ && !inside) {
+        end_cell(cells.back(), quoted);
         cells.emplace_back();
-      } else {
+        quoted = 0;
+      } else if (inside || !cells.back().empty() || !is_blank(c)) {
         cells.back() += c;
       }
     }
+    end_cell(cells.back(), quoted);
     return cells;
   }
 
@@ -218,11 +265,13 @@ class ManifestSource : public EntrySource {
     return entry;
   }
 
+  std::string manifest_;
   std::filesystem::path folder_;
   StoppableBytes bytes_;
   ManifestForm kind_ = ManifestForm::Unknown;
   bool zero_ended_ = false;
-  std::vector<std::string> header_{};
+  std::vector<std::string> header_{};  ///< In small letters.
+  char separator_ = ',';
   std::int64_t line_number_ = 0;
   std::int64_t position_ = 0;
 };

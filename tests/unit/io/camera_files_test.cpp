@@ -103,6 +103,39 @@ TEST(CameraTransforms, OfOtherToolsNeedOnlyTheHorizontalAngle) {
   EXPECT_EQ(camera.target, Vec3(0, 0, 4));
 }
 
+TEST(CameraTransforms, OfNerfstudioSayFocalLengths) {
+  const std::string pose = R"("transform_matrix":[[1,0,0,0],[0,1,0,0],[0,0,1,4],[0,0,0,1]])";
+  const double expected = 2.0 * std::atan(300.0 / 500.0) * 180.0 / std::numbers::pi;
+  for (const std::string& text :
+       {R"({"fl_x":400,"fl_y":500,"w":800,"h":600,"frames":[{)" + pose + "}]}",
+        R"({"frames":[{"fl_x":400,"fl_y":500,"w":800,"h":600,)" + pose + "}]}",
+        R"({"fl_x":500,"w":800,"h":600,"frames":[{)" + pose + "}]}"}) {
+    const Camera camera = parse_camera(text, "transforms.json");
+    EXPECT_NEAR(camera.fov_y_deg, expected, 1e-12) << text;
+    EXPECT_EQ(camera.eye, Vec3(0, 0, 4));
+  }
+  EXPECT_TRUE(is_refused(R"({"fl_y":0,"h":600,"frames":[{)" + pose + "}]}"));
+  EXPECT_TRUE(is_refused(R"({"w":800,"h":600,"frames":[{)" + pose + "}]}"));
+}
+
+TEST(CameraGltf, StandsWhereTheNodesAboveItsOwnPutIt) {
+  // Moved to (0, 0, 5), its parent turned from z to x, and that one's doubled and moved by (0, 1, 0).
+  const std::string text = R"({"asset":{"version":"2.0"},
+    "cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":1}}],
+    "nodes":[{"children":[1],"scale":[2,2,2],"translation":[0,1,0]},
+      {"children":[2],"matrix":[0,0,-1,0, 0,1,0,0, 1,0,0,0, 0,0,0,1]},
+      {"camera":0,"translation":[0,0,5],"extras":{"target":[7,7,7]}}]})";
+  const Camera camera = parse_camera(text, "c.gltf");
+  EXPECT_LT((camera.eye - Vec3(10, 1, 0)).norm(), 1e-12);
+  EXPECT_LT(((camera.target - camera.eye).normalized() - Vec3(-1, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((camera.up - Vec3(0, 1, 0)).norm(), 1e-12);
+}
+
+TEST(CameraGltf, IsRefusedBelowItself) {
+  EXPECT_TRUE(is_refused(R"({"cameras":[{"perspective":{"yfov":0.5}}],
+    "nodes":[{"children":[1]},{"children":[0],"camera":0}]})"));
+}
+
 TEST(CameraF3d, QuotesTheNameOfTheModel) {
   const std::string line =
       camera_f3d(slanted(Projection::Perspective), {640, 480}, "it's mine.obj");

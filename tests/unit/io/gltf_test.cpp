@@ -94,6 +94,28 @@ TEST(Gltf, SaysThatMorphTargetsAreLeftOutWhereOneIsWeighed) {
   EXPECT_THAT(scene.parsed().notes, testing::IsEmpty());
 }
 
+TEST(Gltf, NotesExtensionsThatItNeedsAndThatAreNotRead) {
+  Scene scene;
+  scene.more =
+      R"(,"extensionsRequired":["KHR_materials_unlit","KHR_mesh_quantization","EXT_made_up",5])";
+  EXPECT_THAT(
+      scene.parsed().notes,
+      ElementsAre("needs the extension 'EXT_made_up', which is not read: what it changes is "
+                  "not shown"));
+}
+
+TEST(Gltf, LeavesHiddenNodesOutWithAllBelowThem) {
+  Scene scene;
+  const std::string hidden = R"("extensions":{"KHR_node_visibility":{"visible":false}})";
+  scene.nodes = R"([{"mesh":0,"children":[1,3]},{"mesh":0,)" + hidden +
+                R"(,"children":[2]},{"mesh":0},
+                {"mesh":0,"extensions":{"KHR_node_visibility":{"visible":true}}}])";
+  const Model model = scene.parsed();
+  EXPECT_EQ(model.mesh.triangles.size(), 4U);
+  EXPECT_THAT(model.notes,
+              ElementsAre("nodes that the file hides left out, with all below them: 1"));
+}
+
 TEST(Gltf, ShowsAMeshOnceForEachNode) {
   Scene scene;
   scene.nodes = R"([{"children":[1,2]},{"name":"left","mesh":0},{"mesh":0,"translation":[0,0,9]}])";

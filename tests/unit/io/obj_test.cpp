@@ -52,6 +52,17 @@ TEST(Obj, JoinsLinesThatEndInABackslash) {
               ElementsAre(Triangle{0, 1, 2}));
 }
 
+TEST(Obj, BlanksBehindTheBackslashChangeNothing) {
+  EXPECT_THAT(obj(std::string(kThreePoints) + "f 1 \\ \t\n2 \\ \r\n3").mesh.triangles,
+              ElementsAre(Triangle{0, 1, 2}));
+}
+
+TEST(Obj, ACommentMayFollowACornerWithoutABlank) {
+  EXPECT_THAT(
+      obj(std::string(kThreePoints) + "v 0 0 1#d\nf 1 2/7 3#c\nf 1/2/3# 4/5/6\n").mesh.triangles,
+      ElementsAre(Triangle{0, 1, 2}));
+}
+
 TEST(Obj, ABackslashAtTheEndOfACommentHidesNothing) {
   EXPECT_EQ(obj(std::string("# from C:\\models\\\n") + kThreePoints + "f 1 2 3").polygons, 1U);
 }

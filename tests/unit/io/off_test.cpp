@@ -13,6 +13,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 Model off(const std::string& text) {
   return parse_model(text, "a.off");
@@ -70,6 +71,25 @@ TEST(Off, ReadsColoursNormalsAndTextureCoordinatesInTheirOrder) {
           "0 1 0 0 0 1 0 0 1 1 0.3 0.4\n3 0 1 2\n");
   EXPECT_THAT(model.vertex_colours, ElementsAre(Rgb8{255, 0, 0}, Rgb8{0, 255, 0}, Rgb8{0, 0, 255}));
   EXPECT_EQ(model.mesh.positions[1], Vec3(1, 0, 0));
+}
+
+TEST(Off, ReadsHeaderWordsInAnyOrderOfTheirLetters) {
+  // As MeshLab writes them: colours before normals where N comes before C.
+  for (const std::string text :
+       {"NCOFF\n1 0 0\n1 2 3 255 128 0 255 0 0 1\n",
+        "NCSTOFF\n1 0 0\n1 2 3 255 128 0 255 0 0 1 0.3 0.4\n",
+        "CSTOFF\n1 0 0\n1 2 3 255 128 0 255 0.3 0.4\n", "CNOFF\n1 0 0\n1 2 3 0 0 1 255 128 0 255\n",
+        "NCOFF 1 0 0 1 2 3 255 128 0 255 0 0 1",
+        "NSTCOFF\n1 0 0\n1 2 3 255 128 0 0 0 1 0.3 0.4\n"}) {
+    const Model model = off(text);
+    EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(1, 2, 3))) << text;
+    EXPECT_THAT(model.vertex_colours, ElementsAre(Rgb8{255, 128, 0})) << text;
+    EXPECT_THAT(model.notes, IsEmpty()) << text;
+  }
+  EXPECT_EQ(parse_model("NCOFF\n1 0 0\n1 2 3 255 128 0 255 0 0 1\n", "stdin").format,
+            ModelFormat::Off);
+  EXPECT_THAT(error_text("NNOFF\n1 0 0\n1 2 3\n", "a.off"),
+              HasSubstr("expected the header word OFF"));
 }
 
 TEST(Off, ReadsByteColoursOfThreeNumbers) {

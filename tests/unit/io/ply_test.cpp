@@ -58,6 +58,36 @@ std::string binary_ply(ByteOrder order) {
   return bytes;
 }
 
+TEST(Ply, ReadsPropertiesInCapitals) {
+  const std::string header =
+      "element vertex 1\nproperty float X\nproperty float Y\nproperty float Z\nproperty uchar Red\n"
+      "property uchar GREEN\nproperty uchar B\n";
+  const Model model = ply(ascii(header, "1 2 3 255 128 0\n"));
+  EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(1, 2, 3)));
+  EXPECT_THAT(model.vertex_colours, ElementsAre(Rgb8{255, 128, 0}));
+}
+
+TEST(Ply, TellsByColoursOf16BitsWhetherTheyAreBytes) {
+  for (const auto& [type, full] : {std::pair("short", 32767), std::pair("ushort", 65535)}) {
+    const auto coloured = [&](int red, int green) {
+      const std::string t = std::string("property ") + type + " ";
+      return ply(ascii("element vertex 2\nproperty float x\nproperty float y\nproperty float z\n" +
+                           t + "red\n" + t + "green\n" + t + "blue\n",
+                       "0 0 0 0 0 0\n1 0 0 " + std::to_string(red) + " " + std::to_string(green) +
+                           " 0\n"))
+          .vertex_colours.at(1);
+    };
+    EXPECT_EQ(coloured(255, 128), (Rgb8{255, 128, 0})) << type;
+    EXPECT_EQ(coloured(full, full / 3), (Rgb8{255, 85, 0})) << type;
+  }
+}
+
+TEST(Ply, PassesOverAByteOrderMark) {
+  const std::string mark = "\xEF\xBB\xBF";
+  EXPECT_EQ(ply(mark + ascii(kVertices, kFourPoints)).mesh.positions.size(), 4U);
+  EXPECT_EQ(parse_model(mark + binary_ply(ByteOrder::Little), "a").mesh.triangles.size(), 1U);
+}
+
 TEST(Ply, ReadsAscii) {
   const Model model =
       ply(ascii(std::string(kVertices) + "element face 2\nproperty list uchar int vertex_indices\n",

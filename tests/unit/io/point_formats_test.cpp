@@ -11,6 +11,7 @@
 namespace vantage::test {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -23,6 +24,12 @@ std::string pcd(const std::string& points, const std::string& data) {
 TEST(Pcd, ReadsText) {
   const Model model = parse_model(pcd("2", "ascii") + "1 2 3 9\n4 5 6 9\n", "a.pcd");
   EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(1, 2, 3), Vec3(4, 5, 6)));
+}
+
+TEST(Pcd, PassesOverAByteOrderMark) {
+  const Model model = parse_model("\xEF\xBB\xBF" + pcd("1", "ascii") + "1 2 3 9\n", "a");
+  EXPECT_EQ(model.format, ModelFormat::Pcd);
+  EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(1, 2, 3)));
 }
 
 TEST(Pcd, LeavesOutPointsWithoutAPosition) {
@@ -82,6 +89,34 @@ TEST(Lzf, RefusesAReferenceBeforeTheBeginning) {
 TEST(PointList, PassesOverHeadingAndFurtherColumns) {
   const Model model = parse_model("2\n1 2 3 0 0 1\n4,5,6\n", "a.pwn");
   EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(1, 2, 3), Vec3(4, 5, 6)));
+}
+
+TEST(PointList, RefusesCommasThatMayBelongToNumbers) {
+  for (const std::string line : {"0,5 2,5 3,5", "0,5;2,5;3,5", "0,5; 2,5; 3,5", "0,5\t2\t3",
+                                 "1 2 3,5", "1;2;3,5", "0,5 2", "1, 2; 3"}) {
+    EXPECT_THAT(error_text("1 2 3\n" + line + "\n", "a.xyz"),
+                AllOf(HasSubstr("line 2"), HasSubstr("write numbers with a point")))
+        << line;
+  }
+}
+
+TEST(PointList, ReadsColumnsPartedInOneWay) {
+  for (const std::string line :
+       {"1,-2,3", "1, -2, 3", "  1,-2,  3", "1;-2;3", "1 ; -2 ; 3", "1\t-2\t3",
+        "1,-2,3 # seen twice", "1,-2,3;4", "1 -2 3 4,5", "1,-2 ,3"}) {
+    EXPECT_THAT(parse_model(line + "\n", "a.xyz").mesh.positions, ElementsAre(Vec3(1, -2, 3)))
+        << line;
+  }
+}
+
+TEST(PointList, ReadsAllScansOfAPts) {
+  const std::string text = "2\n1 2 3 -5 9 9 9\n4 5 6 -5 9 9 9\n\n1\n7 8 9 -5 9 9 9\n";
+  const Model model = parse_model(text, "a.pts");
+  EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(7, 8, 9)));
+  EXPECT_THAT(model.notes, ElementsAre(HasSubstr("scans of the file, all read: 2")));
+  EXPECT_THAT(error_text(text, "a.xyz"), HasSubstr("expected 3 coordinates, found 1"));
+  // Not after the number of points that was said.
+  EXPECT_THAT(error_text("2\n1 2 3\n4\n7 8 9\n", "a.pts"), HasSubstr("line 3"));
 }
 
 TEST(PointList, NamesTheLineOfAWordThatIsNoNumber) {

@@ -105,6 +105,29 @@ TEST(Stl, RefusesTextThatEndsInsideAFacet) {
               HasSubstr("the file ends inside a facet"));
 }
 
+TEST(Stl, KnowsABinaryFileThatStartsWithSolidAlsoWithAWrongSize) {
+  const std::string whole = binary_stl(box(1, 1, 1, 1), "solid box");
+  EXPECT_EQ(parse_model(whole + "xyz", "a.stl").polygons, 12U);
+  EXPECT_THAT(error_text(whole.substr(0, whole.size() - 1), "a.stl"),
+              HasSubstr("declares 12 triangles but has room for 11; it may be cut short"));
+  EXPECT_THAT(error_text(binary_stl(box(1, 1, 1, 1), "solid box\nfacet").substr(0, 500), "a.stl"),
+              HasSubstr("it may be cut short"));
+}
+
+TEST(Stl, PassesOverLinesBeforeTheFacets) {
+  for (const std::string head : {"solid a\n\n# by hand\ncolor 1 0 0\n",
+                                 "; made by a program\n# two\nsolid\n", "solid a\nunits mm\n"}) {
+    const Model model = parse_model(head + kFacet + kFacet + "endsolid\n", "a.stl");
+    EXPECT_EQ(model.polygons, 2U) << head;
+    EXPECT_THAT(model.notes, ElementsAre(HasSubstr("lines before facets left out"))) << head;
+  }
+}
+
+TEST(Stl, SaysWhereATextIsNoStl) {
+  EXPECT_THAT(error_text("solid a\n# nothing\nvertex 0 0 0\n", "a.stl"),
+              HasSubstr("line 3: a vertex stands outside a facet"));
+}
+
 TEST(Stl, RefusesOtherStatements) {
   EXPECT_THAT(error_text(std::string("solid a\n") + kFacet + "hello\n", "a.stl"),
               HasSubstr("line 9: expected a statement such as facet or vertex, found 'hello'"));

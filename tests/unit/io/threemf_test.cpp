@@ -14,9 +14,11 @@
 namespace vantage::test {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 constexpr const char* kRelationships =
     R"(<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">)"
@@ -154,6 +156,53 @@ TEST(Threemf, ShowsEveryObjectOfAFileThatBuildsNothing) {
   Plate plate;
   plate.items.clear();
   EXPECT_EQ(plate.parsed().mesh.positions.size(), 4U);
+}
+
+TEST(Threemf, FindsPartsWhoseNamesArePercentEncodedInOnePlace) {
+  for (const auto& [path, entry] : {std::pair("/3D/my%20part.model", "3D/my part.model"),
+                                    std::pair("/3D/my part.model", "3D/my%20part.model"),
+                                    std::pair("/3D/my%20part.model", "3D/my%20part.model")}) {
+    Plate other;
+    other.items.clear();
+    Plate plate;
+    plate.resources =
+        std::string(R"(<object id="3"><components><component objectid="1" p:path=")") + path +
+        R"("/></components></object>)";
+    plate.items = R"(<item objectid="3"/>)";
+    plate.more = {{entry, other.model()}};
+    EXPECT_EQ(plate.parsed().polygons, 4U) << path << " " << entry;
+  }
+}
+
+TEST(Threemf, NotesItemsThatAreNotToBePrinted) {
+  Plate plate;
+  plate.items += R"(<item objectid="1" printable="0"/><item objectid="1" printable="1"/>)";
+  const Model model = plate.parsed();
+  EXPECT_EQ(model.polygons, 12U);
+  EXPECT_THAT(model.notes, ElementsAre("items that are not to be printed are shown too: 1"));
+}
+
+TEST(Threemf, NotesExtensionsThatItNeedsAndThatAreNotRead) {
+  Plate plate;
+  plate.attributes =
+      R"(requiredextensions="m  p b" xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02")";
+  EXPECT_THAT(plate.parsed().notes,
+              ElementsAre(AllOf(HasSubstr("needs the extension"),
+                                HasSubstr("'beamlattice/2017/02'"), HasSubstr("is not read"))));
+  plate.attributes = R"(requiredextensions="m p")";
+  EXPECT_THAT(plate.parsed().notes, IsEmpty());
+}
+
+TEST(ThreemfError, SaysWhichExtensionMakesTheShape) {
+  Plate plate;
+  plate.attributes =
+      R"(requiredextensions="b" xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02")";
+  plate.resources =
+      R"(<object id="1"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="2" y="0" z="0"/>)"
+      R"(</vertices><triangles/><b:beamlattice radius="1"><b:beams><b:beam v1="0" v2="1"/></b:beams>)"
+      R"(</b:beamlattice></mesh></object>)";
+  EXPECT_THAT(plate.error(),
+              AllOf(HasSubstr("'beamlattice/2017/02'"), HasSubstr("save it as a mesh")));
 }
 
 TEST(Threemf, GivesTrianglesTheColoursOfTheirGroups) {

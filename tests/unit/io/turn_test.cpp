@@ -10,6 +10,8 @@
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
 
+#include "io/byte_cursor.h"
+
 namespace vantage::test {
 namespace {
 
@@ -54,6 +56,23 @@ TEST(TurnedBytes, OfAnStlWithSeveralVerticesALineAreRefused) {
       "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 1 vertex 1 0 1 vertex 0 1 1\nendloop\n"
       "endfacet\nendsolid a\n";
   EXPECT_THROW((void)turned(text, "a.stl", ModelFormat::Stl), Error);
+}
+
+TEST(TurnedBytes, OfABinaryStlAreTurnedAlsoIfItBeginsWithSolid) {
+  for (const std::string rest : {"", "tail"}) {
+    std::string bytes = "solid";
+    bytes.resize(80, ' ');
+    append_little_endian(bytes, std::uint32_t{1});
+    for (const float value : {0.F, 0.F, 1.F, 1.F, 2.F, 3.F, 4.F, 5.F, 6.F, 7.F, 8.F, 10.F}) {
+      append_little_endian(bytes, value);
+    }
+    bytes.append(2, '\0').append(rest);
+    const std::string after = turned(bytes, "a.stl", ModelFormat::Stl);
+    EXPECT_THAT(parse_model(after, "a.stl").mesh.positions,
+                testing::ElementsAre(Vec3(1, 3, -2), Vec3(4, 6, -5), Vec3(7, 10, -8)));
+    EXPECT_TRUE(after.ends_with(rest));
+    EXPECT_THROW((void)turned(bytes.substr(0, 130), "a.stl", ModelFormat::Stl), FormatError);
+  }
 }
 
 TEST(TurnedBytes, OfAGltfTurnEachNodeOnceHoweverManyScenesShowIt) {

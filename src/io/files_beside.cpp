@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/io/files_beside.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "io/gltf_uri.h"
+#include "io/model_format.h"
+#include "io/obj_libraries.h"
+#include "io/obj_lines.h"
+#include "io/side_files.h"
+#include "io/text_cursor.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t kMostText = 64U << 20U;  // [ours] of a glTF, and of all lines with libraries
+constexpr std::string_view kLibrary = "mtllib";
+
+/// Whether a line may yet turn out to name a library.
+bool may_name_library(std::string_view line) {
+  const std::string_view word = take_token(line);
+  return line.empty() ? kLibrary.starts_with(word) : word == kLibrary;
+}
+
+/// Paths that the reader would ask for, in the order of the text.
+std::vector<std::string> names_in_gltf(const std::string& text) {
+  std::vector<std::string> names;
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  for (const char* const list : {"buffers", "images"}) {
+    if (!json.is_object() || !json.contains(list) || !json[list].is_array()) {
+      continue;
+    }
+    for (const auto& file : json[list]) {
+      if (!file.is_object() || !file.contains("uri") || !file["uri"].is_string()) {
+        continue;
+      }
+      if (auto name = relative_path_of_uri(file["uri"].get_ref<const std::string&>())) {
+        names.push_back(std::move(*name));
+      }
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> names_in_obj(const std::string& text, const SideFileSource& files) {
+  ObjLibraries libraries(files);
+  ObjLines lines(text);
+  while (std::optional<std::string_view> line = lines.next()) {
+    if (take_token(*line) == kLibrary) {
+      libraries.add(trimmed(*line));
+    }
+  }
+  libraries.read();
+  std::vector<std::string> names = libraries.paths();
+  for (const auto& [material, look] : libraries.materials()) {
+    const auto place = look.picture.empty() ? std::nullopt : libraries.place_of(look.picture);
+    if (place) {
+      names.push_back(*place);
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+FilesBeside::FilesBeside(std::string model_path) : model_path_(std::move(model_path)) {
+  const std::string extension = extension_of(model_path_);
+  is_obj_ = extension == format_name(ModelFormat::Obj);
+  is_gltf_ = extension == format_name(ModelFormat::Gltf);
+}
+
+void FilesBeside::pass(std::string_view bytes) {
+  if (is_gltf_) {
+    text_.append(bytes.substr(0, kMostText - std::min(text_.size(), kMostText)));
+  } else if (is_obj_) {
+    keep_libraries(bytes);
+  }
+}
+
+void FilesBeside::keep_libraries(std::string_view bytes) {
+  while (!bytes.empty() && text_.size() < kMostText) {
+    const auto end = static_cast<std::size_t>(
+        std::find_if(bytes.begin(), bytes.end(), is_line_end) - bytes.begin());
+    if (!skips_) {
+      line_.append(bytes.substr(0, end));
+      skips_ = !goes_on_ && !may_name_library(without_bom(line_));
+    }
+    if (end == bytes.size()) {
+      return;
+    }
+    const bool is_second_half = line_.empty() && !skips_ && bytes[end] == '\n';  // of \r\n
+    if (!skips_ && !is_second_half) {
+      goes_on_ = trimmed(line_).ends_with('\\');
+      text_.append(line_).append("\n");
+    }
+    line_.clear();
+    skips_ = false;
+    bytes.remove_prefix(end + 1);
+  }
+}
+
+std::vector<FileBeside> FilesBeside::find() const {
+  const SideFileSource files = [this](const std::string& relative) {
+    return side_file(model_path_, relative);
+  };
+  std::vector<FileBeside> found;
+  std::set<std::string> known;
+  for (const std::string& name : is_gltf_  ? names_in_gltf(text_)
+                                 : is_obj_ ? names_in_obj(text_ + line_, files)
+                                           : std::vector<std::string>()) {
+    std::error_code error;
+    const std::string path = place_beside(model_path_, name, error).string();
+    if (!error && !path.empty() && known.insert(name).second) {
+      found.push_back({name, path});
+    }
+  }
+  return found;
+}
+
+}  // namespace vantage

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "io/text_cursor.h"
+
+namespace vantage {
+
+/// Lines of an OBJ, each joined with those that it continues on (a \ at its end).
+class ObjLines {
+ public:
+  /// \param text must outlive this.
+  explicit ObjLines(std::string_view text) : cursor_(without_bom(text)) {}
+
+  /// Valid until the next call; nothing after the last line.
+  std::optional<std::string_view> next();
+
+  /// Of the beginning of the line given last.
+  [[nodiscard]] Place place() const { return place_; }
+
+  [[nodiscard]] std::size_t offset() const { return cursor_.offset(); }
+
+ private:
+  TextCursor cursor_;
+  Place place_{};
+  std::string joined_{};
+};
+
+}  // namespace vantage

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "vantage/io/files_beside.h"
+
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "vantage/io/write.h"
+
+#include "unit/io/temporary_folder.h"
+
+namespace vantage::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+class FilesBesideAModel : public testing::Test {
+ protected:
+  void write(const std::string& name, const std::string& bytes = "x") {
+    std::filesystem::create_directories((folder_.path() / name).parent_path());
+    write_file(folder_.file(name), bytes);
+  }
+
+  /// Names of what is found if the bytes pass in pieces of `piece`.
+  std::vector<std::string> found(const std::string& name, const std::string& bytes,
+                                 std::size_t piece = 1000) {
+    FilesBeside beside(folder_.file(name));
+    for (std::size_t at = 0; at < bytes.size(); at += piece) {
+      beside.pass(std::string_view(bytes).substr(at, piece));
+    }
+    std::vector<std::string> names;
+    for (const FileBeside& file : beside.find()) {
+      EXPECT_TRUE(std::filesystem::is_regular_file(file.path)) << file.path;
+      names.push_back(file.name);
+    }
+    return names;
+  }
+
+  const TemporaryFolder folder_{};
+};
+
+TEST_F(FilesBesideAModel, PicturesAreInTheFolderOfTheirLibrary) {
+  write("mats/a.mtl", "newmtl m\nmap_Kd t.png\n");
+  write("mats/t.png");
+  write("t.png");
+  EXPECT_THAT(found("m.obj", "mtllib mats/a.mtl\n"), ElementsAre("mats/a.mtl", "mats/t.png"));
+  EXPECT_THAT(found("m.obj", "mtllib .\\mats\\a.mtl\n"), ElementsAre("mats/a.mtl", "mats/t.png"));
+}
+
+TEST_F(FilesBesideAModel, APictureOfTheAuthorsDiskIsBesideTheModel) {
+  write("a.mtl", "newmtl m\nmap_Kd -clamp on C:\\work\\my wood.png\n");
+  write("my wood.png");
+  EXPECT_THAT(found("m.obj", "mtllib a.mtl\n"), ElementsAre("a.mtl", "my wood.png"));
+}
+
+TEST_F(FilesBesideAModel, ALineNamesOneLibraryWithSpacesOrSeveral) {
+  write("a.mtl");
+  write("b.mtl");
+  EXPECT_THAT(found("m.obj", "mtllib a.mtl b.mtl\n"), ElementsAre("a.mtl", "b.mtl"));
+  write("a.mtl b.mtl");
+  EXPECT_THAT(found("m.obj", "mtllib a.mtl b.mtl\n"), ElementsAre("a.mtl b.mtl"));
+}
+
+TEST_F(FilesBesideAModel, LibrariesAreFoundAnywhereInTheFile) {
+  write("a.mtl");
+  write("b.mtl");
+  std::string text = "v 0 0 0\n";
+  while (text.size() < 3U << 20U) {
+    text += "# a long way down\n";
+  }
+  text += "f 1 1 1\r\n  mtllib a.mtl \\\r\nb.mtl\r\nmtllibrary no.mtl";
+  for (const std::size_t piece : {std::size_t{1}, std::size_t{7}, text.size()}) {
+    EXPECT_THAT(found("m.obj", text, piece), ElementsAre("a.mtl", "b.mtl")) << piece;
+  }
+  EXPECT_THAT(found("m.OBJ", "mtllib a.mtl", 3), ElementsAre("a.mtl"));
+}
+
+TEST_F(FilesBesideAModel, BuffersAndPicturesOfAGltf) {
+  write("my buffer.bin");
+  write("t.png");
+  const std::string text = R"({"images":[{"uri":"t.png"},{"uri":"data:,"},{"bufferView":0}],
+      "buffers":[{"uri":"my%20buffer.bin"},{"uri":"http://a/t.png"},{"uri":"gone.bin"},{}]})";
+  EXPECT_THAT(found("m.gltf", text, 10), ElementsAre("my buffer.bin", "t.png"));
+  EXPECT_THAT(found("m.stl", text), IsEmpty());
+}
+
+TEST_F(FilesBesideAModel, NothingOutsideTheFolder) {
+  const TemporaryFolder elsewhere;
+  write_file(elsewhere.file("a.mtl"), "x");
+  std::filesystem::create_symlink(elsewhere.file("a.mtl"), folder_.file("link.mtl"));
+  EXPECT_THAT(found("m.obj", "mtllib link.mtl\nmtllib ../a.mtl\nmtllib " + elsewhere.file("a.mtl")),
+              IsEmpty());
+}
+
+}  // namespace
+}  // namespace vantage::test
