@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "vantage/core/error.h"
-#include "vantage/io/files_beside.h"
+#include "vantage/io/model.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/find_views.h"
 #include "vantage/pipeline/sidecar.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/io/files_beside.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
@@ -10,6 +8,8 @@
 #include <utility>
 
 #include <nlohmann/json.hpp>
+
+#include "vantage/io/model.h"
 
 #include "io/gltf_uri.h"
 #include "io/model_format.h"

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "vantage/core/error.h"
-#include "vantage/io/files_beside.h"
+#include "vantage/io/model.h"
 
 #include "batch/descriptor.h"
 

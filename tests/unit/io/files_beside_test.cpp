@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/io/files_beside.h"
-
 #include <filesystem>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "vantage/io/model.h"
 #include "vantage/io/write.h"
 
 #include "unit/io/temporary_folder.h"
