@@ -103,6 +103,7 @@ struct ViewCommand {
     const RunContext run = session.run();
 
     StageSeconds seconds;
+    require_distinct({{"--trace", trace}, {"--tour", several.tour()}});
     session.leave_output_to(trace, "--trace");
     check_output(trace, OutputKind::Table, session.flags);
     const bool is_drawn = !no_images || preview.is_given();

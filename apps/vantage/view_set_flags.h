@@ -33,6 +33,9 @@ class ViewSetFlags {
   /// \throw CLI::ValidationError if the tour's file would be another one of the results.
   void check_names(const OutputFolder& output) const;
 
+  /// Of --tour; empty: none.
+  [[nodiscard]] const std::string& tour() const { return tour_; }
+
   /// Adds pictures and cameras of the set, and the moving camera, to the folder; writes --tour.
   void write(OutputFolder& output, const ShapeAnalysis& shape, ShapePictures& pictures,
              const ViewReport& report, UpAxis up, const ViewOptions& options,

@@ -136,6 +136,7 @@ class Foreign(ProgramTest):
                       ("skeleton", "a.off", "-o", "l/level-01.ply", "--levels", "link"),
                       ("map", "a.off", "-o", "l/level-00.ply", "--levels", "l"),
                       ("score", "a.off", "--sphere", "0", "-o", "q.csv", "--visible", "./q.csv"),
+                      ("view", "a.off", "-o", "r", "--views", "2", "--tour", "q.png", "--trace", "l/../q.png"),
                       ("eval", "people", "--views-csv", "q.csv", "--gaze-csv", "q.csv"),
                       ("eval", "people", "-o", "l", "--gaze-csv", "l/views.csv")):
             with self.subTest(words=words):
