@@ -26,39 +26,32 @@ void PictureCells::begin(std::span<const Vec3> sites, const Viewpoint& eye, std:
     low = low.min(place.array());
     high = high.max(place.array());
   }
-  const auto per_unit = [&](Eigen::Index k) {
-    return high[k] > low[k] ? side_ / (high[k] - low[k]) : 0.0;
-  };
-  const double per_x = per_unit(0);
-  const double per_y = per_unit(1);
+  low_ = low.matrix().head<2>();
+  for (const Eigen::Index k : {0, 1}) {
+    per_unit_[k] = high[k] > low[k] ? side_ / (high[k] - low[k]) : 0.0;
+  }
   places_.resize(exact_.size());
   for (std::size_t site = 0; site < exact_.size(); ++site) {
-    const Vec3& place = exact_[site];
-    places_[site] = {static_cast<float>((place.x() - low[0]) * per_x),
-                     static_cast<float>((place.y() - low[1]) * per_y),
-                     static_cast<float>(place.z())};
+    places_[site] = in_cells(exact_[site]);
   }
 }
 
 /// \return false if something is not ahead of the eye.
 bool PictureCells::project() {
   const bool is_perspective = eye_.projection == Projection::Perspective;
-  const double distance = eye_.position.norm();
-  if (!(distance > 0.0)) {
+  distance_ = eye_.position.norm();
+  if (!(distance_ > 0.0)) {
     return false;
   }
-  const Vec3 towards = eye_.position / distance;
-  const Vec3 right = towards.unitOrthogonal();
-  const Vec3 up = towards.cross(right);
+  towards_ = eye_.position / distance_;
+  right_ = towards_.unitOrthogonal();
+  up_ = towards_.cross(right_);
   exact_.resize(sites_.size());
   for (std::size_t site = 0; site < exact_.size(); ++site) {
-    const Vec3& place = sites_[site];
-    const double along = place.dot(towards);
-    const double depth = is_perspective ? distance - along : 1.0;
-    if (!(depth > 0.0)) {
+    if (is_perspective && !(sites_[site].dot(towards_) < distance_)) {
       return false;
     }
-    exact_[site] = {place.dot(right) / depth, place.dot(up) / depth, -along};
+    exact_[site] = on_plane(sites_[site]);
   }
   return true;
 }
@@ -74,6 +67,7 @@ bool PictureCells::coarsen() {
     place.y *= scale;
   }
   side_ = side;
+  per_unit_ *= scale;
   columns_ = is_flat_ ? side_ : kSides * side_;
   return true;
 }
@@ -134,11 +128,13 @@ bool PictureCells::on_side(const Vec3* from_eye, std::size_t count, std::uint32_
   }
   const auto at = [&](double place, double slack) {
     const double in_cells = 0.5 * (place + 1.0) * side_ + slack;
-    return static_cast<std::uint32_t>(std::clamp(in_cells, 0.0, side_ - 1.0));
+    return static_cast<std::uint16_t>(std::clamp(in_cells, 0.0, side_ - 1.0));
   };
   const double slack = kSlack;
-  const std::uint32_t first = side * side_;
-  cells = {first + at(low[0], -slack), first + at(high[0], slack), at(low[1], -slack),
+  const auto column = [&](std::uint16_t of_side) {
+    return static_cast<std::uint16_t>(side * side_ + of_side);
+  };
+  cells = {column(at(low[0], -slack)), column(at(high[0], slack)), at(low[1], -slack),
            at(high[1], slack)};
   return true;
 }

@@ -30,18 +30,35 @@ class PictureCells {
  public:
   /// Cells of one side, from first to last.
   struct Cells {
-    std::uint32_t left = 0, right = 0, bottom = 0, top = 0;
+    std::uint16_t left = 0, right = 0, bottom = 0, top = 0;
+
+    [[nodiscard]] std::size_t count() const {
+      return static_cast<std::size_t>(right - left + 1) *
+             static_cast<std::size_t>(top - bottom + 1);
+    }
+  };
+
+  /// A place in the picture, in cells, and its depth.
+  struct Place {
+    float x = 0.0F, y = 0.0F, depth = 0.0F;
   };
 
   /// What something spans in the picture, in cells, and its depths.
   struct Extent {
     float left = 0.0F, right = 0.0F, bottom = 0.0F, top = 0.0F;
     float nearest = 0.0F, farthest = 0.0F;
+    Cells cells{};  ///< That it touches, if the picture is flat.
 
     /// Whether this may have a place in common with the other that is not behind it.
     [[nodiscard]] bool is_before(const Extent& other) const {
       return nearest < other.farthest && left < other.right && other.left < right &&
              bottom < other.top && other.bottom < top;
+    }
+
+    /// Whether this may lie before a place.
+    [[nodiscard]] bool is_before(const Place& place) const {
+      return nearest < place.depth && left < place.x && place.x < right && bottom < place.y &&
+             place.y < top;
     }
   };
 
@@ -61,15 +78,22 @@ class PictureCells {
     return row * columns_ + column;
   }
 
+  /// Where a place on the surface is. \pre is_flat().
+  [[nodiscard]] Place place_of(const Vec3& place) const { return in_cells(on_plane(place)); }
+
+  [[nodiscard]] std::uint32_t cell_of(const Place& place) const {
+    return cell(nearest_cell(place.x), nearest_cell(place.y));
+  }
+
   /// Of an edge's ends or of a face's corners.
   template <std::size_t Count>
   [[nodiscard]] Extent extent(const std::array<std::uint32_t, Count>& sites) const {
     constexpr float kAll = std::numeric_limits<float>::infinity();
     if (!is_flat_) {
-      return {-kAll, kAll, -kAll, kAll, -kAll, kAll};
+      return {-kAll, kAll, -kAll, kAll, -kAll, kAll, {}};
     }
     const Place& first = places_[sites[0]];
-    Extent extent{first.x, first.x, first.y, first.y, first.depth, first.depth};
+    Extent extent{first.x, first.x, first.y, first.y, first.depth, first.depth, {}};
     for (std::size_t k = 1; k < Count; ++k) {
       const Place& place = places_[sites[k]];
       extent.left = std::min(extent.left, place.x);
@@ -79,8 +103,15 @@ class PictureCells {
       extent.nearest = std::min(extent.nearest, place.depth);
       extent.farthest = std::max(extent.farthest, place.depth);
     }
-    return {extent.left - kSlack, extent.right + kSlack,        extent.bottom - kSlack,
-            extent.top + kSlack,  extent.nearest - kDepthSlack, extent.farthest + kDepthSlack};
+    extent.left -= kSlack;
+    extent.right += kSlack;
+    extent.bottom -= kSlack;
+    extent.top += kSlack;
+    extent.nearest -= kDepthSlack;
+    extent.farthest += kDepthSlack;
+    extent.cells = {nearest_cell(extent.left), nearest_cell(extent.right),
+                    nearest_cell(extent.bottom), nearest_cell(extent.top)};
+    return extent;
   }
 
   /// The sides of a face in the picture, to tell what lies beside it.
@@ -122,8 +153,7 @@ class PictureCells {
   void over_sides(const std::array<std::uint32_t, Count>& sites, const Extent& extent,
                   const Each& each) const {
     if (is_flat_) {
-      each(Cells{nearest_cell(extent.left), nearest_cell(extent.right), nearest_cell(extent.bottom),
-                 nearest_cell(extent.top)});
+      each(extent.cells);
       return;
     }
     std::array<Vec3, Count> from_eye;
@@ -143,9 +173,7 @@ class PictureCells {
   [[nodiscard]] std::size_t count_cells(const std::array<std::uint32_t, Count>& sites,
                                         const Extent& extent) const {
     std::size_t sum = 0;
-    over_sides(sites, extent, [&](const Cells& cells) {
-      sum += std::size_t{cells.right - cells.left + 1} * (cells.top - cells.bottom + 1);
-    });
+    over_sides(sites, extent, [&](const Cells& cells) { sum += cells.count(); });
     return sum;
   }
 
@@ -169,25 +197,39 @@ class PictureCells {
   static constexpr float kSlack = 1e-3F;
   static constexpr float kDepthSlack = 1e-5F;
 
-  struct Place {
-    float x = 0.0F, y = 0.0F, depth = 0.0F;
-  };
-
-  [[nodiscard]] std::uint32_t nearest_cell(float place) const {
-    return static_cast<std::uint32_t>(std::clamp(place, 0.0F, static_cast<float>(side_ - 1)));
+  [[nodiscard]] std::uint16_t nearest_cell(float place) const {
+    return static_cast<std::uint16_t>(std::clamp(place, 0.0F, static_cast<float>(side_ - 1)));
   }
 
   bool project();
+
+  /// Where a place is on the plane of the picture, and its depth along the view axis.
+  [[nodiscard]] Vec3 on_plane(const Vec3& place) const {
+    const double along = place.dot(towards_);
+    const double depth = eye_.projection == Projection::Perspective ? distance_ - along : 1.0;
+    return {place.dot(right_) / depth, place.dot(up_) / depth, -along};
+  }
+
+  [[nodiscard]] Place in_cells(const Vec3& on_plane) const {
+    return {static_cast<float>((on_plane.x() - low_.x()) * per_unit_.x()),
+            static_cast<float>((on_plane.y() - low_.y()) * per_unit_.y()),
+            static_cast<float>(on_plane.z())};
+  }
+
   [[nodiscard]] bool on_side(const Vec3* from_eye, std::size_t count, std::uint32_t side,
                              Cells& cells) const;
 
   std::span<const Vec3> sites_{};
   Viewpoint eye_{};
   bool is_flat_ = true;
-  std::uint32_t side_ = 1;       // cells along a side
-  std::uint32_t columns_ = 1;    // of all sides together
-  std::vector<Place> places_{};  // of each site, where there is one plane
-  std::vector<Vec3> exact_{};    // the same in double, not yet in cells
+  double distance_ = 0.0;  // of the eye from the frame's origin
+  Vec3 towards_ = Vec3::UnitZ(), right_ = Vec3::UnitX(), up_ = Vec3::UnitY();  // the picture's axes
+  Eigen::Vector2d low_ = Eigen::Vector2d::Zero();       // corner of the picture, on its plane
+  Eigen::Vector2d per_unit_ = Eigen::Vector2d::Zero();  // cells
+  std::uint32_t side_ = 1;                              // cells along a side
+  std::uint32_t columns_ = 1;                           // of all sides together
+  std::vector<Place> places_{};                         // of each site, where there is one plane
+  std::vector<Vec3> exact_{};                           // the same in double, not yet in cells
 };
 
 /// What is in each cell. Made for reuse.

@@ -13,6 +13,7 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t kStepsPerPart = 8;  // of cutting a polygon, over those of passing a face
+constexpr double kTouch = 1e-9;           // share of an edge: less is no cut
 
 /// Whether all of a polygon lies on the other side of an edge of the other, or on it.
 bool is_beside(Polygons::Points polygon, Polygons::Points other) {
@@ -26,6 +27,16 @@ bool is_beside(Polygons::Points polygon, Polygons::Points other) {
     }
   }
   return false;
+}
+
+/// Whether two corners of a polygon in a face are not one but for rounding.
+bool is_apart(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  constexpr double kRounding = 1e-11;
+  return (a - b).cwiseAbs().maxCoeff() > kRounding;
+}
+
+Vec3 homogeneous(const Eigen::Vector2d& place) {
+  return {place.x(), place.y(), 1.0 - place.x() - place.y()};
 }
 
 }  // namespace
@@ -62,6 +73,8 @@ void FaceClip::take(std::uint32_t face) {
     of_axes_[axis] = rows.col(static_cast<Eigen::Index>(axis));
   }
   no_area_ = kNoArea;
+  parts_.shrink_to(0);
+  parts_.add(kWholeFace);
   shadows_.shrink_to(0);
   by_size_.clear();
 }
@@ -105,11 +118,15 @@ bool FaceClip::add_shadow(std::uint32_t other) {
       }
     }
   }
+  // Without sides that are all rounding: they have no direction to cut along.
   std::array<Eigen::Vector2d, ConvexPolygon<Corner>::kMost> shadow;
+  std::size_t count = 0;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
-    shadow[k] = polygon[k].head<2>() / polygon[k].head<3>().sum();
+    shadow[count] = polygon[k].head<2>() / polygon[k].head<3>().sum();
+    count += count == 0 || is_apart(shadow[count], shadow[count - 1]) ? 1 : 0;
   }
-  const std::span points = std::span(shadow).first(polygon.size());
+  count -= count > 1 && !is_apart(shadow[count - 1], shadow[0]) ? 1 : 0;
+  const std::span points = std::span(shadow).first(count);
   const double area = twice_area(points);
   if (area < 0.0) {
     std::reverse(points.begin(), points.end());
@@ -123,7 +140,6 @@ bool FaceClip::add_shadow(std::uint32_t other) {
 }
 
 bool FaceClip::is_behind(const std::array<std::uint32_t, 2>& edge) const {
-  constexpr double kLeast = 1e-9;   // share of the edge: less is a touch
   constexpr double kInFace = 1e-9;  // below the face's plane, in units of the frame
   const Corner from = corner(edge[0]);
   const Corner to = corner(edge[1]);
@@ -144,14 +160,82 @@ bool FaceClip::is_behind(const std::array<std::uint32_t, 2>& edge) const {
       return false;
     }
   }
-  return high - low > kLeast;
+  return high - low > kTouch;
+}
+
+void FaceClip::cut_along(const std::array<std::uint32_t, 2>& edge) {
+  const Vec3 first = corner(edge[0]).head<3>();
+  const Vec3 last = corner(edge[1]).head<3>();
+  const Vec3 line = first.cross(last);
+  if (!(line.squaredNorm() > 0.0)) {
+    return;
+  }
+  // A place on the line is first times its product with the one plus last times that with the other.
+  const Vec3 of_first = last.cross(line) / line.squaredNorm();
+  const Vec3 of_last = line.cross(first) / line.squaredNorm();
+  next_.shrink_to(0);
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    divide(parts_[i], line);
+    double most_first = 0.0;
+    double most_last = 0.0;
+    for (const Eigen::Vector2d& place : on_line_) {
+      most_first = std::max(most_first, of_first.dot(homogeneous(place)));
+      most_last = std::max(most_last, of_last.dot(homogeneous(place)));
+    }
+    const bool is_between = most_first > kTouch && most_last > kTouch;
+    if (is_between && twice_area(inside_) > kNoArea && twice_area(outside_) > kNoArea) {
+      next_.add(inside_);
+      next_.add(outside_);
+    } else {
+      next_.add(parts_[i]);
+    }
+  }
+  std::swap(parts_, next_);
+}
+
+/// Divides a part into what has positive products with a line, what has negative ones, and the places
+/// of its outline on the line.
+void FaceClip::divide(Polygons::Points part, const Vec3& line) {
+  inside_.clear();
+  outside_.clear();
+  on_line_.clear();
+  const Eigen::Vector2d* from = &part.back();
+  double of_from = line.dot(homogeneous(*from));
+  const auto add = [this](const Eigen::Vector2d& place, double of_place) {
+    if (of_place >= 0.0) {
+      inside_.push_back(place);
+    }
+    if (of_place <= 0.0) {
+      outside_.push_back(place);
+    }
+    if (of_place == 0.0) {
+      on_line_.push_back(place);
+    }
+  };
+  for (const Eigen::Vector2d& to : part) {
+    const double of_to = line.dot(homogeneous(to));
+    if ((of_from < 0.0 && of_to > 0.0) || (of_from > 0.0 && of_to < 0.0)) {
+      add(zero_between(*from, of_from, to, of_to), 0.0);
+    }
+    add(to, of_to);
+    from = &to;
+    of_from = of_to;
+  }
+}
+
+Vec3 FaceClip::middle(Polygons::Points part) const {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& place : part) {
+    sum += place;
+  }
+  const Vec3 shares = homogeneous(sum / static_cast<double>(part.size()));
+  return shares.x() * surface_->sites[on_[0]] + shares.y() * surface_->sites[on_[1]] +
+         shares.z() * surface_->sites[on_[2]];
 }
 
 /// The largest first, as they leave least to be cut.
 bool FaceClip::subtract(std::size_t& steps, std::size_t most) {
   std::sort(by_size_.begin(), by_size_.end());
-  parts_.shrink_to(0);
-  parts_.add(kWholeFace);
   for (const auto& [size, i] : by_size_) {
     steps += kStepsPerPart * parts_.size();
     if (steps > most) {

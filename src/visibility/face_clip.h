@@ -17,9 +17,9 @@
 #include "visibility/surface.h"
 
 /// \file
-/// What is seen of a face, as polygons: the face less the shadows that the faces before it cast on
-/// it from the eye (Weiler and Atherton, "Hidden surface removal using polygon area sorting", 1977,
-/// for one face at a time).
+/// A face in parts, as polygons: cut along edges that pass before it, or less the shadows that the
+/// faces before it cast on it from the eye (Weiler and Atherton, "Hidden surface removal using polygon
+/// area sorting", 1977, for one face at a time).
 
 namespace vantage {
 
@@ -69,20 +69,26 @@ class FaceClip {
   /// \param eye in the surface's frame. Both must outlive the use of this.
   void begin(const Surface& surface, const Viewpoint& eye);
 
-  /// Takes a face to be clipped. \pre it is not seen edge on.
+  /// Takes a face, whole. \pre it is not seen edge on.
   void take(std::uint32_t face);
-
-  /// Adds the shadow of another face. \return whether it alone hides all of the face.
-  bool add_shadow(std::uint32_t other);
 
   /// Whether an edge lies before the inside of the face, or in it.
   [[nodiscard]] bool is_behind(const std::array<std::uint32_t, 2>& edge) const;
 
+  /// Cuts the parts that an edge passes before in two, along it.
+  void cut_along(const std::array<std::uint32_t, 2>& edge);
+
+  /// Adds the shadow of another face. \return whether it alone hides all of the face.
+  bool add_shadow(std::uint32_t other);
+
   /// Takes all shadows away. \param steps are counted up. \return false if they pass `most`.
   bool subtract(std::size_t& steps, std::size_t most);
 
-  /// What is left of the face, after subtract().
+  /// What the face was cut into, or what is left of it after subtract().
   [[nodiscard]] const Polygons& parts() const { return parts_; }
+
+  /// The middle of a part, in the surface's frame.
+  [[nodiscard]] Vec3 middle(Polygons::Points part) const;
 
  private:
   /// A place in homogeneous barycentric coordinates of the face, as it is seen from the eye; the fourth
@@ -91,6 +97,7 @@ class FaceClip {
 
   [[nodiscard]] bool is_corner(std::uint32_t site) const;  // of the face
   [[nodiscard]] Corner corner(std::uint32_t site) const;
+  void divide(Polygons::Points part, const Vec3& line);
   void subtract(Polygons::Points polygon);
 
   const Surface* surface_ = nullptr;
@@ -100,8 +107,8 @@ class FaceClip {
   std::array<Corner, 3> of_axes_{};  // what x, y and z from there add to a place's coordinates
   double no_area_ = kNoArea;
   Polygons shadows_{}, parts_{}, next_{};
-  std::vector<std::pair<double, std::size_t>> by_size_{};       // less the area of each shadow
-  std::vector<Eigen::Vector2d> inside_{}, outside_{}, kept_{};  // of the part at hand
+  std::vector<std::pair<double, std::size_t>> by_size_{};  // less the area of each shadow
+  std::vector<Eigen::Vector2d> inside_{}, outside_{}, kept_{}, on_line_{};  // of the part at hand
 };
 
 }  // namespace vantage

@@ -7,13 +7,14 @@
 
 #include <Eigen/Geometry>
 
+#include "spatial/segment.h"
 #include "visibility/face_sums.h"
 
 namespace vantage {
 namespace {
 
 // Cells of the picture over faces. [ours, by measurement]
-constexpr double kCellsPerFace = 0.5;
+constexpr double kCellsPerFace = 0.25;
 // Places in cells over faces: where faces are so long or so many in one place that more would be
 // needed, cells are larger.
 constexpr std::size_t kMostInCells = 16;
@@ -21,6 +22,9 @@ constexpr std::size_t kMostInCells = 16;
 // is not clipped by then is judged by points. A step is to pass by an item of a cell. [ours]
 constexpr std::size_t kMostSteps = 60'000'000;
 constexpr std::size_t kStepsPerShadow = 16;
+// Contours before a face that it is cut along. Where there are more the shadows of all faces before it
+// are taken away: in a heap of faces the first few hide most of it. [ours, by measurement]
+constexpr std::size_t kFewContours = 8;
 // Parts a side that such a face is divided into, each judged by its centroid. [ours]
 constexpr int kPartsASide = 4;
 
@@ -131,14 +135,14 @@ class FaceLook {
       }
     }
     lay_out_contours();
-    std::size_t kept = 0;
+    memory_.seen_edges.clear();
     for (std::uint32_t k = 0; k < memory_.edges.size(); ++k) {
       if (may_be_seen(k)) {
-        memory_.edges[kept++] = memory_.edges[k];
+        memory_.seen_edges.push_back(memory_.edges[k]);
       }
     }
-    if (kept < memory_.edges.size()) {
-      memory_.edges.resize(kept);
+    if (memory_.seen_edges.size() < memory_.edges.size()) {
+      std::swap(memory_.edges, memory_.seen_edges);
       lay_out_contours();
     }
   }
@@ -232,36 +236,84 @@ class FaceLook {
   void add(std::uint32_t face, FaceSums& sums) {
     const auto& [a, b, c] = surface_.faces[face];
     const int seen = seen_[a] + seen_[b] + seen_[c];
+    const bool is_crossed = scene_.meetings.crossed[face] != 0;
+    const bool are_few = !is_crossed && find_few_contours(face);
     const bool may_be_crossed =
-        scene_.meetings.crossed[face] != 0 || (seen > 0 && seen < 3) ||
-        (seen == 3 && (memory_.on_contour[a] & memory_.on_contour[b] & memory_.on_contour[c]) != 0);
-    if (may_be_crossed || is_spent() || is_behind_contour(face)) {
+        !before_.empty() || seen == 1 || seen == 2 ||
+        (memory_.on_contour[a] & memory_.on_contour[b] & memory_.on_contour[c]) != 0;
+    if (!are_few || is_spent()) {
       run_.check();
-      const Polygons& parts = clipped(face);
-      if (parts.size() > 0) {
-        sums.begin(face);
-      }
-      for (std::size_t i = 0; i < parts.size(); ++i) {
-        sums.add(parts[i]);
-      }
+      add_parts(clipped(face), sums, face);
+    } else if (may_be_crossed) {
+      run_.check();
+      add_parts(seen_between_contours(face), sums, face);
     } else if (seen == 3) {
       sums.begin(face);
       sums.add_whole();
     }
   }
 
-  /// Whether a contour that may be in view passes before a face.
-  [[nodiscard]] bool is_behind_contour(std::uint32_t face) {
+  static void add_parts(const Polygons& parts, FaceSums& sums, std::uint32_t face) {
+    if (parts.size() > 0) {
+      sums.begin(face);
+    }
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      sums.add(parts[i]);
+    }
+  }
+
+  /// Finds the contours that may be in view and pass before a face. \return false if they are too many.
+  [[nodiscard]] bool find_few_contours(std::uint32_t face) {
+    before_.clear();
     std::optional<PictureCells::Outline> outline;
-    return is_any_before(memory_.contours, memory_.edge_extents, surface_.faces[face],
-                         memory_.extents[face], [&](std::uint32_t k) {
-                           if (!outline) {
-                             outline.emplace(memory_.picture, surface_.faces[face]);
-                             memory_.clip.take(face);
-                           }
-                           const auto& edge = scene_.edges.table.edges[memory_.edges[k]];
-                           return !outline->is_beside(edge) && memory_.clip.is_behind(edge);
-                         });
+    const auto takes_too_many = [&](std::uint32_t k) {
+      if (!outline) {
+        outline.emplace(memory_.picture, surface_.faces[face]);
+        memory_.clip.take(face);
+      }
+      const auto& edge = scene_.edges.table.edges[memory_.edges[k]];
+      if (!outline->is_beside(edge) && memory_.clip.is_behind(edge) &&
+          std::find(before_.begin(), before_.end(), k) == before_.end()) {
+        before_.push_back(k);
+      }
+      return before_.size() > kFewContours;
+    };
+    return !is_any_before(memory_.contours, memory_.edge_extents, surface_.faces[face],
+                          memory_.extents[face], takes_too_many);
+  }
+
+  /// What is seen of a face that nothing passes through: between contours all of it is seen or hidden.
+  [[nodiscard]] const Polygons& seen_between_contours(std::uint32_t face) {
+    FaceClip& clip = memory_.clip;
+    clip.take(face);
+    for (const std::uint32_t k : before_) {
+      clip.cut_along(scene_.edges.table.edges[memory_.edges[k]]);
+    }
+    seen_parts_.shrink_to(0);
+    for (std::size_t i = 0; i < clip.parts().size(); ++i) {
+      if (!is_hidden(face, clip.middle(clip.parts()[i]))) {
+        seen_parts_.add(clip.parts()[i]);
+      }
+    }
+    return seen_parts_;
+  }
+
+  /// Whether another face hides a place on a face.
+  [[nodiscard]] bool is_hidden(std::uint32_t face, const Vec3& place) {
+    if (!memory_.picture.is_flat()) {
+      return scene_.sight.hides_place(place, face, local_);
+    }
+    const Segment segment = segment_to(place, local_);
+    const PictureCells::Place at = memory_.picture.place_of(place);
+    const std::uint32_t cell = memory_.picture.cell_of(at);
+    const auto faces = memory_.hiding.in_cells(cell, cell);
+    steps_ += faces.size();
+    return std::any_of(faces.begin(), faces.end(), [&](std::uint32_t other) {
+      const auto& [a, b, c] = surface_.faces[other];
+      return memory_.extents[other].is_before(at) && other != face &&
+             segment.crosses(surface_.sites[a], surface_.sites[b], surface_.sites[c],
+                             surface_.twice_areas[other]);
+    });
   }
 
   /// The faces in the mesh's order; quicker than sorting, as about half of all are seen.
@@ -281,7 +333,7 @@ class FaceLook {
     return ordered;
   }
 
-  /// What is seen of a face.
+  /// What is seen of a face, whatever lies before it or passes through it.
   [[nodiscard]] const Polygons& clipped(std::uint32_t face) {
     FaceClip& clip = memory_.clip;
     ++round_;
@@ -341,7 +393,8 @@ class FaceLook {
   std::vector<std::uint8_t> seen_{};  // of each site
   std::size_t steps_ = 0;             // of all work so far
   std::uint32_t round_ = 0;
-  Polygons none_{}, by_points_{};
+  std::vector<std::uint32_t> before_{};  // contours before the face at hand
+  Polygons none_{}, by_points_{}, seen_parts_{};
 };
 
 /// The sum of the faces' areas, model units squared.

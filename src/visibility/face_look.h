@@ -35,6 +35,7 @@ struct FaceLookMemory {
   std::vector<PictureCells::Extent> extents{};       // of each face that hides or is turned
   std::vector<PictureCells::Extent> edge_extents{};  // of the contours
   std::vector<std::uint32_t> edges{};                // contours
+  std::vector<std::uint32_t> seen_edges{};           // those of them that may be in view
   std::vector<std::uint8_t> on_contour{};            // of each site
   std::vector<std::uint32_t> round{};                // in which each face was last found
   std::vector<std::uint32_t> order{};                // of each face of the mesh: where it is listed

@@ -142,6 +142,42 @@ TriMesh random_soup(int faces, unsigned seed) {
   return mesh;
 }
 
+/// A wall of 4 × 4 × 1 with a square window of half its width.
+TriMesh wall_with_window() {
+  TriMesh wall;
+  for (const double z : {0.0, 1.0}) {
+    for (const double half : {2.0, 1.0}) {
+      for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+        wall.positions.emplace_back(half * x, half * y, z);
+      }
+    }
+  }
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    wall.triangles.push_back({a, b, c});
+    wall.triangles.push_back({a, c, d});
+  };
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    const std::uint32_t next = (k + 1) % 4;
+    add(8 + k, 8 + next, 12 + next, 12 + k);  // front
+    add(4 + k, 4 + next, next, k);            // back
+    add(k, next, 8 + next, 8 + k);            // outside
+    add(4 + next, 4 + k, 12 + k, 12 + next);  // of the window
+  }
+  return wall;
+}
+
+TEST(SeenAreas, ThroughAWindowAreThoseOfBruteForce) {
+  const TriMesh wall = wall_with_window();
+  const TriMesh before = test::together(test::sheet(8.0, 8.0, 1), wall, Vec3(4.0, 4.0, 2.0));
+  for (const Vec3& towards : direction_set(ViewSphereBase::Icosahedron, 1).directions) {
+    for (const Viewpoint& eye : {Viewpoint{Projection::Orthographic, towards},
+                                 Viewpoint{Projection::Perspective, 20.0 * towards}}) {
+      expect_brute_force_areas(wall, FaceSides::Front, eye);
+      expect_brute_force_areas(before, FaceSides::Both, eye);
+    }
+  }
+}
+
 TEST(SeenAreas, AreThoseOfBruteForce) {
   const TriMesh two_boxes =
       test::together(test::box(1.0, 2.0, 3.0, 1), test::box(1.0, 1.0, 1.0, 1), Vec3(1.5, 0.2, 0.4));

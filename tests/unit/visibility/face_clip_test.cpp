@@ -2,6 +2,7 @@
 #include "visibility/face_clip.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -56,16 +57,27 @@ class Clipped {
 
   /// Whether an edge lies before a face of the mesh, or in it; the edge by its ends' positions.
   [[nodiscard]] bool is_behind(std::uint32_t face, const Vec3& a, const Vec3& b) const {
-    const auto site = [&](const Vec3& place) {
-      const Vec3 there = surface_.frame.to_frame(place);
-      const auto at = std::find(surface_.sites.begin(), surface_.sites.end(), there);
-      EXPECT_NE(at, surface_.sites.end());
-      return static_cast<std::uint32_t>(at - surface_.sites.begin());
-    };
     FaceClip clip;
     clip.begin(surface_, local_);
     clip.take(number_of(face));
     return clip.is_behind({site(a), site(b)});
+  }
+
+  /// The shares of the parts of a face of the mesh that is cut along edges, ascending.
+  [[nodiscard]] std::vector<double> areas_along(
+      std::uint32_t face, const std::vector<std::array<Vec3, 2>>& edges) const {
+    FaceClip clip;
+    clip.begin(surface_, local_);
+    clip.take(number_of(face));
+    for (const auto& [a, b] : edges) {
+      clip.cut_along({site(a), site(b)});
+    }
+    std::vector<double> areas;
+    for (std::size_t i = 0; i < clip.parts().size(); ++i) {
+      areas.push_back(twice_area(clip.parts()[i]));
+    }
+    std::sort(areas.begin(), areas.end());
+    return areas;
   }
 
   /// The side that a face of the mesh turns to the eye.
@@ -108,6 +120,13 @@ class Clipped {
       EXPECT_EQ(clip.parts().size(), 0U);
     }
     return is_hidden;
+  }
+
+  [[nodiscard]] std::uint32_t site(const Vec3& place) const {
+    const Vec3 there = surface_.frame.to_frame(place);
+    const auto at = std::find(surface_.sites.begin(), surface_.sites.end(), there);
+    EXPECT_NE(at, surface_.sites.end());
+    return static_cast<std::uint32_t>(at - surface_.sites.begin());
   }
 
   [[nodiscard]] std::uint32_t number_of(std::uint32_t face) const {
@@ -215,6 +234,31 @@ TEST(FaceClip, LeavesWhatSamplesSee) {
     }
     EXPECT_NEAR(sum / static_cast<double>(exact.size()), 0.0, 1e-3);
   }
+}
+
+TEST(FaceClip, IsCutAlongEdgesAsFarAsTheyPassBeforeIt) {
+  // The face's first two barycentric coordinates are 1 − (x + y) / 4 and x / 4.
+  TriMesh mesh;
+  mesh.positions = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0),  Vec3(1, -1, 1),
+                    Vec3(1, 1, 1), Vec3(3, 2, 1), Vec3(-1, 1, 1), Vec3(9, 9, 1)};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 7}, {4, 5, 7}, {6, 3, 7}};
+  const Clipped clipped(mesh, kAbove);
+  const auto areas_along = [&](const std::vector<std::array<std::size_t, 2>>& edges) {
+    std::vector<std::array<Vec3, 2>> places;
+    for (const auto& [a, b] : edges) {
+      places.push_back({mesh.positions[a], mesh.positions[b]});
+    }
+    return clipped.areas_along(0, places);
+  };
+  EXPECT_EQ(areas_along({}), std::vector<double>{1.0});
+  EXPECT_EQ(areas_along({{6, 3}}), std::vector<double>{1.0});  // through its corner alone
+  // The line x = 1 leaves a triangle of 9/16, though the edge ends on its way.
+  EXPECT_EQ(areas_along({{3, 4}}), (std::vector<double>{7.0 / 16.0, 9.0 / 16.0}));
+  // An edge on from there cuts the part that it passes before, not the other.
+  const std::vector<double> both = areas_along({{3, 4}, {4, 5}});
+  ASSERT_EQ(both.size(), 3U);
+  EXPECT_EQ(both[2], 7.0 / 16.0);
+  EXPECT_NEAR(both[0] + both[1] + both[2], 1.0, 1e-15);
 }
 
 TEST(FaceClip, LiesBehindEdgesThatRiseFromItsCornersNotBehindThoseThatSink) {

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Visibility on real models against brute force, in the folder that VANTAGE_DATA names.
 #include <algorithm>
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "vantage/io/model.h"
 #include "vantage/mesh/measures.h"
+#include "vantage/mesh/mesh_check.h"
+#include "vantage/spatial/directions.h"
 #include "vantage/visibility/face_visibility.h"
 #include "vantage/visibility/vertex_visibility.h"
 
@@ -65,6 +69,34 @@ TEST_P(VisibilityOfRealModel, IsTheSameWhetherAllBacksAreAskedOrThoseThatMatter)
     }
   }
 }
+
+class AreasOfRealModel : public test::DataPackTest<testing::TestWithParam<const char*>> {};
+
+TEST_P(AreasOfRealModel, EqualBruteForce) {
+  const TriMesh mesh = weld(load_model((root() / GetParam()).string()).mesh).mesh;
+  const Sphere sphere = enclosing_sphere(referenced_points(mesh));
+  const FaceVisibility visibility(mesh, {FaceSides::Both});
+  // Brute force takes seconds for an eye before a thousand faces.
+  std::vector<Vec3> directions = direction_set(ViewSphereBase::Icosahedron, 0).directions;
+  directions.resize(std::min(directions.size(), 1 + 1000 / mesh.triangles.size()));
+  for (const Vec3& towards : directions) {
+    const Viewpoint eye{Projection::Perspective, sphere.centre + 1.9 * sphere.diameter * towards};
+    std::vector<double> areas(mesh.triangles.size(), 0.0);
+    for (const SeenFace& face : visibility.seen_faces(eye)) {
+      areas[face.face] = face.projected_area;
+    }
+    const std::vector<double> expected =
+        test::brute_force_areas(mesh, FaceSides::Both, eye, sphere.centre);
+    for (std::size_t f = 0; f < areas.size(); ++f) {
+      ASSERT_NEAR(areas[f], expected[f], 1e-9 * sphere.diameter * sphere.diameter)
+          << "face " << f << " from " << towards.transpose();
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(DataPack, AreasOfRealModel,
+                         testing::Values("nasty/trimesh/wallhole.obj", "nasty/vhacd/chair.off",
+                                         "nasty/pmp/hole_capsule.off"));
 
 INSTANTIATE_TEST_SUITE_P(
     DataPack, VisibilityOfRealModel,
