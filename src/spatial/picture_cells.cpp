@@ -8,6 +8,13 @@
 #include "spatial/convex_polygon.h"
 
 namespace vantage {
+namespace {
+
+// What is less ahead of the eye than this, in units of the frame, has no place on a plane: rounding
+// would move it by cells.
+constexpr double kAhead = 1e-9;
+
+}  // namespace
 
 void PictureCells::begin(std::span<const Vec3> sites, const Viewpoint& eye, std::size_t cells) {
   sites_ = sites;
@@ -48,7 +55,7 @@ bool PictureCells::project() {
   up_ = towards_.cross(right_);
   exact_.resize(sites_.size());
   for (std::size_t site = 0; site < exact_.size(); ++site) {
-    if (is_perspective && !(sites_[site].dot(towards_) < distance_)) {
+    if (is_perspective && !(sites_[site].dot(towards_) < distance_ - kAhead)) {
       return false;
     }
     exact_[site] = on_plane(sites_[site]);

@@ -19,14 +19,14 @@ constexpr double kCellsPerFace = 0.25;
 // needed, cells are larger.
 constexpr std::size_t kMostInCells = 16;
 // Steps of work for one eye, a second or less: a model of 86 000 faces takes about a twentieth. What
-// is not clipped by then is judged by points. A step is to pass by an item of a cell. [ours]
+// is not cut by then is judged by points. A step is to pass by an item of a cell. [ours]
 constexpr std::size_t kMostSteps = 60'000'000;
 constexpr std::size_t kStepsPerShadow = 16;
+// Parts a side that such a face is divided into, each judged by its centroid. [ours]
+constexpr int kPartsASide = 4;
 // Contours before a face that it is cut along. Where there are more the shadows of all faces before it
 // are taken away: in a heap of faces the first few hide most of it. [ours, by measurement]
 constexpr std::size_t kFewContours = 8;
-// Parts a side that such a face is divided into, each judged by its centroid. [ours]
-constexpr int kPartsASide = 4;
 
 class FaceLook {
  public:
@@ -125,7 +125,7 @@ class FaceLook {
   /// it.
   void list_contours() {
     const std::vector<std::array<std::uint32_t, 2>>& all = scene_.edges.table.edges;
-    memory_.on_contour.assign(surface_.sites.size(), 0);
+    memory_.on_contour = scene_.is_touched;
     memory_.edges.clear();
     for (std::uint32_t e = 0; e < all.size(); ++e) {
       if (is_contour(e)) {
@@ -174,7 +174,8 @@ class FaceLook {
     const std::array ends{a, b};
     return is_any_before(memory_.contours, memory_.edge_extents, ends,
                          memory_.edge_extents[contour], [&](std::uint32_t k) {
-                           return passes_before(scene_.edges.table.edges[memory_.edges[k]], ends);
+                           return is_spent() ||
+                                  passes_before(scene_.edges.table.edges[memory_.edges[k]], ends);
                          });
   }
 
@@ -234,17 +235,19 @@ class FaceLook {
   }
 
   void add(std::uint32_t face, FaceSums& sums) {
-    const auto& [a, b, c] = surface_.faces[face];
-    const int seen = seen_[a] + seen_[b] + seen_[c];
-    const bool is_crossed = scene_.meetings.crossed[face] != 0;
-    const bool are_few = !is_crossed && find_few_contours(face);
-    const bool may_be_crossed =
-        !before_.empty() || seen == 1 || seen == 2 ||
-        (memory_.on_contour[a] & memory_.on_contour[b] & memory_.on_contour[c]) != 0;
-    if (!are_few || is_spent()) {
+    if (scene_.meetings.crossed[face] != 0 || is_spent() || !find_few_contours(face)) {
       run_.check();
       add_parts(clipped(face), sums, face);
-    } else if (may_be_crossed) {
+      return;
+    }
+    const auto& [a, b, c] = surface_.faces[face];
+    const int seen = seen_[a] + seen_[b] + seen_[c];
+    // Corners exactly behind a contour are hidden though the face beside it may be seen, and what touches
+    // a corner does not hide it.
+    const bool do_corners_tell =
+        before_.empty() && (seen == 3 || (seen == 0 && !is_beside_contour_)) &&
+        (memory_.on_contour[a] & memory_.on_contour[b] & memory_.on_contour[c]) == 0;
+    if (!do_corners_tell) {
       run_.check();
       add_parts(seen_between_contours(face), sums, face);
     } else if (seen == 3) {
@@ -262,9 +265,11 @@ class FaceLook {
     }
   }
 
-  /// Finds the contours that may be in view and pass before a face. \return false if they are too many.
+  /// Finds the contours that may be in view and pass before a face, and whether one touches it in the
+  /// picture. \return false if they are too many, or too much work.
   [[nodiscard]] bool find_few_contours(std::uint32_t face) {
     before_.clear();
+    is_beside_contour_ = false;
     std::optional<PictureCells::Outline> outline;
     const auto takes_too_many = [&](std::uint32_t k) {
       if (!outline) {
@@ -272,11 +277,14 @@ class FaceLook {
         memory_.clip.take(face);
       }
       const auto& edge = scene_.edges.table.edges[memory_.edges[k]];
-      if (!outline->is_beside(edge) && memory_.clip.is_behind(edge) &&
-          std::find(before_.begin(), before_.end(), k) == before_.end()) {
-        before_.push_back(k);
+      if (!outline->is_beside(edge)) {
+        is_beside_contour_ = true;
+        if (memory_.clip.is_behind(edge) &&
+            std::find(before_.begin(), before_.end(), k) == before_.end()) {
+          before_.push_back(k);
+        }
       }
-      return before_.size() > kFewContours;
+      return is_spent() || before_.size() > kFewContours;
     };
     return !is_any_before(memory_.contours, memory_.edge_extents, surface_.faces[face],
                           memory_.extents[face], takes_too_many);
@@ -394,6 +402,7 @@ class FaceLook {
   std::size_t steps_ = 0;             // of all work so far
   std::uint32_t round_ = 0;
   std::vector<std::uint32_t> before_{};  // contours before the face at hand
+  bool is_beside_contour_ = false;       // that face
   Polygons none_{}, by_points_{}, seen_parts_{};
 };
 
@@ -422,6 +431,7 @@ FaceScene::FaceScene(const TriMesh& mesh, std::span<const FaceSides> sides)
     const TriMesh framed{surface.sites, surface.faces};
     edges = surface_edges(framed);
     meetings = find_meetings(framed, edges);
+    is_touched = vertices_of_several_fans(framed, edges.table);
   }
 }
 

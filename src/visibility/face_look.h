@@ -23,7 +23,7 @@
 /// One look of an eye at a surface's faces. What is seen of a face changes only where a *contour*
 /// passes before it, an edge past which the surface turns away from the eye, or where another face
 /// passes through it (Appel, "The notion of quantitative invisibility and the machine rendering of
-/// solids", 1967). Such faces are clipped; all others are seen or hidden as their corners are.
+/// solids", 1967). Such faces are cut there; all others are seen or hidden as their corners are.
 
 namespace vantage {
 
@@ -36,7 +36,7 @@ struct FaceLookMemory {
   std::vector<PictureCells::Extent> edge_extents{};  // of the contours
   std::vector<std::uint32_t> edges{};                // contours
   std::vector<std::uint32_t> seen_edges{};           // those of them that may be in view
-  std::vector<std::uint8_t> on_contour{};            // of each site
+  std::vector<std::uint8_t> on_contour{};            // of each site, or touched
   std::vector<std::uint32_t> round{};                // in which each face was last found
   std::vector<std::uint32_t> order{};                // of each face of the mesh: where it is listed
   std::vector<double> along{};                       // see FaceSums
@@ -56,6 +56,8 @@ class FaceScene {
   double total_area = 0.0;                    ///< Model units squared.
   SurfaceEdges edges{};
   FaceMeetings meetings{};
+  /// 1 for each site where surfaces touch: what touches a site does not hide it.
+  std::vector<std::uint8_t> is_touched{};
   LentMemory<FaceLookMemory> memory{};
 };
 

@@ -178,6 +178,59 @@ TEST(SeenAreas, ThroughAWindowAreThoseOfBruteForce) {
   }
 }
 
+/// The sheet without the cells in which a place is.
+TriMesh without_cells(TriMesh sheet, const std::vector<Vec3>& places) {
+  const auto is_left_out = [&](const Triangle& t) {
+    const Vec3 middle =
+        (sheet.positions[t[0]] + sheet.positions[t[1]] + sheet.positions[t[2]]) / 3.0;
+    return std::any_of(places.begin(), places.end(), [&](const Vec3& place) {
+      return (middle - place).cwiseAbs().maxCoeff() < 0.5;
+    });
+  };
+  std::erase_if(sheet.triangles, is_left_out);
+  return sheet;
+}
+
+TEST(SeenAreas, OfLatticesSeenAlongTheirAxesAreThoseOfBruteForce) {
+  // Corners of the sheet behind lie exactly behind edges of the other.
+  const Viewpoint above{Projection::Orthographic, Vec3(0.0, 0.0, 1.0)};
+  std::mt19937 random(3);
+  std::uniform_int_distribution<int> cell(0, 4);
+  for (int holes = 1; holes < 7; ++holes) {
+    std::vector<Vec3> places;
+    for (int k = 0; k < holes; ++k) {
+      places.emplace_back(cell(random) + 0.5, cell(random) + 0.5, 0.0);
+    }
+    const TriMesh before = without_cells(test::sheet(5.0, 5.0, 5), places);
+    const TriMesh both = test::together(test::sheet(5.0, 5.0, 5), before, Vec3(0.0, 0.0, 1.0));
+    expect_brute_force_areas(both, FaceSides::Both, above);
+    expect_brute_force_areas(
+        test::together(both, without_cells(test::sheet(5.0, 5.0, 5), {places.front()}),
+                       Vec3(0.0, 0.0, 2.0)),
+        FaceSides::Both, above);
+  }
+}
+
+TEST(SeenAreas, OfAFaceWhoseCornersOthersTouchAreThoseOfBruteForce) {
+  // A finer sheet before it is pulled down to the corners of two faces.
+  TriMesh before = test::sheet(9.0, 9.0, 36);
+  for (Vec3& p : before.positions) {
+    p += Vec3(-2.0, -2.0, 1.0);
+    for (const Vec3& corner : {Vec3(2, 2, 1), Vec3(3, 2, 1), Vec3(3, 3, 1)}) {
+      p.z() = p == corner ? 0.0 : p.z();
+    }
+  }
+  const TriMesh both = test::together(test::sheet(5.0, 5.0, 5), before, Vec3::Zero());
+  for (const Vec3& towards : {Vec3(0.0, 0.0, 1.0), Vec3(0.02, 0.013, 1.0)}) {
+    const FaceVisibility visibility(both, {FaceSides::Both});
+    double behind = 0.0;
+    for (const SeenFace& face : visibility.seen_faces({Projection::Orthographic, towards})) {
+      behind += face.face < 50 ? face.visible_area : 0.0;  // faces of the sheet
+    }
+    EXPECT_NEAR(behind, 0.0, 1e-9);
+  }
+}
+
 TEST(SeenAreas, AreThoseOfBruteForce) {
   const TriMesh two_boxes =
       test::together(test::box(1.0, 2.0, 3.0, 1), test::box(1.0, 1.0, 1.0, 1), Vec3(1.5, 0.2, 0.4));
