@@ -201,6 +201,7 @@ struct QueryCommand {
 
   static std::vector<std::string> cells_of(const batch::Statement& row, int count) {
     std::vector<std::string> cells;
+    cells.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
       cells.push_back(printable(row.is_real(i) ? rounded(row.number(i)) : row.text(i)));
     }

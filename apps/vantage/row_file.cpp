@@ -23,7 +23,7 @@ std::string create_beside(const std::string& path, std::FILE*& file) {
   const std::string folder = path.substr(0, path.find_last_of('/') + 1);
   for (int i = 0; i < kTries; ++i) {
     // Not made from the file's own name, which may be as long as a name can be.
-    const std::string part =
+    std::string part =
         folder + ".vantage-" + std::to_string(::getpid()) + "-" + std::to_string(i) + ".part";
     const int made = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (made >= 0) {
