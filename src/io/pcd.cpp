@@ -59,6 +59,17 @@ class PointSink {
   std::size_t missing_ = 0;
 };
 
+double coordinate_from(std::string_view token, Place place, ModelBuilder& builder) {
+  const std::optional<double> value = number_from(token);
+  if (!value) {
+    builder.fail(place, number_problem(token));
+  }
+  if (!builder.double_precision() && needs_double(token, *value)) {
+    builder.coordinates_need_double();
+  }
+  return *value;
+}
+
 void read_ascii(std::string_view bytes, const PcdHeader& header, ModelBuilder& builder,
                 PointSink& sink) {
   TextCursor cursor(bytes.substr(header.body), header.first_line);
@@ -73,14 +84,7 @@ void read_ascii(std::string_view bytes, const PcdHeader& header, ModelBuilder& b
         }
         for (int axis = 0; axis < 3; ++axis) {
           if (header.coordinate[axis] == f) {
-            const std::optional<double> value = number_from(token);
-            if (!value) {
-              builder.fail(cursor.place(), number_problem(token));
-            }
-            point[axis] = *value;
-            if (!builder.double_precision() && needs_double(token, *value)) {
-              builder.coordinates_need_double();
-            }
+            point[axis] = coordinate_from(token, cursor.place(), builder);
           }
         }
       }
@@ -98,8 +102,8 @@ void read_binary(std::string_view body, std::size_t begin, bool by_column, const
                                       " points, more than the file holds; it may be cut short");
   }
   const auto count = static_cast<std::size_t>(header.points);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const PcdField& field = header.fields[header.coordinate[axis]];
+  for (const std::size_t of_axis : header.coordinate) {
+    const PcdField& field = header.fields[of_axis];
     if (field.size == 8 || (field.type != 'F' && field.size == 4)) {
       builder.coordinates_need_double();
     }
