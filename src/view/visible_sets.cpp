@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 
 #include "vantage/core/error.h"
 #include "vantage/view/view_set.h"
@@ -62,7 +63,7 @@ VisibleSets visible_sets(const FaceVisibility& faces, const ScoringCamera& camer
     std::vector<std::uint8_t> seen(bits, 0);
     for (const SeenFace& face : faces.seen_faces(eye, alone)) {
       const double share = face.visible_area / faces.face_area(face.face);
-      const auto count = static_cast<std::size_t>(share * kBitsAFace + 0.5);
+      const auto count = static_cast<std::size_t>(std::llround(share * kBitsAFace));
       std::fill_n(seen.begin() + static_cast<std::ptrdiff_t>(face.face * kBitsAFace),
                   std::min(count, kBitsAFace), 1);
     }
