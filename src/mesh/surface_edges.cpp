@@ -44,34 +44,4 @@ SurfaceEdges surface_edges(const TriMesh& mesh) {
   return edges;
 }
 
-std::vector<std::uint8_t> vertices_of_several_fans(const TriMesh& mesh, const EdgeTable& edges) {
-  const auto corner_at = [&](std::uint32_t face, std::uint32_t vertex) {
-    const Triangle& t = mesh.triangles[face];
-    const auto k = std::find(t.begin(), t.end(), vertex) - t.begin();
-    return 3 * face + static_cast<std::uint32_t>(k);
-  };
-  DisjointSets fans(3 * mesh.triangles.size());  // of corners
-  for (std::uint32_t e = 0; e < edges.edges.size(); ++e) {
-    const auto faces = edges.faces_of_edge[e];
-    for (const std::uint32_t end : edges.edges[e]) {
-      for (const std::uint32_t f : faces) {
-        fans.join(corner_at(faces[0], end), corner_at(f, end));
-      }
-    }
-  }
-  constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  std::vector<std::uint32_t> fan(mesh.positions.size(), kNone);
-  std::vector<std::uint8_t> has_several(mesh.positions.size(), 0);
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-    for (const std::uint32_t vertex : mesh.triangles[f]) {
-      const std::uint32_t own = fans.root(corner_at(f, vertex));
-      if (fan[vertex] != kNone && fan[vertex] != own) {
-        has_several[vertex] = 1;
-      }
-      fan[vertex] = own;
-    }
-  }
-  return has_several;
-}
-
 }  // namespace vantage

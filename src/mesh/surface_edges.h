@@ -29,7 +29,4 @@ struct SurfaceEdges {
 /// \pre no face names a vertex twice.
 SurfaceEdges surface_edges(const TriMesh& mesh);
 
-/// 1 for each vertex whose faces are not held together by edges at it: there surfaces touch.
-std::vector<std::uint8_t> vertices_of_several_fans(const TriMesh& mesh, const EdgeTable& edges);
-
 }  // namespace vantage

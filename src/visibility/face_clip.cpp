@@ -175,13 +175,19 @@ void FaceClip::cut_along(const std::array<std::uint32_t, 2>& edge) {
   const Vec3 of_last = line.cross(first) / line.squaredNorm();
   next_.shrink_to(0);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
-    divide(parts_[i], line);
     double most_first = 0.0;
     double most_last = 0.0;
-    for (const Eigen::Vector2d& place : on_line_) {
-      most_first = std::max(most_first, of_first.dot(homogeneous(place)));
-      most_last = std::max(most_last, of_last.dot(homogeneous(place)));
-    }
+    outside_.clear();
+    cut_polygon(
+        parts_[i], [&](const Eigen::Vector2d& place) { return line.dot(homogeneous(place)); },
+        inside_,
+        [&](const Eigen::Vector2d& place) {
+          outside_.push_back(place);
+          if (!inside_.empty() && inside_.back() == place) {  // on both sides: on the line
+            most_first = std::max(most_first, of_first.dot(homogeneous(place)));
+            most_last = std::max(most_last, of_last.dot(homogeneous(place)));
+          }
+        });
     const bool is_between = most_first > kTouch && most_last > kTouch;
     if (is_between && twice_area(inside_) > kNoArea && twice_area(outside_) > kNoArea) {
       next_.add(inside_);
@@ -191,36 +197,6 @@ void FaceClip::cut_along(const std::array<std::uint32_t, 2>& edge) {
     }
   }
   std::swap(parts_, next_);
-}
-
-/// Divides a part into what has positive products with a line, what has negative ones, and the places
-/// of its outline on the line.
-void FaceClip::divide(Polygons::Points part, const Vec3& line) {
-  inside_.clear();
-  outside_.clear();
-  on_line_.clear();
-  const Eigen::Vector2d* from = &part.back();
-  double of_from = line.dot(homogeneous(*from));
-  const auto add = [this](const Eigen::Vector2d& place, double of_place) {
-    if (of_place >= 0.0) {
-      inside_.push_back(place);
-    }
-    if (of_place <= 0.0) {
-      outside_.push_back(place);
-    }
-    if (of_place == 0.0) {
-      on_line_.push_back(place);
-    }
-  };
-  for (const Eigen::Vector2d& to : part) {
-    const double of_to = line.dot(homogeneous(to));
-    if ((of_from < 0.0 && of_to > 0.0) || (of_from > 0.0 && of_to < 0.0)) {
-      add(zero_between(*from, of_from, to, of_to), 0.0);
-    }
-    add(to, of_to);
-    from = &to;
-    of_from = of_to;
-  }
 }
 
 Vec3 FaceClip::middle(Polygons::Points part) const {

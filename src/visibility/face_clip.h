@@ -97,7 +97,6 @@ class FaceClip {
 
   [[nodiscard]] bool is_corner(std::uint32_t site) const;  // of the face
   [[nodiscard]] Corner corner(std::uint32_t site) const;
-  void divide(Polygons::Points part, const Vec3& line);
   void subtract(Polygons::Points polygon);
 
   const Surface* surface_ = nullptr;
@@ -107,8 +106,8 @@ class FaceClip {
   std::array<Corner, 3> of_axes_{};  // what x, y and z from there add to a place's coordinates
   double no_area_ = kNoArea;
   Polygons shadows_{}, parts_{}, next_{};
-  std::vector<std::pair<double, std::size_t>> by_size_{};  // less the area of each shadow
-  std::vector<Eigen::Vector2d> inside_{}, outside_{}, kept_{}, on_line_{};  // of the part at hand
+  std::vector<std::pair<double, std::size_t>> by_size_{};       // less the area of each shadow
+  std::vector<Eigen::Vector2d> inside_{}, outside_{}, kept_{};  // of the part at hand
 };
 
 }  // namespace vantage

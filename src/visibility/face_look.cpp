@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "vantage/mesh/topology.h"
+
 #include "spatial/segment.h"
 #include "visibility/face_sums.h"
 
@@ -364,16 +366,13 @@ class FaceLook {
     return !is_spent() && clip.subtract(steps_, kMostSteps) ? clip.parts() : judged_by_points(face);
   }
 
-  /// The same by points, where all that lies before it is too much to be looked at.
+  /// The same by points, where all that lies before it is too much to be looked at. \pre the clip has
+  /// taken the face.
   [[nodiscard]] const Polygons& judged_by_points(std::uint32_t face) {
-    const auto& [a, b, c] = surface_.faces[face];
     by_points_.shrink_to(0);
     const double step = 1.0 / kPartsASide;
-    const auto add_if_seen = [&, a = a, b = b, c = c](const std::array<Eigen::Vector2d, 3>& part) {
-      const Eigen::Vector2d w = (part[0] + part[1] + part[2]) / 3.0;
-      const Vec3 place = w.x() * surface_.sites[a] + w.y() * surface_.sites[b] +
-                         (1.0 - w.x() - w.y()) * surface_.sites[c];
-      if (!scene_.sight.hides_place(place, face, local_)) {
+    const auto add_if_seen = [&](const std::array<Eigen::Vector2d, 3>& part) {
+      if (!scene_.sight.hides_place(memory_.clip.middle(part), face, local_)) {
         by_points_.add(part);
       }
     };
@@ -431,7 +430,9 @@ FaceScene::FaceScene(const TriMesh& mesh, std::span<const FaceSides> sides)
     const TriMesh framed{surface.sites, surface.faces};
     edges = surface_edges(framed);
     meetings = find_meetings(framed, edges);
-    is_touched = vertices_of_several_fans(framed, edges.table);
+    for (const std::uint32_t fans : count_fans(framed)) {
+      is_touched.push_back(fans > 1 ? 1 : 0);
+    }
   }
 }
 

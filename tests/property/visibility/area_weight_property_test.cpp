@@ -211,7 +211,7 @@ TEST(SeenAreas, OfLatticesSeenAlongTheirAxesAreThoseOfBruteForce) {
   }
 }
 
-TEST(SeenAreas, OfAFaceWhoseCornersOthersTouchAreThoseOfBruteForce) {
+TEST(SeenAreas, OfAFaceWhoseCornersOthersTouchAreNothing) {
   // A finer sheet before it is pulled down to the corners of two faces.
   TriMesh before = test::sheet(9.0, 9.0, 36);
   for (Vec3& p : before.positions) {
