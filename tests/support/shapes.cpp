@@ -335,6 +335,29 @@ TriMesh sheet(double x, double y, int cells) {
   return mesh;
 }
 
+TriMesh wall_with_window() {
+  TriMesh wall;
+  for (const double z : {0.0, 1.0}) {
+    for (const double half : {2.0, 1.0}) {
+      for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+        wall.positions.emplace_back(half * x, half * y, z);
+      }
+    }
+  }
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    wall.triangles.push_back({a, b, c});
+    wall.triangles.push_back({a, c, d});
+  };
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    const std::uint32_t next = (k + 1) % 4;
+    add(8 + k, 8 + next, 12 + next, 12 + k);  // front
+    add(4 + k, 4 + next, next, k);            // back
+    add(k, next, 8 + next, 8 + k);            // outside
+    add(4 + next, 4 + k, 12 + k, 12 + next);  // of the window
+  }
+  return wall;
+}
+
 TriMesh together(const TriMesh& first, const TriMesh& second, const Vec3& shift) {
   TriMesh mesh = first;
   const auto offset = static_cast<std::uint32_t>(first.positions.size());

@@ -36,6 +36,9 @@ TriMesh sphere_with_caps(double height);
 /// Flat rectangle [0,x]×[0,y] in the plane z = 0, facing +z, cells × cells quads.
 TriMesh sheet(double x, double y, int cells);
 
+/// A wall of 4 × 4 × 1 around the z axis with a square window of half its width. 32 faces.
+TriMesh wall_with_window();
+
 /// Both meshes in one, the second moved by `shift`.
 TriMesh together(const TriMesh& first, const TriMesh& second, const Vec3& shift);
 

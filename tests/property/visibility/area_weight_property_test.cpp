@@ -142,32 +142,8 @@ TriMesh random_soup(int faces, unsigned seed) {
   return mesh;
 }
 
-/// A wall of 4 × 4 × 1 with a square window of half its width.
-TriMesh wall_with_window() {
-  TriMesh wall;
-  for (const double z : {0.0, 1.0}) {
-    for (const double half : {2.0, 1.0}) {
-      for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
-        wall.positions.emplace_back(half * x, half * y, z);
-      }
-    }
-  }
-  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-    wall.triangles.push_back({a, b, c});
-    wall.triangles.push_back({a, c, d});
-  };
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    const std::uint32_t next = (k + 1) % 4;
-    add(8 + k, 8 + next, 12 + next, 12 + k);  // front
-    add(4 + k, 4 + next, next, k);            // back
-    add(k, next, 8 + next, 8 + k);            // outside
-    add(4 + next, 4 + k, 12 + k, 12 + next);  // of the window
-  }
-  return wall;
-}
-
 TEST(SeenAreas, ThroughAWindowAreThoseOfBruteForce) {
-  const TriMesh wall = wall_with_window();
+  const TriMesh wall = test::wall_with_window();
   const TriMesh before = test::together(test::sheet(8.0, 8.0, 1), wall, Vec3(4.0, 4.0, 2.0));
   for (const Vec3& towards : direction_set(ViewSphereBase::Icosahedron, 1).directions) {
     for (const Viewpoint& eye : {Viewpoint{Projection::Orthographic, towards},
@@ -229,6 +205,36 @@ TEST(SeenAreas, OfAFaceWhoseCornersOthersTouchAreNothing) {
     }
     EXPECT_NEAR(behind, 0.0, 1e-9);
   }
+}
+
+TEST(SeenAreas, BehindABandOfLongFacesAreWhatItLeaves) {
+  // Faces that are long and aslant make the cells of the picture coarser. The line y = x bounds the band.
+  TriMesh band;
+  constexpr std::uint32_t kStrips = 150;
+  for (std::uint32_t k = 0; k <= kStrips; ++k) {
+    const double along = 1.5 * k / kStrips;
+    band.positions.emplace_back(along, -along, 1.0);
+    band.positions.emplace_back(along + 3.0, 3.0 - along, 1.0);
+  }
+  for (std::uint32_t k = 0; k < kStrips; ++k) {
+    band.triangles.push_back({2 * k, 2 * k + 2, 2 * k + 3});
+    band.triangles.push_back({2 * k, 2 * k + 3, 2 * k + 1});
+  }
+  // Beside it a small plate over a larger one.
+  const TriMesh plates =
+      test::together(test::sheet(0.4, 0.4, 1), test::sheet(0.2, 0.2, 1), Vec3(0.1, 0.1, 0.5));
+  TriMesh all = test::together(band, test::sheet(1.2, 1.2, 1), Vec3(0.9, 1.1, 0.0));
+  all = test::together(all, plates, Vec3(4.0, -1.4, 0.0));
+  double behind = 0.0;
+  double of_plate = 0.0;
+  for (const SeenFace& face : FaceVisibility(all, {FaceSides::Both})
+                                  .seen_faces({Projection::Orthographic, Vec3(0.0, 0.0, 1.0)})) {
+    const std::uint32_t sheet = face.face / 2;  // two faces each, after the band
+    behind += sheet == kStrips ? face.visible_area : 0.0;
+    of_plate += sheet == kStrips + 1 ? face.visible_area : 0.0;
+  }
+  EXPECT_NEAR(of_plate, 0.16 - 0.04, 1e-9);
+  EXPECT_NEAR(behind, 1.44 - 0.5, 1e-9);
 }
 
 TEST(SeenAreas, AreThoseOfBruteForce) {

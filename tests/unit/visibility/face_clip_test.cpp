@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "spatial/picture_cells.h"
@@ -233,6 +234,26 @@ TEST(FaceClip, LeavesWhatSamplesSee) {
       sum += exact[f] - sampled[f];
     }
     EXPECT_NEAR(sum / static_cast<double>(exact.size()), 0.0, 1e-3);
+  }
+}
+
+TEST(FaceClip, LosesAShadowThatBeginsOnItsSide) {
+  // But for rounding: then two of the shadow's corners are one.
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> share(0.1, 0.8);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 eye(4.0 * share(random), 4.0 * share(random), 5.0 + share(random));
+    TriMesh mesh;
+    mesh.positions = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+    mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+    const std::array shadow{Vec3(4.0 * share(random), 0.0, 0.0),
+                            Vec3(2.0 * share(random), 1.5, 0.0),
+                            Vec3(2.0 * share(random), 2.0 * share(random), 0.0)};
+    for (const Vec3& place : shadow) {
+      mesh.positions.push_back(eye + share(random) * (place - eye));
+    }
+    const double area = 0.5 * (shadow[1] - shadow[0]).cross(shadow[2] - shadow[0]).norm();
+    EXPECT_NEAR(Clipped(mesh, {Projection::Perspective, eye}).shares()[0], 1.0 - area / 8.0, 1e-9);
   }
 }
 
