@@ -33,12 +33,12 @@ constexpr std::array<StepManner, 9> kManners{{{false, kGentlest, 1.0},
                                               {false, kHarshest, 1.0}}};
 /// Where the next step begins after one that could not be taken as defined.
 constexpr std::size_t kSafer = 1;
-/// A surface that has lost less than this has hardly begun to shrink [a_t].
-constexpr double kBegun = 0.9;
+/// Until a plate has lost this much its first steps round its edges off [a_t].
+constexpr double kRounded = 0.9;
 /// A step from more than this is early: what another way to take it makes of the surface would tell in
 /// all that follow [a_t; ours].
 constexpr double kEarly = 0.25;
-/// A first step that is too gentle to shrink anything is made stronger this often at most.
+/// A step that is too gentle for the surface to begin to shrink is made stronger this often at most.
 constexpr int kMostStronger = 6;
 
 /// What one attempt at a step gave.
@@ -141,11 +141,8 @@ class Contraction {
     if (attempt.flaw != StepFlaw::None) {
       return stop_for(attempt.flaw);
     }
-    // The rule needs a surface that has begun to shrink: on fine smooth meshes the first steps
-    // move less than the tolerance, and stopping there would leave level 0 alone.
-    const bool begun = attempt.shrinkage <= 1.0 - options_.shrinkage_tolerance;
-    if (begun && state_.shrinkage - attempt.shrinkage < least_progress(attempt.shrinkage) &&
-        !is_first()) {
+    if (state_.shrinkage <= kBegun &&
+        state_.shrinkage - attempt.shrinkage < least_progress(attempt.shrinkage)) {
       return ContractionStop::Shrunk;
     }
     state_.now = std::move(attempt.mesh);
@@ -182,13 +179,10 @@ class Contraction {
 
   /// What a step to `shrinkage` must have taken off.
   [[nodiscard]] double least_progress(double shrinkage) const {
-    const bool is_round = state_.shrinkage > kBegun;  // the first steps only round edges off
-    return is_plate(shrinkage) && !is_round
+    return is_plate(shrinkage) && state_.shrinkage <= kRounded
                ? std::max(options_.shrinkage_tolerance, shares_.least_progress * state_.shrinkage)
                : options_.shrinkage_tolerance;
   }
-
-  [[nodiscard]] bool is_first() const { return state_.steps == 0; }
 
   /// A step that is not sound is repeated more safely. A curve is done where the first way fails:
   /// what a safer one could still gain is not worth the risk.
@@ -238,10 +232,8 @@ class Contraction {
       std::tie(attempt.vertex_ratio, attempt.shrinkage) = ratios_.of_vertices(attempt.mesh);
       attempt.flaw = soundness_.flaw(state_.now, attempt.mesh.positions, state_.shrinkage,
                                      attempt.shrinkage, manner.harshness == kGentlest);
-      // On fine smooth meshes the first steps round the shape off and shrink nothing.
-      const bool too_gentle = attempt.flaw == StepFlaw::Rose &&
-                              attempt.shrinkage < 1.0 + options_.shrinkage_tolerance &&
-                              state_.shrinkage > 1.0 - options_.shrinkage_tolerance;
+      const bool too_gentle = attempt.flaw == StepFlaw::Rose && state_.shrinkage > kBegun &&
+                              attempt.shrinkage < 2.0 - kBegun;
       if (!too_gentle || stronger == kMostStronger) {
         return attempt;
       }
@@ -316,7 +308,6 @@ ComponentHistory contract_component(const TriMesh& scaled, const ContractionOpti
   history.was_unsound = surface.was_unsound();
   if (history.summary.stop == ContractionStop::Shrunk) {
     history.thinned = thin_further(surface, options, run);
-    history.summary.strategy += history.thinned.empty() ? "" : ", thinned";
   }
   return history;
 }

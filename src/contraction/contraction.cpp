@@ -18,6 +18,7 @@
 #include "contraction/second_mesh.h"
 #include "contraction/surface_contraction.h"
 #include "core/parallel.h"
+#include "mesh/triangle_corners.h"
 
 namespace vantage {
 namespace {
@@ -49,17 +50,14 @@ Scaling scaling_of(const std::vector<Vec3>& points, ContractionScaling kind) {
 
 std::vector<Piece> cut_into_pieces(const TriMesh& mesh, std::vector<std::uint32_t>& of_vertex) {
   const Components components = connected_components(mesh);
-  std::vector<bool> has_faces(components.count, false);
-  for (const Triangle& t : mesh.triangles) {
-    has_faces[components.of_vertex[t[0]]] = true;
-  }
+  const std::vector<bool> has_faces = vertices_with_faces(mesh);
   std::vector<std::uint32_t> piece_of_component(components.count, ContractionHistory::kIsolated);
   std::vector<Piece> pieces;
   std::vector<std::uint32_t> local(mesh.positions.size(), 0);
   of_vertex.assign(mesh.positions.size(), ContractionHistory::kIsolated);
   for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
     const std::uint32_t component = components.of_vertex[v];
-    if (!has_faces[component]) {
+    if (!has_faces[v]) {
       continue;
     }
     if (piece_of_component[component] == ContractionHistory::kIsolated) {
@@ -72,7 +70,7 @@ std::vector<Piece> cut_into_pieces(const TriMesh& mesh, std::vector<std::uint32_
     piece.vertices.push_back(v);
   }
   for (const Triangle& t : mesh.triangles) {
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) {
+    if (!names_a_vertex_twice(t)) {
       pieces[of_vertex[t[0]]].triangles.push_back({local[t[0]], local[t[1]], local[t[2]]});
     }
   }

@@ -264,6 +264,13 @@ PointContraction contract_points(std::span<const Vec3> points,
     }
   }
   PointContraction result;
+  if (kept.empty()) {
+    result.sample_of_point.assign(points.size(), kIsolated);
+    result.history = {.levels = {{points.begin(), points.end()}},
+                      .shrinkage = {1.0},
+                      .component_of_vertex = result.sample_of_point};
+    return result;
+  }
   for (const std::uint32_t i : spread_sample(kept, kMostSamples, run)) {
     result.samples.positions.push_back(kept[i]);
   }

@@ -126,22 +126,23 @@ ComponentHistory contract_point_component(const std::vector<Vec3>& scaled, const
     history.summary.stop = ContractionStop::StepLimit;
     const EdgeLengths lengths = measure(*next, rings);
     const double shrinkage = lengths.sum / start.sum;
-    // As for meshes, the rule needs a cloud that has begun to shrink.
-    const bool begun = shrinkage <= 1.0 - options.shrinkage_tolerance;
-    if (step > 0 && begun && history.shrinkage.back() - shrinkage < options.shrinkage_tolerance) {
+    const double before = history.shrinkage.back();
+    if (before <= kBegun && before - shrinkage < options.shrinkage_tolerance) {
       history.summary.stop = ContractionStop::Shrunk;
       break;
     }
-    now = *next;
-    history.levels.push_back(now);
-    history.shrinkage.push_back(shrinkage);
-    ++history.summary.steps;
-    history.summary.regularised_steps += harshness > kGentlest ? 1 : 0;
-    W_L = std::min(W_L * options.contraction_growth, std::max(W_L, options.contraction_limit));
-    for (std::size_t i = 0; i < W_H.size(); ++i) {
-      const double ratio = start.shortest[i] / lengths.shortest[i];
-      W_H[i] = ratio < options.attraction_limit ? ratio : options.attraction_limit;  // NaN too
+    if (shrinkage <= before) {  // a step too gentle to shrink anything is made stronger
+      now = *next;
+      history.levels.push_back(now);
+      history.shrinkage.push_back(shrinkage);
+      ++history.summary.steps;
+      history.summary.regularised_steps += harshness > kGentlest ? 1 : 0;
+      for (std::size_t i = 0; i < W_H.size(); ++i) {
+        const double ratio = start.shortest[i] / lengths.shortest[i];
+        W_H[i] = ratio < options.attraction_limit ? ratio : options.attraction_limit;  // NaN too
+      }
     }
+    W_L = std::min(W_L * options.contraction_growth, std::max(W_L, options.contraction_limit));
   }
   return history;
 }

@@ -34,8 +34,9 @@ constexpr double kCoarser = 1.25;  // factor on the edge length while that is ex
 constexpr double kManyVertices = 30'000.0;
 constexpr double kSmallPart = 0.25;
 constexpr double kLongEdge = 0.08;
-/// Where that makes more vertices still, the smallest components stay as they are [ours].
-constexpr double kMostOfAll = 60'000.0;
+/// Where that makes more vertices still, the smallest components stay as they are; so many may be
+/// added in all [ours].
+constexpr std::size_t kMostOfAll = 60'000;
 /// Faces that turn by more than this at their edge meet at a crease. [ours]
 constexpr double kCreaseCos = 0.94;  // of 20°
 
@@ -168,6 +169,23 @@ std::vector<std::size_t> largest_first(const std::vector<CoarsePart>& parts) {
   return order;
 }
 
+/// Splits the faces of parts down to their edge lengths, times `unit`. Slivers side by side make more
+/// vertices than was estimated: where they are too many all edges stay longer, alike.
+TriMesh split_parts(const TriMesh& mesh, const std::vector<const CoarsePart*>& parts, double unit,
+                    const RunContext& run) {
+  for (double factor = unit;; factor *= kCoarser) {
+    std::vector<double> longest(mesh.triangles.size(), kNoBound);
+    for (const CoarsePart* part : parts) {
+      for (const std::uint32_t f : part->faces) {
+        longest[f] = factor * part->edge;
+      }
+    }
+    if (std::optional<TriMesh> fine = split_long_edges(mesh, std::move(longest), kMostOfAll, run)) {
+      return *std::move(fine);
+    }
+  }
+}
+
 /// The mesh around the origin, of diameter 1: areas of very large or small models have no double.
 TriMesh unit_size(const TriMesh& mesh, const Sphere& sphere) {
   TriMesh unit = mesh;
@@ -195,34 +213,29 @@ std::optional<TriMesh> refine_coarse_components(const TriMesh& mesh, const RunCo
   measure_creases(unit, parts);
   std::for_each(parts.begin(), parts.end(), choose_edge);
   share_vertices(parts);
-  std::vector<double> longest(mesh.triangles.size(), kNoBound);
+  std::vector<const CoarsePart*> chosen;
   double vertices = 0.0;
   for (const std::size_t p : largest_first(parts)) {
-    const CoarsePart& part = parts[p];
-    vertices += estimated_vertices(part, part.edge);
-    if (vertices > kMostOfAll) {
+    vertices += estimated_vertices(parts[p], parts[p].edge);
+    if (vertices > static_cast<double>(kMostOfAll)) {
       break;
     }
-    if (part.is_coarse) {
-      for (const std::uint32_t f : part.faces) {
-        longest[f] = part.edge * sphere.diameter;
-      }
+    if (parts[p].is_coarse) {
+      chosen.push_back(&parts[p]);
     }
   }
-  return split_long_edges(mesh, std::move(longest), run);
+  return split_parts(mesh, chosen, sphere.diameter, run);
 }
 
 TriMesh refine_whole(const TriMesh& scaled, const RunContext& run) {
   std::vector<CoarsePart> parts = parts_of(scaled);
   measure_creases(scaled, parts);
-  std::vector<double> longest(scaled.triangles.size(), kNoBound);
+  std::vector<const CoarsePart*> chosen;
   for (CoarsePart& part : parts) {
     choose_edge(part);
-    for (const std::uint32_t f : part.faces) {
-      longest[f] = part.edge;
-    }
+    chosen.push_back(&part);
   }
-  return split_long_edges(scaled, std::move(longest), run);
+  return split_parts(scaled, chosen, 1.0, run);
 }
 
 }  // namespace vantage

@@ -12,6 +12,10 @@
 
 namespace vantage {
 
+/// What has lost less than this has not begun to shrink: on fine smooth surfaces the first steps only
+/// round the shape off. The stop rule asks for no progress until then [a_t; ours].
+inline constexpr double kBegun = 0.99;
+
 /// Ways to make an ill-conditioned step solvable, tried in order: as defined; non-negative weights
 /// and cotangents of angles above half a degree; then also a growing shift of the diagonal.
 constexpr int kGentlest = 0;

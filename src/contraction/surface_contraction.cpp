@@ -22,6 +22,9 @@ constexpr int kMostAgain = 3;
 constexpr std::size_t kEvenCopy = 5'000;
 constexpr std::size_t kFewestEven = 500;
 
+/// Ends the strategy of what was contracted further for the skeleton alone.
+constexpr const char* kThinned = ", thinned";
+
 /// What the vertices of a surface count by; Cao's sums run over vertices.
 EvenShares shares_of(const TriMesh& mesh, const ContractionOptions& options) {
   return options.weights == ContractionWeights::Vertex ? EvenShares{} : even_shares(mesh);
@@ -89,7 +92,6 @@ ComponentHistory contract_exactly(const TriMesh& scaled, const ContractionOption
         is_sheet(coarse.shrinkage.back()) ? coarse.thinned : coarse.levels.back();
     if (!curve.empty()) {
       history.thinned = carried(proxy, curve, run);
-      history.summary.strategy += ", thinned";
     }
   }
   return history;
@@ -196,7 +198,7 @@ ComponentHistory contract_surface(const TriMesh& scaled, const std::optional<Pro
     ComponentHistory history = contract_by(proxy->mesh, options, run);
     history.summary.vertices = scaled.positions.size();
     history.summary.strategy = "proxy " + std::to_string(proxy->mesh.positions.size()) +
-                               (history.thinned.empty() ? "" : ", thinned");
+                               (history.thinned.empty() ? "" : kThinned);
     return history;
   }
   ComponentHistory history;
@@ -223,6 +225,7 @@ ComponentHistory contract_surface(const TriMesh& scaled, const std::optional<Pro
       own.insert(own.begin(), remedies.begin(), remedies.end());
     }
   }
+  history.summary.strategy += history.thinned.empty() ? "" : kThinned;
   return history;
 }
 

@@ -16,6 +16,9 @@ namespace {
 
 /// Of the fit: three of the second fundamental form, two of the tilt.
 constexpr std::size_t kUnknowns = 5;
+/// A two-ring leaves out the rings of vertices with more neighbours than this: of a fan's middle all
+/// of its rim would be taken, at each vertex of the rim. [ours]
+constexpr std::size_t kLargestRing = 64;
 
 /// Vertices whose faces close one ring around them.
 std::vector<bool> ringed_vertices(const TriMesh& mesh, const EdgeTable& table) {
@@ -44,11 +47,13 @@ void gather_neighbourhood(const IndexLists& rings, std::size_t v,
   const std::size_t first = near.size();
   for (std::size_t k = 0; k < first; ++k) {
     const auto ring = rings[near[k]];
-    near.insert(near.end(), ring.begin(), ring.end());
+    if (ring.size() <= kLargestRing) {
+      near.insert(near.end(), ring.begin(), ring.end());
+    }
   }
   std::sort(near.begin(), near.end());
   near.erase(std::unique(near.begin(), near.end()), near.end());
-  near.erase(std::find(near.begin(), near.end(), v));
+  std::erase(near, static_cast<std::uint32_t>(v));
 }
 
 /// Fits κ(θ) = a cos² θ + 2 b cos θ sin θ + c sin² θ, the second fundamental form, to the normal

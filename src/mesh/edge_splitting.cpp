@@ -84,7 +84,8 @@ void cut(const TriMesh& mesh, Triangle t, std::array<std::uint32_t, 3> m,
 
 }  // namespace
 
-TriMesh split_long_edges(const TriMesh& mesh, std::vector<double> longest, const RunContext& run) {
+std::optional<TriMesh> split_long_edges(const TriMesh& mesh, std::vector<double> longest,
+                                        std::size_t most_added, const RunContext& run) {
   TriMesh fine = mesh;
   for (int round = 0; round < kMostRounds; ++round) {
     run.check();
@@ -93,6 +94,9 @@ TriMesh split_long_edges(const TriMesh& mesh, std::vector<double> longest, const
     const std::vector<std::uint32_t> middle = add_middles(fine, table, longest);
     if (fine.positions.size() == before) {
       break;
+    }
+    if (fine.positions.size() - mesh.positions.size() > most_added) {
+      return std::nullopt;
     }
     std::vector<std::array<std::uint32_t, 3>> middles(fine.triangles.size(),
                                                       {kWhole, kWhole, kWhole});

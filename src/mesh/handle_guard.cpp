@@ -29,14 +29,22 @@ void add(Bits& to, const Bits& from) {
   }
 }
 
-/// Index of the highest set bit, or -1.
-std::ptrdiff_t leading_bit(const Bits& bits) {
-  for (std::size_t w = bits.size(); w-- > 0;) {
-    if (bits[w] != 0) {
-      return static_cast<std::ptrdiff_t>(64 * w) + 63 - std::countl_zero(bits[w]);
-    }
+/// Whether the number of coordinates that are set in both is odd: their product over Z₂.
+bool is_odd_in_common(const Bits& a, const Bits& b) {
+  std::uint64_t parity = 0;
+  for (std::size_t w = 0; w < a.size(); ++w) {
+    parity ^= a[w] & b[w];
   }
-  return -1;
+  return (std::popcount(parity) & 1) != 0;
+}
+
+/// Index of the highest set bit. \pre there is one.
+std::size_t leading_bit(const Bits& bits) {
+  std::size_t w = bits.size() - 1;
+  while (bits[w] == 0) {
+    --w;
+  }
+  return 64 * w + 63 - static_cast<std::size_t>(std::countl_zero(bits[w]));
 }
 
 std::size_t edge_between(const EdgeTable& table, std::uint32_t a, std::uint32_t b) {
@@ -243,34 +251,31 @@ HandleGuard::HandleGuard(const TriMesh& mesh, const EdgeTable& table) {
 }
 
 void HandleGuard::reduce(Bits& loop) const {
-  for (const Bits& basis : dead_) {
-    if (bit(loop, static_cast<std::size_t>(leading_bit(basis)))) {
-      add(loop, basis);
+  for (std::size_t k = 0; k < dead_.size(); ++k) {
+    if (bit(loop, leads_[k])) {
+      add(loop, dead_[k]);
     }
   }
 }
 
-bool HandleGuard::cross(const Bits& a, const Bits& b) const {
-  std::uint64_t parity = 0;
+Bits HandleGuard::crossed_by(const Bits& loop) const {
+  Bits crossed(words_, 0);
   for (std::size_t i = 0; i < crossings_.size(); ++i) {
-    if (bit(a, i)) {
-      for (std::size_t w = 0; w < words_; ++w) {
-        parity ^= crossings_[i][w] & b[w];
-      }
+    if (is_odd_in_common(crossings_[i], loop)) {
+      flip(crossed.data(), i);
     }
   }
-  return (std::popcount(parity) & 1) != 0;
+  return crossed;
 }
 
 bool HandleGuard::may_kill(const std::vector<Bits>& loops) const {
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    for (const Bits& basis : dead_) {
-      if (cross(loops[i], basis)) {
-        return false;
-      }
+    const auto crosses = [&](const Bits& crossed) { return is_odd_in_common(loops[i], crossed); };
+    if (std::any_of(crossed_by_dead_.begin(), crossed_by_dead_.end(), crosses)) {
+      return false;
     }
     for (std::size_t j = 0; j < i; ++j) {
-      if (cross(loops[i], loops[j])) {
+      if (crosses(crossed_by(loops[j]))) {
         return false;
       }
     }
@@ -280,16 +285,20 @@ bool HandleGuard::may_kill(const std::vector<Bits>& loops) const {
 
 void HandleGuard::kill(Bits loop) {
   reduce(loop);
-  const std::ptrdiff_t lead = leading_bit(loop);
-  if (lead < 0) {
+  if (std::all_of(loop.begin(), loop.end(), [](std::uint64_t word) { return word == 0; })) {
     return;
   }
-  for (Bits& basis : dead_) {
-    if (bit(basis, static_cast<std::size_t>(lead))) {
-      add(basis, loop);
+  const std::size_t lead = leading_bit(loop);
+  const Bits crossed = crossed_by(loop);
+  for (std::size_t k = 0; k < dead_.size(); ++k) {
+    if (bit(dead_[k], lead)) {
+      add(dead_[k], loop);
+      add(crossed_by_dead_[k], crossed);
     }
   }
+  leads_.push_back(lead);
   dead_.push_back(std::move(loop));
+  crossed_by_dead_.push_back(crossed);
 }
 
 }  // namespace vantage

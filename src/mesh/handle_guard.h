@@ -39,16 +39,22 @@ class HandleGuard {
   /// Whether all these classes, each in normal form, may die together with the dead ones.
   [[nodiscard]] bool may_kill(const std::vector<Bits>& loops) const;
 
+  /// Independent classes that are dead.
+  [[nodiscard]] std::size_t dead_count() const { return dead_.size(); }
+
   /// Marks a class as dead.
   void kill(Bits loop);
 
  private:
-  [[nodiscard]] bool cross(const Bits& a, const Bits& b) const;
+  /// The coordinates of loops that cross this one an odd number of times.
+  [[nodiscard]] Bits crossed_by(const Bits& loop) const;
 
   std::size_t words_ = 0;
   std::vector<std::uint64_t> annotation_{};
-  std::vector<Bits> crossings_{};  ///< Row i: bit j = parity of crossings of generators i and j.
-  std::vector<Bits> dead_{};       ///< Echelon basis of the dead classes.
+  std::vector<Bits> crossings_{};     ///< Row i: bit j = parity of crossings of generators i and j.
+  std::vector<Bits> dead_{};          ///< Echelon basis of the dead classes.
+  std::vector<std::size_t> leads_{};  ///< The highest coordinate that is set, of each of them.
+  std::vector<Bits> crossed_by_dead_{};  ///< Of each of them: see crossed_by().
 };
 
 }  // namespace vantage

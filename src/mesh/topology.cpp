@@ -144,6 +144,16 @@ Components connected_components(const TriMesh& mesh) {
   return components;
 }
 
+std::vector<bool> vertices_with_faces(const TriMesh& mesh) {
+  std::vector<bool> named(mesh.positions.size(), false);
+  for (const Triangle& t : mesh.triangles) {
+    if (!names_a_vertex_twice(t)) {
+      named[t[0]] = named[t[1]] = named[t[2]] = true;
+    }
+  }
+  return named;
+}
+
 std::vector<std::uint32_t> count_fans(const TriMesh& mesh) {
   const IndexLists faces_of = vertex_faces(mesh);
   std::vector<std::uint32_t> fans(mesh.positions.size(), 0);

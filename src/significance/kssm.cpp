@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <numeric>
 
@@ -13,7 +11,6 @@
 #include "vantage/mesh/topology.h"
 
 #include "core/parallel.h"
-#include "mesh/triangle_corners.h"
 #include "significance/feature_map.h"
 #include "spatial/graph_distance.h"
 
@@ -120,17 +117,6 @@ void check_input(const TriMesh& mesh, const ContractionHistory& history, const C
   }
 }
 
-/// Which vertices a face with three corners names.
-std::vector<bool> vertices_with_edges(const TriMesh& mesh) {
-  std::vector<bool> named(mesh.positions.size(), false);
-  for (const Triangle& t : mesh.triangles) {
-    if (!names_a_vertex_twice(t)) {
-      named[t[0]] = named[t[1]] = named[t[2]] = true;
-    }
-  }
-  return named;
-}
-
 }  // namespace
 
 KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
@@ -140,7 +126,7 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
   const std::size_t vertex_count = mesh.positions.size();
   const bool by_rings = options.suppression == Suppression::LocalMaxima;
   const IndexLists rings = by_rings ? vertex_neighbours(mesh) : IndexLists{};
-  const std::vector<bool> referenced = vertices_with_edges(mesh);
+  const std::vector<bool> referenced = vertices_with_faces(mesh);
   const double diameter = enclosing_sphere(referenced_points(mesh)).diameter;
   const std::vector<double> weight =
       options.area_weighted_mean ? vertex_areas(mesh) : std::vector<double>(vertex_count, 1.0);

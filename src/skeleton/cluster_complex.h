@@ -66,6 +66,9 @@ class ClusterComplex {
   /// Whether collapsing the edge loses no handle.
   [[nodiscard]] bool keeps_handles(std::uint32_t edge) const;
 
+  /// Independent loops that collapses have pinched so far, of those that carry handles.
+  [[nodiscard]] std::size_t dead_loops() const { return guard_.dead_count(); }
+
   /// Splits edges next to `edge`, so that collapsing it pinches no loop that the handles need: the
   /// sampling gets finer where it was too coarse for a handle.
   void make_room(std::uint32_t edge);

@@ -13,7 +13,7 @@
 
 namespace vantage {
 
-/// A mesh, the node of each of its vertices, and what is inside it.
+/// A mesh, the component of each of its vertices, and what is inside it.
 struct Routing {
   const TriMesh& mesh;
   std::span<const std::uint32_t> component_of_vertex;

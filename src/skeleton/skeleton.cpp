@@ -332,13 +332,16 @@ Skeleton skeleton_of(const TriMesh& mesh, const ContractionHistory& history,
   return skeleton;
 }
 
-/// The skeleton of the finer surface that was contracted, with what its first vertices belong to.
-Skeleton of_refinement(const TriMesh& mesh, const ContractedRefinement& refinement,
+/// \param whole the history of `mesh`, with that of the finer surface that was contracted. \return its
+/// skeleton, with what its first vertices belong to.
+Skeleton of_refinement(const TriMesh& mesh, const ContractionHistory& whole,
                        const SkeletonOptions& options, const RunContext& run) {
+  const ContractedRefinement& refinement = *whole.refinement;
   ContractionHistory history;
   history.levels = refinement.levels;
   history.component_of_vertex = refinement.component_of_vertex;
   history.thinned = refinement.thinned;
+  history.merged = whole.merged;
   Skeleton skeleton = skeleton_of(refinement.mesh, history, options, run);
   skeleton.node_of_vertex.resize(mesh.positions.size());
   skeleton.raw_node_of_vertex.resize(mesh.positions.size());
@@ -354,7 +357,7 @@ Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history
     throw InvalidInput("the contraction history does not belong to this mesh");
   }
   const RunContext most = run.part(0.0, 0.9);
-  Skeleton skeleton = history.refinement ? of_refinement(mesh, *history.refinement, options, most)
+  Skeleton skeleton = history.refinement ? of_refinement(mesh, history, options, most)
                                          : skeleton_of(mesh, history, options, most);
   if (options.fit && !history.second.levels.empty()) {
     skeleton.other_curve = curve_of(history.second, options, run.part(0.9, 1.0));

@@ -56,10 +56,9 @@ class CollapseQueue {
 
   void refill() {
     heap_.clear();
-    version_.resize(complex_.edge_count(), 0);
-    for (std::uint32_t e = 0; e < complex_.edge_count(); ++e) {
-      push(e);
-    }
+    aside_.clear();
+    known_ = 0;
+    push_new_edges();
   }
 
   /// Cheapest edge to collapse; false if none is left.
@@ -78,14 +77,58 @@ class CollapseQueue {
         continue;
       }
       edge = top.edge;
+      popped_ = top;
       return true;
     }
     return false;
   }
 
+  /// Sets the edge that was popped last aside, until something around it changes.
+  void set_aside() {
+    is_aside_[popped_.edge] = true;
+    aside_.push_back(popped_);
+    std::push_heap(aside_.begin(), aside_.end());
+  }
+
+  /// The cheapest edge that was set aside; false if there is none.
+  bool pop_aside(std::uint32_t& edge) {
+    while (!aside_.empty()) {
+      const Candidate top = aside_.front();
+      std::pop_heap(aside_.begin(), aside_.end());
+      aside_.pop_back();
+      if (is_aside_[top.edge] && top.version == version_[top.edge] && collapsible(top.edge)) {
+        is_aside_[top.edge] = false;
+        edge = top.edge;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Queues edges that splitting made, and what was set aside next to them.
+  void push_new_edges() {
+    const std::size_t first = known_;
+    known_ = complex_.edge_count();
+    version_.resize(known_, 0);
+    is_aside_.resize(known_, false);
+    for (std::size_t e = first; e < known_; ++e) {
+      is_aside_[e] = false;
+      push(static_cast<std::uint32_t>(e));
+    }
+    if (!aside_.empty()) {
+      for (std::size_t e = first; e < known_; ++e) {
+        for (const std::uint32_t end : complex_.ends(static_cast<std::uint32_t>(e))) {
+          look_again_around(end);
+        }
+      }
+    }
+  }
+
   /// Queues the edges of a cluster anew after it moved.
   void refresh(std::uint32_t cluster) {
-    version_.resize(complex_.edge_count(), 0);
+    if (!aside_.empty()) {
+      look_again_around(cluster);
+    }
     moves_.resize(complex_.cluster_count(), 0);
     const auto& links = complex_.links(cluster);
     if (links.size() > kLargestRing && kRingShare * ++moves_[cluster] < links.size()) {
@@ -101,6 +144,31 @@ class CollapseQueue {
  private:
   [[nodiscard]] bool collapsible(std::uint32_t edge) const {
     return complex_.edge_is_live(edge) && complex_.faces_at(edge) > 0;
+  }
+
+  /// Queues what was set aside of the edges at a cluster and between its neighbours.
+  void look_again_around(std::uint32_t cluster) {
+    next_to_.clear();
+    for (const auto& link : complex_.links(cluster)) {
+      next_to_.push_back(link.cluster);  // ascending
+      look_again(link.edge);
+    }
+    for (const std::uint32_t neighbour : next_to_) {
+      for (const auto& link : complex_.links(neighbour)) {
+        if (is_aside_[link.edge] &&
+            std::binary_search(next_to_.begin(), next_to_.end(), link.cluster)) {
+          look_again(link.edge);
+        }
+      }
+    }
+  }
+
+  void look_again(std::uint32_t edge) {
+    if (is_aside_[edge]) {
+      is_aside_[edge] = false;
+      ++version_[edge];
+      push(edge);
+    }
   }
 
   void push(std::uint32_t edge) {
@@ -126,6 +194,11 @@ class CollapseQueue {
   std::vector<std::uint32_t> version_;
   std::vector<std::uint32_t> moves_;  ///< Of each cluster since its edges were queued.
   std::vector<Candidate> heap_{};
+  std::size_t known_ = 0;           ///< Edges that were queued once.
+  Candidate popped_{};              ///< The last one.
+  std::vector<Candidate> aside_{};  ///< A heap of what the guard refused.
+  std::vector<bool> is_aside_{};    ///< Of each edge.
+  std::vector<std::uint32_t> next_to_{};
 };
 
 }  // namespace
@@ -136,25 +209,28 @@ std::size_t collapse_to_graph(ClusterComplex& complex, const RunContext& run) {
   std::size_t refined = 0;
   std::size_t forced = 0;
   std::size_t collapsed = 0;
-  std::size_t collapsed_at_refill = 0;
+  std::size_t dead = 0;  // loops when all edges were looked at
   std::uint32_t edge = 0;
   while (complex.face_count() > 0) {
-    bool stuck = false;
+    bool is_stuck = false;
     if (!queue.pop(edge)) {
-      // Only edges that the guard refused are left: look again at what the last collapses allow.
-      stuck = collapsed == collapsed_at_refill;
-      collapsed_at_refill = collapsed;
-      queue.refill();
-      if (!stuck || !queue.pop(edge)) {
+      // Only edges that the guard refused are left: look again at what the loops that died allow.
+      run.check();
+      is_stuck = complex.dead_loops() == dead && queue.pop_aside(edge);
+      if (!is_stuck) {
+        dead = complex.dead_loops();
+        queue.refill();
         continue;
       }
     }
     if (!complex.keeps_handles(edge)) {
-      if (!stuck) {
+      if (!is_stuck) {
+        queue.set_aside();
         continue;
       }
       if (refined < kMostRefinements) {
         complex.make_room(edge);
+        queue.push_new_edges();
         ++refined;
       } else {
         ++forced;

@@ -28,7 +28,7 @@ constexpr std::size_t kStepsPerShadow = 16;
 constexpr int kPartsASide = 4;
 // Contours before a face that it is cut along. Where there are more the shadows of all faces before it
 // are taken away: in a heap of faces the first few hide most of it. [ours]
-constexpr std::size_t kFewContours = 8;
+constexpr std::size_t kFewContours = 16;
 
 class FaceLook {
  public:

@@ -45,6 +45,9 @@ IndexLists vertex_neighbours(const EdgeTable& table, std::size_t vertex_count);
 /// The faces at each vertex, ascending; a face that names a vertex twice is listed once.
 IndexLists vertex_faces(const TriMesh& mesh);
 
+/// Whether a face with three different corners names each vertex.
+std::vector<bool> vertices_with_faces(const TriMesh& mesh);
+
 /// For each vertex the number of fans: groups of its faces that hang together over shared edges.
 std::vector<std::uint32_t> count_fans(const TriMesh& mesh);
 

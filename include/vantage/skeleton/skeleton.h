@@ -63,7 +63,7 @@ struct Skeleton {
   CurveGraph other_curve{};
   std::vector<std::uint32_t> raw_node_of_vertex{};  ///< |V| nodes of `raw`; kNone if isolated.
   double outside_share = 0.0;  ///< Of the length of `graph` in closed components, what is outside
-                               ///< their shells; 0 if it was not centred.
+                               ///< their shells.
   std::vector<std::string> warnings{};  ///< One sentence each.
 
   /// Node of a vertex that belongs to no face.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -138,6 +139,52 @@ TEST_P(ContractionOf, SucceedsWithTheScalingOfThePaper) {
 
 INSTANTIATE_TEST_SUITE_P(Shapes, ContractionOf, ::testing::ValuesIn(shapes()),
                          [](const auto& instance) { return instance.param.name; });
+
+/// The surface of a cube of so many cells a side, drawn out to the unit sphere.
+TriMesh cube_sphere(int cells) {
+  TriMesh mesh = test::box(2.0, 2.0, 2.0, cells);
+  for (Vec3& p : mesh.positions) {
+    p = (p - Vec3::Ones()).normalized();
+  }
+  return mesh;
+}
+
+/// Fine smooth surfaces begin to shrink step by step, and somewhere on that way by less than the tolerance.
+TEST(ContractionOfFineSpheres, DoesNotEndBeforeItHasBegun) {
+  for (const int cells : {14, 27, 43}) {
+    const ContractionHistory history =
+        contract(cube_sphere(cells),
+                 {.method = ContractionMethod::Exact, .scaling = ContractionScaling::Box});
+    EXPECT_LT(history.shrinkage.back(), 0.1) << cells;
+  }
+}
+
+TEST(ContractionOfFineSpheres, DoesNotEndBeforeItHasBegunBySmallSteps) {
+  const ContractionHistory history = contract(cube_sphere(44), {.contraction_growth = 1.5});
+  EXPECT_LT(history.shrinkage.back(), 0.1);
+}
+
+TEST(ContractionOfFineSpheres, DoesNotEndBeforeItHasBegunAsACloud) {
+  for (const int cells : {14, 20, 27}) {
+    const std::vector<Vec3> points = cube_sphere(cells).positions;
+    const std::vector<std::uint8_t> left_out(points.size(), 0);
+    const ContractionHistory history = contract_points(points, left_out, {}).history;
+    EXPECT_LT(history.shrinkage.back(), 0.1) << cells;
+    for (std::size_t level = 1; level < history.shrinkage.size(); ++level) {
+      EXPECT_LE(history.shrinkage[level], history.shrinkage[level - 1]) << cells;
+    }
+  }
+}
+
+TEST(ContractionOfAY, TakesFewerStepsTheMoreAStepMustTakeOff) {
+  const TriMesh mesh = test::y_of_tubes(0.25, 32);
+  std::size_t before = contract(mesh).level_count();
+  for (const double tolerance : {0.05, 0.2, 0.5, 0.8, 0.95, 1.0}) {
+    const std::size_t levels = contract(mesh, {.shrinkage_tolerance = tolerance}).level_count();
+    EXPECT_LE(levels, before) << tolerance;
+    before = levels;
+  }
+}
 
 }  // namespace
 }  // namespace vantage

@@ -210,9 +210,10 @@ TEST(Contract, RefusesOptionsBelowTheirRangeByName) {
   });
 }
 
-TEST(StopName, IsDifferentForEveryReason) {
+TEST(StopName, OfEveryReason) {
   EXPECT_EQ(stop_name(ContractionStop::Shrunk), "shrunk");
   EXPECT_EQ(stop_name(ContractionStop::Grew), "grew");
+  EXPECT_EQ(stop_name(ContractionStop::Collapsed), "collapsed");
   EXPECT_EQ(stop_name(ContractionStop::StepLimit), "step-limit");
   EXPECT_EQ(stop_name(ContractionStop::NothingToMove), "nothing-to-move");
   EXPECT_EQ(stop_name(ContractionStop::SolverFailed), "solver-failed");

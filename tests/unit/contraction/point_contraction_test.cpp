@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -29,6 +30,15 @@ TEST(PointContraction, BringsACylinderToItsAxis) {
     farthest = larger(farthest, std::hypot(p.x(), p.y()));
   }
   EXPECT_LT(farthest, 0.1 * 0.2);
+}
+
+TEST(PointContraction, LeavesPointsWhereTheyAreIfAllAreLeftOut) {
+  const std::vector<Vec3> points = torus(1.0, 0.3, 10, 10).positions;
+  const PointContraction cloud =
+      contract_points(points, std::vector<std::uint8_t>(points.size(), 1), {});
+  ASSERT_EQ(cloud.history.levels.size(), 1U);
+  EXPECT_EQ(cloud.history.levels[0], points);
+  EXPECT_TRUE(cloud.samples.positions.empty());
 }
 
 TEST(PointContraction, KeepsTheOneLoopOfATorus) {

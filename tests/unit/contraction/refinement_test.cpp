@@ -31,6 +31,15 @@ TEST(RefineCoarseComponents, RefinesTheLargestFirstAndNotTooMany) {
   EXPECT_LT(all->positions.size(), 60'000U);
 }
 
+TEST(RefineCoarseComponents, MakesNoMoreOfSliversSideBySide) {
+  const TriMesh cylinder = test::cylinder(0.3, 2.0, 2000, 1);  // as many edges from end to end
+  const auto fine = refine_coarse_components(cylinder, {});
+  ASSERT_TRUE(fine.has_value());
+  EXPECT_GT(fine->positions.size(), cylinder.positions.size());
+  EXPECT_LE(fine->positions.size(), cylinder.positions.size() + 60'000U);
+  EXPECT_LE(refine_whole(cylinder, {}).positions.size(), cylinder.positions.size() + 60'000U);
+}
+
 /// Eight cubes, which alone would be given twice as many vertices as they may have together.
 TriMesh eight_cubes(int cells) {
   TriMesh row = test::box(1.0, 1.0, 1.0, cells);

@@ -111,6 +111,12 @@ TEST(ExtractSkeleton, KeepsTheFiveHandlesOfACubeFrame) {
   EXPECT_EQ(cycle_count(skeleton_of(test::cube_frame()).graph), 5U);
 }
 
+TEST(ExtractSkeleton, KeepsTheHandlesOfALattice) {
+  // The bars of a cube of 3 × 3 × 3: 64 crossings, 144 bars.
+  const auto is_bar = [](int i, int j, int k) { return i % 2 + j % 2 + k % 2 <= 1; };
+  EXPECT_EQ(cycle_count(skeleton_of(test::voxel_surface(7, 7, 7, is_bar)).graph), 144U - 64U + 1U);
+}
+
 TEST(ExtractSkeleton, KeepsAHandleMuchSmallerThanTheSpacing) {
   // A plate of 50 cells with one hole of a single cell: 1/50 of the length.
   const TriMesh mesh =
