@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "mesh/triangle_corners.h"
+
 namespace vantage {
 namespace {
 
@@ -52,6 +54,9 @@ std::vector<std::uint8_t> open_components(const TriMesh& mesh, const EdgeTable& 
     return parts[component_of_vertex[vertex]];
   };
   for (const Triangle& t : mesh.triangles) {
+    if (names_a_vertex_twice(t)) {
+      continue;  // its corners may be of no component
+    }
     parts.resize(std::max(parts.size(), component_of_vertex[t[0]] + std::size_t{1}));
     Component& part = part_of(t[0]);
     if (part.faces++ == 0) {

@@ -81,13 +81,18 @@ TEST(MeanCurvature, IsZeroAtBordersAndIsolatedVertices) {
 
 TEST(MeanCurvature, OfARimDoesNotTakeAllOfTheFanBesideIt) {
   // Each vertex of the rim has five neighbours, so that the fit takes those of its neighbours too; were the
-  // middle of the fan among those that are asked, this would take hours.
-  constexpr int kAround = 100'000;
-  const std::vector<double> h = mean_curvatures(test::cylinder(1.0, 2.0, kAround, 1));
-  for (int k = 1; k < kAround; ++k) {
-    ASSERT_NEAR(h[static_cast<std::size_t>(k)], h[0], 1e-3 * std::abs(h[0])) << k;
+  // middle of the fan among those that are asked, this would take a minute.
+  constexpr int kAround = 20'000;
+  const TriMesh mesh = test::cylinder(1.0, 2.0, kAround, 1);
+  const std::vector<double> h = mean_curvatures(mesh);
+  int count = 0;
+  for (std::size_t v = 0; v < h.size(); ++v) {
+    if (mesh.positions[v].head<2>().norm() > 0.5) {
+      ASSERT_NEAR(h[v], 0.71, 0.05) << v;
+      ++count;
+    }
   }
-  EXPECT_GT(h[0], 0.0);
+  EXPECT_EQ(count, 2 * kAround);
 }
 
 TEST(MeanCurvature, IsZeroWhereTwoShellsTouchInAVertex) {

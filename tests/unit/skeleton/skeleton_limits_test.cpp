@@ -40,8 +40,8 @@ TEST(SkeletonOfATetrahedron, TakesNoHarmFromAFaceOfNoAreaBesideIt) {
       .positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {3, 0, 0}, {4, 0, 0}},
       .triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {4, 4, 5}}};
   const Skeleton skeleton = skeleton_of(mesh);
-  // Of the face of no area two places are left.
-  EXPECT_EQ(component_count(skeleton.graph), 3U);
+  EXPECT_EQ(component_count(skeleton.graph), 1U);  // it is no surface
+  EXPECT_EQ(skeleton.node_of_vertex[4], Skeleton::kNone);
   for (std::size_t v = 0; v < 4; ++v) {
     EXPECT_LT((skeleton.graph.nodes[skeleton.node_of_vertex[v]] - mesh.positions[v]).norm(), 1.0);
   }
