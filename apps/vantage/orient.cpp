@@ -127,11 +127,13 @@ struct OrientCommand {
     const bool in_place = loaded.format == ModelFormat::Obj || loaded.format == ModelFormat::Stl ||
                           loaded.format == ModelFormat::Gltf || loaded.format == ModelFormat::Glb;
     if (!is_quarter_turn) {
-      throw IoError(file, "must end in .ply: the model is turned by other than quarter turns");
+      throw CLI::ValidationError(
+          "-o", "must end in .ply: the model is turned by other than quarter turns");
     }
     if (!in_place || extension != own) {
-      throw IoError(file, in_place ? "must end in " + own + ", as the model is, or in .ply"
-                                   : "must end in .ply: a " + own + " is not written");
+      throw CLI::ValidationError("-o", in_place
+                                           ? "must end in " + own + ", as the model is, or in .ply"
+                                           : "must end in .ply: a " + own + " is not written");
     }
     if (model == "-") {
       throw IoError(model, "can be turned to a .ply only; name the file, or write a .ply");

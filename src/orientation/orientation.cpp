@@ -258,6 +258,27 @@ double front_witness(AxisDirection up, bool is_formats) {
   return up.is_positive && up.axis != 0 ? std::log(3.0 * share / (1.0 - share)) : 0.0;
 }
 
+/// The odds of all sides, the front first. Of sides that look alike the first has all: which of them is
+/// called the front is all the same.
+template <class Alike>
+std::array<double, 4> odds_from(const Vec3& front, const Vec3& up,
+                                const std::vector<AxisDirection>& candidates,
+                                const std::vector<double>& odds, Alike&& alike) {
+  std::array<double, 4> result{};
+  std::array<AxisDirection, 4> sides;
+  Vec3 side = front;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    sides[k] = axis_of(side);
+    const auto first =
+        std::find_if(sides.begin(), sides.begin() + static_cast<std::ptrdiff_t>(k),
+                     [&](AxisDirection other) { return alike(other, sides[k]); });
+    result[static_cast<std::size_t>(first - sides.begin())] +=
+        odds[place_of(sides[k], candidates)];
+    side = up.cross(side);
+  }
+  return result;
+}
+
 /// Sets the front and the odds of all sides. \pre result.up
 void find_front(const SideLooks& looks, const OrientationRequest& request, Orientation& result) {
   if (request.front) {
@@ -273,15 +294,13 @@ void find_front(const SideLooks& looks, const OrientationRequest& request, Orien
   std::vector<double> scores = front_scores(looks, up);
   scores[usual_index] += front_witness(up, is_formats);
   const std::vector<double> odds = odds_of(std::move(scores));
+  const auto alike = [&](AxisDirection a, AxisDirection b) {
+    return looks.difference(up, a, b) < kAlike;
+  };
   result.front =
-      choose(candidates, odds, usual_index, is_formats ? front_model().threshold : 0.0,
-             [&](AxisDirection a, AxisDirection b) { return looks.difference(up, a, b) < kAlike; });
+      choose(candidates, odds, usual_index, is_formats ? front_model().threshold : 0.0, alike);
   result.front.reasons = reasons_for_front(looks, up, axis_of(result.front.likeliest));
-  Vec3 side = result.front.direction;
-  for (double& of_side : result.front_odds) {
-    of_side = odds[place_of(axis_of(side), candidates)];
-    side = up_vector.cross(side);
-  }
+  result.front_odds = odds_from(result.front.direction, up_vector, candidates, odds, alike);
 }
 
 }  // namespace

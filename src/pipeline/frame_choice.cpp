@@ -29,7 +29,9 @@ std::string by(const DirectionChoice& choice) {
 
 /// What a user should know of a choice that is no plain case; empty if it is one.
 /// \param word "up" or "front". \param usual the convention's direction.
-std::string note_on(const DirectionChoice& choice, const std::string& word, const Vec3& usual) {
+/// \param is_weighed whether the best view weighs what else it may be.
+std::string note_on(const DirectionChoice& choice, const std::string& word, const Vec3& usual,
+                    bool is_weighed) {
   const std::string chosen = name_of(choice.direction);
   if (choice.source == "shape") {
     return word + " is taken to be " + chosen + " (" + percent(choice.confidence) + " sure" +
@@ -43,7 +45,7 @@ std::string note_on(const DirectionChoice& choice, const std::string& word, cons
            (favours_other ? ", the shape suggests " + name_of(choice.likeliest) + " (" +
                                 percent(choice.likeliest_confidence) + ")"
                           : "") +
-           "; --" + word + " sets it";
+           (is_weighed ? "; the best view weighs all sides" : "") + "; --" + word + " sets it";
   }
   return {};
 }
@@ -101,8 +103,9 @@ FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,
   const DirectionChoice& front = choice.orientation.front;
   choice.frame = {axis_nearest(up.direction), axis_nearest(front.direction)};
   for (const std::string& note :
-       {note_on(up, "up", usual_up),
-        note_on(front, "front", up_vector(default_front(choice.frame.up)))}) {
+       {note_on(up, "up", usual_up, false),
+        note_on(front, "front", up_vector(default_front(choice.frame.up)),
+                objective_of(options) == Objective::People)}) {
     if (!note.empty()) {
       choice.notes.push_back(note);
     }

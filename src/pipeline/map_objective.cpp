@@ -6,6 +6,12 @@
 namespace vantage {
 namespace {
 
+// The fewer vertices a surface has the narrower are the peaks and pits of its score, and the sooner all
+// views of a finer set are scored: at most so many vertices. [ours]
+constexpr std::size_t kFewVertices = 500;
+constexpr int kFineLevel = 5;
+constexpr std::size_t kManyStarts = 16;  // of ascents where all scores are soon done [ours]
+
 /// What each vertex adds to a score that sees it: its significance, or by area that of its third of
 /// the faces there over the whole area, the integral of the map wherever a face is seen whole.
 std::vector<double> vertex_shares(const ShapeAnalysis& shape, Weight weight) {
@@ -92,6 +98,9 @@ ViewObjective MapObjective::objective(const Preference& preference) const {
     objective.surrogate = [this](const std::vector<Vec3>& directions) {
       return estimates(directions);
     };
+  } else {  // scores are soon done
+    objective.starts = kManyStarts;
+    objective.survey_level = prepared_->vertex_areas.size() <= kFewVertices ? kFineLevel : 4;
   }
   // By area the score is an integral over faces, which the proxy's vertices are too few to follow.
   if (!faces_ && prepared_->has_proxy()) {

@@ -17,9 +17,9 @@ constexpr std::size_t kBatch = 16;   // directions scored at a time, a quarter o
                                      // first twice as many, half of them peaks, …
 constexpr std::size_t kBatches = 2;  // … then so often, by what was learnt of the estimates
 constexpr double kLikeRad = 12.0 * kRadPerDeg;  // estimates so far apart are off by like amounts
-constexpr double kTrust = 0.3;      // weight of the mean error where nothing near was scored
-constexpr std::size_t kStarts = 4;  // directions that the ascent starts from, …
-constexpr double kStartsApartRad = 5.0 * kRadPerDeg;  // … so far apart: not by one maximum
+constexpr double kTrust = 0.3;  // weight of the mean error where nothing near was scored
+constexpr double kStartsApartRad = 5.0 * kRadPerDeg;  // starts of the ascent: not by one maximum
+constexpr double kFirstRingRad = 4.0 * kRadPerDeg;    // of their rings: over small maxima between
 constexpr double kNotWorthARing = 3e-4;  // share of the range that is not worth a finer ring
 constexpr std::size_t kProxyEnds = 2;    // of the ends by a proxy, ascend once more by the score
 
@@ -164,27 +164,27 @@ std::vector<Candidate> ascended(std::vector<Candidate> candidates, const AscentR
 
 Candidate search_globally(const SearchTarget& target, const RunContext& run) {
   const SearchTarget cheapest = target.has_proxy() ? target.by_proxy() : target;
-  const double first_rad = half_spacing_rad(target.objective().survey_level);
-  Survey survey(cheapest, 1.5 * first_rad, run.part(0.0, kSurveyed));
+  const double spacing_rad = half_spacing_rad(target.objective().survey_level);
+  Survey survey(cheapest, 1.5 * spacing_rad, run.part(0.0, kSurveyed));
   survey.score_axes();
   survey.score_promising(2 * kBatch, kBatch);
   for (std::size_t batch = 0; batch < kBatches; ++batch) {
     survey.score_promising(kBatch, kBatch / 4);
   }
-  AscentRules rules{.first_rad = first_rad,
+  AscentRules rules{.first_rad = kFirstRingRad,
                     .last_rad = target.finest_deg() * kRadPerDeg,
                     .flat = kNotWorthARing * survey.range(),
                     .drops_losers = true};
   std::vector<Candidate> candidates =
-      ascended(largest_apart(survey.scored(), kStarts, kStartsApartRad), rules, cheapest,
-               run.part(kSurveyed, kAscended));
+      ascended(largest_apart(survey.scored(), target.objective().starts, kStartsApartRad), rules,
+               cheapest, run.part(kSurveyed, kAscended));
   if (target.has_proxy()) {
     candidates =
         ascended(best_by_score(candidates, target), rules, target, run.part(kAscended, 1.0));
   }
   candidates.resize(1);
   // Where it is rough to the finest ring a second ascent, on another lattice, may gain.
-  rules.first_rad *= 0.5;
+  rules.first_rad = 0.5 * spacing_rad;
   for (double before = -std::numeric_limits<double>::infinity();
        candidates[0].value > before && candidates[0].spread >= rules.flat;) {
     before = candidates[0].value;

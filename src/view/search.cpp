@@ -70,6 +70,9 @@ Candidate search_for(const SearchTarget& target, const SearchOptions& options,
 
 void check_search(const ViewObjective& objective, const SearchOptions& options) {
   check_fields(options, kSearchFields);
+  if (objective.starts == 0) {
+    throw InvalidInput("a search starts its ascent from one direction at least");
+  }
   if (!(options.epsilon >= 0.0) || !std::isfinite(options.epsilon)) {
     throw InvalidInput("option epsilon must be finite and not negative");
   }

@@ -45,7 +45,8 @@ struct DirectionChoice {
 struct Orientation {
   DirectionChoice up{};     ///< Against gravity.
   DirectionChoice front{};  ///< Toward a viewer in front; at right angles to up.
-  /// Probabilities that the front is front.direction, up × that, its opposite, or the last side.
+  /// Probabilities that the front is front.direction, up × that, its opposite, or the last side. Of
+  /// sides that look alike the first has those of all.
   std::array<double, 4> front_odds{1.0, 0.0, 0.0, 0.0};
 };
 

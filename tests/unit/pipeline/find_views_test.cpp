@@ -158,6 +158,25 @@ TEST(FindViews, CertifiesTheViewThatIsReportedWhereTiesWereSettled) {
   }));
 }
 
+TEST(FindViews, OfFewVerticesFindsWhatTheDenseSearchFinds) {
+  // Each vertex that comes into view is a step of the score: peaks and pits are narrow.
+  const std::array shapes{
+      together(box(1.0, 2.0, 3.0, 1), torus(1.0, 0.3, 7, 5), Vec3(0.4, 0.3, 0.2)),
+      wall_with_window(), y_of_tubes(0.25, 8),
+      together(sphere(1), box(0.5, 3.0, 0.7, 2), Vec3(0.9, -1.0, 0.4))};
+  for (const TriMesh& shape : shapes) {
+    ViewOptions options;
+    options.prior = {};
+    options.objective = Objective::Significance;
+    options.certify = true;
+    const ViewReport report =
+        find_views(analyse_shape(model_of(shape), options), UpAxis::Y, options);
+    ASSERT_TRUE(report.dense_gap.has_value());
+    EXPECT_GE(report.dense_gap->best_ratio, 0.999) << shape.positions.size();
+    EXPECT_LE(report.dense_gap->worst_above, 0.005) << shape.positions.size();
+  }
+}
+
 TEST(FindViews, OfAMapThatIsZeroGivesTheFirstDirectionAndAWarning) {
   const ViewOptions options = quick_search();
   ShapeAnalysis shape = analyse_shape(model_of(sphere(2)), options);
