@@ -102,10 +102,9 @@ FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,
   const DirectionChoice& up = choice.orientation.up;
   const DirectionChoice& front = choice.orientation.front;
   choice.frame = {axis_nearest(up.direction), axis_nearest(front.direction)};
-  for (const std::string& note :
-       {note_on(up, "up", usual_up, false),
-        note_on(front, "front", up_vector(default_front(choice.frame.up)),
-                objective_of(options) == Objective::People)}) {
+  for (const std::string& note : {note_on(up, "up", usual_up, false),
+                                  note_on(front, "front", up_vector(default_front(choice.frame.up)),
+                                          objective_of(options) == Objective::People)}) {
     if (!note.empty()) {
       choice.notes.push_back(note);
     }
