@@ -34,9 +34,10 @@ constexpr double kCoarser = 1.25;  // factor on the edge length while that is ex
 constexpr double kManyVertices = 30'000.0;
 constexpr double kSmallPart = 0.25;
 constexpr double kLongEdge = 0.08;
-/// Where that makes more vertices still, the smallest components stay as they are; so many may be
-/// added in all [ours].
-constexpr std::size_t kMostOfAll = 60'000;
+/// Where that makes more vertices still, the smallest components stay as they are [ours].
+constexpr double kMostOfAll = 60'000.0;
+/// Vertices that may be added in all, whatever was estimated: a bound on time and memory [ours].
+constexpr std::size_t kMostAdded = 150'000;
 /// Faces that turn by more than this at their edge meet at a crease. [ours]
 constexpr double kCreaseCos = 0.94;  // of 20°
 
@@ -180,7 +181,7 @@ TriMesh split_parts(const TriMesh& mesh, const std::vector<const CoarsePart*>& p
         longest[f] = factor * part->edge;
       }
     }
-    if (std::optional<TriMesh> fine = split_long_edges(mesh, std::move(longest), kMostOfAll, run)) {
+    if (std::optional<TriMesh> fine = split_long_edges(mesh, std::move(longest), kMostAdded, run)) {
       return *std::move(fine);
     }
   }
@@ -217,7 +218,7 @@ std::optional<TriMesh> refine_coarse_components(const TriMesh& mesh, const RunCo
   double vertices = 0.0;
   for (const std::size_t p : largest_first(parts)) {
     vertices += estimated_vertices(parts[p], parts[p].edge);
-    if (vertices > static_cast<double>(kMostOfAll)) {
+    if (vertices > kMostOfAll) {
       break;
     }
     if (parts[p].is_coarse) {

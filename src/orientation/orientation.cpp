@@ -269,11 +269,9 @@ std::array<double, 4> odds_from(const Vec3& front, const Vec3& up,
   Vec3 side = front;
   for (std::size_t k = 0; k < sides.size(); ++k) {
     sides[k] = axis_of(side);
-    const auto first =
-        std::find_if(sides.begin(), sides.begin() + static_cast<std::ptrdiff_t>(k),
-                     [&](AxisDirection other) { return alike(other, sides[k]); });
-    result[static_cast<std::size_t>(first - sides.begin())] +=
-        odds[place_of(sides[k], candidates)];
+    const auto first = std::find_if(sides.begin(), sides.begin() + static_cast<std::ptrdiff_t>(k),
+                                    [&](AxisDirection other) { return alike(other, sides[k]); });
+    result[static_cast<std::size_t>(first - sides.begin())] += odds[place_of(sides[k], candidates)];
     side = up.cross(side);
   }
   return result;
