@@ -102,7 +102,7 @@ class Orient(ProgramTest):
     def test_other_formats_are_written_as_ply(self):
         self.vantage("orient", MODELS / "fan.ply", "-o", "up.ply", "--up", "z", "--front=-y")
         self.assertTrue((self.dir / "up.ply").read_bytes().startswith(b"ply"))
-        done = self.vantage("orient", MODELS / "fan.ply", "-o", "up.obj", exit_code=1)
+        done = self.vantage("orient", MODELS / "fan.ply", "-o", "up.obj", exit_code=2)
         self.assertIn(".ply", done.err)
 
     def test_features_are_json_of_six_ups_and_twenty_four_fronts(self):
@@ -185,7 +185,7 @@ class OffTheAxes(ProgramTest):
 
     def test_only_a_ply_takes_the_turned_points(self):
         self.write("a.obj", obj(leaning))
-        done = self.vantage("orient", "a.obj", "--up", "any", "-o", "up.obj", exit_code=1)
+        done = self.vantage("orient", "a.obj", "--up", "any", "-o", "up.obj", exit_code=2)
         self.assertIn("must end in .ply", done.err)
 
 
