@@ -100,7 +100,9 @@ ViewObjective MapObjective::objective(const Preference& preference) const {
     };
   } else {  // scores are soon done
     objective.starts = kManyStarts;
-    objective.survey_level = prepared_->vertex_areas.size() <= kFewVertices ? kFineLevel : 4;
+    if (prepared_->vertex_areas.size() <= kFewVertices) {
+      objective.survey_level = kFineLevel;
+    }
   }
   // By area the score is an integral over faces, which the proxy's vertices are too few to follow.
   if (!faces_ && prepared_->has_proxy()) {

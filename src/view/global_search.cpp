@@ -19,7 +19,7 @@ constexpr std::size_t kBatches = 2;  // … then so often, by what was learnt of
 constexpr double kLikeRad = 12.0 * kRadPerDeg;  // estimates so far apart are off by like amounts
 constexpr double kTrust = 0.3;  // weight of the mean error where nothing near was scored
 constexpr double kStartsApartRad = 5.0 * kRadPerDeg;  // starts of the ascent: not by one maximum
-constexpr double kFirstRingRad = 4.25 * kRadPerDeg;   // of their rings: over small maxima between
+constexpr double kFirstRingRad = 4.25 * kRadPerDeg;   // of their rings, at least: over small maxima
 constexpr double kNotWorthARing = 3e-4;  // share of the range that is not worth a finer ring
 constexpr std::size_t kProxyEnds = 2;    // of the ends by a proxy, ascend once more by the score
 
@@ -171,7 +171,7 @@ Candidate search_globally(const SearchTarget& target, const RunContext& run) {
   for (std::size_t batch = 0; batch < kBatches; ++batch) {
     survey.score_promising(kBatch, kBatch / 4);
   }
-  AscentRules rules{.first_rad = kFirstRingRad,
+  AscentRules rules{.first_rad = std::max(spacing_rad, kFirstRingRad),
                     .last_rad = target.finest_deg() * kRadPerDeg,
                     .flat = kNotWorthARing * survey.range(),
                     .drops_losers = true};

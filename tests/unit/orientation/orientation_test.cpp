@@ -107,6 +107,20 @@ TEST(Orientation, OfWhatLooksTheSameFromAllSidesIsTheFormats) {
   EXPECT_EQ(of_cube.front.source, "format");
 }
 
+TEST(Orientation, OfSidesThatLookAlikeHasTheOddsInTheOneThatIsCalledTheFront) {
+  // Front and back of the bar look alike, and so do its ends; views weigh what is said of the front.
+  const Orientation bar = OrientationEvidence(box(3.0, 1.0, 0.5, 4))
+                              .find({.up = Vec3::UnitY(), .usual_up = Vec3::UnitY()});
+  EXPECT_NEAR(bar.front_odds[0], bar.front.confidence, 1e-12);
+  EXPECT_GT(bar.front_odds[1], 0.0);
+  EXPECT_EQ(bar.front_odds[2], 0.0);
+  EXPECT_EQ(bar.front_odds[3], 0.0);
+  EXPECT_NEAR(bar.front_odds[0] + bar.front_odds[1], 1.0, 1e-12);
+  const Orientation cube =
+      OrientationEvidence(box(1.0, 1.0, 1.0, 4)).find({.usual_up = Vec3::UnitY()});
+  EXPECT_NEAR(cube.front_odds[0], 1.0, 1e-12);
+}
+
 TEST(Orientation, IsCalledNoSurerThanTheFitIsRight) {
   for (const TriMesh& mesh : {chair(), box(1.0, 1.0, 1.0, 3)}) {
     const DirectionChoice up = OrientationEvidence(mesh).find({.usual_up = Vec3::UnitZ()}).up;
