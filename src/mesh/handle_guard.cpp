@@ -289,16 +289,14 @@ void HandleGuard::kill(Bits loop) {
     return;
   }
   const std::size_t lead = leading_bit(loop);
-  const Bits crossed = crossed_by(loop);
-  for (std::size_t k = 0; k < dead_.size(); ++k) {
-    if (bit(dead_[k], lead)) {
-      add(dead_[k], loop);
-      add(crossed_by_dead_[k], crossed);
+  for (Bits& basis : dead_) {
+    if (bit(basis, lead)) {
+      add(basis, loop);
     }
   }
+  crossed_by_dead_.push_back(crossed_by(loop));
   leads_.push_back(lead);
   dead_.push_back(std::move(loop));
-  crossed_by_dead_.push_back(crossed);
 }
 
 }  // namespace vantage

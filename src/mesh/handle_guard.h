@@ -54,7 +54,7 @@ class HandleGuard {
   std::vector<Bits> crossings_{};     ///< Row i: bit j = parity of crossings of generators i and j.
   std::vector<Bits> dead_{};          ///< Echelon basis of the dead classes.
   std::vector<std::size_t> leads_{};  ///< The highest coordinate that is set, of each of them.
-  std::vector<Bits> crossed_by_dead_{};  ///< Of each of them: see crossed_by().
+  std::vector<Bits> crossed_by_dead_{};  ///< Of classes that span them: see crossed_by().
 };
 
 }  // namespace vantage
