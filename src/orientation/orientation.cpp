@@ -29,6 +29,8 @@ constexpr double kHollow = 0.15;
 // much to the log odds that the front is there. [ours]
 constexpr double kOneSided = 0.25;
 constexpr double kOneSidedWeight = 20.0;
+// A shape that makes no side likelier than this is of a kind that the fit of the front knows little of. [ours]
+constexpr double kTellsNothing = 0.5;
 
 const CandidateModel& up_model() {
   static const CandidateModel model(kOrientationTable, "up");
@@ -248,14 +250,30 @@ DirectionChoice find_up(const SideLooks& looks, const OrientationRequest& reques
   return choice;
 }
 
-/// What habit adds to the log odds of the usual front. Also where another up than the format's is given
-/// or found, files with y or z up have a usual front; those with another up have none.
+/// Whether files with this up have a usual front: those with y or z up do, whatever their format.
+bool has_usual_front(AxisDirection up) {
+  return up.is_positive && up.axis != 0;
+}
+
+/// What habit adds to the log odds of the usual front, also where another up than the format's is given or
+/// found.
 double front_witness(AxisDirection up, bool is_formats) {
   if (is_formats) {
     return front_model().witness;
   }
   const double share = front_model().share;
-  return up.is_positive && up.axis != 0 ? std::log(3.0 * share / (1.0 - share)) : 0.0;
+  return has_usual_front(up) ? std::log(3.0 * share / (1.0 - share)) : 0.0;
+}
+
+/// The odds that views go by where the shape tells nothing: the usual front has the share of the files that
+/// face so, the other sides share the rest as before.
+std::vector<double> odds_by_habit(std::vector<double> odds, std::size_t usual) {
+  const double share = front_model().share;
+  const double others = 1.0 - odds[usual];
+  for (std::size_t side = 0; side < odds.size(); ++side) {
+    odds[side] = side == usual ? share : odds[side] * (1.0 - share) / others;
+  }
+  return odds;
 }
 
 /// The odds of all sides, the front first. Of sides that look alike the first has all: which of them is
@@ -291,13 +309,16 @@ void find_front(const SideLooks& looks, const OrientationRequest& request, Orien
   const bool is_formats = up == axis_of(request.usual_up);
   std::vector<double> scores = front_scores(looks, up);
   scores[usual_index] += front_witness(up, is_formats);
-  const std::vector<double> odds = odds_of(std::move(scores));
+  std::vector<double> odds = odds_of(std::move(scores));
   const auto alike = [&](AxisDirection a, AxisDirection b) {
     return looks.difference(up, a, b) < kAlike;
   };
   result.front =
       choose(candidates, odds, usual_index, is_formats ? front_model().threshold : 0.0, alike);
   result.front.reasons = reasons_for_front(looks, up, axis_of(result.front.likeliest));
+  if (has_usual_front(up) && result.front.likeliest_confidence < kTellsNothing) {
+    odds = odds_by_habit(std::move(odds), usual_index);
+  }
   result.front_odds = odds_from(result.front.direction, up_vector, candidates, odds, alike);
 }
 

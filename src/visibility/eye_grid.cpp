@@ -252,11 +252,14 @@ VANTAGE_INLINE std::size_t EyeGrid::strike(const Surface& surface, const FacePac
   return work;
 }
 
-/// Of some of the faces those of one side, or of both where it is 0.
+/// Of some of the faces those of one side, or of both in the order of their depths where it is 0.
 struct EyeGrid::Walk {
-  Walk(const Surface& of, std::uint8_t which, std::size_t most)
+  Walk(const Surface& of, std::uint8_t which, std::size_t most, bool own_corners,
+       std::span<const std::uint8_t> only = {})
       : surface(of),
         side(which),
+        holds_asked(own_corners),
+        asked(only),
         limit(most),
         limit_each(most / std::max<std::size_t>(1, of.faces.size()) + 1),
         ahead(of.faces.size() / kAhead + 1) {}
@@ -268,7 +271,9 @@ struct EyeGrid::Walk {
 
   const Surface& surface;
   std::uint8_t side;
-  std::size_t limit;       // of work, for all faces
+  bool holds_asked;  // most faces hold sites asked about: what is behind them all is not looked for
+  std::span<const std::uint8_t> asked;  // of each face: whether it is; none: all are
+  std::size_t limit;                    // of work, for all faces
   std::size_t limit_each;  // for one
   std::size_t ahead;       // faces whose work may be spent before they are reached
   std::atomic<std::size_t> spent{0};
@@ -280,11 +285,9 @@ VANTAGE_INLINE std::size_t EyeGrid::strike_all(Walk& walk, FacePacket<Lanes>& h)
     return 0;
   }
   make_ready<Lanes>(walk.surface, h);
-  // Fronts have their own corners behind them then, as far as boxes can tell.
-  const bool holds_asked = walk.side == 1;
   std::size_t work = 0;
   for (unsigned lane = 0; lane < h.count; ++lane) {
-    if (holds_asked || !behind_all(h.nearest[lane], cells_of(h, lane))) {
+    if (walk.holds_asked || !behind_all(h.nearest[lane], cells_of(h, lane))) {
       work += strike<Lanes>(walk.surface, h, lane);
     }
   }
@@ -292,31 +295,30 @@ VANTAGE_INLINE std::size_t EyeGrid::strike_all(Walk& walk, FacePacket<Lanes>& h)
   return work;
 }
 
+/// \pre begin is where a block begins.
 template <unsigned Lanes>
-VANTAGE_INLINE void EyeGrid::walk_some(Walk& walk, std::size_t begin, std::size_t end) {
-  const std::uint8_t side = walk.side;
-  const bool is_sorted = side == 0;
+VANTAGE_INLINE void EyeGrid::walk_blocks(Walk& walk, std::size_t begin, std::size_t end) {
   FacePacket<Lanes> some;
   std::size_t work = 0;
-  for (std::size_t k = begin; k < end; ++k) {
-    const std::size_t f = is_sorted ? order_[k] : k;
-    if (!is_sorted && f % FaceBlocks::kFaces == 0) {
-      const Extent& block = blocks_[f / FaceBlocks::kFaces];
-      const std::uint8_t all = block_side_[f / FaceBlocks::kFaces];
-      if ((all != 0 && all != side) || behind_all(block.low[2], cells_of(block))) {
-        k += FaceBlocks::kFaces - 1;
-        continue;
-      }
-    }
-    const bool is_back = turned_[f] == 2;
-    if ((!is_sorted && is_back != (side == 2)) || (is_back && !backs_.empty() && backs_[f] == 0)) {
+  for (std::size_t first = begin; first < end; first += FaceBlocks::kFaces) {
+    const std::size_t block = first / FaceBlocks::kFaces;
+    const std::uint8_t all = block_side_[block];
+    const Extent& extent = blocks_[block];
+    if ((all != 0 && all != walk.side) || behind_all(extent.low[2], cells_of(extent))) {
       continue;
     }
-    some.face[some.count++] = static_cast<std::uint32_t>(f);
-    if (some.count == Lanes) {
-      work += strike_all<Lanes>(walk, some);
+    const std::size_t last = std::min(end, first + FaceBlocks::kFaces);
+    for (std::size_t f = first; f < last; ++f) {
+      if ((all == 0 && (turned_[f] == 2) != (walk.side == 2)) ||
+          (!walk.asked.empty() && walk.asked[f] == 0)) {
+        continue;
+      }
+      some.face[some.count++] = static_cast<std::uint32_t>(f);
+      if (some.count == Lanes) {
+        work += strike_all<Lanes>(walk, some);
+      }
     }
-    if (is_sorted ? work > walk.limit : walk.is_too_much(work, k - begin)) {
+    if (walk.is_too_much(work, last - begin)) {
       work += walk.limit;
       break;
     }
@@ -325,9 +327,28 @@ VANTAGE_INLINE void EyeGrid::walk_some(Walk& walk, std::size_t begin, std::size_
   walk.spent.fetch_add(work, std::memory_order_relaxed);
 }
 
+template <unsigned Lanes>
+VANTAGE_INLINE void EyeGrid::walk_order(Walk& walk, std::size_t begin, std::size_t end) {
+  FacePacket<Lanes> some;
+  std::size_t work = 0;
+  for (std::size_t k = begin; k < end && work <= walk.limit; ++k) {
+    const std::uint32_t f = order_[k];
+    if (turned_[f] == 2 && !backs_.empty() && backs_[f] == 0) {
+      continue;
+    }
+    some.face[some.count++] = f;
+    if (some.count == Lanes) {
+      work += strike_all<Lanes>(walk, some);
+    }
+  }
+  work += strike_all<Lanes>(walk, some);
+  walk.spent.fetch_add(work, std::memory_order_relaxed);
+}
+
 #if defined(__x86_64__)
 [[gnu::target("avx2")]] void EyeGrid::walk_wide(Walk& walk, std::size_t begin, std::size_t end) {
-  walk_some<kWideLanes>(walk, begin, end);
+  walk.side == 0 ? walk_order<kWideLanes>(walk, begin, end)
+                 : walk_blocks<kWideLanes>(walk, begin, end);
 }
 #endif
 
@@ -339,7 +360,8 @@ bool EyeGrid::walk(Walk& walk, std::size_t first, std::size_t count, const RunCo
       return walk_wide(walk, first + begin, first + end);
     }
 #endif
-    walk_some<kLanes>(walk, first + begin, first + end);
+    walk.side == 0 ? walk_order<kLanes>(walk, first + begin, first + end)
+                   : walk_blocks<kLanes>(walk, first + begin, first + end);
   });
   return walk.spent.load() <= walk.limit;
 }
@@ -351,7 +373,8 @@ bool EyeGrid::walk_sides(const Surface& surface, const RunContext& run) {
   const std::size_t count = surface.faces.size();
   const std::size_t limit = kPatience * (hidden_.size() + count);
   find_deepest();
-  Walk fronts{surface, 1, limit};
+  // Fronts have their own corners behind them, as far as boxes can tell.
+  Walk fronts{surface, 1, limit, true};
   if (!walk(fronts, 0, count, run)) {
     return false;
   }
@@ -359,7 +382,7 @@ bool EyeGrid::walk_sides(const Surface& surface, const RunContext& run) {
     return true;
   }
   find_deepest();
-  Walk backs{surface, 2, limit};
+  Walk backs{surface, 2, limit, false, backs_};
   return walk(backs, 0, count, run);
 }
 
@@ -368,7 +391,7 @@ bool EyeGrid::walk_sides(const Surface& surface, const RunContext& run) {
 bool EyeGrid::walk_sorted(const Surface& surface, std::vector<std::uint8_t>& seen,
                           const RunContext& run) {
   const std::size_t count = surface.faces.size();
-  Walk both{surface, 0, kMostPatience * (hidden_.size() + count)};
+  Walk both{surface, 0, kMostPatience * (hidden_.size() + count), false};
   sort_faces(surface);
   std::size_t left = mark_hidden(seen);
   project(surface.rounded, corners_, run);

@@ -103,7 +103,9 @@ class EyeGrid {
   void outline_blocks(const FaceBlocks& blocks, const RunContext& run);
   [[nodiscard]] bool behind_all(float nearest, const CellRange& cells) const;
   template <unsigned Lanes>
-  void walk_some(Walk& walk, std::size_t begin, std::size_t end);
+  void walk_blocks(Walk& walk, std::size_t begin, std::size_t end);
+  template <unsigned Lanes>
+  void walk_order(Walk& walk, std::size_t begin, std::size_t end);
   void walk_wide(Walk& walk, std::size_t begin, std::size_t end);
   bool walk(Walk& walk, std::size_t first, std::size_t count, const RunContext& run);
   bool walk_sides(const Surface& surface, const RunContext& run);

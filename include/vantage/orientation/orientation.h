@@ -45,8 +45,9 @@ struct DirectionChoice {
 struct Orientation {
   DirectionChoice up{};     ///< Against gravity.
   DirectionChoice front{};  ///< Toward a viewer in front; at right angles to up.
-  /// Probabilities that the front is front.direction, up × that, its opposite, or the last side. Of
-  /// sides that look alike the first has those of all.
+  /// What views go by: probabilities that the front is front.direction, up × that, its opposite, or the
+  /// last side. Of sides that look alike the first has those of all. Where the shape makes none likelier
+  /// than one half, the usual front has the share of the files that face so.
   std::array<double, 4> front_odds{1.0, 0.0, 0.0, 0.0};
 };
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -119,6 +120,22 @@ TEST(Orientation, OfSidesThatLookAlikeHasTheOddsInTheOneThatIsCalledTheFront) {
   const Orientation cube =
       OrientationEvidence(box(1.0, 1.0, 1.0, 4)).find({.usual_up = Vec3::UnitY()});
   EXPECT_NEAR(cube.front_odds[0], 1.0, 1e-12);
+}
+
+TEST(Orientation, OfAShapeThatTellsNoFrontHasTheOddsOfHabit) {
+  const TriMesh heap = together(sphere(3), sphere(2), Vec3(0.5, 1.1, 0.7));
+  const Orientation usual =
+      OrientationEvidence(heap).find({.up = Vec3::UnitY(), .usual_up = Vec3::UnitY()});
+  ASSERT_LT(usual.front.likeliest_confidence, 0.5);
+  EXPECT_EQ(usual.front.direction, Vec3::UnitZ());
+  EXPECT_LT(usual.front.confidence, 0.5);       // what is said of it is the fit's
+  EXPECT_NEAR(usual.front_odds[0], 0.65, 0.1);  // what views go by: the share of files that face so
+  EXPECT_NEAR(std::accumulate(usual.front_odds.begin(), usual.front_odds.end(), 0.0), 1.0, 1e-12);
+  // Files whose up is -y have no usual front.
+  const Orientation odd =
+      OrientationEvidence(heap).find({.up = -Vec3::UnitY(), .usual_up = Vec3::UnitY()});
+  ASSERT_LT(odd.front.likeliest_confidence, 0.5);
+  EXPECT_NEAR(odd.front_odds[0], odd.front.confidence, 1e-12);
 }
 
 TEST(Orientation, IsCalledNoSurerThanTheFitIsRight) {
