@@ -65,9 +65,10 @@ std::string LookFlags::write(const std::string& path, const Model& model,
   check_sides(path, options.width, options.height);  // of a size that fits the view
   const Model* asset = of_asset() ? &model : nullptr;
   if (depth_ != 8) {
-    write_output(
-        path, png_bytes(draw_picture_deep(shape, camera, picture, options, look(up), run, asset)));
-    return {};
+    const DeepImage image =
+        draw_picture_deep(shape, camera, picture, options, look(up), run, asset);
+    write_output(path, png_bytes(image));
+    return doubt_about_picture(image);
   }
   const Image image = draw_picture(shape, camera, picture, options, look(up), run, asset);
   write_output(path, picture_bytes(path, image));

@@ -19,6 +19,13 @@ double number_or_throw(std::string_view text, const std::string& flag) {
   return value;
 }
 
+/// 0 to 2. \pre it is one of the coordinate axes.
+int axis_of(UpAxis direction) {
+  Eigen::Index axis = 0;
+  up_vector(direction).cwiseAbs().maxCoeff(&axis);
+  return static_cast<int>(axis);
+}
+
 }  // namespace
 
 void MethodFlags::add_to(CLI::App& app, const FlagGroups& groups) {
@@ -66,6 +73,10 @@ ViewOptions MethodFlags::resolve(std::uint64_t seed) const {
       (all.view.kssm_to_finished_graph || !all.view.skeleton.fit)) {
     throw CLI::ValidationError(
         "--level-agreement", "compares two fitted curves: leave out --graph finished and --no-fit");
+  }
+  if (all.view.up && all.view.up != UpAxis::Any && all.view.front &&
+      axis_of(*all.view.up) == axis_of(*all.view.front)) {
+    throw CLI::ValidationError("--front", "is along the axis of --up: give one at right angles to it");
   }
   search.seed = by_gradient ? seed : 0;
   if (flags_.has("objective") && flags_.has("prior")) {

@@ -32,6 +32,9 @@ class MethodFlags {
   /// The options as asked for on the command line. \param seed of random sequences.
   [[nodiscard]] ViewOptions resolve(std::uint64_t seed = 0) const;
 
+  /// Whether the option of that name was given.
+  [[nodiscard]] bool has(const std::string& name) const { return flags_.has(name); }
+
  private:
   OptionFlags flags_{};
   bool fits_ = false;

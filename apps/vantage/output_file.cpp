@@ -158,6 +158,9 @@ void write_output(const std::string& path, std::string_view bytes) {
     const Abandonable abandonable;
     write_named_file(path, bytes);
   } else {
+    if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) {
+      fs::create_directories(folder, error);  // if that fails, so does writing, and says why
+    }
     write_named_file(path, bytes);
   }
 }

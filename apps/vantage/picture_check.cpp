@@ -11,18 +11,17 @@ namespace {
 constexpr std::size_t kOneIn = 2000;
 constexpr std::size_t kChannels = 4;
 
-}  // namespace
-
-std::string doubt_about_picture(const Image& picture) {
-  if (picture.rgba.size() < kChannels) {
+template <class Channel>
+std::string doubt_about(const std::vector<Channel>& rgba) {
+  if (rgba.size() < kChannels) {
     return {};
   }
-  const auto first = picture.rgba.begin();
+  const auto first = rgba.begin();
   std::size_t shown = 0;
-  for (auto pixel = first; pixel != picture.rgba.end(); pixel += kChannels) {
+  for (auto pixel = first; pixel != rgba.end(); pixel += kChannels) {
     shown += std::equal(pixel, pixel + kChannels, first) ? 0 : 1;
   }
-  const std::size_t pixels = picture.rgba.size() / kChannels;
+  const std::size_t pixels = rgba.size() / kChannels;
   if (shown > 0 && kOneIn * shown >= pixels) {
     return {};
   }
@@ -32,6 +31,16 @@ std::string doubt_about_picture(const Image& picture) {
   return "the picture shows " + shows +
          ": the model is too thin from there, its parts are far apart, or its materials make it "
          "transparent; try a larger --size, --style clay, --front or --focus";
+}
+
+}  // namespace
+
+std::string doubt_about_picture(const Image& picture) {
+  return doubt_about(picture.rgba);
+}
+
+std::string doubt_about_picture(const DeepImage& picture) {
+  return doubt_about(picture.rgba);
 }
 
 }  // namespace vantage::cli

@@ -11,5 +11,6 @@ namespace vantage::cli {
 /// that shows something in a two-thousandth of its pixels or more. Pixels that are as its first one,
 /// in the corner, show nothing.
 std::string doubt_about_picture(const Image& picture);
+std::string doubt_about_picture(const DeepImage& picture);
 
 }  // namespace vantage::cli

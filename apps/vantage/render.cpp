@@ -61,6 +61,11 @@ struct RenderCommand {
     check_output(file, OutputKind::Picture, session.flags);
     ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
     look.check(file, options);
+    for (const char* const flag : {"projection", "distance", "fov"}) {
+      if (!camera_file.empty() && method.has(flag)) {
+        throw CLI::ValidationError(std::string("--") + flag, "says what the file of --camera says: leave one out");
+      }
+    }
     options.margin_percent = look.margin_percent();
     const RunContext run = session.run();
     std::optional<Vec3> direction;

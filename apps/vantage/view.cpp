@@ -147,6 +147,9 @@ struct ViewCommand {
     if (!no_images && !no_report && !has_report_page()) {
       session.say("note: this program was built without npm, so that there is no report.html");
     }
+    if (!no_images && !no_report && !sums_a_map(options.method)) {
+      session.say("note: report.html shows a map and what is seen of it: there is none for this --method");
+    }
     session.end_progress();
     if (session.flags.json) {
       write_output("-", view_json(loaded, shape, report, options, &seconds));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -11,6 +12,7 @@
 
 #include "vantage/io/model.h"
 
+#include "io/byte_cursor.h"
 #include "io/gltf_uri.h"
 #include "io/model_format.h"
 #include "io/obj_libraries.h"
@@ -22,6 +24,9 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t kMostText = 64U << 20U;  // [ours] of a glTF, and of all lines with libraries
+// A GLB begins with 12 bytes of its own and 8 of the chunk that is its JSON, the first four its length.
+constexpr std::size_t kGlbHeaders = 20;
+constexpr std::size_t kGlbLength = 12;
 constexpr std::string_view kLibrary = "mtllib";
 
 /// Whether a line may yet turn out to name a library.
@@ -75,13 +80,29 @@ FilesBeside::FilesBeside(std::string model_path) : model_path_(std::move(model_p
   const std::string extension = extension_of(model_path_);
   is_obj_ = extension == format_name(ModelFormat::Obj);
   is_gltf_ = extension == format_name(ModelFormat::Gltf);
+  is_glb_ = extension == format_name(ModelFormat::Glb);
 }
 
 void FilesBeside::pass(std::string_view bytes) {
   if (is_gltf_) {
     text_.append(bytes.substr(0, kMostText - std::min(text_.size(), kMostText)));
+  } else if (is_glb_) {
+    keep_json_of_glb(bytes);
   } else if (is_obj_) {
     keep_libraries(bytes);
+  }
+}
+
+void FilesBeside::keep_json_of_glb(std::string_view bytes) {
+  const auto keep_up_to = [&](std::size_t size) {
+    const std::size_t count = std::min(bytes.size(), size - std::min(size, text_.size()));
+    text_.append(bytes.substr(0, count));
+    bytes.remove_prefix(count);
+  };
+  keep_up_to(kGlbHeaders);
+  if (text_.size() >= kGlbHeaders) {
+    const auto length = decode<std::uint32_t>(text_.data() + kGlbLength, ByteOrder::Little);
+    keep_up_to(kGlbHeaders + std::min<std::size_t>(length, kMostText));
   }
 }
 
@@ -113,9 +134,11 @@ std::vector<FileBeside> FilesBeside::find() const {
   };
   std::vector<FileBeside> found;
   std::set<std::string> known;
-  for (const std::string& name : is_gltf_  ? names_in_gltf(text_)
-                                 : is_obj_ ? names_in_obj(text_ + line_, files)
-                                           : std::vector<std::string>()) {
+  for (const std::string& name :
+       is_gltf_  ? names_in_gltf(text_)
+       : is_glb_ ? names_in_gltf(text_.substr(std::min(kGlbHeaders, text_.size())))
+       : is_obj_ ? names_in_obj(text_ + line_, files)
+                 : std::vector<std::string>()) {
     std::error_code error;
     const std::string path = place_beside(model_path_, name, error).string();
     if (!error && !path.empty() && known.insert(name).second) {

@@ -59,11 +59,12 @@ std::string_view after_options(std::string_view rest, MtlMaterial& material) {
     }
     rest = line;
   }
-  return trimmed(rest);
+  return without_quotes(trimmed(rest));
 }
 
+/// \param keyword in lower case: writers differ.
 void read_line(std::string_view keyword, std::string_view rest, MtlMaterial& material) {
-  if (keyword == "Kd") {
+  if (keyword == "kd") {
     std::array<double, 3> colour{1.0, 1.0, 1.0};
     colour[0] = share(next_number(rest), -1.0);
     if (colour[0] >= 0.0) {  // not a spectral file
@@ -73,9 +74,9 @@ void read_line(std::string_view keyword, std::string_view rest, MtlMaterial& mat
     }
   } else if (keyword == "d") {
     material.opacity = share(next_number(rest), material.opacity);
-  } else if (keyword == "Tr") {
+  } else if (keyword == "tr") {
     material.opacity = 1.0 - share(next_number(rest), 1.0 - material.opacity);
-  } else if (keyword == "map_Kd") {
+  } else if (keyword == "map_kd") {
     material.picture = after_options(rest, material);
   } else if (keyword == "map_d") {
     MtlMaterial unused;
@@ -92,7 +93,7 @@ std::map<std::string, MtlMaterial, std::less<>> parse_mtl(std::string_view text)
   MtlMaterial* current = &ignored;
   while (const std::optional<std::string_view> line = cursor.next_line()) {
     std::string_view rest = *line;
-    const std::string_view keyword = take_token(rest);
+    const std::string keyword = lower_case(take_token(rest));
     if (keyword == "newmtl") {
       const auto [entry, is_new] = materials.try_emplace(std::string(trimmed(rest)));
       current = is_new ? &entry->second : &ignored;

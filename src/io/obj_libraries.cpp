@@ -33,6 +33,7 @@ std::optional<std::string> inside_folder(const std::string& path) {
 }  // namespace
 
 void ObjLibraries::add(std::string_view names) {
+  names = without_quotes(names);
   if (!names.empty() && known_.emplace(names).second) {
     named_.emplace_back(names);
   }

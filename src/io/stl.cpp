@@ -49,13 +49,13 @@ class TextReader {
     } else if (is("facet")) {
       in_facet_ = true;
       is_before_facets_ = false;
-      cursor_.skip_line();  // the normal, which the corners imply
+      skip_to("outer");  // over the normal, which the corners imply
     } else if (is("endfacet") || is("endloop")) {
       in_facet_ = in_facet_ && !is("endfacet");
       end_open_polygon();
       line_of_end_ = cursor_.place().value;
     } else if (is("outer")) {
-      cursor_.skip_line();
+      skip_to("vertex");
     } else if (is("solid")) {
       read_solid_name();
       is_before_facets_ = true;
@@ -69,6 +69,19 @@ class TextReader {
       // Some writers put words of their own behind the end of a facet; elsewhere they are errors.
       builder_.fail(cursor_.place(),
                     "expected a statement such as facet or vertex, found " + in_quotes(word));
+    }
+  }
+
+  /// Leaves out the rest of the line, or what stands on it before the word.
+  void skip_to(std::string_view word) {
+    for (TextCursor ahead = cursor_;; cursor_ = ahead) {
+      const std::string_view token = ahead.token_on_line();
+      if (token.empty()) {
+        return cursor_.skip_line();
+      }
+      if (equals_ignoring_case(token, word)) {
+        return;
+      }
     }
   }
 

@@ -23,6 +23,11 @@ bool equals_ignoring_case(std::string_view word, std::string_view keyword) {
                     [](char a, char b) { return small_letter(a) == b; });
 }
 
+std::string_view without_quotes(std::string_view name) {
+  const bool is_quoted = name.size() >= 2 && name.front() == '"' && name.back() == '"';
+  return is_quoted ? name.substr(1, name.size() - 2) : name;
+}
+
 std::string_view trimmed(std::string_view line) {
   while (!line.empty() && is_blank(line.front())) {
     line.remove_prefix(1);

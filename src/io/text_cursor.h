@@ -40,6 +40,9 @@ inline std::string_view take_token(std::string_view& line) {
 /// `line` without blanks at both ends.
 std::string_view trimmed(std::string_view line);
 
+/// The same without quotes, if they stand around it.
+std::string_view without_quotes(std::string_view name);
+
 /// `text` with the letters A to Z small.
 std::string lower_case(std::string_view text);
 

@@ -25,7 +25,7 @@ namespace {
 /// Between the namespace of an element and its name, as expat is told to write them.
 constexpr XML_Char kBetween = '|';
 
-/// The name without its namespace: no two that matter have the same one.
+/// The name without its namespace.
 std::string_view local(std::string_view whole) {
   return whole.substr(whole.rfind(kBetween) + 1);
 }
@@ -80,6 +80,13 @@ bool is_read(std::string_view extension) {
                                                   "trianglesets/"};
   return std::any_of(kRead.begin(), kRead.end(),
                      [&](std::string_view known) { return extension.starts_with(known); });
+}
+
+/// Name of an element that is read; empty for one of an extension that is not: slices have vertices, too.
+std::string_view read_name(std::string_view whole) {
+  const std::string_view space = whole.substr(0, whole.size() - local(whole).size());
+  const std::string_view extension = extension_name(space);
+  return extension.size() == space.size() || is_read(extension) ? local(whole) : "";
 }
 
 /// Half a byte, or 16.
@@ -163,7 +170,7 @@ class ThreemfPartReader::State {
       for (const XML_Char** at = attributes; *at != nullptr; at += 2) {
         self.count_name(at[0]);
       }
-      self.start(local(name), Attributes(attributes));
+      self.start(read_name(name), Attributes(attributes));
     });
   }
 
@@ -179,7 +186,7 @@ class ThreemfPartReader::State {
   }
 
   static void on_end(void* state, const XML_Char* name) {
-    static_cast<State*>(state)->guarded([&](State& self) { self.end(local(name)); });
+    static_cast<State*>(state)->guarded([&](State& self) { self.end(read_name(name)); });
   }
 
   static void on_document_type(void* state, const XML_Char* /*name*/, const XML_Char* /*system*/,

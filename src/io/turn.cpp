@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -160,6 +161,23 @@ std::string turned_binary_stl(std::string_view bytes, std::string_view name, con
   return result;
 }
 
+/// Indices of the nodes that are nobody's child.
+nlohmann::ordered_json nodes_of_no_other(const nlohmann::ordered_json& nodes) {
+  std::set<nlohmann::ordered_json> children;
+  for (const nlohmann::ordered_json& node : nodes) {
+    if (node.is_object() && node.contains("children") && node["children"].is_array()) {
+      children.insert(node["children"].begin(), node["children"].end());
+    }
+  }
+  nlohmann::ordered_json roots = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!children.contains(i)) {
+      roots.push_back(i);
+    }
+  }
+  return roots;
+}
+
 std::string turned_gltf_text(std::string_view text, std::string_view name, const AxisTurn& turn,
                              int indent) {
   using json = nlohmann::ordered_json;
@@ -169,6 +187,10 @@ std::string turned_gltf_text(std::string_view text, std::string_view name, const
   };
   if (!root.is_object()) {
     fail("is not well formed");
+  }
+  if (!root.contains("scenes") && root.contains("nodes") && root["nodes"].is_array()) {
+    root["scene"] = 0;  // of a file without scenes readers show all nodes
+    root["scenes"] = {{{"nodes", nodes_of_no_other(root["nodes"])}}};
   }
   if (!root.contains("scenes") || !root["scenes"].is_array() || !root.contains("nodes") ||
       !root["nodes"].is_array()) {

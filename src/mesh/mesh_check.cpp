@@ -26,11 +26,6 @@ std::size_t count_unnamed_vertices(const TriMesh& mesh) {
   return static_cast<std::size_t>(std::count(named.begin(), named.end(), false));
 }
 
-/// Whether `t` runs through its side {a, b} from a to b.
-bool runs_from(const Triangle& t, std::uint32_t a, std::uint32_t b) {
-  return t[(corner_at(t, a) + 1) % 3] == b;
-}
-
 /// Faces of the same three vertices as another one, all but one of each.
 std::size_t count_duplicate_faces(const TriMesh& mesh, const EdgeTable& table) {
   std::size_t duplicates = 0;

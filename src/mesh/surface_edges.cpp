@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/surface_edges.h"
 
-#include <algorithm>
 #include <cstddef>
 
 #include "mesh/disjoint_sets.h"
+#include "mesh/triangle_corners.h"
 
 namespace vantage {
-namespace {
-
-/// Whether the face runs along the edge from its lower to its higher vertex.
-bool runs_up(const Triangle& face, const std::array<std::uint32_t, 2>& edge) {
-  const auto at = std::find(face.begin(), face.end(), edge[0]) - face.begin();
-  return face[static_cast<std::size_t>(at + 1) % 3] == edge[1];
-}
-
-}  // namespace
-
 SurfaceEdges surface_edges(const TriMesh& mesh) {
   SurfaceEdges edges;
   edges.table = build_edge_table(mesh);
@@ -25,10 +15,10 @@ SurfaceEdges surface_edges(const TriMesh& mesh) {
   DisjointSets shells(mesh.triangles.size());
   for (std::uint32_t e = 0; e < edges.table.edges.size(); ++e) {
     const auto faces = edges.table.faces_of_edge[e];
-    const auto& ends = edges.table.edges[e];
+    const auto& [low, high] = edges.table.edges[e];
     const bool is_pair = faces.size() == 2;
-    const bool is_alike = is_pair && runs_up(mesh.triangles[faces[0]], ends) ==
-                                         runs_up(mesh.triangles[faces[1]], ends);
+    const bool is_alike = is_pair && runs_from(mesh.triangles[faces[0]], low, high) ==
+                                         runs_from(mesh.triangles[faces[1]], low, high);
     edges.pairs.push_back(!is_pair   ? EdgePair::None
                           : is_alike ? EdgePair::Same
                                      : EdgePair::Opposite);

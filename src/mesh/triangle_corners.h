@@ -20,4 +20,9 @@ inline std::uint32_t corner_at(const Triangle& t, std::uint32_t v) {
   return t[0] == v ? 0 : (t[1] == v ? 1 : 2);
 }
 
+/// Whether it runs through its side {a, b} from a to b. \pre a is one of its corners.
+inline bool runs_from(const Triangle& t, std::uint32_t a, std::uint32_t b) {
+  return t[(corner_at(t, a) + 1) % 3] == b;
+}
+
 }  // namespace vantage

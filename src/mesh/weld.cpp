@@ -4,6 +4,8 @@
 
 #include "vantage/mesh/mesh_check.h"
 
+#include "mesh/triangle_corners.h"
+
 namespace vantage {
 namespace {
 
@@ -59,7 +61,7 @@ WeldedMesh weld(const TriMesh& mesh, const RunContext& run) {
   for (const auto& [a, b, c] : mesh.triangles) {
     Triangle triangle{welded.welded_of_vertex[a], welded.welded_of_vertex[b],
                       welded.welded_of_vertex[c]};
-    if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) {
+    if (names_a_vertex_twice(triangle)) {
       ++welded.dropped_faces;
     } else {
       std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()),

@@ -19,8 +19,9 @@ constexpr double kEvenLight = 0.12;
 constexpr double kShadowOpacity = 0.72;
 /// The shadow fades out over this share of the picture's shorter side at the border. [ours]
 constexpr double kShadowFade = 0.07;
-/// Layers of glass and leaves that are looked through. [ours]
-constexpr int kMostLayers = 16;
+/// Layers of glass and leaves that are looked through, until what is behind them would not show. [ours]
+constexpr int kMostLayers = 256;
+constexpr double kNothingBehind = 1.0 - 0.25 / 255.0;
 /// What lies behind a layer is looked for so much further, in units of the frame: more than float
 /// rounding (1e-7 at distances up to 8).
 constexpr float kLayerGap = 1e-5F;
@@ -154,7 +155,7 @@ Light Scene::light_of(const Coat& coat, Sample& sample, Patches& patches) const 
        ++count) {
     const Light seen = surface_light(coat, sample, layer, has_tube, patches);
     light.behind(seen.colour, seen.alpha);
-    if (!coat.has_openings() || seen.alpha >= 1.0) {
+    if (!coat.has_openings() || light.alpha >= kNothingBehind) {
       break;
     }
     RayPacket next{ray.segment()};

@@ -26,6 +26,7 @@
 #include "core/loaded_code.h"
 #include "core/parallel.h"
 #include "io/files.h"
+#include "io/model_format.h"
 #include "report/constant_camera.h"
 
 namespace vantage {
@@ -104,7 +105,8 @@ std::string key_of(const RecordedModel& record, const ViewOptions& options,
   print.add(options_hash(options));
   print.add(record.name);
   print.add(read_file(record.path));
-  if (record.path.ends_with(".gltf")) {  // whose vertices are in other files
+  const std::string extension = extension_of(record.path);
+  if (extension == "gltf" || extension == "glb") {  // whose vertices may be in other files
     for (const Vec3& p : load_model(record.path, run).mesh.positions) {
       print.add(p);
     }

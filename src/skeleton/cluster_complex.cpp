@@ -10,6 +10,8 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 
+#include "mesh/triangle_corners.h"
+
 namespace vantage {
 namespace {
 
@@ -60,7 +62,7 @@ ClusterComplex::ClusterComplex(const TriMesh& mesh, std::vector<Vec3> positions,
   // A face that stands twice in the file is one triangle here.
   for (std::uint32_t f = 0; f < faces_.size(); ++f) {
     const Triangle& t = faces_[f];
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
+    if (names_a_vertex_twice(t)) {
       continue;
     }
     if (has_face(t[0], t[1], t[2])) {

@@ -155,11 +155,7 @@ SkeletonQuality measure_skeleton(const TriMesh& mesh,
   const std::vector<std::uint32_t> component =
       components_of_nodes(graph, skeleton.node_of_vertex, component_of_vertex);
   measure_edges(shell, graph, component, wall_thickness(mesh, shell, skeleton), thin, quality);
-  std::vector<std::size_t> degree(graph.nodes.size(), 0);
-  for (const auto& [a, b] : graph.edges) {
-    ++degree[a];
-    ++degree[b];
-  }
+  const std::vector<std::uint32_t> degree = node_degrees(graph);
   quality.ends = static_cast<std::size_t>(std::count(degree.begin(), degree.end(), 1U));
   measure_distances(mesh, skeleton, run, quality);
   measure_sight(mesh, component_of_vertex, shell, skeleton, component, run, quality);

@@ -147,7 +147,7 @@ class Terminal(ProgramTest):
         for evil in self.EVIL:
             for command in ((b"--" + evil,), (evil,), (b"view", b"a.off", evil), (b"info", evil + b".off"),
                             (b"info", b"a.off", b"--threads", evil), (b"render", b"a.off", b"--direction", b"0,0,1", b"-o", b"t" + evil + b".jpg"),
-                            (b"thumb", b"a.off", evil + b"/t.png"), (b"info", b"a.off", b"--config", evil),
+                            (b"thumb", b"a.off", b"a.off/" + evil + b".png"), (b"info", b"a.off", b"--config", evil),
                             (b"score", b"a.off", b"--directions", evil), (b"score", b"a.off", b"--method", evil, b"--sphere", b"0"),
                             (b"view", b"a.off", b"-o", b"a.off/" + evil), (b"view", b"a.off", b"--focus", evil),
                             (b"render", b"a.off", b"-o", b"r.png", b"--direction", evil), (b"serve", evil),

@@ -93,6 +93,13 @@ class Stale(ProgramTest):
         before.pop("map.ply")
         self.assertEqual(visible(self.dir / "v"), before)
 
+    def test_results_make_their_folders(self):
+        self.write("a.off", box(1))
+        for command in (("render", "a.off", "-o", "1/deep/a.png", "--direction", "1,0,0", "--size", "32"), ("map", "a.off", "-o", "2/a.ply"),
+                        ("skeleton", "a.off", "-o", "3/a.obj"), ("thumb", "a.off", "4/a.png", "--size", "32")):
+            self.vantage(*command)
+            self.assertTrue((self.dir / next(w for w in command if "/" in w)).is_file(), command)
+
     def test_tours_and_traces_make_their_folders(self):
         self.vantage("view", "horse.off", "-o", "v", *FAST, "--no-images", "--views", "3", "--weight", "area",
                      "--tour", "new/deep/x.webp", "--tour-seconds", "1", "--tour-size", "32", "--trace", "traces/t.csv")

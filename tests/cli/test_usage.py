@@ -48,10 +48,17 @@ class WhatWasMeant(ProgramTest):
     def test_flags_that_contradict_each_other_are_refused(self):
         self.write("a.off", box(1))
         for flags, named in ((("--search", "rapid", "--objective", "people"), "--objective"),
-                             (("--prior", "none", "--objective", "people"), "--prior"), (("-o", ""), "--output")):
+                             (("--prior", "none", "--objective", "people"), "--prior"), (("-o", ""), "--output"),
+                             (("--up", "z", "--front", "z"), "--front"), (("--up", "-y", "--front", "y"), "--front")):
             with self.subTest(flags=flags):
                 self.assertIn(named, self.vantage("view", "a.off", *flags, exit_code=2).err)
         self.assertEqual([p.name for p in self.dir.iterdir()], ["a.off"])
+
+    def test_what_a_camera_file_says_is_not_said_again(self):
+        self.write("a.off", box(1))
+        for flag in ("--fov", "--distance"):
+            said = self.vantage("render", "a.off", "-o", "a.png", "--camera", "c.json", flag, "40", exit_code=2).err
+            self.assertIn(f"{flag}: says what the file of --camera says", said)
 
     def test_values_that_begin_with_a_dash_are_no_flags(self):
         self.assertIn("--foo", self.complaint("view", FAN, "--up", "-y", "--foo"))

@@ -121,11 +121,13 @@ class FilesBeside {
 
  private:
   void keep_libraries(std::string_view bytes);
+  void keep_json_of_glb(std::string_view bytes);
 
   std::string model_path_;
   bool is_obj_ = false;
   bool is_gltf_ = false;
-  std::string text_{};    ///< The glTF, or the lines of an OBJ that name libraries.
+  bool is_glb_ = false;
+  std::string text_{};    ///< The JSON of a glTF, or the lines of an OBJ that name libraries.
   std::string line_{};    ///< Of an OBJ: what has passed of the current line, as far as it matters.
   bool skips_ = false;    ///< The rest of the line does not matter.
   bool goes_on_ = false;  ///< The line before ends with \, so this one belongs to it.

@@ -220,6 +220,15 @@ TEST_F(ObjAppearance, FindsPicturesThatAreNamedAsOnTheAuthorsDisk) {
   }
 }
 
+TEST_F(ObjAppearance, TakesQuotedNamesAndKeywordsInAnyCase) {
+  const Model model = loaded("mtllib \"a.mtl\"\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n",
+                             "NewMtl m\nkd 1 0 0\nMAP_KD \"green.png\"\n");
+  ASSERT_EQ(model.appearance.materials.size(), 1U);
+  EXPECT_THAT(model.appearance.materials[0].colour, ElementsAre(1.0, 0.0, 0.0));
+  EXPECT_EQ(model.appearance.textures.size(), 1U);
+  EXPECT_THAT(model.notes, IsEmpty());
+}
+
 TEST_F(ObjAppearance, HasTheMaterialsOfAllLibrariesOfALine) {
   write_file(folder_.file("b.mtl"), "newmtl blue\nKd 0 0 1\n");
   const Model model = loaded("mtllib a.mtl b.mtl\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 3 4\n",

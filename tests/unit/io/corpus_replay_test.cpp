@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every file the fuzzers start from, and every input that once broke a reader, in this build.
+// The files that fuzzers of readers start from, and every input that once broke a reader, in this build.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -67,7 +67,8 @@ TEST_P(CorpusReplay, GivesAModelWithValidIndicesOrAFormatError) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, CorpusReplay,
-                         testing::Values("obj", "off", "ply", "stl", "gltf", "glb"));
+                         testing::Values("obj", "off", "ply", "stl", "gltf", "glb", "3mf", "pcd", "pts", "pwn",
+                                         "xyz"));
 
 TEST(CorpusReplay, CamerasGiveAResultOrAFormatError) {
   EXPECT_GT(replay("camera",

@@ -7,6 +7,7 @@
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
 
+#include "io/byte_cursor.h"
 #include "unit/io/temporary_folder.h"
 
 namespace vantage::test {
@@ -74,6 +75,21 @@ TEST_F(FilesBesideAModel, LibrariesAreFoundAnywhereInTheFile) {
     EXPECT_THAT(found("m.obj", text, piece), ElementsAre("a.mtl", "b.mtl")) << piece;
   }
   EXPECT_THAT(found("m.OBJ", "mtllib a.mtl", 3), ElementsAre("a.mtl"));
+}
+
+TEST_F(FilesBesideAModel, BuffersAndPicturesOfABinaryGltf) {
+  write("t.png");
+  const std::string json = R"({"images": [{"uri": "t.png"}]})";
+  const std::string rest = R"({"images": [{"uri": "m.glb"}]})";  // behind the JSON: not asked for
+  std::string text = "glTF";
+  append_little_endian(text, std::uint32_t{2});
+  append_little_endian(text, static_cast<std::uint32_t>(20 + json.size() + rest.size()));
+  append_little_endian(text, static_cast<std::uint32_t>(json.size()));
+  text += "JSON" + json + rest;
+  write("m.glb", text);
+  EXPECT_THAT(found("m.glb", text, 7), ElementsAre("t.png"));
+  EXPECT_THAT(found("m.glb", text), ElementsAre("t.png"));
+  EXPECT_THAT(found("m.glb", text.substr(0, 15)), IsEmpty());
 }
 
 TEST_F(FilesBesideAModel, BuffersAndPicturesOfAGltf) {

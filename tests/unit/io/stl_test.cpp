@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <limits>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -65,6 +67,15 @@ TEST(Stl, ReadsTextInEitherCase) {
   }
   EXPECT_EQ(parse_model(lower, "a.stl").parts.at(0).name, "a b");
   EXPECT_EQ(parse_model(upper, "a.stl").mesh.triangles.size(), 1U);
+}
+
+TEST(Stl, ReadsFacetsHoweverTheyAreBrokenIntoLines) {
+  std::string one_line = std::string("solid a\n") + kFacet + kFacet;
+  std::replace(one_line.begin() + 8, one_line.end(), '\n', ' ');
+  const Model model = parse_model(one_line + "\nendsolid a\n", "a.stl");
+  EXPECT_EQ(model.mesh.triangles.size(), 2U);
+  EXPECT_EQ(model.mesh.positions,
+            parse_model(std::string("solid a\n") + kFacet + "endsolid a\n", "a.stl").mesh.positions);
 }
 
 TEST(Stl, ReadsSeveralSolidsAsParts) {

@@ -74,6 +74,18 @@ TEST(Threemf, ReadsVerticesAndTrianglesInTheirOrder) {
   EXPECT_EQ(model.parts[0].name, "one");
 }
 
+TEST(Threemf, TakesVerticesOfSlicesForNone) {
+  Plate plate;
+  plate.resources =
+      R"(<s:slicestack xmlns:s="http://schemas.microsoft.com/3dmanufacturing/slice/2015/07" id="9" zbottom="0">)"
+      R"(<s:slice ztop="1"><s:vertices><s:vertex x="0" y="0"/><s:vertex x="1" y="0"/></s:vertices>)"
+      R"(<s:polygon startv="0"><s:segment v2="1"/></s:polygon></s:slice></s:slicestack>)" +
+      plate.resources;
+  const Model model = plate.parsed();
+  EXPECT_EQ(model.mesh.positions.size(), 4U);
+  EXPECT_EQ(model.mesh.triangles.size(), 4U);
+}
+
 TEST(Threemf, IsFoundByItsContentUnderAnyName) {
   EXPECT_EQ(parse_model(Plate().bytes(), "a.bin").format, ModelFormat::Threemf);
 }

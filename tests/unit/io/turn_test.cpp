@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Files turned in place: what they hold afterwards is what the readers find in them.
+#include <cstddef>
+#include <set>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -73,6 +75,22 @@ TEST(TurnedBytes, OfABinaryStlAreTurnedAlsoIfItBeginsWithSolid) {
     EXPECT_TRUE(after.ends_with(rest));
     EXPECT_THROW((void)turned(bytes.substr(0, 130), "a.stl", ModelFormat::Stl), FormatError);
   }
+}
+
+TEST(TurnedBytes, OfAGltfWithoutScenesTurnTheNodesThatAreNobodysChild) {
+  const std::string text =
+      R"({"asset":{"version":"2.0"},"nodes":[{},{"children":[0]},{"children":[3]},{}]})";
+  const auto root = nlohmann::json::parse(turned(text, "a.gltf", ModelFormat::Gltf));
+  ASSERT_EQ(root["scenes"].size(), 1U);
+  EXPECT_EQ(root["scene"], 0);
+  std::set<std::size_t> shown;
+  for (const auto& node : root["scenes"][0]["nodes"]) {
+    EXPECT_TRUE(root["nodes"][node.get<std::size_t>()].contains("rotation"));
+    for (const auto& child : root["nodes"][node.get<std::size_t>()]["children"]) {
+      shown.insert(child.get<std::size_t>());
+    }
+  }
+  EXPECT_EQ(shown, (std::set<std::size_t>{1, 2}));
 }
 
 TEST(TurnedBytes, OfAGltfTurnEachNodeOnceHoweverManyScenesShowIt) {

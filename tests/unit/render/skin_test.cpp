@@ -115,6 +115,23 @@ TEST(Skin, GlassMixesLightWithWhatIsBehind) {
   EXPECT_EQ(picture(square, small()).pixel(16, 16)[3], std::lround((1.0 - 0.75 * 0.75) * 255));
 }
 
+TEST(Skin, AWallIsSeenThroughFortyPanesOfThinGlass) {
+  Square square(std::vector<std::uint8_t>(16, kOn));
+  square.appearance.materials[0].alpha = AlphaMode::Blend;
+  square.appearance.materials[0].opacity = 0.02;
+  const TriMesh pane = square.mesh;
+  for (int k = 1; k <= 40; ++k) {
+    square.mesh = test::together(square.mesh, pane, Vec3(0, 0, -0.01 * k));
+  }
+  const std::size_t faces = square.mesh.triangles.size();
+  square.appearance.materials.push_back({.colour = {1.0, 0.0, 0.0}, .unlit = true});
+  square.appearance.material_of_triangle.assign(faces, 0);
+  square.appearance.material_of_triangle[faces - 2] = 1;  // the last pane is the wall
+  square.appearance.material_of_triangle[faces - 1] = 1;
+  square.appearance.uv_of_triangle.resize(faces, {0, 1, 2});
+  EXPECT_EQ(picture(square, small()).pixel(16, 16)[3], 255);
+}
+
 TEST(Skin, FacesWithoutAMaterialAreOfTheOptionsColour) {
   Square square(std::vector<std::uint8_t>(16, kOn));
   square.appearance.material_of_triangle = {Appearance::kNone, Appearance::kNone};
