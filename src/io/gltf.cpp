@@ -16,6 +16,8 @@
 #include "core/srgb.h"
 #include "io/gltf_accessor.h"
 #include "io/gltf_document.h"
+#include "io/gltf_nodes.h"
+#include "io/gltf_skin.h"
 #include "io/model_builder.h"
 #include "io/readers.h"
 #include "io/reuse_budget.h"
@@ -150,7 +152,7 @@ class SceneReader {
       return;
     }
     const tinygltf::Node& node = gltf_.nodes[n];
-    const Transform world = parent * local_transform(node, n);
+    const Transform world = parent * gltf_local_transform(node, n, builder_);
     if (!world.allFinite()) {
       builder_.fail("the transform of node " + std::to_string(n) + " is not finite");
     }
@@ -161,39 +163,20 @@ class SceneReader {
       const auto m = static_cast<std::size_t>(node.mesh);
       const std::string& name = node.name.empty() ? gltf_.meshes[m].name : node.name;
       spend(name.size());
-      show_mesh(m, name, world);
+      show_mesh(m, name, world, node.skin >= 0 ? &skin_at(node.skin) : nullptr);
     }
     levels.push_back({node.children, world});
   }
 
-  Transform local_transform(const tinygltf::Node& node, std::size_t n) const {
-    const auto has_size = [&](const std::vector<double>& values, std::size_t size) {
-      if (!values.empty() && values.size() != size) {
-        builder_.fail("the transform of node " + std::to_string(n) + " has " +
-                      std::to_string(values.size()) + " numbers instead of " +
-                      std::to_string(size));
-      }
-      return !values.empty();
-    };
-    if (has_size(node.matrix, 16)) {
-      return Eigen::Map<const Transform>(node.matrix.data());  // both are column-major
+  /// The skin of that index, made when first asked for.
+  const GltfSkin& skin_at(int index) {
+    if (!nodes_) {
+      nodes_.emplace(document_, builder_);
     }
-    Eigen::Affine3d transform = Eigen::Affine3d::Identity();
-    if (has_size(node.translation, 3)) {
-      transform.translate(Eigen::Map<const Vec3>(node.translation.data()));
-    }
-    if (has_size(node.rotation, 4)) {
-      Eigen::Quaterniond turn(node.rotation[3], node.rotation[0], node.rotation[1],
-                              node.rotation[2]);
-      if (!(turn.norm() > 0.0)) {
-        builder_.fail("the rotation of node " + std::to_string(n) + " is zero");
-      }
-      transform.rotate(turn.normalized());
-    }
-    if (has_size(node.scale, 3)) {
-      transform.scale(Eigen::Map<const Vec3>(node.scale.data()));
-    }
-    return transform.matrix();
+    const auto known = skins_.find(index);
+    return known != skins_.end()
+               ? known->second
+               : skins_.emplace(index, GltfSkin(document_, index, *nodes_, builder_)).first->second;
   }
 
   /// What a mesh adds each time that it is shown.
@@ -202,10 +185,12 @@ class SceneReader {
     std::size_t faces = 0;
   };
 
-  void show_mesh(std::size_t m, const std::string& name, const Transform& world) {
+  /// \param skin that places the vertices instead of the node; null: none.
+  void show_mesh(std::size_t m, const std::string& name, const Transform& world,
+                 const GltfSkin* skin = nullptr) {
     if (!is_counting_) {
       builder_.begin_part(name);
-      read_mesh(gltf_.meshes[m], world);
+      read_mesh(gltf_.meshes[m], world, skin);
       return;
     }
     if (!of_mesh_[m]) {
@@ -253,7 +238,7 @@ class SceneReader {
     return amount;
   }
 
-  void read_mesh(const tinygltf::Mesh& mesh, const Transform& world) {
+  void read_mesh(const tinygltf::Mesh& mesh, const Transform& world, const GltfSkin* skin) {
     spend(mesh.primitives.size());
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
       const bool is_surface = primitive.mode >= TINYGLTF_MODE_TRIANGLES;
@@ -262,7 +247,7 @@ class SceneReader {
         builder_.fail("a primitive has the unknown mode " + std::to_string(primitive.mode));
       }
       if (is_surface || is_cloud) {
-        read_primitive(primitive, world);
+        read_primitive(primitive, world, skin);
       } else {
         ++skipped_primitives_;
       }
@@ -277,7 +262,8 @@ class SceneReader {
     budget_ -= amount;
   }
 
-  void read_primitive(const tinygltf::Primitive& primitive, const Transform& world) {
+  void read_primitive(const tinygltf::Primitive& primitive, const Transform& world,
+                      const GltfSkin* skin) {
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) {
       ++shapeless_primitives_;
@@ -291,10 +277,15 @@ class SceneReader {
       builder_.fail("the positions of a primitive have no data");
     }
     spend(points.count());
+    std::optional<GltfSkinnedVertices> skinned;
+    if (skin != nullptr) {
+      skinned.emplace(document_, primitive, points.count(), *skin, builder_);
+    }
+    const bool is_held = skinned && skinned->are_held();
     const std::size_t first = builder_.point_count();
     for (std::size_t i = 0; i < points.count(); ++i) {
       const Eigen::Vector4d local(points.value(i, 0), points.value(i, 1), points.value(i, 2), 1.0);
-      const Vec3 at = (world * local).head<3>();
+      const Vec3 at = (is_held ? skinned->transform(i) * local : world * local).head<3>();
       if (!at.allFinite()) {
         builder_.fail("position " + std::to_string(i) + " of accessor " +
                       std::to_string(position->second) + " is not finite");
@@ -305,7 +296,8 @@ class SceneReader {
     read_colours(primitive, points.count());
     read_uvs(primitive, points.count());
     if (primitive.mode != TINYGLTF_MODE_POINTS) {
-      read_faces(primitive, first, points.count(), world.topLeftCorner<3, 3>().determinant() < 0.0);
+      const bool is_mirrored = !is_held && world.topLeftCorner<3, 3>().determinant() < 0.0;
+      read_faces(primitive, first, points.count(), is_mirrored);
     }
   }
 
@@ -430,6 +422,8 @@ class SceneReader {
   }
 
   const GltfDocument& document_;
+  std::optional<GltfNodes> nodes_{};
+  std::map<int, GltfSkin> skins_{};
   const tinygltf::Model& gltf_;
   ModelBuilder& builder_;
   std::size_t most_faces_;

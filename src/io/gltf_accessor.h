@@ -10,7 +10,7 @@
 
 namespace vantage {
 
-/// Numbers an element of an accessor's type has; 0 for matrices, which no attribute of ours has.
+/// Numbers an element of an accessor's type has; 0 for small matrices, which nothing of ours has.
 std::size_t gltf_component_count(int type);
 
 /// Numbers of one accessor, bounds checked at construction: no read can leave its buffer.

@@ -200,7 +200,7 @@ void check_extensions(const Json& root, ModelBuilder& builder) {
   }
   note_unread_extensions(root, builder);
   if (root.contains("skins")) {
-    builder.note("skinned meshes are read as their vertices stand, without their skeletons");
+    builder.note("skinned meshes stand as their joints do, in no animation's pose");
   }
   if (is_morphed(root, "meshes") || is_morphed(root, "nodes")) {
     builder.note("morph targets are left out: meshes are shown as they are without them");
@@ -295,7 +295,7 @@ Json geometry_only(const Json& root) {
   std::size_t primitives = 0;
   kept["asset"] = {{"version", "2.0"}};
   for (const char* const member :
-       {"scene", "scenes", "nodes", "meshes", "accessors", "bufferViews"}) {
+       {"scene", "scenes", "nodes", "meshes", "skins", "accessors", "bufferViews"}) {
     const auto found = root.find(member);
     if (found == root.end()) {
       continue;

@@ -52,6 +52,57 @@ TEST(Gltf, ReadsStripsTurningEverySecondTriangle) {
   EXPECT_THAT(Scene{}.parsed().mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{2, 1, 3}));
 }
 
+/// The square held by two joints, the left corners by one at x = 5 and the right ones by one at x = 7, both bound
+/// at x = 1.
+Scene skinned_square() {
+  Scene scene;
+  scene.nodes = R"([{"children":[1,2,3]},{"mesh":0,"skin":0,"translation":[100,0,0]},
+      {"translation":[5,0,0]},{"translation":[7,0,0]}])";
+  scene.primitive =
+      R"({"attributes":{"POSITION":0,"JOINTS_0":2,"WEIGHTS_0":3},"indices":1,"mode":5})";
+  scene.accessors += R"(,{"bufferView":2,"componentType":5121,"count":4,"type":"VEC4"},
+      {"bufferView":3,"componentType":5126,"count":4,"type":"VEC4"},
+      {"bufferView":4,"componentType":5126,"count":2,"type":"MAT4"})";
+  scene.views += R"(,{"buffer":0,"byteOffset":52,"byteLength":16},
+      {"buffer":0,"byteOffset":68,"byteLength":64},{"buffer":0,"byteOffset":132,"byteLength":128})";
+  scene.more = R"(,"skins":[{"joints":[2,3],"inverseBindMatrices":4}])";
+  for (const int corner : {0, 1, 0, 1}) {
+    scene.binary += std::string{static_cast<char>(corner), '\0', '\0', '\0'};
+  }
+  for (int corner = 0; corner < 4; ++corner) {
+    for (const float weight : {0.5F, 0.0F, 0.0F, 0.0F}) {  // of which only the shares count
+      append_little_endian(scene.binary, weight);
+    }
+  }
+  for (int joint = 0; joint < 2; ++joint) {
+    for (const float x :
+         {1.F, 0.F, 0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 0.F, 1.F, 0.F, -1.F, 0.F, 0.F, 1.F}) {
+      append_little_endian(scene.binary, x);
+    }
+  }
+  scene.buffer = R"({"byteLength":260})";
+  return scene;
+}
+
+TEST(Gltf, PlacesSkinnedVerticesByTheirJointsAndNotByTheirNode) {
+  const Model model = skinned_square().parsed();
+  ASSERT_EQ(model.mesh.positions.size(), 4U);
+  EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(4, 0, 0), Vec3(7, 0, 0), Vec3(4, 1, 0), Vec3(7, 1, 0)));
+  EXPECT_THAT(model.notes, testing::Contains(HasSubstr("skinned meshes stand as their joints do")));
+}
+
+TEST(GltfError, NamesWhatASkinLacks) {
+  Scene scene = skinned_square();
+  scene.more = "";
+  EXPECT_THAT(scene.error(), HasSubstr("skin 0 does not exist"));
+  scene.more = R"(,"skins":[{"joints":[2],"inverseBindMatrices":4}])";
+  EXPECT_THAT(scene.error(), HasSubstr("held by joint 1 of 1"));
+  scene.more = R"(,"skins":[{"joints":[2,9],"inverseBindMatrices":4}])";
+  EXPECT_THAT(scene.error(), HasSubstr("node 9 does not exist"));
+  scene.more = R"(,"skins":[{"joints":[2,3],"inverseBindMatrices":3}])";
+  EXPECT_THAT(scene.error(), HasSubstr("are not one matrix a joint"));
+}
+
 TEST(Gltf, ReadsFans) {
   Scene scene;
   scene.primitive = R"({"attributes":{"POSITION":0},"indices":1,"mode":6})";

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "io/gltf_skin.h"
+
+#include <string>
+
+namespace vantage {
+
+GltfSkin::GltfSkin(const GltfDocument& document, int skin, const GltfNodes& nodes,
+                   const ModelBuilder& builder) {
+  const std::vector<tinygltf::Skin>& skins = document.structure.skins;
+  if (skin < 0 || static_cast<std::size_t>(skin) >= skins.size()) {
+    builder.fail("skin " + std::to_string(skin) + " does not exist");
+  }
+  const tinygltf::Skin& held = skins[static_cast<std::size_t>(skin)];
+  for (const int joint : held.joints) {
+    joints_.push_back(nodes.world(joint));
+  }
+  if (held.inverseBindMatrices < 0) {
+    return;
+  }
+  const GltfAccessor inverse(document, held.inverseBindMatrices, document.total_bytes, builder);
+  if (inverse.components() != 16 || inverse.count() < joints_.size()) {
+    builder.fail("the inverse bind matrices of skin " + std::to_string(skin) +
+                 " are not one matrix a joint");
+  }
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    Eigen::Matrix4d bind;
+    for (int k = 0; k < 16; ++k) {
+      bind(k % 4, k / 4) = inverse.value(j, k);  // by columns
+    }
+    joints_[j] *= bind;
+  }
+}
+
+GltfSkinnedVertices::GltfSkinnedVertices(const GltfDocument& document,
+                                         const tinygltf::Primitive& primitive, std::size_t count,
+                                         const GltfSkin& skin, const ModelBuilder& builder)
+    : skin_(skin), builder_(builder) {
+  for (int set = 0;; ++set) {
+    const auto joints = primitive.attributes.find("JOINTS_" + std::to_string(set));
+    const auto weights = primitive.attributes.find("WEIGHTS_" + std::to_string(set));
+    if (joints == primitive.attributes.end() || weights == primitive.attributes.end()) {
+      return;
+    }
+    sets_.push_back({GltfAccessor(document, joints->second, count, builder),
+                     GltfAccessor(document, weights->second, count, builder)});
+    const Set& added = sets_.back();
+    if (added.joints.count() != count || added.weights.count() != count ||
+        added.joints.components() != 4 || added.weights.components() != 4 ||
+        !added.joints.is_integer()) {
+      builder.fail("the joints and weights of a primitive do not fit its positions");
+    }
+  }
+}
+
+Eigen::Matrix4d GltfSkinnedVertices::transform(std::size_t vertex) const {
+  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
+  double weights = 0.0;
+  for (const Set& set : sets_) {
+    for (int c = 0; c < 4; ++c) {
+      const double weight = set.weights.value(vertex, c);
+      if (weight == 0.0) {
+        continue;
+      }
+      const auto joint = static_cast<std::size_t>(set.joints.value(vertex, c));
+      if (joint >= skin_.joints().size()) {
+        builder_.fail("a vertex is held by joint " + std::to_string(joint) + " of " +
+                      std::to_string(skin_.joints().size()));
+      }
+      sum += weight * skin_.joints()[joint];
+      weights += weight;
+    }
+  }
+  return weights > 0.0 ? Eigen::Matrix4d(sum / weights) : Eigen::Matrix4d::Identity();
+}
+
+}  // namespace vantage
