@@ -10,6 +10,7 @@
 
 #include "vantage/mesh/measures.h"
 
+#include "mesh/disjoint_sets.h"
 #include "orientation/height_fields.h"
 
 namespace vantage {
@@ -41,33 +42,6 @@ std::size_t side_of(const Vec3& vector, double length) {
   }
   return 6;
 }
-
-/// Union-find over vertices.
-class Parts {
- public:
-  explicit Parts(std::size_t count) : parent_(count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      parent_[i] = static_cast<std::uint32_t>(i);
-    }
-  }
-
-  std::uint32_t root(std::uint32_t vertex) {
-    while (parent_[vertex] != vertex) {
-      parent_[vertex] = parent_[parent_[vertex]];
-      vertex = parent_[vertex];
-    }
-    return vertex;
-  }
-
-  void join(std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t first = root(a);
-    const std::uint32_t second = root(b);
-    parent_[std::max(first, second)] = std::min(first, second);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// Adds one surface up.
 class Measurement {
@@ -168,10 +142,27 @@ class Measurement {
     traits_.open = std::log2(1.0 + traits_.open);
   }
 
+  /// Whether two of its faces are at an angle there; of more than two either side counts as the front, as
+  /// of surfaces that are there twice, and very many are taken to be.
+  [[nodiscard]] bool is_bent(const std::vector<EdgeOfFace>& edges, std::size_t first,
+                             std::size_t end) const {
+    constexpr std::size_t kMany = 16;
+    const bool is_pair = end - first == 2;
+    for (std::size_t i = first; i < end; ++i) {
+      for (std::size_t k = i + 1; k < end; ++k) {
+        const double cosine = normals_[edges[i].face].dot(normals_[edges[k].face]);
+        if (end - first > kMany || !((is_pair ? cosine : std::abs(cosine)) > kBent)) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
   /// Length of the edge if it is bent or open.
   double look_at_edge(const std::vector<EdgeOfFace>& edges, std::size_t first, std::size_t end) {
     const bool is_open = end == first + 1;
-    if (!is_open && normals_[edges[first].face].dot(normals_[edges[first + 1].face]) > kBent) {
+    if (!is_open && !is_bent(edges, first, end)) {
       return 0.0;
     }
     const Vec3 from = place(static_cast<std::uint32_t>(edges[first].key >> 32U));
@@ -215,7 +206,7 @@ class Measurement {
   }
 
   void look_at_parts() {
-    Parts parts(surface_.positions.size());
+    DisjointSets parts(surface_.positions.size());
     for (const Triangle& t : surface_.triangles) {
       parts.join(t[0], t[1]);
       parts.join(t[0], t[2]);

@@ -14,10 +14,11 @@ constexpr std::size_t kManyStarts = 16;  // of ascents where all scores are soon
 
 /// What each vertex adds to a score that sees it: its significance, or by area that of its third of
 /// the faces there over the whole area, the integral of the map wherever a face is seen whole.
-std::vector<double> vertex_shares(const ShapeAnalysis& shape, Weight weight) {
+/// \param areas of the vertices.
+std::vector<double> vertex_shares(const ShapeAnalysis& shape, const std::vector<double>& areas,
+                                  Weight weight) {
   std::vector<double> shares = shape.map.of_vertex;
   if (weight == Weight::Area) {
-    const std::vector<double> areas = vertex_areas(shape.surface);
     const double whole = surface_area(shape.surface);
     for (std::size_t v = 0; v < shares.size(); ++v) {
       shares[v] *= whole > 0.0 ? areas[v] / whole : 0.0;
@@ -56,9 +57,10 @@ MapObjective::MapObjective(const ShapeAnalysis& shape, const ViewOptions& option
       scorer_(faces_ ? ViewScorer(*faces_, shape.map.of_vertex, scoring_camera(shape, options))
                      : ViewScorer(prepared_->visibility, shape.map.of_vertex,
                                   scoring_camera(shape, options))),
-      proxy_shares_(prepared_->proxy.sums(vertex_shares(shape, options.weight))),
+      shares_(vertex_shares(shape, prepared_->vertex_areas, options.weight)),
+      proxy_shares_(prepared_->proxy.sums(shares_)),
       proxy_scorer_(prepared_->proxy_visibility, proxy_shares_, scoring_camera(shape, options)),
-      coarse_shares_(estimated_shares(*prepared_, vertex_shares(shape, options.weight))),
+      coarse_shares_(estimated_shares(*prepared_, shares_)),
       coarse_scorer_(is_sampled(*prepared_) ? prepared_->visibility : prepared_->coarse_visibility,
                      coarse_shares_, scoring_camera(shape, options)) {}
 

@@ -37,6 +37,7 @@ class MapObjective {
   RunContext quiet_;
   std::optional<FaceVisibility> faces_;
   ViewScorer scorer_;
+  std::vector<double> shares_;  // of the total, by vertex
   std::vector<double> proxy_shares_;
   ViewScorer proxy_scorer_;
   std::vector<double> coarse_shares_;

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <numeric>
 
@@ -25,7 +27,7 @@ constexpr std::size_t kMostImages = 16;
 // layers would need more than about kSamples of them.
 constexpr double kSpacing = 0.03;
 constexpr double kSamples = 20000.0;
-// Of larger meshes every n-th face is sampled: their faces are smaller than the spacing by far.
+// Of larger meshes some faces are sampled, about so many: theirs are smaller than the spacing by far.
 constexpr std::size_t kMostFaces = 50000;
 // Samples whose mirror image is looked up: 2 % of the area are 80 of them.
 constexpr std::size_t kQueries = 4000;
@@ -77,6 +79,24 @@ Sphere centroid_sphere(const TriMesh& surface, const std::vector<double>& areas,
   return sphere;
 }
 
+/// A number drawn for a face: by its corners, so that it does not depend on the order of faces.
+std::uint64_t lot_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const auto mixed = [](std::uint64_t x) {  // as of SplitMix64 (Steele, Lea and Flood 2014)
+    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9;
+    x = (x ^ (x >> 27U)) * 0x94d049bb133111eb;
+    return x ^ (x >> 31U);
+  };
+  std::uint64_t lot = 0;
+  for (const Vec3* const corner : {&a, &b, &c}) {
+    std::uint64_t of_corner = 0;
+    for (const double x : *corner) {
+      of_corner = mixed(of_corner + 0x9e3779b97f4a7c15 + std::bit_cast<std::uint64_t>(x));
+    }
+    lot += of_corner;
+  }
+  return mixed(lot);
+}
+
 /// Samples of the surface relative to the centroid, over the longest distance from it (`reach`).
 /// \param spacing receives the largest side of what a sample stands for, over reach.
 SurfacePoints normalised_points(const TriMesh& surface, Vec3& centroid, double& spacing) {
@@ -90,9 +110,11 @@ SurfacePoints normalised_points(const TriMesh& surface, Vec3& centroid, double& 
   const double reach = 0.5 * around.diameter;
   centroid = around.centre;
   spacing = std::max(kSpacing, std::sqrt(total / (reach * reach) / kSamples));
-  const std::size_t stride = 1 + surface.triangles.size() / kMostFaces;
-  for (std::size_t f = 0; f < surface.triangles.size(); f += stride) {
-    const auto& [a, b, c] = surface.triangles[f];
+  const std::size_t one_of = 1 + surface.triangles.size() / kMostFaces;
+  for (const auto& [a, b, c] : surface.triangles) {
+    if (lot_of(surface.positions[a], surface.positions[b], surface.positions[c]) % one_of != 0) {
+      continue;
+    }
     const auto local = [&](std::uint32_t v) {
       return Vec3((surface.positions[v] - centroid) / reach);
     };

@@ -54,10 +54,6 @@ class ActiveChains {
 
   [[nodiscard]] const std::vector<Chain>& chains() const { return chains_; }
 
-  [[nodiscard]] double bottom(std::size_t i) const { return bottom_[i]; }  ///< x on the lower line.
-
-  [[nodiscard]] double top(std::size_t i) const { return top_[i]; }  ///< x on the upper line.
-
   /// The side of the chain on which `y` lies, from one below on: of two that meet there the upper.
   [[nodiscard]] std::uint32_t side_at(std::uint32_t side, double y) const;
 

@@ -59,7 +59,10 @@ struct Bone {
   std::uint32_t branch = 0;             // of graph_branches()
   double length = 0.0;                  // in space
   PicturePoint from{}, to{};            // in the picture
-  double depth_a = 0.0, depth_b = 0.0;  // of both ends, larger is farther
+  double near_a = 0.0, near_b = 0.0;    // of both ends, smaller is farther; even along the bone in the picture
+
+  /// At a share of the way along the picture.
+  [[nodiscard]] double near_at(double share) const { return near_a + share * (near_b - near_a); }
 };
 
 std::vector<Bone> bones_of(const CurveGraph& graph, const Sphere& sphere, const SightTable& sight) {
@@ -68,14 +71,14 @@ std::vector<Bone> bones_of(const CurveGraph& graph, const Sphere& sphere, const 
   const bool is_perspective = sight.eye.projection == Projection::Perspective;
   const double distance = (sight.eye.position - sphere.centre).norm();
   std::vector<PicturePoint> places;
-  std::vector<double> depths;
+  std::vector<double> near;
   for (const Vec3& node : graph.nodes) {
     const Vec3 p = node - sphere.centre;
     const double depth = p.dot(sight.towards);
     const double left = distance - depth;
     const double shrink = !is_perspective ? 1.0 : left > 0.0 ? distance / left : 0.0;
     places.emplace_back(shrink * p.dot(right), shrink * p.dot(up));
-    depths.push_back(-depth);
+    near.push_back(is_perspective ? shrink : depth);  // what is behind the eye is farthest
   }
   std::vector<Bone> bones;
   const auto branches = graph_branches(graph);
@@ -84,7 +87,7 @@ std::vector<Bone> bones_of(const CurveGraph& graph, const Sphere& sphere, const 
       const std::uint32_t a = branches[k][i];
       const std::uint32_t b = branches[k][i + 1];
       bones.push_back({a, b, k, (graph.nodes[a] - graph.nodes[b]).norm(), places[a], places[b],
-                       depths[a], depths[b]});
+                       near[a], near[b]});
     }
   }
   return bones;
@@ -117,9 +120,7 @@ std::vector<std::uint8_t> crossed_bones(const std::vector<Bone>& bones) {
       const double s = cross(q.from - p.from, other) / area;
       const double t = cross(q.from - p.from, along) / area;
       if (s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0) {
-        const bool is_p_farther =
-            p.depth_a + s * (p.depth_b - p.depth_a) > q.depth_a + t * (q.depth_b - q.depth_a);
-        crossed[is_p_farther ? i : j] = 1;
+        crossed[p.near_at(s) < q.near_at(t) ? i : j] = 1;
       }
     }
   }

@@ -98,6 +98,30 @@ TEST(Orientation, DoesNotDependOnUnitAndOrder) {
   EXPECT_NEAR(other.up.confidence, plain.up.confidence, 1e-9);
 }
 
+TEST(Orientation, DoesNotDependOnWhichFacesOfAnEdgeComeFirst) {
+  TriMesh fins = box(1.0, 1.0, 1.0, 1);  // and four sheets that meet along one line
+  const auto first = static_cast<std::uint32_t>(fins.positions.size());
+  for (const Vec3& p : {Vec3(2, 0, 0), Vec3(2, 0, 1), Vec3(3, 0, 0), Vec3(1.5, 0, 1), Vec3(2, 1, 0),
+                        Vec3(2, -1, 1)}) {
+    fins.positions.push_back(p);
+  }
+  fins.triangles.push_back({first, first + 1, first + 2});
+  fins.triangles.push_back({first + 1, first, first + 3});  // goes on straight
+  fins.triangles.push_back({first, first + 1, first + 4});
+  fins.triangles.push_back({first + 1, first, first + 5});
+  const std::vector<OrientationFeature> values =
+      evidence_for(OrientationEvidence(fins), Vec3::UnitZ());
+  for (std::size_t last = fins.triangles.size() - 3; last < fins.triangles.size(); ++last) {
+    TriMesh other = fins;
+    std::swap(other.triangles[last], other.triangles[fins.triangles.size() - 4]);
+    const std::vector<OrientationFeature> found =
+        evidence_for(OrientationEvidence(other), Vec3::UnitZ());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      EXPECT_NEAR(found[k].value, values[k].value, 1e-9) << found[k].name << " " << last;
+    }
+  }
+}
+
 TEST(Orientation, OfWhatLooksTheSameFromAllSidesIsTheFormats) {
   const Orientation of_cube =
       OrientationEvidence(box(1.0, 1.0, 1.0, 4)).find({.usual_up = Vec3::UnitY()});

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 
@@ -38,6 +40,34 @@ TEST(MirrorPlanes, OfABoxWithABumpIsTheOneThroughTheBump) {
   const auto planes = mirror_planes(box_with_a_bump());
   ASSERT_EQ(planes.size(), 1U);
   EXPECT_NEAR(planes.front().normal.y(), 1.0, 1e-6);
+}
+
+TEST(MirrorPlanes, OfALargeMeshDoNotDependOnTheOrderOfItsFaces) {
+  TriMesh surface = box(2.0, 1.0, 3.0, 70);  // 58 800 faces, of which some are sampled
+  for (Vec3& p : surface.positions) {
+    p.y() += 0.1 * p.x() * p.z();  // mirrors nothing any more
+    p.z() *= 1.0 + 0.2 * p.y();
+  }
+  TriMesh both = surface;  // but the two sides of x = 3
+  for (const Vec3& p : surface.positions) {
+    both.positions.emplace_back(6.0 - p.x(), p.y(), p.z());
+  }
+  const auto count = static_cast<std::uint32_t>(surface.positions.size());
+  both.triangles.clear();
+  for (const auto& [a, b, c] : surface.triangles) {  // by turns
+    both.triangles.push_back({a, b, c});
+    both.triangles.push_back({count + a, count + c, count + b});
+  }
+  const auto planes = mirror_planes(both);
+  ASSERT_EQ(planes.size(), 1U);
+  EXPECT_GT(std::abs(planes[0].normal.x()), 0.9999);  // samples tell it so well
+  std::stable_partition(both.triangles.begin(), both.triangles.end(),
+                        [&](const Triangle& t) { return t[0] < count; });
+  const auto others = mirror_planes(both);
+  ASSERT_EQ(others.size(), planes.size());
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    EXPECT_NEAR((others[i].normal - planes[i].normal).norm(), 0.0, 1e-9);
+  }
 }
 
 TEST(MirrorPlanes, MayBeBrokenByAShareOfTheArea) {
