@@ -76,7 +76,8 @@ ViewOptions MethodFlags::resolve(std::uint64_t seed) const {
   }
   if (all.view.up && all.view.up != UpAxis::Any && all.view.front &&
       axis_of(*all.view.up) == axis_of(*all.view.front)) {
-    throw CLI::ValidationError("--front", "is along the axis of --up: give one at right angles to it");
+    throw CLI::ValidationError("--front",
+                               "is along the axis of --up: give one at right angles to it");
   }
   search.seed = by_gradient ? seed : 0;
   if (flags_.has("objective") && flags_.has("prior")) {

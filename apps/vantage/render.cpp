@@ -63,7 +63,8 @@ struct RenderCommand {
     look.check(file, options);
     for (const char* const flag : {"projection", "distance", "fov"}) {
       if (!camera_file.empty() && method.has(flag)) {
-        throw CLI::ValidationError(std::string("--") + flag, "says what the file of --camera says: leave one out");
+        throw CLI::ValidationError(std::string("--") + flag,
+                                   "says what the file of --camera says: leave one out");
       }
     }
     options.margin_percent = look.margin_percent();

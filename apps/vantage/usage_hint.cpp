@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
+#include <system_error>
 
 #include "option_text.h"
 
@@ -193,8 +195,10 @@ std::optional<std::string> unknown_word(const CLI::App& program,
     }
     if (below == nullptr) {
       const std::string call = call_of(*command);
+      std::error_code error;
+      const bool is_file = call.empty() && std::filesystem::is_regular_file(words[at], error);
       return "vantage" + (call.empty() ? "" : " " + call) + " has no command '" + words[at] + "'" +
-             meant(nearest_word(words[at], names));
+             meant(is_file ? "vantage view " + words[at] : nearest_word(words[at], names));
     }
     command = below;
     ++at;

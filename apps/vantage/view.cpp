@@ -104,6 +104,11 @@ struct ViewCommand {
 
     StageSeconds seconds;
     require_distinct({{"--trace", trace}, {"--tour", several.tour()}});
+    const std::string ending = std::filesystem::path(folder).extension().string();
+    if (ending == ".png" || ending == ".webp" || ending == ".jpg") {
+      throw CLI::ValidationError(
+          "--output", "is a folder for all results; one picture is made by render and thumb");
+    }
     session.leave_output_to(trace, "--trace");
     check_output(trace, OutputKind::Table, session.flags);
     const bool is_drawn = !no_images || preview.is_given();
@@ -148,7 +153,8 @@ struct ViewCommand {
       session.say("note: this program was built without npm, so that there is no report.html");
     }
     if (!no_images && !no_report && !sums_a_map(options.method)) {
-      session.say("note: report.html shows a map and what is seen of it: there is none for this --method");
+      session.say(
+          "note: report.html shows a map and what is seen of it: there is none for this --method");
     }
     session.end_progress();
     if (session.flags.json) {

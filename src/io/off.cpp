@@ -208,13 +208,17 @@ class OffReader {
       }
       builder_.end_polygon();
       if (by_line_) {
-        cursor_.skip_line();  // the colour of the face
+        coloured_faces_ += cursor_.token_on_line(kComment).empty() ? 0 : 1;
+        cursor_.skip_line();
       }
       builder_.advance(cursor_.offset(), bytes_.size());
     }
   }
 
   void finish_notes() {
+    if (coloured_faces_ > 0) {
+      builder_.note("colours of faces left out: " + std::to_string(coloured_faces_));
+    }
     if (lines_with_surplus_ > 0) {
       builder_.note("vertices with more numbers than the header word says, left out: " +
                     std::to_string(lines_with_surplus_));
@@ -232,6 +236,7 @@ class OffReader {
   std::size_t faces_ = 0;
   bool by_line_ = true;
   std::size_t lines_with_surplus_ = 0;
+  std::size_t coloured_faces_ = 0;
 };
 
 }  // namespace

@@ -139,6 +139,12 @@ class BodyReader {
   }
 
   void read_faces(const PlyElement& element) {
+    if (element.count > 0 && std::any_of(element.properties.begin(), element.properties.end(),
+                                         [](const PlyProperty& property) {
+                                           return lower_case(property.name) == "red";
+                                         })) {
+      builder_.note("colours of faces left out; those of vertices are read");
+    }
     for (std::uint64_t f = 0; f < element.count; ++f) {
       source_.begin_row();
       for (const PlyProperty& property : element.properties) {

@@ -56,15 +56,14 @@ constexpr std::array<RoleName, 12> kVertexRoles = {{{"x", PlyRole::X},
 /// What a property of this name is for.
 PlyRole role_of(const PlyElement& element, const PlyProperty& property) {
   PlyRole role = PlyRole::Other;
+  const std::string name = lower_case(property.name);
   if (element.kind == PlyElement::Kind::Vertex && !property.is_list) {
-    const std::string name = lower_case(property.name);
     const auto* const entry =
         std::find_if(kVertexRoles.begin(), kVertexRoles.end(),
                      [&](const RoleName& known) { return known.name == name; });
     role = entry == kVertexRoles.end() ? PlyRole::Other : entry->role;
   } else if ((element.kind == PlyElement::Kind::Face || element.kind == PlyElement::Kind::Strips) &&
-             property.is_list &&
-             (property.name == "vertex_indices" || property.name == "vertex_index")) {
+             property.is_list && (name == "vertex_indices" || name == "vertex_index")) {
     role = PlyRole::Indices;
   }
   return role;

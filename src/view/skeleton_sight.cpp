@@ -55,11 +55,12 @@ std::vector<double> shown_nodes(const MeasuredModel& model, const SightTable& si
 }
 
 struct Bone {
-  std::uint32_t a = 0, b = 0;           // nodes
-  std::uint32_t branch = 0;             // of graph_branches()
-  double length = 0.0;                  // in space
-  PicturePoint from{}, to{};            // in the picture
-  double near_a = 0.0, near_b = 0.0;    // of both ends, smaller is farther; even along the bone in the picture
+  std::uint32_t a = 0, b = 0;  // nodes
+  std::uint32_t branch = 0;    // of graph_branches()
+  double length = 0.0;         // in space
+  PicturePoint from{}, to{};   // in the picture
+  double near_a = 0.0,
+         near_b = 0.0;  // of both ends, smaller is farther; even along the bone in the picture
 
   /// At a share of the way along the picture.
   [[nodiscard]] double near_at(double share) const { return near_a + share * (near_b - near_a); }

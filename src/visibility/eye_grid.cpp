@@ -274,8 +274,8 @@ struct EyeGrid::Walk {
   bool holds_asked;  // most faces hold sites asked about: what is behind them all is not looked for
   std::span<const std::uint8_t> asked;  // of each face: whether it is; none: all are
   std::size_t limit;                    // of work, for all faces
-  std::size_t limit_each;  // for one
-  std::size_t ahead;       // faces whose work may be spent before they are reached
+  std::size_t limit_each;               // for one
+  std::size_t ahead;                    // faces whose work may be spent before they are reached
   std::atomic<std::size_t> spent{0};
 };
 

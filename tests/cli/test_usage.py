@@ -27,6 +27,12 @@ class WhatWasMeant(ProgramTest):
             self.assertIn(f"did you mean {meant}?", self.complaint(word, "x.ply"))
         self.assertNotIn("did you mean", self.complaint("make-coffee"))
         self.assertIn("did you mean query?", self.complaint("results", "qurey"))
+        self.write("a.off", box(1))
+        self.assertIn("did you mean vantage view a.off?", self.complaint("a.off"))
+
+    def test_a_folder_that_is_named_like_a_picture_is_refused(self):
+        self.write("a.off", box(1))
+        self.assertIn("one picture is made by render and thumb", self.complaint("view", "a.off", "-o", "a.png"))
 
     def test_flags(self):
         for words, wrong, meant in (((FAN, "--sise", "30"), "--sise", "--size"),

@@ -87,7 +87,8 @@ Scene skinned_square() {
 TEST(Gltf, PlacesSkinnedVerticesByTheirJointsAndNotByTheirNode) {
   const Model model = skinned_square().parsed();
   ASSERT_EQ(model.mesh.positions.size(), 4U);
-  EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(4, 0, 0), Vec3(7, 0, 0), Vec3(4, 1, 0), Vec3(7, 1, 0)));
+  EXPECT_THAT(model.mesh.positions,
+              ElementsAre(Vec3(4, 0, 0), Vec3(7, 0, 0), Vec3(4, 1, 0), Vec3(7, 1, 0)));
   EXPECT_THAT(model.notes, testing::Contains(HasSubstr("skinned meshes stand as their joints do")));
 }
 

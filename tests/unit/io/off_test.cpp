@@ -45,6 +45,14 @@ std::string binary_off(bool high_first) {
   return bytes;
 }
 
+TEST(Off, SaysThatColoursOfFacesAreLeftOut) {
+  const std::string points = "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n";
+  const Model plain = parse_model(points + "3 0 1 2 # plain\n3 0 2 1\n", "a.off");
+  EXPECT_THAT(plain.notes, IsEmpty());
+  const Model coloured = parse_model(points + "3 0 1 2 255 0 0\n3 0 2 1\n", "a.off");
+  EXPECT_THAT(coloured.notes, ElementsAre("colours of faces left out: 1"));
+}
+
 TEST(Off, ReadsCountsOnTheHeaderLine) {
   EXPECT_EQ(off("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").polygons, 1U);
 }

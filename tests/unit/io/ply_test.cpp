@@ -58,6 +58,18 @@ std::string binary_ply(ByteOrder order) {
   return bytes;
 }
 
+TEST(Ply, SaysThatColoursOfFacesAreLeftOutAndTakesNamesInAnyCase) {
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+      "z\n"
+      "element face 1\nproperty list uchar int Vertex_Indices\nproperty uchar red\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255\n";
+  const Model model = parse_model(text, "a.ply");
+  EXPECT_EQ(model.mesh.triangles.size(), 1U);
+  EXPECT_THAT(model.notes,
+              testing::ElementsAre("colours of faces left out; those of vertices are read"));
+}
+
 TEST(Ply, ReadsPropertiesInCapitals) {
   const std::string header =
       "element vertex 1\nproperty float X\nproperty float Y\nproperty float Z\nproperty uchar Red\n"

@@ -74,8 +74,9 @@ TEST(Stl, ReadsFacetsHoweverTheyAreBrokenIntoLines) {
   std::replace(one_line.begin() + 8, one_line.end(), '\n', ' ');
   const Model model = parse_model(one_line + "\nendsolid a\n", "a.stl");
   EXPECT_EQ(model.mesh.triangles.size(), 2U);
-  EXPECT_EQ(model.mesh.positions,
-            parse_model(std::string("solid a\n") + kFacet + "endsolid a\n", "a.stl").mesh.positions);
+  EXPECT_EQ(
+      model.mesh.positions,
+      parse_model(std::string("solid a\n") + kFacet + "endsolid a\n", "a.stl").mesh.positions);
 }
 
 TEST(Stl, ReadsSeveralSolidsAsParts) {
