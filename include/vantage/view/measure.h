@@ -147,7 +147,9 @@ struct MeasureSubject {
 /// What measures need of a view or of the model; only that is computed.
 struct MeasureNeeds {
   bool vertices = false;    ///< SightTable::vertices.
-  bool faces = false;       ///< SightTable::faces, depths, sums by area.
+  /// SightTable::faces, depths, sums by area. Of the set's own views, with channel or neighbours, faces,
+  /// projected_area and area_logs only.
+  bool faces = false;
   bool outline = false;     ///< SightTable::outline.
   bool channel = false;     ///< MeasuredModel::terms: every view of the set is looked at first.
   bool neighbours = false;  ///< SightTable::neighbours and MeasuredModel::set_views.
