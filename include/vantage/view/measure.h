@@ -146,7 +146,7 @@ struct MeasureSubject {
 
 /// What measures need of a view or of the model; only that is computed.
 struct MeasureNeeds {
-  bool vertices = false;    ///< SightTable::vertices.
+  bool vertices = false;  ///< SightTable::vertices.
   /// SightTable::faces, depths, sums by area. Of the set's own views, with channel or neighbours, faces,
   /// projected_area and area_logs only.
   bool faces = false;
