@@ -173,10 +173,12 @@ class SceneReader {
     if (!nodes_) {
       nodes_.emplace(document_, builder_);
     }
-    const auto known = skins_.find(index);
-    return known != skins_.end()
-               ? known->second
-               : skins_.emplace(index, GltfSkin(document_, index, *nodes_, builder_)).first->second;
+    auto known = skins_.find(index);
+    if (known == skins_.end()) {
+      known = skins_.emplace(index, GltfSkin(document_, index, *nodes_, builder_)).first;
+      spend(known->second.joints().size());
+    }
+    return known->second;
   }
 
   /// What a mesh adds each time that it is shown.

@@ -39,7 +39,10 @@ Eigen::Matrix4d gltf_local_transform(const tinygltf::Node& node, std::size_t ind
 }
 
 GltfNodes::GltfNodes(const GltfDocument& document, const ModelBuilder& builder)
-    : nodes_(document.structure.nodes), builder_(builder), parent_(nodes_.size(), -1) {
+    : nodes_(document.structure.nodes),
+      builder_(builder),
+      parent_(nodes_.size(), -1),
+      world_(nodes_.size()) {
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     for (const int child : nodes_[n].children) {
       if (child >= 0 && static_cast<std::size_t>(child) < parent_.size()) {
@@ -49,20 +52,24 @@ GltfNodes::GltfNodes(const GltfDocument& document, const ModelBuilder& builder)
   }
 }
 
-Eigen::Matrix4d GltfNodes::world(int node) const {
-  Eigen::Matrix4d world = Eigen::Matrix4d::Identity();
-  std::size_t steps = 0;
-  for (int at = node; at >= 0 || at == node; at = parent_[static_cast<std::size_t>(at)]) {
-    const auto n = static_cast<std::size_t>(at);
-    if (at < 0 || n >= nodes_.size()) {
-      builder_.fail("node " + std::to_string(at) + " does not exist");
-    }
-    if (steps++ > nodes_.size()) {
-      builder_.fail("node " + std::to_string(n) + " is its own ancestor");
-    }
-    world = gltf_local_transform(nodes_[n], n, builder_) * world;
+const Eigen::Matrix4d& GltfNodes::world(int node) {
+  if (node < 0 || static_cast<std::size_t>(node) >= nodes_.size()) {
+    builder_.fail("node " + std::to_string(node) + " does not exist");
   }
-  return world;
+  std::vector<std::size_t> way;  // up to the scene, or to a node that is known
+  for (int at = node; at >= 0 && !world_[static_cast<std::size_t>(at)];
+       at = parent_[static_cast<std::size_t>(at)]) {
+    way.push_back(static_cast<std::size_t>(at));
+    if (way.size() > nodes_.size()) {
+      builder_.fail("node " + std::to_string(node) + " is its own ancestor");
+    }
+  }
+  for (; !way.empty(); way.pop_back()) {
+    const std::size_t n = way.back();
+    const Eigen::Matrix4d local = gltf_local_transform(nodes_[n], n, builder_);
+    world_[n] = parent_[n] < 0 ? local : *world_[static_cast<std::size_t>(parent_[n])] * local;
+  }
+  return *world_[static_cast<std::size_t>(node)];
 }
 
 }  // namespace vantage

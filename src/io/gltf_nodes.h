@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,12 +23,14 @@ class GltfNodes {
   GltfNodes(const GltfDocument& document, const ModelBuilder& builder);
 
   /// \throw FormatError if there is no such node, or it is its own ancestor.
-  [[nodiscard]] Eigen::Matrix4d world(int node) const;
+  /// \complexity O(1) a node on the way to one that was asked about, or to the scene.
+  const Eigen::Matrix4d& world(int node);
 
  private:
   const std::vector<tinygltf::Node>& nodes_;
   const ModelBuilder& builder_;
-  std::vector<int> parent_;  // of each node, or −1
+  std::vector<int> parent_;                              // of each node, or −1
+  std::vector<std::optional<Eigen::Matrix4d>> world_{};  // of those asked about and above them
 };
 
 }  // namespace vantage

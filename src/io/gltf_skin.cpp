@@ -5,13 +5,16 @@
 
 namespace vantage {
 
-GltfSkin::GltfSkin(const GltfDocument& document, int skin, const GltfNodes& nodes,
+GltfSkin::GltfSkin(const GltfDocument& document, int skin, GltfNodes& nodes,
                    const ModelBuilder& builder) {
   const std::vector<tinygltf::Skin>& skins = document.structure.skins;
   if (skin < 0 || static_cast<std::size_t>(skin) >= skins.size()) {
     builder.fail("skin " + std::to_string(skin) + " does not exist");
   }
   const tinygltf::Skin& held = skins[static_cast<std::size_t>(skin)];
+  if (held.joints.size() > document.structure.nodes.size()) {
+    builder.fail("skin " + std::to_string(skin) + " has more joints than there are nodes");
+  }
   for (const int joint : held.joints) {
     joints_.push_back(nodes.world(joint));
   }

@@ -14,8 +14,7 @@ namespace vantage {
 class GltfSkin {
  public:
   /// \throw FormatError
-  GltfSkin(const GltfDocument& document, int skin, const GltfNodes& nodes,
-           const ModelBuilder& builder);
+  GltfSkin(const GltfDocument& document, int skin, GltfNodes& nodes, const ModelBuilder& builder);
 
   /// One matrix a joint: from where its vertices were bound to where they are.
   [[nodiscard]] const std::vector<Eigen::Matrix4d>& joints() const { return joints_; }

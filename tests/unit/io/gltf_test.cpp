@@ -92,6 +92,23 @@ TEST(Gltf, PlacesSkinnedVerticesByTheirJointsAndNotByTheirNode) {
   EXPECT_THAT(model.notes, testing::Contains(HasSubstr("skinned meshes stand as their joints do")));
 }
 
+TEST(Gltf, PlacesAChainOfTenThousandJointsInLinearTime) {
+  Scene scene = skinned_square();
+  constexpr int kJoints = 10'000;
+  std::string joints = "2";
+  scene.nodes = R"([{"children":[1,2]},{"mesh":0,"skin":0})";
+  for (int joint = 0; joint < kJoints; ++joint) {
+    scene.nodes += R"(,{"translation":[0.5,0,0])";
+    scene.nodes +=
+        joint + 1 < kJoints ? R"(,"children":[)" + std::to_string(joint + 3) + "]}" : "}";
+    joints += joint > 0 ? "," + std::to_string(joint + 2) : "";
+  }
+  scene.nodes += "]";
+  scene.more = R"(,"skins":[{"joints":[)" + joints + "]}]";
+  EXPECT_EQ(scene.parsed().mesh.positions[0], Vec3(0.5, 0, 0));
+  EXPECT_EQ(scene.parsed().mesh.positions[1], Vec3(2.0, 0, 0));  // held by the second joint
+}
+
 TEST(GltfError, NamesWhatASkinLacks) {
   Scene scene = skinned_square();
   scene.more = "";
@@ -100,6 +117,8 @@ TEST(GltfError, NamesWhatASkinLacks) {
   EXPECT_THAT(scene.error(), HasSubstr("held by joint 1 of 1"));
   scene.more = R"(,"skins":[{"joints":[2,9],"inverseBindMatrices":4}])";
   EXPECT_THAT(scene.error(), HasSubstr("node 9 does not exist"));
+  scene.more = R"(,"skins":[{"joints":[2,3,2,3,2]}])";
+  EXPECT_THAT(scene.error(), HasSubstr("more joints than there are nodes"));
   scene.more = R"(,"skins":[{"joints":[2,3],"inverseBindMatrices":3}])";
   EXPECT_THAT(scene.error(), HasSubstr("are not one matrix a joint"));
 }
