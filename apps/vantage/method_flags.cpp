@@ -19,13 +19,6 @@ double number_or_throw(std::string_view text, const std::string& flag) {
   return value;
 }
 
-/// 0 to 2. \pre it is one of the coordinate axes.
-int axis_of(UpAxis direction) {
-  Eigen::Index axis = 0;
-  up_vector(direction).cwiseAbs().maxCoeff(&axis);
-  return static_cast<int>(axis);
-}
-
 }  // namespace
 
 void MethodFlags::add_to(CLI::App& app, const FlagGroups& groups) {
@@ -75,7 +68,7 @@ ViewOptions MethodFlags::resolve(std::uint64_t seed) const {
         "--level-agreement", "compares two fitted curves: leave out --graph finished and --no-fit");
   }
   if (all.view.up && all.view.up != UpAxis::Any && all.view.front &&
-      axis_of(*all.view.up) == axis_of(*all.view.front)) {
+      up_vector(*all.view.up).dot(up_vector(*all.view.front)) != 0.0) {
     throw CLI::ValidationError("--front",
                                "is along the axis of --up: give one at right angles to it");
   }

@@ -200,7 +200,7 @@ void check_extensions(const Json& root, ModelBuilder& builder) {
   }
   note_unread_extensions(root, builder);
   if (root.contains("skins")) {
-    builder.note("skinned meshes stand as their joints do, in no animation's pose");
+    builder.note("skinned meshes are shown as their joints stand in the file, without animation");
   }
   if (is_morphed(root, "meshes") || is_morphed(root, "nodes")) {
     builder.note("morph targets are left out: meshes are shown as they are without them");

@@ -82,8 +82,8 @@ bool is_read(std::string_view extension) {
                      [&](std::string_view known) { return extension.starts_with(known); });
 }
 
-/// Name of an element that is read; empty for one of an extension that is not: slices have vertices, too.
-std::string_view read_name(std::string_view whole) {
+/// The name without its namespace; empty if that is an extension that is not read: slices have vertices, too.
+std::string_view name_if_read(std::string_view whole) {
   const std::string_view space = whole.substr(0, whole.size() - local(whole).size());
   const std::string_view extension = extension_name(space);
   return extension.size() == space.size() || is_read(extension) ? local(whole) : "";
@@ -170,7 +170,7 @@ class ThreemfPartReader::State {
       for (const XML_Char** at = attributes; *at != nullptr; at += 2) {
         self.count_name(at[0]);
       }
-      self.start(read_name(name), Attributes(attributes));
+      self.start(name_if_read(name), Attributes(attributes));
     });
   }
 
@@ -186,7 +186,7 @@ class ThreemfPartReader::State {
   }
 
   static void on_end(void* state, const XML_Char* name) {
-    static_cast<State*>(state)->guarded([&](State& self) { self.end(read_name(name)); });
+    static_cast<State*>(state)->guarded([&](State& self) { self.end(name_if_read(name)); });
   }
 
   static void on_document_type(void* state, const XML_Char* /*name*/, const XML_Char* /*system*/,

@@ -254,11 +254,10 @@ VANTAGE_INLINE std::size_t EyeGrid::strike(const Surface& surface, const FacePac
 
 /// Of some of the faces those of one side, or of both in the order of their depths where it is 0.
 struct EyeGrid::Walk {
-  Walk(const Surface& of, std::uint8_t which, std::size_t most, bool own_corners,
+  Walk(const Surface& of, std::uint8_t which, std::size_t most,
        std::span<const std::uint8_t> only = {})
       : surface(of),
         side(which),
-        holds_asked(own_corners),
         asked(only),
         limit(most),
         limit_each(most / std::max<std::size_t>(1, of.faces.size()) + 1),
@@ -271,7 +270,6 @@ struct EyeGrid::Walk {
 
   const Surface& surface;
   std::uint8_t side;
-  bool holds_asked;  // most faces hold sites asked about: what is behind them all is not looked for
   std::span<const std::uint8_t> asked;  // of each face: whether it is; none: all are
   std::size_t limit;                    // of work, for all faces
   std::size_t limit_each;               // for one
@@ -285,9 +283,11 @@ VANTAGE_INLINE std::size_t EyeGrid::strike_all(Walk& walk, FacePacket<Lanes>& h)
     return 0;
   }
   make_ready<Lanes>(walk.surface, h);
+  // Fronts have their own corners behind them, as far as boxes can tell.
+  const bool holds_asked = walk.side == 1;
   std::size_t work = 0;
   for (unsigned lane = 0; lane < h.count; ++lane) {
-    if (walk.holds_asked || !behind_all(h.nearest[lane], cells_of(h, lane))) {
+    if (holds_asked || !behind_all(h.nearest[lane], cells_of(h, lane))) {
       work += strike<Lanes>(walk.surface, h, lane);
     }
   }
@@ -373,8 +373,7 @@ bool EyeGrid::walk_sides(const Surface& surface, const RunContext& run) {
   const std::size_t count = surface.faces.size();
   const std::size_t limit = kPatience * (hidden_.size() + count);
   find_deepest();
-  // Fronts have their own corners behind them, as far as boxes can tell.
-  Walk fronts{surface, 1, limit, true};
+  Walk fronts{surface, 1, limit};
   if (!walk(fronts, 0, count, run)) {
     return false;
   }
@@ -382,7 +381,7 @@ bool EyeGrid::walk_sides(const Surface& surface, const RunContext& run) {
     return true;
   }
   find_deepest();
-  Walk backs{surface, 2, limit, false, backs_};
+  Walk backs{surface, 2, limit, backs_};
   return walk(backs, 0, count, run);
 }
 
@@ -391,7 +390,7 @@ bool EyeGrid::walk_sides(const Surface& surface, const RunContext& run) {
 bool EyeGrid::walk_sorted(const Surface& surface, std::vector<std::uint8_t>& seen,
                           const RunContext& run) {
   const std::size_t count = surface.faces.size();
-  Walk both{surface, 0, kMostPatience * (hidden_.size() + count), false};
+  Walk both{surface, 0, kMostPatience * (hidden_.size() + count)};
   sort_faces(surface);
   std::size_t left = mark_hidden(seen);
   project(surface.rounded, corners_, run);

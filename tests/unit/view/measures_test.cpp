@@ -272,6 +272,25 @@ TEST(Measures, CountABoneHalfThatCrossesBehindAnother) {
   EXPECT_NEAR(cross.value("skeleton-visibility", Vec3::UnitZ()), 0.75, 1e-9);
 }
 
+TEST(Measures, TellInPerspectiveWhichOfTwoBonesIsNearerWhereTheyCross) {
+  // One leads away from the eye: half way along it in space is further along in the picture, .59 of it, and a
+  // depth that were even there would put it behind the other, which is .09 behind it.
+  const std::vector<Vec3> nodes{{-1, 0, 1}, {1, 0, -1}, {0, -1, -0.09}, {0, 1, -0.09}};
+  TriMesh cubes;  // one at each node: all are shown
+  for (const Vec3& node : nodes) {
+    cubes = test::together(cubes, test::box(0.1, 0.1, 0.1, 1), node - Vec3::Constant(0.05));
+  }
+  Subject cross(cubes, Projection::Perspective);
+  cross.graph.nodes = nodes;
+  cross.graph.edges = {{0, 1}, {2, 3}};
+  for (std::size_t v = 0; v < cross.node_of_vertex.size(); ++v) {
+    cross.node_of_vertex[v] = static_cast<std::uint32_t>(4 * v / cross.node_of_vertex.size());
+  }
+  const double leading = std::sqrt(8.0);
+  EXPECT_NEAR(cross.value("skeleton-visibility", Vec3::UnitZ()), (leading + 1.0) / (leading + 2.0),
+              1e-9);
+}
+
 TEST(Measures, TakeThePerspectiveEyeInsideAsABlindView) {
   // From inside a closed shell only backs are turned to the eye.
   const Subject cube(test::box(1, 1, 1, 4), Projection::Perspective);
