@@ -149,12 +149,12 @@ struct ViewCommand {
       output.add_named(trace, trace_csv(report));
     }
     output.write();
-    if (!no_images && !no_report && !has_report_page()) {
-      session.say("note: this program was built without npm, so that there is no report.html");
-    }
-    if (!no_images && !no_report && !sums_a_map(options.method)) {
+    const bool wants_report = !no_images && !no_report;
+    if (wants_report && !sums_a_map(options.method)) {
       session.say(
           "note: report.html shows a map and what is seen of it: there is none for this --method");
+    } else if (wants_report && !has_report_page()) {
+      session.say("note: this program was built without npm, so that there is no report.html");
     }
     session.end_progress();
     if (session.flags.json) {
@@ -165,7 +165,7 @@ struct ViewCommand {
       summarise(session, loaded, shape, choice, report, options, output, seconds);
     }
     // Last: who waits for the pictures and the numbers has them.
-    if (!no_images && !no_report && sums_a_map(options.method) && has_report_page()) {
+    if (wants_report && sums_a_map(options.method) && has_report_page()) {
       const auto report_start = Clock::now();
       output.write_last("report.html", report_html(loaded, shape, pictures, report, options, run));
       session.end_progress();

@@ -13,6 +13,11 @@ PNG = b"\x89PNG\r\n\x1a\n"
 
 class View(ProgramTest):
 
+    def test_a_measure_without_a_map_says_that_it_has_no_report(self):
+        done = self.vantage("view", MODELS / "fan.ply", "--method", "silhouette-length", "--size", "32", "-o", "measure")
+        self.assertIn("there is none for this --method", done.err)
+        self.assertFalse((self.dir / "measure" / "report.html").exists())
+
     def test_writes_pictures_cameras_map_skeleton_and_report(self):
         shutil.copy(MODELS / "cat_lowpoly.ply", self.dir)
         done = self.vantage("view", "cat_lowpoly.ply", "--size", "160x120", "--search", "rapid")
