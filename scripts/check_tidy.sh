@@ -20,4 +20,4 @@ if [[ ${1:-} == --changed ]] && ((${#files[@]} > most)); then
   files=("${some[@]}")
 fi
 cmake --preset tidy -DCMAKE_CXX_CLANG_TIDY= >/dev/null
-printf '%s\n' "${files[@]}" | xargs -P "$(nproc)" -n 4 clang-tidy-14 -p build/tidy --quiet
+printf '%s\n' "${files[@]}" | xargs -P "$(nproc)" -n 1 clang-tidy-14 -p build/tidy --quiet

@@ -60,6 +60,17 @@ void keep_freed_memory() {
 #endif
 }
 
+/// The words of a command line as the parser takes them, the last first: `help view` asks for what
+/// `view --help` does.
+std::vector<std::string> words_to_parse(std::vector<std::string> words) {
+  if (!words.empty() && words.front() == "help") {
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(bugprone-exception-escape): out of memory while reporting a failure may end it
@@ -68,10 +79,12 @@ int main(int argc, char** argv) {
   keep_freed_memory();
   Session session;
   CLI::App program{kAbout, "vantage"};
-  program.set_version_flag("--version", [] {
+  const std::vector<std::string> words{argv + std::min(1, argc), argv + argc};
+  const auto versions = [] {
     return "vantage " + std::string(vantage::version()) + "\n" + vantage::library_versions() +
            "\n" + import_program_version();
-  });
+  };
+  program.set_version_flag("-V,--version", versions, "print the versions and exit");
   program.set_help_flag("-h,--help", "print this help and exit");
   program.set_help_all_flag("--help-all", "print help with every option and exit");
   program.require_subcommand(1);
@@ -97,14 +110,14 @@ int main(int argc, char** argv) {
     add_completion_command(program, session);
     add_manual_command(program, session);
     check_values(program);
-    program.parse(argc, argv);
+    program.parse(words_to_parse(words));
     session.end_progress();
     finish_standard_output();
     return session.exit_code;
   } catch (const CLI::Success& request) {  // --help, --version
     return program.exit(request) == 0 ? kDone : kFailed;
   } catch (const CLI::ParseError& error) {
-    return report_usage(program, {argv + std::min(1, argc), argv + argc}, error);
+    return report_usage(program, words, error);
   } catch (...) {
     return session.report_failure();
   }

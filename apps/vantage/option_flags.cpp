@@ -86,7 +86,8 @@ void OptionFlags::add(CLI::App& app, const Option& option, const AllOptions& sta
                                     static_cast<std::int64_t>(option.high)));
       break;
     case OptionKind::Choice:
-      flag = add_value<std::string>(app, option)->check(CLI::IsMember(option.words));
+      flag = add_value<std::string>(app, option)
+                 ->transform(CLI::IsMember(option.words, CLI::ignore_case));
       break;
     case OptionKind::Text:
       flag = add_value<std::string>(app, option);

@@ -45,6 +45,19 @@ class WhatWasMeant(ProgramTest):
             self.assertIn(f"did you mean {meant}?", said)
         self.assertIn("did you mean --direction?", self.complaint("render", FAN, "--directoin", "1,2,3", "-o", "b.png"))
 
+    def test_help_of_a_command_is_asked_for_in_two_ways(self):
+        self.assertEqual(self.vantage("help", "view").out, self.vantage("view", "--help").out)
+        self.assertEqual(self.vantage("help").out, self.vantage("--help").out)
+        self.assertEqual(self.vantage("-V").out, self.vantage("--version").out)
+
+    def test_words_are_taken_in_any_case(self):
+        pictures = []
+        for up in ("x", "X"):
+            self.vantage("render", FAN, "--up", up, "--direction", "1,2,3", "--size", "60", "-o", f"{up}.png")
+            pictures.append((self.dir / f"{up}.png").read_bytes())
+        self.assertEqual(*pictures)
+        self.assertIn("W not in", self.complaint("render", FAN, "--up", "W", "--direction", "1,2,3", "-o", "w.png"))
+
     def test_the_first_wrong_word_is_named(self):
         self.assertIn("--sise", self.complaint("view", FAN, "--sise", "30", "--foo"))
         self.assertIn("'b'", self.complaint("view", "a", "b", "c"))

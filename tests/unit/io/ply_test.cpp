@@ -81,7 +81,7 @@ TEST(Ply, ReadsPropertiesInCapitals) {
 
 TEST(Ply, TellsByColoursOf16BitsWhetherTheyAreBytes) {
   for (const auto& [type, full] : {std::pair("short", 32767), std::pair("ushort", 65535)}) {
-    const auto coloured = [&](int red, int green) {
+    const auto coloured = [&, type = type](int red, int green) {
       const std::string t = std::string("property ") + type + " ";
       return ply(ascii("element vertex 2\nproperty float x\nproperty float y\nproperty float z\n" +
                            t + "red\n" + t + "green\n" + t + "blue\n",
