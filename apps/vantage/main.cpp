@@ -60,14 +60,20 @@ void keep_freed_memory() {
 #endif
 }
 
-/// The words of a command line as the parser takes them, the last first: `help view` asks for what
-/// `view --help` does.
-std::vector<std::string> words_to_parse(std::vector<std::string> words) {
-  if (!words.empty() && words.front() == "help") {
-    words.erase(words.begin());
+/// The words of a command line, where `help view` asks for what `view --help` does. A command that is
+/// none is left to be complained about: the parser prints help before it looks at it.
+std::vector<std::string> words_of(const CLI::App& program, int argc, char** argv) {
+  std::vector<std::string> words{argv + std::min(1, argc), argv + argc};
+  if (words.empty() || words.front() != "help") {
+    return words;
+  }
+  words.erase(words.begin());
+  const auto is_asked_for = [&](const CLI::App* command) {
+    return command->check_name(words.front());
+  };
+  if (words.empty() || !program.get_subcommands(is_asked_for).empty()) {
     words.emplace_back("--help");
   }
-  std::reverse(words.begin(), words.end());
   return words;
 }
 
@@ -79,7 +85,7 @@ int main(int argc, char** argv) {
   keep_freed_memory();
   Session session;
   CLI::App program{kAbout, "vantage"};
-  const std::vector<std::string> words{argv + std::min(1, argc), argv + argc};
+  std::vector<std::string> words;
   const auto versions = [] {
     return "vantage " + std::string(vantage::version()) + "\n" + vantage::library_versions() +
            "\n" + import_program_version();
@@ -110,7 +116,8 @@ int main(int argc, char** argv) {
     add_completion_command(program, session);
     add_manual_command(program, session);
     check_values(program);
-    program.parse(words_to_parse(words));
+    words = words_of(program, argc, argv);
+    program.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // the last first
     session.end_progress();
     finish_standard_output();
     return session.exit_code;

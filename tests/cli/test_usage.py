@@ -50,6 +50,9 @@ class WhatWasMeant(ProgramTest):
         self.assertEqual(self.vantage("help").out, self.vantage("--help").out)
         self.assertEqual(self.vantage("-V").out, self.vantage("--version").out)
 
+    def test_help_of_no_command_names_the_one_meant(self):
+        self.assertIn("has no command 'rendr'; did you mean render?", self.complaint("help", "rendr"))
+
     def test_words_are_taken_in_any_case(self):
         pictures = []
         for up in ("x", "X"):
