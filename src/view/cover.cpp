@@ -46,10 +46,11 @@ GreedyCover::Pick GreedyCover::next(const std::function<bool(std::uint32_t view)
       continue;
     }
     const Bound now{gain(sets_->row(top.view)), top.view};
-    if (queue_.empty() || !(now < queue_.top())) {
+    const bool is_largest = queue_.empty() || !(now < queue_.top());
+    queue_.push(now);  // what is taken may be a view beside it, and leave something to this one
+    if (is_largest) {
       return now.gain > 0.0 ? Pick{now.view, now.gain} : Pick{};
     }
-    queue_.push(now);
   }
   return {};
 }

@@ -109,6 +109,24 @@ double best_of_all(const Instance& instance, std::size_t count) {
   return best;
 }
 
+TEST(GreedyCover, OffersAViewAgainWhereAnotherWasTakenInItsPlace) {
+  VisibleSets sets(2, 3);
+  sets.set(0, std::vector<std::uint8_t>{1, 1, 0});
+  sets.set(1, std::vector<std::uint8_t>{0, 0, 1});
+  GreedyCover cover(sets, std::vector<double>{1.0, 1.0, 4.0});
+  ASSERT_EQ(cover.next(any).view, 1U);
+  VisibleSets beside(1, 3);
+  beside.set(0, std::vector<std::uint8_t>{1, 0, 0});
+  cover.mark_seen(beside.row(0));
+  EXPECT_EQ(cover.next(any).view, 1U);
+  cover.mark_seen(sets.row(1));
+  const GreedyCover::Pick last = cover.next(any);
+  EXPECT_EQ(last.view, 0U);
+  EXPECT_EQ(last.gain, 1.0);
+  cover.mark_seen(sets.row(0));
+  EXPECT_EQ(cover.next(any).view, GreedyCover::kNone);
+}
+
 TEST(VisibleSets, KeepsEveryFlagAcrossWords) {
   VisibleSets sets(2, 130);
   std::vector<std::uint8_t> visible(130, 0);
