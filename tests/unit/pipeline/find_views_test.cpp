@@ -26,6 +26,31 @@ ViewOptions quick_search() {
   return options;
 }
 
+/// A Y of tubes with what is found of it by default. Found once a process.
+struct FoundY {
+  ViewOptions options{};
+  Model model = model_of(y_of_tubes(0.2, 24));
+  ShapeAnalysis shape = analyse_shape(model, options);
+  FrameChoice frame = choose_frame(model, shape, options);
+  ViewReport report = find_views(shape, frame, options);
+
+  static const FoundY& once() {
+    static const FoundY found;
+    return found;
+  }
+};
+
+/// A box of 98 vertices. Analysed once a process.
+const ShapeAnalysis& analysed_box() {
+  static const ShapeAnalysis shape = analyse_shape(model_of(box(1.0, 2.0, 3.0, 4)), quick_search());
+  return shape;
+}
+
+ShapeAnalysis without_significance(ShapeAnalysis shape) {
+  shape.map.of_vertex.assign(shape.map.of_vertex.size(), 0.0);
+  return shape;
+}
+
 class ReportOfAY : public testing::Test {
  protected:
   ReportOfAY() : options_(quick_search()), shape_(known().first), report_(known().second) {}
@@ -142,7 +167,7 @@ TEST(FindViews, CertifiesTheViewThatIsReportedWhereTiesWereSettled) {
   options.prior = parse_prior(
       R"({"vantage_prior": 1, "lobes": [{"direction": [0, 0, -1], "weight": 0.006, "width_deg": 60}]})",
       "back.json");
-  const ShapeAnalysis shape = analyse_shape(model_of(box(1.0, 2.0, 3.0, 12)), options);
+  const ShapeAnalysis shape = analyse_shape(model_of(box(1.0, 2.0, 3.0, 6)), options);
   const ViewReport report = find_views(shape, UpAxis::Y, options);
   const UprightFrame frame = upright_frame(Vec3::UnitY());
   ASSERT_GT(frame.front.dot(report.best.direction), 0.1);
@@ -179,9 +204,7 @@ TEST(FindViews, OfFewVerticesFindsWhatTheDenseSearchFinds) {
 
 TEST(FindViews, OfAMapThatIsZeroGivesTheFirstDirectionAndAWarning) {
   const ViewOptions options = quick_search();
-  ShapeAnalysis shape = analyse_shape(model_of(sphere(2)), options);
-  shape.map.of_vertex.assign(shape.map.of_vertex.size(), 0.0);
-  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  const ViewReport report = find_views(without_significance(analysed_box()), UpAxis::Y, options);
   const Vec3 first =
       direction_set(ViewSphereBase::Icosahedron, options.search.subdivisions).directions.front();
   EXPECT_EQ(report.best.direction, first);
@@ -194,10 +217,8 @@ TEST(FindViews, OfAMapThatIsZeroGivesTheFirstDirectionAndAWarning) {
 TEST(FindViews, OfAMapThatIsZeroTakesWhatPeopleChooseAndTheFirstForTheWorst) {
   ViewOptions options = quick_search();
   options.objective = Objective::People;
-  ShapeAnalysis shape = analyse_shape(model_of(box(1.0, 2.0, 3.0, 4)), options);
-  const Vec3 with_map = find_views(shape, UpAxis::Y, options).best.direction;
-  shape.map.of_vertex.assign(shape.map.of_vertex.size(), 0.0);
-  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  const Vec3 with_map = find_views(analysed_box(), UpAxis::Y, options).best.direction;
+  const ViewReport report = find_views(without_significance(analysed_box()), UpAxis::Y, options);
   const Vec3 first =
       direction_set(ViewSphereBase::Icosahedron, options.search.subdivisions).directions.front();
   EXPECT_EQ(report.worst.direction, first);
@@ -206,9 +227,7 @@ TEST(FindViews, OfAMapThatIsZeroTakesWhatPeopleChooseAndTheFirstForTheWorst) {
 }
 
 TEST(FindViews, CountsAndTracesTheSearchForTheHighestScore) {
-  const ViewOptions options;
-  const ShapeAnalysis shape = analyse_shape(model_of(y_of_tubes(0.2, 24)), options);
-  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  const ViewReport& report = FoundY::once().report;
   const std::vector<SearchStep>& trace = report.best_search.trace;
   EXPECT_EQ(report.best_search.evaluations, trace.size());
   double largest = 0.0;
@@ -219,28 +238,22 @@ TEST(FindViews, CountsAndTracesTheSearchForTheHighestScore) {
 }
 
 TEST(FindViews, FindsTheSameWhereNothingWasPrepared) {
-  const ViewOptions options;
-  const Model model = model_of(y_of_tubes(0.2, 24));
-  const ShapeAnalysis shape = analyse_shape(model, options);
+  const auto& [options, model, shape, frame, report] = FoundY::once();
   ASSERT_NE(shape.views, nullptr);
   ShapeAnalysis bare = shape;
   bare.views.reset();
-  const FrameChoice up = choose_frame(model, shape, options);
-  EXPECT_EQ(choose_frame(model, bare, options).frame.up, up.frame.up);
-  EXPECT_EQ(choose_frame(model, bare, options).frame.front, up.frame.front);
-  EXPECT_EQ(view_json(model, bare, find_views(bare, up, options), options),
-            view_json(model, shape, find_views(shape, up, options), options));
+  const FrameChoice again = choose_frame(model, bare, options);
+  EXPECT_EQ(again.frame.up, frame.frame.up);
+  EXPECT_EQ(again.frame.front, frame.frame.front);
+  EXPECT_EQ(view_json(model, bare, find_views(bare, frame, options), options),
+            view_json(model, shape, report, options));
 }
 
 TEST(FindView, IsTheOneThatBothAreFoundWith) {
-  const ViewOptions options;
-  const Model model = model_of(y_of_tubes(0.2, 24));
-  const ShapeAnalysis shape = analyse_shape(model, options);
-  const FrameChoice up = choose_frame(model, shape, options);
-  const ViewReport both = find_views(shape, up, options);
+  const FoundY& both = FoundY::once();
   for (const Goal goal : {Goal::Best, Goal::Worst}) {
-    const ReportedView& expected = goal == Goal::Best ? both.best : both.worst;
-    const ReportedView found = find_view(shape, goal, up, options);
+    const ReportedView& expected = goal == Goal::Best ? both.report.best : both.report.worst;
+    const ReportedView found = find_view(both.shape, goal, both.frame, both.options);
     EXPECT_EQ(found.direction, expected.direction);
     EXPECT_EQ(found.score, expected.score);
     EXPECT_EQ(found.objective, expected.objective);
@@ -249,13 +262,11 @@ TEST(FindView, IsTheOneThatBothAreFoundWith) {
 }
 
 TEST(FindPictureView, IsTheBestView) {
-  const ViewOptions options;
-  const Model model = model_of(y_of_tubes(0.2, 24));
-  const ShapeAnalysis shape = analyse_shape(model, options);
-  const PictureView found = find_picture_view(model, prepare_surface(model), options);
-  EXPECT_EQ(found.view.direction,
-            find_views(shape, choose_frame(model, shape, options), options).best.direction);
-  EXPECT_EQ(found.vertices, shape.surface.positions.size());
+  const FoundY& found = FoundY::once();
+  const PictureView view =
+      find_picture_view(found.model, prepare_surface(found.model), found.options);
+  EXPECT_EQ(view.view.direction, found.report.best.direction);
+  EXPECT_EQ(view.vertices, found.shape.surface.positions.size());
 }
 
 TEST(FindPictureView, LooksAtTheSideThatWasScanned) {

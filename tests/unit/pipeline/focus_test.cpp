@@ -23,6 +23,18 @@ Model named_boxes() {
   return model;
 }
 
+ViewOptions focus_on(const char* name) {
+  ViewOptions options;
+  options.focus = name;
+  return options;
+}
+
+/// The box at the right alone. Analysed once a process.
+const ShapeAnalysis& right_box() {
+  static const ShapeAnalysis shape = analyse_shape(named_boxes(), focus_on("right"));
+  return shape;
+}
+
 TEST(ListObjects, AreTheComponentsWhereTheFileNamesNone) {
   const Model model = two_boxes();
   const auto objects = list_objects(model, prepare_surface(model));
@@ -90,22 +102,16 @@ TEST(FindObject, SaysWhatThereIs) {
 }
 
 TEST(FocusOn, LeavesTheSignificanceOfTheObjectAlone) {
-  const Model model = named_boxes();
-  const ShapeAnalysis all = analyse_shape(model, {});
-  ViewOptions options;
-  options.focus = "right";
-  const ShapeAnalysis shape = analyse_shape(model, options);
+  const ShapeAnalysis all = analyse_shape(named_boxes(), {});
   for (std::size_t v = 0; v < 16; ++v) {
-    EXPECT_EQ(shape.map.of_vertex[v], v < 8 ? 0.0 : all.map.of_vertex[v]) << v;
+    EXPECT_EQ(right_box().map.of_vertex[v], v < 8 ? 0.0 : all.map.of_vertex[v]) << v;
   }
 }
 
 TEST(FocusOn, TheBestViewIsNotBlockedByTheOtherBox) {
   // Along −x the left box hides the right one; from the right it is in front.
-  const Model model = named_boxes();
-  ViewOptions options;
-  options.focus = "right";
-  const ShapeAnalysis shape = analyse_shape(model, options);
+  const ShapeAnalysis& shape = right_box();
+  const ViewOptions options = focus_on("right");
   const VertexVisibility visibility(shape.surface, shape.sides);
   const ViewScorer scorer(visibility, shape.map.of_vertex, scoring_camera(shape, options));
   EXPECT_LT(scorer.score(-Vec3::UnitX()), scorer.score(Vec3::UnitX()));
@@ -114,11 +120,8 @@ TEST(FocusOn, TheBestViewIsNotBlockedByTheOtherBox) {
 }
 
 TEST(FocusOn, AnEyeBetweenTwoBoxesSeesTheSidesThatFaceIt) {
-  const Model model = named_boxes();
-  ViewOptions options;
-  for (const char* name : {"left", "right"}) {
-    options.focus = name;
-    const ShapeAnalysis shape = analyse_shape(model, options);
+  const ShapeAnalysis left_box = analyse_shape(named_boxes(), focus_on("left"));
+  for (const ShapeAnalysis& shape : {left_box, right_box()}) {
     const VertexVisibility visibility(shape.surface, shape.sides);
     const auto visible = visibility.visible_vertices({.position = Vec3(3.0, 0.5, 0.5)});
     double facing = 0.0;

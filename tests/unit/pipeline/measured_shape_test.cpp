@@ -48,7 +48,7 @@ TEST(ExtremeViews, AreTheSameWhereverTheMeasureHasItsZero) {
 }
 
 TEST(FindViews, SayWhatShareOfTheBestScoreTheViewHasWhereLessIsBetterToo) {
-  const Model model = model_of(y_of_tubes(0.25, 16));
+  const Model model = model_of(y_of_tubes(0.25, 10));
   for (const char* const name : {"projected-area", "instability"}) {
     ViewOptions options;
     options.method = name;
@@ -75,7 +75,7 @@ ViewReport views_of_a_box(ViewOptions options) {
   options.method = "viewpoint-entropy";
   options.search.subdivisions = 2;
   const std::vector<Measure> measures{find_measure(options.method)};
-  const ShapeAnalysis shape = analyse_for(model_of(box(1.0, 2.0, 3.0, 4)), options, measures);
+  const ShapeAnalysis shape = analyse_for(model_of(box(1.0, 2.0, 3.0, 2)), options, measures);
   return find_views(shape, UpAxis::Y, options);
 }
 
@@ -116,7 +116,7 @@ TEST(FindViewsByAMeasure, DoNotHangOnTheUnit) {
   std::vector<ViewReport> found;
   for (const double scale : {1.0, 0x1p70, 0x1p-70}) {
     const Model model =
-        model_of(moved(y_of_tubes(0.2, 16), scale, 0.0, Vec3::UnitX(), Vec3::Zero()));
+        model_of(moved(y_of_tubes(0.2, 10), scale, 0.0, Vec3::UnitX(), Vec3::Zero()));
     found.push_back(find_views(analyse_for(model, options, measures), UpAxis::Y, options));
   }
   for (const ViewReport& report : found) {
