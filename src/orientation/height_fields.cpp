@@ -9,6 +9,7 @@
 
 #include "vantage/mesh/measures.h"
 
+#include "core/cross.h"
 #include "mesh/copied_faces.h"
 
 namespace vantage {
@@ -96,10 +97,6 @@ class FieldPainter {
 
   static double scale(std::size_t count, double extent) {
     return extent > 0.0 ? static_cast<double>(count) / extent : 0.0;
-  }
-
-  static double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return a.x() * b.y() - a.y() * b.x();
   }
 
   /// \param is_down whether the face there is turned to the lower side; nothing: no face.

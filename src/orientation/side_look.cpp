@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "core/cross.h"
 #include "orientation/planar_hull.h"
 #include "orientation/water.h"
 
@@ -56,7 +57,7 @@ double share_of_directions(const std::vector<Vec2>& hull, const Vec2& point, dou
     // The triangle of both corners and the foot of the perpendicular.
     const double one = std::sqrt(a.squaredNorm() + height * height);
     const double two = std::sqrt(b.squaredNorm() + height * height);
-    const double triple = height * (a.x() * b.y() - a.y() * b.x());
+    const double triple = height * cross(a, b);
     const double others =
         one * two * height + (a.dot(b) + height * height) * height + height * height * (one + two);
     angle += triple == 0.0 && others == 0.0 ? 0.0 : 2.0 * std::atan2(triple, others);

@@ -11,10 +11,6 @@
 
 namespace vantage {
 
-inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// A triangle cut by four planes or lines at most. Each cut adds one corner to a convex polygon; where
 /// rounding has bent it, of 3, 4, 6 and 9 corners 4, 6, 9 and 13 may be made.
 template <typename Point>

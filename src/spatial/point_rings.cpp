@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "core/cross.h"
 #include "core/parallel.h"
 #include "spatial/point_tree.h"
 
@@ -32,10 +33,6 @@ struct Inverted {
 };
 
 constexpr std::uint32_t kCentre = 0xffffffffu;
-
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// Corners of the convex hull, counter-clockwise; corners that are none within kOnLine left out.
 std::vector<Inverted> hull_of(std::vector<Inverted>& points) {

@@ -236,14 +236,6 @@ RayHit RayScene::closest_hit(const Vec3f& origin, const Vec3f& direction, float 
   return {scene_->face(query.hit.primID), query.hit.u, query.hit.v, query.ray.tfar};
 }
 
-bool RayScene::occluded(const Vec3f& origin, const Vec3f& direction, float tnear,
-                        float tfar) const {
-  RTCRay query = ray({origin, direction, tnear, tfar});
-  PictureContext context(0.0F);
-  rtcOccluded1(scene_->embree.scene, &context.context, &query);
-  return query.tfar < 0.0F;
-}
-
 std::array<RayHit, 4> RayScene::closest_hits(const RayPacket& rays, std::size_t count,
                                              float width) const {
   RTCRayHit4 query{};

@@ -66,8 +66,8 @@ class RayScene {
  public:
   /// \param mesh positions in the frame of the rays; bring them near the origin and to order 1
   ///             first (UnitFrame), because they are rounded to float.
-  /// \param opacity closest_hit() passes through places where it is 0, occluded() through those
-  ///             where it is below a half; empty: all is solid.
+  /// \param opacity closest hits pass through places where it is 0, count_occluded() through
+  ///             those where it is below a half; empty: all is solid.
   explicit RayScene(const TriMesh& mesh, OpacityOfHit opacity = {});
   ~RayScene();
   RayScene(RayScene&&) noexcept;
@@ -76,10 +76,6 @@ class RayScene {
   /// Nearest hit with tnear ≤ t ≤ tfar. The direction need not be a unit vector.
   [[nodiscard]] RayHit closest_hit(const Vec3f& origin, const Vec3f& direction, float tnear = 0.0F,
                                    float tfar = std::numeric_limits<float>::infinity()) const;
-
-  /// Whether anything is hit with tnear ≤ t ≤ tfar.
-  [[nodiscard]] bool occluded(const Vec3f& origin, const Vec3f& direction, float tnear = 0.0F,
-                              float tfar = std::numeric_limits<float>::infinity()) const;
 
   /// Nearest hits of the first `count` rays; the others hit nothing.
   /// \param width of the rays, for places that are partly opaque.

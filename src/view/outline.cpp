@@ -12,6 +12,7 @@
 #include "vantage/mesh/topology.h"
 #include "vantage/view/measure.h"
 
+#include "core/cross.h"
 #include "core/shannon.h"
 #include "view/outline_sweep.h"
 #include "view/turning.h"
@@ -113,7 +114,7 @@ void add_turning(const std::vector<PicturePoint>& points, std::size_t stride, Tu
     const PicturePoint before = points[i] - points[i < stride ? i + count - stride : i - stride];
     const PicturePoint after =
         points[i + stride < count ? i + stride : i + stride - count] - points[i];
-    sine[i] = before.x() * after.y() - before.y() * after.x();
+    sine[i] = cross(before, after);
     cosine[i] = before.dot(after);
   }
   std::vector<double> angles(count);
@@ -225,9 +226,7 @@ Outline OutlineTracer::trace(const Viewpoint& eye) const {
   std::vector<std::int8_t> layer(mesh_->triangles.size(), 0);
   for (std::size_t f = 0; f < layer.size(); ++f) {
     const auto& [a, b, c] = mesh_->triangles[f];
-    const PicturePoint ab = place[b] - place[a];
-    const PicturePoint ac = place[c] - place[a];
-    const double twice = ab.x() * ac.y() - ab.y() * ac.x();
+    const double twice = cross(place[b] - place[a], place[c] - place[a]);
     const bool is_drawn = (ahead[a] & ahead[b] & ahead[c]) != 0;
     const int back = two_sided_[f] != 0 && twice < 0.0 ? -1 : 0;
     layer[f] = static_cast<std::int8_t>(is_drawn ? (twice > 0.0 ? 1 : back) : 0);

@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/cross.h"
+
 namespace vantage {
 namespace {
 
@@ -92,10 +94,6 @@ std::vector<Bone> bones_of(const CurveGraph& graph, const Sphere& sphere, const 
     }
   }
   return bones;
-}
-
-double cross(const PicturePoint& a, const PicturePoint& b) {
-  return a.x() * b.y() - a.y() * b.x();
 }
 
 /// Marks the farther of each two bones of different branches that cross in the picture.

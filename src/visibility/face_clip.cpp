@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/cross.h"
 #include "spatial/picture_cells.h"
 #include "spatial/segment.h"
 

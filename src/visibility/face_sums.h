@@ -14,6 +14,7 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/visibility/face_visibility.h"
 
+#include "core/cross.h"
 #include "visibility/face_clip.h"
 #include "visibility/surface.h"
 

@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/cross.h"
 #include "core/random.h"
-#include "spatial/convex_polygon.h"
 
 namespace vantage {
 namespace {
@@ -34,9 +34,7 @@ double area(const Outline& outline) {
   double twice = 0.0;
   for (const auto& loop : outline) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      const PicturePoint& a = loop[i];
-      const PicturePoint& b = loop[(i + 1) % loop.size()];
-      twice += a.x() * b.y() - a.y() * b.x();
+      twice += cross(loop[i], loop[(i + 1) % loop.size()]);
     }
   }
   return 0.5 * twice;
@@ -178,9 +176,7 @@ TEST(OutlineSweep, OfRandomTrianglesCoversWhatTheyCover) {
     for (int k = 0; k < 3; ++k) {
       t.emplace_back(middle + 0.2 * PicturePoint{random.uniform() - 0.5, random.uniform() - 0.5});
     }
-    const PicturePoint ab = t[1] - t[0];
-    const PicturePoint ac = t[2] - t[0];
-    if (ab.x() * ac.y() - ab.y() * ac.x() < 0.0) {
+    if (cross(t[1] - t[0], t[2] - t[0]) < 0.0) {
       std::swap(t[1], t[2]);
     }
     add(edges, t);
