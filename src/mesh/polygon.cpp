@@ -10,8 +10,6 @@
 
 #include <Eigen/Geometry>
 
-#include "core/cross.h"
-
 namespace vantage {
 namespace {
 
@@ -57,9 +55,8 @@ void cut_quad(std::span<const std::uint32_t> corners, std::span<const Vec3> posi
   }
 }
 
-/// Twice the area of a triangle: positive if its corners go counterclockwise.
-double twice_area(const Vec2& a, const Vec2& b, const Vec2& c) {
-  return cross(b - a, c - a);
+double cross(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
 /// Corners that may lie inside an ear, sorted into the cells of a grid, about one in each.
@@ -261,14 +258,14 @@ class EarClipper {
 
  private:
   [[nodiscard]] double corner_cross(std::uint32_t i) const {
-    return twice_area(points_[previous_[i]], points_[i], points_[next_[i]]);
+    return cross(points_[previous_[i]], points_[i], points_[next_[i]]);
   }
 
   /// Neither straight nor pointing inwards.
   [[nodiscard]] bool points_outwards(std::uint32_t i) const {
     const Vec2 in = points_[i] - points_[previous_[i]];
     const Vec2 out = points_[next_[i]] - points_[i];
-    return cross(in, out) > kStraightSine * in.norm() * out.norm();
+    return in.x() * out.y() - in.y() * out.x() > kStraightSine * in.norm() * out.norm();
   }
 
   [[nodiscard]] bool is_ear(std::uint32_t i, const CornerGrid& grid, std::size_t& work) const {
@@ -281,8 +278,8 @@ class EarClipper {
     const auto lies_inside = [&](std::uint32_t other) {
       const Vec2& p = points_[other];
       // A corner at the place of an ear's corner (a bridge to a hole) does not block it.
-      return blocks_[other] && twice_area(a, b, p) >= 0.0 && twice_area(b, c, p) >= 0.0 &&
-             twice_area(c, a, p) >= 0.0 && p != a && p != b && p != c;
+      return blocks_[other] && cross(a, b, p) >= 0.0 && cross(b, c, p) >= 0.0 &&
+             cross(c, a, p) >= 0.0 && p != a && p != b && p != c;
     };
     return !grid.any_near({a, b, c}, work, lies_inside);
   }

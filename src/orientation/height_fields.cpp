@@ -163,6 +163,74 @@ void paint(const std::vector<Vec3>& places, const std::vector<Triangle>& triangl
   }
 }
 
+/// Sums over the faces: the centroid, or nothing where they have no area, and what of HeightFields is
+/// a share of the area.
+std::optional<Vec3> measure_faces(const std::vector<Triangle>& triangles,
+                                  const std::vector<Vec3>& places, HeightFields& fields) {
+  Vec3 centre = Vec3::Zero();
+  double area = 0.0;
+  for (const Triangle& t : triangles) {
+    const Vec3 twice = (places[t[1]] - places[t[0]]).cross(places[t[2]] - places[t[0]]);
+    const double part = twice.norm();
+    area += part;
+    centre += part / 3.0 * (places[t[0]] + places[t[1]] + places[t[2]]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double across = std::abs(twice[static_cast<Eigen::Index>(k)]);
+      fields.net[k] += twice[static_cast<Eigen::Index>(k)];
+      fields.parallel[k] += across > kParallel * part ? part : 0.0;
+      fields.perpendicular[k] += across < kPerpendicular * part ? part : 0.0;
+    }
+  }
+  for (auto* of_axes : {&fields.parallel, &fields.net, &fields.perpendicular}) {
+    for (double& share : *of_axes) {
+      share = area > 0.0 ? share / area : 0.0;
+    }
+  }
+  return area > 0.0 ? std::optional<Vec3>(centre / area) : std::nullopt;
+}
+
+/// Shares of the vertices that lie at the ends of the box.
+void measure_ends(const std::vector<Vec3>& used, const Box& box, double unit,
+                  HeightFields& fields) {
+  const double share = 1.0 / static_cast<double>(used.size());
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    for (const Vec3& p : used) {
+      const double place = (p[i] - box.low[i]) * unit;
+      fields.vertex_low[k] += place < kEnd * fields.extent[k] ? share : 0.0;
+      fields.vertex_high[k] += place > (1.0 - kEnd) * fields.extent[k] ? share : 0.0;
+    }
+  }
+}
+
+/// The faces without those that lie in one place with too many others.
+std::vector<Triangle> painted_faces(const TriMesh& surface) {
+  const std::vector<std::uint32_t> beyond = faces_beyond_copies(surface);
+  std::vector<Triangle> painted;
+  for (std::uint32_t f = 0; f < surface.triangles.size(); ++f) {
+    if (!std::binary_search(beyond.begin(), beyond.end(), f)) {
+      painted.push_back(surface.triangles[f]);
+    }
+  }
+  return painted;
+}
+
+/// A field along an axis with nothing in it.
+HeightField empty_field(std::size_t axis, const std::array<double, 3>& extent) {
+  HeightField field;
+  field.axis = axis;
+  field.u_axis = (axis + 1) % 3;
+  field.v_axis = (axis + 2) % 3;
+  field.columns = cells_of(extent[field.u_axis]);
+  field.rows = cells_of(extent[field.v_axis]);
+  field.extent = extent[axis];
+  field.low.assign(field.columns * field.rows, HeightField::kNothing);
+  field.high = field.low;
+  field.low_is_back.assign(field.low.size(), 0);
+  field.high_is_back = field.low_is_back;
+  return field;
+}
+
 }  // namespace
 
 HeightFields::HeightFields(const TriMesh& surface) {
@@ -179,57 +247,19 @@ HeightFields::HeightFields(const TriMesh& surface) {
   for (const Vec3& p : used) {
     mean += (p - box.low) * (unit / static_cast<double>(used.size()));
   }
-  Vec3 centre = Vec3::Zero();
-  double area = 0.0;
-  for (const Triangle& t : surface.triangles) {
-    const Vec3 twice = (places[t[1]] - places[t[0]]).cross(places[t[2]] - places[t[0]]);
-    const double part = twice.norm();
-    area += part;
-    centre += part / 3.0 * (places[t[0]] + places[t[1]] + places[t[2]]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double across = std::abs(twice[static_cast<Eigen::Index>(k)]);
-      net[k] += twice[static_cast<Eigen::Index>(k)];
-      parallel[k] += across > kParallel * part ? part : 0.0;
-      perpendicular[k] += across < kPerpendicular * part ? part : 0.0;
-    }
-  }
-  centre = area > 0.0 ? Vec3(centre / area) : mean;
-  std::vector<Triangle> painted;
-  const std::vector<std::uint32_t> beyond = faces_beyond_copies(surface);
-  for (std::uint32_t f = 0; f < surface.triangles.size(); ++f) {
-    if (!std::binary_search(beyond.begin(), beyond.end(), f)) {
-      painted.push_back(surface.triangles[f]);
-    }
-  }
+  const Vec3 centre = measure_faces(surface.triangles, places, *this).value_or(mean);
   for (std::size_t k = 0; k < 3; ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     extent[k] = box.size()[i] * unit;
     origin[k] = box.size()[i] > 0.0 ? -box.low[i] / box.size()[i] : 0.5;
     vertex_mean[k] = extent[k] > 0.0 ? mean[i] / extent[k] : 0.5;
     area_mean[k] = extent[k] > 0.0 ? centre[i] / extent[k] : 0.5;
-    for (const Vec3& p : used) {
-      const double place = (p[i] - box.low[i]) * unit;
-      vertex_low[k] += place < kEnd * extent[k] ? 1.0 / static_cast<double>(used.size()) : 0.0;
-      vertex_high[k] +=
-          place > (1.0 - kEnd) * extent[k] ? 1.0 / static_cast<double>(used.size()) : 0.0;
-    }
-    parallel[k] = area > 0.0 ? parallel[k] / area : 0.0;
-    net[k] = area > 0.0 ? net[k] / area : 0.0;
-    perpendicular[k] = area > 0.0 ? perpendicular[k] / area : 0.0;
   }
+  measure_ends(used, box, unit, *this);
+  const std::vector<Triangle> painted = painted_faces(surface);
   for (std::size_t k = 0; k < 3; ++k) {
-    HeightField& field = along[k];
-    field.axis = k;
-    field.u_axis = (k + 1) % 3;
-    field.v_axis = (k + 2) % 3;
-    field.columns = cells_of(extent[field.u_axis]);
-    field.rows = cells_of(extent[field.v_axis]);
-    field.extent = extent[k];
-    field.low.assign(field.columns * field.rows, HeightField::kNothing);
-    field.high.assign(field.columns * field.rows, HeightField::kNothing);
-    field.low_is_back.assign(field.low.size(), 0);
-    field.high_is_back.assign(field.low.size(), 0);
-    paint(places, painted, FieldPainter(field, extent));
+    along[k] = empty_field(k, extent);
+    paint(places, painted, FieldPainter(along[k], extent));
   }
 }
 
