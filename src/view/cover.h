@@ -40,7 +40,8 @@ class GreedyCover {
   /// \param weights |V| finite values ≥ 0. \throw InvalidInput, Cancelled
   GreedyCover(const VisibleSets& sets, std::span<const double> weights, const RunContext& run = {});
 
-  /// The view of largest gain that `allowed` accepts. A view once refused is never asked again.
+  /// The view of largest gain that `allowed` accepts, or none where no view adds anything. A view once
+  /// refused is never asked again; one once offered is offered again as long as it would add something.
   Pick next(const std::function<bool(std::uint32_t view)>& allowed);
 
   /// Sum of the weights that a row of bits sees and nothing before has.
