@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "view/sphere_angles.h"
 
@@ -18,6 +21,8 @@ constexpr std::size_t kScored = 96;  // directions scored before the ascent, hal
 constexpr double kFirstReachRad = 5.0 * kRadPerDeg;
 constexpr double kNotWorthARing = 3e-4;  // share of the range that is not worth a finer ring
 constexpr std::size_t kProxyEnds = 2;    // of the ends by a proxy, ascend once more by the score
+// Around the end of the ascent where the score is rough: so far from a maximum a higher one is often.
+constexpr double kNearRad = 8.0 * kRadPerDeg;
 
 // Of the progress bar: where the survey ends, and the ascent after it.
 constexpr double kSurveyed = 0.5;
@@ -39,6 +44,25 @@ double range_of(const std::vector<double>& estimates) {
     }
   }
   return std::max(0.0, largest - least);
+}
+
+/// The directions of a triangular lattice around one and without it.
+std::vector<Vec3> directions_around(const Vec3& centre, double reach_rad, double apart_rad) {
+  const Vec3 right = centre.unitOrthogonal();
+  const Vec3 up = centre.cross(right);
+  const int rows = static_cast<int>(2.0 * reach_rad / (std::numbers::sqrt3 * apart_rad));
+  const int columns = rows + static_cast<int>(reach_rad / apart_rad);
+  std::vector<Vec3> directions;
+  for (int i = -rows; i <= rows; ++i) {
+    for (int k = -columns; k <= columns; ++k) {
+      const double x = apart_rad * (k + 0.5 * i);
+      const double y = 0.5 * std::numbers::sqrt3 * apart_rad * i;
+      if ((i != 0 || k != 0) && std::hypot(x, y) <= reach_rad) {
+        directions.push_back((centre + x * right + y * up).normalized());
+      }
+    }
+  }
+  return directions;
 }
 
 /// What to score: both ways along the axes, where things with flat sides have peaks and pits, the
@@ -94,6 +118,28 @@ std::vector<Candidate> ascended(std::vector<Candidate> candidates, const AscentR
   return largest_apart(std::move(candidates), count, 0.0);
 }
 
+/// The highest end of ascents from near a candidate, again while much is gained: where the score
+/// is rough, or goes in steps and is the same all around, a higher maximum is often near.
+Candidate highest_near(Candidate best, AscentRules rules, double spacing_rad,
+                       const SearchTarget& target, const RunContext& run) {
+  const auto is_smooth = [&] { return best.spread > 0.0 && best.spread < rules.flat; };
+  rules.first_rad = 0.5 * spacing_rad;
+  for (double gain = rules.flat; gain >= rules.flat && !is_smooth();) {
+    const std::vector<Candidate> ends = ascended(
+        largest_apart(valued(directions_around(best.direction, kNearRad, spacing_rad), target),
+                      target.objective().starts, 1.5 * spacing_rad),
+        rules, target, run.quiet());
+    if (ends.empty()) {  // the survey is coarser than that is far
+      break;
+    }
+    gain = ends[0].value - best.value;
+    if (gain > 0.0) {
+      best = ends[0];
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 Candidate search_globally(const SearchTarget& target, const RunContext& run) {
@@ -103,29 +149,20 @@ Candidate search_globally(const SearchTarget& target, const RunContext& run) {
       direction_set(ViewSphereBase::Icosahedron, target.objective().survey_level);
   const std::vector<double> estimates =
       cheapest.estimates(set.directions, run.part(0.0, kSurveyed));
-  AscentRules rules{.first_rad = std::max(spacing_rad, kFirstReachRad),
-                    .last_rad = target.finest_deg() * kRadPerDeg,
-                    .flat = kNotWorthARing * range_of(estimates),
-                    .drops_losers = true};
-  std::vector<Candidate> candidates =
+  const AscentRules rules{.first_rad = std::max(spacing_rad, kFirstReachRad),
+                          .last_rad = target.finest_deg() * kRadPerDeg,
+                          .flat = kNotWorthARing * range_of(estimates),
+                          .drops_losers = true};
+  std::vector<Candidate> ends =
       ascended(largest_apart(valued(promising(set, estimates, 1.5 * spacing_rad), cheapest),
                              target.objective().starts, kFirstReachRad),
                rules, cheapest, run.part(kSurveyed, kAscended));
+  ends[0] = highest_near(ends[0], rules, spacing_rad, cheapest, run);
   if (target.has_proxy()) {
-    candidates =
-        ascended(best_by_score(candidates, target), rules, target, run.part(kAscended, 1.0));
-  }
-  candidates.resize(1);
-  // Where it is rough to the finest ring a second ascent, on another lattice, may gain.
-  rules.first_rad = 0.5 * spacing_rad;
-  for (double before = -std::numeric_limits<double>::infinity();
-       candidates[0].value > before && candidates[0].spread >= rules.flat;) {
-    before = candidates[0].value;
-    candidates[0].place = {};
-    ascend(candidates, rules, target, 1, run.quiet());
+    ends = ascended(best_by_score(ends, target), rules, target, run.part(kAscended, 1.0));
   }
   run.advance("search", 1.0);
-  return candidates[0];
+  return ends[0];
 }
 
 }  // namespace vantage

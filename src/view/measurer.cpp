@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
 
-#include <Eigen/Geometry>
-
 #include "vantage/core/error.h"
-#include "vantage/mesh/measures.h"
-#include "vantage/mesh/topology.h"
-#include "vantage/significance/mesh_saliency.h"
 #include "vantage/view/measure.h"
 
 #include "core/parallel.h"
-#include "core/shannon.h"
-#include "mesh/curvature.h"
+#include "view/measured_model.h"
 #include "view/shared_logs.h"
 #include "view/skeleton_sight.h"
 #include "view/view_likelihood.h"
@@ -40,32 +31,12 @@ MeasureNeeds both(MeasureNeeds a, const MeasureNeeds& b) {
   return a;
 }
 
-/// Second moment of the surface about its centroid over its area, in closed form.
-Eigen::Matrix3d spread_of(const TriMesh& mesh, const std::vector<double>& areas, double total) {
-  Vec3 centre = Vec3::Zero();
-  for (std::size_t f = 0; f < areas.size(); ++f) {
-    for (const std::uint32_t v : mesh.triangles[f]) {
-      centre += areas[f] / 3.0 * (mesh.positions[v] - mesh.positions[0]);
-    }
+MeasureNeeds needs_of_all(const std::vector<Measure>& measures) {
+  MeasureNeeds needs;
+  for (const Measure& measure : measures) {
+    needs = both(needs, measure.needs);
   }
-  centre = mesh.positions[0] + centre / total;
-  Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
-  for (std::size_t f = 0; f < areas.size(); ++f) {
-    // ∫ x xᵀ over a triangle: area / 12 times (Σ of the corners' own products + that of their sum).
-    Vec3 sum = Vec3::Zero();
-    for (const std::uint32_t v : mesh.triangles[f]) {
-      const Vec3 p = mesh.positions[v] - centre;
-      moment += areas[f] / 12.0 * p * p.transpose();
-      sum += p;
-    }
-    moment += areas[f] / 12.0 * sum * sum.transpose();
-  }
-  return moment / total;
-}
-
-/// Whether all that a measure looks at is among what is kept of the set's views.
-bool is_kept(const MeasureNeeds& needs) {
-  return !needs.vertices && !needs.outline;
+  return needs;
 }
 
 }  // namespace
@@ -78,20 +49,22 @@ struct ViewMeasurer::State {
   std::optional<FaceVisibility> faces{};
   std::optional<OutlineTracer> outlines{};
   MeasureValues of_set{};
-  bool is_measured = false;  // all of of_set
+  bool is_measured = false;     // all of of_set
+  bool keeps_vertices = false;  // of views of the set
   int set_level = 0;
   ViewChannel channel{};  // unless the subject brings it; what model.set_views refers to
 
-  void prepare(const RunContext& run);
-  void prepare_maps(const RunContext& run);
+  void prepare();
   void survey(const RunContext& run);
   void measure_set(const RunContext& run);
   void look_at_set(const RunContext& run);
+
+  [[nodiscard]] bool is_of_set() const { return needs.channel || needs.neighbours; }
+
   [[nodiscard]] bool is_seen_by_set() const;
-  void take(const ViewChannel& seen, const RunContext& run);
-  std::vector<FaceArea> measure_early(std::size_t i);
-  [[nodiscard]] SightTable kept_sight(std::size_t i) const;
-  void measure_late(std::size_t i);
+  void take_seen_by_set();
+  void look_at_view_of_set(std::size_t i);
+  [[nodiscard]] SightTable sight_of_set(std::size_t i) const;
   [[nodiscard]] std::vector<double> estimates_of_set(std::size_t m, const RunContext& run) const;
   [[nodiscard]] SightTable look(const Viewpoint& eye, const MeasureNeeds& wanted,
                                 std::size_t set_index, FaceDetail detail = FaceDetail::Exact) const;
@@ -103,65 +76,22 @@ struct ViewMeasurer::State {
                              FaceDetail detail = FaceDetail::Exact) const;
 };
 
-void ViewMeasurer::State::prepare(const RunContext& run) {
+/// \pre model and measures are there.
+void ViewMeasurer::State::prepare() {
   const TriMesh& mesh = *model.given.surface;
-  model.face_areas = face_areas(mesh);
-  model.log_face_areas.reserve(model.face_areas.size());
-  for (const double area : model.face_areas) {
-    model.surface_area += area;
-    model.log_face_areas.push_back(area > 0.0 ? log_2(area) : 0.0);
-  }
-  if (!(model.surface_area > 0.0) || !(model.given.camera.sphere.diameter > 0.0)) {
-    throw InvalidInput("a surface without area cannot be measured");
-  }
-  if ((needs.kssm && model.given.kssm.size() != mesh.positions.size()) ||
-      (needs.skeleton && (model.given.skeleton == nullptr ||
-                          model.given.node_of_vertex.size() != mesh.positions.size()))) {
-    throw InvalidInput("a measure needs a map or a skeleton that the model was not given");
-  }
-  const bool by_area = model.given.weight == Weight::Area && (needs.kssm || needs.saliency);
   const std::vector<FaceSides> sides(model.given.sides.begin(), model.given.sides.end());
-  needs.faces |= needs.channel || needs.neighbours || by_area;
+  const bool by_area = model.given.weight == Weight::Area && (needs.kssm || needs.saliency);
+  needs.faces |= is_of_set() || by_area;
+  keeps_vertices = std::any_of(measures.begin(), measures.end(), [](const Measure& measure) {
+    return measure.is_of_set() && measure.needs.vertices;
+  });
   if (needs.faces) {
     faces.emplace(mesh, sides);
-  }
-  if (needs.skeleton) {
-    const Vec3& centre = model.given.camera.sphere.centre;
-    model.areas_at_vertex.assign(mesh.positions.size(), 0.0);
-    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-      const Triangle& face = mesh.triangles[f];
-      const Vec3 normal = area_vector(mesh, face);
-      model.planes.push_back({normal, normal.dot(mesh.positions[face[0]] - centre)});
-      for (const std::uint32_t v : face) {
-        model.areas_at_vertex[v] += model.face_areas[f];
-      }
-    }
-  }
-  if (needs.vertices) {
-    if (!faces) {
-      vertices.emplace(mesh, sides);
-    }
-    model.angle_deficits = angle_deficits(mesh);
+  } else if (needs.vertices) {
+    vertices.emplace(mesh, sides);
   }
   if (needs.outline) {
     outlines.emplace(mesh, sides, model.given.camera.sphere);
-  }
-  model.spread = spread_of(mesh, model.face_areas, model.surface_area);
-  if (needs.neighbours) {
-    model.next_views = vertex_neighbours({model.set.directions, model.set.triangles});
-    model.next_coarse_views =
-        vertex_neighbours({model.coarse_set.directions, model.coarse_set.triangles});
-  }
-  prepare_maps(run);
-}
-
-void ViewMeasurer::State::prepare_maps(const RunContext& run) {
-  const TriMesh& mesh = *model.given.surface;
-  if (needs.saliency) {
-    model.saliency.assign(model.given.saliency.begin(), model.given.saliency.end());
-    if (model.saliency.size() != mesh.positions.size()) {
-      model.saliency = compute_mesh_saliency(mesh, {}, run.quiet()).of_vertex;
-    }
   }
 }
 
@@ -262,45 +192,38 @@ std::vector<double> ViewMeasurer::State::values_of(std::size_t m, std::span<cons
   return values;
 }
 
-/// First pass over a view of the set. \return the faces it sees.
-std::vector<FaceArea> ViewMeasurer::State::measure_early(std::size_t i) {
+/// Looks at a view of the set, keeps what it sees, and measures what needs no other view.
+void ViewMeasurer::State::look_at_view_of_set(std::size_t i) {
   SightTable sight = look(model.given.camera.viewpoint(model.set.directions[i]), needs, i);
   for (std::size_t m = 0; m < measures.size(); ++m) {
     of_set[m][i] = measures[m].is_of_set() ? 0.0 : value(m, sight);
   }
-  return std::move(sight.faces);
+  if (is_of_set()) {
+    channel.views[i] = std::move(sight.faces);
+    if (!keeps_vertices) {
+      sight.vertices = {};
+    }
+    model.set_sights[i] = std::move(sight);
+  }
 }
 
-/// What is kept of a view of the set. \pre terms and set_views are there.
-SightTable ViewMeasurer::State::kept_sight(std::size_t i) const {
-  const Viewpoint eye = model.given.camera.viewpoint(model.set.directions[i]);
-  SightTable sight = look(eye, {.neighbours = needs.neighbours}, i);
+/// All that a view of the set sees. \pre set_sights, set_views and terms are there.
+SightTable ViewMeasurer::State::sight_of_set(std::size_t i) const {
+  SightTable sight = model.set_sights[i];
   sight.faces.assign(model.set_views[i].begin(), model.set_views[i].end());
-  sight.projected_area = model.set_sums[i][0];
-  sight.area_logs = model.set_sums[i][1];
   if (needs.channel) {
     sight.channel = channel_measures(sight.faces, model.terms, model.face_areas);
   }
   return sight;
 }
 
-/// Values of a view of the set that need all the others.
-void ViewMeasurer::State::measure_late(std::size_t i) {
-  const SightTable sight = kept_sight(i);
-  for (std::size_t m = 0; m < measures.size(); ++m) {
-    if (measures[m].is_of_set()) {
-      of_set[m][i] = value(m, is_kept(measures[m].needs) ? sight : look(sight.eye, needs, i));
-    }
-  }
-}
-
-/// \pre the measure is of the set, has an estimate and looks at no more than is kept.
+/// \pre the measure is of the set and has an estimate.
 std::vector<double> ViewMeasurer::State::estimates_of_set(std::size_t m,
                                                           const RunContext& run) const {
   std::vector<double> estimates(model.set.directions.size(), 0.0);
   parallel_for(run.quiet(), estimates.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      estimates[i] = value(m, kept_sight(i), FaceDetail::ByCorners);
+      estimates[i] = value(m, sight_of_set(i), FaceDetail::ByCorners);
     }
   });
   return estimates;
@@ -310,7 +233,7 @@ std::vector<double> ViewMeasurer::State::estimates_of_set(std::size_t m,
 bool ViewMeasurer::State::is_seen_by_set() const {
   const ViewChannel* seen = model.given.seen_by_set;
   return seen != nullptr && seen->face_count == model.face_areas.size() &&
-         seen->views.size() == model.set.directions.size() && is_kept(needs) &&
+         seen->views.size() == model.set.directions.size() && !needs.vertices && !needs.outline &&
          std::all_of(measures.begin(), measures.end(),
                      [](const Measure& measure) { return measure.is_of_set(); });
 }
@@ -318,8 +241,8 @@ bool ViewMeasurer::State::is_seen_by_set() const {
 /// Looks at all views of the set once.
 void ViewMeasurer::State::look_at_set(const RunContext& run) {
   const std::size_t count = model.set.directions.size();
-  const bool keeps_faces = needs.channel || needs.neighbours;
-  channel = {model.face_areas.size(), std::vector<std::vector<FaceArea>>(keeps_faces ? count : 0)};
+  channel = {model.face_areas.size(), std::vector<std::vector<FaceArea>>(is_of_set() ? count : 0)};
+  model.set_sights.resize(channel.views.size());
   // In a few batches, so that progress can be told and a stop be heard.
   constexpr std::size_t kBatch = 64;
   for (std::size_t start = 0; start < count; start += kBatch) {
@@ -327,45 +250,45 @@ void ViewMeasurer::State::look_at_set(const RunContext& run) {
     parallel_for(run.quiet(), std::min(kBatch, count - start), 1,
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t i = start + begin; i < start + end; ++i) {
-                     std::vector<FaceArea> faces_seen = measure_early(i);
-                     if (keeps_faces) {
-                       channel.views[i] = std::move(faces_seen);
-                     }
+                     look_at_view_of_set(i);
                    }
                  });
   }
+  model.set_views = channel.views;
 }
 
-/// Takes from what the set sees all that measures need of it.
-void ViewMeasurer::State::take(const ViewChannel& seen, const RunContext& run) {
-  model.set_views = seen.views;
-  model.set_sums.reserve(seen.views.size());
-  for (const std::vector<FaceArea>& view : seen.views) {
-    double area = 0.0;
-    for (const FaceArea& face : view) {
-      area += face.area;
+/// Takes what the set sees from the subject, in place of looking.
+void ViewMeasurer::State::take_seen_by_set() {
+  model.set_views = model.given.seen_by_set->views;
+  for (std::size_t i = 0; i < model.set_views.size(); ++i) {
+    const Viewpoint eye = model.given.camera.viewpoint(model.set.directions[i]);
+    SightTable sight = look(eye, {.neighbours = needs.neighbours}, i);
+    for (const FaceArea& face : model.set_views[i]) {
+      sight.projected_area += face.area;
     }
-    model.set_sums.push_back({area, sum_of_logs(view)});
+    sight.area_logs = sum_of_logs(model.set_views[i]);
+    model.set_sights.push_back(std::move(sight));
+  }
+}
+
+/// Looks at the views of the set, measures what can be measured of each alone, and takes from all of
+/// them together what measures of the set need.
+void ViewMeasurer::State::survey(const RunContext& run) {
+  of_set.assign(measures.size(), std::vector<double>(model.set.directions.size(), 0.0));
+  const bool is_seen = is_seen_by_set();
+  if (is_seen) {
+    take_seen_by_set();
+  } else {
+    look_at_set(run);
   }
   run.advance("views", 0.8);
   if (needs.channel) {
-    model.terms = channel_terms(seen, *model.given.surface, run.quiet());
+    model.terms = channel_terms(is_seen ? *model.given.seen_by_set : channel, *model.given.surface,
+                                run.quiet());
   }
   run.advance("views", 0.9);
   if (needs.neighbours) {
     model.divergences = neighbour_divergences(model.set_views, model.next_views, run.quiet());
-  }
-}
-
-/// Looks at the views of the set and measures what can be measured of each alone.
-void ViewMeasurer::State::survey(const RunContext& run) {
-  of_set.assign(measures.size(), std::vector<double>(model.set.directions.size(), 0.0));
-  const bool is_seen = is_seen_by_set();
-  if (!is_seen) {
-    look_at_set(run);
-  }
-  if (needs.channel || needs.neighbours) {
-    take(is_seen ? *model.given.seen_by_set : channel, run);
   }
 }
 
@@ -374,11 +297,14 @@ void ViewMeasurer::State::measure_set(const RunContext& run) {
   if (of_set.empty()) {
     survey(run);
   }
-  if (!is_measured && (needs.channel || needs.neighbours)) {
+  if (!is_measured && is_of_set()) {
     parallel_for(run.quiet(), model.set.directions.size(), 1,
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t i = begin; i < end; ++i) {
-                     measure_late(i);
+                     const SightTable sight = sight_of_set(i);
+                     for (std::size_t m = 0; m < measures.size(); ++m) {
+                       of_set[m][i] = measures[m].is_of_set() ? value(m, sight) : of_set[m][i];
+                     }
                    }
                  });
   }
@@ -391,16 +317,12 @@ ViewMeasurer::ViewMeasurer(const MeasureSubject& subject, std::vector<Measure> m
   if (subject.surface == nullptr || level < 0 || level > 6) {
     throw InvalidInput("measuring needs a surface and a set of views of level 0 to 6");
   }
-  state_->model.given = subject;
-  state_->set_level = level;
-  state_->model.set = direction_set(ViewSphereBase::Icosahedron, level);
-  state_->model.coarse_set = direction_set(ViewSphereBase::Icosahedron, std::max(0, level - 1));
+  state_->needs = needs_of_all(measures);
   state_->measures = std::move(measures);
-  for (const Measure& measure : state_->measures) {
-    state_->needs = both(state_->needs, measure.needs);
-  }
-  state_->prepare(run);
-  if (state_->needs.channel || state_->needs.neighbours) {
+  state_->set_level = level;
+  state_->model = measured_model(subject, level, state_->needs, run);
+  state_->prepare();
+  if (state_->is_of_set()) {
     state_->survey(run);
   }
 }

@@ -53,14 +53,13 @@ class SetDistances {
   static constexpr double kUnknown = -1.0;
 
   double divergence(std::uint32_t view) {
-    const auto& [area, logs] = model_->set_sums[view];
-    if (!(area > 0.0)) {
+    const SightTable& other = model_->set_sights[view];
+    if (!(other.projected_area > 0.0)) {
       return 1.0;  // it sees nothing, and so shares nothing
     }
-    const double scale = seen_.area / area;
-    return divergence_of(
-        seen_, laid_out_,
-        {model_->set_views[view], seen_.area, scale * logs + seen_.area * log_2(scale), scale});
+    const double scale = seen_.area / other.projected_area;
+    const double logs = scale * other.area_logs + seen_.area * log_2(scale);
+    return divergence_of(seen_, laid_out_, {model_->set_views[view], seen_.area, logs, scale});
   }
 
   const MeasuredModel* model_;

@@ -147,8 +147,8 @@ struct MeasureSubject {
 /// What measures need of a view or of the model; only that is computed.
 struct MeasureNeeds {
   bool vertices = false;  ///< SightTable::vertices.
-  /// SightTable::faces, depths, sums by area. Of the set's own views, with channel or neighbours, faces,
-  /// projected_area and area_logs only.
+  /// SightTable::faces, depths, sums by area; of views of the set that were seen before, see
+  /// MeasureSubject::seen_by_set, no depths and no sums of maps.
   bool faces = false;
   bool outline = false;     ///< SightTable::outline.
   bool channel = false;     ///< MeasuredModel::terms: every view of the set is looked at first.
@@ -178,9 +178,8 @@ struct MeasuredModel {
   DirectionSet set{};                                  ///< The views that channel terms are of.
   ChannelTerms terms{};                                ///< Of that set.
   std::span<const std::vector<FaceArea>> set_views{};  ///< Faces seen by each view of the set.
-  /// SightTable's projected_area and area_logs of each of these.
-  std::vector<std::array<double, 2>> set_sums{};
-  IndexLists next_views{};  ///< Views beside each view of the set.
+  std::vector<SightTable> set_sights{};  ///< What else they see: without faces and channel.
+  IndexLists next_views{};               ///< Views beside each view of the set.
   /// The set one level coarser, if neighbours are looked at: its views are the first of the set.
   DirectionSet coarse_set{};
   IndexLists next_coarse_views{};     ///< Views beside each view of that.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <set>
@@ -172,6 +173,25 @@ TEST(GlobalSearch, SurveysByTheScoreWhereThereIsNoSurrogate) {
   EXPECT_LT(angle_between(best.direction, kHigh), kFoundRad);
   EXPECT_EQ(best.estimates, 0U);
   EXPECT_GT(best.evaluations, 2562U);
+}
+
+TEST(GlobalSearch, FindsANarrowSummitBesideABroadOne) {
+  // In the middle of a triangle of the survey, beside a summit that is flat to 3° from its middle.
+  const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, 4);
+  Vec3 summit = Vec3::Zero();
+  for (const auto& [a, b, c] : set.triangles) {
+    const Vec3 middle = (set.directions[a] + set.directions[b] + set.directions[c]).normalized();
+    const double from_broad = angle_between(middle, kHigh);
+    if (from_broad > 3.5 * kRadPerDeg && from_broad < 4.5 * kRadPerDeg) {
+      summit = middle;
+    }
+  }
+  const auto both = [&](const Vec3& d) {
+    return std::min(bump(d, kHigh, 0.4), 0.98) +
+           (angle_between(d, summit) < 1.3 * kRadPerDeg ? 0.2 : 0.0);
+  };
+  const FoundView best = search_view({batch_of(both), kTotal}, Goal::Best);
+  EXPECT_LT(angle_between(best.direction, summit), 1.3 * kRadPerDeg);
 }
 
 TEST(GlobalSearch, SurveysAndRefinesAsTheObjectiveAsks) {

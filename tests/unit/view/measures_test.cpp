@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include <Eigen/Geometry>
@@ -441,6 +442,30 @@ TEST(Measures, OfOnesOwnTakePart) {
                     }};
   const ViewMeasurer measurer(cube.given, {own});
   EXPECT_EQ(measurer.values(std::vector<Vec3>{Vec3::UnitX()})[0][0], 10.0);
+}
+
+TEST(Measures, OfOnesOwnSeeInTheSetWhatTheySeeElsewhere) {
+  Subject ring(test::torus(1.0, 0.4, 24, 12), Projection::Orthographic);
+  const std::vector<double> ones(ring.mesh.positions.size(), 1.0);
+  ring.given.kssm = ones;
+  ring.given.weight = Weight::Area;
+  const Measure of_faces{.name = "of faces",
+                         .needs = {.faces = true, .channel = true, .kssm = true},
+                         .value = [](const MeasuredModel& /*model*/, const SightTable& sight) {
+                           return sight.deepest + sight.depths[3] + sight.kssm_sum;
+                         }};
+  const Measure of_more{.name = "of more",
+                        .needs = {.vertices = true, .outline = true, .neighbours = true},
+                        .value = [](const MeasuredModel& /*model*/, const SightTable& sight) {
+                          return std::accumulate(sight.vertices.begin(), sight.vertices.end(),
+                                                 sight.outline.length);
+                        }};
+  ViewMeasurer measurer(ring.given, {of_faces, of_more}, 1);
+  const MeasureValues of_set = measurer.set_values();
+  EXPECT_EQ(of_set, measurer.values(measurer.set().directions));
+  for (const std::vector<double>& values : of_set) {
+    EXPECT_GT(*std::min_element(values.begin(), values.end()), 0.0);
+  }
 }
 
 TEST(Measures, RefuseAModelWithoutTheMapTheyNeed) {
