@@ -8,7 +8,7 @@ cmake --preset release -DVANTAGE_BUILD_BENCH=OFF -DVANTAGE_QUICK_BUILD=ON >/dev/
 cmake --build --preset release -j "$(nproc)"
 code=0
 log=$PWD/build/release/tests.log
-ctest --preset release -j "$(($(nproc) + 1))" --output-log "$log" || code=$?  # the tests of Slurm mostly wait
+ctest --preset release -j "$(($(nproc) + 2))" --output-log "$log" || code=$?  # the tests of Slurm mostly wait
 scripts/count_tests.py build/release
 sed -n '/ tests passed, /,$p' "$log"  # the runner's own summary comes last
 exit $code

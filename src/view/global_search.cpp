@@ -19,10 +19,9 @@ namespace {
 constexpr std::size_t kScored = 96;  // directions scored before the ascent, half of them peaks
 // Of the first rings of the ascent, over small maxima; its starts are farther apart.
 constexpr double kFirstReachRad = 5.0 * kRadPerDeg;
-constexpr double kNotWorthARing = 3e-4;  // share of the range that is not worth a finer ring
-constexpr std::size_t kProxyEnds = 2;    // of the ends by a proxy, ascend once more by the score
-// Around the end of the ascent where the score is rough: so far from a maximum a higher one is often.
-constexpr double kNearRad = 8.0 * kRadPerDeg;
+constexpr double kNotWorthARing = 3e-4;        // share of the range that is not worth a finer ring
+constexpr std::size_t kAscendAgain = 2;        // of ends by a proxy, and of what is near an end
+constexpr double kNearRad = 8.0 * kRadPerDeg;  // so far from a maximum a higher one is often
 
 // Of the progress bar: where the survey ends, and the ascent after it.
 constexpr double kSurveyed = 0.5;
@@ -107,7 +106,7 @@ std::vector<Candidate> best_by_score(const std::vector<Candidate>& ends,
   for (const Candidate& end : ends) {
     directions.push_back(end.direction);
   }
-  return largest_apart(valued(directions, target), kProxyEnds, 0.0);
+  return largest_apart(valued(directions, target), kAscendAgain, 0.0);
 }
 
 /// Moves the candidates to where they end, the highest first.
@@ -127,7 +126,7 @@ Candidate highest_near(Candidate best, AscentRules rules, double spacing_rad,
   for (double gain = rules.flat; gain >= rules.flat && !is_smooth();) {
     const std::vector<Candidate> ends = ascended(
         largest_apart(valued(directions_around(best.direction, kNearRad, spacing_rad), target),
-                      target.objective().starts, 1.5 * spacing_rad),
+                      kAscendAgain, 1.5 * spacing_rad),
         rules, target, run.quiet());
     if (ends.empty()) {  // the survey is coarser than that is far
       break;
