@@ -58,9 +58,7 @@ struct ViewMeasurer::State {
   void survey(const RunContext& run);
   void measure_set(const RunContext& run);
   void look_at_set(const RunContext& run);
-
-  [[nodiscard]] bool is_of_set() const { return needs.channel || needs.neighbours; }
-
+  [[nodiscard]] bool is_of_set() const;
   [[nodiscard]] bool is_seen_by_set() const;
   void take_seen_by_set();
   void look_at_view_of_set(std::size_t i);
@@ -76,7 +74,11 @@ struct ViewMeasurer::State {
                              FaceDetail detail = FaceDetail::Exact) const;
 };
 
-/// \pre model and measures are there.
+bool ViewMeasurer::State::is_of_set() const {
+  return needs.channel || needs.neighbours;
+}
+
+/// \pre model, measures and their needs are there.
 void ViewMeasurer::State::prepare() {
   const TriMesh& mesh = *model.given.surface;
   const std::vector<FaceSides> sides(model.given.sides.begin(), model.given.sides.end());
@@ -234,6 +236,7 @@ bool ViewMeasurer::State::is_seen_by_set() const {
   const ViewChannel* seen = model.given.seen_by_set;
   return seen != nullptr && seen->face_count == model.face_areas.size() &&
          seen->views.size() == model.set.directions.size() && !needs.vertices && !needs.outline &&
+         !needs.skeleton &&
          std::all_of(measures.begin(), measures.end(),
                      [](const Measure& measure) { return measure.is_of_set(); });
 }
