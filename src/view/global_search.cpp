@@ -118,22 +118,20 @@ std::vector<Candidate> ascended(std::vector<Candidate> candidates, const AscentR
 }
 
 /// The highest end of ascents from near a candidate, again while much is gained: where the score
-/// is rough, or goes in steps and is the same all around, a higher maximum is often near.
+/// is rough, or goes in steps and is the same all around, a higher maximum is often near. Where the
+/// survey is coarser than that, the candidate.
 Candidate highest_near(Candidate best, AscentRules rules, double spacing_rad,
                        const SearchTarget& target, const RunContext& run) {
   const auto is_smooth = [&] { return best.spread > 0.0 && best.spread < rules.flat; };
   rules.first_rad = 0.5 * spacing_rad;
-  for (double gain = rules.flat; gain >= rules.flat && !is_smooth();) {
-    const std::vector<Candidate> ends = ascended(
-        largest_apart(valued(directions_around(best.direction, kNearRad, spacing_rad), target),
-                      kAscendAgain, 1.5 * spacing_rad),
-        rules, target, run.quiet());
-    if (ends.empty()) {  // the survey is coarser than that is far
-      break;
-    }
-    gain = ends[0].value - best.value;
+  for (double gain = rules.flat; gain >= rules.flat && !is_smooth() && spacing_rad <= kNearRad;) {
+    const std::vector<Vec3> around = directions_around(best.direction, kNearRad, spacing_rad);
+    const Candidate end =
+        ascended(largest_apart(valued(around, target), kAscendAgain, 1.5 * spacing_rad), rules,
+                 target, run.quiet())[0];
+    gain = end.value - best.value;
     if (gain > 0.0) {
-      best = ends[0];
+      best = end;
     }
   }
   return best;
