@@ -13,12 +13,12 @@ build=${1:-build/release}
 list=cmake/public_symbols.txt
 layouts=cmake/public_layout.txt
 
-# Functions and classes that the public headers declare: what only src/ knows may come and go.
+# Functions and classes that the public headers declare: what only src/ knows, as a class's State, may come and go.
 classes=$(grep -rhv '^ *friend ' include | grep -oE '\b(class|struct|namespace) [A-Za-z_][A-Za-z0-9_]*' | cut -d' ' -f2 | sort -u)
 declared=$(grep -rhoE '\b[A-Za-z_][A-Za-z0-9_]*\s*\(' include | tr -d ' (' | sort -u)
 symbols() {
   nm -C --defined-only "$build"/libvantage.* 2>/dev/null | awk '$2 == "T"' | cut -d' ' -f3- |
-    sed 's/\[abi:cxx11\]//' | grep -E '^vantage::' | grep -vE '\(anonymous namespace\)|\{lambda|\[clone' |
+    sed 's/\[abi:cxx11\]//' | grep -E '^vantage::' | grep -vE '\(anonymous namespace\)|::State::|\{lambda|\[clone' |
     awk -v names="$declared" -v classes="$classes" 'BEGIN {
         n = split(names, list, "\n"); for (i = 1; i <= n; ++i) known[list[i]] = 1
         n = split(classes, list, "\n"); for (i = 1; i <= n; ++i) owner[list[i]] = 1 }

@@ -306,7 +306,9 @@ void ViewMeasurer::State::measure_set(const RunContext& run) {
                    for (std::size_t i = begin; i < end; ++i) {
                      const SightTable sight = sight_of_set(i);
                      for (std::size_t m = 0; m < measures.size(); ++m) {
-                       of_set[m][i] = measures[m].is_of_set() ? value(m, sight) : of_set[m][i];
+                       if (measures[m].is_of_set()) {
+                         of_set[m][i] = value(m, sight);
+                       }
                      }
                    }
                  });
