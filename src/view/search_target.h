@@ -52,10 +52,14 @@ class SearchTarget {
   /// Whether every view is as good as any other.
   [[nodiscard]] bool is_flat() const { return objective_->total == 0.0; }
 
+  /// Whether it is not the score itself that is searched.
+  [[nodiscard]] bool is_preference() const {
+    return goal_ == Goal::Best && static_cast<bool>(objective_->preference);
+  }
+
   /// Of the global search's rings.
   [[nodiscard]] double finest_deg() const {
-    return goal_ == Goal::Best && objective_->preference ? objective_->finest_preferred_deg
-                                                         : objective_->finest_deg;
+    return is_preference() ? objective_->finest_preferred_deg : objective_->finest_deg;
   }
 
   [[nodiscard]] const ViewObjective& objective() const { return *objective_; }
@@ -70,7 +74,7 @@ class SearchTarget {
       for (std::size_t i = begin; i < end; ++i) {
         if (goal_ == Goal::Worst) {
           scores[i] = -scores[i];
-        } else if (goal_ == Goal::Best && objective_->preference) {
+        } else if (is_preference()) {
           scores[i] = objective_->preference(directions[i], scores[i]);
         }
       }

@@ -160,7 +160,6 @@ VANTAGE_INLINE void EyeGrid::make_ready(const Surface& surface, FacePacket<Lanes
   const Many low_y = least_of(y) - reach;
   const Many high_y = most_of(y) + reach;
   keep(least_of(depth) - 2.0F * kAxisError, h.nearest);
-  keep(most_of(depth) + 2.0F * kAxisError, h.farthest);
   keep_cells<Lanes>(low_x, last_[0], h.left);
   keep_cells<Lanes>(high_x, last_[0], h.right);
   keep_cells<Lanes>(low_y, last_[1], h.top);
@@ -209,18 +208,12 @@ void EyeGrid::strike_site(const Surface& surface, const FacePacket<Lanes>& h, un
     inside = std::min(
         inside, x_[slot] * side.along_x[lane] + y_[slot] * side.along_y[lane] + side.offset[lane]);
   }
-  bool is_hidden =
-      inside > h.error_bound[lane] && depth_[slot] > h.farthest[lane] && steep_[face] != 0;
-  if (!is_hidden) {
-    const std::uint32_t site = site_of_[slot];
-    const float behind = depth_behind(surface, site, face);
-    if (behind < -kHeightError) {
-      return;  // on the eye's side
-    }
-    is_hidden =
-        (behind > kHeightError && inside > h.error_bound[lane]) || blocks(surface, site, face);
+  const std::uint32_t site = site_of_[slot];
+  const float behind = depth_behind(surface, site, face);
+  if (behind < -kHeightError) {
+    return;  // on the eye's side
   }
-  if (is_hidden) {
+  if ((behind > kHeightError && inside > h.error_bound[lane]) || blocks(surface, site, face)) {
     hidden.store(1, std::memory_order_relaxed);
   }
 }

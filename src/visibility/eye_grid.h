@@ -64,7 +64,7 @@ class EyeGrid {
   struct Walk;
 
   void face_sides(const Surface& surface, const RunContext& run);
-  void block_sides(const FaceBlocks& blocks, float steep);
+  void block_sides(const FaceBlocks& blocks, float error_bound);
   bool aim(const Surface& surface, const RunContext& run);
   bool set_axes();
   void project(const FloatPoints& points, std::vector<Spot>& spots, const RunContext& run) const;
@@ -148,7 +148,6 @@ class EyeGrid {
   std::vector<std::uint32_t> asked_{};      // sites asked about, ascending
   std::vector<std::uint32_t> cell_{};       // of each of them
   std::vector<std::uint8_t> turned_{};      // of each face
-  std::vector<std::uint8_t> steep_{};       // of each face: far from edge on
   std::vector<std::uint8_t> block_side_{};  // of each block: that of all its faces, or 0
   std::vector<std::uint32_t> begin_{};      // where each cell begins in the arrays below
   std::vector<std::uint32_t> site_of_{};    // sites, one cell after the other

@@ -11,9 +11,6 @@
 namespace vantage {
 namespace {
 
-// Faces whose normal makes a larger cosine than this with the line of sight are steep: points
-// clearly behind them (by 2^-21 of the frame) lie off their plane far more than a touch.
-constexpr float kSteep = 0x1p-10F;
 // A face whose normal is this close to a right angle with the line of sight is seen edge on: the
 // rounding of positions in a UnitFrame and of the dot product, in radians.
 constexpr double kEdgeOn = 0x1p-46;
@@ -47,23 +44,19 @@ void EyeGrid::face_sides(const Surface& surface, const RunContext& run) {
   const FacePlanes& planes = surface.planes;
   const std::size_t count = surface.faces.size();
   turned_.resize(count);
-  steep_.resize(count);
   const bool perspective = eye.projection == Projection::Perspective;
   const auto length = static_cast<float>(eye.position.norm());
   const Eigen::Vector3f at = eye.position.cast<float>();
   const float offset = perspective ? 1.0F : 0.0F;
   // Bounds the rounding of the float height below: a dozen roundings of numbers of this size.
   const float error_bound = 0x1p-19F * (length + 2.0F);
-  const float steep = kSteep * (length + 2.0F);
-  block_sides(surface.blocks, steep);
+  block_sides(surface.blocks, error_bound);
   const auto faces_of = [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       const float height = planes.x[f] * at.x() + planes.y[f] * at.y() + planes.z[f] * at.z() -
                            offset * planes.offset[f];
-      const float size = std::abs(height);
       const int side = height > 0.0F ? 1 : 2;
-      turned_[f] = static_cast<std::uint8_t>(size > error_bound ? side : 3);
-      steep_[f] = static_cast<std::uint8_t>(size > steep ? 1 : 0);
+      turned_[f] = static_cast<std::uint8_t>(std::abs(height) > error_bound ? side : 3);
     }
     for (std::size_t f = begin; f < end; ++f) {
       if (turned_[f] == 3) {
@@ -80,14 +73,13 @@ void EyeGrid::face_sides(const Surface& surface, const RunContext& run) {
         faces_of(first, last);
       } else {
         std::fill(turned_.data() + first, turned_.data() + last, block_side_[block]);
-        std::fill(steep_.data() + first, steep_.data() + last, std::uint8_t{1});
       }
     }
   });
 }
 
-/// Which side all of a block's faces turn to the eye, all of them steep; 0 if that is not clear.
-void EyeGrid::block_sides(const FaceBlocks& blocks, float steep) {
+/// Which side all of a block's faces turn to the eye; 0 if that is not clear.
+void EyeGrid::block_sides(const FaceBlocks& blocks, float error_bound) {
   const Eigen::Vector3f at = eye_.position.cast<float>();
   const bool perspective = eye_.projection == Projection::Perspective;
   block_side_.assign(blocks.radius.size(), 0);
@@ -105,8 +97,8 @@ void EyeGrid::block_sides(const FaceBlocks& blocks, float steep) {
     const float aside = std::sqrt(std::max(0.0F, sight.squaredNorm() - along * along));
     const float cosine = blocks.cosine[i];
     const float sine = std::sqrt(std::max(0.0F, 1.0F - cosine * cosine));
-    // Twice what is steep: rounding is less, that of a narrow cone's cosine above all.
-    const float bound = 2.0F * steep + (perspective ? blocks.radius[i] : 0.0F);
+    // Far more than rounding, that of a narrow cone's cosine above all.
+    const float bound = 0x1p10F * error_bound + (perspective ? blocks.radius[i] : 0.0F);
     const float least = along * cosine - aside * sine;
     const float most = along * cosine + aside * sine;
     const bool is_cone = cosine > 0.0F;

@@ -42,7 +42,7 @@ struct FacePacket {
   unsigned count = 0;
   Numbers face;
   Numbers left, right, top, bottom;  // the cells it touches
-  Floats nearest, farthest;          // its least depth and its largest, rounded outwards
+  Floats nearest;                    // its least depth, rounded down
   std::array<Side, 3> sides;
   Floats error_bound;  // error of these values
   Floats least;        // points with less than this are outside
