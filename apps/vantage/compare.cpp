@@ -51,6 +51,7 @@ struct CompareCommand {
     ViewOptions options = method.resolve();
     options.margin_percent = look.margin_percent();
     const std::vector<Measure> measures = chosen_measures(session, options);
+    method.require_use(uses_saliency(measures), "saliency", "mesh-saliency");
     const RunContext run = session.run();
     const Model loaded = load_posed(session, model, options, no_images ? nullptr : &look);
     OutputFolder output(folder.empty() ? folder_named(loaded.name, ".compare") : folder,

@@ -56,6 +56,8 @@ struct MapCommand {
   void run(Session& session) {
     ViewOptions options = method.resolve();
     const bool by_skeleton = name == "kssm" || name == "thickness";
+    method.require_use(name == "mesh-saliency", "saliency", "mesh-saliency");
+    method.require_use(by_skeleton, "map", "kssm and thickness");
     if (!by_skeleton && (!levels.empty() || !options.focus.empty())) {
       throw CLI::ValidationError(levels.empty() ? "--focus" : "--levels",
                                  "goes with --method kssm or thickness only");

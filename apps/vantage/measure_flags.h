@@ -14,6 +14,9 @@ namespace vantage::cli {
 /// Parses "kssm,vmi" or "all". \throw CLI::ValidationError naming what there is.
 std::vector<Measure> parse_measures(const std::string& text, const std::string& flag);
 
+/// Whether any of them is of the map of mesh saliency.
+bool uses_saliency(const std::vector<Measure>& measures);
+
 /// Lets shells complete the names of measures. \param others further values.
 void offer_measures(const CLI::Option* option, std::vector<std::string> others = {});
 

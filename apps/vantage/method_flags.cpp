@@ -84,6 +84,14 @@ ViewOptions MethodFlags::resolve(std::uint64_t seed) const {
   return all.view;
 }
 
+void MethodFlags::require_use(bool is_used, std::string_view group,
+                              const std::string& methods) const {
+  const std::string flag = flags_.first_given(group);
+  if (!is_used && !flag.empty()) {
+    throw CLI::ValidationError(flag, "goes with --method " + methods + " only");
+  }
+}
+
 UpAxis up_axis(const std::string& name) {
   return static_cast<UpAxis>(index_of_word(kUpWords, name).value());
 }

@@ -28,6 +28,14 @@ bool stands_alone(const Option& option) {
   return option.form != TextForm::File && option.form != TextForm::Name;
 }
 
+bool is_on_by_default(const Option& option) {
+  return option.kind == OptionKind::Switch && std::get<bool>(option.value({}));
+}
+
+std::string flag_of(const Option& option) {
+  return (is_on_by_default(option) ? "--no-" : "--") + option.name;
+}
+
 }  // namespace
 
 CLI::ValidationError refused(const InvalidInput& error, std::string flag) {
@@ -64,9 +72,8 @@ CLI::Option* OptionFlags::add_value(CLI::App& app, const Option& option) {
 }
 
 void OptionFlags::add_flag(CLI::App& app, const Option& option) {
-  const bool is_on = std::get<bool>(option.value({}));
-  app.add_flag_callback((is_on ? "--no-" : "--") + option.name,
-                        [this, &option, is_on] { given_[option.name] = !is_on; },
+  const bool is_on = is_on_by_default(option);
+  app.add_flag_callback(flag_of(option), [this, &option, is_on] { given_[option.name] = !is_on; },
                         is_on ? option.off_help : option.help)
       ->group(option.heading);
 }
@@ -108,6 +115,15 @@ void OptionFlags::add_groups(CLI::App& app, std::initializer_list<std::string_vi
       add(app, option, start);
     }
   }
+}
+
+std::string OptionFlags::first_given(std::string_view group) const {
+  for (const Option& option : option_table()) {
+    if (option.group == group && has(option.name)) {
+      return flag_of(option);
+    }
+  }
+  return {};
 }
 
 void OptionFlags::apply(AllOptions& all) const {

@@ -28,6 +28,9 @@ class OptionFlags {
   /// Whether the option was given.
   [[nodiscard]] bool has(const std::string& name) const { return given_.contains(name); }
 
+  /// The flag of the first option of a group that was given; empty if none was.
+  [[nodiscard]] std::string first_given(std::string_view group) const;
+
   /// Sets what was given, in the order of the table. \throw CLI::ValidationError; IoError, FormatError
   /// of files that are named
   void apply(AllOptions& all) const;

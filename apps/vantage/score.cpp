@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <array>
 #include <fstream>
 #include <iterator>
@@ -66,6 +65,7 @@ struct ScoreCommand {
   void run(Session& session) {
     ViewOptions options = method.resolve();
     const std::vector<Measure> measures = parse_measures(measure, "--method");
+    method.require_use(uses_saliency(measures), "saliency", "mesh-saliency");
     const RunContext run = session.run();
     const bool free_eyes = !eyes.empty();
     if (free_eyes && !visible.empty()) {
@@ -118,7 +118,7 @@ struct ScoreCommand {
     require_area(shape, model);
     MeasureSubject subject = measure_subject(shape, options);
     const std::vector<double> map =
-        needs_saliency(measures) ? vertex_map(shape, options, "mesh-saliency", run.part(0.4, 0.5))
+        uses_saliency(measures) ? vertex_map(shape, options, "mesh-saliency", run.part(0.4, 0.5))
                                  : std::vector<double>{};
     subject.saliency = map;
     ViewMeasurer measurer(subject, measures, view_set, run.part(0.5, 0.9));
@@ -137,11 +137,6 @@ struct ScoreCommand {
     for (const std::string& warning : shape.warnings) {
       session.say("note: " + warning);
     }
-  }
-
-  static bool needs_saliency(const std::vector<Measure>& measures) {
-    return std::any_of(measures.begin(), measures.end(),
-                       [](const Measure& m) { return m.needs.saliency; });
   }
 
   void write(Session& session, const std::vector<Measure>& measures,

@@ -100,6 +100,7 @@ struct ViewCommand {
     options.view_set = several.request();
     options.margin_percent = look.margin_percent();
     measure.apply(options);
+    method.require_use(options.method == "mesh-saliency", "saliency", "mesh-saliency");
     const RunContext run = session.run();
 
     StageSeconds seconds;

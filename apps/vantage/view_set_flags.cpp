@@ -70,15 +70,18 @@ void ViewSetFlags::add_set_to(CLI::App& app) {
 void ViewSetFlags::add_to(CLI::App& app) {
   add_set_to(app);
   const std::string group = kGroup;
-  app.add_option("--tour", tour_, "moving picture of the round over the views: .webp or .png")
-      ->check(check_tour_name)
-      ->group(group);
+  CLI::Option* tour =
+      app.add_option("--tour", tour_, "moving picture of the round over the views: .webp or .png")
+          ->check(check_tour_name)
+          ->group(group);
   app.add_option("--tour-seconds", seconds_, "length of the tour; default: 36 degrees a second")
       ->check(CLI::Range(0.1, kMostTourSeconds))
+      ->needs(tour)
       ->group(group);
   app.add_option("--fps", fps_, "pictures a second of the tour")
       ->check(CLI::Range(1, 60))
       ->capture_default_str()
+      ->needs(tour)
       ->group(group);
   app.add_option_function<std::string>(
          "--tour-size",
@@ -87,6 +90,7 @@ void ViewSetFlags::add_to(CLI::App& app) {
          },
          "size of the tour's pictures in pixels, like --size")
       ->default_str("480x360")
+      ->needs(tour)
       ->group(group);
 }
 
@@ -94,8 +98,9 @@ std::optional<ViewSetRequest> ViewSetFlags::request() const {
   AllOptions all;
   flags_.apply(all);
   const std::optional<ViewSetRequest> request = checked(all.view);
-  if (!request && (!tour_.empty() || flags_.has("select") || flags_.has("tour-path"))) {
-    throw CLI::ValidationError("--views",
+  const std::string flag = tour_.empty() ? flags_.first_given("set") : "--tour";
+  if (!request && !flag.empty()) {
+    throw CLI::ValidationError(flag,
                                "say how many views are wanted, with --views N or --coverage C");
   }
   check_sides(tour_, width_, height_, "--tour-size");

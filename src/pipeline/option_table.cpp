@@ -108,10 +108,14 @@ std::optional<ViewSetRequest> checked_view_set(const ViewOptions& options) {
   if (!by_kssm && request.set.min_separation_deg > 0.0) {
     throw InvalidInput(select + "; min-separation goes with select kssm");
   }
+  if (!by_kssm && !request.set.refine) {
+    throw InvalidInput(select + ", which refines nothing; no-refine goes with select kssm");
+  }
   if (request.set.views || request.set.coverage || request.information > 0.0) {
     return request;
   }
-  if (!by_kssm || request.set.min_separation_deg > 0.0 || request.path == TourPath::Explore) {
+  if (!by_kssm || request.set.min_separation_deg > 0.0 || request.path == TourPath::Explore ||
+      !request.set.refine) {
     throw InvalidInput(
         "option views is not given: say how many views are wanted, by views or coverage");
   }

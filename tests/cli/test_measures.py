@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import os
 import pathlib
 import subprocess
 import unittest
@@ -173,6 +174,19 @@ class Measures(ProgramTest):
     def test_epsilon_goes_with_the_rapid_search_only(self):
         self.assertIn("--epsilon", self.vantage("view", FAN, "-o", "out", "--epsilon", "0.5", exit_code=2).err)
         self.vantage("view", FAN, "-o", "out", "--epsilon", "0.5", "--search", "rapid", "--no-images")
+
+    def test_flags_that_nothing_would_use_are_refused(self):
+        for flag, *words in (("--signed", "view", FAN), ("--saliency-scale", "view", FAN, "--saliency-scale", 0.01, "--method", "vmi"),
+                             ("--signed", "map", FAN, "-o", "m.ply"), ("--signed", "score", FAN, "--sphere", 0),
+                             ("--signed", "compare", FAN, "--method", "kssm"),
+                             ("--kinematics", "map", FAN, "-o", "m.ply", "--method", "pmi-saliency", "--kinematics", "velocity"),
+                             ("--fps", "view", FAN, "--views", 2, "--fps", 4), ("--tour-seconds", "view", FAN, "--tour-seconds", 4)):
+            words += [flag] if flag not in words else []
+            self.assertIn(flag, self.vantage(*words, exit_code=2).err)
+        self.assertIn("say how many views", self.vantage("view", FAN, "--no-refine", exit_code=2).err)
+        self.assertIn("no-refine", self.vantage("view", FAN, "--views", 2, "--select", "vazquez", "--no-refine", exit_code=2).err)
+        self.assertEqual(os.listdir(self.dir), [])
+        self.vantage("score", FAN, "--sphere", 0, "--method", "kssm,mesh-saliency", "--signed")
 
     def test_a_surface_without_area_is_named(self):
         self.write("line.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n")
