@@ -191,7 +191,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Choices choices(data, size);
   const PlyDraft draft(choices);
   const auto read = [](const std::string& bytes) {
-    return sound_model([&] { return vantage::parse_ply(bytes, "fuzz.ply", {}); });
+    return sound_model([&] { return vantage::parse_ply(bytes, "fuzz.ply", {}, {}); });
   };
   const auto text = read(draft.text());
   const auto little = read(draft.little());

@@ -15,8 +15,10 @@
 #include "io/byte_cursor.h"
 #include "io/gltf_uri.h"
 #include "io/model_format.h"
+#include "io/named_path.h"
 #include "io/obj_libraries.h"
 #include "io/obj_lines.h"
+#include "io/ply_header.h"
 #include "io/side_files.h"
 #include "io/text_cursor.h"
 
@@ -27,6 +29,7 @@ constexpr std::size_t kMostText = 64U << 20U;  // [ours] of a glTF, and of all l
 // A GLB begins with 12 bytes of its own and 8 of the chunk that is its JSON, the first four its length.
 constexpr std::size_t kGlbHeaders = 20;
 constexpr std::size_t kGlbLength = 12;
+constexpr std::size_t kMostHeader = 1U << 20U;  // [ours] of a PLY
 constexpr std::string_view kLibrary = "mtllib";
 
 /// Whether a line may yet turn out to name a library.
@@ -74,6 +77,21 @@ std::vector<std::string> names_in_obj(const std::string& text, const SideFileSou
   return names;
 }
 
+std::vector<std::string> names_in_ply(const std::string& text, const SideFileSource& files) {
+  std::vector<std::string> names;
+  const RunContext run;
+  try {
+    const ModelBuilder builder(ModelFormat::Ply, "", run, 0);
+    for (const std::string& texture : read_ply_header(without_bom(text), builder).textures) {
+      if (auto place = place_of_picture(with_slashes(texture), files)) {
+        names.push_back(std::move(*place));
+      }
+    }
+  } catch (const FormatError&) {  // no model either
+  }
+  return names;
+}
+
 }  // namespace
 
 FilesBeside::FilesBeside(std::string model_path) : model_path_(std::move(model_path)) {
@@ -81,6 +99,7 @@ FilesBeside::FilesBeside(std::string model_path) : model_path_(std::move(model_p
   is_obj_ = extension == format_name(ModelFormat::Obj);
   is_gltf_ = extension == format_name(ModelFormat::Gltf);
   is_glb_ = extension == format_name(ModelFormat::Glb);
+  is_ply_ = extension == format_name(ModelFormat::Ply);
 }
 
 void FilesBeside::pass(std::string_view bytes) {
@@ -88,6 +107,8 @@ void FilesBeside::pass(std::string_view bytes) {
     text_.append(bytes.substr(0, kMostText - std::min(text_.size(), kMostText)));
   } else if (is_glb_) {
     keep_json_of_glb(bytes);
+  } else if (is_ply_) {
+    text_.append(bytes.substr(0, kMostHeader - std::min(text_.size(), kMostHeader)));
   } else if (is_obj_) {
     keep_libraries(bytes);
   }
@@ -138,6 +159,7 @@ std::vector<FileBeside> FilesBeside::find() const {
        is_gltf_  ? names_in_gltf(text_)
        : is_glb_ ? names_in_gltf(text_.substr(std::min(kGlbHeaders, text_.size())))
        : is_obj_ ? names_in_obj(text_ + line_, files)
+       : is_ply_ ? names_in_ply(text_, files)
                  : std::vector<std::string>()) {
     std::error_code error;
     const std::string path = place_beside(model_path_, name, error).string();

@@ -32,7 +32,7 @@ Model parse_with(std::string_view bytes, std::string_view name, const RunContext
       case ModelFormat::Off:
         return parse_off(bytes, name, run);
       case ModelFormat::Ply:
-        return parse_ply(bytes, name, run);
+        return parse_ply(bytes, name, run, surroundings);
       case ModelFormat::Stl:
         return parse_stl(bytes, name, run);
       case ModelFormat::Xyz:

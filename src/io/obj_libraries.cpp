@@ -1,33 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "io/obj_libraries.h"
 
-#include <algorithm>
-
-#include "io/gltf_uri.h"
+#include "io/named_path.h"
 #include "io/text_cursor.h"
 
 namespace vantage {
 namespace {
 
-/// Programs of Windows write backslashes.
-std::string with_slashes(std::string_view name) {
-  std::string path(name);
-  std::replace(path.begin(), path.end(), '\\', '/');
-  return path;
-}
-
 std::string folder_of(const std::string& path) {
   return path.substr(0, path.find_last_of('/') + 1);
-}
-
-/// A relative path as the file names it; nothing if it leaves the folder.
-std::optional<std::string> inside_folder(const std::string& path) {
-  // The rules are those of glTF; a percent sign is none of an OBJ's ways to write a character.
-  std::string escaped;
-  for (const char c : path) {
-    escaped += c == '%' ? std::string("%25") : std::string(1, c);
-  }
-  return relative_path_of_uri(escaped);
 }
 
 }  // namespace
@@ -79,14 +60,6 @@ bool ObjLibraries::read_materials(const std::string& path) {
     materials_.try_emplace(material, look);
   }
   return true;
-}
-
-std::optional<std::string> ObjLibraries::place_of(const std::string& picture) const {
-  // A path of the author's own disk: the picture has usually been put beside the model.
-  const std::optional<std::string> path = inside_folder(picture);
-  return path && (!files_ || files_(*path).bytes)
-             ? path
-             : inside_folder(picture.substr(picture.find_last_of('/') + 1));
 }
 
 }  // namespace vantage

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/mtl.h"
+#include "io/named_path.h"
 #include "io/readers.h"
 
 namespace vantage {
@@ -38,7 +39,9 @@ class ObjLibraries {
   [[nodiscard]] const std::vector<std::string>& missing() const { return missing_; }
 
   /// Where a material's picture is, relative to the model's folder; nothing if nowhere inside.
-  [[nodiscard]] std::optional<std::string> place_of(const std::string& picture) const;
+  [[nodiscard]] std::optional<std::string> place_of(const std::string& picture) const {
+    return place_of_picture(picture, files_);
+  }
 
  private:
   [[nodiscard]] bool read_library(std::string_view name);

@@ -12,6 +12,7 @@
 #include "io/model_builder.h"
 #include "io/ply_header.h"
 #include "io/ply_source.h"
+#include "io/ply_textures.h"
 #include "io/readers.h"
 #include "io/text_cursor.h"
 
@@ -38,8 +39,8 @@ double full_colour(PlyScalar type, double largest) {
 template <class Source>
 class BodyReader {
  public:
-  BodyReader(Source source, ModelBuilder& builder, std::size_t all_bytes)
-      : source_(source), builder_(builder), all_bytes_(all_bytes) {}
+  BodyReader(Source source, ModelBuilder& builder, PlyTextures& textures, std::size_t all_bytes)
+      : source_(source), builder_(builder), textures_(textures), all_bytes_(all_bytes) {}
 
   void read(const PlyHeader& header) {
     for (const PlyElement& element : header.elements) {
@@ -57,6 +58,7 @@ class BodyReader {
           break;
       }
     }
+    textures_.finish();
   }
 
   /// Values that the header does not declare.
@@ -82,7 +84,11 @@ class BodyReader {
         types[channel(property)] = property.type;
       }
     }
-    const bool coloured = types[0] && types[1] && types[2];
+    const bool has_colours = types[0] && types[1] && types[2];
+    const bool coloured = has_colours && textures_.places() == PlyTextures::Places::None;
+    if (has_colours && !coloured) {
+      builder_.note("colours of vertices left out: the textures are shown");
+    }
     for (std::uint64_t v = 0; v < element.count; ++v) {
       read_vertex(element, coloured);
       builder_.advance(source_.offset(), all_bytes_);
@@ -112,6 +118,8 @@ class BodyReader {
   void read_vertex(const PlyElement& element, bool coloured) {
     Vec3 point = Vec3::Zero();
     std::array<float, 3> colour{};
+    std::array<double, 2> on_picture{};
+    const bool lies_on_vertices = textures_.places() == PlyTextures::Places::OfVertices;
     const Place binary_place = source_.place();
     source_.begin_row();
     for (const PlyProperty& property : element.properties) {
@@ -127,6 +135,13 @@ class BodyReader {
         case PlyRole::Blue:
           colour[channel(property)] = static_cast<float>(source_.next(property.type));
           break;
+        case PlyRole::U:
+        case PlyRole::V:
+          if (lies_on_vertices) {
+            on_picture[property.role == PlyRole::U ? 0 : 1] = source_.next(property.type);
+            break;
+          }
+          [[fallthrough]];
         default:
           skip_property(property);
       }
@@ -135,6 +150,9 @@ class BodyReader {
     builder_.add_point(point, binary_place.unit[0] == 'b' ? binary_place : source_.place());
     if (coloured) {
       colours_.push_back(colour);
+    }
+    if (lies_on_vertices) {
+      builder_.add_uv(on_picture[0], on_picture[1]);
     }
   }
 
@@ -145,19 +163,69 @@ class BodyReader {
                                          })) {
       builder_.note("colours of faces left out; those of vertices are read");
     }
+    const bool is_textured =
+        textures_.places() != PlyTextures::Places::None && element.kind == PlyElement::Kind::Face;
     for (std::uint64_t f = 0; f < element.count; ++f) {
       source_.begin_row();
-      for (const PlyProperty& property : element.properties) {
-        if (property.role != PlyRole::Indices) {
-          skip_property(property);
-        } else if (element.kind == PlyElement::Kind::Face) {
-          read_polygon(property);
-        } else {
-          read_strips(property);
-        }
+      if (is_textured) {
+        read_textured_face(element);
+      } else {
+        read_face(element);
       }
       source_.end_row();
       builder_.advance(source_.offset(), all_bytes_);
+    }
+  }
+
+  void read_face(const PlyElement& element) {
+    for (const PlyProperty& property : element.properties) {
+      if (property.role != PlyRole::Indices) {
+        skip_property(property);
+      } else if (element.kind == PlyElement::Kind::Face) {
+        read_polygon(property);
+      } else {
+        read_strips(property);
+      }
+    }
+  }
+
+  /// What lies on the face may stand before its corners or after them.
+  void read_textured_face(const PlyElement& element) {
+    corners_.clear();
+    places_.clear();
+    double picture = 0.0;
+    for (const PlyProperty& property : element.properties) {
+      if (property.role == PlyRole::Indices) {
+        read_list(property, [&] {
+          const Place place = source_.place();
+          corners_.emplace_back(static_cast<std::uint64_t>(index(property.type, false)), place);
+        });
+      } else if (property.role == PlyRole::CornerPlaces) {
+        read_list(property, [&] { places_.push_back(source_.next(property.type)); });
+      } else if (property.role == PlyRole::TextureNumber) {
+        picture = source_.next(property.type);
+      } else {
+        skip_property(property);
+      }
+    }
+    const bool of_corners = textures_.places() == PlyTextures::Places::OfCorners;
+    const bool has_places = !of_corners || places_.size() == 2 * corners_.size();
+    builder_.begin_material(has_places ? textures_.material(picture) : Appearance::kNone);
+    for (std::size_t k = 0; k < corners_.size(); ++k) {
+      builder_.add_corner(corners_[k].first, corners_[k].second);
+      if (of_corners && has_places) {
+        builder_.add_uv(places_[2 * k], places_[2 * k + 1]);
+        builder_.set_corner_uv(builder_.uv_count() - 1);
+      }
+    }
+    builder_.end_polygon();
+  }
+
+  template <class Read>
+  void read_list(const PlyProperty& property, const Read& read) {
+    const std::size_t length = list_length(property);
+    for (std::size_t i = 0; i < length; ++i) {
+      read();
     }
   }
 
@@ -188,11 +256,10 @@ class BodyReader {
   }
 
   void read_polygon(const PlyProperty& property) {
-    const std::size_t length = list_length(property);
-    for (std::size_t i = 0; i < length; ++i) {
+    read_list(property, [&] {
       const Place place = source_.place();
       builder_.add_corner(static_cast<std::uint64_t>(index(property.type, false)), place);
-    }
+    });
     builder_.end_polygon();
   }
 
@@ -232,16 +299,20 @@ class BodyReader {
 
   Source source_;
   ModelBuilder& builder_;
+  PlyTextures& textures_;
   std::size_t all_bytes_;
-  std::vector<std::array<float, 3>> colours_{};  ///< As they stand there.
+  std::vector<std::array<float, 3>> colours_{};             ///< As they stand there.
+  std::vector<std::pair<std::uint64_t, Place>> corners_{};  ///< Of a textured face.
+  std::vector<double> places_{};                            ///< u, v of each of these.
 };
 
 /// Reads text, and says how many values the header does not declare. \throw FormatError
 Model read_text(std::string_view bytes, std::string_view name, const RunContext& run,
-                PlyTextSource::Rows rows, std::size_t& surplus) {
+                const Surroundings& surroundings, PlyTextSource::Rows rows, std::size_t& surplus) {
   ModelBuilder builder(ModelFormat::Ply, name, run, 0);
   const PlyHeader header = read_ply_header(bytes, builder);
-  BodyReader reader(PlyTextSource(bytes, header, builder, rows), builder, bytes.size());
+  PlyTextures textures(header, surroundings, builder);
+  BodyReader reader(PlyTextSource(bytes, header, builder, rows), builder, textures, bytes.size());
   reader.read(header);
   surplus = reader.surplus();
   return builder.finish();
@@ -249,10 +320,10 @@ Model read_text(std::string_view bytes, std::string_view name, const RunContext&
 
 /// A model whose rows hold more values than the header says, or nothing if that is not what is wrong.
 std::optional<Model> read_by_lines(std::string_view bytes, std::string_view name,
-                                   const RunContext& run) {
+                                   const RunContext& run, const Surroundings& surroundings) {
   try {
     std::size_t surplus = 0;
-    Model model = read_text(bytes, name, run, PlyTextSource::Rows::Lines, surplus);
+    Model model = read_text(bytes, name, run, surroundings, PlyTextSource::Rows::Lines, surplus);
     if (surplus == 0) {
       return std::nullopt;
     }
@@ -264,15 +335,16 @@ std::optional<Model> read_by_lines(std::string_view bytes, std::string_view name
   }
 }
 
-Model read_text(std::string_view bytes, std::string_view name, const RunContext& run) {
+Model read_text(std::string_view bytes, std::string_view name, const RunContext& run,
+                const Surroundings& surroundings) {
   try {
     std::size_t surplus = 0;
-    Model model = read_text(bytes, name, run, PlyTextSource::Rows::Counted, surplus);
+    Model model = read_text(bytes, name, run, surroundings, PlyTextSource::Rows::Counted, surplus);
     std::optional<Model> by_lines =
-        surplus > 0 ? read_by_lines(bytes, name, run) : std::optional<Model>();
+        surplus > 0 ? read_by_lines(bytes, name, run, surroundings) : std::optional<Model>();
     return by_lines ? std::move(*by_lines) : std::move(model);
   } catch (const FormatError&) {
-    if (std::optional<Model> by_lines = read_by_lines(bytes, name, run)) {
+    if (std::optional<Model> by_lines = read_by_lines(bytes, name, run, surroundings)) {
       return std::move(*by_lines);
     }
     throw;
@@ -281,14 +353,16 @@ Model read_text(std::string_view bytes, std::string_view name, const RunContext&
 
 }  // namespace
 
-Model parse_ply(std::string_view bytes, std::string_view name, const RunContext& run) {
+Model parse_ply(std::string_view bytes, std::string_view name, const RunContext& run,
+                const Surroundings& surroundings) {
   bytes = without_bom(bytes);
   ModelBuilder builder(ModelFormat::Ply, name, run, 0);
   const PlyHeader header = read_ply_header(bytes, builder);
   if (header.encoding == PlyEncoding::Ascii) {
-    return read_text(bytes, name, run);
+    return read_text(bytes, name, run, surroundings);
   }
-  BodyReader(PlyBinarySource(bytes, header, builder), builder, bytes.size()).read(header);
+  PlyTextures textures(header, surroundings, builder);
+  BodyReader(PlyBinarySource(bytes, header, builder), builder, textures, bytes.size()).read(header);
   return builder.finish();
 }
 

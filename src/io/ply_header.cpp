@@ -40,7 +40,7 @@ struct RoleName {
   PlyRole role;
 };
 
-constexpr std::array<RoleName, 12> kVertexRoles = {{{"x", PlyRole::X},
+constexpr std::array<RoleName, 18> kVertexRoles = {{{"x", PlyRole::X},
                                                     {"y", PlyRole::Y},
                                                     {"z", PlyRole::Z},
                                                     {"red", PlyRole::Red},
@@ -51,7 +51,13 @@ constexpr std::array<RoleName, 12> kVertexRoles = {{{"x", PlyRole::X},
                                                     {"b", PlyRole::Blue},
                                                     {"diffuse_red", PlyRole::Red},
                                                     {"diffuse_green", PlyRole::Green},
-                                                    {"diffuse_blue", PlyRole::Blue}}};
+                                                    {"diffuse_blue", PlyRole::Blue},
+                                                    {"u", PlyRole::U},
+                                                    {"v", PlyRole::V},
+                                                    {"s", PlyRole::U},
+                                                    {"t", PlyRole::V},
+                                                    {"texture_u", PlyRole::U},
+                                                    {"texture_v", PlyRole::V}}};
 
 /// What a property of this name is for.
 PlyRole role_of(const PlyElement& element, const PlyProperty& property) {
@@ -65,8 +71,17 @@ PlyRole role_of(const PlyElement& element, const PlyProperty& property) {
   } else if ((element.kind == PlyElement::Kind::Face || element.kind == PlyElement::Kind::Strips) &&
              property.is_list && (name == "vertex_indices" || name == "vertex_index")) {
     role = PlyRole::Indices;
+  } else if (element.kind == PlyElement::Kind::Face) {
+    role = property.is_list && name == "texcoord"     ? PlyRole::CornerPlaces
+           : !property.is_list && name == "texnumber" ? PlyRole::TextureNumber
+                                                      : PlyRole::Other;
   }
   return role;
+}
+
+bool has_property(const PlyElement& element, PlyRole role) {
+  return std::any_of(element.properties.begin(), element.properties.end(),
+                     [&](const PlyProperty& property) { return property.role == role; });
 }
 
 class PlyHeaderReader {
@@ -94,10 +109,11 @@ class PlyHeaderReader {
  private:
   void read_line(std::string_view rest) {
     const std::string_view keyword = take_token(rest);
-    if (keyword.empty() || keyword == "comment" || keyword == "obj_info") {
+    if (keyword == "comment") {
+      read_comment(rest);
+    } else if (keyword.empty() || keyword == "obj_info") {
       return;
-    }
-    if (keyword == "format") {
+    } else if (keyword == "format") {
       read_format(take_token(rest));
     } else if (keyword == "element") {
       read_element(rest);
@@ -105,6 +121,12 @@ class PlyHeaderReader {
       read_property(rest);
     } else {
       builder_.fail(cursor_.place(), "unknown word " + in_quotes(keyword) + " in the header");
+    }
+  }
+
+  void read_comment(std::string_view rest) {
+    if (lower_case(take_token(rest)) == "texturefile" && !trimmed(rest).empty()) {
+      header_.textures.emplace_back(without_quotes(trimmed(rest)));
     }
   }
 
@@ -199,10 +221,7 @@ class PlyHeaderReader {
   }
 
   void check(const PlyElement& element) const {
-    const auto has = [&](PlyRole role) {
-      return std::any_of(element.properties.begin(), element.properties.end(),
-                         [&](const PlyProperty& property) { return property.role == role; });
-    };
+    const auto has = [&](PlyRole role) { return has_property(element, role); };
     if (element.kind == PlyElement::Kind::Vertex &&
         !(has(PlyRole::X) && has(PlyRole::Y) && has(PlyRole::Z))) {
       builder_.fail("the element vertex lacks one of the properties x, y, z");
@@ -228,6 +247,11 @@ class PlyHeaderReader {
 std::size_t ply_scalar_bytes(PlyScalar type) {
   constexpr std::array<std::size_t, 8> kBytes = {1, 1, 2, 2, 4, 4, 4, 8};
   return kBytes[static_cast<std::size_t>(type)];
+}
+
+bool has_role(const PlyHeader& header, PlyRole role) {
+  return std::any_of(header.elements.begin(), header.elements.end(),
+                     [&](const PlyElement& element) { return has_property(element, role); });
 }
 
 PlyHeader read_ply_header(std::string_view bytes, const ModelBuilder& builder) {

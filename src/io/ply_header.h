@@ -19,7 +19,20 @@ enum class PlyScalar { I8, U8, I16, U16, I32, U32, F32, F64 };
 std::size_t ply_scalar_bytes(PlyScalar type);
 
 /// What a property means to us.
-enum class PlyRole { Other, X, Y, Z, Red, Green, Blue, Indices };
+enum class PlyRole {
+  Other,
+  X,
+  Y,
+  Z,
+  Red,
+  Green,
+  Blue,
+  U,
+  V,
+  Indices,
+  CornerPlaces,   ///< u, v of each corner of a face, as MeshLab writes them.
+  TextureNumber,  ///< Of a face.
+};
 
 struct PlyProperty {
   std::string name{};
@@ -40,9 +53,13 @@ struct PlyElement {
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::Ascii;
   std::vector<PlyElement> elements{};
-  std::size_t body_offset = 0;  ///< First byte after end_header and its line end.
-  std::size_t body_line = 1;    ///< Line number of that byte.
+  std::vector<std::string> textures{};  ///< Pictures that comments name, as MeshLab writes them.
+  std::size_t body_offset = 0;          ///< First byte after end_header and its line end.
+  std::size_t body_line = 1;            ///< Line number of that byte.
 };
+
+/// Whether any element has such a property.
+bool has_role(const PlyHeader& header, PlyRole role);
 
 /// Reads and checks the header. \throw FormatError
 PlyHeader read_ply_header(std::string_view bytes, const ModelBuilder& builder);

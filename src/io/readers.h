@@ -46,8 +46,9 @@ Model parse_obj(std::string_view bytes, std::string_view name, const RunContext&
 /// Geomview OFF with any of the prefixes ST C N 4 n, text or binary.
 Model parse_off(std::string_view bytes, std::string_view name, const RunContext& run);
 
-/// Stanford PLY, ascii or binary of either byte order.
-Model parse_ply(std::string_view bytes, std::string_view name, const RunContext& run);
+/// Stanford PLY, ascii or binary of either byte order; textures as MeshLab names them, if wanted.
+Model parse_ply(std::string_view bytes, std::string_view name, const RunContext& run,
+                const Surroundings& surroundings);
 
 /// STL, text or binary, told apart by size and content.
 Model parse_stl(std::string_view bytes, std::string_view name, const RunContext& run);

@@ -93,7 +93,7 @@ std::string comparison_json(const Model& model, const Comparison& comparison, Up
   json["model"] = model.name;
   json["up"] = up_name(up);
   json["views"] = comparison.set.directions.size();
-  json["search"] = options.search.strategy == SearchStrategy::Gradient ? "gradient" : "global";
+  json["search"] = options.search.strategy == SearchStrategy::Gradient ? "gradient" : "rings";
   if (with_seconds) {
     json["seconds"] = comparison.survey_seconds;
   }

@@ -70,7 +70,7 @@ std::string_view format_name(const Model& model);
 
 /// What is wanted of a file besides its shape.
 struct ReadOptions {
-  /// Also the materials of glTF and OBJ with their textures, which may be large. What cannot be had
+  /// Also the materials of glTF, OBJ and PLY with their textures, which may be large. What cannot be had
   /// of them is left out, with a note: it is no reason to refuse the shape.
   bool appearance = false;
   /// Textures are looked at no closer than that many pixels on their longer side, so that large JPEGs
@@ -127,7 +127,9 @@ class FilesBeside {
   bool is_obj_ = false;
   bool is_gltf_ = false;
   bool is_glb_ = false;
-  std::string text_{};    ///< The JSON of a glTF, or the lines of an OBJ that name libraries.
+  bool is_ply_ = false;
+  std::string
+      text_{};  ///< The JSON of a glTF, the start of a PLY, or an OBJ's lines that name libraries.
   std::string line_{};    ///< Of an OBJ: what has passed of the current line, as far as it matters.
   bool skips_ = false;    ///< The rest of the line does not matter.
   bool goes_on_ = false;  ///< The line before ends with \, so this one belongs to it.

@@ -101,6 +101,18 @@ TEST_F(FilesBesideAModel, BuffersAndPicturesOfAGltf) {
   EXPECT_THAT(found("m.stl", text), IsEmpty());
 }
 
+TEST_F(FilesBesideAModel, PicturesOfAPly) {
+  write("my wood.png");
+  write("t.png");
+  const std::string text =
+      "ply\nformat ascii 1.0\ncomment TextureFile C:\\work\\my wood.png\ncomment TextureFile "
+      "t.png\n"
+      "comment TextureFile gone.png\nelement vertex 1\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n0 0 0\n";
+  EXPECT_THAT(found("m.ply", text, 7), ElementsAre("my wood.png", "t.png"));
+  EXPECT_THAT(found("m.ply", text.substr(0, 60)), IsEmpty());
+}
+
 TEST_F(FilesBesideAModel, NothingOutsideTheFolder) {
   const TemporaryFolder elsewhere;
   write_file(elsewhere.file("a.mtl"), "x");
