@@ -77,11 +77,12 @@ std::vector<std::string> names_in_obj(const std::string& text, const SideFileSou
   return names;
 }
 
-std::vector<std::string> names_in_ply(const std::string& text, const SideFileSource& files) {
+std::vector<std::string> names_in_ply(const std::string& text, const std::string& model_path,
+                                      const SideFileSource& files) {
   std::vector<std::string> names;
   const RunContext run;
   try {
-    const ModelBuilder builder(ModelFormat::Ply, "", run, 0);
+    const ModelBuilder builder(ModelFormat::Ply, model_path, run, 0);
     for (const std::string& texture : read_ply_header(without_bom(text), builder).textures) {
       if (auto place = place_of_picture(with_slashes(texture), files)) {
         names.push_back(std::move(*place));
@@ -159,7 +160,7 @@ std::vector<FileBeside> FilesBeside::find() const {
        is_gltf_  ? names_in_gltf(text_)
        : is_glb_ ? names_in_gltf(text_.substr(std::min(kGlbHeaders, text_.size())))
        : is_obj_ ? names_in_obj(text_ + line_, files)
-       : is_ply_ ? names_in_ply(text_, files)
+       : is_ply_ ? names_in_ply(text_, model_path_, files)
                  : std::vector<std::string>()) {
     std::error_code error;
     const std::string path = place_beside(model_path_, name, error).string();

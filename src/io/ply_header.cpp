@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <utility>
@@ -124,9 +125,17 @@ class PlyHeaderReader {
     }
   }
 
+  /// MeshLab's placeholder stands for the model's own name, without its ending.
+  [[nodiscard]] std::string of_this_model(std::string texture) const {
+    constexpr std::string_view kThis = "<this>";
+    const std::size_t at = texture.find(kThis);
+    const std::string stem = std::filesystem::path(builder_.name()).stem().string();
+    return at == std::string::npos ? texture : texture.replace(at, kThis.size(), stem);
+  }
+
   void read_comment(std::string_view rest) {
     if (lower_case(take_token(rest)) == "texturefile" && !trimmed(rest).empty()) {
-      header_.textures.emplace_back(without_quotes(trimmed(rest)));
+      header_.textures.push_back(of_this_model(std::string(without_quotes(trimmed(rest)))));
     }
   }
 

@@ -104,12 +104,13 @@ TEST_F(FilesBesideAModel, BuffersAndPicturesOfAGltf) {
 TEST_F(FilesBesideAModel, PicturesOfAPly) {
   write("my wood.png");
   write("t.png");
+  write("m_a.png");
   const std::string text =
-      "ply\nformat ascii 1.0\ncomment TextureFile C:\\work\\my wood.png\ncomment TextureFile "
-      "t.png\n"
-      "comment TextureFile gone.png\nelement vertex 1\nproperty float x\nproperty float y\n"
-      "property float z\nend_header\n0 0 0\n";
-  EXPECT_THAT(found("m.ply", text, 7), ElementsAre("my wood.png", "t.png"));
+      "ply\nformat ascii 1.0\ncomment TextureFile C:\\work\\my wood.png\n"
+      "comment TextureFile t.png\ncomment TextureFile <this>_a.png\n"
+      "comment TextureFile gone.png\nelement vertex 1\nproperty float x\n"
+      "property float y\nproperty float z\nend_header\n0 0 0\n";
+  EXPECT_THAT(found("m.ply", text, 7), ElementsAre("my wood.png", "t.png", "m_a.png"));
   EXPECT_THAT(found("m.ply", text.substr(0, 60)), IsEmpty());
 }
 

@@ -21,12 +21,12 @@ using testing::IsEmpty;
 
 constexpr std::uint32_t kNone = Appearance::kNone;
 
-/// A square of one quadrangle in a folder with a green picture "a.png" and a blue "b.png".
+/// A square of one quadrangle in a folder with a green picture "a.png" and a blue "m.png".
 class PlyAppearance : public testing::Test {
  protected:
   PlyAppearance() {
     write_file(folder_.file("a.png"), png_bytes(Image{1, 1, {0, 255, 0, 255}}));
-    write_file(folder_.file("b.png"), png_bytes(Image{1, 1, {0, 0, 255, 255}}));
+    write_file(folder_.file("m.png"), png_bytes(Image{1, 1, {0, 0, 255, 255}}));
   }
 
   Model load(const std::string& text, bool with_appearance = true) const {
@@ -83,7 +83,7 @@ TEST_F(PlyAppearance, PlacesMayStandBeforeTheCorners) {
 }
 
 TEST_F(PlyAppearance, EachFaceNamesItsPicture) {
-  const std::string text = header(std::string(kNamesA) + "comment texturefile \"b.png\"\n", "",
+  const std::string text = header(std::string(kNamesA) + "comment texturefile \"<this>.png\"\n", "",
                                   std::string(kOfCorners) + "property int texnumber\n", 4) +
                            kSquare +
                            "3 0 1 2 6 0 0 1 0 1 1 1\n"
