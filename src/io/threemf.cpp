@@ -278,10 +278,15 @@ Model parse_threemf(std::string_view bytes, std::string_view name, const RunCont
   if (parts.find(root) == parts.end()) {
     builder.fail("names the part " + in_quotes(root) + ", which is not in the archive");
   }
+  bool has_unread_materials = false;
   for (const auto& [part_name, part] : parts) {
     if (part.needs_double) {
       builder.coordinates_need_double();
     }
+    has_unread_materials = has_unread_materials || part.has_unread_materials;
+  }
+  if (has_unread_materials && builder.keeps_appearance()) {
+    builder.note("textures and mixed materials left out; colours are read");
   }
   PlateReader reader(parts, bytes.size(), surroundings.options.max_faces, builder);
   reader.read(root);

@@ -289,6 +289,9 @@ class ThreemfPartReader::State {
       group_->push_back(static_cast<std::uint32_t>(part_.materials.size()));
       part_.materials.push_back(
           material_of(attributes.text(element == "base" ? "displaycolor" : "color").value_or("")));
+    } else if (element == "texture2dgroup" || element == "compositematerials" ||
+               element == "multiproperties") {
+      part_.has_unread_materials = true;
     }
   }
 

@@ -52,6 +52,7 @@ struct ThreemfPart {
   std::vector<Material> materials{};  ///< Colours only.
   bool needs_double = false;          ///< Coordinates say more than a float holds.
   std::size_t unprinted = 0;          ///< Items that are not to be printed.
+  bool has_unread_materials = false;  ///< Textures or mixtures.
   /// Extensions that the part needs and nobody reads here: the ends of their namespaces.
   std::vector<std::string> unread_extensions{};
 };

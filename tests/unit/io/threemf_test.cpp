@@ -237,6 +237,17 @@ TEST(Threemf, GivesTrianglesTheColoursOfTheirGroups) {
   EXPECT_THAT(colour(2), ElementsAre(0.0, 1.0, 0.0));
 }
 
+TEST(Threemf, NotesTexturesThatItDoesNotRead) {
+  Plate plate;
+  plate.resources =
+      R"(<m:texture2dgroup id="8" texid="9"><m:tex2coord u="0" v="0"/></m:texture2dgroup>)"
+      R"(<object id="1" pid="8" pindex="0"><mesh><vertices><vertex x="0" y="0" z="0"/>)"
+      R"(<vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/></vertices><triangles>)"
+      R"(<triangle v1="0" v2="1" v3="2"/></triangles></mesh></object>)";
+  EXPECT_THAT(plate.parsed(true).notes, Contains(HasSubstr("textures and mixed materials")));
+  EXPECT_THAT(plate.parsed(false).notes, IsEmpty());
+}
+
 TEST(ThreemfError, NamesThePartAndTheLineOfAMissingVertex) {
   Plate plate;
   plate.resources = std::string("\n<object id=\"1\">\n") + kTetrahedron + "</object>";
