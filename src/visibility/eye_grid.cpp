@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -69,8 +70,37 @@ VANTAGE_INLINE void keep_cells(const typename Registers<Lanes>::Floats& at, floa
 
 }  // namespace
 
+void EyeGrid::begin(const Viewpoint& eye, const TurnedFaces& turned,
+                    std::span<const std::uint8_t> backs) {
+  eye_ = eye;
+  turned_ = &turned;
+  backs_ = backs;
+  aim_ = Aim::None;
+}
+
+/// Lists the sites asked about and where they are.
+void EyeGrid::place_sites(const std::vector<std::uint8_t>& seen, const RunContext& run) {
+  asked_.resize(seen.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    asked_[count] = static_cast<std::uint32_t>(i);
+    count += seen[i] != 0 ? 1 : 0;
+  }
+  asked_.resize(count);
+  cell_.resize(count);
+  const std::vector<Spot>& spots = picture_.spots();
+  parallel_for(run, count, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Spot& spot = spots[asked_[k]];
+      const CellRange at = picture_.cells_of({spot, spot});
+      cell_[k] = at.top * picture_.columns() + at.left;
+    }
+  });
+}
+
 void EyeGrid::sort_sites() {
-  begin_.assign(std::size_t{rows_} * columns_ + 1, 0);
+  const std::vector<Spot>& spots = picture_.spots();
+  begin_.assign(std::size_t{picture_.rows()} * picture_.columns() + 1, 0);
   for (const std::uint32_t cell : cell_) {
     ++begin_[cell];
   }
@@ -88,21 +118,22 @@ void EyeGrid::sort_sites() {
     const std::uint32_t i = asked_[k];
     const std::uint32_t slot = --begin_[cell_[k]];
     site_of_[slot] = i;
-    x_[slot] = corners_[i][0];
-    y_[slot] = corners_[i][1];
-    depth_[slot] = corners_[i][2];
+    x_[slot] = spots[i][0];
+    y_[slot] = spots[i][1];
+    depth_[slot] = spots[i][2];
   }
 }
 
 void EyeGrid::find_deepest() {
-  tile_columns_ = (columns_ >> kTileShift) + 1;
-  tile_rows_ = (rows_ >> kTileShift) + 1;
+  const std::uint32_t columns = picture_.columns();
+  tile_columns_ = (columns >> kTileShift) + 1;
+  tile_rows_ = (picture_.rows() >> kTileShift) + 1;
   deepest_.assign(std::size_t{tile_columns_} * tile_rows_, -kInfinity);
-  for (std::uint32_t row = 0; row < rows_; ++row) {
+  for (std::uint32_t row = 0; row < picture_.rows(); ++row) {
     for (std::uint32_t tile = 0; tile < tile_columns_; ++tile) {
-      const std::size_t first = std::size_t{row} * columns_;
-      const std::uint32_t low = std::min(tile << kTileShift, columns_);
-      const std::uint32_t high = std::min((tile + 1) << kTileShift, columns_);
+      const std::size_t first = std::size_t{row} * columns;
+      const std::uint32_t low = std::min(tile << kTileShift, columns);
+      const std::uint32_t high = std::min((tile + 1) << kTileShift, columns);
       float& deepest = deepest_[std::size_t{row >> kTileShift} * tile_columns_ + tile];
       for (std::uint32_t i = begin_[first + low]; i < begin_[first + high]; ++i) {
         if (hidden_[i] != 0) {
@@ -112,6 +143,32 @@ void EyeGrid::find_deepest() {
       }
     }
   }
+}
+
+/// Puts what is nearest to the eye first.
+void EyeGrid::sort_faces(const Surface& surface) {
+  const std::vector<Spot>& spots = picture_.spots();
+  std::vector<float> nearest;
+  nearest.reserve(surface.faces.size());
+  for (const auto& [a, b, c] : surface.faces) {
+    nearest.push_back(std::min({spots[a][2], spots[b][2], spots[c][2]}));
+  }
+  order_.resize(nearest.size());
+  std::iota(order_.begin(), order_.end(), 0U);
+  std::sort(order_.begin(), order_.end(),
+            [&](std::uint32_t f, std::uint32_t g) { return nearest[f] < nearest[g]; });
+}
+
+/// \return the number of sites left.
+std::size_t EyeGrid::mark_hidden(std::vector<std::uint8_t>& seen) const {
+  std::size_t left = hidden_.size();
+  for (std::size_t slot = 0; slot < hidden_.size(); ++slot) {
+    if (hidden_[slot] != 0) {
+      seen[site_of_[slot]] = 0;
+      --left;
+    }
+  }
+  return left;
 }
 
 VANTAGE_INLINE bool EyeGrid::behind_all(float nearest, const CellRange& cells) const {
@@ -138,13 +195,14 @@ bool EyeGrid::blocks(const Surface& surface, std::uint32_t site, std::uint32_t f
 template <unsigned Lanes>
 VANTAGE_INLINE void EyeGrid::make_ready(const Surface& surface, FacePacket<Lanes>& h) const {
   using Many = typename Registers<Lanes>::Floats;
+  const std::vector<Spot>& spots = picture_.spots();
   std::array<std::array<float, Lanes>, 3> corner_x;
   std::array<std::array<float, Lanes>, 3> corner_y;
   std::array<std::array<float, Lanes>, 3> corner_depth;
   for (unsigned lane = 0; lane < Lanes; ++lane) {
     const Triangle& corners = surface.faces[h.face[std::min(lane, h.count - 1)]];
     for (std::size_t k = 0; k < 3; ++k) {
-      const Spot& spot = corners_[corners[k]];
+      const Spot& spot = spots[corners[k]];
       corner_x[k][lane] = spot[0];
       corner_y[k][lane] = spot[1];
       corner_depth[k][lane] = spot[2];
@@ -154,16 +212,16 @@ VANTAGE_INLINE void EyeGrid::make_ready(const Surface& surface, FacePacket<Lanes
   const std::array<Many, 3> y = loaded<Many>(corner_y);
   const std::array<Many, 3> depth = loaded<Many>(corner_depth);
   // The face's error and the point's.
-  const float reach = 2.0F * margin_;
+  const float reach = 2.0F * picture_.margin();
   const Many low_x = least_of(x) - reach;
   const Many high_x = most_of(x) + reach;
   const Many low_y = least_of(y) - reach;
   const Many high_y = most_of(y) + reach;
-  keep(least_of(depth) - 2.0F * kAxisError, h.nearest);
-  keep_cells<Lanes>(low_x, last_[0], h.left);
-  keep_cells<Lanes>(high_x, last_[0], h.right);
-  keep_cells<Lanes>(low_y, last_[1], h.top);
-  keep_cells<Lanes>(high_y, last_[1], h.bottom);
+  keep(least_of(depth) - 2.0F * EyePicture::kAxisError, h.nearest);
+  keep_cells<Lanes>(low_x, picture_.last()[0], h.left);
+  keep_cells<Lanes>(high_x, picture_.last()[0], h.right);
+  keep_cells<Lanes>(low_y, picture_.last()[1], h.top);
+  keep_cells<Lanes>(high_y, picture_.last()[1], h.bottom);
   const Many area = (x[1] - x[0]) * (y[2] - y[1]) - (y[1] - y[0]) * (x[2] - x[1]);
   const Many zero{};
   const Many sense = area < zero ? zero - 1.0F : zero + 1.0F;
@@ -176,10 +234,10 @@ VANTAGE_INLINE void EyeGrid::make_ready(const Surface& surface, FacePacket<Lanes
     keep(-(along_x * x[k] + along_y * y[k]), h.sides[k].offset);
   }
   // Bounds the error of a side's value at a spot: of the spots, and of a dozen roundings of
-  // products of the grid's and the outline's size, which margin_ holds a share of.
+  // products of the grid's and the outline's size, which the margin holds a share of.
   const Many width = high_x - low_x;
   const Many height = high_y - low_y;
-  const Many error_bound = 16.0F * margin_ * (width < height ? height : width);
+  const Many error_bound = 16.0F * picture_.margin() * (width < height ? height : width);
   keep(error_bound, h.error_bound);
   // A face whose sense is uncertain excludes nothing in its cells.
   keep(sense * area > error_bound ? -error_bound : zero - kInfinity, h.least);
@@ -191,7 +249,8 @@ float EyeGrid::depth_behind(const Surface& surface, std::uint32_t site, std::uin
   const FacePlanes& planes = surface.planes;
   const float height = planes.x[face] * places.x[site] + planes.y[face] * places.y[site] +
                        planes.z[face] * places.z[site] - planes.offset[face];
-  return turned_[face] == 1 ? -height : turned_[face] == 2 ? height : 0.0F;
+  const std::uint8_t side = turned_->of_face[face];
+  return side == 1 ? -height : side == 2 ? height : 0.0F;
 }
 
 template <unsigned Lanes>
@@ -227,7 +286,7 @@ VANTAGE_INLINE std::size_t EyeGrid::strike(const Surface& surface, const FacePac
   const SiteColumns columns{x_.data(), y_.data(), depth_.data(), site_of_.data()};
   std::size_t work = 1;
   for (std::uint32_t row = cells.top; row <= cells.bottom; ++row) {
-    const std::size_t first = std::size_t{row} * columns_;
+    const std::size_t first = std::size_t{row} * picture_.columns();
     const std::uint32_t end = begin_[first + cells.right + 1];
     const std::uint32_t begin = begin_[first + cells.left];
     work += 1 + end - begin;
@@ -295,14 +354,14 @@ VANTAGE_INLINE void EyeGrid::walk_blocks(Walk& walk, std::size_t begin, std::siz
   std::size_t work = 0;
   for (std::size_t first = begin; first < end; first += FaceBlocks::kFaces) {
     const std::size_t block = first / FaceBlocks::kFaces;
-    const std::uint8_t all = block_side_[block];
-    const Extent& extent = blocks_[block];
-    if ((all != 0 && all != walk.side) || behind_all(extent.low[2], cells_of(extent))) {
+    const std::uint8_t all = turned_->of_block[block];
+    const EyePicture::Extent& extent = picture_.outline(block);
+    if ((all != 0 && all != walk.side) || behind_all(extent.low[2], picture_.cells_of(extent))) {
       continue;
     }
     const std::size_t last = std::min(end, first + FaceBlocks::kFaces);
     for (std::size_t f = first; f < last; ++f) {
-      if ((all == 0 && (turned_[f] == 2) != (walk.side == 2)) ||
+      if ((all == 0 && (turned_->of_face[f] == 2) != (walk.side == 2)) ||
           (!walk.asked.empty() && walk.asked[f] == 0)) {
         continue;
       }
@@ -326,7 +385,7 @@ VANTAGE_INLINE void EyeGrid::walk_order(Walk& walk, std::size_t begin, std::size
   std::size_t work = 0;
   for (std::size_t k = begin; k < end && work <= walk.limit; ++k) {
     const std::uint32_t f = order_[k];
-    if (turned_[f] == 2 && !backs_.empty() && backs_[f] == 0) {
+    if (turned_->of_face[f] == 2 && !backs_.empty() && backs_[f] == 0) {
       continue;
     }
     some.face[some.count++] = f;
@@ -386,17 +445,14 @@ bool EyeGrid::walk_sorted(const Surface& surface, std::vector<std::uint8_t>& see
   Walk both{surface, 0, kMostPatience * (hidden_.size() + count)};
   sort_faces(surface);
   std::size_t left = mark_hidden(seen);
-  project(surface.rounded, corners_, run);
-  const std::vector<Spot> projected = corners_;
   std::size_t laid_out = left;
-  lay_out(surface, left, run);
+  picture_.lay_out(left, surface.blocks.balls, run);
   std::size_t done = 0;
   for (std::size_t next = std::min(kNearestFaces, count); next > 0;
        next = std::min(kThenTimes * done, count - done)) {
     if (2 * left < laid_out) {
-      corners_ = projected;
       laid_out = left;
-      lay_out(surface, left, run);
+      picture_.lay_out(left, surface.blocks.balls, run);
     }
     place_sites(seen, run);
     sort_sites();
@@ -413,9 +469,10 @@ bool EyeGrid::walk_sorted(const Surface& surface, std::vector<std::uint8_t>& see
 
 bool EyeGrid::hide(const Surface& surface, std::vector<std::uint8_t>& seen, const RunContext& run) {
   if (aim_ == Aim::None) {
-    aim_ = aim(surface, run) ? Aim::Taken : Aim::Failed;
+    aim_ = picture_.aim(eye_, surface.rounded, run) ? Aim::Taken : Aim::Failed;
     if (aim_ == Aim::Taken) {
-      lay_out(surface, static_cast<std::size_t>(std::count(seen.begin(), seen.end(), 1)), run);
+      picture_.lay_out(static_cast<std::size_t>(std::count(seen.begin(), seen.end(), 1)),
+                       surface.blocks.balls, run);
     }
   }
   if (aim_ == Aim::Failed) {

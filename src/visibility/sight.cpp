@@ -45,8 +45,9 @@ bool Sight::hides_place(const Vec3& place, std::uint32_t face, const Viewpoint& 
 
 Look::Look(Sight& sight, const Viewpoint& eye, const RunContext& run,
            std::span<const std::uint8_t> backs)
-    : sight_(sight), eye_(eye), run_(run), grid_(sight.grids_) {
-  grid_->begin(sight.surface_, eye, backs.empty() ? sight.surface_.backs : backs, run);
+    : sight_(sight), eye_(eye), run_(run), memory_(sight.looks_) {
+  find_turned(sight.surface_, eye, memory_->turned, run);
+  memory_->grid.begin(eye, memory_->turned, backs.empty() ? sight.surface_.backs : backs);
 }
 
 std::vector<std::uint8_t> Look::seen_sites() {
@@ -96,7 +97,7 @@ void Look::strike_hidden(std::vector<std::uint8_t>& asked) {
 }
 
 std::vector<std::uint8_t> Look::not_hidden(std::vector<std::uint8_t> asked) {
-  if (!grid_->hide(sight_.surface_, asked, run_)) {
+  if (!memory_->grid.hide(sight_.surface_, asked, run_)) {
     strike_hidden(asked);
   }
   return asked;

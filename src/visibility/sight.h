@@ -83,7 +83,14 @@ class Sight {
   bool hidden(const Vec3& start, const Viewpoint& eye, const Holds& holds);
 
   Surface surface_;
-  LentMemory<EyeGrid> grids_{};
+
+  /// Working memory of one look.
+  struct LookMemory {
+    TurnedFaces turned{};
+    EyeGrid grid{};
+  };
+
+  LentMemory<LookMemory> looks_{};
   std::once_flag candidates_once_{};
   std::optional<CandidateScene> candidates_{};
 };
@@ -98,12 +105,12 @@ class Look {
 
   /// Whether a side of the face that can be seen is turned to the eye.
   [[nodiscard]] bool is_turned(std::size_t face) const {
-    const std::uint8_t turned = grid_->turned()[face];
+    const std::uint8_t turned = memory_->turned.of_face[face];
     return turned == 1 || (turned == 2 && sight_.surface_.sides[face] == FaceSides::Both);
   }
 
   /// Which side each face turns to the eye: 1 its front, 2 its back, 0 neither.
-  [[nodiscard]] const std::vector<std::uint8_t>& turned() const { return grid_->turned(); }
+  [[nodiscard]] const std::vector<std::uint8_t>& turned() const { return memory_->turned.of_face; }
 
   /// 1 for each site at which a face is turned to the eye and that no face hides.
   [[nodiscard]] std::vector<std::uint8_t> seen_sites();
@@ -124,7 +131,7 @@ class Look {
   Sight& sight_;
   Viewpoint eye_;
   RunContext run_;
-  LentMemory<EyeGrid>::Loan grid_;
+  LentMemory<Sight::LookMemory>::Loan memory_;
 };
 
 }  // namespace vantage

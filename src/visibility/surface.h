@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "vantage/core/camera.h"
+#include "vantage/core/run_context.h"
 #include "vantage/mesh/tri_mesh.h"
 
+#include "spatial/eye_picture.h"
 #include "spatial/ray_scene.h"
 
 /// \file
@@ -15,11 +17,6 @@
 /// faces of zero area and repeated ones, everything in an order in which neighbours in space are close in memory.
 
 namespace vantage {
-
-/// Points rounded to float, coordinate by coordinate, for loops that the compiler vectorises.
-struct FloatPoints {
-  std::vector<float> x{}, y{}, z{};
-};
 
 /// Planes of faces, rounded: the points p with unit normal · p = offset.
 struct FacePlanes {
@@ -32,8 +29,7 @@ struct FaceBlocks {
   /// Faces a block. [ours, by measurement]
   static constexpr std::size_t kFaces = 32;
 
-  FloatPoints centres{};
-  std::vector<float> radius{};  ///< Rounded up.
+  FloatBalls balls{};
   FloatPoints axes{};           ///< Of the cones, unit.
   std::vector<float> cosine{};  ///< Of a cone's half angle, in (0, 1]; 0 for one that is too wide.
 };
@@ -55,6 +51,16 @@ struct Surface {
   FaceBlocks blocks{};                          ///< Of faces 0 … kFaces−1 and so on.
   std::vector<std::uint8_t> backs{};            ///< FaceMeetings::hiding_backs; none: not known.
 };
+
+/// Which side of a surface's faces is turned to an eye: 1 the front, 2 the back, 0 neither.
+struct TurnedFaces {
+  std::vector<std::uint8_t> of_face{};
+  std::vector<std::uint8_t> of_block{};  ///< Of all faces of each block; 0 if that is not clear.
+};
+
+/// Finds that of an eye in the surface's frame. \param turned is given it, and the memory it has.
+void find_turned(const Surface& surface, const Viewpoint& eye, TurnedFaces& turned,
+                 const RunContext& run);
 
 /// The points in single precision.
 FloatPoints rounded_points(std::span<const Vec3> points);

@@ -36,8 +36,10 @@ TEST(EyeGrid, IsEnoughForAHeapOfLargeFaces) {
   Sight sight(prepare_surface(heap(4000), sides));
   const Surface& surface = sight.surface();
   const Viewpoint eye{Projection::Perspective, Vec3(2.0, 3.0, 4.0)};
+  TurnedFaces turned;
+  find_turned(surface, eye, turned, {});
   EyeGrid grid;
-  grid.begin(surface, eye, {}, {});
+  grid.begin(eye, turned, {});
   std::vector<std::uint8_t> seen(surface.sites.size(), 1);
   EXPECT_TRUE(grid.hide(surface, seen, {}));
   for (std::uint32_t i = 0; i < seen.size(); i += 7) {

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Where points, faces and blocks of faces are in the picture, and its cells.
+#include "spatial/eye_picture.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include <Eigen/Geometry>
 
 #include "core/parallel.h"
-#include "visibility/eye_grid.h"
 
 namespace vantage {
 namespace {
 
-// The grid is used when the nearest site has at least this share of the farthest one's depth; a
-// closer eye makes pictures too wide for a flat grid. [ours]
+// A picture is flat when the nearest point has at least this share of the farthest one's depth; a
+// closer eye makes it too wide. [ours]
 constexpr float kNearestShare = 1.0F / 64.0F;
 // Points per cell, and the longest side of the grid in cells: 16 MB of counters at most. Both
 // chosen by measurement on models of 10 K to 170 K vertices. [ours]
@@ -24,7 +23,7 @@ constexpr std::size_t kSpotsPerTask = 4096;  // some tenths of a millisecond
 
 }  // namespace
 
-bool EyeGrid::set_axes() {
+bool EyePicture::set_axes() {
   const double distance = eye_.position.norm();
   if (!(distance > 0.0) || !(distance < 1e6)) {
     return false;
@@ -46,21 +45,22 @@ bool EyeGrid::set_axes() {
   return true;
 }
 
-bool EyeGrid::aim(const Surface& surface, const RunContext& run) {
-  if (surface.faces.empty() || !set_axes()) {
+bool EyePicture::aim(const Viewpoint& eye, const FloatPoints& points, const RunContext& run) {
+  eye_ = eye;
+  if (points.x.empty() || !set_axes()) {
     return false;
   }
-  project(surface.rounded, corners_, run);
-  spanned_ = {corners_.front(), corners_.front()};
-  for (const Spot& s : corners_) {
+  project(points, projected_, run);
+  spanned_ = {projected_.front(), projected_.front()};
+  for (const Spot& s : projected_) {
     spanned_ = {lower(spanned_.low, s), higher(spanned_.high, s)};
   }
   return eye_.projection == Projection::Orthographic ||
          spanned_.low[2] + distance_ > kNearestShare * (spanned_.high[2] + distance_);
 }
 
-void EyeGrid::project(const FloatPoints& points, std::vector<Spot>& spots,
-                      const RunContext& run) const {
+void EyePicture::project(const FloatPoints& points, std::vector<Spot>& spots,
+                         const RunContext& run) const {
   spots.resize(points.x.size());
   parallel_for(run, spots.size(), kSpotsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -69,17 +69,21 @@ void EyeGrid::project(const FloatPoints& points, std::vector<Spot>& spots,
   });
 }
 
-/// Chooses cells for so many points, and puts the corners that project() has placed into them.
-void EyeGrid::lay_out(const Surface& surface, std::size_t active, const RunContext& run) {
-  choose_cells(active);
-  to_cells(corners_, run);
-  outline_blocks(surface.blocks, run);
+void EyePicture::lay_out(std::size_t count, const FloatBalls& balls, const RunContext& run) {
+  choose_cells(count);
+  spots_.resize(projected_.size());
+  parallel_for(run, spots_.size(), kSpotsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      spots_[i] = (projected_[i] - origin_) * scale_;
+    }
+  });
+  outline(balls, run);
 }
 
-void EyeGrid::choose_cells(std::size_t active) {
+void EyePicture::choose_cells(std::size_t count) {
   const float width = spanned_.high[0] - spanned_.low[0];
   const float height = spanned_.high[1] - spanned_.low[1];
-  const double wanted = std::max(1.0, static_cast<double>(active) / kPointsPerCell);
+  const double wanted = std::max(1.0, static_cast<double>(count) / kPointsPerCell);
   const double longest = std::max({width, height, 0x1p-20F});
   const double area = std::max(static_cast<double>(width) * height, longest * longest / wanted);
   const double limit = static_cast<double>(kMaxCells - 1) / longest;
@@ -101,21 +105,13 @@ void EyeGrid::choose_cells(std::size_t active) {
   margin_ = error * cells_per_unit_ + 0x1p-22F * static_cast<float>(std::max(columns_, rows_));
 }
 
-void EyeGrid::to_cells(std::vector<Spot>& spots, const RunContext& run) const {
-  parallel_for(run, spots.size(), kSpotsPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      spots[i] = in_cells(spots[i]);
-    }
-  });
-}
-
-void EyeGrid::outline_blocks(const FaceBlocks& blocks, const RunContext& run) {
-  project(blocks.centres, centres_, run);
-  blocks_.resize(centres_.size());
+void EyePicture::outline(const FloatBalls& balls, const RunContext& run) {
+  project(balls.centres, centres_, run);
+  outlines_.resize(centres_.size());
   const bool perspective = eye_.projection == Projection::Perspective;
-  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+  for (std::size_t i = 0; i < outlines_.size(); ++i) {
     const Spot spot = centres_[i];
-    const float radius = blocks.radius[i] + kAxisError;
+    const float radius = balls.radius[i] + kAxisError;
     // A place in the picture is x over the distance along the axis; both are within the radius.
     const float distance = perspective ? spot[2] + distance_ : 1.0F;
     const float near = perspective ? distance - radius : 1.0F;
@@ -134,54 +130,10 @@ void EyeGrid::outline_blocks(const FaceBlocks& blocks, const RunContext& run) {
     const float farthest = spot[2] + radius;
     const auto columns = static_cast<float>(columns_);
     const auto rows = static_cast<float>(rows_);
-    blocks_[i] =
+    outlines_[i] =
         whole ? Extent{Spot{x_low, y_low, nearest, 0.0F}, Spot{x_high, y_high, farthest, 0.0F}}
               : Extent{Spot{0.0F, 0.0F, nearest, 0.0F}, Spot{columns, rows, farthest, 0.0F}};
   }
-}
-
-/// Lists the sites asked about and where they are.
-void EyeGrid::place_sites(const std::vector<std::uint8_t>& seen, const RunContext& run) {
-  asked_.resize(seen.size());
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    asked_[count] = static_cast<std::uint32_t>(i);
-    count += seen[i] != 0 ? 1 : 0;
-  }
-  asked_.resize(count);
-  cell_.resize(count);
-  parallel_for(run, count, kSpotsPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const Spot& spot = corners_[asked_[k]];
-      const CellRange at = cells_of({spot, spot});
-      cell_[k] = at.top * columns_ + at.left;
-    }
-  });
-}
-
-/// Puts what is nearest to the eye first.
-void EyeGrid::sort_faces(const Surface& surface) {
-  std::vector<float> nearest;
-  nearest.reserve(surface.faces.size());
-  for (const auto& [a, b, c] : surface.faces) {
-    nearest.push_back(std::min({corners_[a][2], corners_[b][2], corners_[c][2]}));
-  }
-  order_.resize(nearest.size());
-  std::iota(order_.begin(), order_.end(), 0U);
-  std::sort(order_.begin(), order_.end(),
-            [&](std::uint32_t f, std::uint32_t g) { return nearest[f] < nearest[g]; });
-}
-
-/// \return the number of sites left.
-std::size_t EyeGrid::mark_hidden(std::vector<std::uint8_t>& seen) const {
-  std::size_t left = hidden_.size();
-  for (std::size_t slot = 0; slot < hidden_.size(); ++slot) {
-    if (hidden_[slot] != 0) {
-      seen[site_of_[slot]] = 0;
-      --left;
-    }
-  }
-  return left;
 }
 
 }  // namespace vantage
