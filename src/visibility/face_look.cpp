@@ -54,7 +54,7 @@ class FaceLook {
     if (detail == FaceDetail::ByCorners) {
       add_by_corners(sums);
     } else {
-      memory_.clip.begin(surface_, local_);
+      memory_.clip.begin(surface_.sites, surface_.faces, local_);
       list_hiding();
       list_contours();
       for (std::uint32_t face = 0; face < surface_.faces.size(); ++face) {
@@ -258,6 +258,10 @@ class FaceLook {
     }
   }
 
+  void take(std::uint32_t face) {
+    memory_.clip.take(face, surface_.area_vectors[face] / surface_.twice_areas[face]);
+  }
+
   static void add_parts(const Polygons& parts, FaceSums& sums, std::uint32_t face) {
     if (parts.size() > 0) {
       sums.begin(face);
@@ -276,7 +280,7 @@ class FaceLook {
     const auto takes_too_many = [&](std::uint32_t k) {
       if (!outline) {
         outline.emplace(memory_.picture, surface_.faces[face]);
-        memory_.clip.take(face);
+        take(face);
       }
       const auto& edge = scene_.edges.table.edges[memory_.edges[k]];
       if (!outline->is_beside(edge)) {
@@ -294,8 +298,8 @@ class FaceLook {
 
   /// What is seen of a face that nothing passes through: between contours all of it is seen or hidden.
   [[nodiscard]] const Polygons& seen_between_contours(std::uint32_t face) {
+    take(face);
     FaceClip& clip = memory_.clip;
-    clip.take(face);
     for (const std::uint32_t k : before_) {
       clip.cut_along(scene_.edges.table.edges[memory_.edges[k]]);
     }
@@ -348,7 +352,7 @@ class FaceLook {
     FaceClip& clip = memory_.clip;
     ++round_;
     memory_.round[face] = round_;
-    clip.take(face);
+    take(face);
     const PictureCells::Outline outline(memory_.picture, surface_.faces[face]);
     bool is_hidden = false;
     is_any_before(memory_.hiding, memory_.extents, surface_.faces[face], memory_.extents[face],

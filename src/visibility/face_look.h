@@ -14,9 +14,9 @@
 #include "vantage/visibility/face_visibility.h"
 
 #include "mesh/surface_edges.h"
+#include "spatial/face_clip.h"
 #include "spatial/face_meetings.h"
 #include "spatial/picture_cells.h"
-#include "visibility/face_clip.h"
 #include "visibility/sight.h"
 
 /// \file

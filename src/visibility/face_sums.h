@@ -15,7 +15,7 @@
 #include "vantage/visibility/face_visibility.h"
 
 #include "core/cross.h"
-#include "visibility/face_clip.h"
+#include "spatial/face_clip.h"
 #include "visibility/surface.h"
 
 /// \file

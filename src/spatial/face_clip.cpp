@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "visibility/face_clip.h"
+#include "spatial/face_clip.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,15 +50,16 @@ double twice_area(Polygons::Points polygon) {
   return sum;
 }
 
-void FaceClip::begin(const Surface& surface, const Viewpoint& eye) {
-  surface_ = &surface;
+void FaceClip::begin(std::span<const Vec3> points, std::span<const Triangle> faces,
+                     const Viewpoint& eye) {
+  points_ = points;
+  faces_ = faces;
   eye_ = eye;
 }
 
-void FaceClip::take(std::uint32_t face) {
-  on_ = surface_->faces[face];
-  const std::array<Vec3, 3> places{surface_->sites[on_[0]], surface_->sites[on_[1]],
-                                   surface_->sites[on_[2]]};
+void FaceClip::take(std::uint32_t face, const Vec3& normal) {
+  on_ = faces_[face];
+  const std::array<Vec3, 3> places{points_[on_[0]], points_[on_[1]], points_[on_[2]]};
   first_ = places[0];
   Eigen::Matrix<double, 4, 3> rows;
   // The plane through the eye and a side; its value at the corner opposite is 1.
@@ -68,7 +69,6 @@ void FaceClip::take(std::uint32_t face) {
     const Vec3 across = (b - a).cross(sight_line(a, eye_));
     rows.row(static_cast<Eigen::Index>(k)) = across / across.dot(places[k] - a);
   }
-  const Vec3 normal = surface_->area_vectors[face] / surface_->twice_areas[face];
   rows.row(3) = normal.dot(sight_line(first_, eye_)) < 0.0 ? Vec3(-normal) : normal;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     of_axes_[axis] = rows.col(static_cast<Eigen::Index>(axis));
@@ -80,24 +80,24 @@ void FaceClip::take(std::uint32_t face) {
   by_size_.clear();
 }
 
-bool FaceClip::is_corner(std::uint32_t site) const {
-  return std::find(on_.begin(), on_.end(), site) != on_.end();
+bool FaceClip::is_corner(std::uint32_t point) const {
+  return std::find(on_.begin(), on_.end(), point) != on_.end();
 }
 
 /// Heights are over more than a touch.
-FaceClip::Corner FaceClip::corner(std::uint32_t site) const {
+FaceClip::Corner FaceClip::corner(std::uint32_t point) const {
   for (std::size_t k = 0; k < 3; ++k) {
-    if (on_[k] == site) {  // exactly
+    if (on_[k] == point) {  // exactly
       return Corner::Unit(static_cast<Eigen::Index>(k));
     }
   }
-  const Vec3 place = surface_->sites[site] - first_;
+  const Vec3 place = points_[point] - first_;
   return Corner(1.0, 0.0, 0.0, -Segment::kContact) + place.x() * of_axes_[0] +
          place.y() * of_axes_[1] + place.z() * of_axes_[2];
 }
 
 bool FaceClip::add_shadow(std::uint32_t other) {
-  const auto& [a, b, c] = surface_->faces[other];
+  const auto& [a, b, c] = faces_[other];
   ConvexPolygon<Corner> polygon;
   polygon.push_back(corner(a));
   polygon.push_back(corner(b));
@@ -206,8 +206,7 @@ Vec3 FaceClip::middle(Polygons::Points part) const {
     sum += place;
   }
   const Vec3 shares = homogeneous(sum / static_cast<double>(part.size()));
-  return shares.x() * surface_->sites[on_[0]] + shares.y() * surface_->sites[on_[1]] +
-         shares.z() * surface_->sites[on_[2]];
+  return shares.x() * points_[on_[0]] + shares.y() * points_[on_[1]] + shares.z() * points_[on_[2]];
 }
 
 /// The largest first, as they leave least to be cut.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "visibility/face_clip.h"
+#include "spatial/face_clip.h"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +13,7 @@
 #include "spatial/picture_cells.h"
 #include "spatial/segment.h"
 #include "support/shapes.h"
+#include "visibility/surface.h"
 
 namespace vantage {
 namespace {
@@ -36,7 +37,7 @@ class Clipped {
   [[nodiscard]] std::vector<double> shares() const {
     std::vector<double> result(surface_.faces.size(), 0.0);
     FaceClip clip;
-    clip.begin(surface_, local_);
+    clip.begin(surface_.sites, surface_.faces, local_);
     for (std::uint32_t f = 0; f < result.size(); ++f) {
       std::size_t steps = 0;
       EXPECT_TRUE(add_shadows(f, clip) || clip.subtract(steps, kEnough));
@@ -50,7 +51,7 @@ class Clipped {
   /// Whether so many steps are enough to clip a face.
   [[nodiscard]] bool is_clipped(std::uint32_t face, std::size_t steps) const {
     FaceClip clip;
-    clip.begin(surface_, local_);
+    clip.begin(surface_.sites, surface_.faces, local_);
     add_shadows(number_of(face), clip);
     std::size_t taken = 0;
     return clip.subtract(taken, steps);
@@ -59,8 +60,8 @@ class Clipped {
   /// Whether an edge lies before a face of the mesh, or in it; the edge by its ends' positions.
   [[nodiscard]] bool is_behind(std::uint32_t face, const Vec3& a, const Vec3& b) const {
     FaceClip clip;
-    clip.begin(surface_, local_);
-    clip.take(number_of(face));
+    clip.begin(surface_.sites, surface_.faces, local_);
+    take(number_of(face), clip);
     return clip.is_behind({site(a), site(b)});
   }
 
@@ -68,8 +69,8 @@ class Clipped {
   [[nodiscard]] std::vector<double> areas_along(
       std::uint32_t face, const std::vector<std::array<Vec3, 2>>& edges) const {
     FaceClip clip;
-    clip.begin(surface_, local_);
-    clip.take(number_of(face));
+    clip.begin(surface_.sites, surface_.faces, local_);
+    take(number_of(face), clip);
     for (const auto& [a, b] : edges) {
       clip.cut_along({site(a), site(b)});
     }
@@ -109,8 +110,12 @@ class Clipped {
 
  private:
   /// \return whether one of them hides all of the face, of which nothing is left then.
+  void take(std::uint32_t face, FaceClip& clip) const {
+    clip.take(face, surface_.area_vectors[face] / surface_.twice_areas[face]);
+  }
+
   bool add_shadows(std::uint32_t face, FaceClip& clip) const {
-    clip.take(face);
+    take(face, clip);
     bool is_hidden = false;
     for (std::uint32_t other = 0; other < surface_.faces.size(); ++other) {
       is_hidden = (other != face && clip.add_shadow(other)) || is_hidden;

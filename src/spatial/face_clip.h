@@ -12,9 +12,9 @@
 
 #include "vantage/core/camera.h"
 #include "vantage/core/vec3.h"
+#include "vantage/mesh/tri_mesh.h"
 
 #include "spatial/convex_polygon.h"
-#include "visibility/surface.h"
 
 /// \file
 /// A face in parts, as polygons: cut along edges that pass before it, or less the shadows that the
@@ -66,11 +66,12 @@ class FaceClip {
   /// it is.
   static constexpr double kNoArea = 1e-13;
 
-  /// \param eye in the surface's frame. Both must outlive the use of this.
-  void begin(const Surface& surface, const Viewpoint& eye);
+  /// \param points in a UnitFrame, and the eye in it. \param faces of positive area. Both must outlive
+  ///               the use of this.
+  void begin(std::span<const Vec3> points, std::span<const Triangle> faces, const Viewpoint& eye);
 
-  /// Takes a face, whole. \pre it is not seen edge on.
-  void take(std::uint32_t face);
+  /// Takes a face, whole. \param normal its unit normal. \pre it is not seen edge on.
+  void take(std::uint32_t face, const Vec3& normal);
 
   /// Whether an edge lies before the inside of the face, or in it.
   [[nodiscard]] bool is_behind(const std::array<std::uint32_t, 2>& edge) const;
@@ -87,7 +88,7 @@ class FaceClip {
   /// What the face was cut into, or what is left of it after subtract().
   [[nodiscard]] const Polygons& parts() const { return parts_; }
 
-  /// The middle of a part, in the surface's frame.
+  /// The middle of a part, in the frame.
   [[nodiscard]] Vec3 middle(Polygons::Points part) const;
 
  private:
@@ -95,11 +96,12 @@ class FaceClip {
   /// is the height over the face's plane on the eye's side.
   using Corner = Eigen::Vector4d;
 
-  [[nodiscard]] bool is_corner(std::uint32_t site) const;  // of the face
-  [[nodiscard]] Corner corner(std::uint32_t site) const;
+  [[nodiscard]] bool is_corner(std::uint32_t point) const;  // of the face
+  [[nodiscard]] Corner corner(std::uint32_t point) const;
   void subtract(Polygons::Points polygon);
 
-  const Surface* surface_ = nullptr;
+  std::span<const Vec3> points_{};
+  std::span<const Triangle> faces_{};
   Viewpoint eye_{};
   Triangle on_{};                    // the face's corners
   Vec3 first_ = Vec3::Zero();        // corner
