@@ -191,6 +191,9 @@ struct BatchCommand {
     if (on_slurm && !shard.empty()) {
       throw CLI::ValidationError("--shard", "--engine slurm makes the shards itself");
     }
+    if (!on_slurm) {
+      slurm.refuse_any();
+    }
     const std::optional<batch::Shard> part = checked_shard();
     prepare(session, part);
     std::unique_ptr<batch::EntrySource> source = open_source(session);

@@ -223,6 +223,19 @@ void SlurmFlags::add_to(CLI::App& app) {
       ->group(group);
   app.add_flag("--detach", detach, "submit and do not wait; merge with vantage results merge DIR")
       ->group(group);
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group() == group) {
+      options_.push_back(option);
+    }
+  }
+}
+
+void SlurmFlags::refuse_any() const {
+  for (const CLI::Option* option : options_) {
+    if (option->count() > 0) {
+      throw CLI::ValidationError(option->get_name(), "goes with --engine slurm only");
+    }
+  }
 }
 
 void run_on_slurm(Session& session, batch::EntrySource& entries, batch::ResultsStore& store,

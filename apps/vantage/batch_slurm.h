@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -22,6 +23,12 @@ struct SlurmFlags {
   bool detach = false;
 
   void add_to(CLI::App& app);
+
+  /// Refuses them where there is no such engine. \throw CLI::ValidationError
+  void refuse_any() const;
+
+ private:
+  std::vector<const CLI::Option*> options_{};
 };
 
 /// What a collection on Slurm needs to know of the batch.

@@ -184,7 +184,7 @@ struct BatchWorkerCommand {
     } catch (const InvalidInput& error) {
       return failed("input", error.what());
     } catch (const std::bad_alloc&) {
-      return failed("memory", "needs more memory than the limit; see --memory");
+      return failed("memory", "needs more memory than --memory or --max-memory allows");
     } catch (const std::exception& error) {
       return failed("work", error.what());
     }

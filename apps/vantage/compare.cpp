@@ -52,6 +52,12 @@ struct CompareCommand {
     options.margin_percent = look.margin_percent();
     const std::vector<Measure> measures = chosen_measures(session, options);
     method.require_use(uses_saliency(measures), "saliency", "mesh-saliency");
+    for (const Measure& measure : measures) {
+      if (!options.focus.empty() && !sums_a_map(measure.name)) {
+        throw CLI::ValidationError(
+            "--focus", "goes with methods that sum a map only, not with " + measure.name);
+      }
+    }
     const RunContext run = session.run();
     const Model loaded = load_posed(session, model, options, no_images ? nullptr : &look);
     OutputFolder output(folder.empty() ? folder_named(loaded.name, ".compare") : folder,

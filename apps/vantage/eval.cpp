@@ -47,7 +47,7 @@ struct EvalCommand {
     app.add_option("--gaze-csv", gaze_file, "also write one row a map and model of gaze");
     method.add_to(app, {.map = true, .camera = true});
     add_force_flag(app, session.flags);
-    add_common_flags(app, session.flags);
+    add_common_flags(app, session.flags, Answer::OfItsOwn);
   }
 
   void run(Session& session) const {

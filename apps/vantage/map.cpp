@@ -57,6 +57,7 @@ struct MapCommand {
     ViewOptions options = method.resolve();
     const bool by_skeleton = name == "kssm" || name == "thickness";
     method.require_use(name == "mesh-saliency", "saliency", "mesh-saliency");
+    refuse_any_up(options);
     method.require_use(by_skeleton, "map", "kssm and thickness");
     if (!by_skeleton && (!levels.empty() || !options.focus.empty())) {
       throw CLI::ValidationError(levels.empty() ? "--focus" : "--levels",

@@ -62,6 +62,12 @@ ViewOptions MethodFlags::resolve(std::uint64_t seed) const {
                                  "goes with --search rapid and exhaustive only");
     }
   }
+  for (const char* const flag : {"fov", "distance"}) {
+    if (flags_.has(flag) && all.view.projection == Projection::Orthographic) {
+      throw CLI::ValidationError(std::string("--") + flag,
+                                 "goes with --projection perspective only");
+    }
+  }
   if (flags_.has("level-agreement") &&
       (all.view.kssm_to_finished_graph || !all.view.skeleton.fit)) {
     throw CLI::ValidationError(
@@ -92,6 +98,13 @@ void MethodFlags::require_use(bool is_used, std::string_view group,
   }
 }
 
+void refuse_any_up(const ViewOptions& options) {
+  if (options.up == UpAxis::Any) {
+    throw CLI::ValidationError(
+        "--up", "any turns the model: write it with vantage orient, and take what that writes");
+  }
+}
+
 UpAxis up_axis(const std::string& name) {
   return static_cast<UpAxis>(index_of_word(kUpWords, name).value());
 }
@@ -110,11 +123,13 @@ Vec3 parse_vector(const std::string& text, const std::string& flag) {
   return value;
 }
 
-void add_common_flags(CLI::App& app, CommonFlags& flags) {
+void add_common_flags(CLI::App& app, CommonFlags& flags, Answer answer) {
   const std::string group = "Common";
-  app.add_flag("--json", flags.json,
-               "print the result as JSON, and nothing else, on standard output")
-      ->group(group);
+  if (answer == Answer::AlsoAsJson) {
+    app.add_flag("--json", flags.json,
+                 "print the result as JSON, and nothing else, on standard output")
+        ->group(group);
+  }
   app.add_flag("-q,--quiet", flags.quiet, "no summary, no warnings, no progress")->group(group);
   app.add_flag("-v,--verbose", flags.verbose, "say more")->group(group);
   app.add_option("--threads", flags.threads, "at most this many threads; 0: all cores")

@@ -43,15 +43,21 @@ class MethodFlags {
   bool fits_ = false;
 };
 
+/// Refuses --up any, of a command that leaves the model as it stands. \throw CLI::ValidationError
+void refuse_any_up(const ViewOptions& options);
+
 /// The axis of "x", "-y", … \pre it is one of these.
 UpAxis up_axis(const std::string& name);
 
 /// Parses "x,y,z". \throw CLI::ValidationError
 Vec3 parse_vector(const std::string& text, const std::string& flag);
 
-/// Adds --json -q -v --threads --seed.
+/// How a command answers.
+enum class Answer { AlsoAsJson, OfItsOwn };
+
+/// Adds --json, if it answers so, -q -v --threads --seed.
 struct CommonFlags;
-void add_common_flags(CLI::App& app, CommonFlags& flags);
+void add_common_flags(CLI::App& app, CommonFlags& flags, Answer answer = Answer::AlsoAsJson);
 
 /// Parses "WIDTHxHEIGHT", or one number for a square. \throw CLI::ValidationError
 std::pair<int, int> parse_size(const std::string& text, const std::string& flag);

@@ -73,8 +73,9 @@ CLI::Option* OptionFlags::add_value(CLI::App& app, const Option& option) {
 
 void OptionFlags::add_flag(CLI::App& app, const Option& option) {
   const bool is_on = is_on_by_default(option);
-  app.add_flag_callback(flag_of(option), [this, &option, is_on] { given_[option.name] = !is_on; },
-                        is_on ? option.off_help : option.help)
+  app.add_flag_callback(
+         flag_of(option), [this, &option, is_on] { given_[option.name] = !is_on; },
+         is_on ? option.off_help : option.help)
       ->group(option.heading);
 }
 

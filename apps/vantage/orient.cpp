@@ -88,9 +88,6 @@ struct OrientCommand {
   void run(Session& session) const {
     AllOptions given;
     known.apply(given);
-    if (!file.empty()) {
-      check_output(file, OutputKind::Shape, session.flags);
-    }
     Model loaded = session.load(model);
     session.read([&] { return sidecar_of(model); }).apply(given.view);
     const Eigen::Matrix3d stood =
@@ -106,7 +103,11 @@ struct OrientCommand {
     const AxisTurn turn(up_vector(choice.frame.up), up_vector(choice.frame.front),
                         up_vector(new_up), up_vector(default_front(new_up)));
     if (!file.empty()) {
-      write_output(file, turned(session, loaded, turn, stood.isIdentity(0.0)));
+      const std::string bytes = turned(session, loaded, turn, stood.isIdentity(0.0));
+      if (!is_already(file, bytes)) {  // an OBJ does not say who wrote it
+        check_output(file, OutputKind::Shape, session.flags);
+        write_output(file, bytes);
+      }
       note_what_stays_behind(loaded, choice);
     }
     report(session, loaded, choice, turn, stood);

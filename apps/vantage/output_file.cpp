@@ -165,4 +165,14 @@ void write_output(const std::string& path, std::string_view bytes) {
   }
 }
 
+bool is_already(const std::string& path, std::string_view bytes) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error) || fs::file_size(path, error) != bytes.size()) {
+    return false;
+  }
+  std::ifstream stream(path, std::ios::binary);
+  const std::string held{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return held == bytes;
+}
+
 }  // namespace vantage::cli

@@ -48,4 +48,7 @@ void check_levels(const std::string& folder, const std::vector<NamedOutput>& oth
 /// pipe waits for a reader. \throw IoError
 void write_output(const std::string& path, std::string_view bytes);
 
+/// Whether a file is there and has these bytes: to write them again loses nothing.
+bool is_already(const std::string& path, std::string_view bytes);
+
 }  // namespace vantage::cli

@@ -61,8 +61,9 @@ struct RenderCommand {
     check_output(file, OutputKind::Picture, session.flags);
     ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
     look.check(file, options);
-    for (const char* const flag : {"projection", "distance", "fov"}) {
-      if (!camera_file.empty() && method.has(flag)) {
+    for (const char* const flag : {"projection", "distance", "fov", "margin", "up", "front"}) {
+      const bool is_of_ground = look.look().ground && std::string_view(flag) == "up";
+      if (!camera_file.empty() && (method.has(flag) || look.has(flag)) && !is_of_ground) {
         throw CLI::ValidationError(std::string("--") + flag,
                                    "says what the file of --camera says: leave one out");
       }
@@ -99,7 +100,7 @@ struct RenderCommand {
         {"plain", Picture::Plain}, {"kssm", Picture::Map}, {"skeleton", Picture::Skeleton}};
     const std::string doubt = look.write(file, loaded, shape, frame->camera, pictures.at(show),
                                          with_size(options, frame->size), up, run.part(0.9, 1.0));
-    report(session, *frame, options);
+    report(session, *frame, options, loaded.notes);
     if (!doubt.empty()) {
       session.say("warning: " + doubt);
     }
@@ -145,7 +146,8 @@ struct RenderCommand {
     return {of.picture, of.size};
   }
 
-  void report(Session& session, const PictureFrame& frame, const ViewOptions& options) const {
+  void report(Session& session, const PictureFrame& frame, const ViewOptions& options,
+              const std::vector<std::string>& notes) const {
     const auto& [camera, size] = frame;
     const auto point = [](const Vec3& p) {
       return nlohmann::ordered_json::array({p.x(), p.y(), p.z()});
@@ -161,8 +163,9 @@ struct RenderCommand {
           {"up", point(camera.up)},
           {"fov_y_deg", camera.fov_y_deg},
           {"options",
-           nlohmann::ordered_json::parse(options_json({.view = options, .look = look.look()}))}};
-      write_output("-", json.dump(2) + "\n");
+           nlohmann::ordered_json::parse(options_json({.view = options, .look = look.look()}))},
+          {"warnings", notes}};
+      write_output("-", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
       return;
     }
     session.tell(printable(file) + ": " + std::to_string(size.width) + " × " +

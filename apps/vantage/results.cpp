@@ -55,7 +55,7 @@ struct ExportCommand {
     app.add_flag("--timings", timings,
                  "also seconds, memory and attempts, which differ every time");
     add_force_flag(app, session.flags);
-    add_common_flags(app, session.flags);
+    add_common_flags(app, session.flags, Answer::OfItsOwn);
   }
 
   void run(Session& session) const {
@@ -126,7 +126,9 @@ struct QueryCommand {
         ->check(CLI::IsMember({"done", "failed", "duplicate"}));
     app.add_option("--sort", sort, "column to sort by; -COLUMN for the largest first");
     app.add_option("--columns", columns, "what to show")->capture_default_str();
-    app.add_option("--limit", limit, "at most so many rows; 0: all")->capture_default_str();
+    app.add_option("--limit", limit, "at most so many rows; 0: all")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
     add_common_flags(app, session.flags);
   }
 
@@ -227,13 +229,22 @@ struct DiffCommand {
   void run(Session& session) const {
     const auto a = open_store(session, before);
     const auto b = open_store(session, after);
+    Json differences = Json::array();
     const DiffCounts counts = diff_results(*a, *b, tolerance, [&](const Difference& difference) {
       if (session.flags.json) {
-        std::printf("%s\n", text_of(to_json(difference)).c_str());
+        differences.push_back(to_json(difference));
       } else {
         session.tell(difference_line(difference));
       }
     });
+    if (session.flags.json) {
+      const Json json = {{"equal", counts.equal},
+                         {"changed", counts.changed},
+                         {"only_in_a", counts.removed},
+                         {"only_in_b", counts.added},
+                         {"differences", std::move(differences)}};
+      std::printf("%s\n", text_of(json, 2).c_str());
+    }
     session.tell(plural(counts.equal, "model") + " alike, " + grouped(counts.changed) +
                  " changed, " + grouped(counts.removed) + " only in A, " + grouped(counts.added) +
                  " only in B");

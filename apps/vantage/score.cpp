@@ -18,6 +18,7 @@
 #include "method_flags.h"
 #include "output_file.h"
 #include "terminal.h"
+#include "value_checks.h"
 #include "visible_table.h"
 
 namespace vantage::cli {
@@ -56,7 +57,8 @@ struct ScoreCommand {
     app.add_option("-o,--output", file, "CSV file to write; - is standard output")
         ->capture_default_str();
     app.add_option("--visible", visible,
-                   "also write which direction sees which vertex to this .npy file (NumPy)");
+                   "also write which direction sees which vertex to this .npy file (NumPy)")
+        ->check(ends_in(".npy"));
     method.add_to(app, {.map = true, .saliency = true, .camera = true});
     add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);
@@ -68,6 +70,14 @@ struct ScoreCommand {
     method.require_use(uses_saliency(measures), "saliency", "mesh-saliency");
     const RunContext run = session.run();
     const bool free_eyes = !eyes.empty();
+    for (const char* const flag : {"projection", "distance", "fov"}) {
+      if (free_eyes && method.has(flag)) {
+        throw CLI::ValidationError(
+            std::string("--") + flag,
+            "goes with --sphere and --directions: --eyes says where eyes are");
+      }
+    }
+    refuse_any_up(options);
     if (free_eyes && !visible.empty()) {
       throw CLI::ValidationError("--visible", "needs directions: --sphere or --directions");
     }
@@ -119,7 +129,7 @@ struct ScoreCommand {
     MeasureSubject subject = measure_subject(shape, options);
     const std::vector<double> map =
         uses_saliency(measures) ? vertex_map(shape, options, "mesh-saliency", run.part(0.4, 0.5))
-                                 : std::vector<double>{};
+                                : std::vector<double>{};
     subject.saliency = map;
     ViewMeasurer measurer(subject, measures, view_set, run.part(0.5, 0.9));
     if (!eyes.empty()) {
@@ -159,6 +169,9 @@ struct ScoreCommand {
     using Columns = std::array<std::string_view, 3>;
     std::vector<Vec3> points = parse_points_csv(
         read_text(name), name, free_eyes ? Columns{"x", "y", "z"} : Columns{"dx", "dy", "dz"});
+    if (points.empty()) {
+      throw FormatError(name, "", "holds no directions or eyes: one a line, x,y,z");
+    }
     if (!free_eyes) {
       for (std::size_t i = 0; i < points.size(); ++i) {
         const double length = points[i].stableNorm();

@@ -18,6 +18,7 @@
 #include "output_file.h"
 #include "output_folder.h"
 #include "terminal.h"
+#include "value_checks.h"
 
 namespace vantage::cli {
 namespace {
@@ -50,7 +51,8 @@ struct SkeletonCommand {
                            extension + "'";
         });
     app.add_option("--meso", meso,
-                   "file for the contracted surface that the skeleton is made from, .ply");
+                   "file for the contracted surface that the skeleton is made from, .ply")
+        ->check(ends_in(".ply"));
     app.add_option("--levels", levels,
                    "folder for the contracted surface of each level: level-00.ply, …");
     app.add_flag("--measure", measure,

@@ -98,7 +98,7 @@ struct ThumbCommand {
     if (file != "-") {
       preview.show(session, shape, camera, options, look.of(loaded, above), run);
     }
-    report(session, found);
+    report(session, found, loaded.notes);
     if (!doubt.empty()) {
       session.say("warning: " + doubt);
     }
@@ -110,7 +110,8 @@ struct ThumbCommand {
   }
 
  private:
-  void report(Session& session, const PictureView& found) const {
+  void report(Session& session, const PictureView& found,
+              const std::vector<std::string>& notes) const {
     session.end_progress();
     if (session.flags.json) {
       const Vec3& d = found.view.direction;
@@ -122,8 +123,9 @@ struct ThumbCommand {
                                            {"direction", {d.x(), d.y(), d.z()}},
                                            {"up", up_name(found.choice.frame.up)},
                                            {"front", up_name(found.choice.frame.front)},
-                                           {"vertices", found.vertices}};
-      write_output("-", json.dump(2) + "\n");
+                                           {"vertices", found.vertices},
+                                           {"warnings", notes}};
+      write_output("-", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     }
   }
 };

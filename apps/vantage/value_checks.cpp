@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "value_checks.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
+#include <string>
 
 namespace vantage::cli {
 
@@ -16,17 +20,25 @@ void check_values(CLI::App& app) {
           },
           "", "finite");
     }
-    if (option->check_lname("output")) {
-      option->check(
-          [](const std::string& text) {
-            return text.empty() ? "must name a place, not nothing" : "";
-          },
-          "", "named");
+    if (option->get_type_name() == "TEXT") {  // as of a variable that a script has not set
+      option->check([](const std::string& text) { return text.empty() ? "must not be empty" : ""; },
+                    "", "not empty");
     }
   }
   for (CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; })) {
     check_values(*below);
   }
+}
+
+CLI::Validator ends_in(const std::string& ending) {
+  return CLI::Validator(
+      [ending](const std::string& file) {
+        std::string own = std::filesystem::path(file).extension().string();
+        std::transform(own.begin(), own.end(), own.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        return own == ending ? "" : "must end in " + ending + ", not '" + own + "'";
+      },
+      "");
 }
 
 }  // namespace vantage::cli

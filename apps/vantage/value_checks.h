@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+
 #include <CLI/CLI.hpp>
 
 namespace vantage::cli {
 
 /// Makes every option of a program and of its commands that takes numbers refuse infinity and NaN,
-/// which no option has a meaning for, and --output refuse an empty name: of a script's variable that
-/// was not set. \pre all options have been added.
+/// which no option has a meaning for, and those that take text refuse an empty one: a variable that a
+/// script has not set. \pre all options have been added.
 void check_values(CLI::App& app);
+
+/// Refuses names of files without this ending, in any case.
+CLI::Validator ends_in(const std::string& ending);
 
 }  // namespace vantage::cli

@@ -127,6 +127,11 @@ Model parse_pcd(std::string_view bytes, std::string_view name, const RunContext&
   bytes = without_bom(bytes);
   ModelBuilder builder(ModelFormat::Pcd, name, run, 0);
   const PcdHeader header = read_pcd_header(bytes, builder);
+  if (std::any_of(header.fields.begin(), header.fields.end(), [](const PcdField& field) {
+        return field.name == "rgb" || field.name == "rgba";
+      })) {
+    builder.note("colours of points left out");
+  }
   PointSink sink(builder, bytes.size());
   const std::string_view body = bytes.substr(header.body);
   if (header.data == PcdData::Ascii) {

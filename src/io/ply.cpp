@@ -96,6 +96,9 @@ class BodyReader {
     if (coloured) {
       add_colours({*types[0], *types[1], *types[2]});
     }
+    if (coloured && has_clear_) {
+      builder_.note("the opacity of vertices was left out; their colours are read");
+    }
   }
 
   static std::size_t channel(const PlyProperty& property) {
@@ -134,6 +137,9 @@ class BodyReader {
         case PlyRole::Green:
         case PlyRole::Blue:
           colour[channel(property)] = static_cast<float>(source_.next(property.type));
+          break;
+        case PlyRole::Alpha:
+          has_clear_ |= source_.next(property.type) < full_colour(property.type, 0.0);
           break;
         case PlyRole::U:
         case PlyRole::V:
@@ -301,6 +307,7 @@ class BodyReader {
   ModelBuilder& builder_;
   PlyTextures& textures_;
   std::size_t all_bytes_;
+  bool has_clear_ = false;                                  ///< A vertex is not opaque.
   std::vector<std::array<float, 3>> colours_{};             ///< As they stand there.
   std::vector<std::pair<std::uint64_t, Place>> corners_{};  ///< Of a textured face.
   std::vector<double> places_{};                            ///< u, v of each of these.

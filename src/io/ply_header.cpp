@@ -41,7 +41,7 @@ struct RoleName {
   PlyRole role;
 };
 
-constexpr std::array<RoleName, 18> kVertexRoles = {{{"x", PlyRole::X},
+constexpr std::array<RoleName, 19> kVertexRoles = {{{"x", PlyRole::X},
                                                     {"y", PlyRole::Y},
                                                     {"z", PlyRole::Z},
                                                     {"red", PlyRole::Red},
@@ -53,6 +53,7 @@ constexpr std::array<RoleName, 18> kVertexRoles = {{{"x", PlyRole::X},
                                                     {"diffuse_red", PlyRole::Red},
                                                     {"diffuse_green", PlyRole::Green},
                                                     {"diffuse_blue", PlyRole::Blue},
+                                                    {"alpha", PlyRole::Alpha},
                                                     {"u", PlyRole::U},
                                                     {"v", PlyRole::V},
                                                     {"s", PlyRole::U},

@@ -27,6 +27,7 @@ enum class PlyRole {
   Red,
   Green,
   Blue,
+  Alpha,
   U,
   V,
   Indices,

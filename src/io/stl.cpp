@@ -153,6 +153,8 @@ void read_binary(std::string_view bytes, ModelBuilder& builder) {
     builder.note("bytes after the last triangle left out: " + std::to_string(bytes.size() - end));
   }
   builder.reserve_points(static_cast<std::size_t>(declared) * 3);
+  bool has_colours =
+      bytes.substr(0, kStlHeader).find("COLOR=") != std::string_view::npos;  // Magics
   for (std::size_t at = kStlPreamble; at < end; at += kStlTriangle) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const Place place{"byte", at + 12 * (corner + 1)};
@@ -164,7 +166,13 @@ void read_binary(std::string_view bytes, ModelBuilder& builder) {
                         place);
     }
     builder.end_polygon();
+    constexpr std::uint16_t kIsColour = 0x8000;  // VisCAM
+    const char* last = bytes.data() + at + kStlTriangle - sizeof(kIsColour);
+    has_colours |= (decode<std::uint16_t>(last, ByteOrder::Little) & kIsColour) != 0;
     builder.advance(at, bytes.size());
+  }
+  if (has_colours) {
+    builder.note("colours of faces left out: those of STL are not read");
   }
 }
 

@@ -97,20 +97,25 @@ unsigned hexadecimal(char c) {
                                 : 16U;
 }
 
-/// "#RRGGBB" or "#RRGGBBAA", sRGB; white for anything else. Opacity counts for nothing here.
+/// "#RRGGBB" or "#RRGGBBAA", sRGB; white for anything else.
 Material material_of(std::string_view text) {
   Material material;
-  std::array<double, 3> colour{};
-  for (std::size_t c = 0; c < 3; ++c) {
+  std::array<std::uint8_t, 4> bytes{0, 0, 0, 255};
+  const bool has_opacity = text.size() >= 9;
+  for (std::size_t c = 0; c < (has_opacity ? 4U : 3U); ++c) {
     const bool is_there = text.size() >= 7 && text[0] == '#';
     const unsigned high = is_there ? hexadecimal(text[1 + 2 * c]) : 16U;
     const unsigned low = is_there ? hexadecimal(text[2 + 2 * c]) : 16U;
     if (high > 15 || low > 15) {
       return material;
     }
-    colour[c] = linear_of_srgb(static_cast<std::uint8_t>(16 * high + low));
+    bytes[c] = static_cast<std::uint8_t>(16 * high + low);
   }
-  material.colour = colour;
+  for (std::size_t c = 0; c < 3; ++c) {
+    material.colour[c] = linear_of_srgb(bytes[c]);
+  }
+  material.opacity = bytes[3] / 255.0;
+  material.alpha = bytes[3] < 255 ? AlphaMode::Blend : AlphaMode::Opaque;
   return material;
 }
 

@@ -2,6 +2,7 @@
 #include "spatial/ray_scene.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <new>
 #include <string>
@@ -28,8 +29,13 @@ constexpr float kBoxMargin = 1e-5F;
 // AVX give the same pictures.
 constexpr const char* kDeviceConfig = "ignore_config_files=1,verbose=0,max_isa=avx";
 
+// Whether Embree has failed in this process, for want of memory as a rule. From then on it may wait for
+// itself for ever where something is given back (3.13.5), so nothing is.
+std::atomic<bool> has_failed{false};
+
 /// What an error of Embree means to the caller.
 [[noreturn]] void fail(const char* what, RTCError error) {
+  has_failed = true;
   if (error == RTC_ERROR_OUT_OF_MEMORY) {
     throw std::bad_alloc();
   }
@@ -51,8 +57,10 @@ struct Embree {
   }
 
   ~Embree() {
-    rtcReleaseScene(scene);
-    rtcReleaseDevice(device);
+    if (!has_failed) {
+      rtcReleaseScene(scene);
+      rtcReleaseDevice(device);
+    }
   }
 
   Embree(const Embree&) = delete;

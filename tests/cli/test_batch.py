@@ -406,10 +406,11 @@ class Results(BatchTest):
         self.batch("0.off", "1.off", out="a")
         self.write("1.off", box(9))
         self.batch("1.off", "2.off", out="b")
-        lines = self.vantage("results", "diff", "a", "b", "--json").out.splitlines()
-        kinds = {json.loads(line)["key"]: json.loads(line)["kind"] for line in lines}
+        diff = json.loads(self.vantage("results", "diff", "a", "b", "--json").out)
+        kinds = {row["key"]: row["kind"] for row in diff["differences"]}
         self.assertEqual(kinds, {"0.off": "removed", "1.off": "changed", "2.off": "added"})
-        self.assertEqual(self.vantage("results", "diff", "a", "a", "--json").out, "")
+        self.assertEqual([diff[k] for k in ("equal", "changed", "only_in_a", "only_in_b")], [0, 1, 1, 1])
+        self.assertEqual(json.loads(self.vantage("results", "diff", "a", "a", "--json").out)["differences"], [])
 
     def test_the_index_page_holds_no_markup_from_names(self):
         self.write("<b>&\"' é.off", box(1))

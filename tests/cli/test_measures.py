@@ -183,6 +183,19 @@ class Measures(ProgramTest):
                              ("--fps", "view", FAN, "--views", 2, "--fps", 4), ("--tour-seconds", "view", FAN, "--tour-seconds", 4)):
             words += [flag] if flag not in words else []
             self.assertIn(flag, self.vantage(*words, exit_code=2).err)
+        self.write("eyes.csv", "x,y,z\n1,2,3\n")
+        for flag, *words in (("--fov", "score", FAN, "--eyes", "eyes.csv", "--fov", 20), ("--up", "score", FAN, "--sphere", 0, "--up", "any"),
+                             ("--up", "map", FAN, "-o", "m.ply", "--up", "any"), ("--focus", "compare", FAN, "--method", "kssm,vmi", "--focus", 0),
+                             ("--fov", "view", FAN, "--projection", "orthographic", "--fov", 20),
+                             ("--partition", "batch", FAN, "-o", "b", "--partition", "p"), ("--visible", "score", FAN, "--sphere", 0, "--visible", "v.txt"),
+                             ("--meso", "skeleton", FAN, "-o", "s.json", "--meso", "m.obj"), ("--camera", "render", FAN, "-o", "a.png", "--camera", ""),
+                             ("--focus", "view", FAN, "--focus", ""), ("--limit", "results", "query", "x", "--limit", -1),
+                             ("--json", "results", "export", "x", "--json"), ("--json", "eval", "x", "--json")):
+            self.assertIn(flag, self.vantage(*words, exit_code=2).err)
+        os.remove(self.dir / "eyes.csv")
+        self.write("none.csv", "dx,dy,dz\n")
+        self.assertIn("holds no directions", self.vantage("score", FAN, "--directions", "none.csv", exit_code=3).err)
+        os.remove(self.dir / "none.csv")
         self.assertIn("say how many views", self.vantage("view", FAN, "--no-refine", exit_code=2).err)
         self.assertIn("no-refine", self.vantage("view", FAN, "--views", 2, "--select", "vazquez", "--no-refine", exit_code=2).err)
         self.assertEqual(os.listdir(self.dir), [])

@@ -42,6 +42,13 @@ class Orient(ProgramTest):
         self.assertTrue(text.startswith("# a chair\n") and text.endswith("# the end\n"))
         self.assertEqual(text.count("\nf "), 72)
 
+    def test_the_same_again_is_no_loss_and_anything_else_is(self):
+        self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        for _ in range(2):
+            self.vantage("orient", "a.obj", "-o", "b.obj", "--up", "z")
+        self.assertIn("is there already", self.vantage("orient", "a.obj", "-o", "b.obj", "--up", "x", exit_code=1).err)
+        self.vantage("orient", "a.obj", "-o", "b.obj", "--up", "x", "--force")
+
     def test_a_turned_file_needs_no_turning(self):
         self.write("x.obj", obj(lambda p: (p[1], p[2], p[0])))
         self.vantage("orient", "x.obj", "-o", "up.obj", "--up", "x", "--front", "y")

@@ -47,6 +47,14 @@ class Limits(ProgramTest):
             self.assertRegex(done.err, "memory", limit)
             self.assertFalse((self.dir / "out").exists(), limit)
 
+    def test_a_batch_that_needs_more_memory_says_so_and_does_not_wait_for_its_time_limit(self):
+        for limit in ("64MB", "100MB"):  # the library for rays could wait for itself for ever
+            done = self.vantage("batch", MODELS / "mannequin.ply", "-o", f"out{limit}", "--max-memory", limit, "--timeout", "60",
+                                "--attempts", "1", exit_code=None)
+            self.assertEqual(done.returncode, 4, (limit, done.err))
+            self.assertIn("memory", done.err, limit)
+            self.assertNotIn("time limit", done.err, limit)
+
     def test_enough_memory_changes_no_byte(self):
         self.write("m.off", box(1))
         for out, limit in (("a", ()), ("b", ("--max-memory", "4GB", "--timeout", "600"))):

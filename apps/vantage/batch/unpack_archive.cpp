@@ -71,7 +71,7 @@ Failure too_large(const Allowance& most) {
   const std::string limit = std::to_string(most.bytes / 1'000'000) + " MB when unpacked, ";
   return {"is larger than " + limit +
           (most.of_memory
-               ? "the memory limit of a worker; see --memory"
+               ? "the memory limit of a worker (--memory, --max-memory)"
                : "a thousand times the archive it is in; unpack it if that is meant to be")};
 }
 

@@ -130,6 +130,24 @@ TEST_F(PlyAppearance, WhatCannotBeHadIsANoteAndKeepsTheColours) {
   EXPECT_THAT(nowhere.notes, Contains(HasSubstr("does not say where it lies")));
 }
 
+TEST_F(PlyAppearance, ClearVerticesAreNoted) {
+  const auto notes = [&](const char* type, const char* alpha) {
+    const std::string colour = std::string("0 0 0 ") + alpha + "\n";
+    return load(header("",
+                       std::string("property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                                   "property ") +
+                           type + " alpha\n",
+                       "") +
+                "0 0 0 " + colour + "1 0 0 " + colour + "1 1 0 " + colour + "0 1 0 " + colour +
+                "4 0 1 2 3\n")
+        .notes;
+  };
+  EXPECT_THAT(notes("uchar", "254"), Contains(HasSubstr("opacity")));
+  EXPECT_THAT(notes("float", "0.5"), Contains(HasSubstr("opacity")));
+  EXPECT_THAT(notes("uchar", "255"), IsEmpty());
+  EXPECT_THAT(notes("float", "1"), IsEmpty());
+}
+
 TEST_F(PlyAppearance, DoesNotReadOutsideItsFolder) {
   const TemporaryFolder elsewhere;
   write_file(elsewhere.file("c.png"), png_bytes(Image{1, 1, {255, 0, 0, 255}}));

@@ -159,5 +159,24 @@ TEST(Stl, RefusesAFileWithoutTriangles) {
               HasSubstr("holds neither faces nor points"));
 }
 
+/// A binary STL of one triangle.
+std::string triangle(std::string header, unsigned char low, unsigned char high) {
+  header.resize(80, ' ');
+  std::string bytes = header + std::string("\1\0\0\0", 4) + std::string(12, '\0');
+  for (const float value : {0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F}) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  return bytes + static_cast<char>(low) + static_cast<char>(high);
+}
+
+TEST(StlColours, AreNoted) {
+  const auto notes = [](const std::string& bytes) { return parse_model(bytes, "a.stl").notes; };
+  EXPECT_THAT(notes(triangle("VisCAM", 0x1F, 0x80)),
+              testing::Contains(testing::HasSubstr("colours of faces")));
+  EXPECT_THAT(notes(triangle("COLOR=\xFF\x01\x01\xFF", 0x1F, 0)),
+              testing::Contains(testing::HasSubstr("colours of faces")));
+  EXPECT_THAT(notes(triangle("plain", 0x1F, 0)), testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace vantage::test

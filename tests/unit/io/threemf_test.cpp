@@ -222,7 +222,7 @@ TEST(Threemf, GivesTrianglesTheColoursOfTheirGroups) {
   plate.resources =
       R"(<basematerials id="7"><base name="red" displaycolor="#FF0000"/>)"
       R"(<base name="blue" displaycolor="#0000FFFF"/></basematerials>)"
-      R"(<m:colorgroup id="8"><m:color color="#00FF00"/></m:colorgroup>)"
+      R"(<m:colorgroup id="8"><m:color color="#00FF0033"/></m:colorgroup>)"
       R"(<object id="1" pid="7" pindex="1"><mesh><vertices><vertex x="0" y="0" z="0"/>)"
       R"(<vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/></vertices><triangles>)"
       R"(<triangle v1="0" v2="1" v3="2"/><triangle v1="0" v2="1" v3="2" p1="0"/>)"
@@ -235,6 +235,9 @@ TEST(Threemf, GivesTrianglesTheColoursOfTheirGroups) {
   EXPECT_THAT(colour(0), ElementsAre(0.0, 0.0, 1.0));
   EXPECT_THAT(colour(1), ElementsAre(1.0, 0.0, 0.0));
   EXPECT_THAT(colour(2), ElementsAre(0.0, 1.0, 0.0));
+  EXPECT_EQ(look.materials[0].alpha, AlphaMode::Opaque);
+  EXPECT_EQ(look.materials[2].alpha, AlphaMode::Blend);
+  EXPECT_DOUBLE_EQ(look.materials[2].opacity, 0.2);
 }
 
 TEST(Threemf, NotesTexturesThatItDoesNotRead) {
