@@ -34,7 +34,8 @@ struct InfoCommand {
   }
 
   void run(Session& session) const {
-    const Model loaded = session.load(model);
+    // Of pictures only whether they can be read.
+    const Model loaded = session.load(model, {.appearance = true, .texture_side = 1});
     const RunContext run = session.run();
     const WeldedMesh welded = weld(loaded.mesh, run);
     const MeshReport as_read = check_mesh(loaded.mesh, run);
@@ -77,6 +78,8 @@ struct InfoCommand {
         {"skipped_faces", loaded.skipped_faces},
         {"faces", as_read.faces},
         {"vertex_colours", !loaded.vertex_colours.empty()},
+        {"materials", loaded.appearance.materials.size()},
+        {"textures", loaded.appearance.textures.size()},
         {"double_precision", loaded.double_precision},
         {"parts", parts},
         {"objects", listed},
@@ -124,6 +127,12 @@ struct InfoCommand {
     line("faces", polygons(loaded, as_read));
     if (loaded.parts.size() > 1) {
       line("parts", grouped(loaded.parts.size()));
+    }
+    if (!loaded.appearance.materials.empty()) {
+      line("materials", grouped(loaded.appearance.materials.size()) +
+                            (loaded.appearance.textures.empty()
+                                 ? ""
+                                 : ", " + plural(loaded.appearance.textures.size(), "texture")));
     }
     line("size", rounded(size.x()) + " × " + rounded(size.y()) + " × " + rounded(size.z()));
     if (loaded.unit_m > 0.0) {

@@ -2,6 +2,8 @@
 #include "vantage/pipeline/find_views.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
 
 #include "vantage/mesh/measures.h"
@@ -57,6 +59,17 @@ ViewReport find_views_by_map(const ShapeAnalysis& shape, const FrameChoice& choi
   return report;
 }
 
+/// Warns of a rapid search that ends at once: what a ring gains is seldom a hundredth of the total.
+void doubt_epsilon(const SearchOptions& search, ViewReport& report) {
+  constexpr double kCoarse = 0.01;
+  const double share = search.epsilon / report.total;
+  if (search.strategy == SearchStrategy::Rapid && !search.epsilon_is_fraction && share > kCoarse) {
+    report.warnings.push_back("the rapid search ends where a ring gains less than epsilon, here " +
+                              std::to_string(std::lround(100.0 * std::min(share, 1e4))) +
+                              " % of the total: give a smaller one, or a share as 0.1%");
+  }
+}
+
 }  // namespace
 
 ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
@@ -69,6 +82,7 @@ ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
   if (options.best_view) {
     report.warnings.emplace_back("the best view is the one that the sidecar names, not one found");
   }
+  doubt_epsilon(options.search, report);
   report.proportions = proportions_of(shape.surface, shape.sphere.diameter / 2.0, planes_of(shape),
                                       upright_frame(choice.frame));
   report.warnings.insert(report.warnings.end(), choice.notes.begin(), choice.notes.end());

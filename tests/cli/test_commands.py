@@ -216,6 +216,16 @@ class Info(ProgramTest):
         self.assertIn("genus 9", out)
         self.assertIn("defects", out)
 
+    def test_info_counts_materials_and_notes_what_cannot_be_had_of_them(self):
+        self.vantage("render", MODELS / "fan.ply", "--direction", "1,1,1", "--size", 8, "-o", "t.png")
+        self.write("m.mtl", "newmtl a\nmap_Kd t.png\nnewmtl b\nmap_Kd gone.png\n")
+        self.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n")
+        done = self.vantage("info", "m.obj")
+        self.assertRegex(done.out, r"materials +2, 1 texture\n")
+        self.assertIn("gone.png", done.err)
+        info = json.loads(self.vantage("info", "m.obj", "--json").out)
+        self.assertEqual((info["materials"], info["textures"]), (2, 1))
+
     def test_json_counts_defects(self):
         self.write("open.off", "OFF\n5 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n9 9 9\n3 0 1 2\n3 1 3 2\n")
         info = json.loads(self.vantage("info", "open.off", "--json").out)

@@ -133,6 +133,13 @@ class View(ProgramTest):
                                (rapid["worst"]["score"] - dense["worst"]["score"]) / span, places=12)
         self.assertNotIn("dense", json.loads(self.vantage(*flags).out)["search"])
 
+    def test_an_epsilon_that_ends_the_search_at_once_is_noted(self):
+        def notes(*flags):
+            return [w for w in self.report("--search", "rapid", *flags)["warnings"] if "epsilon" in w]
+        self.assertEqual(notes(), [])
+        self.assertEqual(notes("--epsilon", "0.0001"), [])
+        self.assertIn("100 % of the total", notes("--epsilon", str(self.report()["total"]))[0])
+
     def test_epsilon_is_a_raw_sum_or_a_share_of_the_total(self):
         share = self.report("--epsilon", "2%")
         self.assertAlmostEqual(share["search"]["epsilon"] / share["total"], 0.02, places=15)
