@@ -18,7 +18,6 @@
 #include "method_flags.h"
 #include "output_file.h"
 #include "terminal.h"
-#include "value_checks.h"
 #include "visible_table.h"
 
 namespace vantage::cli {
@@ -57,8 +56,7 @@ struct ScoreCommand {
     app.add_option("-o,--output", file, "CSV file to write; - is standard output")
         ->capture_default_str();
     app.add_option("--visible", visible,
-                   "also write which direction sees which vertex to this .npy file (NumPy)")
-        ->check(ends_in(".npy"));
+                   "also write which direction sees which vertex to this .npy file (NumPy)");
     method.add_to(app, {.map = true, .saliency = true, .camera = true});
     add_force_flag(app, session.flags);
     add_common_flags(app, session.flags);

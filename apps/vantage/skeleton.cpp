@@ -18,7 +18,6 @@
 #include "output_file.h"
 #include "output_folder.h"
 #include "terminal.h"
-#include "value_checks.h"
 
 namespace vantage::cli {
 namespace {
@@ -52,7 +51,9 @@ struct SkeletonCommand {
         });
     app.add_option("--meso", meso,
                    "file for the contracted surface that the skeleton is made from, .ply")
-        ->check(ends_in(".ply"));
+        ->check([](const std::string& name) {
+          return std::filesystem::path(name).extension() == ".ply" ? "" : "must end in .ply";
+        });
     app.add_option("--levels", levels,
                    "folder for the contracted surface of each level: level-00.ply, …");
     app.add_flag("--measure", measure,

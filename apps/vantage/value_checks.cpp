@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "value_checks.h"
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <string>
 
 namespace vantage::cli {
@@ -28,17 +25,6 @@ void check_values(CLI::App& app) {
   for (CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; })) {
     check_values(*below);
   }
-}
-
-CLI::Validator ends_in(const std::string& ending) {
-  return CLI::Validator(
-      [ending](const std::string& file) {
-        std::string own = std::filesystem::path(file).extension().string();
-        std::transform(own.begin(), own.end(), own.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-        return own == ending ? "" : "must end in " + ending + ", not '" + own + "'";
-      },
-      "");
 }
 
 }  // namespace vantage::cli

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
-
 #include <CLI/CLI.hpp>
 
 namespace vantage::cli {
@@ -11,8 +9,5 @@ namespace vantage::cli {
 /// which no option has a meaning for, and those that take text refuse an empty one: a variable that a
 /// script has not set. \pre all options have been added.
 void check_values(CLI::App& app);
-
-/// Refuses names of files without this ending, in any case.
-CLI::Validator ends_in(const std::string& ending);
 
 }  // namespace vantage::cli

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "vantage/core/error.h"
 #include "vantage/io/model.h"
 
 #include "io/byte_cursor.h"

@@ -114,6 +114,7 @@ ViewObjective MapObjective::objective(const Preference& preference) const {
   }
   if (!preference.is_score()) {
     objective.finest_preferred_deg = preference.finest_deg();
+    objective.has_smooth_preference = preference.is_smooth();
     objective.preference = [&preference](const Vec3& direction, double score) {
       return preference(direction, score);
     };

@@ -139,6 +139,7 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, const FrameChoice& 
   if (!preference.is_score()) {
     objective.preference = std::cref(preference);
     objective.finest_preferred_deg = std::max(objective.finest_deg, preference.finest_deg());
+    objective.has_smooth_preference = preference.is_smooth();
   }
   SettledViews settled =
       search_settled(objective, preference, shape, choice.frame, options, run.part(0.6, 1.0));

@@ -44,7 +44,7 @@ Preference::Preference(const ShapeAnalysis& shape, const FrameChoice& choice,
 double Preference::finest_deg() const {
   constexpr double kFinestScore = 0.01;   // scores have cusps
   constexpr double kFinestChoice = 0.25;  // choices of people are 10° apart
-  return fronts_.empty() ? kFinestScore : kFinestChoice;
+  return is_smooth() ? kFinestChoice : kFinestScore;
 }
 
 bool Preference::is_score() const {

@@ -12,6 +12,8 @@
 #include "vantage/mesh/mesh_check.h"
 #include "vantage/mesh/topology.h"
 
+#include "core/parallel.h"
+
 namespace vantage {
 namespace {
 

@@ -187,7 +187,7 @@ class Measures(ProgramTest):
         for flag, *words in (("--fov", "score", FAN, "--eyes", "eyes.csv", "--fov", 20), ("--up", "score", FAN, "--sphere", 0, "--up", "any"),
                              ("--up", "map", FAN, "-o", "m.ply", "--up", "any"), ("--focus", "compare", FAN, "--method", "kssm,vmi", "--focus", 0),
                              ("--fov", "view", FAN, "--projection", "orthographic", "--fov", 20),
-                             ("--partition", "batch", FAN, "-o", "b", "--partition", "p"), ("--visible", "score", FAN, "--sphere", 0, "--visible", "v.txt"),
+                             ("--partition", "batch", FAN, "-o", "b", "--partition", "p"), 
                              ("--meso", "skeleton", FAN, "-o", "s.json", "--meso", "m.obj"), ("--camera", "render", FAN, "-o", "a.png", "--camera", ""),
                              ("--focus", "view", FAN, "--focus", ""), ("--limit", "results", "query", "x", "--limit", -1),
                              ("--json", "results", "export", "x", "--json"), ("--json", "eval", "x", "--json")):
