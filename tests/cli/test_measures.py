@@ -189,7 +189,7 @@ class Measures(ProgramTest):
                              ("--fov", "view", FAN, "--projection", "orthographic", "--fov", 20),
                              ("--partition", "batch", FAN, "-o", "b", "--partition", "p"), 
                              ("--meso", "skeleton", FAN, "-o", "s.json", "--meso", "m.obj"), ("--camera", "render", FAN, "-o", "a.png", "--camera", ""),
-                             ("--focus", "view", FAN, "--focus", ""), ("--limit", "results", "query", "x", "--limit", -1),
+                             ("--focus", "view", FAN, "--focus", ""), ("--limit", "results", "query", "x", "--limit", -1), ("--seed", "view", FAN, "--seed", -1),
                              ("--json", "results", "export", "x", "--json"), ("--json", "eval", "x", "--json")):
             self.assertIn(flag, self.vantage(*words, exit_code=2).err)
         os.remove(self.dir / "eyes.csv")
