@@ -92,6 +92,8 @@ ViewObjective MeasureObjective::objective() const {
   objective.total = highest_ - floor();
   objective.survey_level = measurer_->set_level();  // of which values are known
   objective.finest_deg = kFinestDeg;
+  const Measure& measure = measurer_->measures()[measure_];
+  objective.has_smooth_score = measure.needs.faces && !measure.is_count;  // of areas
   return objective;
 }
 

@@ -154,7 +154,7 @@ Candidate search_globally(const SearchTarget& target, const RunContext& run) {
       ascended(largest_apart(valued(promising(set, estimates, 1.5 * spacing_rad), cheapest),
                              target.objective().starts, kFirstReachRad),
                rules, cheapest, run.part(kSurveyed, kAscended));
-  if (!(target.is_preference() && target.objective().has_smooth_preference)) {
+  if (!target.is_smooth()) {
     ends[0] = highest_near(ends[0], rules, spacing_rad, cheapest, run);
   }
   if (target.has_proxy()) {

@@ -57,6 +57,10 @@ class SearchTarget {
     return goal_ == Goal::Best && static_cast<bool>(objective_->preference);
   }
 
+  [[nodiscard]] bool is_smooth() const {
+    return is_preference() ? objective_->has_smooth_preference : objective_->has_smooth_score;
+  }
+
   /// Of the global search's rings.
   [[nodiscard]] double finest_deg() const {
     return is_preference() ? objective_->finest_preferred_deg : objective_->finest_deg;

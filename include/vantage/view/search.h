@@ -118,10 +118,11 @@ struct ViewObjective {
   /// Unset: the score.
   std::function<double(const Vec3& direction, double score)> preference{};
   int survey_level = 4;  ///< Icosahedron level that SearchStrategy::Global surveys first, 0–6.
-  /// Of the preference there is nothing much better near a maximum: it does not look for that.
-  bool has_smooth_preference = false;
-  std::size_t starts = 4;  ///< Directions of the survey that its ascent starts from, > 0.
-  double finest_deg = 0.01;            ///< Its ascent ends with rings as narrow as this, > 0, …
+  /// Near a maximum there is nothing much better: it does not look for that.
+  bool has_smooth_score = false;
+  bool has_smooth_preference = false;  ///< The same where the preference is maximised.
+  std::size_t starts = 4;    ///< Directions of the survey that its ascent starts from, > 0.
+  double finest_deg = 0.01;  ///< Its ascent ends with rings as narrow as this, > 0, …
   double finest_preferred_deg = 0.01;  ///< … and with these where the preference is maximised.
 };
 
