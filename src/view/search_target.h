@@ -57,6 +57,7 @@ class SearchTarget {
     return goal_ == Goal::Best && static_cast<bool>(objective_->preference);
   }
 
+  /// Whether near a maximum there is nothing much better.
   [[nodiscard]] bool is_smooth() const {
     return is_preference() ? objective_->has_smooth_preference : objective_->has_smooth_score;
   }

@@ -128,8 +128,7 @@ class FilesBeside {
   bool is_gltf_ = false;
   bool is_glb_ = false;
   bool is_ply_ = false;
-  std::string
-      text_{};  ///< The JSON of a glTF, the start of a PLY, or an OBJ's lines that name libraries.
+  std::string text_{};    ///< A glTF's JSON, a PLY's start, an OBJ's lines that name libraries.
   std::string line_{};    ///< Of an OBJ: what has passed of the current line, as far as it matters.
   bool skips_ = false;    ///< The rest of the line does not matter.
   bool goes_on_ = false;  ///< The line before ends with \, so this one belongs to it.
