@@ -124,6 +124,7 @@ class Measures(ProgramTest):
         for name in names:
             self.assertEqual((self.dir / "a" / name).read_bytes(), (self.dir / "b" / name).read_bytes(), name)
         report = json.loads((self.dir / "a" / "compare.json").read_text())
+        self.assertEqual(report["search"], "rings")
         self.assertEqual(len(report["agreement"]), 3)
         for pair in report["agreement"]:
             self.assertLessEqual(pair["best_folded_deg"], pair["best_deg"])

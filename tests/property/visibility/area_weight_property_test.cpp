@@ -16,6 +16,7 @@
 #include "vantage/view/scoring.h"
 #include "vantage/visibility/face_visibility.h"
 
+#include "support/random_soup.h"
 #include "support/shapes.h"
 #include "support/visibility_oracle.h"
 
@@ -124,22 +125,6 @@ void expect_brute_force_areas(const TriMesh& mesh, FaceSides sides, const Viewpo
   for (std::size_t f = 0; f < areas.size(); ++f) {
     ASSERT_NEAR(areas[f], expected[f], 1e-9 * sphere.diameter * sphere.diameter) << "face " << f;
   }
-}
-
-TriMesh random_soup(int faces, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
-  std::uniform_real_distribution<double> aside(-0.7, 0.7);
-  const auto place = [&](auto& of) { return Vec3(of(random), of(random), of(random)); };
-  TriMesh mesh;
-  for (std::uint32_t f = 0; f < static_cast<std::uint32_t>(faces); ++f) {
-    const Vec3 middle = place(coordinate);
-    for (int k = 0; k < 3; ++k) {
-      mesh.positions.emplace_back(middle + place(aside));
-    }
-    mesh.triangles.push_back({3 * f, 3 * f + 1, 3 * f + 2});
-  }
-  return mesh;
 }
 
 TEST(SeenAreas, ThroughAWindowAreThoseOfBruteForce) {
@@ -254,7 +239,7 @@ TEST(SeenAreas, AreThoseOfBruteForce) {
       expect_brute_force_areas(rings, FaceSides::Front, eye);
       expect_brute_force_areas(standing, FaceSides::Both, eye);
       expect_brute_force_areas(test::y_of_tubes(0.2, 8), FaceSides::Front, eye);
-      expect_brute_force_areas(random_soup(40, 3), FaceSides::Both, eye);
+      expect_brute_force_areas(test::random_soup(40, 3), FaceSides::Both, eye);
     }
   }
 }

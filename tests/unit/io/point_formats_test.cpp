@@ -26,6 +26,15 @@ TEST(Pcd, ReadsText) {
   EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(1, 2, 3), Vec3(4, 5, 6)));
 }
 
+TEST(Pcd, NotesColoursThatItDoesNotRead) {
+  std::string text = pcd("1", "ascii") + "1 2 3 9\n";
+  EXPECT_TRUE(parse_model(text, "a.pcd").notes.empty());
+  const std::size_t fields = text.find("FIELDS");
+  const std::size_t last = text.rfind(' ', text.find('\n', fields)) + 1;
+  text.replace(last, text.find('\n', fields) - last, "rgb");
+  EXPECT_THAT(parse_model(text, "a.pcd").notes, ElementsAre("colours of points left out"));
+}
+
 TEST(Pcd, PassesOverAByteOrderMark) {
   const Model model = parse_model("\xEF\xBB\xBF" + pcd("1", "ascii") + "1 2 3 9\n", "a");
   EXPECT_EQ(model.format, ModelFormat::Pcd);

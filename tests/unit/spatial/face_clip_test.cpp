@@ -12,6 +12,7 @@
 
 #include "spatial/picture_cells.h"
 #include "spatial/segment.h"
+#include "support/random_soup.h"
 #include "support/shapes.h"
 #include "visibility/surface.h"
 
@@ -158,22 +159,6 @@ class Clipped {
   std::vector<std::uint8_t> turned_{};
 };
 
-TriMesh random_soup(int faces, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
-  std::uniform_real_distribution<double> aside(-0.7, 0.7);
-  const auto place = [&](auto& of) { return Vec3(of(random), of(random), of(random)); };
-  TriMesh mesh;
-  for (std::uint32_t f = 0; f < static_cast<std::uint32_t>(faces); ++f) {
-    const Vec3 middle = place(coordinate);
-    for (int k = 0; k < 3; ++k) {
-      mesh.positions.emplace_back(middle + place(aside));
-    }
-    mesh.triangles.push_back({3 * f, 3 * f + 1, 3 * f + 2});
-  }
-  return mesh;
-}
-
 TEST(FaceClip, LeavesWhatIsBesideAPlate) {
   // A sheet of 4 × 4 under a narrower one that leaves a slit of 1e-7 of it.
   const double slit = 4e-7;
@@ -230,7 +215,7 @@ TEST(FaceClip, KeepsWhatShadowsPassByInOnePart) {
 TEST(FaceClip, LeavesWhatSamplesSee) {
   for (const Viewpoint& eye : {Viewpoint{Projection::Orthographic, Vec3(0.3, -0.2, 1.0)},
                                Viewpoint{Projection::Perspective, Vec3(3.0, 2.0, 4.0)}}) {
-    const Clipped clipped(random_soup(60, 7), eye);
+    const Clipped clipped(test::random_soup(60, 7), eye);
     const std::vector<double> exact = clipped.shares();
     const std::vector<double> sampled = clipped.sampled_shares(40);
     double sum = 0.0;

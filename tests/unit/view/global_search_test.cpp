@@ -190,8 +190,18 @@ TEST(GlobalSearch, FindsANarrowSummitBesideABroadOne) {
     return std::min(bump(d, kHigh, 0.4), 0.98) +
            (angle_between(d, summit) < 1.3 * kRadPerDeg ? 0.2 : 0.0);
   };
-  const FoundView best = search_view({batch_of(both), kTotal}, Goal::Best);
+  ViewObjective objective{batch_of(both), kTotal};
+  const FoundView best = search_view(objective, Goal::Best);
   EXPECT_LT(angle_between(best.direction, summit), 1.3 * kRadPerDeg);
+  // It is not looked for where the score, or what is preferred, is said to be smooth.
+  objective.has_smooth_score = true;
+  const FoundView broad = search_view(objective, Goal::Best);
+  EXPECT_LT(broad.score, best.score);
+  EXPECT_LT(broad.evaluations, best.evaluations);
+  objective.preference = [](const Vec3& /*direction*/, double score) { return score; };
+  EXPECT_EQ(search_view(objective, Goal::Best).direction, best.direction);
+  objective.has_smooth_preference = true;
+  EXPECT_EQ(search_view(objective, Goal::Best).direction, broad.direction);
 }
 
 TEST(GlobalSearch, SurveysAndRefinesAsTheObjectiveAsks) {
