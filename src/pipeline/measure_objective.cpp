@@ -62,7 +62,7 @@ std::vector<double> MeasureObjective::scores(const std::vector<Vec3>& directions
       index.push_back(i);
     }
   }
-  const std::vector<double> values = measurer_->values_of(measure_, fresh, quiet_);
+  const std::vector<double> values = measurer_->kept_values_of(measure_, fresh, quiet_);
   for (std::size_t k = 0; k < fresh.size(); ++k) {
     scores[index[k]] = score(values[k]);
   }

@@ -11,7 +11,7 @@
 
 #include "report/lettering.h"
 #include "report/line_drawing.h"
-#include "report/view_sphere_picture.h"
+#include "report/view_sphere_pictures.h"
 
 namespace vantage {
 namespace {
@@ -21,6 +21,7 @@ constexpr int kTileHeight = 180;   // px
 constexpr int kGapPx = 8;          // px
 constexpr int kTextHeight = 22;    // px, a line with its descenders
 constexpr double kLetters = 11.0;  // px, height of capitals
+constexpr int kInset = 2;          // px beside a text, so that no stroke is cut
 constexpr int kLabelPx = kTextHeight + kGapPx;
 constexpr int kTiles = 3;       // best, worst, sphere
 constexpr int kMethodRows = 9;  // methods below each other
@@ -28,7 +29,7 @@ constexpr Rgb8 kWhite{255, 255, 255};
 constexpr Rgb8 kInk{40, 40, 44};
 
 int text_width(std::string_view text) {
-  return static_cast<int>(std::ceil(kLetters * lettering_width(text)));
+  return static_cast<int>(std::ceil(kLetters * lettering_width(text))) + 2 * kInset;
 }
 
 /// A white picture that others are put on.
@@ -49,7 +50,7 @@ class Sheet {
   /// What does not fit before the right border is cut off.
   void write(std::string_view text, int left, int top) {
     LineDrawing strip(std::min(text_width(text), image_.width - left), kTextHeight);
-    strip.text(text, {0.0, 1.5 * kLetters}, kLetters, kInk);
+    strip.text(text, {kInset, 1.5 * kLetters}, kLetters, kInk);
     place(strip.image(), left, top);
   }
 
@@ -90,15 +91,15 @@ Image comparison_sheet(const ShapeAnalysis& shape, const Comparison& comparison,
     constexpr std::array kPlain{Picture::Plain};
     return std::move(pictures.take(framed, kPlain, small, {}, quiet).front());
   };
+  const ViewSpherePictures spheres(shape, comparison, up, kTileWidth, kTileHeight, quiet);
   for (int m = 0; m < count; ++m) {
     run.advance("pictures", static_cast<double>(m) / count);
     const ComparedMethod& method = comparison.methods[static_cast<std::size_t>(m)];
     const int left = m / kMethodRows * block_width + kGapPx;
     const int top = header + m % kMethodRows * block_height;
     sheet.write(method.measure.name, left, top);
-    const std::array<Image, kTiles> tiles{
-        picture(method.views.best), picture(method.views.worst),
-        view_sphere_picture(shape, comparison, method, up, kTileWidth, kTileHeight, quiet)};
+    const std::array<Image, kTiles> tiles{picture(method.views.best), picture(method.views.worst),
+                                          spheres.of(method)};
     for (int t = 0; t < kTiles; ++t) {
       const auto tile = static_cast<std::size_t>(t);
       const int x = left + t * (kTileWidth + kGapPx);

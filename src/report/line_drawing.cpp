@@ -163,10 +163,14 @@ void LineDrawing::draw(const Shape& shape, Image& image) const {
 Image LineDrawing::image() const {
   const auto pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   Image image{width_, height_, std::vector<std::uint8_t>(4 * pixels, 255)};
-  for (const Shape& shape : shapes_) {
-    draw(shape, image);
-  }
+  draw_on(image);
   return image;
+}
+
+void LineDrawing::draw_on(Image& picture) const {
+  for (const Shape& shape : shapes_) {
+    draw(shape, picture);
+  }
 }
 
 }  // namespace vantage

@@ -40,6 +40,9 @@ class LineDrawing {
   /// As pixels, with soft edges.
   [[nodiscard]] Image image() const;
 
+  /// The same on a picture instead of white. \pre it is as large as the drawing, and opaque.
+  void draw_on(Image& picture) const;
+
  private:
   struct Shape {
     std::vector<Spot> points{};

@@ -48,18 +48,6 @@ class PictureCells {
     float left = 0.0F, right = 0.0F, bottom = 0.0F, top = 0.0F;
     float nearest = 0.0F, farthest = 0.0F;
     Cells cells{};  ///< That it touches, if the picture is flat.
-
-    /// Whether this may have a place in common with the other that is not behind it.
-    [[nodiscard]] bool is_before(const Extent& other) const {
-      return nearest < other.farthest && left < other.right && other.left < right &&
-             bottom < other.top && other.bottom < top;
-    }
-
-    /// Whether this may lie before a place.
-    [[nodiscard]] bool is_before(const Place& place) const {
-      return nearest < place.depth && left < place.x && place.x < right && bottom < place.y &&
-             place.y < top;
-    }
   };
 
   /// \param sites places of the surface's vertices, which must outlive the use of this.
@@ -78,11 +66,12 @@ class PictureCells {
     return row * columns_ + column;
   }
 
-  /// Where a place on the surface is. \pre is_flat().
-  [[nodiscard]] Place place_of(const Vec3& place) const { return in_cells(on_plane(place)); }
-
-  [[nodiscard]] std::uint32_t cell_of(const Place& place) const {
-    return cell(nearest_cell(place.x), nearest_cell(place.y));
+  /// What a place on the surface spans: itself. \pre is_flat().
+  [[nodiscard]] Extent extent_of(const Vec3& place) const {
+    const Place at = in_cells(on_plane(place));
+    const std::uint16_t column = nearest_cell(at.x);
+    const std::uint16_t row = nearest_cell(at.y);
+    return {at.x, at.x, at.y, at.y, at.depth, at.depth, {column, column, row, row}};
   }
 
   /// Of an edge's ends or of a face's corners.
@@ -230,35 +219,6 @@ class PictureCells {
   std::uint32_t columns_ = 1;                           // of all sides together
   std::vector<Place> places_{};                         // of each site, where there is one plane
   std::vector<Vec3> exact_{};                           // the same in double, not yet in cells
-};
-
-/// What is in each cell. Made for reuse.
-class CellLists {
- public:
-  /// \param over_all over_all(each) calls each(item, cell) for all that is to be listed, twice over
-  ///                 the same.
-  template <typename OverAll>
-  void fill(std::size_t cells, const OverAll& over_all) {
-    first_.assign(cells + 1, 0);
-    over_all([this](std::uint32_t /*item*/, std::uint32_t cell) { ++first_[cell]; });
-    std::uint32_t total = 0;
-    for (std::uint32_t& count : first_) {
-      total += count;
-      count = total;  // for now the end of the cell: filling walks back to its begin
-    }
-    items_.resize(total);
-    over_all([this](std::uint32_t item, std::uint32_t cell) { items_[--first_[cell]] = item; });
-  }
-
-  /// The items of a row of cells, one after the other. \pre first ≤ last.
-  [[nodiscard]] std::span<const std::uint32_t> in_cells(std::uint32_t first,
-                                                        std::uint32_t last) const {
-    return std::span(items_).subspan(first_[first], first_[last + 1] - first_[first]);
-  }
-
- private:
-  std::vector<std::uint32_t> first_{};  // of each cell, and one past the last
-  std::vector<std::uint32_t> items_{};
 };
 
 }  // namespace vantage

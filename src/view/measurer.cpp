@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -18,6 +21,7 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t kNotOfSet = ~std::size_t{0};
+constexpr double kNotTold = std::numeric_limits<double>::quiet_NaN();  // no value is
 
 MeasureNeeds both(MeasureNeeds a, const MeasureNeeds& b) {
   a.vertices |= b.vertices;
@@ -29,6 +33,14 @@ MeasureNeeds both(MeasureNeeds a, const MeasureNeeds& b) {
   a.saliency |= b.saliency;
   a.skeleton |= b.skeleton;
   return a;
+}
+
+/// Whether a look for `wanted` tells all that is needed.
+bool is_told(const MeasureNeeds& needed, const MeasureNeeds& wanted) {
+  return !(needed.vertices && !wanted.vertices) && !(needed.faces && !wanted.faces) &&
+         !(needed.outline && !wanted.outline) && !(needed.channel && !wanted.channel) &&
+         !(needed.neighbours && !wanted.neighbours) && !(needed.kssm && !wanted.kssm) &&
+         !(needed.saliency && !wanted.saliency) && !(needed.skeleton && !wanted.skeleton);
 }
 
 MeasureNeeds needs_of_all(const std::vector<Measure>& measures) {
@@ -53,6 +65,7 @@ struct ViewMeasurer::State {
   bool keeps_vertices = false;  // of views of the set
   int set_level = 0;
   ViewChannel channel{};  // unless the subject brings it; what model.set_views refers to
+  std::map<std::array<double, 3>, std::vector<double>> kept{};  // of each direction and measure
 
   void prepare();
   void survey(const RunContext& run);
@@ -69,6 +82,10 @@ struct ViewMeasurer::State {
   void look_at_faces(const MeasureNeeds& wanted, FaceDetail detail, SightTable& sight) const;
   [[nodiscard]] std::vector<double> values_of(std::size_t m, std::span<const Vec3> directions,
                                               FaceDetail detail, const RunContext& run) const;
+  [[nodiscard]] MeasureValues values_with(std::size_t m, std::span<const Vec3> directions,
+                                          const RunContext& run) const;
+  std::vector<double> kept_values_of(std::size_t m, std::span<const Vec3> directions,
+                                     const RunContext& run);
   [[nodiscard]] MeasureNeeds needs_of(std::size_t m) const;
   [[nodiscard]] double value(std::size_t m, const SightTable& sight,
                              FaceDetail detail = FaceDetail::Exact) const;
@@ -192,6 +209,55 @@ std::vector<double> ViewMeasurer::State::values_of(std::size_t m, std::span<cons
     }
   });
   return values;
+}
+
+/// Values of one measure, and of all others that the same look tells at little cost; NaN of the rest.
+MeasureValues ViewMeasurer::State::values_with(std::size_t m, std::span<const Vec3> directions,
+                                               const RunContext& run) const {
+  MeasureNeeds wanted = needs_of(m);
+  wanted.channel |= wanted.faces && needs.channel;
+  wanted.kssm |= needs.kssm;
+  wanted.saliency |= needs.saliency;
+  MeasureValues values(measures.size(), std::vector<double>(directions.size(), kNotTold));
+  parallel_for(run, directions.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const SightTable sight = look(model.given.camera.viewpoint(directions[i]), wanted, kNotOfSet);
+      for (std::size_t k = 0; k < measures.size(); ++k) {
+        const MeasureNeeds own = needs_of(k);
+        if (k == m || (is_told(own, wanted) && !own.neighbours)) {  // comparing views takes long
+          values[k][i] = value(k, sight);
+        }
+      }
+    }
+  });
+  return values;
+}
+
+std::vector<double> ViewMeasurer::State::kept_values_of(std::size_t m,
+                                                        std::span<const Vec3> directions,
+                                                        const RunContext& run) {
+  const auto row_of = [&](const Vec3& d) -> std::vector<double>& {
+    return kept.try_emplace({d.x(), d.y(), d.z()}, measures.size(), kNotTold).first->second;
+  };
+  std::vector<Vec3> fresh;
+  for (const Vec3& direction : directions) {
+    if (std::isnan(row_of(direction)[m])) {
+      fresh.push_back(direction);
+    }
+  }
+  const MeasureValues values = values_with(m, fresh, run);
+  for (std::size_t i = 0; i < fresh.size(); ++i) {
+    std::vector<double>& row = row_of(fresh[i]);
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      row[k] = std::isnan(values[k][i]) ? row[k] : values[k][i];
+    }
+  }
+  std::vector<double> of_measure;
+  of_measure.reserve(directions.size());
+  for (const Vec3& direction : directions) {
+    of_measure.push_back(row_of(direction)[m]);
+  }
+  return of_measure;
 }
 
 /// Looks at a view of the set, keeps what it sees, and measures what needs no other view.
@@ -382,6 +448,11 @@ MeasureValues ViewMeasurer::values(std::span<const Vec3> directions, const RunCo
 std::vector<double> ViewMeasurer::values_of(std::size_t m, std::span<const Vec3> directions,
                                             const RunContext& run) const {
   return state_->values_of(m, directions, FaceDetail::Exact, run);
+}
+
+std::vector<double> ViewMeasurer::kept_values_of(std::size_t m, std::span<const Vec3> directions,
+                                                 const RunContext& run) {
+  return state_->kept_values_of(m, directions, run);
 }
 
 bool ViewMeasurer::has_estimates(std::size_t m) const {

@@ -84,7 +84,7 @@ class FaceLook {
     memory_.extents.resize(count);
     while (set_extents() > kMostInCells * count && picture.coarsen()) {
     }
-    memory_.hiding.fill(picture.cell_count(), [&](const auto& each) {
+    memory_.hiding.fill(picture.cell_count(), memory_.extents, [&](const auto& each) {
       for (std::uint32_t f = 0; f < count; ++f) {
         if (hides(f)) {
           picture.over_cells(surface_.faces[f], memory_.extents[f],
@@ -155,12 +155,13 @@ class FaceLook {
     for (const std::uint32_t e : memory_.edges) {
       memory_.edge_extents.push_back(memory_.picture.extent(all[e]));
     }
-    memory_.contours.fill(memory_.picture.cell_count(), [&](const auto& each) {
-      for (std::uint32_t k = 0; k < memory_.edges.size(); ++k) {
-        memory_.picture.over_cells(all[memory_.edges[k]], memory_.edge_extents[k],
-                                   [&](std::uint32_t cell) { each(k, cell); });
-      }
-    });
+    memory_.contours.fill(
+        memory_.picture.cell_count(), memory_.edge_extents, [&](const auto& each) {
+          for (std::uint32_t k = 0; k < memory_.edges.size(); ++k) {
+            memory_.picture.over_cells(all[memory_.edges[k]], memory_.edge_extents[k],
+                                       [&](std::uint32_t cell) { each(k, cell); });
+          }
+        });
   }
 
   /// Whether a contour may be in view: not if both its ends are hidden, unless it passes behind another
@@ -174,11 +175,10 @@ class FaceLook {
       return true;
     }
     const std::array ends{a, b};
-    return is_any_before(memory_.contours, memory_.edge_extents, ends,
-                         memory_.edge_extents[contour], [&](std::uint32_t k) {
-                           return is_spent() ||
-                                  passes_before(scene_.edges.table.edges[memory_.edges[k]], ends);
-                         });
+    return is_any_before(
+        memory_.contours, ends, memory_.edge_extents[contour], [&](std::uint32_t k) {
+          return is_spent() || passes_before(scene_.edges.table.edges[memory_.edges[k]], ends);
+        });
   }
 
   /// Whether an edge crosses another one in the picture, before it.
@@ -203,20 +203,17 @@ class FaceLook {
   }
 
   /// Whether is_wanted(item) answers true of one of those listed that may lie before an edge or a face;
-  /// asks about some more than once. \param extents of what is listed.
+  /// asks about some more than once.
   template <std::size_t Count, typename IsWanted>
-  bool is_any_before(const CellLists& lists, const std::vector<PictureCells::Extent>& extents,
-                     const std::array<std::uint32_t, Count>& sites,
+  bool is_any_before(const CellLists& lists, const std::array<std::uint32_t, Count>& sites,
                      const PictureCells::Extent& extent, const IsWanted& is_wanted) {
     bool is_found = false;
     memory_.picture.over_sides(sites, extent, [&](const PictureCells::Cells& cells) {
       for (std::uint32_t row = cells.bottom; row <= cells.top && !is_found; ++row) {
-        const auto items = lists.in_cells(memory_.picture.cell(cells.left, row),
-                                          memory_.picture.cell(cells.right, row));
-        steps_ += items.size();
-        is_found = std::any_of(items.begin(), items.end(), [&](std::uint32_t item) {
-          return extents[item].is_before(extent) && is_wanted(item);
-        });
+        const std::uint32_t first = memory_.picture.cell(cells.left, row);
+        const std::uint32_t last = memory_.picture.cell(cells.right, row);
+        steps_ += lists.count(first, last);
+        is_found = lists.is_any_before(first, last, extent, is_wanted);
       }
     });
     return is_found;
@@ -280,11 +277,12 @@ class FaceLook {
     const auto takes_too_many = [&](std::uint32_t k) {
       if (!outline) {
         outline.emplace(memory_.picture, surface_.faces[face]);
-        take(face);
       }
       const auto& edge = scene_.edges.table.edges[memory_.edges[k]];
       if (!outline->is_beside(edge)) {
-        is_beside_contour_ = true;
+        if (!std::exchange(is_beside_contour_, true)) {
+          take(face);
+        }
         if (memory_.clip.is_behind(edge) &&
             std::find(before_.begin(), before_.end(), k) == before_.end()) {
           before_.push_back(k);
@@ -292,8 +290,8 @@ class FaceLook {
       }
       return is_spent() || before_.size() > kFewContours;
     };
-    return !is_any_before(memory_.contours, memory_.edge_extents, surface_.faces[face],
-                          memory_.extents[face], takes_too_many);
+    return !is_any_before(memory_.contours, surface_.faces[face], memory_.extents[face],
+                          takes_too_many);
   }
 
   /// What is seen of a face that nothing passes through: between contours all of it is seen or hidden.
@@ -318,15 +316,13 @@ class FaceLook {
       return scene_.sight.hides_place(place, face, local_);
     }
     const Segment segment = segment_to(place, local_);
-    const PictureCells::Place at = memory_.picture.place_of(place);
-    const std::uint32_t cell = memory_.picture.cell_of(at);
-    const auto faces = memory_.hiding.in_cells(cell, cell);
-    steps_ += faces.size();
-    return std::any_of(faces.begin(), faces.end(), [&](std::uint32_t other) {
+    const PictureCells::Extent at = memory_.picture.extent_of(place);
+    const std::uint32_t cell = memory_.picture.cell(at.cells.left, at.cells.bottom);
+    steps_ += memory_.hiding.count(cell, cell);
+    return memory_.hiding.is_any_before(cell, cell, at, [&](std::uint32_t other) {
       const auto& [a, b, c] = surface_.faces[other];
-      return memory_.extents[other].is_before(at) && other != face &&
-             segment.crosses(surface_.sites[a], surface_.sites[b], surface_.sites[c],
-                             surface_.twice_areas[other]);
+      return other != face && segment.crosses(surface_.sites[a], surface_.sites[b],
+                                              surface_.sites[c], surface_.twice_areas[other]);
     });
   }
 
@@ -355,7 +351,7 @@ class FaceLook {
     take(face);
     const PictureCells::Outline outline(memory_.picture, surface_.faces[face]);
     bool is_hidden = false;
-    is_any_before(memory_.hiding, memory_.extents, surface_.faces[face], memory_.extents[face],
+    is_any_before(memory_.hiding, surface_.faces[face], memory_.extents[face],
                   [&](std::uint32_t other) {
                     if (std::exchange(memory_.round[other], round_) != round_ &&
                         !outline.is_beside(surface_.faces[other])) {

@@ -14,6 +14,7 @@
 #include "vantage/visibility/face_visibility.h"
 
 #include "mesh/surface_edges.h"
+#include "spatial/cell_lists.h"
 #include "spatial/face_clip.h"
 #include "spatial/face_meetings.h"
 #include "spatial/picture_cells.h"

@@ -267,6 +267,11 @@ class ViewMeasurer {
   [[nodiscard]] std::vector<double> values_of(std::size_t m, std::span<const Vec3> directions,
                                               const RunContext& run = {}) const;
 
+  /// The same, and what a look tells of the other measures at little cost is kept: asked about them,
+  /// the measurer need not look again. \throw Cancelled
+  std::vector<double> kept_values_of(std::size_t m, std::span<const Vec3> directions,
+                                     const RunContext& run = {});
+
   /// Whether the measure looks at faces and can be estimated by FaceDetail::ByCorners. What it takes
   /// from the set of views stays exact.
   [[nodiscard]] bool has_estimates(std::size_t m) const;

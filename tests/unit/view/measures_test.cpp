@@ -468,6 +468,44 @@ TEST(Measures, OfOnesOwnSeeInTheSetWhatTheySeeElsewhere) {
   }
 }
 
+TEST(Measures, KeptOfOneLookAreThoseOfALookEach) {
+  const Subject ring(test::torus(1.0, 0.4, 24, 12), Projection::Perspective);
+  ViewMeasurer keeps(ring.given, builtin_measures(), 1);
+  const ViewMeasurer looks(ring.given, builtin_measures(), 1);
+  const std::vector<Vec3> some{Vec3(1, 2, 2) / 3.0, Vec3::UnitX(), Vec3(0.0, 0.6, -0.8)};
+  const std::vector<Vec3> more{some[2], Vec3(0.48, 0.64, 0.6), some[0]};
+  for (const std::vector<Vec3>& directions : {some, more}) {
+    for (std::size_t m = 0; m < looks.measures().size(); ++m) {
+      EXPECT_EQ(keeps.kept_values_of(m, directions), looks.values_of(m, directions))
+          << looks.measures()[m].name;
+    }
+  }
+}
+
+TEST(Measures, KeptAreNotLookedAtAgain) {
+  const Subject cube(test::box(1, 1, 1, 1));
+  int looks = 0;
+  const auto own = [&](MeasureNeeds needs) {
+    return Measure{.name = "own",
+                   .needs = needs,
+                   .value = [&looks](const MeasuredModel& /*model*/, const SightTable& sight) {
+                     ++looks;
+                     return sight.projected_area;
+                   }};
+  };
+  ViewMeasurer measurer(cube.given, {own({.faces = true}), own({.faces = true}),
+                                     own({.vertices = true, .faces = true})});
+  const std::vector<Vec3> one{Vec3::UnitX()};
+  const RunContext alone{.max_threads = 1};
+  const std::vector<double> value = measurer.kept_values_of(0, one, alone);
+  EXPECT_EQ(looks, 2) << "faces tell nothing of vertices";
+  EXPECT_EQ(measurer.kept_values_of(1, one, alone), value);
+  EXPECT_EQ(measurer.kept_values_of(0, one, alone), value);
+  EXPECT_EQ(looks, 2);
+  EXPECT_EQ(measurer.kept_values_of(2, one, alone), value);
+  EXPECT_EQ(looks, 5);
+}
+
 TEST(Measures, RefuseAModelWithoutTheMapTheyNeed) {
   Subject cube(test::box(1, 1, 1, 1));
   cube.given.kssm = {};
