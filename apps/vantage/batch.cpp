@@ -118,7 +118,8 @@ struct BatchCommand {
                    "folder of a model's results: {stem} {name} {ext} {parent} {hash2} {hash8} "
                    "{hash16} {hash} {key8}")
         ->capture_default_str();
-    app.add_flag("--no-overview", no_overview, "no index.html and no contact sheets");
+    app.add_flag("--no-overview", no_overview,
+                 "no index.html and no contact sheets; those of an earlier run go");
     add_running_flags(app);
     for (const char* name : {"--write", "--name", "--jobs", "--timeout", "--memory",
                              "--output-limit", "--attempts", "--retry", "--verify"}) {
@@ -225,7 +226,9 @@ struct BatchCommand {
     const batch::RunnerCounts counts = batch::run_batch(*source, *book, runner, run.stop, report);
     if (auto* const store = dynamic_cast<batch::ResultsStore*>(book.get())) {
       const bool changed = counts.done + counts.failed + counts.duplicates > 0;
-      if (!no_overview && (changed || !root.exists("index.html"))) {
+      if (no_overview && changed) {
+        batch::remove_overview(root);
+      } else if (!no_overview && (changed || !root.exists("index.html"))) {
         batch::write_overview(root, *store, run);
       }
     }

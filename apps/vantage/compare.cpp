@@ -65,7 +65,7 @@ struct CompareCommand {
     output.check(session.flags.force);
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_for(loaded, options, measures, run.part(0.0, 0.2)); });
-    require_area(shape, model);
+    session.reading([&] { require_area(shape, model); });
     const FrameChoice choice = choose_frame(loaded, shape, options);
     const Comparison comparison = session.computing(
         [&] { return compare_methods(shape, options, measures, run.part(0.2, 0.9)); });
@@ -114,7 +114,7 @@ struct CompareCommand {
       std::erase_if(measures, [](const Measure& m) { return m.is_count; });
     }
     for (const Measure& measure : measures) {
-      require_gradient(measure);
+      check_gradient(measure);
     }
     return measures;
   }

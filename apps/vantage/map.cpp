@@ -72,7 +72,7 @@ struct MapCommand {
                          : prepare_surface(loaded, session.run());
     });
     if (name == "pmi-saliency") {
-      require_area(shape, model);
+      session.reading([&] { require_area(shape, model); });
     }
     const std::vector<double> field = name == "thickness"
                                           ? shape.map.thickness()

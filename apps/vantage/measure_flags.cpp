@@ -5,7 +5,9 @@
 #include <sstream>
 
 #include "vantage/core/error.h"
+#include "vantage/pipeline/measured_shape.h"
 
+#include "option_flags.h"
 #include "option_text.h"
 
 namespace vantage::cli {
@@ -40,6 +42,14 @@ bool uses_saliency(const std::vector<Measure>& measures) {
                      [](const Measure& m) { return m.needs.saliency; });
 }
 
+void check_gradient(const Measure& measure) {
+  try {
+    require_gradient(measure);
+  } catch (const InvalidInput& error) {
+    throw refused(error, "--search");
+  }
+}
+
 void offer_measures(const CLI::Option* option, std::vector<std::string> others) {
   for (const Measure& measure : builtin_measures()) {
     others.push_back(measure.name);
@@ -59,6 +69,9 @@ void MeasureFlags::apply(ViewOptions& options) const {
     throw CLI::ValidationError("--method", "takes one method here; compare takes several");
   }
   options.method = measures.front().name;
+  if (options.search.strategy == SearchStrategy::Gradient) {
+    check_gradient(measures.front());
+  }
 }
 
 }  // namespace vantage::cli

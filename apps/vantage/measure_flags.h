@@ -17,6 +17,9 @@ std::vector<Measure> parse_measures(const std::string& text, const std::string& 
 /// Whether any of them is of the map of mesh saliency.
 bool uses_saliency(const std::vector<Measure>& measures);
 
+/// Refuses a search along the gradient of what has none. \throw CLI::ValidationError
+void check_gradient(const Measure& measure);
+
 /// Lets shells complete the names of measures. \param others further values.
 void offer_measures(const CLI::Option* option, std::vector<std::string> others = {});
 

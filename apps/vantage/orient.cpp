@@ -108,19 +108,30 @@ struct OrientCommand {
         check_output(file, OutputKind::Shape, session.flags);
         write_output(file, bytes);
       }
-      note_what_stays_behind(loaded, choice);
+      if (is_ply()) {
+        note_lost_materials(session, loaded, choice);
+      } else {
+        note_what_stays_behind(loaded, choice);
+      }
     }
     report(session, loaded, choice, turn, stood);
   }
 
  private:
+  /// Of the file to write, in small letters.
+  [[nodiscard]] std::string extension() const {
+    std::string text = std::filesystem::path(file).extension().string();
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+  }
+
+  [[nodiscard]] bool is_ply() const { return extension() == ".ply"; }
+
   [[nodiscard]] std::string turned(Session& session, const Model& loaded, const AxisTurn& turn,
                                    bool is_quarter_turn) const {
-    std::string extension = std::filesystem::path(file).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const std::string own = "." + std::string(format_name(loaded));
-    if (extension == ".ply") {
+    if (is_ply()) {
       TriMesh mesh = loaded.mesh;
       std::transform(mesh.positions.begin(), mesh.positions.end(), mesh.positions.begin(), turn);
       return ply_bytes(mesh, {}, loaded.vertex_colours, loaded.double_precision);
@@ -131,7 +142,7 @@ struct OrientCommand {
       throw CLI::ValidationError(
           "-o", "must end in .ply: the model is turned by other than quarter turns");
     }
-    if (!in_place || extension != own) {
+    if (!in_place || extension() != own) {
       throw CLI::ValidationError("-o", in_place
                                            ? "must end in " + own + ", as the model is, or in .ply"
                                            : "must end in .ply: a " + own + " is not written");
@@ -152,11 +163,22 @@ struct OrientCommand {
            fs::weakly_canonical(fs::absolute(model), error).parent_path();
   }
 
+  /// Materials that a .ply has no place for: its vertices have colours alone.
+  void note_lost_materials(Session& session, const Model& loaded, FrameChoice& choice) const {
+    if (model == "-" || loaded.format == ModelFormat::Ply) {
+      return;
+    }
+    const Appearance lost = session.load(model, {.appearance = true}).appearance;
+    if (!lost.textures.empty() || (loaded.vertex_colours.empty() && !lost.materials.empty())) {
+      choice.notes.push_back("the materials are not in " + file +
+                             ", as a .ply of ours has no place for them");
+    }
+  }
+
   /// An OBJ without its materials is sound, but grey.
   void note_what_stays_behind(const Model& loaded, FrameChoice& choice) const {
     namespace fs = std::filesystem;
-    if (loaded.format != ModelFormat::Obj || is_beside_model() || file == "-" ||
-        fs::path(file).extension() == ".ply") {
+    if (loaded.format != ModelFormat::Obj || is_beside_model() || file == "-") {
       return;
     }
     FilesBeside beside(model);

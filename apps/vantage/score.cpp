@@ -123,7 +123,7 @@ struct ScoreCommand {
     const RunContext run = session.run();
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_for(loaded, options, measures, run.part(0.0, 0.4)); });
-    require_area(shape, model);
+    session.reading([&] { require_area(shape, model); });
     MeasureSubject subject = measure_subject(shape, options);
     const std::vector<double> map =
         uses_saliency(measures) ? vertex_map(shape, options, "mesh-saliency", run.part(0.4, 0.5))

@@ -4,6 +4,7 @@
 #include <memory>
 #include <stop_token>
 #include <string>
+#include <type_traits>
 
 #include <oneapi/tbb/global_control.h>
 
@@ -81,9 +82,14 @@ class Session {
   template <class Step>
   auto reading(Step&& step) {
     reading_input_ = true;
-    auto result = step();
-    reading_input_ = false;
-    return result;
+    if constexpr (std::is_void_v<decltype(step())>) {
+      step();
+      reading_input_ = false;
+    } else {
+      auto result = step();
+      reading_input_ = false;
+      return result;
+    }
   }
 
   /// Runs a step that computes and writes nothing; a signal ends it within a second, come what may.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "value_checks.h"
 
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <system_error>
 
 namespace vantage::cli {
 
@@ -16,6 +19,16 @@ void check_values(CLI::App& app) {
             return is_number && !std::isfinite(value) ? "must be a finite number, not " + text : "";
           },
           "", "finite");
+    }
+    if (option->get_type_name().starts_with("UINT")) {
+      option->check(
+          [](const std::string& text) {
+            std::uint64_t value = 0;
+            const auto [end, error] =
+                std::from_chars(text.data(), text.data() + text.size(), value);
+            return error == std::errc::result_out_of_range ? "is too large: " + text : "";
+          },
+          "", "fits");
     }
     if (option->get_type_name() == "TEXT") {  // as of a variable that a script has not set
       option->check([](const std::string& text) { return text.empty() ? "must not be empty" : ""; },

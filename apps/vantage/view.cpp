@@ -101,6 +101,7 @@ struct ViewCommand {
     options.margin_percent = look.margin_percent();
     measure.apply(options);
     method.require_use(options.method == "mesh-saliency", "saliency", "mesh-saliency");
+    several.require_use(sums_a_map(options.method));
     const RunContext run = session.run();
 
     StageSeconds seconds;
@@ -123,7 +124,7 @@ struct ViewCommand {
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_shape(loaded, options, run.part(0.02, 0.5), &seconds); });
     if (!sums_a_map(options.method)) {
-      require_area(shape, model);
+      session.reading([&] { require_area(shape, model); });
     }
     const FrameChoice choice = choose_frame(loaded, shape, options);
     const auto search_start = Clock::now();

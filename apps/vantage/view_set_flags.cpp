@@ -173,6 +173,13 @@ void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, Shape
   }
 }
 
+void ViewSetFlags::require_use(bool is_used) const {
+  const std::string flag = flags_.first_given("set");
+  if (!is_used && !flag.empty()) {
+    throw CLI::ValidationError(flag, "goes with --method kssm and mesh-saliency only");
+  }
+}
+
 void ViewSetFlags::check_names(const OutputFolder& output) const {
   const std::string name = std::filesystem::path(tour_).filename().string();
   if (name != "tour.webp" && name != "tour.png") {  // which are left to it

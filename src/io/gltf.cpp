@@ -66,6 +66,9 @@ class SceneReader {
       builder_.note("nodes that the file hides left out, with all below them: " +
                     std::to_string(hidden_nodes_));
     }
+    if (has_clear_) {
+      builder_.note("the opacity of vertices was left out; their colours are read");
+    }
     if (skipped_primitives_ > 0) {
       builder_.note("primitives of points or lines left out: " +
                     std::to_string(skipped_primitives_));
@@ -322,6 +325,7 @@ class SceneReader {
       builder_.fail("the colours of a primitive do not fit its positions");
     }
     for (std::size_t i = 0; i < count; ++i) {
+      has_clear_ |= colours.components() > 3 && colours.value(i, 3) < 1.0;
       builder_.add_colour(encoded_of_linear(base[0] * colours.value(i, 0)),
                           encoded_of_linear(base[1] * colours.value(i, 1)),
                           encoded_of_linear(base[2] * colours.value(i, 2)));
@@ -436,6 +440,7 @@ class SceneReader {
   std::size_t budget_ = 0;
   std::size_t visits_left_ = 0;
   bool has_triangles_ = false;
+  bool has_clear_ = false;  // a vertex is not opaque
   bool has_colours_ = false;
   std::size_t hidden_nodes_ = 0;
   std::size_t skipped_primitives_ = 0;

@@ -125,6 +125,7 @@ class ObjReader {
     builder_.add_point({values[0], values[1], values[2]}, lines_.place());
     if (count >= 6) {
       builder_.add_colour(values[3], values[4], values[5]);
+      has_clear_ |= count == 7 && values[6] < 1.0;
     } else if (count == 4) {
       weights_ += values[3] != 1.0 ? 1 : 0;
     } else if (count == 5) {
@@ -189,6 +190,9 @@ class ObjReader {
       builder_.note("weights of vertices (a fourth coordinate) left out: " +
                     std::to_string(weights_));
     }
+    if (has_clear_) {
+      builder_.note("the opacity of vertices was left out; their colours are read");
+    }
     if (lines_and_points_ > 0) {
       builder_.note("line and point elements left out: " + std::to_string(lines_and_points_));
     }
@@ -206,6 +210,7 @@ class ObjReader {
   ModelBuilder builder_;
   ObjMaterials materials_;
   std::size_t weights_ = 0;
+  bool has_clear_ = false;  // a vertex is not opaque
   std::size_t lines_and_points_ = 0;
   std::size_t curves_ = 0;
   std::size_t unknown_ = 0;

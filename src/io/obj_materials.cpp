@@ -74,6 +74,9 @@ void ObjMaterials::finish() {
     }
   }
   loader_.finish();
+  if (unknown > 0 && missing.empty() && !libraries_.materials().empty()) {
+    builder_.note("materials of faces that no material library has: " + std::to_string(unknown));
+  }
   if (unknown < materials.size()) {
     builder_.set_materials(std::move(materials), std::move(textures_));
   }

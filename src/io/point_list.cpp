@@ -118,6 +118,9 @@ class PointListReader {
     if (is_flat_) {
       builder_.note("points of two coordinates were read with z = 0");
     }
+    if (has_colours_) {
+      builder_.note("colours or normals behind the coordinates left out");
+    }
     if (scans_ > 1) {
       builder_.note("scans of the file, all read: " + std::to_string(scans_));
     }
@@ -159,6 +162,12 @@ class PointListReader {
                     "point, or nothing but commas between columns");
     }
     add_point(std::span(column).first(static_cast<std::size_t>(found)));
+    int further = 0;
+    for (; further < 3 && !has_colours_ && !columns.at_end(); ++further) {
+      columns.take();
+      columns.take_separator();
+    }
+    has_colours_ |= further == 3;
   }
 
   void add_point(std::span<const std::string_view> column) {
@@ -186,6 +195,7 @@ class PointListReader {
   bool has_scans_;
   ModelBuilder builder_;
   bool is_flat_ = false;
+  bool has_colours_ = false;  ///< Or normals: three columns and more behind a point's coordinates.
   std::size_t scan_end_ = 0;  ///< How many points there are after the scan, as the file says.
   std::size_t scans_ = 0;
 };

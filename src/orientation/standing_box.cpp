@@ -144,7 +144,8 @@ class BoxWorth {
     return (size.array() + 1e-3 * size.maxCoeff()).prod();  // sheets have volume, too
   }
 
-  [[nodiscard]] double of(const Mat3& box, double least) const {
+  /// What faces and mirror planes say of it.
+  [[nodiscard]] double alignment(const Mat3& box) const {
     double aligned = 0.0;
     double area = 0.0;
     for (const Face& face : faces_) {
@@ -158,8 +159,11 @@ class BoxWorth {
     for (const MirrorPlane& plane : planes_) {
       mirrors += (box * plane.normal).cwiseAbs().maxCoeff() > kSame ? kMirrorWorth : 0.0;
     }
-    return (area > 0.0 ? aligned / area : 0.0) + least / volume(box) +
-           std::min(mirrors, 2.0 * kMirrorWorth);
+    return (area > 0.0 ? aligned / area : 0.0) + std::min(mirrors, 2.0 * kMirrorWorth);
+  }
+
+  [[nodiscard]] double of(const Mat3& box, double least) const {
+    return alignment(box) + least / volume(box);
   }
 
  private:
@@ -217,8 +221,10 @@ Mat3 standing_rotation(const TriMesh& surface) {
   }
   Mat3 best = boxes.front();
   double most = worth.of(best, least) + kClearly;
+  // The least box around an animal lies along nose and tail: volume alone turns nothing.
+  const double alignment = worth.alignment(best) + kClearly;
   for (const Mat3& box : boxes) {
-    if (const double here = worth.of(box, least); here > most) {
+    if (const double here = worth.of(box, least); here > most && worth.alignment(box) > alignment) {
       most = here;
       best = box;
     }

@@ -89,7 +89,7 @@ class Measures(ProgramTest):
 
     def test_several_views_by_a_measure_without_a_map_are_refused(self):
         self.assertIn("--views", self.vantage("view", FAN, "-o", "out", "--method", "vmi", "--views", 3,
-                                              exit_code=1).err)
+                                              exit_code=2).err)
 
     def test_the_map_of_polygonal_mutual_information_is_not_negative(self):
         self.vantage("map", FAN, "-o", "map.ply", "--method", "pmi-saliency")
@@ -165,7 +165,7 @@ class Measures(ProgramTest):
     def test_a_count_has_no_gradient_to_follow(self):
         for command in ("view", "compare"):
             error = self.vantage(command, FAN, "-o", "out", "--method", "visible-triangles", "--search",
-                                 "gradient", exit_code=1).err
+                                 "gradient", exit_code=2).err
             self.assertIn("visible-triangles counts", error)
 
     def test_starts_go_with_the_gradient_search_only(self):
@@ -206,7 +206,7 @@ class Measures(ProgramTest):
         self.write("line.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n")
         for command in (["score", "line.off", "--sphere", 0], ["view", "line.off", "-o", "v"],
                         ["compare", "line.off", "-o", "c"]):
-            self.assertIn("line.off: ", self.vantage(*command, "--method", "vmi", exit_code=1).err)
+            self.assertIn("line.off: ", self.vantage(*command, "--method", "vmi", exit_code=3).err)
 
     def test_compare_replaces_its_own_folder_but_no_other(self):
         self.vantage("compare", FAN, "-o", "out", "--method", "plemenos", "--no-images")

@@ -76,6 +76,24 @@ class WhatWasMeant(ProgramTest):
                 self.assertIn(named, self.vantage("view", "a.off", *flags, exit_code=2).err)
         self.assertEqual([p.name for p in self.dir.iterdir()], ["a.off"])
 
+    def test_what_a_command_does_not_use_is_refused(self):
+        self.write("a.off", box(1))
+        for words, named in ((("view", "a.off", "--method", "vmi", "--views", 3), "--views: goes with"),
+                             (("view", "a.off", "--method", "vmi", "--coverage", .9), "--coverage: goes with"),
+                             (("view", "a.off", "--method", "visible-triangles", "--search", "gradient"), "--search: "),
+                             (("figures", "a.off", "-o", "f", "--objective", "people"), "--objective: has no effect"),
+                             (("figures", "a.off", "-o", "f", "--certify"), "--certify: has no effect"),
+                             (("view", "a.off", "--seed", 2**64), "--seed: is too large"),
+                             (("compare", "a.off", "--search", "gradient", "--method", "visible-triangles"), "--search: ")):
+            with self.subTest(words=words):
+                self.assertIn(named, self.vantage(*words, exit_code=2).err)
+        self.assertEqual([p.name for p in self.dir.iterdir()], ["a.off"])
+
+    def test_a_surface_without_area_is_bad_input(self):
+        self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")
+        for words in (("view", "--method", "vmi"), ("compare",), ("score", "--sphere", 1, "--method", "vmi")):
+            self.assertIn("a.obj: ", self.vantage(words[0], "a.obj", *words[1:], exit_code=3).err, words)
+
     def test_what_a_camera_file_says_is_not_said_again(self):
         self.write("a.off", box(1))
         for flag in ("--fov", "--distance"):

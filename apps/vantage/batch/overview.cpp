@@ -250,6 +250,16 @@ void check_overview(const ConfinedFolder& folder) {
   check_place(folder, sheet_name(0), is_sheet);
 }
 
+void remove_overview(const ConfinedFolder& folder) {
+  for (std::size_t page = 0; is_page(folder, page_name(page)) && folder.remove(page_name(page));) {
+    ++page;
+  }
+  for (std::size_t sheet = 0;
+       is_sheet(folder, sheet_name(sheet)) && folder.remove(sheet_name(sheet));) {
+    ++sheet;
+  }
+}
+
 Overview write_overview(const ConfinedFolder& folder, ResultsStore& store, const RunContext& run) {
   ContactSheets sheets(folder);
   const StatusCounts counts = store.counts();

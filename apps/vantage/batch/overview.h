@@ -29,6 +29,9 @@ Overview write_overview(const ConfinedFolder& folder, ResultsStore& store, const
 /// \throw IoError
 void check_overview(const ConfinedFolder& folder);
 
+/// Removes what write_overview() wrote, which would be out of date. \throw IoError
+void remove_overview(const ConfinedFolder& folder);
+
 /// One page of the table as the store is now; nothing beyond the last page. \throw IoError
 std::optional<std::string> overview_page(const std::string& folder, ResultsStore& store,
                                          std::size_t page);

@@ -238,6 +238,12 @@ TEST_F(ObjAppearance, HasTheMaterialsOfAllLibrariesOfALine) {
   EXPECT_THAT(model.notes, IsEmpty());
 }
 
+TEST_F(ObjAppearance, NotesMaterialsThatNoLibraryHas) {
+  const Model model = loaded("mtllib a.mtl\nusemtl red\nf 1 2 3\nusemtl glass\nf 1 3 4\n",
+                             "newmtl red\nKd 1 0 0\n");
+  EXPECT_THAT(model.notes, ElementsAre("materials of faces that no material library has: 1"));
+}
+
 TEST_F(ObjAppearance, WithoutItsLibraryIsANote) {
   const Model model = loaded("mtllib b.mtl\nusemtl m\nf 1 2 3\n", "");
   EXPECT_THAT(model.appearance.materials, IsEmpty());

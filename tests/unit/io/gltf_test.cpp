@@ -11,6 +11,7 @@
 namespace vantage::test {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -256,6 +257,7 @@ TEST(Gltf, TurnsLinearColoursIntoSrgb) {
   scene.primitive = R"({"attributes":{"POSITION":0,"COLOR_0":2}})";
   // 0x80 / 255 = 0.502 linear is 1.055 · 0.502^(1/2.4) − 0.055 = 0.7367, times 255 = 187.9
   EXPECT_EQ(scene.parsed().vertex_colours[0], (Rgb8{255, 0, 188}));
+  EXPECT_THAT(scene.parsed().notes, Contains(HasSubstr("the opacity of vertices")));  // of 0
 }
 
 TEST(Gltf, ReadsADataUri) {

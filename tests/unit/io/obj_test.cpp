@@ -102,6 +102,14 @@ TEST(Obj, ReadsColoursFromZeroTo255) {
   EXPECT_THAT(model.vertex_colours, ElementsAre(Rgb8{255, 51, 0}, Rgb8{0, 0, 1}));
 }
 
+TEST(Obj, ReadsNoOpacityAndSaysSo) {
+  EXPECT_THAT(obj("v 0 0 0 1 0.2 0 0.5\nv 1 0 0 0 0 1 1\n").notes,
+              ElementsAre(HasSubstr("the opacity of vertices was left out")));
+  const Model opaque = obj("v 0 0 0 1 0.2 0 1\n");
+  EXPECT_THAT(opaque.vertex_colours, ElementsAre(Rgb8{255, 51, 0}));
+  EXPECT_THAT(opaque.notes, IsEmpty());
+}
+
 TEST(Obj, LeavesColoursOutUnlessEveryVertexHasOne) {
   const Model model = obj("v 0 0 0 1 0 0\nv 1 0 0\n");
   EXPECT_THAT(model.vertex_colours, IsEmpty());

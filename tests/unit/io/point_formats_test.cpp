@@ -122,7 +122,9 @@ TEST(PointList, ReadsAllScansOfAPts) {
   const std::string text = "2\n1 2 3 -5 9 9 9\n4 5 6 -5 9 9 9\n\n1\n7 8 9 -5 9 9 9\n";
   const Model model = parse_model(text, "a.pts");
   EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(7, 8, 9)));
-  EXPECT_THAT(model.notes, ElementsAre(HasSubstr("scans of the file, all read: 2")));
+  EXPECT_THAT(model.notes, ElementsAre("colours or normals behind the coordinates left out",
+                                       HasSubstr("scans of the file, all read: 2")));
+  EXPECT_TRUE(parse_model("1 2 3 0.5\n4 5 6 0.5\n", "a.xyz").notes.empty()) << "an intensity";
   EXPECT_THAT(error_text(text, "a.xyz"), HasSubstr("expected 3 coordinates, found 1"));
   // Not after the number of points that was said.
   EXPECT_THAT(error_text("2\n1 2 3\n4\n7 8 9\n", "a.pts"), HasSubstr("line 3"));
