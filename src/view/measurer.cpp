@@ -107,7 +107,7 @@ void ViewMeasurer::State::prepare() {
   if (needs.faces) {
     faces.emplace(mesh, sides);
   } else if (needs.vertices) {
-    vertices.emplace(mesh, sides);
+    vertices.emplace(mesh, sides, model.set.directions.size());
   }
   if (needs.outline) {
     outlines.emplace(mesh, sides, model.given.camera.sphere);
