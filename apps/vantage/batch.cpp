@@ -233,6 +233,11 @@ struct BatchCommand {
       }
     }
     summarise(session, counts);
+    if (!part && counts.done + counts.failed + counts.skipped + counts.duplicates == 0) {
+      session.say("warning: there was nothing to do: no models were found in " +
+                  (manifest.empty() ? inputs.front() : manifest) +
+                  (inputs.size() > 1 ? " and the other inputs" : ""));
+    }
     finish_standard_output();
     settle_exit_code(session, counts.failed + counts.skipped_failed, counts.doubted);
   }
