@@ -29,7 +29,6 @@ class ViewSetFlags {
   [[nodiscard]] std::optional<ViewSetRequest> request() const;
   /// Refuses flags of the set where a method chooses none. \throw CLI::ValidationError
   void require_use(bool is_used) const;
-
   /// What was asked for, or `views` of them where no flag says how many.
   [[nodiscard]] ViewSetRequest request_or(int views) const;
 
