@@ -225,24 +225,36 @@ struct BatchCommand {
     };
     const batch::RunnerCounts counts = batch::run_batch(*source, *book, runner, run.stop, report);
     if (auto* const store = dynamic_cast<batch::ResultsStore*>(book.get())) {
-      const bool changed = counts.done + counts.failed + counts.duplicates > 0;
-      if (no_overview && changed) {
-        batch::remove_overview(root);
-      } else if (!no_overview && (changed || !root.exists("index.html"))) {
-        batch::write_overview(root, *store, run);
-      }
+      settle_overview(root, *store, counts, run);
     }
     summarise(session, counts);
-    if (!part && counts.done + counts.failed + counts.skipped + counts.duplicates == 0) {
-      session.say("warning: there was nothing to do: no models were found in " +
-                  (manifest.empty() ? inputs.front() : manifest) +
-                  (inputs.size() > 1 ? " and the other inputs" : ""));
+    if (!part) {
+      warn_of_nothing(session, counts);
     }
     finish_standard_output();
     settle_exit_code(session, counts.failed + counts.skipped_failed, counts.doubted);
   }
 
  private:
+  /// Leaves an overview that is up to date, or none.
+  void settle_overview(const batch::ConfinedFolder& root, batch::ResultsStore& store,
+                       const batch::RunnerCounts& counts, const RunContext& run) const {
+    const bool changed = counts.done + counts.failed + counts.duplicates > 0;
+    if (no_overview && changed) {
+      batch::remove_overview(root);
+    } else if (!no_overview && (changed || !root.exists("index.html"))) {
+      batch::write_overview(root, store, run);
+    }
+  }
+
+  void warn_of_nothing(Session& session, const batch::RunnerCounts& counts) const {
+    if (counts.done + counts.failed + counts.skipped + counts.duplicates == 0) {
+      session.say("warning: there was nothing to do: no models were found in " +
+                  (manifest.empty() ? inputs.front() : manifest) +
+                  (inputs.size() > 1 ? " and the other inputs" : ""));
+    }
+  }
+
   /// The shard asked for, if any, and a template that suits it. \throw CLI::ValidationError
   [[nodiscard]] std::optional<batch::Shard> checked_shard() const {
     try {
