@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <span>
 #include <vector>
 
 #include "core/wide_registers.h"
@@ -29,19 +28,18 @@ class CellLists {
       total += count;
       count = total;  // for now the end of the cell: filling walks back to its begin
     }
-    items_.resize(total);
-    for (std::vector<float>* field : {&left_, &right_, &bottom_, &top_, &nearest_}) {
-      field->resize(total + kLanes);  // so that the last cell can be read by whole lanes
-    }
+    packs_.resize(total / kLanes + 1);
     over_all([this, &extents](std::uint32_t item, std::uint32_t cell) {
       const std::uint32_t slot = --first_[cell];
       const PictureCells::Extent& extent = extents[item];
-      items_[slot] = item;
-      left_[slot] = extent.left;
-      right_[slot] = extent.right;
-      bottom_[slot] = extent.bottom;
-      top_[slot] = extent.top;
-      nearest_[slot] = extent.nearest;
+      Pack& pack = packs_[slot / kLanes];
+      const std::uint32_t lane = slot % kLanes;
+      pack.items[lane] = item;
+      pack.left[lane] = extent.left;
+      pack.right[lane] = extent.right;
+      pack.bottom[lane] = extent.bottom;
+      pack.top[lane] = extent.top;
+      pack.nearest[lane] = extent.nearest;
     });
   }
 
@@ -56,22 +54,17 @@ class CellLists {
   [[nodiscard]] bool is_any_before(std::uint32_t first, std::uint32_t last,
                                    const PictureCells::Extent& extent,
                                    const IsWanted& is_wanted) const {
-    using Floats = Registers<kLanes>::Floats;
+    const std::uint32_t begin = first_[first];
     const std::uint32_t end = first_[last + 1];
-    for (std::uint32_t slot = first_[first]; slot < end; slot += kLanes) {
-      const auto at = [slot](const std::vector<float>& field) {
-        Floats values;
-        std::memcpy(&values, field.data() + slot, sizeof values);
-        return values;
-      };
-      unsigned found = bits_of((at(nearest_) < extent.farthest) & (at(left_) < extent.right) &
-                               (at(right_) > extent.left) & (at(bottom_) < extent.top) &
-                               (at(top_) > extent.bottom));
-      if (end - slot < kLanes) {
-        found &= (1U << (end - slot)) - 1U;
-      }
+    for (std::uint32_t start = begin - begin % kLanes; start < end; start += kLanes) {
+      const Pack& pack = packs_[start / kLanes];
+      unsigned found = bits_of((pack.nearest < extent.farthest) & (pack.left < extent.right) &
+                               (pack.right > extent.left) & (pack.bottom < extent.top) &
+                               (pack.top > extent.bottom));
+      found &= start < begin ? ~0U << (begin - start) : ~0U;
+      found &= end - start < kLanes ? (1U << (end - start)) - 1U : ~0U;
       for (; found != 0; found &= found - 1) {
-        if (is_wanted(items_[slot + static_cast<std::uint32_t>(std::countr_zero(found))])) {
+        if (is_wanted(pack.items[static_cast<std::uint32_t>(std::countr_zero(found))])) {
           return true;
         }
       }
@@ -82,9 +75,14 @@ class CellLists {
  private:
   static constexpr unsigned kLanes = 4;
 
+  /// Some items, one after the other in the order of their cells.
+  struct Pack {
+    std::array<std::uint32_t, kLanes> items;
+    Registers<kLanes>::Floats left, right, bottom, top, nearest;
+  };
+
   std::vector<std::uint32_t> first_{};  // of each cell, and one past the last
-  std::vector<std::uint32_t> items_{};
-  std::vector<float> left_{}, right_{}, bottom_{}, top_{}, nearest_{};  // of each of them
+  std::vector<Pack> packs_{};
 };
 
 }  // namespace vantage
