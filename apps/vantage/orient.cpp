@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include <Eigen/Geometry>
@@ -118,15 +117,7 @@ struct OrientCommand {
   }
 
  private:
-  /// Of the file to write, in small letters.
-  [[nodiscard]] std::string extension() const {
-    std::string text = std::filesystem::path(file).extension().string();
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-  }
-
-  [[nodiscard]] bool is_ply() const { return extension() == ".ply"; }
+  [[nodiscard]] bool is_ply() const { return extension_of(file) == ".ply"; }
 
   [[nodiscard]] std::string turned(Session& session, const Model& loaded, const AxisTurn& turn,
                                    bool is_quarter_turn) const {
@@ -142,7 +133,7 @@ struct OrientCommand {
       throw CLI::ValidationError(
           "-o", "must end in .ply: the model is turned by other than quarter turns");
     }
-    if (!in_place || extension() != own) {
+    if (!in_place || extension_of(file) != own) {
       throw CLI::ValidationError("-o", in_place
                                            ? "must end in " + own + ", as the model is, or in .ply"
                                            : "must end in .ply: a " + own + " is not written");
@@ -168,10 +159,11 @@ struct OrientCommand {
     if (model == "-" || loaded.format == ModelFormat::Ply) {
       return;
     }
-    const Appearance lost = session.load(model, {.appearance = true}).appearance;
+    // Of pictures only whether there are any.
+    const Appearance lost = session.load(model, {.appearance = true, .texture_side = 1}).appearance;
     if (!lost.textures.empty() || (loaded.vertex_colours.empty() && !lost.materials.empty())) {
       choice.notes.push_back("the materials are not in " + file +
-                             ", as a .ply of ours has no place for them");
+                             ": what vantage writes as .ply has colours of vertices alone");
     }
   }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -88,6 +89,13 @@ std::optional<std::string> head_of(const fs::path& path) {
 }
 
 }  // namespace
+
+std::string extension_of(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
 
 void add_force_flag(CLI::App& app, CommonFlags& flags) {
   app.add_flag("--force", flags.force, "replace files that were not written by vantage too")

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <filesystem>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
 
 #include "vantage/io/write.h"
+
+#include "output_file.h"
 
 namespace vantage::cli {
 namespace {
@@ -17,13 +17,6 @@ namespace {
 constexpr std::array<std::string_view, 12> kOtherFormats{".jpg",  ".jpeg", ".gif",  ".tif",
                                                          ".tiff", ".bmp",  ".avif", ".svg",
                                                          ".pdf",  ".exr",  ".tga",  ".ppm"};
-
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 }  // namespace
 

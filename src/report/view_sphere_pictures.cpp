@@ -19,10 +19,11 @@ namespace {
 // enclosing sphere: the worst must not cut the model. [ours]
 constexpr double kNear = 1.05;
 constexpr double kFar = 1.75;
-constexpr double kWireRadii = 0.02;  // width of a wire in radii [ours]
-constexpr double kBorder = 1.02;     // of the picture, over the farthest wire
-constexpr double kBehind = 0.45;     // share of a wire's colour that is left behind the model
-constexpr double kEyeRadii = 8.0;    // of the eye, in radii
+// All by looking. [ours]
+constexpr double kWireRadii = 0.02;  // width of a wire, in radii
+constexpr double kBorder = 1.02;     // half the picture, over the distance of the farthest wire
+constexpr double kBehind = 0.45;     // what is left of the colour of a wire behind the centre
+constexpr double kEyeRadii = 8.0;    // distance of the eye, in radii
 constexpr Rgb8 kModelGrey{168, 168, 168};
 
 /// How good each view is, from 0 to 1; all 0 where they are alike.

@@ -21,7 +21,7 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t kNotOfSet = ~std::size_t{0};
-constexpr double kNotTold = std::numeric_limits<double>::quiet_NaN();  // no value is
+constexpr double kNotTold = std::numeric_limits<double>::quiet_NaN();  // never a value
 
 MeasureNeeds both(MeasureNeeds a, const MeasureNeeds& b) {
   a.vertices |= b.vertices;
@@ -37,10 +37,7 @@ MeasureNeeds both(MeasureNeeds a, const MeasureNeeds& b) {
 
 /// Whether a look for `wanted` tells all that is needed.
 bool is_told(const MeasureNeeds& needed, const MeasureNeeds& wanted) {
-  return !(needed.vertices && !wanted.vertices) && !(needed.faces && !wanted.faces) &&
-         !(needed.outline && !wanted.outline) && !(needed.channel && !wanted.channel) &&
-         !(needed.neighbours && !wanted.neighbours) && !(needed.kssm && !wanted.kssm) &&
-         !(needed.saliency && !wanted.saliency) && !(needed.skeleton && !wanted.skeleton);
+  return both(wanted, needed) == wanted;
 }
 
 MeasureNeeds needs_of_all(const std::vector<Measure>& measures) {

@@ -420,25 +420,6 @@ class Results(BatchTest):
         self.assertIn("\\u003cb>&", page)
         self.assertTrue((self.dir / "out/contact-sheet-0001.png").read_bytes().startswith(b"\x89PNG"))
 
-    def test_a_folder_without_models_is_told(self):
-        (self.dir / "in").mkdir()
-        self.write("in/notes.txt", "none")
-        self.assertIn("no models were found in in", self.vantage("batch", "in", "-o", "out").err)
-        self.write("in/a.off", box(1))
-        for _ in range(2):
-            self.assertNotIn("no models", self.vantage("batch", "in", "-o", "out", *FAST).err)
-
-    def test_an_index_that_is_out_of_date_goes(self):
-        batch = ("batch", "a.off", "-o", "out", "--search", "rapid", "--write", "best", "--size", "64")
-        names = ("index.html", "contact-sheet-0001.png")
-        self.write("a.off", box(1))
-        self.vantage(*batch)
-        self.vantage(*batch, "--no-overview")  # nothing is done, so the page is true
-        self.assertTrue(all((self.dir / "out" / name).exists() for name in names))
-        self.write("a.off", box(2))
-        self.vantage(*batch, "--no-overview")
-        self.assertFalse(any((self.dir / "out" / name).exists() for name in names))
-
     def test_a_folder_with_foreign_files_is_refused(self):
         (self.dir / "out").mkdir()
         self.write("out/thesis.txt", "mine")

@@ -45,6 +45,17 @@ class Stale(ProgramTest):
         self.assertEqual(both, alone)
         shutil.rmtree(self.dir / "alone")
 
+    def test_an_index_that_is_out_of_date_goes(self):
+        batch = ("batch", "a.off", "-o", "out", "--search", "rapid", "--write", "best", "--size", "64")
+        names = ("index.html", "contact-sheet-0001.png")
+        self.write("a.off", box(1))
+        self.vantage(*batch)
+        self.vantage(*batch, "--no-overview")  # nothing is done, so the page is true
+        self.assertTrue(all((self.dir / "out" / name).exists() for name in names))
+        self.write("a.off", box(2))
+        self.vantage(*batch, "--no-overview")
+        self.assertFalse(any((self.dir / "out" / name).exists() for name in names))
+
     def test_a_view_without_pictures_or_report_after_one_with_all(self):
         full = ("view", "horse.off", *FAST, "--views", "3", "--weight", "area", "--tour", "v/tour.webp", "--tour-seconds", "1",
                 "--tour-size", "32")

@@ -87,6 +87,19 @@ void write_checked(const ConfinedFolder& folder, const std::string& name, std::s
   folder.write(name, bytes);
 }
 
+/// Removes those of an earlier run from number `first` on.
+void remove_pages(const ConfinedFolder& folder, std::size_t first) {
+  while (is_page(folder, page_name(first)) && folder.remove(page_name(first))) {
+    ++first;
+  }
+}
+
+void remove_sheets(const ConfinedFolder& folder, std::size_t first) {
+  while (is_sheet(folder, sheet_name(first)) && folder.remove(sheet_name(first))) {
+    ++first;
+  }
+}
+
 /// White sheets that fill with thumbnails.
 class ContactSheets {
  public:
@@ -118,11 +131,7 @@ class ContactSheets {
     if (tile_ > 0) {
       write();
     }
-    for (std::size_t old = sheet_; is_sheet(folder_, sheet_name(old)); ++old) {
-      if (!folder_.remove(sheet_name(old))) {
-        break;
-      }
-    }
+    remove_sheets(folder_, sheet_);
     return sheet_;
   }
 
@@ -251,13 +260,8 @@ void check_overview(const ConfinedFolder& folder) {
 }
 
 void remove_overview(const ConfinedFolder& folder) {
-  for (std::size_t page = 0; is_page(folder, page_name(page)) && folder.remove(page_name(page));) {
-    ++page;
-  }
-  for (std::size_t sheet = 0;
-       is_sheet(folder, sheet_name(sheet)) && folder.remove(sheet_name(sheet));) {
-    ++sheet;
-  }
+  remove_pages(folder, 0);
+  remove_sheets(folder, 0);
 }
 
 Overview write_overview(const ConfinedFolder& folder, ResultsStore& store, const RunContext& run) {
@@ -281,11 +285,7 @@ Overview write_overview(const ConfinedFolder& folder, ResultsStore& store, const
     write_checked(folder, page_name(page), index_page(data, page_names(pages), page, counts),
                   is_page);
   }
-  for (std::size_t old = pages; is_page(folder, page_name(old)); ++old) {
-    if (!folder.remove(page_name(old))) {
-      break;
-    }
-  }
+  remove_pages(folder, pages);
   return {pages, sheets.finish()};
 }
 

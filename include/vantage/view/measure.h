@@ -156,6 +156,8 @@ struct MeasureNeeds {
   bool kssm = false;        ///< MeasureSubject::kssm.
   bool saliency = false;    ///< MeasuredModel::saliency.
   bool skeleton = false;    ///< MeasureSubject::skeleton.
+
+  bool operator==(const MeasureNeeds&) const = default;
 };
 
 /// The points p with normal · (p − centre of the enclosing sphere) = offset.
@@ -267,8 +269,8 @@ class ViewMeasurer {
   [[nodiscard]] std::vector<double> values_of(std::size_t m, std::span<const Vec3> directions,
                                               const RunContext& run = {}) const;
 
-  /// The same, and what a look tells of the other measures at little cost is kept: asked about them,
-  /// the measurer need not look again. \throw Cancelled
+  /// The same values. What a look tells of the other measures at little cost is kept as well, so that
+  /// asked about them the measurer need not look again. \throw Cancelled
   std::vector<double> kept_values_of(std::size_t m, std::span<const Vec3> directions,
                                      const RunContext& run = {});
 

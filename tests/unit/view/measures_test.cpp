@@ -17,40 +17,12 @@
 #include "support/channel_identities.h"
 #include "support/shapes.h"
 #include "support/worst.h"
+#include "unit/view/measure_subject.h"
 
 namespace vantage {
 namespace {
 
-/// A subject with all that the built-in measures need.
-struct Subject {
-  explicit Subject(TriMesh shape, Projection projection = Projection::Orthographic)
-      : mesh(std::move(shape)), kssm(mesh.positions.size(), 1.0) {
-    given.surface = &mesh;
-    given.sides = sides;
-    given.camera = {.sphere = enclosing_sphere(mesh.positions), .projection = projection};
-    given.kssm = kssm;
-    graph.nodes = {given.camera.sphere.centre, given.camera.sphere.centre + Vec3::UnitX()};
-    graph.edges = {{0, 1}};
-    node_of_vertex.assign(mesh.positions.size(), 0);
-    given.skeleton = &graph;
-    given.node_of_vertex = node_of_vertex;
-  }
-
-  Subject(const Subject&) = delete;
-  Subject& operator=(const Subject&) = delete;
-
-  [[nodiscard]] double value(std::string_view name, const Vec3& direction) const {
-    const ViewMeasurer measurer(given, {find_measure(name)}, 1);
-    return measurer.values(std::vector<Vec3>{direction.normalized()})[0][0];
-  }
-
-  TriMesh mesh;
-  std::vector<FaceSides> sides{FaceSides::Front};
-  std::vector<double> kssm;
-  CurveGraph graph{};
-  std::vector<std::uint32_t> node_of_vertex{};
-  MeasureSubject given{};
-};
+using test::Subject;
 
 /// The unit cube, and the diameter of the sphere around it.
 const double kCubeDiameter = std::sqrt(3.0);
@@ -431,79 +403,6 @@ TEST(Measures, SumsByAreaAreWhatTheScorerSays) {
   const FaceVisibility faces(rings.mesh, rings.sides);
   const ViewScorer scorer(faces, rings.kssm, rings.given.camera);
   EXPECT_EQ(measurer.set_values()[0], scorer.score_all(measurer.set().directions));
-}
-
-TEST(Measures, OfOnesOwnTakePart) {
-  const Subject cube(test::box(1, 1, 1, 1));
-  const Measure own{.name = "own",
-                    .needs = {.faces = true},
-                    .value = [](const MeasuredModel& model, const SightTable& sight) {
-                      return static_cast<double>(model.face_areas.size() - sight.faces.size());
-                    }};
-  const ViewMeasurer measurer(cube.given, {own});
-  EXPECT_EQ(measurer.values(std::vector<Vec3>{Vec3::UnitX()})[0][0], 10.0);
-}
-
-TEST(Measures, OfOnesOwnSeeInTheSetWhatTheySeeElsewhere) {
-  Subject ring(test::torus(1.0, 0.4, 24, 12), Projection::Orthographic);
-  const std::vector<double> ones(ring.mesh.positions.size(), 1.0);
-  ring.given.kssm = ones;
-  ring.given.weight = Weight::Area;
-  const Measure of_faces{.name = "of faces",
-                         .needs = {.faces = true, .channel = true, .kssm = true},
-                         .value = [](const MeasuredModel& /*model*/, const SightTable& sight) {
-                           return sight.deepest + sight.depths[3] + sight.kssm_sum;
-                         }};
-  const Measure of_more{.name = "of more",
-                        .needs = {.vertices = true, .outline = true, .neighbours = true},
-                        .value = [](const MeasuredModel& /*model*/, const SightTable& sight) {
-                          return std::accumulate(sight.vertices.begin(), sight.vertices.end(),
-                                                 sight.outline.length);
-                        }};
-  ViewMeasurer measurer(ring.given, {of_faces, of_more}, 1);
-  const MeasureValues of_set = measurer.set_values();
-  EXPECT_EQ(of_set, measurer.values(measurer.set().directions));
-  for (const std::vector<double>& values : of_set) {
-    EXPECT_GT(*std::min_element(values.begin(), values.end()), 0.0);
-  }
-}
-
-TEST(Measures, KeptOfOneLookAreThoseOfALookEach) {
-  const Subject ring(test::torus(1.0, 0.4, 24, 12), Projection::Perspective);
-  ViewMeasurer keeps(ring.given, builtin_measures(), 1);
-  const ViewMeasurer looks(ring.given, builtin_measures(), 1);
-  const std::vector<Vec3> some{Vec3(1, 2, 2) / 3.0, Vec3::UnitX(), Vec3(0.0, 0.6, -0.8)};
-  const std::vector<Vec3> more{some[2], Vec3(0.48, 0.64, 0.6), some[0]};
-  for (const std::vector<Vec3>& directions : {some, more}) {
-    for (std::size_t m = 0; m < looks.measures().size(); ++m) {
-      EXPECT_EQ(keeps.kept_values_of(m, directions), looks.values_of(m, directions))
-          << looks.measures()[m].name;
-    }
-  }
-}
-
-TEST(Measures, KeptAreNotLookedAtAgain) {
-  const Subject cube(test::box(1, 1, 1, 1));
-  int looks = 0;
-  const auto own = [&](MeasureNeeds needs) {
-    return Measure{.name = "own",
-                   .needs = needs,
-                   .value = [&looks](const MeasuredModel& /*model*/, const SightTable& sight) {
-                     ++looks;
-                     return sight.projected_area;
-                   }};
-  };
-  ViewMeasurer measurer(cube.given, {own({.faces = true}), own({.faces = true}),
-                                     own({.vertices = true, .faces = true})});
-  const std::vector<Vec3> one{Vec3::UnitX()};
-  const RunContext alone{.max_threads = 1};
-  const std::vector<double> value = measurer.kept_values_of(0, one, alone);
-  EXPECT_EQ(looks, 2) << "faces tell nothing of vertices";
-  EXPECT_EQ(measurer.kept_values_of(1, one, alone), value);
-  EXPECT_EQ(measurer.kept_values_of(0, one, alone), value);
-  EXPECT_EQ(looks, 2);
-  EXPECT_EQ(measurer.kept_values_of(2, one, alone), value);
-  EXPECT_EQ(looks, 5);
 }
 
 TEST(Measures, RefuseAModelWithoutTheMapTheyNeed) {
