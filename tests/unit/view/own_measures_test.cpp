@@ -87,6 +87,13 @@ TEST(Measures, KeptAreNotLookedAtAgain) {
   EXPECT_EQ(looks, 2);
   EXPECT_EQ(measurer.kept_values_of(2, one, alone), value);
   EXPECT_EQ(looks, 5);
+  // What the set of views tells costs little once faces are seen.
+  ViewMeasurer of_set(cube.given, {own({.faces = true}), own({.faces = true, .channel = true})}, 1);
+  looks = 0;
+  const std::vector<Vec3> other{Vec3(0.6, 0.0, 0.8)};
+  of_set.kept_values_of(0, other, alone);
+  of_set.kept_values_of(1, other, alone);
+  EXPECT_EQ(looks, 2);
 }
 
 }  // namespace
