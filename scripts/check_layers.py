@@ -15,7 +15,7 @@ ALLOWED = {
     "contraction": "core mesh spatial operators",
     "skeleton": "core mesh spatial contraction",
     "visibility": "core mesh spatial",
-    "significance": "core mesh spatial operators contraction skeleton visibility",
+    "significance": "core mesh spatial contraction",
     "view": "core mesh spatial significance visibility",
     "orientation": "core mesh spatial view",
     "choice": "core mesh spatial view",
@@ -33,6 +33,7 @@ def module_of(include):
 
 
 def problems_of(root):
+    needed = {module: set() for module in ALLOWED}
     for folder in ("include/vantage", "src"):
         for file in sorted((root / folder).rglob("*")):
             if file.suffix not in (".h", ".cpp", ".in"):
@@ -44,12 +45,18 @@ def problems_of(root):
                 continue
             for include in INCLUDE.findall(file.read_text(encoding="utf-8")):
                 target = module_of(include)
+                needed[module].add(target)
                 if target is None:
                     yield f'{name}: include "{include}" by its full path'
                 elif target != module and target not in ALLOWED[module].split():
                     yield f"{name}: {module} must not include {include}"
                 elif folder.startswith("include") and not include.startswith("vantage/"):
                     yield f"{name}: a public header includes the private {include}"
+    for module, targets in needed.items():
+        may = set(ALLOWED[module].split())
+        all_above = len(may) == list(ALLOWED).index(module)
+        for target in sorted(may - targets) if not all_above else ():
+            yield f"{pathlib.Path(__file__).name}: {module} may include {target}, but does not"
     outside = [*(root / "apps").rglob("*.[ch]*"), *(root / "python").rglob("*.[ch]*")]
     for file in sorted(outside):
         for include in INCLUDE.findall(file.read_text(encoding="utf-8")):

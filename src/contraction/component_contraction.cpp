@@ -47,6 +47,7 @@ struct Attempt {
   TriMesh mesh{};
   std::vector<double> vertex_ratio{};
   double shrinkage = 0.0;
+  double contraction = 0.0;  ///< [W_L] it was made with, before the manner's share.
 };
 
 /// Why a contraction ends at a step of which none of the ways was sound. One that enlarges the
@@ -113,8 +114,9 @@ class Contraction {
         ratios_(scaled, shares),
         solver_(scaled, shares),
         manner_(is_careful ? kSafer : 0) {
-    state_ = {scaled,
-              shares.empty() ? first_contraction(ratios_.mean_area()) : shares.first_contraction(),
+    const double first =
+        shares.empty() ? first_contraction(ratios_.mean_area()) : shares.first_contraction();
+    state_ = {scaled, std::min(first, options.contraction_limit),
               std::vector<double>(scaled.positions.size(), 1.0)};
   }
 
@@ -137,7 +139,7 @@ class Contraction {
   /// Takes the next step, unless no way to take it is sound or it shrinks the surface by less than
   /// the tolerance: then says why it ends. \param limit largest W_L from the next step on.
   std::optional<ContractionStop> step(double limit) {
-    Attempt attempt = attempt_step();
+    Attempt attempt = attempt_step(limit);
     if (attempt.flaw != StepFlaw::None) {
       return stop_for(attempt.flaw);
     }
@@ -152,10 +154,11 @@ class Contraction {
     for (std::size_t v = 0; v < state_.attraction.size(); ++v) {
       state_.attraction[v] = std::min(1.0 / std::sqrt(vertex_ratio[v]), options_.attraction_limit);
     }
-    if (!limited_ && grown(options_.sheet_limit) > grown(limit)) {
+    const double W_L = state_.contraction;
+    if (!limited_ && grown(W_L, options_.sheet_limit) > grown(W_L, limit)) {
       limited_ = state_;
     }
-    state_.contraction = grown(limit);
+    state_.contraction = grown(W_L, limit);
     return std::nullopt;
   }
 
@@ -166,15 +169,14 @@ class Contraction {
       return false;
     }
     state_ = std::move(*limited_);
-    state_.contraction = grown(options_.sheet_limit);
+    state_.contraction = grown(state_.contraction, options_.sheet_limit);
     return true;
   }
 
  private:
-  /// The next step's W_L.
-  [[nodiscard]] double grown(double limit) const {
-    return std::min(state_.contraction * options_.contraction_growth,
-                    std::max(state_.contraction, limit));
+  /// The W_L after this one: larger, up to the limit.
+  [[nodiscard]] double grown(double W_L, double limit) const {
+    return std::min(W_L * options_.contraction_growth, std::max(W_L, limit));
   }
 
   /// What a step to `shrinkage` must have taken off.
@@ -186,13 +188,14 @@ class Contraction {
 
   /// A step that is not sound is repeated more safely. A curve is done where the first way fails:
   /// what a safer one could still gain is not worth the risk.
-  Attempt attempt_step() {
+  Attempt attempt_step(double limit) {
     const bool is_curve = !is_sheet(state_.shrinkage);
     StepFlaw first = StepFlaw::None;
     Attempt attempt;
     for (std::size_t manner = manner_; manner < kManners.size(); ++manner) {
-      attempt = attempt_in(kManners[manner]);
+      attempt = attempt_in(kManners[manner], limit);
       if (attempt.flaw == StepFlaw::None) {
+        state_.contraction = attempt.contraction;
         if (first != StepFlaw::None) {
           go_on_by(kManners[manner], first);
         }
@@ -220,24 +223,28 @@ class Contraction {
     manner_ = kSafer;
   }
 
-  Attempt attempt_in(const StepManner& manner) {
+  /// With a larger W_L, up to the limit, while a surface that has not begun to shrink rises.
+  Attempt attempt_in(const StepManner& manner, double limit) {
+    double W_L = state_.contraction;
     for (int stronger = 0;; ++stronger) {
       run_.check();
-      std::optional<std::vector<Vec3>> solved = solver_.solve(
-          state_.now, state_.contraction * manner.share, state_.attraction, options_, manner, run_);
+      std::optional<std::vector<Vec3>> solved =
+          solver_.solve(state_.now, W_L * manner.share, state_.attraction, options_, manner, run_);
       if (!solved) {
         return {};
       }
       Attempt attempt{.mesh = {std::move(*solved), state_.now.triangles}};
+      attempt.contraction = W_L;
       std::tie(attempt.vertex_ratio, attempt.shrinkage) = ratios_.of_vertices(attempt.mesh);
       attempt.flaw = soundness_.flaw(state_.now, attempt.mesh.positions, state_.shrinkage,
                                      attempt.shrinkage, manner.harshness == kGentlest);
       const bool too_gentle = attempt.flaw == StepFlaw::Rose && state_.shrinkage > kBegun &&
                               attempt.shrinkage < 2.0 - kBegun;
-      if (!too_gentle || stronger == kMostStronger) {
+      const double larger = grown(W_L, limit);
+      if (!too_gentle || stronger == kMostStronger || larger == W_L) {
         return attempt;
       }
-      state_.contraction *= options_.contraction_growth;
+      W_L = larger;
     }
   }
 

@@ -46,18 +46,6 @@ struct EvenShares {
 /// The shares of a surface; empty if it has no area.
 EvenShares even_shares(const TriMesh& mesh);
 
-/// Whether a surface that shrank to this share of its area [a_t] is not yet a curve [ours: 51 of 57
-/// closed models are curves where Cao's rule stops; docs/contraction.md].
-inline bool is_sheet(double shrinkage) {
-  return shrinkage > 0.04;
-}
-
-/// Whether a surface that shrank to this share of its area [a_t] is a plate if it shrinks no more:
-/// where it stands still, its rim has become a line that holds it [ours; docs/contraction.md].
-inline bool is_plate(double shrinkage) {
-  return shrinkage > 0.1;
-}
-
 /// Contracts one component already scaled as options.scaling says (docs/contraction.md).
 /// \param is_careful whether all steps are taken with the weights that are meant for slivers.
 /// \pre every vertex belongs to a face, no face names a vertex twice. \throw Cancelled

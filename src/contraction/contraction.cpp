@@ -13,6 +13,8 @@
 #include "vantage/mesh/topology.h"
 
 #include "contraction/component_contraction.h"
+#include "contraction/component_scaling.h"
+#include "contraction/history_summary.h"
 #include "contraction/proxy.h"
 #include "contraction/refinement.h"
 #include "contraction/second_mesh.h"
@@ -23,30 +25,11 @@
 namespace vantage {
 namespace {
 
-constexpr double kSphereSide = 2.0;  // ours: D = 2
-constexpr double kBoxSide = 1.6;     // Cao 2010: the longest side of the box
-
 /// One component cut out of the mesh, and where its vertices came from.
 struct Piece {
   std::vector<std::uint32_t> vertices{};
   std::vector<Triangle> triangles{};  // in indices of `vertices`
 };
-
-/// x_scaled = (x − centre) · factor.
-struct Scaling {
-  Vec3 centre = Vec3::Zero();
-  double factor = 1.0;
-};
-
-Scaling scaling_of(const std::vector<Vec3>& points, ContractionScaling kind) {
-  if (kind == ContractionScaling::Box) {
-    const Box box = bounding_box(points);
-    const double side = box.longest_side();
-    return {box.low + 0.5 * box.size(), side > 0.0 ? kBoxSide / side : 1.0};
-  }
-  const Sphere sphere = enclosing_sphere(points);
-  return {sphere.centre, sphere.diameter > 0.0 ? kSphereSide / sphere.diameter : 1.0};
-}
 
 std::vector<Piece> cut_into_pieces(const TriMesh& mesh, std::vector<std::uint32_t>& of_vertex) {
   const Components components = connected_components(mesh);
@@ -77,11 +60,8 @@ std::vector<Piece> cut_into_pieces(const TriMesh& mesh, std::vector<std::uint32_
   return pieces;
 }
 
-/// Vertices of pieces that are contracted side by side: bounds the memory, and is what refinement makes of all. [ours]
+/// Vertices of pieces that are contracted side by side: bounds the memory; equals kManyVertices of refinement.cpp. [ours]
 constexpr std::size_t kTogether = 60'000;
-
-/// Warnings about single steps at most.
-constexpr std::size_t kMostRemedies = 5;
 
 /// What one piece's contraction gave, in model units.
 struct PieceResult {
@@ -103,9 +83,9 @@ PieceResult contract_piece(const TriMesh& mesh, const Piece& piece,
   for (const std::uint32_t v : piece.vertices) {
     scaled.positions.push_back(mesh.positions[v]);
   }
-  const Scaling scaling = scaling_of(scaled.positions, options.scaling);
+  const ComponentScaling scaling(scaled.positions, options.scaling);
   for (Vec3& p : scaled.positions) {
-    p = (p - scaling.centre) * scaling.factor;
+    p = scaling.scaled(p);
   }
   if (scaled.triangles.empty()) {
     return {.history = {.levels = {scaled.positions},
@@ -129,7 +109,7 @@ PieceResult contract_piece(const TriMesh& mesh, const Piece& piece,
                                        options, run.part(0.8, 1.0));
   const auto to_model = [&scaling](std::vector<Vec3>& points) {
     for (Vec3& p : points) {
-      p = p / scaling.factor + scaling.centre;
+      p = scaling.unscaled(p);
     }
   };
   std::for_each(result.history.levels.begin(), result.history.levels.end(), to_model);
@@ -196,54 +176,6 @@ void add_isolated(const std::vector<std::uint32_t>& component_of_vertex, MergedS
     if (component_of_vertex[v] == ContractionHistory::kIsolated) {
       merged.of_vertex[v] = static_cast<std::uint32_t>(merged.vertex_count++);
     }
-  }
-}
-
-/// Steps that were not taken as defined, one sentence each; of many components only the first.
-void add_remedies(ContractionHistory& history) {
-  std::size_t told = 0;
-  std::size_t untold = 0;
-  for (std::size_t c = 0; c < history.components.size(); ++c) {
-    for (const std::string& remedy : history.components[c].remedies) {
-      if (++told > kMostRemedies) {
-        ++untold;
-        continue;
-      }
-      history.warnings.push_back(
-          "contraction" +
-          (history.components.size() > 1 ? " of component " + std::to_string(c + 1) : "") + ": " +
-          remedy);
-    }
-  }
-  if (untold > 0) {
-    history.warnings.push_back("contraction: " + std::to_string(untold) +
-                               " more steps were not taken as defined");
-  }
-}
-
-void summarise(const std::vector<PieceResult>& results, ContractionHistory& history) {
-  std::size_t failed = 0;
-  history.shrinkage.assign(history.levels.size(), 0.0);
-  double vertices = 0.0;
-  for (const PieceResult& result : results) {
-    const ComponentHistory& part = result.history;
-    const auto weight = static_cast<double>(part.summary.vertices);
-    vertices += weight;
-    for (std::size_t level = 0; level < history.levels.size(); ++level) {
-      history.shrinkage[level] +=
-          weight * part.shrinkage[std::min(level, part.shrinkage.size() - 1)];
-    }
-    failed += part.summary.stop == ContractionStop::SolverFailed ? 1 : 0;
-    history.components.push_back(part.summary);
-    history.components.back().shrinkage = part.shrinkage.back();
-  }
-  for (double& a : history.shrinkage) {
-    a = vertices > 0.0 ? a / vertices : 1.0;
-  }
-  add_remedies(history);
-  if (failed > 0) {
-    history.warnings.push_back("the contraction of " + std::to_string(failed) +
-                               " component(s) ended early because its system could not be solved");
   }
 }
 
@@ -325,7 +257,11 @@ ContractionHistory contract_pieces(const TriMesh& mesh, const ContractionOptions
     done = after;
   }
   fill_thinned(results, history);
-  summarise(results, history);
+  std::vector<const ComponentHistory*> parts;
+  for (const PieceResult& result : results) {
+    parts.push_back(&result.history);
+  }
+  summarise(parts, history);
   run.advance("contracting", 1.0);
   return history;
 }

@@ -6,8 +6,11 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 
+#include "contraction/component_scaling.h"
+#include "contraction/history_summary.h"
 #include "contraction/point_steps.h"
 #include "core/parallel.h"
+#include "mesh/disjoint_sets.h"
 #include "spatial/point_rings.h"
 
 namespace vantage {
@@ -30,28 +33,16 @@ constexpr std::uint32_t kIsolated = ContractionHistory::kIsolated;
 /// Labels of the components of the ring graph, numbered by lowest point.
 std::vector<std::uint32_t> label_components(const PointRings& rings, std::uint32_t& count) {
   const std::size_t n = rings.closed.size();
-  std::vector<std::uint32_t> parent(n);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    parent[i] = i;
-  }
-  const auto root = [&parent](std::uint32_t i) {
-    while (parent[i] != i) {
-      parent[i] = parent[parent[i]];
-      i = parent[i];
-    }
-    return i;
-  };
+  DisjointSets sets(n);
   for (std::uint32_t i = 0; i < n; ++i) {
     for (const std::uint32_t j : rings.neighbours[i]) {
-      const std::uint32_t a = root(i);
-      const std::uint32_t b = root(j);
-      parent[std::max(a, b)] = std::min(a, b);
+      sets.join(i, j);
     }
   }
   std::vector<std::uint32_t> label(n);
   count = 0;
   for (std::uint32_t i = 0; i < n; ++i) {
-    label[i] = root(i) == i ? count++ : label[root(i)];
+    label[i] = sets.root(i) == i ? count++ : label[sets.root(i)];
   }
   return label;
 }
@@ -107,18 +98,14 @@ ComponentHistory contract_piece(const std::vector<Vec3>& points, const Piece& pi
   for (const std::uint32_t i : piece.members) {
     scaled.push_back(points[i]);
   }
-  const bool by_box = options.scaling == ContractionScaling::Box;
-  const Box box = bounding_box(scaled);
-  const Sphere sphere = enclosing_sphere(scaled);
-  const Vec3 centre = by_box ? Vec3(box.low + 0.5 * box.size()) : sphere.centre;
-  const double size = by_box ? box.longest_side() / 1.6 : 0.5 * sphere.diameter;
+  const ComponentScaling scaling(scaled, options.scaling);
   for (Vec3& p : scaled) {
-    p = (p - centre) / size;
+    p = scaling.scaled(p);
   }
   ComponentHistory part = contract_point_component(scaled, piece.rings, options, run);
   for (auto& level : part.levels) {
     for (Vec3& p : level) {
-      p = p * size + centre;
+      p = scaling.unscaled(p);
     }
   }
   return part;
@@ -131,39 +118,31 @@ ContractionHistory contract_samples(const std::vector<Vec3>& points, const Point
   history.component_of_vertex = label_components(rings, count);
   const std::vector<Piece> pieces = cut(rings, history.component_of_vertex, count);
   history.levels.push_back(points);
-  std::vector<std::vector<double>> shrinkage;
+  std::vector<ComponentHistory> parts;
   double done = 0.0;
   for (const Piece& piece : pieces) {
     const double share =
         static_cast<double>(piece.members.size()) / static_cast<double>(points.size());
-    const ComponentHistory part =
-        contract_piece(points, piece, options, run.part(done, std::min(1.0, done + share)));
+    parts.push_back(
+        contract_piece(points, piece, options, run.part(done, std::min(1.0, done + share))));
     done = std::min(1.0, done + share);
-    while (history.levels.size() < part.levels.size()) {
+    std::vector<std::vector<Vec3>>& levels = parts.back().levels;
+    while (history.levels.size() < levels.size()) {
       history.levels.push_back(history.levels.back());
     }
-    for (std::size_t j = 1; part.levels.size() > 1 && j < history.levels.size(); ++j) {
-      const auto& from = part.levels[std::min(j, part.levels.size() - 1)];
+    for (std::size_t j = 1; levels.size() > 1 && j < history.levels.size(); ++j) {
+      const auto& from = levels[std::min(j, levels.size() - 1)];
       for (std::size_t i = 0; i < piece.members.size(); ++i) {
         history.levels[j][piece.members[i]] = from[i];
       }
     }
-    history.components.push_back(part.summary);
-    history.components.back().shrinkage = part.shrinkage.back();
-    shrinkage.push_back(part.shrinkage);
+    levels.clear();  // they stand in the history
   }
-  history.shrinkage.assign(history.levels.size(), 0.0);
-  double all = 0.0;
-  for (std::size_t c = 0; c < pieces.size(); ++c) {
-    const auto weight = static_cast<double>(pieces[c].members.size());
-    all += weight;
-    for (std::size_t j = 0; j < history.levels.size(); ++j) {
-      history.shrinkage[j] += weight * shrinkage[c][std::min(j, shrinkage[c].size() - 1)];
-    }
+  std::vector<const ComponentHistory*> of_pieces;
+  for (const ComponentHistory& part : parts) {
+    of_pieces.push_back(&part);
   }
-  for (double& a : history.shrinkage) {
-    a = all > 0.0 ? a / all : 1.0;
-  }
+  summarise(of_pieces, history);
   return history;
 }
 
@@ -207,6 +186,7 @@ void carry_back(std::span<const Vec3> points, std::span<const std::uint8_t> left
   ContractionHistory& to = result.history;
   to.shrinkage = from.shrinkage;
   to.components = from.components;
+  to.warnings = from.warnings;
   for (ComponentContraction& component : to.components) {
     component.vertices = 0;
   }

@@ -28,12 +28,12 @@ constexpr double kFineEdge = 0.03;
 /// is not enough.
 constexpr double kMostVertices = 20'000.0;
 constexpr double kCoarser = 1.25;  // factor on the edge length while that is exceeded
-/// Vertices that it may make of all components, about: where these are more, those less long than a
-/// share of the longest are split to edges of kLongEdge only, and the edges of the others stay longer,
-/// alike: again up to kLongEdge of their diameters. [ours: trials in docs/lab]
+/// Vertices that it may make of all components, about. Where more are expected, components whose
+/// diameter is below kSmallPart of the largest get edges of kLongEdge; the edges of all others grow by
+/// one common factor, at most to kLongEdge. [ours: trials in docs/lab]
 constexpr double kManyVertices = 30'000.0;
 constexpr double kSmallPart = 0.25;
-constexpr double kLongEdge = 0.08;
+constexpr double kLongEdge = 0.08;  // over the component's diameter
 /// Where that makes more vertices still, the smallest components stay as they are [ours].
 constexpr double kMostOfAll = 60'000.0;
 /// Vertices that may be added in all, whatever was estimated: a bound on time and memory [ours].

@@ -14,7 +14,7 @@ namespace vantage {
 SecondMesh contract_second_mesh(const TriMesh& first, const ComponentHistory& history,
                                 const ContractionOptions& options, const RunContext& run);
 
-/// Appends a component. Those with fewer levels repeat their last. \pre as many as `all` has, or more, stay.
+/// Appends a component to `all`. Where one has fewer levels than the other, its last is repeated.
 void append(SecondMesh part, SecondMesh& all);
 
 }  // namespace vantage

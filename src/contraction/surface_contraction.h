@@ -18,7 +18,7 @@
 namespace vantage {
 
 /// Components of more vertices are contracted by a proxy of at most this many [ours; trials in
-/// docs/contraction.md].
+/// docs/lab].
 inline constexpr std::size_t kProxyFrom = 20'000;
 inline constexpr std::size_t kProxySize = 10'000;
 /// The skeleton of such a component starts from at most so many merged vertices [ours: fewer lose

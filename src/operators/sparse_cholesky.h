@@ -12,7 +12,7 @@ namespace vantage {
 
 /// Direct solver for symmetric positive definite systems whose pattern stays while values change.
 /// The only place that knows which solver is used: our multifrontal Cholesky, whose bits do not
-/// depend on threads, ordered by METIS.
+/// depend on threads, ordered by METIS or, where small, by minimum degree.
 class SparseCholesky {
  public:
   SparseCholesky();

@@ -19,7 +19,7 @@ class Preference {
   /// How finely it is worth being searched, degrees.
   [[nodiscard]] double finest_deg() const;
 
-  /// Whether of views within a few degrees people prefer none; else it is as rough as the score.
+  /// Whether it varies slowly with the direction; else it is as rough as the score.
   [[nodiscard]] bool is_smooth() const { return !fronts_.empty(); }
 
   /// Whether it is nothing but the score.

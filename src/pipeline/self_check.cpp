@@ -19,11 +19,6 @@
 namespace vantage {
 namespace {
 
-/// Of a surface that is no curve this share of its area is left, or more: that of a plate. [ours; of
-/// 67 closed models none keeps more than 0.07]
-constexpr double kCurve = 0.1;
-/// From here on it is not quite one, which is a reason to look at its map again. [ours]
-constexpr double kNearlyCurve = 0.04;
 /// What of the surface and of its significance such components may hold: more, and the views hang on
 /// them. [ours]
 constexpr double kMinorShare = 0.25;
@@ -103,7 +98,7 @@ void look_at_contraction(const ShapeAnalysis& shape, std::vector<std::string>& d
     const ComponentContraction& component = shape.history.components[c];
     const bool has_failed = component.stop == ContractionStop::SolverFailed;
     // Of clouds a_t is no area, and stays large where they have become curves.
-    if ((!shape.cloud && component.shrinkage > kCurve) || has_failed) {
+    if ((!shape.cloud && is_plate(component.shrinkage)) || has_failed) {
       thick += surface[c];
       significant += significance[c];
       left += surface[c] * component.shrinkage;
@@ -123,7 +118,7 @@ void look_at_contraction(const ShapeAnalysis& shape, std::vector<std::string>& d
 bool is_map_doubtful(const ShapeAnalysis& shape) {
   const auto is_odd = [](const ComponentContraction& component) {
     return component.regularised_steps > 0 || !component.remedies.empty() ||
-           component.shrinkage > kNearlyCurve;
+           is_sheet(component.shrinkage);
   };
   return std::any_of(shape.history.components.begin(), shape.history.components.end(), is_odd) ||
          2 * shape.map.levels_used.size() <= shape.history.level_count() ||

@@ -64,6 +64,8 @@ void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext&
   }
 }
 
+namespace {
+
 /// What the search by the options' method will ask.
 PreparedFor use_of(const ShapeAnalysis& shape, const ViewOptions& options) {
   PreparedFor use;
@@ -76,6 +78,8 @@ PreparedFor use_of(const ShapeAnalysis& shape, const ViewOptions& options) {
   }
   return use;
 }
+
+}  // namespace
 
 ShapeAnalysis analyse_surface(ShapeAnalysis shape, const ViewOptions& options,
                               const RunContext& run, StageSeconds* seconds, AnalysisUse use) {

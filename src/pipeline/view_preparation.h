@@ -38,9 +38,9 @@ inline constexpr int kMeasureSetLevel = 3;
 
 /// Immutable; copies of an analysis share it.
 struct ViewPreparation {
-  /// Vertices of the coarse copy; fewer lose fingers and tails. [ours, docs/search.md]
+  /// Vertices of the coarse copy; fewer lose fingers and tails. [ours; docs/lab]
   static constexpr std::size_t kCoarseVertices = 1000;
-  /// Vertices of the proxy, and above which a surface has one. [ours, docs/search.md]
+  /// Vertices of the proxy, and above which a surface has one. [ours; docs/lab]
   static constexpr std::size_t kProxyVertices = 8000;
   static constexpr std::size_t kLargeSurface = 2 * kProxyVertices;
 

@@ -131,18 +131,6 @@ class Panels {
   const Model* asset_;
 };
 
-/// What a level adds to the map: its displacement from 0 to 1, lowered by the level's factor.
-std::vector<double> share_of_level(const KssmMap& map, std::size_t level) {
-  std::vector<double> values = map.displacement[level];
-  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
-  const double low = *least;
-  const double span = *largest - low;
-  for (double& value : values) {
-    value = span > 0.0 ? map.level_factor[level] * (value - low) / span : 0.0;
-  }
-  return values;
-}
-
 /// The same shape with another map.
 ShapeAnalysis with_map(ShapeAnalysis shape, std::vector<double> map) {
   shape.map.of_vertex = std::move(map);
@@ -200,7 +188,7 @@ void add_choice(std::vector<Image>& panels, const Panels& of, const ViewOptions&
 
 /// Figures 1, 2 and 3; the last panel is the map.
 std::vector<Figure> sequences(const ShapeAnalysis& shape, const Panels& best, const Image& map,
-                              const RunContext& run) {
+                              Kinematics kinematics, const RunContext& run) {
   std::vector<Image> contraction;
   std::vector<Image> displacement;
   std::vector<Image> shares;
@@ -211,7 +199,11 @@ std::vector<Figure> sequences(const ShapeAnalysis& shape, const Panels& best, co
     contraction.push_back(with_caption(best.level(levels[i], {}), level));
     displacement.push_back(
         with_caption(best.level(levels[i], shape.map.displacement[levels[i]]), level));
-    shares.push_back(with_caption(best.field(share_of_level(shape.map, levels[i])), level));
+    std::vector<double> summand = level_summand(shape.surface, shape.map, levels[i], kinematics);
+    for (std::size_t v = 0; v < summand.size(); ++v) {
+      summand[v] = shape.map.of_vertex[v] > 0.0 ? summand[v] : 0.0;  // what is out of focus is 0
+    }
+    shares.push_back(with_caption(best.field(summand), level));
   }
   shares.push_back(with_caption(map, "KSSM, the sum of all levels"));
   return {{"figure-1-contraction", side_by_side(contraction), {}},
@@ -292,7 +284,8 @@ std::vector<Figure> paper_figures(const ShapeAnalysis& shape, const ViewReport& 
   const Panels best(shape, report.best, options, run, white);
   const Panels worst(shape, report.worst, options, run, white);
   const Image map = best.plain(Picture::Map, options);
-  std::vector<Figure> figures = sequences(shape, best, map, run.part(0.0, 0.5));
+  std::vector<Figure> figures =
+      sequences(shape, best, map, options.kssm.kinematics, run.part(0.0, 0.5));
   std::optional<SaliencyView> saliency;
   if (!shape.cloud) {  // mesh saliency is of curvature, which points do not have
     saliency = saliency_view(shape, report, options, run.part(0.5, 0.7));

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 
@@ -65,10 +66,10 @@ double variance(const std::vector<double>& x, const std::vector<double>& weight)
   return sum / total;
 }
 
-/// How much of each level is the surface's: from 0 where its displacements correlate by `least` with
-/// those of the surface meshed anew, to 1 where by half of what is missing more. Two meshes differ
-/// by chance: what differs is taken from the level up to this one where it is most. The input always
-/// counts.
+/// The weight of each level, by the correlation r of its displacements with those of the surface meshed
+/// anew: 0 up to r = least, 1 from r = (1 + least) / 2 on, linear between. Two meshes may agree by chance:
+/// r is taken with the largest variance of the difference at this level or an earlier one. Level 0 has
+/// weight 1.
 std::vector<double> level_weights(const ContractionHistory& history, const CurveGraph& skeleton,
                                   const CurveGraph& other, double least, const RunContext& run) {
   std::vector<double> weights(history.levels.size(), 1.0);
@@ -117,7 +118,44 @@ void check_input(const TriMesh& mesh, const ContractionHistory& history, const C
   }
 }
 
+/// What is normalised and summed of a level: its displacement, or what the step to it took from that.
+/// \pre level > 0 for velocities
+std::vector<double> kinematics_of(const std::vector<std::vector<double>>& displacement,
+                                  std::size_t level, Kinematics kinematics) {
+  std::vector<double> field = displacement[level];
+  if (kinematics == Kinematics::Velocity) {
+    for (std::size_t v = 0; v < field.size(); ++v) {
+      field[v] = displacement[level - 1][v] - field[v];
+    }
+  }
+  return field;
+}
+
+NormalisedField normalised_level(const std::vector<std::vector<double>>& displacement,
+                                 std::size_t level, Kinematics kinematics,
+                                 const std::vector<bool>& referenced, double diameter) {
+  return normalised(kinematics_of(displacement, level, kinematics), referenced, kFlat * diameter);
+}
+
 }  // namespace
+
+std::vector<double> level_summand(const TriMesh& mesh, const KssmMap& map, std::size_t level,
+                                  Kinematics kinematics) {
+  if (level >= map.level_factor.size() || map.of_vertex.size() != mesh.positions.size()) {
+    throw InvalidInput("the map has no such level, or belongs to another mesh");
+  }
+  if (map.level_factor[level] == 0.0) {
+    return std::vector<double>(mesh.positions.size(), 0.0);
+  }
+  const double diameter = enclosing_sphere(referenced_points(mesh)).diameter;
+  std::vector<double> summand =
+      normalised_level(map.displacement, level, kinematics, vertices_with_faces(mesh), diameter)
+          .values;
+  for (double& value : summand) {
+    value *= map.level_factor[level];
+  }
+  return summand;
+}
 
 KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
                      const CurveGraph& skeleton, const KssmOptions& options, const RunContext& run,
@@ -137,14 +175,8 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
   const bool velocity = options.kinematics == Kinematics::Velocity;
   const std::vector<double> level_weight =
       level_weights(history, skeleton, other, options.level_agreement, run);
-  std::vector<double> moved(vertex_count);
   map.level_factor.assign(velocity ? 1 : 0, 0.0);  // no step led to the input
   for (std::size_t j = velocity ? 1 : 0; j < map.displacement.size(); ++j) {
-    if (velocity) {
-      for (std::size_t v = 0; v < vertex_count; ++v) {
-        moved[v] = map.displacement[j - 1][v] - map.displacement[j][v];
-      }
-    }
     // A velocity is as good as the displacement that it starts from. The input is always resolved.
     const std::size_t source = velocity ? j - 1 : j;
     if (source > 0 &&
@@ -154,7 +186,7 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
       continue;
     }
     const NormalisedField level =
-        normalised(velocity ? moved : map.displacement[j], referenced, kFlat * diameter);
+        normalised_level(map.displacement, j, options.kinematics, referenced, diameter);
     if (level.flat) {
       map.level_factor.push_back(0.0);
       continue;

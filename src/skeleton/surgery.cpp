@@ -209,6 +209,7 @@ std::size_t collapse_to_graph(ClusterComplex& complex, const RunContext& run) {
   std::size_t refined = 0;
   std::size_t forced = 0;
   std::size_t collapsed = 0;
+  double done = 0.0;
   std::size_t dead = 0;  // loops when all edges were looked at
   std::uint32_t edge = 0;
   while (complex.face_count() > 0) {
@@ -238,7 +239,8 @@ std::size_t collapse_to_graph(ClusterComplex& complex, const RunContext& run) {
     }
     queue.refresh(complex.collapse(edge));
     if (++collapsed % kPoll == 0) {
-      run.advance("skeleton", 1.0 - static_cast<double>(complex.face_count()) / all_faces);
+      done = std::max(done, 1.0 - static_cast<double>(complex.face_count()) / all_faces);
+      run.advance("skeleton", done);  // make_room() adds faces
     }
   }
   return forced;

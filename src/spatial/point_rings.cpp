@@ -86,17 +86,15 @@ class RingFinder {
       : points_(points), tree_(tree), found_(std::min(k, points.size())), squared_(found_.size()) {}
 
   /// The ring of a point, appended to `ring`; returns whether it is closed.
-  bool find(std::uint32_t point, std::vector<std::uint32_t>& ring, double& spacing) {
+  bool find(std::uint32_t point, std::vector<std::uint32_t>& ring) {
     const Vec3& centre = points_[point];
     const std::size_t count = tree_.nearest(centre, found_, squared_);
     // Offsets over the reach: squares and inverses then stay near 1 in any unit.
     const double reach = std::sqrt(squared_[count - 1]);
-    spacing = 0.0;
     around_.assign(1, Vec3::Zero());
     who_.assign(1, point);
     for (std::size_t i = 0; i < count; ++i) {
       if (found_[i] != point) {
-        spacing += std::sqrt(squared_[i]) / static_cast<double>(count - 1);
         around_.emplace_back((points_[found_[i]] - centre) / reach);
         who_.push_back(static_cast<std::uint32_t>(found_[i]));
       }
@@ -153,7 +151,6 @@ std::size_t neighbourhood_size(std::size_t point_count) {
 PointRings point_rings(std::span<const Vec3> points, std::size_t k, const RunContext& run) {
   PointRings rings;
   rings.closed.assign(points.size(), 0);
-  rings.spacing.assign(points.size(), 0.0);
   rings.neighbours.offsets.assign(points.size() + 1, 0);
   if (points.size() < 2) {
     return rings;
@@ -165,7 +162,7 @@ PointRings point_rings(std::span<const Vec3> points, std::size_t k, const RunCon
     auto& part = parts[begin / kGrain];
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t before = part.size();
-      rings.closed[i] = finder.find(static_cast<std::uint32_t>(i), part, rings.spacing[i]) ? 1 : 0;
+      rings.closed[i] = finder.find(static_cast<std::uint32_t>(i), part) ? 1 : 0;
       rings.neighbours.offsets[i + 1] = static_cast<std::uint32_t>(part.size() - before);
     }
   });

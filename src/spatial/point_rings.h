@@ -21,7 +21,6 @@ namespace vantage {
 struct PointRings {
   IndexLists neighbours{};             ///< In angular order around the point.
   std::vector<std::uint8_t> closed{};  ///< 1 where the ring runs all the way round the point.
-  std::vector<double> spacing{};       ///< Mean distance to the nearest points, model units.
 
   /// Calls `visit(a, b)` for each triangle (point, a, b) of the point's star.
   template <class Visit>

@@ -10,6 +10,7 @@
 #include "vantage/mesh/topology.h"
 
 #include "core/parallel.h"
+#include "view/channel_check.h"
 
 namespace vantage {
 namespace {
@@ -19,18 +20,13 @@ constexpr std::size_t kDirectionsPerTask = 4;
 
 /// The area that each view sees in all. \throw InvalidInput
 std::vector<double> seen_areas(const ViewChannel& channel) {
+  check_channel(channel);
   std::vector<double> areas;
   areas.reserve(channel.views.size());
   for (const auto& view : channel.views) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < view.size(); ++i) {
-      const bool ascends = i == 0 || view[i - 1].face < view[i].face;
-      if (!ascends || view[i].face >= channel.face_count || !(view[i].area > 0.0F) ||
-          !std::isfinite(view[i].area)) {
-        throw InvalidInput(
-            "a channel's views must list existing faces in ascending order with areas above 0");
-      }
-      sum += static_cast<double>(view[i].area);
+    for (const FaceArea& seen : view) {
+      sum += static_cast<double>(seen.area);
     }
     areas.push_back(sum);
   }

@@ -12,6 +12,7 @@
 
 #include "core/parallel.h"
 #include "core/shannon.h"
+#include "view/channel_check.h"
 #include "view/shared_logs.h"
 
 namespace vantage {
@@ -188,6 +189,7 @@ ChannelTerms channel_terms(const ViewChannel& channel, const TriMesh& mesh, cons
   if (mesh.triangles.size() != channel.face_count) {
     throw InvalidInput("the channel does not belong to this mesh");
   }
+  check_channel(channel);
   const FaceRows rows = rows_by_face(channel, run);
   ChannelTerms terms;
   double total = 0.0;

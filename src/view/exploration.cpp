@@ -5,6 +5,8 @@
 #include "vantage/core/error.h"
 #include "vantage/view/channel.h"
 
+#include "view/channel_check.h"
+
 namespace vantage {
 namespace {
 
@@ -101,13 +103,7 @@ void check(const ViewChannel& channel, const IndexLists& next, std::uint32_t sta
   if (!(coverage >= 0.0 && coverage <= 1.0)) {
     throw InvalidInput("an exploration's coverage must be in [0, 1]");
   }
-  for (const auto& view : channel.views) {
-    for (const FaceArea& a : view) {
-      if (a.face >= channel.face_count || !(a.area > 0.0F) || !std::isfinite(a.area)) {
-        throw InvalidInput("a channel's views must list existing faces with areas above 0");
-      }
-    }
-  }
+  check_channel(channel);
 }
 
 }  // namespace

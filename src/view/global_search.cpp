@@ -15,7 +15,7 @@
 namespace vantage {
 namespace {
 
-// All ours; docs/search.md has what each trades, measured.
+// All ours; docs/lab/2026-11-search-scores.md has what each trades, measured.
 constexpr std::size_t kScored = 96;  // directions scored before the ascent, half of them peaks
 // Of the first rings of the ascent, over small maxima; its starts are farther apart.
 constexpr double kFirstReachRad = 5.0 * kRadPerDeg;

@@ -81,7 +81,9 @@ inline constexpr auto kContractionFields = std::tuple{
 ///
 /// \throw InvalidInput if an option is outside its range.
 /// \throw Cancelled
-/// \complexity One symbolic analysis per component, one sparse Cholesky factorisation per step.
+/// \complexity One sparse Cholesky factorisation a step: of a proxy of at most 10 000 vertices where a
+/// component has more than 20 000 and the method is Auto. A step that is not sound is tried up to nine
+/// ways, and a second, coarser mesh is contracted as well (ContractionHistory::second).
 ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& options = {},
                             const RunContext& run = {});
 

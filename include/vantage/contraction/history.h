@@ -24,13 +24,26 @@ enum class ContractionScaling {
 
 /// Why the contraction of a component ended. None of these is an error.
 enum class ContractionStop {
-  Shrunk,         ///< A step shrank the surface by less than the tolerance.
+  /// A step shrank the surface by less than the tolerance, or enlarged it; that step was discarded.
+  Shrunk,
   Grew,           ///< A side of the bounding box grew past its bound; that step was discarded.
   Collapsed,      ///< A step would have run a curve to a point; that step was discarded.
   StepLimit,      ///< `max_steps` were taken.
   NothingToMove,  ///< No face with area: a point or a needle.
   SolverFailed,   ///< No regularisation gave a finite solution; that step was discarded.
 };
+
+/// Whether a surface that shrank to this share of its area [a_t] is not yet a curve. [ours: of 57 closed
+/// models 51 are curves where Cao's rule stops; docs/lab]
+inline bool is_sheet(double shrinkage) {
+  return shrinkage > 0.04;
+}
+
+/// Whether a surface that shrank to this share of its area [a_t] is a plate if it shrinks no more: its
+/// rim has become a line that holds it. [ours: of 67 closed models none keeps more than 0.07]
+inline bool is_plate(double shrinkage) {
+  return shrinkage > 0.1;
+}
 
 /// Lower-case name of a stop reason for results, e.g. "shrunk".
 std::string_view stop_name(ContractionStop stop);
@@ -40,7 +53,7 @@ struct ComponentContraction {
   std::size_t vertices = 0;  ///< Of the component.
   int steps = 0;             ///< Accepted steps; later levels repeat the last one.
   ContractionStop stop = ContractionStop::NothingToMove;  ///< Why it ended.
-  int regularised_steps = 0;            ///< Steps that could not be taken as defined.
+  int regularised_steps = 0;  ///< Steps with the weights for slivers: once needed, they stay.
   std::vector<std::string> remedies{};  ///< What was done about them, a phrase each.
   std::string strategy{"exact"};        ///< Which method contracted it.
   double shrinkage = 1.0;               ///< [a_t] of its last level.

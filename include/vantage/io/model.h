@@ -22,9 +22,8 @@
 /// .stl the welded vertices in order of first appearance; for glTF the concatenated primitives in
 /// world space, for 3MF the objects in the order in which they are built), because every per-vertex
 /// result refers to it.
-/// Materials that say that nothing at all is to be seen are mistakes: older MeshLab wrote `Tr 1.0` for
-/// what is opaque.
-/// How many faces a model may have where nobody says so: ReadOptions::max_faces.
+/// A model whose materials make every face invisible is read as opaque, with a note: older MeshLab
+/// wrote `Tr 1.0` for what is opaque.
 
 namespace vantage {
 
@@ -76,8 +75,8 @@ struct ReadOptions {
   /// Textures are looked at no closer than that many pixels on their longer side, so that large JPEGs
   /// may be read at a half, a quarter or an eighth; 0: always whole.
   int texture_side = 0;
-  /// A model of more triangles, or without any of more points, is refused; 0: none is. What a file
-  /// shows again and again is counted before it is made. face_limit.h has what fits into memory.
+  /// A model of more triangles, or without any of more points, is refused; 0: none is. Instances
+  /// of a file are counted before they are made.
   std::size_t max_faces = 0;
   /// Reads formats that the library does not read itself; empty: they are refused.
   ModelImporter importer{};

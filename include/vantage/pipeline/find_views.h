@@ -27,11 +27,13 @@ namespace vantage {
 
 /// One view and the picture's camera.
 struct ReportedView {
-  Vec3 direction = Vec3::UnitZ();      ///< From the centre to the eye.
-  Vec3 eye = Vec3::UnitZ();            ///< Model units.
-  Vec3 up = Vec3::UnitY();             ///< Unit, upright in the picture.
-  double score = 0.0;                  ///< Pure sum of the visible significance.
-  double score_fraction = 0.0;         ///< score / total; 0 if total is 0.
+  Vec3 direction = Vec3::UnitZ();  ///< From the centre to the eye.
+  Vec3 eye = Vec3::UnitZ();        ///< Model units.
+  Vec3 up = Vec3::UnitY();         ///< Unit, upright in the picture.
+  /// Sum of the visible significance; by area its integral over what is seen, over the whole area; of a
+  /// measure its value.
+  double score = 0.0;
+  double score_fraction = 0.0;         ///< score / total; 0 if total is 0, NaN of a measure.
   double objective = 0.0;              ///< What the search compared; the score, or see Objective.
   double visible_area_fraction = 0.0;  ///< Of the surface; each visible vertex counts its third.
   Camera picture{};                    ///< Same eye, framed tightly.

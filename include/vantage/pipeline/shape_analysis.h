@@ -75,7 +75,8 @@ ShapeAnalysis prepare_surface(const Model& model, const RunContext& run = {});
 void add_history(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
 /// Adds the skeleton. \pre history is there. \throw Cancelled
 void add_skeleton(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
-/// Adds the significance map. \pre skeleton is there. \throw Cancelled
+/// Adds the significance map. By the methods mesh-saliency and pmi-saliency `map.of_vertex` is theirs
+/// afterwards; the rest of `map` is KSSM's all the same. \pre skeleton is there. \throw Cancelled
 void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
 
 /// What an analysis is made for.
@@ -89,7 +90,7 @@ ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options,
                             const RunContext& run = {}, StageSeconds* seconds = nullptr,
                             AnalysisUse use = AnalysisUse::Views);
 
-/// All of it but prepare_surface(), whose result it takes.
+/// The same from what prepare_surface() gave. options.focus is not looked at: focus_on() does that.
 ShapeAnalysis analyse_surface(ShapeAnalysis shape, const ViewOptions& options,
                               const RunContext& run = {}, StageSeconds* seconds = nullptr,
                               AnalysisUse use = AnalysisUse::Views);

@@ -12,9 +12,13 @@
 #include "vantage/mesh/tri_mesh.h"
 
 /// \file
-/// The Kinematics Significance based Skeleton Map: how far every vertex is from the skeleton at
-/// every level of the contraction, each level normalised, suppressed and summed.
-/// docs/kssm.md has the equations.
+/// The Kinematics Significance based Skeleton Map of the paper that docs/references.md names first: with
+/// d^(j)(v) the distance of vertex v at contraction level j to the skeleton, D^(j) that scaled to [0, 1]
+/// over the vertices, and m̄ the mean of D^(j) without its maximum,
+///
+///     KSSM(v) = Σ_j (1 − m̄(D^(j)))² D^(j)(v),   j = 0 … K.
+///
+/// docs/kssm.md has what is ours.
 
 namespace vantage {
 
@@ -74,10 +78,19 @@ struct KssmMap {
 /// Computes the map of `mesh` from its contraction and the graph it contracts to.
 /// \param other the curve of `history.second`, to tell which levels are the surface's and which hang
 /// on how it is meshed; without nodes: all count. Skeleton::curve and Skeleton::other_curve.
-/// \pre `history` has one point per vertex and at least level 0. \throw InvalidInput if it has not or
-/// an option is outside its range. \throw Cancelled
+/// \throw InvalidInput if `history` has no level or not one point a vertex at each, if the skeleton has
+/// no nodes, or an option is outside its range. \throw Cancelled
+/// \complexity levels · |V| · log of the skeleton's edges.
 KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
                      const CurveGraph& skeleton, const KssmOptions& options = {},
                      const RunContext& run = {}, const CurveGraph& other = {});
+
+/// What one level adds to the map: its displacement, or its velocity, normalised to [0, 1], times the
+/// level's factor. Over all levels the summands make KssmMap::of_vertex.
+/// \param map what compute_kssm() made of `mesh`, by the same kinematics.
+/// \return |V| values ≥ 0; all 0 for a level that is left out.
+/// \throw InvalidInput if the map has no such level or is of another mesh.
+std::vector<double> level_summand(const TriMesh& mesh, const KssmMap& map, std::size_t level,
+                                  Kinematics kinematics);
 
 }  // namespace vantage

@@ -64,8 +64,7 @@ struct OutlineMeasures {
 inline constexpr double kTurningSteps = 256.0;
 
 /// Places a step at which turning is measured: a corner turns in one step or in two by chance, so
-/// that the mean over places is taken. Measures of all shapes tried are converged
-/// (docs/measures.md). [ours]
+/// that the mean over places is taken. [ours: trials in docs/lab]
 inline constexpr int kTurningPhases = 16;
 
 /// Measures an outline. \param phases at least 1.

@@ -118,7 +118,7 @@ struct ViewObjective {
   /// Unset: the score.
   std::function<double(const Vec3& direction, double score)> preference{};
   int survey_level = 4;  ///< Icosahedron level that SearchStrategy::Global surveys first, 0–6.
-  /// Near a maximum there is nothing much better: it does not look for that.
+  /// The score varies slowly: SearchStrategy::Global does not search within 8° of its best end again.
   bool has_smooth_score = false;
   bool has_smooth_preference = false;  ///< The same where the preference is maximised.
   std::size_t starts = 4;    ///< Directions of the survey that its ascent starts from, > 0.

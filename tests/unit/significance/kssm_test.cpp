@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/significance/kssm.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -190,6 +191,34 @@ TEST(ComputeKssm, CanWeighTheMeanByArea) {
   for (std::size_t v = 0; v < expected.size(); ++v) {
     EXPECT_NEAR(map.of_vertex[v], expected[v], 1e-14);
   }
+}
+
+TEST(LevelSummand, OfAllLevelsMakesTheMap) {
+  HandMade made;
+  made.mesh.positions.emplace_back(40, 0, 0);  // isolated
+  made.history.levels = {made.mesh.positions, made.mesh.positions, made.mesh.positions};
+  made.history.levels[1][1] = {0, 0.5, 0};
+  made.history.levels[2][3] = {0.25, 0, 0};
+  for (const Kinematics kinematics : {Kinematics::Displacement, Kinematics::Velocity}) {
+    const KssmMap map =
+        compute_kssm(made.mesh, made.history, made.graph, {.kinematics = kinematics});
+    std::vector<double> sum(made.mesh.positions.size(), 0.0);
+    for (std::size_t level = 0; level < made.history.levels.size(); ++level) {
+      const std::vector<double> summand = level_summand(made.mesh, map, level, kinematics);
+      for (std::size_t v = 0; v < sum.size(); ++v) {
+        sum[v] += summand[v];
+      }
+      EXPECT_DOUBLE_EQ(*std::max_element(summand.begin(), summand.end()), map.level_factor[level]);
+    }
+    EXPECT_EQ(sum, map.of_vertex);
+    EXPECT_GE(map.levels_used.size(), 2U);
+  }
+}
+
+TEST(LevelSummand, RefusesALevelThatTheMapHasNot) {
+  const HandMade made;
+  const KssmMap map = compute_kssm(made.mesh, made.history, made.graph);
+  EXPECT_THROW(level_summand(made.mesh, map, 1, Kinematics::Displacement), InvalidInput);
 }
 
 TEST(ComputeKssm, RefusesAnotherMeshsHistory) {

@@ -192,6 +192,14 @@ TEST(ChannelTerms, RefuseAnotherMesh) {
   EXPECT_THROW(channel_terms(random_channel(7, 3), test::sphere(1)), InvalidInput);
 }
 
+TEST(ChannelTerms, RefuseAMalformedChannel) {
+  const TriMesh mesh = test::sphere(0);
+  const auto last = static_cast<std::uint32_t>(mesh.triangles.size());
+  EXPECT_THROW(channel_terms({last, {{{last, 1.0F}}}}, mesh), InvalidInput);  // no such face
+  EXPECT_THROW(channel_terms({last, {{{1, 1.0F}, {0, 1.0F}}}}, mesh), InvalidInput);
+  EXPECT_THROW(channel_terms({last, {{{0, 0.0F}}}}, mesh), InvalidInput);  // no area
+}
+
 TEST(Instability, IsZeroAmongEqualViewsAndOneWhereNothingIsShared) {
   const std::vector<FaceArea> a{{0, 1.0F}, {1, 2.0F}};
   const std::vector<FaceArea> b{{2, 1.5F}, {3, 1.5F}};

@@ -77,6 +77,8 @@ TEST(Exploration, RefusesWhatDoesNotBelongTogether) {
   EXPECT_THROW(explore_by_entropy(channel, row_of(2), 0, 1.5), InvalidInput);
   const ViewChannel broken{1, {two(0), two(0)}};
   EXPECT_THROW(explore_by_entropy(broken, row_of(2), 0, 1.0), InvalidInput);
+  const ViewChannel descending{2, {{{1, 1.0F}, {0, 1.0F}}, {{0, 1.0F}}}};
+  EXPECT_THROW(explore_by_entropy(descending, row_of(2), 0, 1.0), InvalidInput);
 }
 
 TEST(Exploration, OfARingStepsBetweenNeighboursUntilTheShareIsSeenAndNotFurther) {

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "contraction/history_summary.h"
+
+#include <algorithm>
+#include <string>
+
+namespace vantage {
+namespace {
+
+/// Warnings about single steps at most.
+constexpr std::size_t kMostRemedies = 5;
+
+/// Steps that were not taken as defined, one sentence each; of many components only the first.
+void add_remedies(ContractionHistory& history) {
+  std::size_t told = 0;
+  std::size_t untold = 0;
+  for (std::size_t c = 0; c < history.components.size(); ++c) {
+    for (const std::string& remedy : history.components[c].remedies) {
+      if (++told > kMostRemedies) {
+        ++untold;
+        continue;
+      }
+      history.warnings.push_back(
+          "contraction" +
+          (history.components.size() > 1 ? " of component " + std::to_string(c + 1) : "") + ": " +
+          remedy);
+    }
+  }
+  if (untold > 0) {
+    history.warnings.push_back("contraction: " + std::to_string(untold) +
+                               " more steps were not taken as defined");
+  }
+}
+
+}  // namespace
+
+void summarise(std::span<const ComponentHistory* const> parts, ContractionHistory& history) {
+  std::size_t failed = 0;
+  history.shrinkage.assign(history.levels.size(), 0.0);
+  double vertices = 0.0;
+  for (const ComponentHistory* part : parts) {
+    const auto weight = static_cast<double>(part->summary.vertices);
+    vertices += weight;
+    for (std::size_t level = 0; level < history.levels.size(); ++level) {
+      history.shrinkage[level] +=
+          weight * part->shrinkage[std::min(level, part->shrinkage.size() - 1)];
+    }
+    failed += part->summary.stop == ContractionStop::SolverFailed ? 1 : 0;
+    history.components.push_back(part->summary);
+    history.components.back().shrinkage = part->shrinkage.back();
+  }
+  for (double& a : history.shrinkage) {
+    a = vertices > 0.0 ? a / vertices : 1.0;
+  }
+  add_remedies(history);
+  if (failed > 0) {
+    history.warnings.push_back("the contraction of " + std::to_string(failed) +
+                               " component(s) ended early because its system could not be solved");
+  }
+}
+
+}  // namespace vantage
