@@ -29,6 +29,7 @@
 #include "import_program.h"
 #include "look_flags.h"
 #include "method_flags.h"
+#include "output_file.h"
 #include "standard_output.h"
 #include "terminal.h"
 #include "view_outputs.h"
@@ -293,6 +294,7 @@ struct BatchCommand {
     runner.options_hash = [options, kinds, its_look = look](const batch::Entry& entry) {
       ViewOptions own = options;
       LookFlags own_look = its_look;
+      std::string trouble;
       own.up = entry.up.empty() ? options.up : up_axis(entry.up);
       own.front = entry.front.empty() ? options.front : up_axis(entry.front);
       if (entry.member.empty() && entry.problem.empty()) {
@@ -300,11 +302,14 @@ struct BatchCommand {
           const Sidecar sidecar = sidecar_of(entry.path);
           sidecar.apply(own);
           own_look.suggest(sidecar.style);
-        } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the worker says what is wrong
+        } catch (const Error& error) {  // the worker says what is wrong, until that is mended
+          trouble = error.what();
         }
       }
+      // Of equal bytes the file's ending says how they are read.
       return batch::text_hash(options_hash(own) + ' ' + kinds.text() + ' ' +
-                              (kinds.has_pictures() ? own_look.text() : ""))
+                              (kinds.has_pictures() ? own_look.text() : "") + ' ' +
+                              extension_of(entry.shown_path()) + ' ' + trouble)
           .substr(0, 16);
     };
     runner.worker_arguments = {"batch-worker",

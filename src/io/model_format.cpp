@@ -47,7 +47,7 @@ std::optional<ModelFormat> format_of_magic(std::string_view bytes) {
   return std::nullopt;
 }
 
-/// A guess from the content, for bytes without a telling name.
+/// What the content looks like, for bytes whose name does not tell or is wrong.
 std::optional<ModelFormat> format_of_content(std::string_view bytes) {
   if (has_binary_stl_size(bytes)) {
     return ModelFormat::Stl;
@@ -66,6 +66,12 @@ std::optional<ModelFormat> format_of_content(std::string_view bytes) {
     return ModelFormat::Obj;
   }
   return std::nullopt;
+}
+
+/// Whether it is named as STL and not plain text: a binary STL that is cut short starts with any bytes.
+bool may_be_stl(std::string_view bytes, ModelFormat said) {
+  constexpr std::size_t kLook = 512;
+  return said == ModelFormat::Stl && bytes.substr(0, kLook).find('\0') != std::string_view::npos;
 }
 
 }  // namespace
@@ -107,10 +113,7 @@ DetectedFormat detect_format(std::string_view bytes, std::string_view name, bool
                                       std::string(format_name(*found)) + " and were read as such"
                                 : ""};
   }
-  if (said == ModelFormat::Threemf) {
-    if (!bytes.starts_with("PK")) {
-      throw FormatError(name, "byte 0", "expected the letters PK, which start every 3MF file");
-    }
+  if (said == ModelFormat::Threemf && bytes.starts_with("PK")) {
     return {*said, ""};
   }
   // A binary STL may start with any 80 bytes.
@@ -125,6 +128,17 @@ DetectedFormat detect_format(std::string_view bytes, std::string_view name, bool
               found};
     }
   }
+  if (const std::optional<ModelFormat> found = format_of_content(bytes);
+      found && found != said &&
+      (said ? !may_be_stl(bytes, *said) : !is_foreign_extension(extension))) {
+    const bool is_named = !extension.empty();
+    return {*found, is_named ? "the name says ." + extension + ", but the bytes look like " +
+                                   std::string(format_name(*found)) + " and were read as such"
+                             : ""};
+  }
+  if (said == ModelFormat::Threemf) {
+    throw FormatError(name, "byte 0", "expected the letters PK, which start every 3MF file");
+  }
   if (said == ModelFormat::Glb) {
     throw FormatError(name, "byte 0", "expected the letters glTF, which start every GLB file");
   }
@@ -133,13 +147,6 @@ DetectedFormat detect_format(std::string_view bytes, std::string_view name, bool
   }
   if (said) {
     return {*said, ""};
-  }
-  if (const std::optional<ModelFormat> found = format_of_content(bytes);
-      found && !is_foreign_extension(extension)) {
-    const bool unusual = !extension.empty();
-    return {*found, unusual ? "the name says ." + extension + ", but the bytes look like " +
-                                  std::string(format_name(*found)) + " and were read as such"
-                            : ""};
   }
   return {ModelFormat::Imported, "", &check_foreign_extension(extension, name, may_import)};
 }

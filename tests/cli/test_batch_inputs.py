@@ -2,6 +2,7 @@
 
 import io
 import json
+import math
 import os
 import pathlib
 import signal
@@ -215,6 +216,29 @@ class Inputs(HostileTest):
             rows = self.rows(f"out{i}")
             self.assertEqual([rows[f"{i}/{name}/m.obj"]["duplicate_of"] for name in ("red", "blue", "same")],
                              ["", "", f"{i}/blue/m.obj"], library)
+
+    def test_equal_bytes_of_other_endings_are_other_models(self):
+        (self.dir / "in").mkdir()
+        turns = [(i, 2.4 * i, 1 - (2 * i + 1) / 200) for i in range(200)]
+        points = "".join(f"{math.cos(a) * math.sqrt(1 - z * z)} {math.sin(a) * math.sqrt(1 - z * z)} {z}\n"
+                         for _, a, z in turns)
+        for name in ("a.off", "b.xyz", "c.XYZ"):
+            self.write(f"in/{name}", points)
+        self.batch("in", exit_code=4)
+        rows = self.rows()
+        self.assertEqual([rows[f"in/{name}"]["status"] for name in ("a.off", "b.xyz", "c.XYZ")],
+                         ["failed", "done", "done"])
+        self.assertEqual(rows["in/c.XYZ"]["duplicate_of"], "in/b.xyz")
+
+    def test_a_sidecar_that_is_mended_is_tried_again(self):
+        (self.dir / "in").mkdir()
+        self.write("in/a.off", box(1))
+        self.write("in/a.off.vantage.json", '{"uq": "y"}')
+        self.batch("in", exit_code=4)
+        self.assertIn("uq", self.rows()["in/a.off"]["error"])
+        self.write("in/a.off.vantage.json", "{}")
+        self.batch("in")
+        self.assertEqual(self.rows()["in/a.off"]["status"], "done")
 
     def test_a_picture_or_library_that_changes_makes_a_new_content(self):
         self.textured("in", "mats\\a.mtl", "mats", (200, 0, 0, 255))

@@ -35,6 +35,29 @@ TEST(ModelFormat, GuessesWithoutAnExtension) {
   EXPECT_EQ(detect_format("COFF\n", "standard input").format, ModelFormat::Off);
 }
 
+TEST(ModelFormat, TheContentDecidesWhereTheNameIsWrong) {
+  const std::string binary_stl(84, '\0');
+  const std::string text_stl = "solid x\nfacet";
+  const std::string obj = "# hi\nv 1 2 3\n";
+  const std::string gltf = " {\"asset\":{}}";
+  for (const char* name : {"a.obj", "a.ply", "a.off", "a.glb", "a.gltf", "a.3mf", "a.xyz"}) {
+    EXPECT_EQ(detect_format(binary_stl, name).format, ModelFormat::Stl) << name;
+    EXPECT_EQ(detect_format(text_stl, name).format, ModelFormat::Stl) << name;
+  }
+  for (const char* name : {"a.stl", "a.ply", "a.off", "a.glb", "a.gltf", "a.3mf", "a.pts"}) {
+    EXPECT_EQ(detect_format(obj, name).format, ModelFormat::Obj) << name;
+  }
+  for (const char* name : {"a.stl", "a.ply", "a.obj", "a.glb", "a.3mf"}) {
+    EXPECT_EQ(detect_format(gltf, name).format, ModelFormat::Gltf) << name;
+  }
+  EXPECT_THAT(detect_format(obj, "a.stl").note,
+              HasSubstr("the name says .stl, but the bytes look like obj"));
+}
+
+TEST(ModelFormat, ABinaryStlThatIsCutShortMayBeginWithAnyWord) {
+  EXPECT_EQ(detect_format("o part" + std::string(100, '\0'), "a.stl").format, ModelFormat::Stl);
+}
+
 TEST(ModelFormat, NamesAreFileNamesWithoutExtension) {
   EXPECT_EQ(model_name("a/b.c/horse.v2.ply"), "horse.v2");
   EXPECT_EQ(model_name(".hidden"), ".hidden");
