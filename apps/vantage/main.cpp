@@ -117,12 +117,14 @@ int main(int argc, char** argv) {
     add_manual_command(program, session);
     check_values(program);
     words = words_of(program, argc, argv);
-    program.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // the last first
+    try {
+      program.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // the last first
+    } catch (const CLI::Success& request) {                                   // --help, --version
+      program.exit(request);
+    }
     session.end_progress();
     finish_standard_output();
     return session.exit_code;
-  } catch (const CLI::Success& request) {  // --help, --version
-    return program.exit(request) == 0 ? kDone : kFailed;
   } catch (const CLI::ParseError& error) {
     return report_usage(program, words, error);
   } catch (...) {

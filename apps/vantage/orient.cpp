@@ -141,10 +141,11 @@ struct OrientCommand {
     if (model == "-") {
       throw IoError(model, "can be turned to a .ply only; name the file, or write a .ply");
     }
-    if (loaded.format == ModelFormat::Gltf && !is_beside_model()) {
+    const std::string bytes = read_text(model);
+    if (loaded.format == ModelFormat::Gltf && !is_beside_model() && names_files(bytes)) {
       throw IoError(file, "must be beside the model, whose buffers and pictures it names");
     }
-    return session.read([&] { return turned_bytes(read_text(model), model, loaded.format, turn); });
+    return session.read([&] { return turned_bytes(bytes, model, loaded.format, turn); });
   }
 
   [[nodiscard]] bool is_beside_model() const {
@@ -152,6 +153,12 @@ struct OrientCommand {
     std::error_code error;
     return fs::weakly_canonical(fs::absolute(file), error).parent_path() ==
            fs::weakly_canonical(fs::absolute(model), error).parent_path();
+  }
+
+  [[nodiscard]] bool names_files(std::string_view bytes) const {
+    FilesBeside beside(model);
+    beside.pass(bytes);
+    return !beside.find().empty();
   }
 
   /// Materials that a .ply has no place for: its vertices have colours alone.

@@ -84,6 +84,25 @@ Parts read_parts(std::string_view bytes, const std::string& root, ModelBuilder& 
   return parts;
 }
 
+/// Each object of a part that is no component of one there; all of them where each is.
+std::vector<ThreemfUse> uses_of_wholes(const ThreemfPart& part) {
+  std::set<std::uint32_t> components;
+  for (const auto& [id, object] : part.objects) {
+    for (const ThreemfUse& use : object.components) {
+      if (use.part.empty()) {
+        components.insert(use.object);
+      }
+    }
+  }
+  std::vector<ThreemfUse> uses;
+  for (const auto& [id, object] : part.objects) {
+    if (components.size() == part.objects.size() || !components.contains(id)) {
+      uses.push_back({{}, id, unmoved()});
+    }
+  }
+  return uses;
+}
+
 /// Puts the items of the build plate where they stand.
 class PlateReader {
  public:
@@ -104,9 +123,7 @@ class PlateReader {
     std::vector<ThreemfUse> each;
     if (part.items.empty()) {
       builder_.note("nothing is to be built: each object of the file is shown once");
-      for (const auto& [id, object] : part.objects) {
-        each.push_back({{}, id, unmoved()});
-      }
+      each = uses_of_wholes(part);
     }
     const std::span<const ThreemfUse> uses = part.items.empty() ? each : part.items;
     is_counting_ = true;  // before anything is made

@@ -21,6 +21,9 @@ constexpr int kMostCellsAlong = 2048;  // along one side
 /// Entries of the grid for each face, beyond which its cells are made larger: large faces that lie
 /// over one another touch every cell, and thousands of them fill gigabytes [ours].
 constexpr std::size_t kMostEntries = 64;
+/// Faces that a way meets in a cell, in the mean, beyond which walls are looked for by rays: long faces
+/// of thin tubes fill the same cells [ours].
+constexpr double kMostMet = 500.0;
 /// A ray from a vertex passes over the faces at that vertex: a ten-thousandth of the model.
 constexpr double kSkip = 1e-4;
 /// Parts of a segment shorter than this share of it are rounding errors of where it is cut.
@@ -66,10 +69,20 @@ Shell::Shell(const TriMesh& mesh, std::span<const std::uint32_t> component_of_ve
     : mesh_(mesh), component_of_vertex_(component_of_vertex), normal_(vertex_normals(mesh)) {
   look_at_edges();
   sort_into_cells();
-  if (mesh.triangles.size() > most_walked) {
+  if (mesh.triangles.size() > most_walked || faces_met() > kMostMet) {
     frame_ = unit_frame(mesh.positions);
     rays_.emplace(in_frame(mesh, frame_));
   }
+}
+
+/// How many faces lie in the cell of one, in the mean over all faces and their cells.
+double Shell::faces_met() const {
+  double squares = 0.0;
+  for (std::size_t cell = 1; cell < offsets_.size(); ++cell) {
+    const double faces = offsets_[cell] - offsets_[cell - 1];
+    squares += faces * faces;
+  }
+  return faces_.empty() ? 0.0 : squares / static_cast<double>(faces_.size());
 }
 
 void Shell::look_at_edges() {

@@ -68,6 +68,7 @@ class Shell {
 
   void look_at_edges();
   void sort_into_cells();
+  [[nodiscard]] double faces_met() const;
   bool fill_cells(double width, double height, double cell_size);
   [[nodiscard]] std::array<int, 2> cell_of(const Vec3& p) const;
   [[nodiscard]] std::array<int, 2> cells_in_row(const Triangle& t, int row) const;

@@ -179,10 +179,10 @@ class Output(ProgramTest):
     def test_full_disk_asks_to_try_again_and_leaves_nothing(self):
         if not os.path.exists("/dev/full"):
             self.fail("/dev/full is needed to test a full disk")
-        with open("/dev/full", "wb") as full:
-            done = subprocess.run([PROGRAM, "score", str(MODELS / "fan.ply"), "--sphere", "0"],
-                                  stdout=full, stderr=subprocess.PIPE, timeout=120, check=False)
-        self.assertEqual(done.returncode, 75, done.stderr)
+        for words in (["score", str(MODELS / "fan.ply"), "--sphere", "0"], ["--help"], ["--version"], ["view", "--help-all"]):
+            with self.subTest(words=words), open("/dev/full", "wb") as full:
+                done = subprocess.run([PROGRAM, *words], stdout=full, stderr=subprocess.PIPE, timeout=120, check=False)
+                self.assertEqual(done.returncode, 75, done.stderr)
 
     def test_folder_that_cannot_be_made(self):
         self.write("file", "x")

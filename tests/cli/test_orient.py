@@ -1,5 +1,6 @@
 """vantage orient, --front, and sidecars."""
 
+import base64
 import json
 import math
 import struct
@@ -81,6 +82,13 @@ class Orient(ProgramTest):
         # x becomes y, so that y becomes -x.
         for found, wanted in zip(after["low"] + after["high"], [-2, 0, 0, 0, 1, 0]):
             self.assertAlmostEqual(found, wanted, 6)
+        # A .gltf that names no file stands anywhere, another beside what it names only.
+        for uri, exit_code in (("data:application/octet-stream;base64," + base64.b64encode(data).decode(), 0), ("t.bin", 1)):
+            (self.dir / "t.bin").write_bytes(data)
+            gltf["buffers"][0]["uri"] = uri
+            self.write("t.gltf", json.dumps(gltf))
+            done = self.vantage("orient", "t.gltf", "-o", "other/t.gltf", "--up", "x", "--front", "z", "--force", exit_code=exit_code)
+        self.assertIn("must be beside the model", done.err)
 
     def test_materials_that_stay_beside_the_model_are_noted(self):
         (self.dir / "mats").mkdir()

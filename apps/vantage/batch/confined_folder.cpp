@@ -158,9 +158,10 @@ void ConfinedFolder::make_folders(const std::string& name) const {
     const std::string upper = name.substr(0, slash);
     const Descriptor parent(open_parent(upper));
     const std::string part = last_part(upper);
-    if (parent.number() < 0 || (::mkdirat(parent.number(), part.c_str(), 0777) != 0 &&
-                                type_of(parent.number(), part) != S_IFDIR)) {
-      const int error = errno == EEXIST ? ENOTDIR : errno;
+    const bool is_made =
+        parent.number() >= 0 && ::mkdirat(parent.number(), part.c_str(), 0777) == 0;
+    const int error = errno == EEXIST ? ENOTDIR : errno;  // before anything else is asked
+    if (!is_made && type_of(parent.number(), part) != S_IFDIR) {
       throw IoError(path_of(upper), why(error), error);
     }
   }

@@ -170,6 +170,15 @@ TEST(Threemf, ShowsEveryObjectOfAFileThatBuildsNothing) {
   EXPECT_EQ(plate.parsed().mesh.positions.size(), 4U);
 }
 
+TEST(Threemf, OfAFileThatBuildsNothingShowsComponentsWithinTheirWholesOnly) {
+  Plate plate;
+  plate.resources += R"(<object id="2"><components><component objectid="1"/>)"
+                     R"(<component objectid="1" transform="1 0 0 0 1 0 0 0 1 5 0 0"/>)"
+                     R"(</components></object>)";
+  plate.items.clear();
+  EXPECT_EQ(plate.parsed().mesh.positions.size(), 8U);  // not 12
+}
+
 TEST(Threemf, FindsPartsWhoseNamesArePercentEncodedInOnePlace) {
   for (const auto& [path, entry] : {std::pair("/3D/my%20part.model", "3D/my part.model"),
                                     std::pair("/3D/my part.model", "3D/my%20part.model"),

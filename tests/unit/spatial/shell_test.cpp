@@ -224,6 +224,24 @@ TEST(ShellWall, IsTheSameByRaysAsByTheGrid) {
   }
 }
 
+TEST(ShellWall, IsFoundWhereLongFacesCrowdTheGrid) {
+  constexpr double kRadius = 1e-3;
+  const TriMesh mesh = test::cylinder(kRadius, 1.0, 1000, 3);  // each cell has a third of all faces
+  const auto components = one_component(mesh);
+  const Shell shell(mesh, components);
+  int walls = 0;
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    const auto wall = shell.wall_at(v);
+    const double share = std::abs(mesh.positions[v].z() / 1.0);
+    if (share > 0.1 && share < 0.4) {  // no rim, wherever the middle of the height is
+      ASSERT_TRUE(wall.has_value());
+      EXPECT_NEAR(wall->norm(), 2.0 * kRadius, 1e-2 * kRadius);
+      ++walls;
+    }
+  }
+  EXPECT_GE(walls, 1000);
+}
+
 TEST(ShellOutsideLength, OfAChordIsWhatLiesInTheHole) {
   // A ring of 40 × 12: vertices at the x axis have the exact radii 0.75 and 1.25.
   const TriMesh mesh = test::torus(1.0, 0.25, 40, 12);
