@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstdio>
+#include <iostream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -120,7 +122,9 @@ int main(int argc, char** argv) {
     try {
       program.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // the last first
     } catch (const CLI::Success& request) {                                   // --help, --version
-      program.exit(request);
+      std::ostringstream text;
+      program.exit(request, text, std::cerr);
+      std::fputs(text.str().c_str(), stdout);
     }
     session.end_progress();
     finish_standard_output();
