@@ -124,7 +124,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::Success& request) {                                   // --help, --version
       std::ostringstream text;
       program.exit(request, text, std::cerr);
-      std::fputs(text.str().c_str(), stdout);
+      write_standard_output(text.str());
     }
     session.end_progress();
     finish_standard_output();

@@ -13,6 +13,13 @@
 
 namespace vantage::cli {
 
+void write_standard_output(const std::string& text) {
+  errno = 0;
+  if (std::fputs(text.c_str(), stdout) < 0) {  // of a long text the first part is flushed here
+    throw IoError("standard output", "cannot be written", errno);
+  }
+}
+
 void finish_standard_output() {
   errno = 0;
   const bool flushed = std::fflush(stdout) == 0;

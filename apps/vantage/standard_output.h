@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+
 namespace vantage::cli {
+
+/// Writes a text to standard output. \throw IoError if that fails
+void write_standard_output(const std::string& text);
 
 /// Writes what is still held back for standard output. \throw IoError if any of what was printed so
 /// far could not be written.
