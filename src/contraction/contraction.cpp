@@ -258,6 +258,7 @@ ContractionHistory contract_pieces(const TriMesh& mesh, const ContractionOptions
   }
   fill_thinned(results, history);
   std::vector<const ComponentHistory*> parts;
+  parts.reserve(results.size());
   for (const PieceResult& result : results) {
     parts.push_back(&result.history);
   }
