@@ -155,10 +155,18 @@ struct OrientCommand {
            fs::weakly_canonical(fs::absolute(model), error).parent_path();
   }
 
-  [[nodiscard]] bool names_files(std::string_view bytes) const {
-    FilesBeside beside(model);
-    beside.pass(bytes);
-    return !beside.find().empty();
+  /// Whether a glTF, which was read before, has buffers or pictures that are not within itself.
+  [[nodiscard]] static bool names_files(const std::string& gltf) {
+    const nlohmann::json json = nlohmann::json::parse(gltf);
+    for (const char* kind : {"buffers", "images"}) {
+      for (const nlohmann::json& one : json.value(kind, nlohmann::json::array())) {
+        const std::string uri = one.value("uri", "data:");
+        if (!uri.starts_with("data:")) {
+          return true;
+        }
+      }
+    }
+    return false;
   }
 
   /// Materials that a .ply has no place for: its vertices have colours alone.

@@ -84,7 +84,8 @@ Parts read_parts(std::string_view bytes, const std::string& root, ModelBuilder& 
   return parts;
 }
 
-/// Each object of a part that is no component of one there; all of them where each is.
+/// Each object of a part that is no component of another there; all of them where none is left, so that
+/// objects that hold each other are refused as ever.
 std::vector<ThreemfUse> uses_of_wholes(const ThreemfPart& part) {
   std::set<std::uint32_t> components;
   for (const auto& [id, object] : part.objects) {
@@ -94,9 +95,12 @@ std::vector<ThreemfUse> uses_of_wholes(const ThreemfPart& part) {
       }
     }
   }
+  const bool is_any_whole =
+      std::any_of(part.objects.begin(), part.objects.end(),
+                  [&](const auto& entry) { return !components.contains(entry.first); });
   std::vector<ThreemfUse> uses;
   for (const auto& [id, object] : part.objects) {
-    if (components.size() == part.objects.size() || !components.contains(id)) {
+    if (!is_any_whole || !components.contains(id)) {
       uses.push_back({{}, id, unmoved()});
     }
   }

@@ -89,6 +89,10 @@ class Orient(ProgramTest):
             self.write("t.gltf", json.dumps(gltf))
             done = self.vantage("orient", "t.gltf", "-o", "other/t.gltf", "--up", "x", "--front", "z", "--force", exit_code=exit_code)
         self.assertIn("must be beside the model", done.err)
+        gltf["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+        gltf["images"] = [{"uri": "gone.png"}]  # that it is not there does not change what the file names
+        self.write("t.gltf", json.dumps(gltf))
+        self.vantage("orient", "t.gltf", "-o", "other/t.gltf", "--up", "x", "--front", "z", "--force", exit_code=1)
 
     def test_materials_that_stay_beside_the_model_are_noted(self):
         (self.dir / "mats").mkdir()

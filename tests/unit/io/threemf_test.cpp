@@ -179,6 +179,14 @@ TEST(Threemf, OfAFileThatBuildsNothingShowsComponentsWithinTheirWholesOnly) {
   EXPECT_EQ(plate.parsed().mesh.positions.size(), 8U);  // not 12
 }
 
+TEST(ThreemfError, RefusesObjectsThatHoldEachOtherInAFileThatBuildsNothing) {
+  Plate plate;
+  plate.resources = R"(<object id="2"><components><component objectid="3"/></components></object>)"
+                    R"(<object id="3"><components><component objectid="2"/></components></object>)";
+  plate.items.clear();
+  EXPECT_THAT(plate.error(), HasSubstr("component of itself"));
+}
+
 TEST(Threemf, FindsPartsWhoseNamesArePercentEncodedInOnePlace) {
   for (const auto& [path, entry] : {std::pair("/3D/my%20part.model", "3D/my part.model"),
                                     std::pair("/3D/my part.model", "3D/my%20part.model"),
