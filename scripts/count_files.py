@@ -15,7 +15,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PARTS = {
     "global search": "src/view/global_search.cpp",
-    "areas of faces": "src/visibility/face_look.cpp",
+    "areas of faces": "src/visibility/face_query.cpp",
     "visible vertices": "src/visibility/vertex_visibility.cpp",
     "skeleton": "src/skeleton/skeleton.cpp",
 }

@@ -32,6 +32,7 @@
 #include "output_file.h"
 #include "standard_output.h"
 #include "terminal.h"
+#include "value_checks.h"
 #include "view_outputs.h"
 #include "view_set_flags.h"
 
@@ -147,24 +148,27 @@ struct BatchCommand {
   void add_running_flags(CLI::App& app) {
     const std::string group = "Running";
     app.add_option("--jobs", jobs, "worker processes; 0: one a core")
-        ->check(CLI::Range(0, 1024))
+        ->check(within(0, 1024))
         ->capture_default_str()
         ->group(group);
     app.add_option("--timeout", runner.timeout_s, "seconds for one attempt at a model")
-        ->check(CLI::Range(0.001, 1e7))
+        ->check(within(0.001, 1e7))
         ->capture_default_str()
         ->group(group);
     app.add_option("--memory", memory_gb,
-                   "GB of memory for each worker; default: its share of 80 %")
-        ->check(CLI::Range(0.3, 1e6))  // less does not hold the program itself
+                   "memory for each worker: GB, or with a unit; default: its share of 80 %")
+        ->transform(size_in(1e9))
+        ->check(within(0.3, 1e6))  // less does not hold the program itself
         ->group(group);
-    app.add_option("--output-limit", output_limit_mb, "MB, largest file that may be written")
-        ->check(CLI::Range(0.001, 1e6))
+    app.add_option("--output-limit", output_limit_mb,
+                   "largest file that may be written: MB, or with a unit")
+        ->transform(size_in(1e6))
+        ->check(within(0.001, 1e6))
         ->capture_default_str()
         ->group(group);
     app.add_option("--attempts", runner.attempts,
                    "tries at a model that crashes or breaks a limit; bad input is not tried again")
-        ->check(CLI::Range(1, 100))
+        ->check(within(1, 100))
         ->capture_default_str()
         ->group(group);
     app.add_option("--retry", retry, "failed: also do again what failed before")

@@ -15,6 +15,7 @@
 #include "batch/shard_merge.h"
 #include "batch/shard_plan.h"
 #include "terminal.h"
+#include "value_checks.h"
 
 namespace vantage::cli {
 namespace {
@@ -207,16 +208,16 @@ void SlurmFlags::add_to(CLI::App& app) {
   request.shards = 0;
   app.add_option("--shards", request.shards,
                  "tasks of the job array; default: one for every 64 models")
-      ->check(CLI::Range(1, 99999))
+      ->check(within(1, 99999))
       ->group(group);
   app.add_flag("--balance", balance,
                "deal models to shards by the size of their files instead of by a hash of their key")
       ->group(group);
   app.add_option("--at-once", request.at_once, "at most this many tasks together")
-      ->check(CLI::Range(1, 99999))
+      ->check(within(1, 99999))
       ->group(group);
   app.add_option("--minutes", request.minutes, "time limit of a task; it goes on where it was")
-      ->check(CLI::Range(1, 1000000))
+      ->check(within(1, 1000000))
       ->group(group);
   app.add_option("--partition", request.partition, "partition to run in")->group(group);
   app.add_option("--sbatch", request.extra, "a further option for sbatch; may be given again")

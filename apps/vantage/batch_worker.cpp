@@ -143,8 +143,8 @@ struct BatchWorkerCommand {
           {"reason", reason}, {"error", replaced(error, path, key)}, {"peak_bytes", peak_bytes()}};
     };
     try {
-      const std::string content = batch::content_hash(path);
-      say(answers, {{"content", content}});
+      const batch::Content content = batch::content_of(path);
+      say(answers, {{"content", content.hash}, {"beside", batch::to_json(content.beside)}});
       std::string word;
       if (!std::getline(std::cin, word) || word != "go") {
         return nullptr;
@@ -162,7 +162,7 @@ struct BatchWorkerCommand {
       reading_options.importer = model_importer(session.flags.limits);
       reading_options.max_faces = face_limit(session.flags.limits);
       Model model = load_model(path, run, reading_options);
-      if (batch::content_hash(path) != content) {
+      if (batch::content_of(path).hash != content.hash) {
         return failed("changed", path + ": was changed while it was read; --retry failed");
       }
       reading = false;

@@ -28,6 +28,8 @@ namespace {
 
 /// Views on the sheet unless said otherwise. [ours]
 constexpr int kSheetViews = 6;
+/// Eyes that the choice of a set asks about, more or less.
+constexpr std::size_t kEyesOfASet = 1000;
 
 struct FiguresCommand {
   std::vector<std::string> models{};
@@ -109,9 +111,10 @@ struct FiguresCommand {
     ViewReport report =
         session.computing([&] { return find_views(shape, choice, alone, run.part(0.4, 0.5)); });
     times.seconds.search = seconds_since(search);
-    report.set = find_view_set(shape, VertexVisibility(shape.surface, shape.sides, 1000),
-                               report.camera, report.best.direction, choice.frame, options,
-                               report.warnings, run.part(0.5, 0.6));
+    const VertexVisibility visibility(shape.surface, shape.sides, kEyesOfASet);
+    const MapScorer by_map(shape, visibility, options);
+    report.set = find_view_set(shape, visibility, by_map.scorer(), report.best.direction,
+                               choice.frame, options, report.warnings, run.part(0.5, 0.6));
     const std::vector<Figure> figures =
         paper_figures(shape, report, options, run.part(0.6, 1.0),
                       own_look.of(loaded, up_vector(choice.frame.up)));

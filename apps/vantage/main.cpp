@@ -48,7 +48,7 @@ int report_usage(const CLI::App& program, const std::vector<std::string>& words,
   }
   std::replace(problem.begin(), problem.end(), '\n', ' ');
   const char* remedy = problem.find("; ") == std::string::npos ? "; see --help" : "";
-  std::fprintf(stderr, "vantage: %s%s\n", vantage::cli::printable(problem).c_str(), remedy);
+  std::fprintf(stderr, "vantage: %s%s\n", vantage::printable(problem).c_str(), remedy);
   return vantage::cli::kWrongUsage;
 }
 

@@ -5,6 +5,7 @@
 
 #include "session.h"
 #include "settings.h"
+#include "value_checks.h"
 
 namespace vantage::cli {
 namespace {
@@ -133,7 +134,7 @@ void add_common_flags(CLI::App& app, CommonFlags& flags, Answer answer) {
   app.add_flag("-q,--quiet", flags.quiet, "no summary, no warnings, no progress")->group(group);
   app.add_flag("-v,--verbose", flags.verbose, "say more")->group(group);
   app.add_option("--threads", flags.threads, "at most this many threads; 0: all cores")
-      ->check(CLI::Range(0, 1024))
+      ->check(within(0, 1024))
       ->capture_default_str()
       ->group(group);
   app.add_option("--seed", flags.seed,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "terminal.h"
+#include "value_checks.h"
 
 namespace vantage::cli {
 namespace {
@@ -86,12 +87,12 @@ void OptionFlags::add(CLI::App& app, const Option& option, const AllOptions& sta
       add_flag(app, option);
       return;
     case OptionKind::Number:
-      flag = add_value<double>(app, option)->check(CLI::Range(option.low, option.high));
+      flag = add_value<double>(app, option)->check(within(option.low, option.high));
       break;
     case OptionKind::Integer:
       flag = add_value<std::int64_t>(app, option)
-                 ->check(CLI::Range(static_cast<std::int64_t>(option.low),
-                                    static_cast<std::int64_t>(option.high)));
+                 ->check(within(static_cast<std::int64_t>(option.low),
+                                static_cast<std::int64_t>(option.high)));
       break;
     case OptionKind::Choice:
       flag = add_value<std::string>(app, option)

@@ -24,6 +24,7 @@
 #include "row_file.h"
 #include "standard_output.h"
 #include "terminal.h"
+#include "value_checks.h"
 
 namespace vantage::cli {
 namespace {
@@ -221,7 +222,7 @@ struct DiffCommand {
     app.add_option("B", after, "folder of another one")->required();
     app.add_option("--tolerance", tolerance,
                    "scores may differ by this share of the larger before it counts")
-        ->check(CLI::Range(0.0, 1.0))
+        ->check(within(0.0, 1.0))
         ->capture_default_str();
     add_common_flags(app, session.flags);
   }

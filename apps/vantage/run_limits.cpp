@@ -12,6 +12,8 @@
 
 #include "vantage/io/model.h"
 
+#include "value_checks.h"
+
 namespace vantage::cli {
 namespace {
 
@@ -66,14 +68,14 @@ void add_limit_flags(CLI::App& app, RunLimits& limits) {
     app.add_option("--max-memory", limits.memory_bytes,
                    "fail rather than use more memory than this: bytes, or with a unit, as in 500MB "
                    "or 2GB")
-        ->transform(CLI::AsSizeValue(/*kb_is_1000=*/true))
-        ->check(CLI::Range(kLeastMemory, kMostMemory))
+        ->transform(size_in(1.0))
+        ->check(within(kLeastMemory, kMostMemory))
         ->group(group);
   }
   add_face_limit_flag(app, limits);
   if (app.get_option_no_throw("--timeout") == nullptr) {
     app.add_option("--timeout", limits.seconds, "fail rather than run longer than so many seconds")
-        ->check(CLI::Range(kLeastSeconds, kMostSeconds))
+        ->check(within(kLeastSeconds, kMostSeconds))
         ->group(group);
   }
 }
@@ -83,7 +85,7 @@ void add_face_limit_flag(CLI::App& app, RunLimits& limits) {
     app.add_option("--max-faces", limits.faces,
                    "refuse models of more faces, or points; default: as many as fit into memory, "
                    "two for each kB")
-        ->check(CLI::Range(std::size_t{1}, std::size_t{4'000'000'000}))
+        ->check(within(std::size_t{1}, std::size_t{4'000'000'000}))
         ->group("Common");
   }
 }

@@ -18,6 +18,7 @@
 #include "method_flags.h"
 #include "output_file.h"
 #include "terminal.h"
+#include "value_checks.h"
 #include "visible_table.h"
 
 namespace vantage::cli {
@@ -31,7 +32,7 @@ struct ScoreCommand {
   std::string measure = "kssm";
   std::string visible{};
   int sphere = -1;
-  int view_set = 3;
+  int view_set = kMeasureSetLevel;
   MethodFlags method{};
 
   void add_flags(CLI::App& app, Session& session) {
@@ -40,7 +41,7 @@ struct ScoreCommand {
     what->add_option("--directions", directions, "CSV file dx,dy,dz: directions to the eye");
     what->add_option("--eyes", eyes, "CSV file x,y,z: positions of the eye, in model units");
     what->add_option("--sphere", sphere, "all directions of the icosahedron split this many times")
-        ->check(CLI::Range(0, 8));
+        ->check(within(0, 8));
     what->require_option(1);
     offer_measures(
         app.add_option(
@@ -51,7 +52,7 @@ struct ScoreCommand {
     app.add_option("--view-set", view_set,
                    "views that the measures built on a set are defined over: the icosahedron split "
                    "this many times")
-        ->check(CLI::Range(0, 5))
+        ->check(within(0, 5))
         ->capture_default_str();
     app.add_option("-o,--output", file, "CSV file to write; - is standard output")
         ->capture_default_str();
@@ -93,16 +94,14 @@ struct ScoreCommand {
       return analyse_shape(loaded, options, run.part(0.0, 0.5), nullptr, AnalysisUse::Map);
     });
     const VertexVisibility visibility(shape.surface, shape.sides, points.size());
-    const std::optional<FaceVisibility> faces = faces_to_score(shape, options);
-    const ScoringCamera camera = scoring_camera(shape, options);
-    const ViewScorer scorer = faces ? ViewScorer(*faces, shape.map.of_vertex, camera)
-                                    : ViewScorer(visibility, shape.map.of_vertex, camera);
+    const MapScorer by_map(shape, visibility, options);
+    const ViewScorer& scorer = by_map.scorer();
     const std::vector<double> scores = session.computing([&] {
       return free_eyes ? score_eyes(scorer, points, run.part(0.5, 1.0))
                        : scorer.score_all(points, run.part(0.5, 1.0));
     });
     if (!visible.empty()) {
-      const VisibleSets sets = visible_sets(visibility, scoring_camera(shape, options), points,
+      const VisibleSets sets = visible_sets(visibility, scorer.camera(), points,
                                             shape.surface.positions.size(), session.run());
       write_output(visible, visible_table(sets, shape.map.of_vertex));
     }
@@ -124,12 +123,7 @@ struct ScoreCommand {
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_for(loaded, options, measures, run.part(0.0, 0.4)); });
     session.reading([&] { require_area(shape, model); });
-    MeasureSubject subject = measure_subject(shape, options);
-    const std::vector<double> map =
-        uses_saliency(measures) ? vertex_map(shape, options, "mesh-saliency", run.part(0.4, 0.5))
-                                : std::vector<double>{};
-    subject.saliency = map;
-    ViewMeasurer measurer(subject, measures, view_set, run.part(0.5, 0.9));
+    ViewMeasurer measurer(measure_subject(shape, options), measures, view_set, run.part(0.4, 0.9));
     if (!eyes.empty()) {
       std::vector<Viewpoint> places;
       places.reserve(points.size());

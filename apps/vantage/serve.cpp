@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "method_flags.h"
 #include "terminal.h"
+#include "value_checks.h"
 
 namespace vantage::cli {
 namespace {
@@ -24,7 +25,7 @@ struct ServeCommand {
     app.add_option("DIR", folder, "folder of a batch, or any folder with results of view in it")
         ->required();
     app.add_option("--port", port, "port on 127.0.0.1; 0: any that is free")
-        ->check(CLI::Range(0, 65535))
+        ->check(within(0, 65535))
         ->capture_default_str();
     add_common_flags(app, session.flags);
   }

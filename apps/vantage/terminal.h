@@ -8,11 +8,7 @@
 
 namespace vantage::cli {
 
-/// The text as one line that does nothing but show letters, for whatever comes from outside: "?" for
-/// each control character, for bytes that are no UTF-8, and for what turns the direction of writing.
-std::string printable(std::string_view text);
-
-/// The same for text of several lines.
+/// printable() of each line of a text.
 std::string printable_lines(std::string_view text);
 
 /// 1234567 → "1 234 567".

@@ -16,6 +16,7 @@
 
 #include "picture_file.h"
 #include "terminal.h"
+#include "value_checks.h"
 
 namespace vantage::cli {
 namespace {
@@ -75,11 +76,11 @@ void ViewSetFlags::add_to(CLI::App& app) {
           ->check(check_tour_name)
           ->group(group);
   app.add_option("--tour-seconds", seconds_, "length of the tour; default: 36 degrees a second")
-      ->check(CLI::Range(0.1, kMostTourSeconds))
+      ->check(within(0.1, kMostTourSeconds))
       ->needs(tour)
       ->group(group);
   app.add_option("--fps", fps_, "pictures a second of the tour")
-      ->check(CLI::Range(1, 60))
+      ->check(within(1, 60))
       ->capture_default_str()
       ->needs(tour)
       ->group(group);

@@ -96,10 +96,8 @@ std::vector<double> kssm_scores(const Analysis& analysis, const ViewOptions& opt
                                 const Views& views, const RunContext& run) {
   const ShapeAnalysis& shape = analysis.shape;
   const VertexVisibility visibility(shape.surface, shape.sides, views.points.size());
-  const std::optional<FaceVisibility> faces = faces_to_score(shape, options);
-  const ScoringCamera camera = scoring_camera(shape, options);
-  const ViewScorer scorer = faces ? ViewScorer(*faces, shape.map.of_vertex, camera)
-                                  : ViewScorer(visibility, shape.map.of_vertex, camera);
+  const MapScorer by_map(shape, visibility, options);
+  const ViewScorer& scorer = by_map.scorer();
   if (!views.are_eyes) {
     return scorer.score_all(views.points, run);
   }
@@ -107,7 +105,7 @@ std::vector<double> kssm_scores(const Analysis& analysis, const ViewOptions& opt
   scores.reserve(views.points.size());
   for (std::size_t i = 0; i < views.points.size(); ++i) {
     run.advance("scoring", static_cast<double>(i) / static_cast<double>(views.points.size()));
-    scores.push_back(scorer.score_from(views.viewpoint(i, camera), run));
+    scores.push_back(scorer.score_from(views.viewpoint(i, scorer.camera()), run));
   }
   return scores;
 }
@@ -116,14 +114,8 @@ std::vector<double> kssm_scores(const Analysis& analysis, const ViewOptions& opt
 MeasureValues measured_scores(const Analysis& analysis, const ViewOptions& options,
                               const std::vector<Measure>& measures, const Views& views,
                               int view_set, const RunContext& run) {
-  MeasureSubject subject = measure_subject(analysis.shape, options);
-  const bool needs_saliency = std::any_of(measures.begin(), measures.end(),
-                                          [](const Measure& m) { return m.needs.saliency; });
-  const std::vector<double> saliency =
-      needs_saliency ? vertex_map(analysis.shape, options, "mesh-saliency", run.part(0.0, 0.1))
-                     : std::vector<double>{};
-  subject.saliency = saliency;
-  ViewMeasurer measurer(subject, measures, view_set, run.part(0.1, 0.8));
+  ViewMeasurer measurer(measure_subject(analysis.shape, options), measures, view_set,
+                        run.part(0.0, 0.8));
   const RunContext rest = run.part(0.8, 1.0);
   if (views.sphere == view_set) {
     return measurer.set_values(rest);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "vantage/core/vec3.h"
-#include "vantage/view/prior.h"
+#include "vantage/spatial/mirror_symmetry.h"
 
 namespace vantage {
 

@@ -5,9 +5,9 @@
 
 #include <Eigen/Core>
 
+#include "vantage/core/camera.h"
 #include "vantage/mesh/tri_mesh.h"
 #include "vantage/spatial/mirror_symmetry.h"
-#include "vantage/view/prior.h"
 
 #include "choice/choice_table.h"
 

@@ -22,15 +22,15 @@ namespace {
 /// Ways to take a step, tried in order until one is sound: as defined; with weights that do not
 /// depend on how the surface is cut into triangles; with less of a pull; and with clamped weights,
 /// at last with a shifted diagonal.
-constexpr std::array<StepManner, 9> kManners{{{false, kGentlest, 1.0},
-                                              {true, 1, 1.0},
-                                              {true, 1, 1.0 / 3.0},
-                                              {true, 1, 1.0 / 9.0},
-                                              {false, 1, 1.0},
-                                              {false, 2, 1.0},
-                                              {false, 3, 1.0},
-                                              {false, 4, 1.0},
-                                              {false, kHarshest, 1.0}}};
+constexpr std::array<StepVariant, 9> kVariants{{{false, kAsDefined, 1.0},
+                                                {true, 1, 1.0},
+                                                {true, 1, 1.0 / 3.0},
+                                                {true, 1, 1.0 / 9.0},
+                                                {false, 1, 1.0},
+                                                {false, 2, 1.0},
+                                                {false, 3, 1.0},
+                                                {false, 4, 1.0},
+                                                {false, kMostRegularised, 1.0}}};
 /// Where the next step begins after one that could not be taken as defined.
 constexpr std::size_t kSafer = 1;
 /// Until a plate has lost this much its first steps round its edges off [a_t].
@@ -47,7 +47,7 @@ struct Attempt {
   TriMesh mesh{};
   std::vector<double> vertex_ratio{};
   double shrinkage = 0.0;
-  double contraction = 0.0;  ///< [W_L] it was made with, before the manner's share.
+  double contraction = 0.0;  ///< [W_L] it was made with, before the variant's share.
 };
 
 /// Why a contraction ends at a step of which none of the ways was sound. One that enlarges the
@@ -85,10 +85,10 @@ std::string told(StepFlaw flaw) {
 }
 
 /// How it was taken instead.
-std::string told(const StepManner& manner) {
-  if (manner.intrinsic) {
+std::string told(const StepVariant& variant) {
+  if (variant.intrinsic) {
     return std::string("taken with weights that thin triangles do not upset") +
-           (manner.share < 1.0 ? " and a weaker pull" : "");
+           (variant.share < 1.0 ? " and a weaker pull" : "");
   }
   return "taken with bounded weights";
 }
@@ -113,7 +113,7 @@ class Contraction {
         soundness_(scaled),
         ratios_(scaled, shares),
         solver_(scaled, shares),
-        manner_(is_careful ? kSafer : 0) {
+        variant_(is_careful ? kSafer : 0) {
     const double first =
         shares.empty() ? first_contraction(ratios_.mean_area()) : shares.first_contraction();
     state_ = {scaled, std::min(first, options.contraction_limit),
@@ -125,7 +125,7 @@ class Contraction {
 
   [[nodiscard]] const State& state() const { return state_; }
 
-  [[nodiscard]] bool is_regularised() const { return manner_ > 0; }
+  [[nodiscard]] bool is_regularised() const { return variant_ > 0; }
 
   /// Whether it ended because no way to take a step was sound, far from a curve.
   [[nodiscard]] bool is_stuck() const { return is_stuck_; }
@@ -192,12 +192,12 @@ class Contraction {
     const bool is_curve = !is_sheet(state_.shrinkage);
     StepFlaw first = StepFlaw::None;
     Attempt attempt;
-    for (std::size_t manner = manner_; manner < kManners.size(); ++manner) {
-      attempt = attempt_in(kManners[manner], limit);
+    for (std::size_t variant = variant_; variant < kVariants.size(); ++variant) {
+      attempt = attempt_in(kVariants[variant], limit);
       if (attempt.flaw == StepFlaw::None) {
         state_.contraction = attempt.contraction;
         if (first != StepFlaw::None) {
-          go_on_by(kManners[manner], first);
+          go_on_by(kVariants[variant], first);
         }
         return attempt;
       }
@@ -216,20 +216,20 @@ class Contraction {
   }
 
   /// After a step that was sound by this way only.
-  void go_on_by(const StepManner& manner, StepFlaw else_flaw) {
+  void go_on_by(const StepVariant& variant, StepFlaw else_flaw) {
     remedies_.push_back("step " + std::to_string(state_.steps + 1) + " " + told(else_flaw) +
-                        " and was " + told(manner));
-    state_.contraction *= manner.share;
-    manner_ = kSafer;
+                        " and was " + told(variant));
+    state_.contraction *= variant.share;
+    variant_ = kSafer;
   }
 
   /// With a larger W_L, up to the limit, while a surface that has not begun to shrink rises.
-  Attempt attempt_in(const StepManner& manner, double limit) {
+  Attempt attempt_in(const StepVariant& variant, double limit) {
     double W_L = state_.contraction;
     for (int stronger = 0;; ++stronger) {
       run_.check();
-      std::optional<std::vector<Vec3>> solved =
-          solver_.solve(state_.now, W_L * manner.share, state_.attraction, options_, manner, run_);
+      std::optional<std::vector<Vec3>> solved = solver_.solve(
+          state_.now, W_L * variant.share, state_.attraction, options_, variant, run_);
       if (!solved) {
         return {};
       }
@@ -237,7 +237,7 @@ class Contraction {
       attempt.contraction = W_L;
       std::tie(attempt.vertex_ratio, attempt.shrinkage) = ratios_.of_vertices(attempt.mesh);
       attempt.flaw = soundness_.flaw(state_.now, attempt.mesh.positions, state_.shrinkage,
-                                     attempt.shrinkage, manner.harshness == kGentlest);
+                                     attempt.shrinkage, variant.regularisation == kAsDefined);
       const bool too_gentle = attempt.flaw == StepFlaw::Rose && state_.shrinkage > kBegun &&
                               attempt.shrinkage < 2.0 - kBegun;
       const double larger = grown(W_L, limit);
@@ -256,7 +256,7 @@ class Contraction {
   StepSolver solver_;
   State state_{};
   std::optional<State> limited_{};  // before the first step whose W_L a limit kept low
-  std::size_t manner_;              // of kManners, where the next step begins
+  std::size_t variant_;             // of kVariants, where the next step begins
   std::vector<std::string> remedies_{};
   bool is_stuck_ = false;
   bool was_unsound_ = false;

@@ -51,10 +51,10 @@ class PointStep {
  public:
   std::optional<std::vector<Vec3>> solve(const std::vector<Vec3>& now, const PointRings& rings,
                                          double W_L, const std::vector<double>& W_H,
-                                         const ContractionOptions& options, int harshness,
+                                         const ContractionOptions& options, int regularisation,
                                          const RunContext& run) {
     const Eigen::SparseMatrix<double> L =
-        point_laplacian(now, rings, limits_of(options, harshness));
+        point_laplacian(now, rings, limits_of(options, regularisation));
     Eigen::SparseMatrix<double> A = Eigen::SparseMatrix<double>(L.transpose()) * L;
     A *= W_L * W_L;
     const auto n = static_cast<Eigen::Index>(now.size());
@@ -63,7 +63,7 @@ class PointStep {
       const double w = W_H[static_cast<std::size_t>(i)];
       largest = std::max(largest, A.coeffRef(i, i) += w * w);
     }
-    const double shift = shift_of(largest, harshness);
+    const double shift = shift_of(largest, regularisation);
     Eigen::MatrixX3d B(n, 3);
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto v = static_cast<std::size_t>(i);
@@ -77,13 +77,13 @@ class PointStep {
   PositionSolver positions_{};
 };
 
-/// Repeats a step more gently while it fails or outgrows its box.
+/// Repeats a step with more regularisation while it fails or outgrows its box.
 /// \param stop why there is no result, if there is none.
 template <class Solve>
-std::optional<std::vector<Vec3>> attempt_step(const Vec3& bound, int& harshness,
+std::optional<std::vector<Vec3>> attempt_step(const Vec3& bound, int& regularisation,
                                               ContractionStop& stop, const RunContext& run,
                                               const Solve& solve) {
-  for (; harshness <= kHarshest; ++harshness) {
+  for (; regularisation <= kMostRegularised; ++regularisation) {
     run.check();
     std::optional<std::vector<Vec3>> next = solve();
     stop = next ? ContractionStop::Grew : ContractionStop::SolverFailed;
@@ -113,13 +113,13 @@ ComponentHistory contract_point_component(const std::vector<Vec3>& scaled, const
   std::vector<Vec3> now = scaled;
   double W_L = 1.0 / (5.0 * start.mean);
   std::vector<double> W_H(scaled.size(), 1.0);
-  int harshness = kGentlest;
+  int regularisation = kAsDefined;
   history.summary.stop = ContractionStop::StepLimit;
   for (int step = 0; step < options.max_steps; ++step) {
     run.advance("contracting", static_cast<double>(step) / options.max_steps);
-    const std::optional<std::vector<Vec3>> next =
-        attempt_step(bound, harshness, history.summary.stop, run,
-                     [&] { return stepper.solve(now, rings, W_L, W_H, options, harshness, run); });
+    const std::optional<std::vector<Vec3>> next = attempt_step(
+        bound, regularisation, history.summary.stop, run,
+        [&] { return stepper.solve(now, rings, W_L, W_H, options, regularisation, run); });
     if (!next) {
       break;
     }
@@ -136,7 +136,7 @@ ComponentHistory contract_point_component(const std::vector<Vec3>& scaled, const
       history.levels.push_back(now);
       history.shrinkage.push_back(shrinkage);
       ++history.summary.steps;
-      history.summary.regularised_steps += harshness > kGentlest ? 1 : 0;
+      history.summary.regularised_steps += regularisation > kAsDefined ? 1 : 0;
       for (std::size_t i = 0; i < W_H.size(); ++i) {
         const double ratio = start.shortest[i] / lengths.shortest[i];
         W_H[i] = ratio < options.attraction_limit ? ratio : options.attraction_limit;  // NaN too

@@ -93,8 +93,9 @@ Soundness::Soundness(const TriMesh& start)
       samples_(farthest_points(start.positions, sphere_.centre)) {}
 
 StepFlaw Soundness::flaw(const TriMesh& before, const std::vector<Vec3>& after,
-                         double shrinkage_before, double shrinkage_after, bool is_gentlest) const {
-  if (outgrown(after, is_gentlest)) {
+                         double shrinkage_before, double shrinkage_after,
+                         bool is_as_defined) const {
+  if (outgrown(after, is_as_defined)) {
     return StepFlaw::Grew;
   }
   if (!(shrinkage_after <= shrinkage_before + kRise)) {
@@ -103,10 +104,10 @@ StepFlaw Soundness::flaw(const TriMesh& before, const std::vector<Vec3>& after,
   return collapsed(before, after) ? StepFlaw::Collapsed : StepFlaw::None;
 }
 
-bool Soundness::outgrown(const std::vector<Vec3>& now, bool is_gentlest) const {
+bool Soundness::outgrown(const std::vector<Vec3>& now, bool is_as_defined) const {
   const double farthest = kFarthest * 0.5 * sphere_.diameter;
   return (bounding_box(now).size().array() > largest_.array()).any() ||
-         (is_gentlest && std::any_of(now.begin(), now.end(), [&](const Vec3& p) {
+         (is_as_defined && std::any_of(now.begin(), now.end(), [&](const Vec3& p) {
             return (p - sphere_.centre).squaredNorm() > farthest * farthest;
           }));
 }

@@ -32,13 +32,13 @@ class Soundness {
   explicit Soundness(const TriMesh& start);
 
   /// \param before, after what the step leads from and to. \param shrinkage_before,
-  /// shrinkage_after their a_t. \param is_gentlest false: only the box bounds how far it may reach.
+  /// shrinkage_after their a_t. \param is_as_defined false: only the box bounds how far it may reach.
   [[nodiscard]] StepFlaw flaw(const TriMesh& before, const std::vector<Vec3>& after,
                               double shrinkage_before, double shrinkage_after,
-                              bool is_gentlest) const;
+                              bool is_as_defined) const;
 
  private:
-  [[nodiscard]] bool outgrown(const std::vector<Vec3>& now, bool is_gentlest) const;
+  [[nodiscard]] bool outgrown(const std::vector<Vec3>& now, bool is_as_defined) const;
   [[nodiscard]] bool collapsed(const TriMesh& before, const std::vector<Vec3>& after) const;
 
   Sphere sphere_;

@@ -16,18 +16,18 @@ constexpr double kFirstShift = 1e-14;  // relative to the largest diagonal entry
 
 }  // namespace
 
-LaplacianLimits limits_of(const ContractionOptions& options, int harshness) {
+LaplacianLimits limits_of(const ContractionOptions& options, int regularisation) {
   LaplacianLimits limits{.diagonal = options.diagonal_limit};
-  if (harshness > kGentlest) {
+  if (regularisation > kAsDefined) {
     limits.cotangent = kSafeCotangent;
     limits.non_negative = true;
   }
   return limits;
 }
 
-double shift_of(double largest, int harshness) {
-  return harshness > kGentlest + 1
-             ? largest * kFirstShift * std::pow(100.0, harshness - kGentlest - 2)
+double shift_of(double largest, int regularisation) {
+  return regularisation > kAsDefined + 1
+             ? largest * kFirstShift * std::pow(100.0, regularisation - kAsDefined - 2)
              : 0.0;
 }
 

@@ -18,14 +18,14 @@ inline constexpr double kBegun = 0.99;
 
 /// Ways to make an ill-conditioned step solvable, tried in order: as defined; non-negative weights
 /// and cotangents of angles above half a degree; then also a growing shift of the diagonal.
-constexpr int kGentlest = 0;
-constexpr int kHarshest = 5;
+constexpr int kAsDefined = 0;
+constexpr int kMostRegularised = 5;
 
-/// How the Laplacian of a step of this harshness is kept finite.
-LaplacianLimits limits_of(const ContractionOptions& options, int harshness);
+/// How the Laplacian of a step at this level of regularisation is kept finite.
+LaplacianLimits limits_of(const ContractionOptions& options, int regularisation);
 
-/// What is added to the diagonal at this harshness. \param largest entry of the diagonal.
-double shift_of(double largest, int harshness);
+/// What is added to the diagonal at this level. \param largest entry of the diagonal.
+double shift_of(double largest, int regularisation);
 
 /// Sides of the bounding box that a step from `start` has diverged beyond.
 /// \param diameter of the smallest enclosing sphere of `start`.

@@ -13,9 +13,9 @@
 namespace vantage {
 namespace {
 
-/// A correction of more than this share of the solution says that neither is worth much: at the
-/// gentlest limits the step counts as not solved, and harsher ones are tried; under those the
-/// solution stands as it is, as there may be none better [ours].
+/// A correction of more than this share of the solution says that neither is worth much: a step as
+/// defined counts as not solved, and regularised ones are tried; of those the solution stands as it
+/// is, as there may be none better [ours].
 constexpr double kTrusted = 1e-2;
 
 /// Rows are read as wholes.
@@ -61,7 +61,7 @@ class Pull {
 /// equations", 1987): the factor is that of the normal equations, the residual that of the
 /// least-squares problem, which they would square away.
 std::optional<std::vector<Vec3>> refined(const std::vector<Vec3>& start, const Pull& pull,
-                                         const PositionSolver& system, int harshness) {
+                                         const PositionSolver& system, int regularisation) {
   const auto n = static_cast<Eigen::Index>(start.size());
   Positions x(n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -71,7 +71,7 @@ std::optional<std::vector<Vec3>> refined(const std::vector<Vec3>& start, const P
   const Eigen::MatrixX3d correction = system.solve(pull.at(x + d, d));
   if (correction.norm() <= kTrusted * d.norm()) {
     d += correction;
-  } else if (harshness == kGentlest) {
+  } else if (regularisation == kAsDefined) {
     return std::nullopt;
   }
   if (!d.allFinite()) {
@@ -87,8 +87,8 @@ std::optional<std::vector<Vec3>> refined(const std::vector<Vec3>& start, const P
 /// Factorises the normal equations of L and solves them.
 std::optional<std::vector<Vec3>> solved(const Eigen::SparseMatrix<double>& L, NormalMatrix& normal,
                                         PositionSolver& system, const std::vector<Vec3>& start,
-                                        Eigen::VectorXd rows, Eigen::VectorXd held, int harshness,
-                                        const RunContext& run) {
+                                        Eigen::VectorXd rows, Eigen::VectorXd held,
+                                        int regularisation, const RunContext& run) {
   for (Eigen::Index i = 0; i < rows.size(); ++i) {
     // L has a symmetric pattern, so that columns are as wide as rows.
     if (L.outerIndexPtr()[i + 1] - L.outerIndexPtr()[i] > NormalMatrix::kWidestRow) {
@@ -96,7 +96,7 @@ std::optional<std::vector<Vec3>> solved(const Eigen::SparseMatrix<double>& L, No
     }
   }
   Eigen::SparseMatrix<double>& A = normal.assemble(L, rows, held);
-  const double shift = shift_of(A.diagonal().maxCoeff(), harshness);
+  const double shift = shift_of(A.diagonal().maxCoeff(), regularisation);
   if (shift > 0.0) {
     for (Eigen::Index i = 0; i < A.rows(); ++i) {
       A.coeffRef(i, i) += shift;
@@ -106,7 +106,7 @@ std::optional<std::vector<Vec3>> solved(const Eigen::SparseMatrix<double>& L, No
   if (!system.factorize(A, run)) {
     return std::nullopt;
   }
-  return refined(start, Pull(L, rows, held), system, harshness);
+  return refined(start, Pull(L, rows, held), system, regularisation);
 }
 
 }  // namespace
@@ -117,7 +117,7 @@ StepSolver::StepSolver(const TriMesh& start, const EvenShares& shares)
 std::optional<std::vector<Vec3>> StepSolver::solve(const TriMesh& now, double W_L,
                                                    const std::vector<double>& W_H,
                                                    const ContractionOptions& options,
-                                                   const StepManner& manner,
+                                                   const StepVariant& variant,
                                                    const RunContext& run) {
   const auto n = static_cast<Eigen::Index>(now.positions.size());
   Eigen::VectorXd rows(n);
@@ -128,20 +128,20 @@ std::optional<std::vector<Vec3>> StepSolver::solve(const TriMesh& now, double W_
     rows[i] = W_L * W_L / count;
     held[i] = count * W_H[v] * W_H[v];
   }
-  const LaplacianLimits limits = limits_of(options, manner.harshness);
-  if (manner.intrinsic) {  // its pattern is another one each time
+  const LaplacianLimits limits = limits_of(options, variant.regularisation);
+  if (variant.intrinsic) {  // its pattern is another one each time
     const Eigen::SparseMatrix<double> L = intrinsic_laplacian(now.positions, now.triangles, limits);
     NormalMatrix normal(L);
     PositionSolver system;
     return solved(L, normal, system, now.positions, std::move(rows), std::move(held),
-                  manner.harshness, run);
+                  variant.regularisation, run);
   }
   const Eigen::SparseMatrix<double>& L = laplacian_.assemble(now.positions, limits);
   if (!normal_) {
     normal_.emplace(L);
   }
   return solved(L, *normal_, system_, now.positions, std::move(rows), std::move(held),
-                manner.harshness, run);
+                variant.regularisation, run);
 }
 
 }  // namespace vantage

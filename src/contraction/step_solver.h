@@ -11,16 +11,17 @@
 #include "vantage/mesh/tri_mesh.h"
 
 #include "contraction/component_contraction.h"
+#include "contraction/step_limits.h"
 #include "operators/position_solver.h"
 #include "operators/step_matrix.h"
 
 namespace vantage {
 
 /// How a step is taken: as defined, or more safely.
-struct StepManner {
-  bool intrinsic = false;  ///< Weights of the intrinsic Delaunay triangulation.
-  int harshness = 0;       ///< Of step_limits.h.
-  double share = 1.0;      ///< Of W_L.
+struct StepVariant {
+  bool intrinsic = false;           ///< Weights of the intrinsic Delaunay triangulation.
+  int regularisation = kAsDefined;  ///< A level of step_limits.h.
+  double share = 1.0;               ///< Of W_L.
 };
 
 /// One step of the iteration: minimise |W_L L X'|² + Σ W_H,i² |x'_i − x_i|² by its normal equations.
@@ -34,7 +35,7 @@ class StepSolver {
   std::optional<std::vector<Vec3>> solve(const TriMesh& now, double W_L,
                                          const std::vector<double>& W_H,
                                          const ContractionOptions& options,
-                                         const StepManner& manner, const RunContext& run);
+                                         const StepVariant& variant, const RunContext& run);
 
  private:
   const EvenShares& shares_;

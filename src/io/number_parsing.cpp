@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "vantage/core/error.h"
+
 namespace vantage {
 namespace {
 
@@ -103,13 +105,16 @@ bool needs_double(std::string_view token, double value) {
 }
 
 std::string in_quotes(std::string_view token) {
-  constexpr std::size_t kLongest = 40;
-  std::string text = "'";
-  for (const char c : token.substr(0, kLongest)) {
-    const auto byte = static_cast<unsigned char>(c);
-    text += byte < 0x20 || byte >= 0x7F ? '?' : c;
+  constexpr std::size_t kLongest = 40;  // bytes
+  constexpr std::size_t kLetter = 4;    // of UTF-8, at most
+  const auto goes_on = [&](std::size_t at) {
+    return (static_cast<unsigned char>(token[at]) & 0xC0U) == 0x80U;
+  };
+  std::size_t end = std::min(token.size(), kLongest);
+  while (end < token.size() && end + kLetter > kLongest && goes_on(end)) {
+    --end;
   }
-  return text + (token.size() > kLongest ? "…'" : "'");
+  return "'" + printable(token.substr(0, end)) + (end < token.size() ? "…'" : "'");
 }
 
 std::string number_problem(std::string_view token) {

@@ -22,7 +22,7 @@ std::optional<std::int64_t> integer_from(std::string_view token);
 /// more than half a unit of the token's last digit away.
 bool needs_double(std::string_view token, double value);
 
-/// `token` in quotes for a message, cut if long, without control characters.
+/// `token` in quotes for a message: printable(), and cut between letters after 40 bytes.
 std::string in_quotes(std::string_view token);
 
 /// What is wrong with a token that should have been a finite number.

@@ -7,12 +7,13 @@
 
 #include <Eigen/Geometry>
 
+#include "vantage/core/camera.h"
 #include "vantage/core/error.h"
-#include "vantage/view/prior.h"
 
 #include "orientation/candidate_model.h"
 #include "orientation/evidence.h"
 #include "orientation/orientation_table.h"
+#include "orientation/reasons.h"
 
 namespace vantage {
 namespace {
@@ -20,14 +21,7 @@ namespace {
 // Directions that the shape looks the same from, but for this mean difference of its height fields
 // over the largest one that counts, are equally right. [ours]
 constexpr double kAlike = 0.1;
-// Mirror planes of things as they are built and scanned. [ours]
-constexpr double kMirror = 0.15;
-// Rain that a tub holds, over its height. [ours]
-constexpr double kHollow = 0.15;
-// Area vectors of a closed surface add up to nothing. Where what they leave is more than this share of
-// the area, the surface has one side to be seen from, as scans and reliefs have: what is beyond adds so
-// much to the log odds that the front is there. [ours]
-constexpr double kOneSided = 0.25;
+// What a surface of one side has beyond kOneSided adds so much to the log odds that the front is there. [ours]
 constexpr double kOneSidedWeight = 20.0;
 // A shape that makes no side likelier than this is of a kind that the fit of the front knows little of. [ours]
 constexpr double kTellsNothing = 0.5;
@@ -42,15 +36,10 @@ const CandidateModel& front_model() {
   return model;
 }
 
-Vec3 vector_of(AxisDirection direction) {
-  return Vec3::Unit(static_cast<Eigen::Index>(direction.axis)) *
-         (direction.is_positive ? 1.0 : -1.0);
-}
-
 /// \throw InvalidInput
 AxisDirection axis_of(const Vec3& direction) {
   for (const AxisDirection axis : axis_directions()) {
-    if (vector_of(axis).dot(direction) > 1.0 - 1e-9 && direction.norm() < 1.0 + 1e-9) {
+    if (axis.vector().dot(direction) > 1.0 - 1e-9 && direction.norm() < 1.0 + 1e-9) {
       return axis;
     }
   }
@@ -109,72 +98,11 @@ DirectionChoice choose(const std::vector<AxisDirection>& candidates,
     best = confidence[c] > confidence[best] + 1e-9 ? c : best;
   }
   const std::size_t chosen = confidence[best] >= threshold ? best : usual;
-  return {.direction = vector_of(candidates[chosen]),
+  return {.direction = candidates[chosen].vector(),
           .source = chosen == usual ? "format" : "shape",
           .confidence = std::min(confidence[chosen], most[chosen]),
-          .likeliest = vector_of(candidates[best]),
+          .likeliest = candidates[best].vector(),
           .likeliest_confidence = std::min(confidence[best], most[best])};
-}
-
-std::string joined(const std::vector<std::string>& parts) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min<std::size_t>(parts.size(), 2); ++i) {
-    text += (i == 0 ? "its " : " and its ") + parts[i];
-  }
-  return text;
-}
-
-/// The two plainest things that speak for a direction being up, in words.
-std::string reasons_for_up(const SideLooks& looks, AxisDirection up) {
-  const Evidence evidence = looks.upright_evidence(up);
-  const auto value = [&](std::string_view name) { return value_of(name, evidence); };
-  std::vector<std::string> parts;
-  const bool stands = value("base_margin") > 0.05;
-  if (stands && value("base_touch") > 0.5) {
-    parts.emplace_back("flat base");
-  } else if (stands && value("base_contacts") >= 2.0) {  // log2(1 + 3)
-    parts.emplace_back("feet");
-  } else if (stands) {
-    parts.emplace_back("stable stand");
-  }
-  if (value("water") > kHollow && value("base_water") < 0.2 * kHollow) {
-    parts.emplace_back("hollow above");
-  }
-  if (value("mirror_most") < kMirror) {
-    parts.emplace_back("two upright mirror planes");
-  } else if (value("mirror_least") < kMirror) {
-    parts.emplace_back("upright mirror plane");
-  }
-  if (std::abs(value("origin_height")) < 0.01) {
-    parts.emplace_back("origin on the ground");
-  }
-  if (value("area_height") < 0.45) {
-    parts.emplace_back("low centre");
-  }
-  return joined(parts);
-}
-
-/// The same of a direction being the front.
-std::string reasons_for_front(const SideLooks& looks, AxisDirection up, AxisDirection front) {
-  const Evidence evidence = looks.front_evidence(up, front);
-  const auto value = [&](std::string_view name) { return value_of(name, evidence); };
-  std::vector<std::string> parts;
-  if (value("net_ahead") > kOneSided) {
-    parts.emplace_back("open back");
-  }
-  if (value("mirror_side") < kMirror) {
-    parts.emplace_back("mirror plane");
-  }
-  if (value("back_touch") > 0.5 && value("back_touch") > value("front_touch")) {
-    parts.emplace_back("flat back");
-  }
-  if (value("front_detail") > 1.2 * value("back_detail")) {
-    parts.emplace_back("detailed front");
-  }
-  if (value("high_ahead") < -0.1) {
-    parts.emplace_back("high back");
-  }
-  return joined(parts);
 }
 
 DirectionChoice known(const Vec3& direction, const char* source) {
@@ -193,10 +121,10 @@ double one_sided_witness(double net) {
 }
 
 /// Log odds of the sides, if `up` is up, by the shape alone.
-std::vector<double> front_scores(const SideLooks& looks, AxisDirection up) {
+std::vector<double> front_scores(const MeasuredSides& sides, AxisDirection up) {
   std::vector<Evidence> evidence;
   for (const AxisDirection front : around(up)) {
-    evidence.push_back(looks.front_evidence(up, front));
+    evidence.push_back(front_evidence(sides, up, front));
   }
   std::vector<double> scores = front_model().scores(evidence);
   for (std::size_t side = 0; side < scores.size(); ++side) {
@@ -207,14 +135,14 @@ std::vector<double> front_scores(const SideLooks& looks, AxisDirection up) {
 
 /// What the side that the convention has in front adds to the log odds of its up: of files that are
 /// upright by it a share faces as it says, of all others each side is as likely.
-double facing_witness(const SideLooks& looks, const Vec3& usual_up) {
+double facing_witness(const MeasuredSides& sides, const Vec3& usual_up) {
   const AxisDirection up = axis_of(usual_up);
   const std::size_t usual = place_of(axis_of(upright_frame(usual_up).front), around(up));
   const double share = front_model().share;
-  return std::log(1.0 - share + share * 4.0 * odds_of(front_scores(looks, up))[usual]);
+  return std::log(1.0 - share + share * 4.0 * odds_of(front_scores(sides, up))[usual]);
 }
 
-DirectionChoice find_up(const SideLooks& looks, const OrientationRequest& request) {
+DirectionChoice find_up(const MeasuredSides& sides, const OrientationRequest& request) {
   if (request.up) {
     return known(*request.up, "given");
   }
@@ -229,7 +157,7 @@ DirectionChoice find_up(const SideLooks& looks, const OrientationRequest& reques
   for (const AxisDirection up : axis_directions()) {
     if (!front || front->axis != up.axis) {
       candidates.push_back(up);
-      evidence.push_back(looks.upright_evidence(up));
+      evidence.push_back(upright_evidence(sides, up));
     }
   }
   const auto found = std::find(candidates.begin(), candidates.end(), usual);
@@ -239,14 +167,14 @@ DirectionChoice find_up(const SideLooks& looks, const OrientationRequest& reques
   const auto usual_index = static_cast<std::size_t>(found - candidates.begin());
   std::vector<double> scores = up_model().scores(evidence);
   scores[usual_index] +=
-      up_model().witness + (front ? 0.0 : facing_witness(looks, request.usual_up));
+      up_model().witness + (front ? 0.0 : facing_witness(sides, request.usual_up));
   DirectionChoice choice = choose(
       candidates, odds_of(std::move(scores)), usual_index, up_model().threshold,
       [&](AxisDirection a, AxisDirection b) {
         const AxisDirection about{a.axis == b.axis ? (a.axis + 1) % 3 : 3 - a.axis - b.axis, true};
-        return looks.difference(about, a, b) < kAlike;
+        return sides.difference(about, a, b) < kAlike;
       });
-  choice.reasons = reasons_for_up(looks, axis_of(choice.likeliest));
+  choice.reasons = reasons_for_up(upright_evidence(sides, axis_of(choice.likeliest)));
   return choice;
 }
 
@@ -296,7 +224,8 @@ std::array<double, 4> odds_from(const Vec3& front, const Vec3& up,
 }
 
 /// Sets the front and the odds of all sides. \pre result.up
-void find_front(const SideLooks& looks, const OrientationRequest& request, Orientation& result) {
+void find_front(const MeasuredSides& sides, const OrientationRequest& request,
+                Orientation& result) {
   if (request.front) {
     result.front = known(*request.front, "given");
     return;
@@ -307,15 +236,16 @@ void find_front(const SideLooks& looks, const OrientationRequest& request, Orien
   const std::vector<AxisDirection> candidates = around(up);
   const std::size_t usual_index = place_of(usual, candidates);
   const bool is_formats = up == axis_of(request.usual_up);
-  std::vector<double> scores = front_scores(looks, up);
+  std::vector<double> scores = front_scores(sides, up);
   scores[usual_index] += front_witness(up, is_formats);
   std::vector<double> odds = odds_of(std::move(scores));
   const auto alike = [&](AxisDirection a, AxisDirection b) {
-    return looks.difference(up, a, b) < kAlike;
+    return sides.difference(up, a, b) < kAlike;
   };
   result.front =
       choose(candidates, odds, usual_index, is_formats ? front_model().threshold : 0.0, alike);
-  result.front.reasons = reasons_for_front(looks, up, axis_of(result.front.likeliest));
+  result.front.reasons =
+      reasons_for_front(front_evidence(sides, up, axis_of(result.front.likeliest)));
   if (has_usual_front(up) && result.front.likeliest_confidence < kTellsNothing) {
     odds = odds_by_habit(std::move(odds), usual_index);
   }
@@ -325,36 +255,36 @@ void find_front(const SideLooks& looks, const OrientationRequest& request, Orien
 }  // namespace
 
 OrientationEvidence::OrientationEvidence(const TriMesh& surface, const TextureFlow& flow)
-    : looks_(std::make_shared<const SideLooks>(surface, flow)) {}
+    : sides_(std::make_shared<const MeasuredSides>(surface, flow)) {}
 
 Orientation OrientationEvidence::find(const OrientationRequest& request) const {
   if (request.up && request.front && axis_of(*request.up).axis == axis_of(*request.front).axis) {
     throw InvalidInput("up and front are along the same axis");
   }
   Orientation result;
-  result.up = find_up(*looks_, request);
+  result.up = find_up(*sides_, request);
   if (request.front && axis_of(*request.front).axis == axis_of(result.up.direction).axis) {
     throw InvalidInput(
         "the front is along the up axis, which the format gives: give another front, or the up "
         "axis, too");
   }
-  find_front(*looks_, request, result);
+  find_front(*sides_, request, result);
   return result;
 }
 
 std::vector<OrientationFeatures> OrientationEvidence::features() const {
   std::vector<OrientationFeatures> rows;
   for (const AxisDirection up : axis_directions()) {
-    rows.push_back({.up = vector_of(up), .values = looks_->upright_evidence(up)});
+    rows.push_back({.up = up.vector(), .values = upright_evidence(*sides_, up)});
   }
   for (const AxisDirection up : axis_directions()) {
     for (const AxisDirection front : around(up)) {
       const AxisDirection side{3 - up.axis - front.axis, true};
-      rows.push_back({.up = vector_of(up),
-                      .front = vector_of(front),
-                      .values = looks_->front_evidence(up, front),
-                      .back_difference = looks_->difference(up, front, front.opposite()),
-                      .side_difference = looks_->difference(up, front, side)});
+      rows.push_back({.up = up.vector(),
+                      .front = front.vector(),
+                      .values = front_evidence(*sides_, up, front),
+                      .back_difference = sides_->difference(up, front, front.opposite()),
+                      .side_difference = sides_->difference(up, front, side)});
     }
   }
   return rows;

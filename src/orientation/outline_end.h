@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "orientation/evidence.h"
+#include "orientation/axis_direction.h"
+#include "orientation/height_fields.h"
 
 namespace vantage {
 

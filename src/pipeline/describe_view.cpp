@@ -34,15 +34,6 @@ void frame_view(ReportedView& view, const ShapeAnalysis& shape, UpAxis up,
   view.size = frame.size;
 }
 
-std::optional<FaceVisibility> faces_to_score(const ShapeAnalysis& shape,
-                                             const ViewOptions& options) {
-  std::optional<FaceVisibility> faces;
-  if (options.weight == Weight::Area) {
-    faces.emplace(shape.surface, shape.sides);
-  }
-  return faces;
-}
-
 ScoringCamera scoring_camera(const ShapeAnalysis& shape, const ViewOptions& options) {
   return {.sphere = shape.sphere,
           .projection = options.projection,

@@ -155,16 +155,6 @@ void warn_of(const ViewSet& set, const ViewSetRequest& request,
 }  // namespace
 
 ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility& visibility,
-                              const ScoringCamera& camera, const Vec3& best,
-                              const ModelFrame& frame, const ViewOptions& options,
-                              std::vector<std::string>& warnings, const RunContext& run) {
-  const std::optional<FaceVisibility> faces = faces_to_score(shape, options);
-  const ViewScorer scorer = faces ? ViewScorer(*faces, shape.map.of_vertex, camera)
-                                  : ViewScorer(visibility, shape.map.of_vertex, camera);
-  return find_view_set(shape, visibility, scorer, best, frame, options, warnings, run);
-}
-
-ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility& visibility,
                               const ViewScorer& scorer, const Vec3& best, const ModelFrame& frame,
                               const ViewOptions& options, std::vector<std::string>& warnings,
                               const RunContext& run) {

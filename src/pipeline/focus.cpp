@@ -103,8 +103,10 @@ const SceneObject& find_object(const std::vector<SceneObject>& objects, std::str
   }
   names += shown > 0 ? "'" : "";
   names += shown > kShownNames ? ", …" : "";
-  throw InvalidInput("there is no object '" + std::string(focus) + "' to focus on; choose 0 to " +
-                     std::to_string(objects.size() - 1) + names + " (vantage info lists them)");
+  throw InvalidInput("there is no object '" + std::string(focus) + "' to focus on; " +
+                     (objects.size() > 1 ? "choose 0 to " + std::to_string(objects.size() - 1)
+                                         : std::string("the only one is 0")) +
+                     names + " (vantage info lists them)");
 }
 
 void focus_on(ShapeAnalysis& shape, const SceneObject& object) {

@@ -49,14 +49,20 @@ std::vector<double> estimated_shares(const ViewPreparation& prepared,
 
 }  // namespace
 
+MapScorer::MapScorer(const ShapeAnalysis& shape, const VertexVisibility& visibility,
+                     const ViewOptions& options)
+    : faces_(options.weight == Weight::Area
+                 ? std::optional<FaceVisibility>(std::in_place, shape.surface, shape.sides)
+                 : std::nullopt),
+      scorer_(faces_
+                  ? ViewScorer(*faces_, shape.map.of_vertex, scoring_camera(shape, options))
+                  : ViewScorer(visibility, shape.map.of_vertex, scoring_camera(shape, options))) {}
+
 MapObjective::MapObjective(const ShapeAnalysis& shape, const ViewOptions& options,
                            const RunContext& run)
     : prepared_(preparation_of(shape, run.quiet())),
       quiet_(run.quiet()),
-      faces_(faces_to_score(shape, options)),
-      scorer_(faces_ ? ViewScorer(*faces_, shape.map.of_vertex, scoring_camera(shape, options))
-                     : ViewScorer(prepared_->visibility, shape.map.of_vertex,
-                                  scoring_camera(shape, options))),
+      by_map_(shape, prepared_->visibility, options),
       shares_(vertex_shares(shape, prepared_->vertex_areas, options.weight)),
       proxy_shares_(prepared_->proxy.sums(shares_)),
       proxy_scorer_(prepared_->proxy_visibility, proxy_shares_, scoring_camera(shape, options)),
@@ -89,14 +95,15 @@ std::vector<double> MapObjective::estimates(const std::vector<Vec3>& directions)
 
 ViewObjective MapObjective::objective(const Preference& preference) const {
   ViewObjective objective;
-  objective.total = scorer_.total();
+  objective.total = scorer().total();
   if (is_sampled(*prepared_)) {
     objective.survey_level = 3;  // a look costs ten times as much as at surfaces of one skin
   }
   objective.score = [this](const std::vector<Vec3>& directions) {
-    return scorer_.score_all(directions, quiet_);
+    return scorer().score_all(directions, quiet_);
   };
-  if (prepared_->is_coarse() || is_sampled(*prepared_) || faces_) {
+  const bool is_by_area = scorer().faces() != nullptr;
+  if (prepared_->is_coarse() || is_sampled(*prepared_) || is_by_area) {
     objective.surrogate = [this](const std::vector<Vec3>& directions) {
       return estimates(directions);
     };
@@ -107,7 +114,7 @@ ViewObjective MapObjective::objective(const Preference& preference) const {
     }
   }
   // By area the score is an integral over faces, which the proxy's vertices are too few to follow.
-  if (!faces_ && prepared_->has_proxy()) {
+  if (!is_by_area && prepared_->has_proxy()) {
     objective.proxy = [this](const std::vector<Vec3>& directions) {
       return proxy_scorer_.score_all(directions, quiet_);
     };

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "vantage/pipeline/find_views.h"
 #include "vantage/pipeline/shape_analysis.h"
 #include "vantage/view/search.h"
 
@@ -22,7 +23,7 @@ class MapObjective {
   MapObjective(const MapObjective&) = delete;
   MapObjective& operator=(const MapObjective&) = delete;
 
-  [[nodiscard]] const ViewScorer& scorer() const { return scorer_; }
+  [[nodiscard]] const ViewScorer& scorer() const { return by_map_.scorer(); }
 
   [[nodiscard]] const VertexVisibility& visibility() const { return prepared_->visibility; }
 
@@ -35,8 +36,7 @@ class MapObjective {
  private:
   std::shared_ptr<const ViewPreparation> prepared_;
   RunContext quiet_;
-  std::optional<FaceVisibility> faces_;
-  ViewScorer scorer_;
+  MapScorer by_map_;
   std::vector<double> shares_;  // of the total, by vertex
   std::vector<double> proxy_shares_;
   ViewScorer proxy_scorer_;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "vantage/view/measure.h"
-#include "vantage/view/prior.h"
 #include "vantage/view/search.h"
 
 namespace vantage {

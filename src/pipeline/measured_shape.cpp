@@ -67,6 +67,7 @@ MeasureSubject measure_subject(const ShapeAnalysis& shape, const ViewOptions& op
   subject.camera = scoring_camera(shape, options);
   subject.weight = options.weight;
   subject.kssm = shape.map.of_vertex;
+  subject.saliency_options = options.saliency;
   subject.seen_by_set = seen_by_set(shape, subject.camera);
   if (!shape.skeleton.graph.nodes.empty()) {
     subject.skeleton = &shape.skeleton.graph;

@@ -10,6 +10,7 @@
 #include "vantage/pipeline/shape_analysis.h"
 #include "vantage/spatial/mirror_symmetry.h"
 #include "vantage/view/channel.h"
+#include "vantage/view/measure.h"
 #include "vantage/view/scoring.h"
 #include "vantage/visibility/vertex_visibility.h"
 
@@ -32,9 +33,6 @@ struct SeenBySet {
   ScoringCamera camera{};
   ViewChannel channel{};
 };
-
-/// The views that measures are defined over: this level of the icosahedron.
-inline constexpr int kMeasureSetLevel = 3;
 
 /// Immutable; copies of an analysis share it.
 struct ViewPreparation {

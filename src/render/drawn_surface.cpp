@@ -68,12 +68,12 @@ DrawnSurface::DrawnSurface(const TriMesh& mesh, const Appearance* appearance, do
   }
   run.check();
   if (appearance != nullptr && !appearance->materials.empty()) {
-    skin_.emplace(*appearance, mesh_);
+    materials_.emplace(*appearance, mesh_);
   }
   OpacityOfHit opacity;
-  if (skin_ && skin_->has_openings()) {
+  if (materials_ && materials_->has_openings()) {
     opacity = [this](std::uint32_t face, float u, float v, float width) {
-      return skin_->at(face, u, v, static_cast<double>(width)).opacity;
+      return materials_->at(face, u, v, static_cast<double>(width)).opacity;
     };
   }
   rays_.emplace(mesh_, std::move(opacity));

@@ -11,7 +11,7 @@
 #include "vantage/mesh/tri_mesh.h"
 #include "vantage/render/render.h"
 
-#include "render/skin.h"
+#include "render/surface_materials.h"
 #include "spatial/ray_scene.h"
 
 namespace vantage {
@@ -46,7 +46,9 @@ class DrawnSurface {
   [[nodiscard]] const RayScene& rays() const { return *rays_; }
 
   /// Null if nothing is known of its materials.
-  [[nodiscard]] const Skin* skin() const { return skin_ ? &*skin_ : nullptr; }
+  [[nodiscard]] const SurfaceMaterials* materials() const {
+    return materials_ ? &*materials_ : nullptr;
+  }
 
   /// Where a ray with a unit direction hits the surface.
   [[nodiscard]] SurfacePlace place(const RaySegment& ray, const RayHit& hit) const;
@@ -58,7 +60,7 @@ class DrawnSurface {
   double crease_deg_;
   std::vector<Vec3f> face_normals_{};            // unit; zero of faces without area
   std::vector<std::array<Vec3f, 3>> normals_{};  // at corners; empty: the faces' own
-  std::optional<Skin> skin_{};
+  std::optional<SurfaceMaterials> materials_{};
   std::optional<RayScene> rays_{};
 };
 

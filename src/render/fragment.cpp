@@ -65,8 +65,9 @@ SampleNeed FragmentRows::need(int x, int y, float pixel) const {
   return need;
 }
 
-SampleNeed FragmentRows::need_of_coat(int x, int y, std::size_t coat, SampleNeed of_surface) const {
-  const CoatFragment& own = at(x, y, coat);
+SampleNeed FragmentRows::need_of_paint(int x, int y, std::size_t paint,
+                                       SampleNeed of_surface) const {
+  const PaintFragment& own = at(x, y, paint);
   const bool is_hit = at(x, y).hit;
   const float most = kAlikeColour * (own.albedo.maxCoeff() + kDarkestColour);
   SampleNeed need = own.tube || (is_hit && !own.opaque) ? SampleNeed::Few : SampleNeed::One;
@@ -74,7 +75,7 @@ SampleNeed FragmentRows::need_of_coat(int x, int y, std::size_t coat, SampleNeed
     if (!has(x + right, y + down)) {
       continue;
     }
-    const CoatFragment& other = at(x + right, y + down, coat);
+    const PaintFragment& other = at(x + right, y + down, paint);
     if (other.tube != own.tube) {
       return SampleNeed::All;
     }
@@ -90,8 +91,8 @@ Vec3f FragmentRows::mixed_normal(int x, int y) const {
   return mixed(*this, x, y, [this](int i, int j) { return at(i, j).place.normal; }).normalized();
 }
 
-Vec3f FragmentRows::mixed_albedo(int x, int y, std::size_t coat) const {
-  return mixed(*this, x, y, [this, coat](int i, int j) { return at(i, j, coat).albedo; });
+Vec3f FragmentRows::mixed_albedo(int x, int y, std::size_t paint) const {
+  return mixed(*this, x, y, [this, paint](int i, int j) { return at(i, j, paint).albedo; });
 }
 
 bool FragmentRows::may_break(int x, int y, float tolerance) const {

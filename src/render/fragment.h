@@ -17,14 +17,14 @@ struct Fragment {
   bool breaks = false;  ///< Something else shows beside the middle: it may be thinner than a pixel.
 };
 
-/// What it shows of one coat.
-struct CoatFragment {
+/// What it shows of one paint.
+struct PaintFragment {
   Vec3f albedo = Vec3f::Zero();  ///< Linear.
   bool opaque = false;           ///< A lit surface that nothing shines through.
   bool tube = false;
 };
 
-/// How many samples a pixel needs in one coat.
+/// How many samples a pixel needs in one paint.
 enum class SampleNeed {
   One,  ///< It and those around it show one patch of the surface in one colour, or nothing at all.
   Few,  ///< One patch, but bent or coloured: unless a few samples differ much, their mean will do.
@@ -47,15 +47,15 @@ struct FragmentRows {
   int width = 0;
   int first_row = 0;
   int rows = 0;
-  std::size_t coats = 0;
+  std::size_t paints = 0;
   std::vector<Fragment> fragments{};
-  std::vector<CoatFragment> of_coats{};  ///< Coats of a pixel side by side.
+  std::vector<PaintFragment> of_paints{};  ///< Paints of a pixel side by side.
 
-  FragmentRows(int picture_width, int first, int count, std::size_t coat_count)
-      : width(picture_width), first_row(first), rows(count), coats(coat_count) {
+  FragmentRows(int picture_width, int first, int count, std::size_t paint_count)
+      : width(picture_width), first_row(first), rows(count), paints(paint_count) {
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(rows);
     fragments.resize(pixels);
-    of_coats.resize(coats * pixels);
+    of_paints.resize(paints * pixels);
   }
 
   [[nodiscard]] bool has(int x, int y) const {
@@ -64,15 +64,15 @@ struct FragmentRows {
 
   /// By what the surface is like at a pixel and beside it. \param pixel size at the surface.
   [[nodiscard]] SampleNeed need(int x, int y, float pixel) const;
-  /// The same for a coat. \param of_surface what need() says.
-  [[nodiscard]] SampleNeed need_of_coat(int x, int y, std::size_t coat,
-                                        SampleNeed of_surface) const;
+  /// The same for a paint. \param of_surface what need() says.
+  [[nodiscard]] SampleNeed need_of_paint(int x, int y, std::size_t paint,
+                                         SampleNeed of_surface) const;
 
   /// Normal and albedo of a pixel that needs one sample, as the tent filter of all samples would
   /// mix them with those around it.
   /// \pre need() is one sample.
   [[nodiscard]] Vec3f mixed_normal(int x, int y) const;
-  [[nodiscard]] Vec3f mixed_albedo(int x, int y, std::size_t coat) const;
+  [[nodiscard]] Vec3f mixed_albedo(int x, int y, std::size_t paint) const;
 
   /// Whether the surface may end or step back in a pixel or beside it.
   /// \param tolerance distance from a plane that is no step.
@@ -85,8 +85,8 @@ struct FragmentRows {
 
   [[nodiscard]] const Fragment& at(int x, int y) const { return fragments[index(x, y)]; }
 
-  [[nodiscard]] const CoatFragment& at(int x, int y, std::size_t coat) const {
-    return of_coats[index(x, y) * coats + coat];
+  [[nodiscard]] const PaintFragment& at(int x, int y, std::size_t paint) const {
+    return of_paints[index(x, y) * paints + paint];
   }
 };
 

@@ -76,7 +76,7 @@ Scene::Scene(const DrawnSurface& surface, const Camera& camera, std::span<const 
   rays_.emplace(camera, surface.frame(), options.ground ? (1.0 + kOcclusionReach) * reach : reach,
                 options.width, options.height);
   for (const Paint& paint : paints) {
-    coats_.emplace_back(paint, surface, *rays_, options);
+    paints_.emplace_back(paint, surface, *rays_, options);
   }
   mask_.emplace(surface.mesh(), *rays_, pixel_, options.width, options.height);
   run.check();
@@ -119,7 +119,7 @@ SceneBand Scene::band(int first_row, int rows, const RunContext& run) const {
   constexpr int kHalo = OpennessGrid::kHalo;
   const int first = std::max(0, first_row - kHalo) / 2 * 2;
   const int last = std::min(options_.height, first_row + rows + kHalo);
-  SceneBand band{FragmentRows(options_.width, first, last - first, coats_.size()), first_row};
+  SceneBand band{FragmentRows(options_.width, first, last - first, paints_.size()), first_row};
   parallel_for(
       run, static_cast<std::size_t>(last - first), 1, [&](std::size_t begin, std::size_t end) {
         for (int y = first + static_cast<int>(begin); y < first + static_cast<int>(end); ++y) {
@@ -175,8 +175,8 @@ void Scene::trace(SamplePacket& samples, std::size_t count, double width) const 
 
 bool Scene::may_show_anything(int x, int y) const {
   return mask_->may_show(x, y) || (creases_ && creases_->may_show(x, y)) ||
-         std::any_of(coats_.begin(), coats_.end(), [&](const Coat& coat) {
-           return coat.tubes() && coat.tubes()->may_show(x, y);
+         std::any_of(paints_.begin(), paints_.end(), [&](const PreparedPaint& paint) {
+           return paint.tubes() && paint.tubes()->may_show(x, y);
          });
 }
 
@@ -203,8 +203,8 @@ void Scene::make_fragments(int y, FragmentRows& rows) const {
       if (fragment.hit) {
         fragment.place = surface_->place(packet[i].ray.segment(), packet[i].hit);
       }
-      for (std::size_t c = 0; c < coats_.size(); ++c) {
-        rows.of_coats[index * coats_.size() + c] = coat_fragment(coats_[c], packet[i]);
+      for (std::size_t c = 0; c < paints_.size(); ++c) {
+        rows.of_paints[index * paints_.size() + c] = paint_fragment(paints_[c], packet[i]);
       }
     }
     if (pattern_.size() > 1) {
@@ -241,12 +241,12 @@ void Scene::find_breaks(const SamplePacket& middles, std::size_t count, Fragment
   }
 }
 
-CoatFragment Scene::coat_fragment(const Coat& coat, const Sample& sample) const {
-  CoatFragment fragment;
+PaintFragment Scene::paint_fragment(const PreparedPaint& paint, const Sample& sample) const {
+  PaintFragment fragment;
   fragment.tube =
-      coat.tubes() && std::isfinite(coat.tubes()->closest_hit(sample.ray, sample.x, sample.y).t);
+      paint.tubes() && std::isfinite(paint.tubes()->closest_hit(sample.ray, sample.x, sample.y).t);
   if (sample.hit) {
-    const Skin::Shown shown = coat.shown(sample.hit, pixel_);
+    const SurfaceMaterials::Shown shown = paint.shown(sample.hit, pixel_);
     fragment.albedo = shown.colour.cast<float>();
     fragment.opaque = shown.opacity == 1.0 && !shown.unlit;
   }

@@ -9,7 +9,6 @@
 #include "vantage/core/run_context.h"
 #include "vantage/render/render.h"
 
-#include "render/coat.h"
 #include "render/contours.h"
 #include "render/drawn_surface.h"
 #include "render/fragment.h"
@@ -17,6 +16,7 @@
 #include "render/occlusion.h"
 #include "render/openness_grid.h"
 #include "render/picture_rays.h"
+#include "render/prepared_paint.h"
 #include "render/shading.h"
 #include "render/tile_mask.h"
 #include "render/tubes.h"
@@ -35,7 +35,7 @@ struct Light {
   }
 };
 
-/// Light of a pixel in one coat.
+/// Light of a pixel in one paint.
 struct PixelLight {
   Light light{};
   SampleNeed need = SampleNeed::One;
@@ -49,8 +49,8 @@ struct SceneBand {
   std::vector<double> outlines{};          ///< Coverage of each pixel; empty if there are none.
 };
 
-/// A surface seen by a camera, in one coat or several, with all else that is drawn: the rays of all
-/// coats are the same. One sample of each pixel and of those around it tells how many more it needs.
+/// A surface seen by a camera, in one paint or several, with all else that is drawn: the rays of all
+/// paints are the same. One sample of each pixel and of those around it tells how many more it needs.
 /// Immutable after construction; pixels may be asked for from many threads at once.
 class Scene {
  public:
@@ -64,12 +64,12 @@ class Scene {
   /// Prepares some rows. \throw Cancelled
   [[nodiscard]] SceneBand band(int first_row, int rows, const RunContext& run) const;
 
-  /// Light and opacity of a pixel of a band for every coat: the colour is not multiplied by the
-  /// opacity. \param lights one a coat.
+  /// Light and opacity of a pixel of a band for every paint: the colour is not multiplied by the
+  /// opacity. \param lights one a paint.
   void pixel(int x, int y, const SceneBand& band, std::span<PixelLight> lights) const;
 
  private:
-  /// A sample of the picture, and what all coats have in common there, once it is known.
+  /// A sample of the picture, and what all paints have in common there, once it is known.
   struct Sample {
     PictureRay ray{};
     int x = 0;
@@ -86,7 +86,7 @@ class Scene {
     SurfacePlace place{};                         ///< Where the first of them meets it.
     SurfacePoint point{};                         ///< There, with the albedo that was shaded last.
     std::optional<Vec3> shown{};                  ///< What that looks like.
-    bool is_of_coat = false;                      ///< It was shaded for the coat at hand.
+    bool is_of_paint = false;                     ///< It was shaded for the paint at hand.
     std::array<std::optional<double>, 2> veil{};  ///< Opacity around tubes: none before it, or one.
   };
 
@@ -107,21 +107,22 @@ class Scene {
   void make_fragments(int y, FragmentRows& rows) const;
   /// Whether something that their middles do not show lies beside them.
   void find_breaks(const SamplePacket& middles, std::size_t count, FragmentRows& rows) const;
-  [[nodiscard]] CoatFragment coat_fragment(const Coat& coat, const Sample& sample) const;
-  /// What all coats have in common at a pixel that shows the surface and needs one sample.
+  [[nodiscard]] PaintFragment paint_fragment(const PreparedPaint& paint,
+                                             const Sample& sample) const;
+  /// What all paints have in common at a pixel that shows the surface and needs one sample.
   [[nodiscard]] SurfacePoint plain_point(int x, int y, const SceneBand& band) const;
-  [[nodiscard]] Light plain_light(int x, int y, std::size_t coat, const SceneBand& band,
+  [[nodiscard]] Light plain_light(int x, int y, std::size_t paint, const SceneBand& band,
                                   std::optional<SurfacePoint>& point) const;
   /// Looks at a few samples where they are enough; else the need becomes all.
   void look_at_few(int x, int y, const SceneBand& band, std::span<PixelLight> lights) const;
   void look_at_all(int x, int y, const SceneBand& band, std::span<PixelLight> lights) const;
 
-  /// Finds the patches of all samples, whatever the coats.
+  /// Finds the patches of all samples, whatever the paints.
   void find_patches(SamplePacket& samples, std::size_t count, Patches& patches) const;
-  static void begin_coat(Patches& patches);
+  static void begin_paint(Patches& patches);
   /// \param patches of the pixel, so far.
-  [[nodiscard]] Light light_of(const Coat& coat, Sample& sample, Patches& patches) const;
-  [[nodiscard]] Light surface_light(const Coat& coat, Sample& sample, const RayHit& hit,
+  [[nodiscard]] Light light_of(const PreparedPaint& paint, Sample& sample, Patches& patches) const;
+  [[nodiscard]] Light surface_light(const PreparedPaint& paint, Sample& sample, const RayHit& hit,
                                     bool before_tube, Patches& patches) const;
   [[nodiscard]] std::size_t patch_at(const Sample& sample, const RayHit& hit,
                                      Patches& patches) const;
@@ -145,7 +146,7 @@ class Scene {
   std::optional<HemisphereDirections> probe_directions_{};
   std::optional<HemisphereDirections> sample_directions_{};
   std::optional<Ground> ground_{};
-  std::vector<Coat> coats_{};
+  std::vector<PreparedPaint> paints_{};
   std::optional<Tubes> creases_{};
   std::optional<Contours> contours_{};
 };

@@ -48,13 +48,13 @@ SurfacePoint Scene::plain_point(int x, int y, const SceneBand& band) const {
   return point_at(place, rays_->ray(x + 0.5, y + 0.5).direction, static_cast<double>(open));
 }
 
-Light Scene::plain_light(int x, int y, std::size_t coat, const SceneBand& band,
+Light Scene::plain_light(int x, int y, std::size_t paint, const SceneBand& band,
                          std::optional<SurfacePoint>& point) const {
   Light light;
   if (band.rows.at(x, y).hit) {
     point = point ? point : plain_point(x, y, band);
-    point->albedo = band.rows.mixed_albedo(x, y, coat).cast<double>();
-    light.behind(shaded(*point), coats_[coat].tubes() ? translucent_opacity(*point, false) : 1.0);
+    point->albedo = band.rows.mixed_albedo(x, y, paint).cast<double>();
+    light.behind(shaded(*point), paints_[paint].tubes() ? translucent_opacity(*point, false) : 1.0);
   }
   if (ground_) {
     add_ground(light, rays_->ray(x + 0.5, y + 0.5), x, y);
@@ -114,25 +114,25 @@ void Scene::find_patches(SamplePacket& samples, std::size_t count, Patches& patc
   }
 }
 
-Light Scene::surface_light(const Coat& coat, Sample& sample, const RayHit& hit, bool before_tube,
-                           Patches& patches) const {
+Light Scene::surface_light(const PreparedPaint& paint, Sample& sample, const RayHit& hit,
+                           bool before_tube, Patches& patches) const {
   const double width = pixel_ / std::sqrt(static_cast<double>(pattern_.size()));
-  const Skin::Shown shown = coat.shown(hit, width);
+  const SurfaceMaterials::Shown shown = paint.shown(hit, width);
   if (shown.unlit) {
     return {shown.colour, shown.opacity};
   }
   const bool is_first = hit.t == sample.hit.t;
   Patch& patch = patches[is_first ? *sample.patch : patch_at(sample, hit, patches)];
   const double most = kShownAlike * (shown.colour.maxCoeff() + static_cast<double>(kDarkestColour));
-  // What another coat left is only taken if it is the same: coats look as they would alone.
-  if (!patch.shown ||
-      (patch.point.albedo - shown.colour).cwiseAbs().maxCoeff() > (patch.is_of_coat ? most : 0.0)) {
+  // What another paint left is only taken if it is the same: paints look as they would alone.
+  if (!patch.shown || (patch.point.albedo - shown.colour).cwiseAbs().maxCoeff() >
+                          (patch.is_of_paint ? most : 0.0)) {
     patch.point.albedo = shown.colour;
     patch.shown = shaded(patch.point);
   }
-  patch.is_of_coat = true;
+  patch.is_of_paint = true;
   double opacity = shown.opacity;
-  if (coat.tubes()) {
+  if (paint.tubes()) {
     std::optional<double>& veil = patch.veil[before_tube ? 1 : 0];
     veil = veil ? veil : translucent_opacity(patch.point, before_tube);
     opacity *= *veil;
@@ -140,7 +140,7 @@ Light Scene::surface_light(const Coat& coat, Sample& sample, const RayHit& hit, 
   return {*patch.shown, opacity};
 }
 
-Light Scene::light_of(const Coat& coat, Sample& sample, Patches& patches) const {
+Light Scene::light_of(const PreparedPaint& paint, Sample& sample, Patches& patches) const {
   Light light;
   if (sample.on_line) {
     light.behind(kInk, 1.0);
@@ -148,14 +148,14 @@ Light Scene::light_of(const Coat& coat, Sample& sample, Patches& patches) const 
   }
   const PictureRay& ray = sample.ray;
   const TubeHit tube =
-      coat.tubes() ? coat.tubes()->closest_hit(ray, sample.x, sample.y) : TubeHit{};
+      paint.tubes() ? paint.tubes()->closest_hit(ray, sample.x, sample.y) : TubeHit{};
   const bool has_tube = std::isfinite(tube.t);
   RayHit layer = sample.hit;
   for (int count = 0; layer && static_cast<double>(layer.t) <= tube.t && count < kMostLayers;
        ++count) {
-    const Light seen = surface_light(coat, sample, layer, has_tube, patches);
+    const Light seen = surface_light(paint, sample, layer, has_tube, patches);
     light.behind(seen.colour, seen.alpha);
-    if (!coat.has_openings() || light.alpha >= kNothingBehind) {
+    if (!paint.has_openings() || light.alpha >= kNothingBehind) {
       break;
     }
     RayPacket next{ray.segment()};
@@ -165,7 +165,7 @@ Light Scene::light_of(const Coat& coat, Sample& sample, Patches& patches) const 
   }
   if (has_tube) {
     SurfacePoint point;
-    point.albedo = coat.tube_colour();
+    point.albedo = paint.tube_colour();
     point.normal = to_camera(tube.normal);
     point.to_viewer = to_camera(-ray.direction);
     light.behind(shade_tube(point), 1.0);
@@ -207,9 +207,9 @@ Vec3 Scene::background(int y) const {
   return mixed;
 }
 
-void Scene::begin_coat(Patches& patches) {
+void Scene::begin_paint(Patches& patches) {
   for (Patch& patch : patches) {
-    patch.is_of_coat = false;
+    patch.is_of_paint = false;
   }
 }
 
@@ -225,15 +225,15 @@ void Scene::look_at_few(int x, int y, const SceneBand& band, std::span<PixelLigh
   trace(packet, count, pixel_ / std::sqrt(static_cast<double>(count)));
   Patches patches;
   find_patches(packet, count, patches);
-  for (std::size_t c = 0; c < coats_.size(); ++c) {
+  for (std::size_t c = 0; c < paints_.size(); ++c) {
     if (lights[c].need != SampleNeed::Few) {
       continue;
     }
-    begin_coat(patches);
+    begin_paint(patches);
     std::array<Light, kFewSamples> seen{};
     Light mean;
     for (std::size_t i = 0; i < count; ++i) {
-      seen[i] = packet[i].ray.can_hit ? light_of(coats_[c], packet[i], patches) : Light{};
+      seen[i] = packet[i].ray.can_hit ? light_of(paints_[c], packet[i], patches) : Light{};
       mean.colour += seen[i].colour / static_cast<double>(count);
       mean.alpha += seen[i].alpha / static_cast<double>(count);
     }
@@ -262,12 +262,12 @@ void Scene::look_at_all(int x, int y, const SceneBand& band, std::span<PixelLigh
     trace(packet, count, pixel_ / std::sqrt(samples));
     find_patches(packet, count, patches);
   }
-  for (std::size_t c = 0; c < coats_.size(); ++c) {
-    begin_coat(patches);
+  for (std::size_t c = 0; c < paints_.size(); ++c) {
+    begin_paint(patches);
     for (std::size_t i = 0; i < pattern_.size() && lights[c].need == SampleNeed::All; ++i) {
       Sample& sample = packets[i / 4][i % 4];
       if (sample.ray.can_hit) {
-        const Light light = light_of(coats_[c], sample, patches);
+        const Light light = light_of(paints_[c], sample, patches);
         lights[c].light.colour += light.colour / samples;
         lights[c].light.alpha += light.alpha / samples;
       }
@@ -285,9 +285,9 @@ void Scene::pixel(int x, int y, const SceneBand& band, std::span<PixelLight> lig
   const SampleNeed of_surface =
       may_show ? band.rows.need(x, y, static_cast<float>(pixel_)) : SampleNeed::One;
   std::optional<SurfacePoint> point;
-  for (std::size_t c = 0; c < coats_.size(); ++c) {
+  for (std::size_t c = 0; c < paints_.size(); ++c) {
     const SampleNeed need =
-        may_show ? band.rows.need_of_coat(x, y, c, of_surface) : SampleNeed::One;
+        may_show ? band.rows.need_of_paint(x, y, c, of_surface) : SampleNeed::One;
     lights[c] = {need == SampleNeed::One ? plain_light(x, y, c, band, point) : Light{}, need};
   }
   if (any_needs(SampleNeed::Few)) {

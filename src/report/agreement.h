@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "vantage/core/camera.h"
 #include "vantage/report/evaluation.h"
-#include "vantage/view/prior.h"
 
 /// \file
 /// The numbers of an evaluation, each of one view or map and what people did.

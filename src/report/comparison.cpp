@@ -57,17 +57,10 @@ double rank_correlation(std::span<const double> a, std::span<const double> b) {
 
 Comparison compare_methods(const ShapeAnalysis& shape, const ViewOptions& options,
                            std::vector<Measure> measures, const RunContext& run) {
-  constexpr int kLevel = 3;
   const auto start = Clock::now();
-  MeasureSubject subject = measure_subject(shape, options);
-  std::vector<double> saliency;
-  if (std::any_of(measures.begin(), measures.end(),
-                  [](const Measure& m) { return m.needs.saliency; })) {
-    saliency = vertex_map(shape, options, "mesh-saliency", run.part(0.0, 0.1));
-    subject.saliency = saliency;
-  }
-  ViewMeasurer measurer(subject, std::move(measures), kLevel, run.part(0.1, 0.6));
-  const MeasureValues& values = measurer.set_values(run.part(0.1, 0.6));
+  ViewMeasurer measurer(measure_subject(shape, options), std::move(measures), kMeasureSetLevel,
+                        run.part(0.0, 0.6));
+  const MeasureValues& values = measurer.set_values(run.part(0.0, 0.6));
   Comparison comparison;
   comparison.set = measurer.set();
   comparison.planes = mirror_planes(shape.surface);

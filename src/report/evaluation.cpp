@@ -91,8 +91,8 @@ std::vector<ViewAgreement> evaluate_views(const RecordedModel& record, const Mod
   require_area(shape, record.name);
   const UpAxis up = options.up.value_or(default_up(model));
   const UprightFrame frame = upright_frame(up_vector(up));
-  constexpr int kLevel = 3;
-  ViewMeasurer measurer(measure_subject(shape, options), measures, kLevel, run.part(0.3, 0.7));
+  ViewMeasurer measurer(measure_subject(shape, options), measures, kMeasureSetLevel,
+                        run.part(0.3, 0.7));
   const MeasureValues values = measurer.set_values(run.part(0.3, 0.7));
   std::vector<Vec3> moved;
   for (const ChosenByPerson& view : record.views) {

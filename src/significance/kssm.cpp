@@ -38,19 +38,36 @@ double span_of(const std::vector<double>& d, const std::vector<bool>& referenced
   return high - low;
 }
 
+/// Distance of each position to a graph.
+std::vector<double> distances(const std::vector<Vec3>& positions, const GraphDistance& distance,
+                              const RunContext& run) {
+  std::vector<double> d(positions.size());
+  parallel_for(run, positions.size(), kVerticesPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      d[v] = distance(positions[v]);
+    }
+  });
+  return d;
+}
+
+/// d^(j) of each level. The surface itself, level 0, is measured to the curves of both meshes: what one
+/// of them owes to its triangles, as the place of a junction, the other does not.
 std::vector<std::vector<double>> displacements(const ContractionHistory& history,
-                                               const CurveGraph& skeleton, const RunContext& run) {
-  const GraphDistance distance(skeleton);
+                                               const CurveGraph& skeleton, const CurveGraph& other,
+                                               const RunContext& run) {
+  const GraphDistance to_skeleton(skeleton);
   std::vector<std::vector<double>> d;
   const auto levels = static_cast<double>(history.levels.size());
   for (const auto& positions : history.levels) {
     run.advance("map", static_cast<double>(d.size()) / levels);
-    auto& level = d.emplace_back(positions.size());
-    parallel_for(run, positions.size(), kVerticesPerTask, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) {
-        level[v] = distance(positions[v]);
-      }
-    });
+    d.push_back(distances(positions, to_skeleton, run));
+  }
+  if (!other.nodes.empty()) {
+    const std::vector<double> to_other =
+        distances(history.levels.front(), GraphDistance(other), run);
+    for (std::size_t v = 0; v < to_other.size(); ++v) {
+      d.front()[v] = 0.5 * (d.front()[v] + to_other[v]);
+    }
   }
   return d;
 }
@@ -170,7 +187,7 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
       options.area_weighted_mean ? vertex_areas(mesh) : std::vector<double>(vertex_count, 1.0);
 
   KssmMap map;
-  map.displacement = displacements(history, skeleton, run);
+  map.displacement = displacements(history, skeleton, other, run);
   map.of_vertex.assign(vertex_count, 0.0);
   const bool velocity = options.kinematics == Kinematics::Velocity;
   const std::vector<double> level_weight =

@@ -35,12 +35,12 @@ class EyePicture {
 
   /// A place in the picture: x, y in cells, depth along the view axis in frame units; the fourth is
   /// 0.
-  using Spot = float __attribute__((vector_size(4 * sizeof(float))));
+  using Place = float __attribute__((vector_size(4 * sizeof(float))));
 
   /// What something spans in the picture, rounded outwards: its least x, y and depth, and its
   /// largest.
   struct Extent {
-    Spot low, high;
+    Place low, high;
   };
 
   /// The cells that an extent touches: columns and rows, from first to last.
@@ -57,24 +57,24 @@ class EyePicture {
   void lay_out(std::size_t count, const FloatBalls& balls, const RunContext& run);
 
   /// Of each point.
-  [[nodiscard]] const std::vector<Spot>& spots() const { return spots_; }
+  [[nodiscard]] const std::vector<Place>& places() const { return places_; }
 
   /// Of a ball.
-  [[nodiscard]] const Extent& outline(std::size_t ball) const { return outlines_[ball]; }
+  [[nodiscard]] const Extent& extent_of(std::size_t ball) const { return extents_[ball]; }
 
   [[nodiscard]] std::uint32_t columns() const { return columns_; }
 
   [[nodiscard]] std::uint32_t rows() const { return rows_; }
 
   /// The last column and the last row.
-  [[nodiscard]] const Spot& last() const { return last_; }
+  [[nodiscard]] const Place& last() const { return last_; }
 
-  /// Bound of the error of a spot's x and y, in cells.
+  /// Bound of the error of a place's x and y, in cells.
   [[nodiscard]] float margin() const { return margin_; }
 
   [[nodiscard]] VANTAGE_INLINE CellRange cells_of(const Extent& extent) const {
-    const Cells low = __builtin_convertvector(lower(higher(extent.low, Spot{}), last_), Cells);
-    const Cells high = __builtin_convertvector(lower(higher(extent.high, Spot{}), last_), Cells);
+    const Cells low = __builtin_convertvector(lower(higher(extent.low, Place{}), last_), Cells);
+    const Cells high = __builtin_convertvector(lower(higher(extent.high, Place{}), last_), Cells);
     return {static_cast<std::uint32_t>(low[0]), static_cast<std::uint32_t>(high[0]),
             static_cast<std::uint32_t>(low[1]), static_cast<std::uint32_t>(high[1])};
   }
@@ -83,35 +83,35 @@ class EyePicture {
   using Cells = std::int32_t __attribute__((vector_size(4 * sizeof(std::int32_t))));
 
   bool set_axes();
-  void project(const FloatPoints& points, std::vector<Spot>& spots, const RunContext& run) const;
+  void project(const FloatPoints& points, std::vector<Place>& places, const RunContext& run) const;
   void choose_cells(std::size_t count);
-  void outline(const FloatBalls& balls, const RunContext& run);
+  void span_balls(const FloatBalls& balls, const RunContext& run);
 
-  VANTAGE_INLINE static Spot lower(const Spot& a, const Spot& b) { return b < a ? b : a; }
+  VANTAGE_INLINE static Place lower(const Place& a, const Place& b) { return b < a ? b : a; }
 
-  VANTAGE_INLINE static Spot higher(const Spot& a, const Spot& b) { return a < b ? b : a; }
+  VANTAGE_INLINE static Place higher(const Place& a, const Place& b) { return a < b ? b : a; }
 
-  [[nodiscard]] Spot in_picture(const FloatPoints& points, std::size_t at) const {
-    const Spot spot = points.x[at] * along_x_ + points.y[at] * along_y_ + points.z[at] * along_z_;
-    const float shrink = 1.0F / (slope_ * (spot[2] + shift_) + (1.0F - slope_));
-    return spot * Spot{shrink, shrink, 1.0F, 0.0F};
+  [[nodiscard]] Place in_picture(const FloatPoints& points, std::size_t at) const {
+    const Place place = points.x[at] * along_x_ + points.y[at] * along_y_ + points.z[at] * along_z_;
+    const float shrink = 1.0F / (slope_ * (place[2] + shift_) + (1.0F - slope_));
+    return place * Place{shrink, shrink, 1.0F, 0.0F};
   }
 
   Viewpoint eye_{};
-  Spot along_x_{}, along_y_{}, along_z_{};  // what each coordinate adds to a spot
-  float distance_ = 0.0F;                   // of the eye from the frame's origin
-  float shift_ = 0.0F, slope_ = 0.0F;  // a spot shrinks by 1 / (slope (depth + shift) + 1 − slope)
+  Place along_x_{}, along_y_{}, along_z_{};  // what each coordinate adds to a place
+  float distance_ = 0.0F;                    // of the eye from the frame's origin
+  float shift_ = 0.0F, slope_ = 0.0F;  // a place shrinks by 1 / (slope (depth + shift) + 1 − slope)
   Extent spanned_{};                   // by all points
-  Spot origin_{};                      // corner of the picture
+  Place origin_{};                     // corner of the picture
   float cells_per_unit_ = 1.0F;
-  Spot scale_{};  // cells a unit, of depth 1
-  Spot last_{};
+  Place scale_{};  // cells a unit, of depth 1
+  Place last_{};
   float margin_ = 0.0F;
   std::uint32_t columns_ = 1, rows_ = 1;
-  std::vector<Spot> projected_{};  // the points, x and y in frame units
-  std::vector<Spot> spots_{};
-  std::vector<Spot> centres_{};  // of the balls, as the points
-  std::vector<Extent> outlines_{};
+  std::vector<Place> projected_{};  // the points, x and y in frame units
+  std::vector<Place> places_{};
+  std::vector<Place> centres_{};  // of the balls, as the points
+  std::vector<Extent> extents_{};
 };
 
 }  // namespace vantage

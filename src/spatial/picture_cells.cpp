@@ -102,7 +102,7 @@ PictureCells::Outline::Outline(const PictureCells& picture, const Triangle& face
 
 /// Where an edge or a face is on a side of the cube. \return false if it is not there.
 bool PictureCells::on_side(const Vec3* from_eye, std::size_t count, std::uint32_t side,
-                           Cells& cells) const {
+                           CellRange& cells) const {
   const auto axis = static_cast<Eigen::Index>(side / 2);
   const double sign = side % 2 == 0 ? 1.0 : -1.0;
   ConvexPolygon<Vec3> polygon;

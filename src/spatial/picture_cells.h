@@ -29,7 +29,7 @@ inline Vec3 sight_line(const Vec3& place, const Viewpoint& eye) {
 class PictureCells {
  public:
   /// Cells of one side, from first to last.
-  struct Cells {
+  struct CellRange {
     std::uint16_t left = 0, right = 0, bottom = 0, top = 0;
 
     [[nodiscard]] std::size_t count() const {
@@ -47,7 +47,7 @@ class PictureCells {
   struct Extent {
     float left = 0.0F, right = 0.0F, bottom = 0.0F, top = 0.0F;
     float nearest = 0.0F, farthest = 0.0F;
-    Cells cells{};  ///< That it touches, if the picture is flat.
+    CellRange cells{};  ///< That it touches, if the picture is flat.
   };
 
   /// \param sites places of the surface's vertices, which must outlive the use of this.
@@ -150,7 +150,7 @@ class PictureCells {
       from_eye[k] = sites_[sites[k]] - eye_.position;
     }
     for (std::uint32_t side = 0; side < kSides; ++side) {
-      Cells cells;
+      CellRange cells;
       if (on_side(from_eye.data(), Count, side, cells)) {
         each(cells);
       }
@@ -162,7 +162,7 @@ class PictureCells {
   [[nodiscard]] std::size_t count_cells(const std::array<std::uint32_t, Count>& sites,
                                         const Extent& extent) const {
     std::size_t sum = 0;
-    over_sides(sites, extent, [&](const Cells& cells) { sum += cells.count(); });
+    over_sides(sites, extent, [&](const CellRange& cells) { sum += cells.count(); });
     return sum;
   }
 
@@ -170,7 +170,7 @@ class PictureCells {
   template <std::size_t Count, typename Each>
   void over_cells(const std::array<std::uint32_t, Count>& sites, const Extent& extent,
                   const Each& each) const {
-    over_sides(sites, extent, [&](const Cells& cells) {
+    over_sides(sites, extent, [&](const CellRange& cells) {
       for (std::uint32_t row = cells.bottom; row <= cells.top; ++row) {
         for (std::uint32_t column = cells.left; column <= cells.right; ++column) {
           each(cell(column, row));
@@ -206,7 +206,7 @@ class PictureCells {
   }
 
   [[nodiscard]] bool on_side(const Vec3* from_eye, std::size_t count, std::uint32_t side,
-                             Cells& cells) const;
+                             CellRange& cells) const;
 
   std::span<const Vec3> sites_{};
   Viewpoint eye_{};

@@ -228,47 +228,30 @@ ChannelTerms channel_terms(const ViewChannel& channel, const TriMesh& mesh, cons
   terms.weighted_p = weighted_by_saliency(terms.p_of_face, terms.saliency_of_face);
   terms.log_p = logarithms(terms.p_of_face);
   terms.log_weighted_p = logarithms(terms.weighted_p);
-  std::vector<double> shares = face_areas(mesh);
-  terms.surface_area = std::accumulate(shares.begin(), shares.end(), 0.0);
-  for (double& share : shares) {
-    share /= terms.surface_area;
-  }
-  terms.log_share = logarithms(shares);
   return terms;
 }
 
-ChannelMeasures channel_measures(std::span<const FaceArea> seen, const ChannelTerms& terms,
-                                 std::span<const double> face_areas) {
+ChannelMeasures channel_measures(std::span<const FaceArea> seen, const ChannelTerms& terms) {
   ChannelMeasures m;
-  m.projected_area = area_seen(seen);
-  if (!(m.projected_area > 0.0)) {
-    m.kullback_leibler = m.vmi = m.i2 = m.evmi = kNever;
+  const double area = area_seen(seen);
+  if (!(area > 0.0)) {
+    m.vmi = m.evmi = kNever;
     return m;
   }
   // Σ p log (p / q) = (Σ a log a − Σ a log q) / A − log A
   const double logs = sum_of_logs(seen);
-  double log_share = 0.0;
   double log_p = 0.0;
   double log_weighted_p = 0.0;
-  double seen_surface = 0.0;
   for (const FaceArea& a : seen) {
-    log_share += a.area * terms.log_share[a.face];
     log_p += a.area * terms.log_p[a.face];
     log_weighted_p += a.area * terms.log_weighted_p[a.face];
     m.i3 += a.area * terms.i2_of_face[a.face];
     m.pmi_saliency += a.area * terms.saliency_share[a.face];
-    seen_surface += face_areas[a.face];
   }
-  const double area = m.projected_area;
   const double log_area = log_2(area);
-  m.entropy = log_area - logs / area;
-  m.kullback_leibler = (logs - log_share) / area - log_area;
   m.vmi = (logs - log_p) / area - log_area;
   m.evmi = (logs - log_weighted_p) / area - log_area;
   m.i3 /= area;
-  m.visible_triangles = static_cast<double>(seen.size());
-  m.visibility_ratio = terms.surface_area > 0.0 ? seen_surface / terms.surface_area : 0.0;
-  m.i2 = terms.entropy_of_faces - m.entropy;
   return m;
 }
 

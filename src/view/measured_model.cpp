@@ -78,7 +78,7 @@ std::vector<double> saliency_of(const MeasureSubject& subject, const RunContext&
   if (subject.saliency.size() == subject.surface->positions.size()) {
     return {subject.saliency.begin(), subject.saliency.end()};
   }
-  return compute_mesh_saliency(*subject.surface, {}, run.quiet()).of_vertex;
+  return compute_mesh_saliency(*subject.surface, subject.saliency_options, run).of_vertex;
 }
 
 }  // namespace

@@ -160,7 +160,7 @@ SightTable ViewMeasurer::State::look(const Viewpoint& eye, const MeasureNeeds& w
     sight.skeleton = skeleton_sight(model, sight);
   }
   if (wanted.channel && !model.set_views.empty()) {
-    sight.channel = channel_measures(sight.faces, model.terms, model.face_areas);
+    sight.channel = channel_measures(sight.faces, model.terms);
   }
   if (wanted.outline) {
     sight.outline = measure_outline(outlines->trace(eye), kTurningPhases);
@@ -277,7 +277,7 @@ SightTable ViewMeasurer::State::sight_of_set(std::size_t i) const {
   SightTable sight = model.set_sights[i];
   sight.faces.assign(model.set_views[i].begin(), model.set_views[i].end());
   if (needs.channel) {
-    sight.channel = channel_measures(sight.faces, model.terms, model.face_areas);
+    sight.channel = channel_measures(sight.faces, model.terms);
   }
   return sight;
 }
@@ -388,10 +388,11 @@ ViewMeasurer::ViewMeasurer(const MeasureSubject& subject, std::vector<Measure> m
   state_->needs = needs_of_all(measures);
   state_->measures = std::move(measures);
   state_->set_level = level;
-  state_->model = measured_model(subject, level, state_->needs, run);
+  const double prepared = state_->needs.saliency ? 0.2 : 0.0;  // of the time
+  state_->model = measured_model(subject, level, state_->needs, run.part(0.0, prepared));
   state_->prepare();
   if (state_->is_of_set()) {
-    state_->survey(run);
+    state_->survey(run.part(prepared, 1.0));
   }
 }
 

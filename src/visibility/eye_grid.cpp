@@ -88,18 +88,18 @@ void EyeGrid::place_sites(const std::vector<std::uint8_t>& seen, const RunContex
   }
   asked_.resize(count);
   cell_.resize(count);
-  const std::vector<Spot>& spots = picture_.spots();
+  const std::vector<Place>& places = picture_.places();
   parallel_for(run, count, kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      const Spot& spot = spots[asked_[k]];
-      const CellRange at = picture_.cells_of({spot, spot});
+      const Place& place = places[asked_[k]];
+      const CellRange at = picture_.cells_of({place, place});
       cell_[k] = at.top * picture_.columns() + at.left;
     }
   });
 }
 
 void EyeGrid::sort_sites() {
-  const std::vector<Spot>& spots = picture_.spots();
+  const std::vector<Place>& places = picture_.places();
   begin_.assign(std::size_t{picture_.rows()} * picture_.columns() + 1, 0);
   for (const std::uint32_t cell : cell_) {
     ++begin_[cell];
@@ -118,9 +118,9 @@ void EyeGrid::sort_sites() {
     const std::uint32_t i = asked_[k];
     const std::uint32_t slot = --begin_[cell_[k]];
     site_of_[slot] = i;
-    x_[slot] = spots[i][0];
-    y_[slot] = spots[i][1];
-    depth_[slot] = spots[i][2];
+    x_[slot] = places[i][0];
+    y_[slot] = places[i][1];
+    depth_[slot] = places[i][2];
   }
 }
 
@@ -147,11 +147,11 @@ void EyeGrid::find_deepest() {
 
 /// Puts what is nearest to the eye first.
 void EyeGrid::sort_faces(const Surface& surface) {
-  const std::vector<Spot>& spots = picture_.spots();
+  const std::vector<Place>& places = picture_.places();
   std::vector<float> nearest;
   nearest.reserve(surface.faces.size());
   for (const auto& [a, b, c] : surface.faces) {
-    nearest.push_back(std::min({spots[a][2], spots[b][2], spots[c][2]}));
+    nearest.push_back(std::min({places[a][2], places[b][2], places[c][2]}));
   }
   order_.resize(nearest.size());
   std::iota(order_.begin(), order_.end(), 0U);
@@ -195,17 +195,17 @@ bool EyeGrid::blocks(const Surface& surface, std::uint32_t site, std::uint32_t f
 template <unsigned Lanes>
 VANTAGE_INLINE void EyeGrid::make_ready(const Surface& surface, FacePacket<Lanes>& h) const {
   using Many = typename Registers<Lanes>::Floats;
-  const std::vector<Spot>& spots = picture_.spots();
+  const std::vector<Place>& places = picture_.places();
   std::array<std::array<float, Lanes>, 3> corner_x;
   std::array<std::array<float, Lanes>, 3> corner_y;
   std::array<std::array<float, Lanes>, 3> corner_depth;
   for (unsigned lane = 0; lane < Lanes; ++lane) {
     const Triangle& corners = surface.faces[h.face[std::min(lane, h.count - 1)]];
     for (std::size_t k = 0; k < 3; ++k) {
-      const Spot& spot = spots[corners[k]];
-      corner_x[k][lane] = spot[0];
-      corner_y[k][lane] = spot[1];
-      corner_depth[k][lane] = spot[2];
+      const Place& place = places[corners[k]];
+      corner_x[k][lane] = place[0];
+      corner_y[k][lane] = place[1];
+      corner_depth[k][lane] = place[2];
     }
   }
   const std::array<Many, 3> x = loaded<Many>(corner_x);
@@ -233,7 +233,7 @@ VANTAGE_INLINE void EyeGrid::make_ready(const Surface& surface, FacePacket<Lanes
     keep(along_y, h.sides[k].along_y);
     keep(-(along_x * x[k] + along_y * y[k]), h.sides[k].offset);
   }
-  // Bounds the error of a side's value at a spot: of the spots, and of a dozen roundings of
+  // Bounds the error of a side's value at a place: of the places, and of a dozen roundings of
   // products of the grid's and the outline's size, which the margin holds a share of.
   const Many width = high_x - low_x;
   const Many height = high_y - low_y;
@@ -355,7 +355,7 @@ VANTAGE_INLINE void EyeGrid::walk_blocks(Walk& walk, std::size_t begin, std::siz
   for (std::size_t first = begin; first < end; first += FaceBlocks::kFaces) {
     const std::size_t block = first / FaceBlocks::kFaces;
     const std::uint8_t all = turned_->of_block[block];
-    const EyePicture::Extent& extent = picture_.outline(block);
+    const EyePicture::Extent& extent = picture_.extent_of(block);
     if ((all != 0 && all != walk.side) || behind_all(extent.low[2], picture_.cells_of(extent))) {
       continue;
     }

@@ -37,7 +37,7 @@ class EyeGrid {
   bool hide(const Surface& surface, std::vector<std::uint8_t>& seen, const RunContext& run);
 
  private:
-  using Spot = EyePicture::Spot;
+  using Place = EyePicture::Place;
   using CellRange = EyePicture::CellRange;
 
   struct Walk;

@@ -5,14 +5,14 @@
 
 #include "mesh/surface_edges.h"
 #include "spatial/face_meetings.h"
-#include "visibility/sight.h"
+#include "visibility/site_query.h"
 
 namespace vantage {
 
 struct VertexVisibility::Scene {
-  explicit Scene(Surface surface) : sight(std::move(surface)) {}
+  explicit Scene(Surface surface) : sites(std::move(surface)) {}
 
-  Sight sight;
+  SiteScene sites;
 };
 
 namespace {
@@ -63,26 +63,26 @@ VertexVisibility& VertexVisibility::operator=(VertexVisibility&&) noexcept = def
 
 std::vector<std::uint8_t> VertexVisibility::visible_vertices(const Viewpoint& eye,
                                                              const RunContext& run) const {
-  Sight& sight = scene_->sight;
-  Look look(sight, eye_in_frame(eye, sight.surface().frame), run);
-  return vertices_of_sites(sight.surface(), look.seen_sites());
+  SiteScene& sites = scene_->sites;
+  SiteQuery query(sites, eye_in_frame(eye, sites.surface().frame), run);
+  return vertices_of_sites(sites.surface(), query.seen_sites());
 }
 
 std::vector<std::uint8_t> VertexVisibility::visible_among(std::span<const std::uint8_t> asked,
                                                           const Viewpoint& eye,
                                                           const RunContext& run) const {
-  Sight& sight = scene_->sight;
-  Look look(sight, eye_in_frame(eye, sight.surface().frame), run);
-  return of_those_asked(sight.surface(), asked, look.seen_among(sites_of(sight.surface(), asked)));
+  SiteScene& sites = scene_->sites;
+  SiteQuery query(sites, eye_in_frame(eye, sites.surface().frame), run);
+  return of_those_asked(sites.surface(), asked, query.seen_among(sites_of(sites.surface(), asked)));
 }
 
 std::vector<std::uint8_t> VertexVisibility::visible_by_segments(std::span<const std::uint8_t> asked,
                                                                 const Viewpoint& eye,
                                                                 const RunContext& run) const {
-  Sight& sight = scene_->sight;
-  Look look(sight, eye_in_frame(eye, sight.surface().frame), run);
-  return of_those_asked(sight.surface(), asked,
-                        look.seen_by_segments(sites_of(sight.surface(), asked)));
+  SiteScene& sites = scene_->sites;
+  SiteQuery query(sites, eye_in_frame(eye, sites.surface().frame), run);
+  return of_those_asked(sites.surface(), asked,
+                        query.seen_by_segments(sites_of(sites.surface(), asked)));
 }
 
 std::vector<std::uint8_t> visible_vertices(const TriMesh& mesh, const Vec3& eye) {

@@ -193,7 +193,7 @@ class Inputs(HostileTest):
         self.batch("in")
         before = self.rows()["in/a.gltf"]["content"]
         self.write("in/below/real.bin", struct.pack("<9f", 0, 0, 0, 2, 0, 0, 0, 1, 0))
-        self.batch("in", "--verify")
+        self.batch("in")
         self.assertNotEqual(self.rows()["in/a.gltf"]["content"], before)
 
     def textured(self, name, library, folder, colour):
@@ -246,9 +246,19 @@ class Inputs(HostileTest):
         for change in (lambda: None, lambda: self.write("in/mats/t.png", png((9, 9, 9, 255))),
                        lambda: self.write("in/mats/a.mtl", "newmtl m\nKd 0 1 0\n"), (self.dir / "in/mats/a.mtl").unlink):
             change()
-            self.batch("in", "--verify")
+            self.batch("in")
             contents.append(self.rows()["in/m.obj"]["content"])
         self.assertEqual(len(set(contents)), 4, contents)
+
+    def test_a_model_whose_files_are_as_they_were_is_not_read_again(self):
+        self.textured("in", "mats/a.mtl", "mats", (200, 0, 0, 255))
+        self.assertEqual(self.batch("in")["done"], 1)
+        self.assertEqual(self.batch("in")["skipped"], 1)
+        os.utime(self.dir / "in/mats/t.png", (1, 1))  # read again, and found to be what it was
+        self.assertEqual(self.batch("in")["skipped"], 1)
+        self.write("in/mats/t.png", png((9, 9, 9, 255)))
+        self.assertEqual(self.batch("in")["done"], 1)
+        self.assertEqual(self.batch("in")["skipped"], 1)
 
     def test_what_is_no_regular_file_fails_at_once(self):
         (self.dir / "in").mkdir()

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cerrno>
+#include <filesystem>
 #include <string_view>
 #include <vector>
 
@@ -15,6 +16,8 @@
 #include "vantage/io/model.h"
 
 #include "batch/descriptor.h"
+#include "batch/file_stamp.h"
+#include "batch/naming.h"
 
 namespace vantage::batch {
 namespace {
@@ -89,17 +92,23 @@ void feed_beside(crypto_hash_sha256_state& state, const FileBeside& file) {
 
 }  // namespace
 
-std::string content_hash(const std::string& path) {
+Content content_of(const std::string& path) {
+  Content content;
   crypto_hash_sha256_state state;
   crypto_hash_sha256_init(&state);
   FilesBeside beside(path);
   feed(state, path, [&](std::string_view bytes) { beside.pass(bytes); });
+  const std::filesystem::path folder =
+      std::filesystem::weakly_canonical(path).parent_path();  // links resolved, as below
   for (const FileBeside& file : beside.find()) {
+    const std::filesystem::path place = std::filesystem::path(file.path).lexically_relative(folder);
+    content.beside.push_back({key_of_path(place.string()), stamp_of(file.path)});
     feed_beside(state, file);
   }
   Digest digest{};
   crypto_hash_sha256_final(&state, digest.data());
-  return hexadecimal(digest);
+  content.hash = hexadecimal(digest);
+  return content;
 }
 
 std::string text_hash(std::string_view text) {

@@ -4,13 +4,22 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "batch/model_record.h"
 
 namespace vantage::batch {
+
+/// What a model consists of.
+struct Content {
+  std::string hash{};                 ///< 64 hexadecimal digits.
+  std::vector<StampBeside> beside{};  ///< The files besides its own, before they were hashed.
+};
 
 /// SHA-256 of the file as `sha256sum` prints it, if the model is one file. Those that it consists of
 /// besides, see FilesBeside, are hashed after it, each after its name and a zero byte.
 /// \throw IoError
-std::string content_hash(const std::string& path);
+Content content_of(const std::string& path);
 
 /// SHA-256 of a text, 64 hexadecimal digits.
 std::string text_hash(std::string_view text);

@@ -138,6 +138,7 @@ void Crew::conclude(Seat& seat, const std::string& line, std::vector<CrewEvent>&
   Job& job = *seat.job;
   if (answer.contains("content")) {
     job.record.content = answer["content"].get<std::string>();
+    job.record.beside = beside_of(answer["beside"]);
     job.stage = Stage::Hashed;
     events.push_back({.job = &job, .kind = CrewEvent::Kind::Content});
     return;

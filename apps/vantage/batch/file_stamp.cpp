@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "batch/file_stamp.h"
 
+#include <algorithm>
+#include <filesystem>
+
 #include <sys/stat.h>
+
+#include "batch/naming.h"
 
 namespace vantage::batch {
 
@@ -23,6 +28,13 @@ FileStamp stamp_of(const std::string& path) {
   }
   return {status.st_size, status.st_mtim.tv_sec * 1'000'000'000LL + status.st_mtim.tv_nsec,
           status.st_ino};
+}
+
+bool are_as_they_were(const std::vector<StampBeside>& beside, const std::string& model_path) {
+  const std::filesystem::path folder = std::filesystem::path(model_path).parent_path();
+  return std::all_of(beside.begin(), beside.end(), [&](const StampBeside& file) {
+    return stamp_of((folder / path_of_key(file.name)).string()) == file.stamp;
+  });
 }
 
 }  // namespace vantage::batch

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "batch/model_record.h"
 
@@ -13,5 +14,8 @@ std::uint64_t bytes_on_disk(const std::string& path);
 
 /// By what a file is known to be the one that it was; of nothing if there is none.
 FileStamp stamp_of(const std::string& path);
+
+/// Whether the files beside a model look as they did when it was read.
+bool are_as_they_were(const std::vector<StampBeside>& beside, const std::string& model_path);
 
 }  // namespace vantage::batch

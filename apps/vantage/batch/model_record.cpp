@@ -54,11 +54,36 @@ bool is_doubted(const ModelRecord& record) {
   return record.result.find("\"doubts\":[\"") != std::string::npos;
 }
 
+nlohmann::ordered_json to_json(const std::vector<StampBeside>& beside) {
+  auto json = nlohmann::ordered_json::array();
+  for (const auto& [name, stamp] : beside) {
+    json.push_back({name, stamp.size_bytes, stamp.modified_ns, stamp.inode});
+  }
+  return json;
+}
+
+std::vector<StampBeside> beside_of(const nlohmann::ordered_json& json) {
+  std::vector<StampBeside> beside;
+  try {
+    for (const auto& file : json) {
+      beside.push_back({file.at(0).get<std::string>(),
+                        {file.at(1).get<std::int64_t>(), file.at(2).get<std::int64_t>(),
+                         file.at(3).get<std::uint64_t>()}});
+    }
+  } catch (const nlohmann::json::exception&) {
+    return {};
+  }
+  return beside;
+}
+
 nlohmann::ordered_json to_json(const ModelRecord& record) {
   nlohmann::ordered_json json;
   json["key"] = record.key;
   json["position"] = record.position;
   json["stamp"] = {record.stamp.size_bytes, record.stamp.modified_ns, record.stamp.inode};
+  if (!record.beside.empty()) {
+    json["beside"] = to_json(record.beside);
+  }
   json["content"] = record.content;
   json["options"] = record.options;
   json["version"] = record.version;
@@ -88,6 +113,7 @@ std::optional<ModelRecord> record_from_line(const std::string& line) {
     const auto& stamp = json.at("stamp");
     record.stamp = {stamp.at(0).get<std::int64_t>(), stamp.at(1).get<std::int64_t>(),
                     stamp.at(2).get<std::uint64_t>()};
+    record.beside = beside_of(json.value("beside", nlohmann::ordered_json::array()));
     record.position = json.at("position").get<std::int64_t>();
     using Member = std::string ModelRecord::*;
     const std::pair<const char*, Member> texts[] = {

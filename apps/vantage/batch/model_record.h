@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -20,6 +21,13 @@ struct FileStamp {
   bool operator==(const FileStamp&) const = default;
 };
 
+/// A file that a model names, as it was when the model was read.
+struct StampBeside {
+  std::string name{};  ///< Relative to the model's folder, UTF-8, see key_of_path().
+  FileStamp stamp{};
+  bool operator==(const StampBeside&) const = default;
+};
+
 /// What differs between two runs over the same inputs; kept apart from everything else.
 struct Timings {
   double seconds = 0.0;          ///< Wall clock of the last attempt.
@@ -30,9 +38,10 @@ struct Timings {
 
 /// One model and how it ended.
 struct ModelRecord {
-  std::string key{};           ///< Identity within a run: UTF-8, see key_of_path().
-  std::int64_t position = 0;   ///< Place in the input; the first of equal models is the one done.
-  FileStamp stamp{};           ///< Of the input.
+  std::string key{};          ///< Identity within a run: UTF-8, see key_of_path().
+  std::int64_t position = 0;  ///< Place in the input; the first of equal models is the one done.
+  FileStamp stamp{};          ///< Of the input.
+  std::vector<StampBeside> beside{};  ///< Of the files that it consists of besides.
   std::string content{};       ///< SHA-256 of the model's bytes, hexadecimal; empty if unreadable.
   std::string options{};       ///< Sixteen hexadecimal digits.
   std::string version{};       ///< Of the program.
@@ -55,6 +64,11 @@ bool is_doubted(const ModelRecord& record);
 
 /// A record as one JSON object, keys in a fixed order.
 nlohmann::ordered_json to_json(const ModelRecord& record);
+
+/// Such files as JSON, and back; of text that is none of ours nothing. A file whose stamp is unknown was
+/// not there.
+nlohmann::ordered_json to_json(const std::vector<StampBeside>& beside);
+std::vector<StampBeside> beside_of(const nlohmann::ordered_json& json);
 
 /// Whether a record can be one of ours, whoever wrote it: a folder that is a ConfinedFolder's name, a
 /// status that there is, a result that is a JSON object of sound depth.

@@ -3,12 +3,16 @@
 
 #include <filesystem>
 
+#include <nlohmann/json.hpp>
+
 #include "vantage/core/error.h"
 
 namespace vantage::batch {
 namespace {
 
-constexpr std::int64_t kSchema = 1;
+constexpr std::int64_t kSchema = 2;
+// From here on records name the files beside a model.
+constexpr std::int64_t kSchemaWithBeside = 2;
 
 constexpr const char* kTables = R"sql(
 CREATE TABLE IF NOT EXISTS models(
@@ -16,7 +20,7 @@ CREATE TABLE IF NOT EXISTS models(
   modified_ns INTEGER NOT NULL, inode INTEGER NOT NULL, content TEXT NOT NULL,
   options TEXT NOT NULL, version TEXT NOT NULL, status TEXT NOT NULL, reason TEXT NOT NULL,
   error TEXT NOT NULL, folder TEXT NOT NULL, duplicate_of TEXT NOT NULL, name TEXT NOT NULL,
-  result TEXT NOT NULL) WITHOUT ROWID;
+  result TEXT NOT NULL, beside TEXT NOT NULL DEFAULT '') WITHOUT ROWID;
 CREATE INDEX IF NOT EXISTS models_content ON models(content, options, version, position)
   WHERE content <> '' AND duplicate_of = '' AND reason <> 'name';
 CREATE INDEX IF NOT EXISTS models_folder ON models(folder) WHERE folder <> '';
@@ -62,11 +66,15 @@ JOIN models c ON c.key = CASE WHEN m.content = '' OR m.reason = 'name' THEN m.ke
 LEFT JOIN timings t ON t.key = m.key;
 )sql";
 
-constexpr const char* kColumns =
-    "m.key, m.position, m.size_bytes, m.modified_ns, m.inode, m.content, m.options, m.version, "
-    "m.status, m.reason, m.error, m.folder, m.duplicate_of, m.name, m.result, "
-    "COALESCE(t.seconds, 0), COALESCE(t.peak_bytes, 0), COALESCE(t.attempts, 0), "
-    "COALESCE(t.finished_ms, 0) FROM models m LEFT JOIN timings t ON t.key = m.key ";
+/// What record_of() reads.
+std::string columns_of_record(bool has_beside) {
+  return std::string(
+             "m.key, m.position, m.size_bytes, m.modified_ns, m.inode, m.content, m.options, "
+             "m.version, m.status, m.reason, m.error, m.folder, m.duplicate_of, m.name, m.result, "
+             "COALESCE(t.seconds, 0), COALESCE(t.peak_bytes, 0), COALESCE(t.attempts, 0), "
+             "COALESCE(t.finished_ms, 0), ") +
+         (has_beside ? "m.beside" : "''") + " FROM models m LEFT JOIN timings t ON t.key = m.key ";
+}
 
 ModelRecord record_of(const Statement& row) {
   ModelRecord record;
@@ -85,6 +93,7 @@ ModelRecord record_of(const Statement& row) {
   record.result = record.result == "{}" ? "" : record.result;  // nothing is known of a failure
   record.timings = {row.number(15), row.integer(16), static_cast<int>(row.integer(17)),
                     row.integer(18)};
+  record.beside = beside_of(nlohmann::ordered_json::parse(row.text(19), nullptr, false));
   return record;
 }
 
@@ -121,17 +130,18 @@ std::string store_path(const std::string& folder, Database::Mode mode) {
 }  // namespace
 
 struct ResultsStore::Statements {
-  explicit Statements(Database& database)
-      : find(database, std::string("SELECT ") + kColumns + "WHERE m.key = ?1"),
+  Statements(Database& database, const std::string& columns, bool has_beside)
+      : find(database, "SELECT " + columns + "WHERE m.key = ?1"),
         find_content(database,
-                     std::string("SELECT ") + kColumns +
+                     "SELECT " + columns +
                          "WHERE m.content <> '' AND m.duplicate_of = '' AND m.reason <> 'name' AND "
                          "m.content = ?1 AND m.options = ?2 AND m.version = ?3 "
                          "ORDER BY m.position, m.key LIMIT 1"),
         owner(database, "SELECT key FROM models WHERE folder <> '' AND folder = ?1 LIMIT 1"),
         put(database,
-            "INSERT OR REPLACE INTO models VALUES(?1,?2,?3,?4,?5,?6,?7,?8,?9,?10,?11,?12,?13,?14,"
-            "?15)"),
+            "INSERT OR REPLACE INTO models "
+            "VALUES(?1,?2,?3,?4,?5,?6,?7,?8,?9,?10,?11,?12,?13,?14,?15" +
+                std::string(has_beside ? ",?16)" : ")")),
         put_timings(database, "INSERT OR REPLACE INTO timings VALUES(?1,?2,?3,?4,?5)"),
         savepoint(database, "SAVEPOINT one"),
         release(database, "RELEASE one") {}
@@ -152,14 +162,19 @@ ResultsStore::ResultsStore(const std::string& folder, Database::Mode mode)
                   "is a database, but not of results of a batch; choose another folder");
   }
   database_.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;");
-  if (schema < kSchema) {
-    database_.run(std::string("BEGIN IMMEDIATE;") + kTables +
+  const bool is_old = schema > 0 && schema < kSchemaWithBeside;
+  if (schema < kSchema && mode == Database::Mode::Create) {
+    const char* const added =
+        is_old ? "ALTER TABLE models ADD COLUMN beside TEXT NOT NULL DEFAULT '';" : "";
+    database_.run(std::string("BEGIN IMMEDIATE;") + kTables + added +
                   "DROP VIEW IF EXISTS results; CREATE " + kView +
                   "PRAGMA user_version = " + std::to_string(kSchema) + "; COMMIT;");
   }
   // Before the view of that name in the file, which may say anything.
   database_.run(std::string("CREATE TEMP ") + kView);
-  statements_ = std::make_unique<Statements>(database_);
+  const bool has_beside = !is_old || mode == Database::Mode::Create;
+  columns_ = columns_of_record(has_beside);
+  statements_ = std::make_unique<Statements>(database_, columns_, has_beside);
 }
 
 ResultsStore::~ResultsStore() = default;
@@ -187,7 +202,7 @@ std::optional<ModelRecord> ResultsStore::find_content(const ModelRecord& like) {
 }
 
 std::vector<ModelRecord> ResultsStore::find_equals(const ModelRecord& like) {
-  Statement equals(database_, std::string("SELECT ") + kColumns +
+  Statement equals(database_, "SELECT " + columns_ +
                                   "WHERE m.content <> '' AND m.content = ?1 AND m.options = ?2 AND "
                                   "m.version = ?3 ORDER BY m.key");
   equals.bind(1, like.content).bind(2, like.options).bind(3, like.version);
@@ -221,6 +236,8 @@ void ResultsStore::put(const ModelRecord& record) {
   put.bind(9, record.status).bind(10, record.reason).bind(11, record.error);
   put.bind(12, record.folder).bind(13, record.duplicate_of).bind(14, record.name);
   put.bind(15, record.result.empty() ? std::string_view("{}") : record.result);
+  const std::string beside = record.beside.empty() ? "" : to_json(record.beside).dump();
+  put.bind(16, std::string_view(beside));
   put.run();
   Statement& timings = statements_->put_timings;
   timings.bind(1, record.key).bind(2, record.timings.seconds).bind(3, record.timings.peak_bytes);
@@ -239,7 +256,7 @@ bool ResultsStore::merge(const ModelRecord& record) {
 }
 
 void ResultsStore::for_each_record(const std::function<void(const ModelRecord&)>& take) {
-  Statement rows(database_, std::string("SELECT ") + kColumns + "ORDER BY m.key");
+  Statement rows(database_, "SELECT " + columns_ + "ORDER BY m.key");
   while (rows.step()) {
     take(record_of(rows));
   }

@@ -67,6 +67,7 @@ class ResultsStore : public ResultBook {
   struct Statements;
 
   Database database_;
+  std::string columns_{};  // of a record
   std::unique_ptr<Statements> statements_;
 };
 

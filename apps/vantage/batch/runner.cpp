@@ -176,7 +176,8 @@ class Runner {
       return true;
     }
     return !options_.verify && same_question(before, job.record) &&
-           before.stamp == job.record.stamp && still_answers(before);
+           before.stamp == job.record.stamp && are_as_they_were(before.beside, job.entry.path) &&
+           still_answers(before);
   }
 
   /// Whether an earlier record's results are there.
@@ -288,6 +289,7 @@ class Runner {
   void keep(Job& job) {
     ModelRecord unchanged = *job.before;
     unchanged.stamp = job.record.stamp;
+    unchanged.beside = job.record.beside;
     unchanged.position = job.record.position;
     ++counts_.skipped;
     counts_.skipped_failed += unchanged.status == "failed" ? 1 : 0;

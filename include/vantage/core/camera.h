@@ -4,7 +4,8 @@
 #include "vantage/core/vec3.h"
 
 /// \file
-/// Cameras, in model coordinates. Right-handed; a camera looks along −z of its own frame.
+/// Cameras and the frame of a model that stands upright, in model coordinates. Right-handed; a camera looks
+/// along −z of its own frame.
 
 namespace vantage {
 
@@ -26,5 +27,19 @@ struct Camera {
   double fov_y_deg = 30.0;     ///< Perspective: full vertical field of view, in (0, 180).
   double height = 2.0;         ///< Orthographic: height of the picture in model units, > 0.
 };
+
+/// A model's own axes: an orthonormal, right-handed frame (side = up × front).
+struct UprightFrame {
+  Vec3 side = Vec3::UnitX();   ///< To the right of a viewer in front.
+  Vec3 up = Vec3::UnitY();     ///< Against gravity.
+  Vec3 front = Vec3::UnitZ();  ///< Toward a viewer in front.
+};
+
+/// The frame of a model whose up is an axis of its coordinates. Its front is what most files of
+/// that up axis mean by it: +z when y is up (glTF, OBJ) or x is, −y when z is up (CAD, Blender).
+/// \param up a unit vector, nearest axis decides.
+UprightFrame upright_frame(const Vec3& up);
+/// The frame of a model whose up and front are known: orthogonal unit vectors.
+UprightFrame upright_frame(const Vec3& up, const Vec3& front);
 
 }  // namespace vantage

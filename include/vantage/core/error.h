@@ -8,8 +8,13 @@
 
 /// \file
 /// Every exception of the library. what() is one sentence that a user of the program can act on.
+/// Names of files are in it as they are: printable() makes it safe to show.
 
 namespace vantage {
+
+/// The text as one line that does nothing but show letters, for whatever comes from outside: "?" for
+/// each control character, for bytes that are no UTF-8, and for what turns the direction of writing.
+std::string printable(std::string_view text);
 
 /// Root of all exceptions thrown by this library.
 class Error : public std::runtime_error {

@@ -117,7 +117,7 @@ class OrientationEvidence {
   [[nodiscard]] std::vector<OrientationFeatures> features() const;
 
  private:
-  std::shared_ptr<const class SideLooks> looks_;
+  std::shared_ptr<const struct MeasuredSides> sides_;
 };
 
 }  // namespace vantage

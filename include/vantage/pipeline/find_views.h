@@ -14,6 +14,7 @@
 #include "vantage/orientation/orientation.h"
 #include "vantage/pipeline/shape_analysis.h"
 #include "vantage/pipeline/view_options.h"
+#include "vantage/spatial/mirror_symmetry.h"
 #include "vantage/view/scoring.h"
 #include "vantage/view/search.h"
 #include "vantage/view/view_set.h"
@@ -122,9 +123,21 @@ struct ViewReport {
 /// The scoring camera of a model.
 ScoringCamera scoring_camera(const ShapeAnalysis& shape, const ViewOptions& options);
 
-/// What scores by area ask about faces; nothing for other weights.
-std::optional<FaceVisibility> faces_to_score(const ShapeAnalysis& shape,
-                                             const ViewOptions& options);
+/// Scores views by the shape's map, as options.weight says.
+class MapScorer {
+ public:
+  /// \param visibility of the shape's surface. Both must outlive this. \pre the map is there.
+  MapScorer(const ShapeAnalysis& shape, const VertexVisibility& visibility,
+            const ViewOptions& options);
+  MapScorer(const MapScorer&) = delete;
+  MapScorer& operator=(const MapScorer&) = delete;
+
+  [[nodiscard]] const ViewScorer& scorer() const { return scorer_; }  ///< Refers to this.
+
+ private:
+  std::optional<FaceVisibility> faces_;  // what scores by area ask about
+  ViewScorer scorer_;
+};
 
 /// Finds the best and the worst view, and a set of views if options.view_set asks for one.
 /// \pre the map is there. \throw Cancelled
@@ -158,14 +171,9 @@ ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& v
                            const ViewOptions& options, const RunContext& run = {});
 
 /// Chooses several views as options.view_set asks. \pre the map is there, and options.view_set.
-/// \param best the best view, where the choice by significance begins.
-/// \param warnings receives what did not go as asked for. \throw InvalidInput, Cancelled
-ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility& visibility,
-                              const ScoringCamera& camera, const Vec3& best,
-                              const ModelFrame& frame, const ViewOptions& options,
-                              std::vector<std::string>& warnings, const RunContext& run = {});
-
-/// The same with a scorer that is there already. \pre it adds up options.weight.
+/// \param scorer by the shape's map and options.weight. \param best the best view, where the choice by
+/// significance begins. \param warnings receives what did not go as asked for.
+/// \throw InvalidInput, Cancelled
 ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility& visibility,
                               const ViewScorer& scorer, const Vec3& best, const ModelFrame& frame,
                               const ViewOptions& options, std::vector<std::string>& warnings,

@@ -7,7 +7,7 @@
 #include "vantage/mesh/tri_mesh.h"
 
 /// \file
-/// Planes in which a surface mirrors itself.
+/// Planes in which a surface mirrors itself, and what they make of its proportions.
 
 namespace vantage {
 
@@ -36,5 +36,16 @@ std::vector<MirrorPlane> mirror_planes(const TriMesh& surface, const MirrorOptio
 /// `apart_rad` of an earlier one.
 std::vector<Vec3> mirror_images(const Vec3& direction, std::span<const MirrorPlane> planes,
                                 double apart_rad);
+
+/// What of a shape the views that people choose hang on most: the proportions of its box along
+/// side, up and front, and its mirror planes. Lengths are over the radius of the enclosing sphere,
+/// each + 0.02, so that thin things differ in no more than that.
+struct ShapeProportions {
+  double height = 0.0;         ///< log(up / √(side · front))
+  double width = 0.0;          ///< log(side / front)
+  bool mirrors_side = false;   ///< Left and right look alike.
+  bool mirrors_front = false;  ///< Front and back look alike.
+  bool mirrors_up = false;     ///< Top and bottom look alike.
+};
 
 }  // namespace vantage

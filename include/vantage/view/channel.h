@@ -99,10 +99,9 @@ struct ChannelTerms {
   std::vector<double> i2_of_face{};        ///< [I2(V;z) = H(V) − H(V|z)], bits; 0 if never seen.
   std::vector<double> saliency_of_face{};  ///< [S(z)], bits; 0 if never seen.
   std::vector<double> weighted_p{};        ///< [p'(z)] ∝ S(z) p(z); see kSaliencyFloor.
-  /// Logarithms of both, those of the least where no view sees the face, and of A_z / A_t.
-  std::vector<double> log_p{}, log_weighted_p{}, log_share{};
+  /// Logarithms of both, those of the least where no view sees the face.
+  std::vector<double> log_p{}, log_weighted_p{};
   std::vector<double> saliency_share{};  ///< S(z) / Σ_v a_z(v); 0 if never seen.
-  double surface_area = 0.0;             ///< [A_t], model units squared.
   double entropy_of_faces = 0.0;         ///< [H(Z)], bits.
   double mutual_information = 0.0;       ///< [I(V;Z)], bits.
 };
@@ -119,26 +118,19 @@ inline constexpr double kSaliencyFloor = 1e-6;
 ChannelTerms channel_terms(const ViewChannel& channel, const TriMesh& mesh,
                            const RunContext& run = {});
 
-/// The measures of one view. A view that sees nothing has the worst value of each: 0, or infinity
-/// where less is better.
+/// The measures of one view that ask what other views see of its faces. A view that sees nothing has the
+/// worst value of each: 0, or infinity where less is better.
 struct ChannelMeasures {
-  double visible_triangles = 0.0;  ///< #{z: a_z > 0}; max.
-  double projected_area = 0.0;     ///< [a_t], in the channel's unit; max.
-  double visibility_ratio = 0.0;   ///< Σ of A_z over seen faces / A_t; max.
-  double entropy = 0.0;            ///< −Σ p(z|v) log p(z|v), bits; max.
-  double kullback_leibler = 0.0;   ///< Σ p(z|v) log (p(z|v) / (A_z/A_t)), bits; min.
-  double vmi = 0.0;                ///< Σ p(z|v) log (p(z|v) / p(z)), bits; min.
-  double i2 = 0.0;                 ///< H(Z) − H(Z|v), bits; min.
-  double i3 = 0.0;                 ///< Σ p(z|v) I2(V;z), bits; max.
-  double pmi_saliency = 0.0;       ///< Σ S(z) p(v|z); max.
-  double evmi = 0.0;               ///< Σ p(z|v) log (p(z|v) / p'(z)), bits; min.
+  double vmi = 0.0;           ///< Σ p(z|v) log (p(z|v) / p(z)), bits; min.
+  double i3 = 0.0;            ///< Σ p(z|v) I2(V;z), bits; max.
+  double pmi_saliency = 0.0;  ///< Σ S(z) p(v|z); max.
+  double evmi = 0.0;          ///< Σ p(z|v) log (p(z|v) / p'(z)), bits; min.
 };
 
 /// Measures of a view, which need not belong to the set that the terms are of; of faces that the
 /// set never sees, VMI and EVMI take the smallest p(z) of the set.
-/// \param seen faces ascending, areas > 0. \param face_areas [A_z], three-dimensional, one a face.
-ChannelMeasures channel_measures(std::span<const FaceArea> seen, const ChannelTerms& terms,
-                                 std::span<const double> face_areas);
+/// \param seen faces ascending, areas > 0.
+ChannelMeasures channel_measures(std::span<const FaceArea> seen, const ChannelTerms& terms);
 
 /// Jensen–Shannon divergence of p(Z|a) and p(Z|b), weighted by the areas the two views see: bits,
 /// in [0, 1]. 0 if one of them sees nothing.

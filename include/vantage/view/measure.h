@@ -19,6 +19,7 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 #include "vantage/mesh/tri_mesh.h"
+#include "vantage/significance/mesh_saliency.h"
 #include "vantage/spatial/directions.h"
 #include "vantage/view/channel.h"
 #include "vantage/view/scoring.h"
@@ -131,17 +132,22 @@ struct SightTable {
 /// A model to be measured. Refers to what must outlive it; what is left empty, measures that need
 /// it refuse.
 struct MeasureSubject {
-  const TriMesh* surface = nullptr;      ///< Required; welded and wound outwards.
-  std::span<const FaceSides> sides{};    ///< As for VertexVisibility.
-  ScoringCamera camera{};                ///< What looks.
-  Weight weight = Weight::Vertex;        ///< Of the measures that sum a map.
-  std::span<const double> kssm{};        ///< One value a vertex.
-  std::span<const double> saliency{};    ///< Mesh saliency; computed if needed and not given.
-  const CurveGraph* skeleton = nullptr;  ///< Centred.
+  const TriMesh* surface = nullptr;        ///< Required; welded and wound outwards.
+  std::span<const FaceSides> sides{};      ///< As for VertexVisibility.
+  ScoringCamera camera{};                  ///< What looks.
+  Weight weight = Weight::Vertex;          ///< Of the measures that sum a map.
+  std::span<const double> kssm{};          ///< One value a vertex.
+  std::span<const double> saliency{};      ///< Mesh saliency; computed if needed and not given …
+  MeshSaliencyOptions saliency_options{};  ///< … so.
+  const CurveGraph* skeleton = nullptr;    ///< Centred.
   std::span<const std::uint32_t> node_of_vertex{};  ///< Node of `skeleton`; ~0 where none.
   /// What the set of views sees through `camera`, by FaceVisibility, if that was looked at before.
   const ViewChannel* seen_by_set = nullptr;
 };
+
+/// The set of views that measures are defined over, unless told otherwise: the icosahedron split this
+/// often, 642 views.
+inline constexpr int kMeasureSetLevel = 3;
 
 /// What measures need of a view or of the model; only that is computed.
 struct MeasureNeeds {
@@ -242,8 +248,8 @@ class ViewMeasurer {
   /// \param level the set of views: the icosahedron split this often, 0–6. It is part of the
   ///              definition of measures that need the channel; these look at all of it here.
   /// \throw InvalidInput if a measure needs what the subject lacks. \throw Cancelled
-  ViewMeasurer(const MeasureSubject& subject, std::vector<Measure> measures, int level = 3,
-               const RunContext& run = {});
+  ViewMeasurer(const MeasureSubject& subject, std::vector<Measure> measures,
+               int level = kMeasureSetLevel, const RunContext& run = {});
   ~ViewMeasurer();
   ViewMeasurer(ViewMeasurer&&) noexcept;             ///< Leaves the other unusable.
   ViewMeasurer& operator=(ViewMeasurer&&) noexcept;  ///< The same.

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "vantage/core/camera.h"
 #include "vantage/core/fields.h"
 #include "vantage/core/vec3.h"
 
@@ -14,31 +15,6 @@
 /// for the best view may multiply its score by it; docs/lab/2026-11-prior.md says what it is worth.
 
 namespace vantage {
-
-/// The axes that a prior speaks in: an orthonormal, right-handed frame (side = up × front).
-struct UprightFrame {
-  Vec3 side = Vec3::UnitX();   ///< To the right of a viewer in front.
-  Vec3 up = Vec3::UnitY();     ///< Against gravity.
-  Vec3 front = Vec3::UnitZ();  ///< Toward a viewer in front.
-};
-
-/// The frame of a model whose up is an axis of its coordinates. Its front is what most files of
-/// that up axis mean by it: +z when y is up (glTF, OBJ) or x is, −y when z is up (CAD, Blender).
-/// \param up a unit vector, nearest axis decides.
-UprightFrame upright_frame(const Vec3& up);
-/// The frame of a model whose up and front are known: orthogonal unit vectors.
-UprightFrame upright_frame(const Vec3& up, const Vec3& front);
-
-/// What of a shape the views that people choose hang on most: the proportions of its box along
-/// side, up and front, and its mirror planes. Lengths are over the radius of the enclosing sphere,
-/// each + 0.02, so that thin things differ in no more than that.
-struct ShapeProportions {
-  double height = 0.0;         ///< log(up / √(side · front))
-  double width = 0.0;          ///< log(side / front)
-  bool mirrors_side = false;   ///< Left and right look alike.
-  bool mirrors_front = false;  ///< Front and back look alike.
-  bool mirrors_up = false;     ///< Top and bottom look alike.
-};
 
 /// The upright prior: a smooth function of direction, in (0, 1].
 /// With s, u, f the direction's components along side, up and front:

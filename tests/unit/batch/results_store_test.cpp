@@ -44,6 +44,35 @@ TEST(ResultsStore, ARecordReadsBackAfterReopening) {
   EXPECT_FALSE(store.find("other"));
 }
 
+TEST(ResultsStore, KeepsWhatFilesBesideAModelWereLike) {
+  const ScratchFolder scratch;
+  ModelRecord made = record("k", 3, "c");
+  made.beside = {{"a.mtl", {10, 20, 30}}, {"Bilder/ö.png", {}}};
+  { ResultsStore(scratch.path(), Database::Mode::Create).put(made); }
+  ResultsStore store(scratch.path(), Database::Mode::Read);
+  EXPECT_EQ(store.find("k")->beside, made.beside);
+}
+
+TEST(ResultsStore, AStoreOfBeforeThatIsReadAndGoesOn) {
+  const ScratchFolder scratch;
+  { ResultsStore(scratch.path(), Database::Mode::Create).put(record("k", 3, "c")); }
+  {
+    Database database(scratch.path() + "/" + ResultsStore::kFileName, Database::Mode::Create);
+    database.run("ALTER TABLE models DROP COLUMN beside; PRAGMA user_version = 1");
+  }
+  {
+    ResultsStore store(scratch.path(), Database::Mode::Read);
+    EXPECT_EQ(store.find("k")->position, 3);
+    EXPECT_TRUE(store.find("k")->beside.empty());
+  }
+  ResultsStore store(scratch.path(), Database::Mode::Create);
+  EXPECT_EQ(store.find("k")->position, 3);
+  ModelRecord made = record("new", 4, "d");
+  made.beside = {{"a.mtl", {10, 20, 30}}};
+  store.put(made);
+  EXPECT_EQ(store.find("new")->beside, made.beside);
+}
+
 TEST(ResultsStore, EqualModelsStandForOneHoweverManyOfThemWereRun) {
   const ScratchFolder scratch;
   ResultsStore store(scratch.path(), Database::Mode::Create);

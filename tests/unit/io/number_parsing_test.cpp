@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -47,6 +48,22 @@ TEST(NumberParsing, WholeNumbersBeyond64BitsAreClamped) {
   EXPECT_EQ(integer_from("99999999999999999999"), std::numeric_limits<std::int64_t>::max());
   EXPECT_EQ(integer_from("-99999999999999999999"), std::numeric_limits<std::int64_t>::min());
   EXPECT_FALSE(integer_from("1.0").has_value());
+}
+
+TEST(InQuotes, ShowsLettersOfAllScripts) {
+  EXPECT_EQ(in_quotes("Möbel/椅子.png"), "'Möbel/椅子.png'");
+  EXPECT_EQ(in_quotes("a\x07"
+                      "b"),
+            "'a?b'");
+}
+
+TEST(InQuotes, CutsLongTokensBetweenLetters) {
+  const std::string ascii(40, 'x');
+  EXPECT_EQ(in_quotes(ascii), "'" + ascii + "'");
+  EXPECT_EQ(in_quotes(ascii + "y"), "'" + ascii + "…'");
+  const std::string before(39, 'x');
+  EXPECT_EQ(in_quotes(before + "椅子"), "'" + before + "…'");  // three bytes from the 40th on
+  EXPECT_EQ(in_quotes(std::string(50, '\x80')), "'" + std::string(36, '?') + "…'");  // no letters
 }
 
 }  // namespace

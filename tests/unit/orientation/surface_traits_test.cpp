@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "orientation/side_look.h"
+#include "orientation/side_relief.h"
 #include "orientation/water.h"
 #include "support/shapes.h"
 
@@ -40,12 +40,12 @@ TEST(RainHeld, OfABoxIsNothing) {
   }
 }
 
-TEST(SideLook, OfACubeRestsOnEachSideForOneSixthOfDirections) {
+TEST(SideRelief, OfACubeRestsOnEachSideForOneSixthOfDirections) {
   const HeightFields fields(box(1.0, 1.0, 1.0, 4));
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    EXPECT_NEAR(side_look(fields, axis, true).rest, 1.0 / 6.0, 1e-6);
-    EXPECT_NEAR(side_look(fields, axis, false).rest, 1.0 / 6.0, 1e-6);
-    EXPECT_EQ(side_look(fields, axis, false).patch, 1.0);
+    EXPECT_NEAR(side_relief(fields, axis, true).rest, 1.0 / 6.0, 1e-6);
+    EXPECT_NEAR(side_relief(fields, axis, false).rest, 1.0 / 6.0, 1e-6);
+    EXPECT_EQ(side_relief(fields, axis, false).patch, 1.0);
   }
 }
 

@@ -107,8 +107,23 @@ TEST(ComputeKssm, LeavesOutLevelsThatAreTheSamplingOfTheCurve) {
   const CurveGraph other{.nodes = {{0.03, 0, 0}}, .edges = {}};
   const KssmMap map = compute_kssm(made.mesh, made.history, made.graph, {}, {}, other);
   EXPECT_EQ(map.levels_used, (std::vector<std::size_t>{0, 1}));
+  EXPECT_DOUBLE_EQ(map.level_factor[1], 0.75 * 0.75);
   EXPECT_EQ(map.level_factor[2], 0.0);
-  EXPECT_DOUBLE_EQ(map.of_vertex[3], 2 * 0.75 * 0.75);
+  EXPECT_DOUBLE_EQ(map.of_vertex[3], map.level_factor[0] + map.level_factor[1]);
+}
+
+TEST(ComputeKssm, MeasuresTheInputToTheCurvesOfBothMeshes) {
+  const HandMade made = contracted_twice();
+  const CurveGraph other{.nodes = {{0.5, 1.0, 0}}, .edges = {}};
+  const KssmMap map = compute_kssm(made.mesh, made.history, made.graph, {}, {}, other);
+  const KssmMap alone = compute_kssm(made.mesh, made.history, made.graph);
+  for (std::size_t v = 0; v < 4; ++v) {
+    const double to_other = (made.mesh.positions[v] - other.nodes.front()).norm();
+    EXPECT_DOUBLE_EQ(map.thickness()[v], 0.5 * (alone.thickness()[v] + to_other)) << v;
+  }
+  for (std::size_t level = 1; level < 3; ++level) {
+    EXPECT_EQ(map.displacement[level], alone.displacement[level]);
+  }
 }
 
 TEST(ComputeKssm, CountsALevelTheLessTheMoreTheOtherMeshDisagrees) {

@@ -69,18 +69,18 @@ TEST(EyePicture, HoldsAllPointsInItsCellsAndThoseOfABallInItsOutline) {
       const std::size_t cells = std::size_t{picture.columns()} * picture.rows();
       EXPECT_GE(2 * cells, count);
       EXPECT_LE(cells, 2 * count);
-      for (std::size_t i = 0; i < picture.spots().size(); ++i) {
-        const EyePicture::Spot& spot = picture.spots()[i];
-        const EyePicture::Extent& outline = picture.outline(i / kPointsOfBall);
+      for (std::size_t i = 0; i < picture.places().size(); ++i) {
+        const EyePicture::Place& place = picture.places()[i];
+        const EyePicture::Extent& extent = picture.extent_of(i / kPointsOfBall);
         for (int axis = 0; axis < 3; ++axis) {
-          EXPECT_LE(outline.low[axis], spot[axis]) << i;
-          EXPECT_GE(outline.high[axis], spot[axis]) << i;
+          EXPECT_LE(extent.low[axis], place[axis]) << i;
+          EXPECT_GE(extent.high[axis], place[axis]) << i;
         }
-        const EyePicture::CellRange at = picture.cells_of({spot, spot});
+        const EyePicture::CellRange at = picture.cells_of({place, place});
         EXPECT_LT(at.left, picture.columns());
         EXPECT_LT(at.top, picture.rows());
-        EXPECT_EQ(at.left, static_cast<std::uint32_t>(spot[0]));
-        EXPECT_EQ(at.top, static_cast<std::uint32_t>(spot[1]));
+        EXPECT_EQ(at.left, static_cast<std::uint32_t>(place[0]));
+        EXPECT_EQ(at.top, static_cast<std::uint32_t>(place[1]));
       }
     }
   }
@@ -93,9 +93,9 @@ TEST(EyePicture, DepthsAreDistancesAlongTheAxis) {
     ASSERT_TRUE(picture.aim(eye, scene.points, {}));
     picture.lay_out(100, scene.balls, {});
     const Vec3 towards = eye.position.normalized();
-    for (std::size_t i = 0; i < picture.spots().size(); ++i) {
+    for (std::size_t i = 0; i < picture.places().size(); ++i) {
       const Vec3 p(scene.points.x[i], scene.points.y[i], scene.points.z[i]);
-      EXPECT_NEAR(picture.spots()[i][2], -p.dot(towards), EyePicture::kAxisError);
+      EXPECT_NEAR(picture.places()[i][2], -p.dot(towards), EyePicture::kAxisError);
     }
   }
 }

@@ -10,7 +10,7 @@
 #include "vantage/visibility/vertex_visibility.h"
 
 #include "core/random.h"
-#include "visibility/sight.h"
+#include "visibility/site_query.h"
 #include "visibility/surface.h"
 
 namespace vantage {
@@ -33,8 +33,8 @@ TriMesh heap(std::uint32_t faces) {
 
 TEST(EyeGrid, IsEnoughForAHeapOfLargeFaces) {
   const std::array sides{FaceSides::Both};
-  Sight sight(prepare_surface(heap(4000), sides));
-  const Surface& surface = sight.surface();
+  SiteScene sites(prepare_surface(heap(4000), sides));
+  const Surface& surface = sites.surface();
   const Viewpoint eye{Projection::Perspective, Vec3(2.0, 3.0, 4.0)};
   TurnedFaces turned;
   find_turned(surface, eye, turned, {});
@@ -43,7 +43,7 @@ TEST(EyeGrid, IsEnoughForAHeapOfLargeFaces) {
   std::vector<std::uint8_t> seen(surface.sites.size(), 1);
   EXPECT_TRUE(grid.hide(surface, seen, {}));
   for (std::uint32_t i = 0; i < seen.size(); i += 7) {
-    EXPECT_EQ(seen[i] == 0, sight.hides_site(i, eye)) << i;
+    EXPECT_EQ(seen[i] == 0, sites.hides_site(i, eye)) << i;
   }
 }
 

@@ -60,12 +60,12 @@ class LentMemory {
   std::vector<std::unique_ptr<Memory>> free_{};
 };
 
-class Look;
+class SiteQuery;
 
 /// Queries may run on many threads at once.
-class Sight {
+class SiteScene {
  public:
-  explicit Sight(Surface prepared) : surface_(std::move(prepared)) {}
+  explicit SiteScene(Surface prepared) : surface_(std::move(prepared)) {}
 
   [[nodiscard]] const Surface& surface() const { return surface_; }
 
@@ -77,36 +77,36 @@ class Sight {
   bool hides_place(const Vec3& place, std::uint32_t face, const Viewpoint& eye);
 
  private:
-  friend class Look;
+  friend class SiteQuery;
 
   template <typename Holds>
   bool hidden(const Vec3& start, const Viewpoint& eye, const Holds& holds);
 
   Surface surface_;
 
-  /// Working memory of one look.
-  struct LookMemory {
+  /// Working memory of one query.
+  struct QueryMemory {
     TurnedFaces turned{};
     EyeGrid grid{};
   };
 
-  LentMemory<LookMemory> looks_{};
+  LentMemory<QueryMemory> memory_{};
   std::once_flag candidates_once_{};
   std::optional<CandidateScene> candidates_{};
 };
 
 /// What one eye sees; any number of queries. For one thread to call.
-class Look {
+class SiteQuery {
  public:
   /// \param eye in the surface's frame. \param backs as EyeGrid::begin() takes them; none: those of
   ///            the surface.
-  Look(Sight& sight, const Viewpoint& eye, const RunContext& run,
-       std::span<const std::uint8_t> backs = {});
+  SiteQuery(SiteScene& scene, const Viewpoint& eye, const RunContext& run,
+            std::span<const std::uint8_t> backs = {});
 
   /// Whether a side of the face that can be seen is turned to the eye.
   [[nodiscard]] bool is_turned(std::size_t face) const {
     const std::uint8_t turned = memory_->turned.of_face[face];
-    return turned == 1 || (turned == 2 && sight_.surface_.sides[face] == FaceSides::Both);
+    return turned == 1 || (turned == 2 && scene_.surface_.sides[face] == FaceSides::Both);
   }
 
   /// Which side each face turns to the eye: 1 its front, 2 its back, 0 neither.
@@ -118,7 +118,7 @@ class Look {
   /// The same of those sites that have a 1.
   [[nodiscard]] std::vector<std::uint8_t> seen_among(std::span<const std::uint8_t> sites);
 
-  /// seen_among() by Sight::hides_site() alone.
+  /// seen_among() by SiteScene::hides_site() alone.
   [[nodiscard]] std::vector<std::uint8_t> seen_by_segments(std::span<const std::uint8_t> sites);
 
   /// 1 for each site asked about that no face hides. \param asked 1 for each such site, else 0.
@@ -128,10 +128,10 @@ class Look {
   [[nodiscard]] std::vector<std::uint8_t> turned_among(std::span<const std::uint8_t> sites) const;
   void strike_hidden(std::vector<std::uint8_t>& asked);
 
-  Sight& sight_;
+  SiteScene& scene_;
   Viewpoint eye_;
   RunContext run_;
-  LentMemory<Sight::LookMemory>::Loan memory_;
+  LentMemory<SiteScene::QueryMemory>::Loan memory_;
 };
 
 }  // namespace vantage

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orientation/side_look.h"
+#include "orientation/side_relief.h"
 
 #include <cmath>
 #include <numbers>
@@ -12,10 +12,10 @@
 namespace vantage::test {
 namespace {
 
-TEST(SideLook, OfABoxTouchesEverywhereAndShowsNoDepth) {
+TEST(SideRelief, OfABoxTouchesEverywhereAndShowsNoDepth) {
   const HeightFields fields(box(1.0, 2.0, 4.0, 3));
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const SideLook look = side_look(fields, axis, true);
+    const SideRelief look = side_relief(fields, axis, true);
     EXPECT_EQ(look.touch, 1.0);
     EXPECT_NEAR(look.touch_hull, 1.0, 1e-12);
     EXPECT_EQ(look.contacts, 1.0);  // log2(1 + 1)
@@ -23,13 +23,13 @@ TEST(SideLook, OfABoxTouchesEverywhereAndShowsNoDepth) {
     EXPECT_EQ(look.back, 0.0);
   }
   // The nearest border of the middle of a 1 x 2 base is half a unit away.
-  EXPECT_NEAR(side_look(fields, 2, false).margin, 0.5 / std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(side_relief(fields, 2, false).margin, 0.5 / std::sqrt(2.0), 1e-9);
 }
 
-TEST(SideLook, OfATableFromBelowHasFourFeetAroundItsWholeOutline) {
+TEST(SideRelief, OfATableFromBelowHasFourFeetAroundItsWholeOutline) {
   const HeightFields fields(table());
-  const SideLook base = side_look(fields, 2, false);
-  const SideLook top = side_look(fields, 2, true);
+  const SideRelief base = side_relief(fields, 2, false);
+  const SideRelief top = side_relief(fields, 2, true);
   EXPECT_NEAR(base.contacts, std::log2(5.0), 1e-12);
   EXPECT_NEAR(base.touch_hull, 1.0, 1e-9);
   EXPECT_LT(base.touch, 0.1);
@@ -37,13 +37,13 @@ TEST(SideLook, OfATableFromBelowHasFourFeetAroundItsWholeOutline) {
   EXPECT_GT(base.depth, 0.3);  // nearly 0.8 of the longest side, 2
 }
 
-TEST(SideLook, OfAClosedShapeShowsNoBacksAndInsideOutNothingElse) {
+TEST(SideRelief, OfAClosedShapeShowsNoBacksAndInsideOutNothingElse) {
   const TriMesh mesh = cylinder(0.5, 1.0, 64, 8);
   const HeightFields outwards(mesh);
   const HeightFields inwards(inside_out(mesh));
   for (const bool from_high : {true, false}) {
-    EXPECT_EQ(side_look(outwards, 2, from_high).back, 0.0);
-    EXPECT_GT(side_look(inwards, 2, from_high).back, 0.9);  // but for cells of the rim alone
+    EXPECT_EQ(side_relief(outwards, 2, from_high).back, 0.0);
+    EXPECT_GT(side_relief(inwards, 2, from_high).back, 0.9);  // but for cells of the rim alone
   }
 }
 
@@ -71,8 +71,8 @@ TEST(HeightFields, AreThoseOfTheShapeWhateverItsSizePlaceAndOrder) {
   const HeightFields other(
       moved(renumbered(mesh, 5), 1024.0, 0.0, Vec3::UnitX(), Vec3(4096.0, 0.0, -2048.0)));
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const SideLook a = side_look(plain, axis, true);
-    const SideLook b = side_look(other, axis, true);
+    const SideRelief a = side_relief(plain, axis, true);
+    const SideRelief b = side_relief(other, axis, true);
     EXPECT_NEAR(a.touch, b.touch, 1e-9);
     EXPECT_NEAR(a.depth, b.depth, 1e-6);
     EXPECT_NEAR(a.detail, b.detail, 1e-6);

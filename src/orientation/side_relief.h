@@ -6,7 +6,7 @@
 namespace vantage {
 
 /// What one side of the box shows of the surface. All of it is free of scale.
-struct SideLook {
+struct SideRelief {
   double touch = 0.0;       ///< Share of the outline that touches the side of the box.
   double touch_hull = 0.0;  ///< Area of the convex hull of what touches, over the outline's.
   double margin = 0.0;      ///< How far the centroid is inside that hull, over the outline's size.
@@ -24,7 +24,7 @@ struct SideLook {
 };
 
 /// \param axis 0, 1 or 2. \param from_high from the side of larger coordinates.
-SideLook side_look(const HeightFields& fields, std::size_t axis, bool from_high);
+SideRelief side_relief(const HeightFields& fields, std::size_t axis, bool from_high);
 
 /// Mean difference of a surface from its image in the box's middle plane across `axis`, in the
 /// height fields along the other two and in its own; over the longest side; 0 if it mirrors itself.

@@ -18,18 +18,18 @@
 #include "spatial/face_clip.h"
 #include "spatial/face_meetings.h"
 #include "spatial/picture_cells.h"
-#include "visibility/sight.h"
+#include "visibility/site_query.h"
 
 /// \file
-/// One look of an eye at a surface's faces. What is seen of a face changes only where a *contour*
+/// What one eye sees of a surface's faces. What is seen of a face changes only where a *contour*
 /// passes before it, an edge past which the surface turns away from the eye, or where another face
 /// passes through it (Appel, "The notion of quantitative invisibility and the machine rendering of
 /// solids", 1967). Such faces are cut there; all others are seen or hidden as their corners are.
 
 namespace vantage {
 
-/// Working memory of one look, lent to one after the other.
-struct FaceLookMemory {
+/// Working memory of one query, lent to one after the other.
+struct FaceQueryMemory {
   PictureCells picture{};
   CellLists hiding{}, contours{};  // faces, and places in `edges`
   FaceClip clip{};
@@ -50,7 +50,7 @@ class FaceScene {
 
   static constexpr std::uint32_t kNoFace = ~std::uint32_t{0};
 
-  Sight sight;
+  SiteScene sites;
   std::vector<Triangle> triangles;            ///< Of the mesh.
   std::vector<std::uint32_t> face_of_mesh{};  ///< Of each of these the surface's face, or kNoFace.
   Sphere sphere;                              ///< Of the mesh.
@@ -59,11 +59,11 @@ class FaceScene {
   FaceMeetings meetings{};
   /// 1 for each site where surfaces touch: what touches a site does not hide it.
   std::vector<std::uint8_t> is_touched{};
-  LentMemory<FaceLookMemory> memory{};
+  LentMemory<FaceQueryMemory> memory{};
 };
 
 /// All that an eye sees. \param local the eye in the surface's frame. \throw Cancelled
-SeenSurface look_at_faces(FaceScene& scene, const Viewpoint& local, FaceDetail detail,
-                          const RunContext& run);
+SeenSurface see_faces(FaceScene& scene, const Viewpoint& local, FaceDetail detail,
+                      const RunContext& run);
 
 }  // namespace vantage

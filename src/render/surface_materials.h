@@ -16,7 +16,7 @@
 namespace vantage {
 
 /// What the materials of a mesh show at places of its surface.
-class Skin {
+class SurfaceMaterials {
  public:
   /// What is seen at a place.
   struct Shown {
@@ -27,7 +27,7 @@ class Skin {
   };
 
   /// All must outlive this. \throw InvalidInput if `appearance` does not fit the mesh.
-  Skin(const Appearance& appearance, const TriMesh& mesh);
+  SurfaceMaterials(const Appearance& appearance, const TriMesh& mesh);
 
   /// \param spacing distance of samples on the surface, in the mesh's units.
   [[nodiscard]] Shown at(std::uint32_t face, float u, float v, double spacing) const;

@@ -62,7 +62,7 @@ std::vector<std::uint8_t> pixel_of(const Image& image, int x, int y) {
 
 constexpr std::uint8_t kOn = 255;
 
-TEST(Skin, LaysATextureTheRightWayRound) {
+TEST(SurfaceMaterials, LaysATextureTheRightWayRound) {
   const Square square({kOn, 0, 0, kOn, 0, kOn, 0, kOn, 0, 0, kOn, kOn, kOn, kOn, kOn, kOn});
   const Image image = picture(square, small());
   EXPECT_THAT(pixel_of(image, 8, 8), ElementsAre(kOn, 0, 0, kOn));
@@ -71,7 +71,7 @@ TEST(Skin, LaysATextureTheRightWayRound) {
   EXPECT_THAT(pixel_of(image, 24, 24), ElementsAre(kOn, kOn, kOn, kOn));
 }
 
-TEST(Skin, AWhiteSurfaceWithoutShadeVanishesBeforeWhite) {
+TEST(SurfaceMaterials, AWhiteSurfaceWithoutShadeVanishesBeforeWhite) {
   // A furnace: whatever filters, mixes and blends on the way must not gain or lose light.
   for (const AlphaMode mode : {AlphaMode::Opaque, AlphaMode::Mask, AlphaMode::Blend}) {
     Square square({kOn, kOn, kOn, kOn, kOn, kOn, kOn, 128, kOn, kOn, kOn, 77, kOn, kOn, kOn, 0});
@@ -84,7 +84,7 @@ TEST(Skin, AWhiteSurfaceWithoutShadeVanishesBeforeWhite) {
   }
 }
 
-TEST(Skin, HolesShowWhatIsBehind) {
+TEST(SurfaceMaterials, HolesShowWhatIsBehind) {
   Square square({kOn, kOn, kOn, kOn, kOn, kOn, kOn, 0, kOn, kOn, kOn, kOn, kOn, kOn, kOn, kOn});
   square.appearance.materials[0].alpha = AlphaMode::Mask;
   const Image image = picture(square, small());
@@ -100,7 +100,7 @@ TEST(Skin, HolesShowWhatIsBehind) {
   EXPECT_THAT(pixel_of(wall, 8, 8), ElementsAre(kOn, kOn, kOn, kOn));
 }
 
-TEST(Skin, GlassMixesLightWithWhatIsBehind) {
+TEST(SurfaceMaterials, GlassMixesLightWithWhatIsBehind) {
   Square square(std::vector<std::uint8_t>(16, kOn));
   square.appearance.materials[0].alpha = AlphaMode::Blend;
   square.appearance.materials[0].opacity = 0.25;
@@ -115,7 +115,7 @@ TEST(Skin, GlassMixesLightWithWhatIsBehind) {
   EXPECT_EQ(picture(square, small()).pixel(16, 16)[3], std::lround((1.0 - 0.75 * 0.75) * 255));
 }
 
-TEST(Skin, AWallIsSeenThroughFortyPanesOfThinGlass) {
+TEST(SurfaceMaterials, AWallIsSeenThroughFortyPanesOfThinGlass) {
   Square square(std::vector<std::uint8_t>(16, kOn));
   square.appearance.materials[0].alpha = AlphaMode::Blend;
   square.appearance.materials[0].opacity = 0.02;
@@ -132,7 +132,7 @@ TEST(Skin, AWallIsSeenThroughFortyPanesOfThinGlass) {
   EXPECT_EQ(picture(square, small()).pixel(16, 16)[3], 255);
 }
 
-TEST(Skin, FacesWithoutAMaterialAreOfTheOptionsColour) {
+TEST(SurfaceMaterials, FacesWithoutAMaterialAreOfTheOptionsColour) {
   Square square(std::vector<std::uint8_t>(16, kOn));
   square.appearance.material_of_triangle = {Appearance::kNone, Appearance::kNone};
   const Image with = picture(square, small());
@@ -140,7 +140,7 @@ TEST(Skin, FacesWithoutAMaterialAreOfTheOptionsColour) {
   EXPECT_EQ(with.rgba, without.rgba);
 }
 
-TEST(Skin, VertexColoursMultiplyTheMaterial) {
+TEST(SurfaceMaterials, VertexColoursMultiplyTheMaterial) {
   Square square(std::vector<std::uint8_t>(16, kOn));
   const std::vector<Rgb8> colours(4, Rgb8{0, 255, 0});
   square.appearance.materials[0].colour = {1.0, 0.5, 1.0};
@@ -149,13 +149,13 @@ TEST(Skin, VertexColoursMultiplyTheMaterial) {
   EXPECT_THAT(pixel_of(image, 16, 16), ElementsAre(0, srgb_of_linear(0.5), 0, kOn));
 }
 
-TEST(Skin, FacesWithoutCoordinatesShowTheMeanOfTheTexture) {
+TEST(SurfaceMaterials, FacesWithoutCoordinatesShowTheMeanOfTheTexture) {
   Square square({kOn, 0, 0, kOn, kOn, 0, 0, kOn, 0, 0, 0, kOn, 0, 0, 0, kOn});
   square.appearance.uv_of_triangle.clear();
   EXPECT_NEAR(picture(square, small()).pixel(4, 28)[0], srgb_of_linear(0.5), 1);
 }
 
-TEST(Skin, RefusesMaterialsOfAnotherMesh) {
+TEST(SurfaceMaterials, RefusesMaterialsOfAnotherMesh) {
   Square square(std::vector<std::uint8_t>(16, kOn));
   square.appearance.material_of_triangle = {0, 7};
   EXPECT_THROW(picture(square, small()), InvalidInput);

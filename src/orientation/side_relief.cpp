@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orientation/side_look.h"
+#include "orientation/side_relief.h"
 
 #include <algorithm>
 #include <array>
@@ -160,7 +160,7 @@ void add_to_zones(const HeightField& field, std::size_t cell, double depth, Zone
 }
 
 /// Adds up the steps between neighbouring filled cells.
-void look_at_steps(const HeightField& field, bool from_high, SideLook& look) {
+void look_at_steps(const HeightField& field, bool from_high, SideRelief& look) {
   double steps = 0.0;
   double sum = 0.0;
   double flat = 0.0;
@@ -220,12 +220,12 @@ void compare(const HeightField& field, bool is_reversed, Map&& image_of, Differe
 
 }  // namespace
 
-SideLook side_look(const HeightFields& fields, std::size_t axis, bool from_high) {
+SideRelief side_relief(const HeightFields& fields, std::size_t axis, bool from_high) {
   const HeightField& field = fields.along[axis];
   const Vec2 cell_size(fields.extent[field.u_axis] / static_cast<double>(field.columns),
                        fields.extent[field.v_axis] / static_cast<double>(field.rows));
   const double reach = std::min(kTouch, 0.25 * field.extent);
-  SideLook look;
+  SideRelief look;
   std::vector<std::uint8_t> touching(field.low.size(), 0);
   RowEnds outline(field, cell_size);
   RowEnds base(field, cell_size);

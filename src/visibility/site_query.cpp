@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "visibility/sight.h"
+#include "visibility/site_query.h"
 
 #include <limits>
 #include <utility>
@@ -15,7 +15,7 @@ constexpr std::size_t kPointsPerTask = 2048;  // a few tenths of a millisecond
 }  // namespace
 
 template <typename Holds>
-bool Sight::hidden(const Vec3& start, const Viewpoint& eye, const Holds& holds) {
+bool SiteScene::hidden(const Vec3& start, const Viewpoint& eye, const Holds& holds) {
   std::call_once(candidates_once_, [&] { candidates_.emplace(surface_.sites, surface_.faces); });
   const bool bounded = eye.projection == Projection::Perspective;
   const Vec3 direction = bounded ? Vec3(eye.position - start) : eye.position;
@@ -32,26 +32,26 @@ bool Sight::hidden(const Vec3& start, const Viewpoint& eye, const Holds& holds) 
   });
 }
 
-bool Sight::hides_site(std::uint32_t site, const Viewpoint& eye) {
+bool SiteScene::hides_site(std::uint32_t site, const Viewpoint& eye) {
   return hidden(surface_.sites[site], eye, [&](std::uint32_t f) {
     const Triangle& t = surface_.faces[f];
     return t[0] == site || t[1] == site || t[2] == site;
   });
 }
 
-bool Sight::hides_place(const Vec3& place, std::uint32_t face, const Viewpoint& eye) {
+bool SiteScene::hides_place(const Vec3& place, std::uint32_t face, const Viewpoint& eye) {
   return hidden(place, eye, [&](std::uint32_t f) { return f == face; });
 }
 
-Look::Look(Sight& sight, const Viewpoint& eye, const RunContext& run,
-           std::span<const std::uint8_t> backs)
-    : sight_(sight), eye_(eye), run_(run), memory_(sight.looks_) {
-  find_turned(sight.surface_, eye, memory_->turned, run);
-  memory_->grid.begin(eye, memory_->turned, backs.empty() ? sight.surface_.backs : backs);
+SiteQuery::SiteQuery(SiteScene& scene, const Viewpoint& eye, const RunContext& run,
+                     std::span<const std::uint8_t> backs)
+    : scene_(scene), eye_(eye), run_(run), memory_(scene.memory_) {
+  find_turned(scene.surface_, eye, memory_->turned, run);
+  memory_->grid.begin(eye, memory_->turned, backs.empty() ? scene.surface_.backs : backs);
 }
 
-std::vector<std::uint8_t> Look::seen_sites() {
-  const Surface& surface = sight_.surface_;
+std::vector<std::uint8_t> SiteQuery::seen_sites() {
+  const Surface& surface = scene_.surface_;
   std::vector<std::uint8_t> asked(surface.sites.size(), 0);
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
     if (is_turned(f)) {
@@ -63,8 +63,8 @@ std::vector<std::uint8_t> Look::seen_sites() {
   return not_hidden(std::move(asked));
 }
 
-std::vector<std::uint8_t> Look::turned_among(std::span<const std::uint8_t> sites) const {
-  const Surface& surface = sight_.surface_;
+std::vector<std::uint8_t> SiteQuery::turned_among(std::span<const std::uint8_t> sites) const {
+  const Surface& surface = scene_.surface_;
   std::vector<std::uint8_t> asked(surface.sites.size(), 0);
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
     for (const std::uint32_t site : surface.faces[f]) {
@@ -76,28 +76,28 @@ std::vector<std::uint8_t> Look::turned_among(std::span<const std::uint8_t> sites
   return asked;
 }
 
-std::vector<std::uint8_t> Look::seen_among(std::span<const std::uint8_t> sites) {
+std::vector<std::uint8_t> SiteQuery::seen_among(std::span<const std::uint8_t> sites) {
   return not_hidden(turned_among(sites));
 }
 
-std::vector<std::uint8_t> Look::seen_by_segments(std::span<const std::uint8_t> sites) {
+std::vector<std::uint8_t> SiteQuery::seen_by_segments(std::span<const std::uint8_t> sites) {
   std::vector<std::uint8_t> asked = turned_among(sites);
   strike_hidden(asked);
   return asked;
 }
 
-void Look::strike_hidden(std::vector<std::uint8_t>& asked) {
+void SiteQuery::strike_hidden(std::vector<std::uint8_t>& asked) {
   parallel_for(run_, asked.size(), kPointsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (asked[i] != 0 && sight_.hides_site(static_cast<std::uint32_t>(i), eye_)) {
+      if (asked[i] != 0 && scene_.hides_site(static_cast<std::uint32_t>(i), eye_)) {
         asked[i] = 0;
       }
     }
   });
 }
 
-std::vector<std::uint8_t> Look::not_hidden(std::vector<std::uint8_t> asked) {
-  if (!memory_->grid.hide(sight_.surface_, asked, run_)) {
+std::vector<std::uint8_t> SiteQuery::not_hidden(std::vector<std::uint8_t> asked) {
+  if (!memory_->grid.hide(scene_.surface_, asked, run_)) {
     strike_hidden(asked);
   }
   return asked;

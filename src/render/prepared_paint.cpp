@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "render/coat.h"
+#include "render/prepared_paint.h"
 
 #include "core/srgb.h"
 #include "render/colour_scale.h"
 
 namespace vantage {
 
-Coat::Coat(const Paint& paint, const DrawnSurface& surface, const PictureRays& rays,
-           const RenderOptions& options)
+PreparedPaint::PreparedPaint(const Paint& paint, const DrawnSurface& surface,
+                             const PictureRays& rays, const RenderOptions& options)
     : surface_(&surface),
       colour_(linear_of_srgb(options.colour)),
       share_of_vertex_(shares_of_range(paint.vertex_values)),
-      skin_(paint.appearance != nullptr ? surface.skin() : nullptr),
+      materials_(paint.appearance != nullptr ? surface.materials() : nullptr),
       tube_colour_(linear_of_srgb(paint.overlay.colour)) {
   colour_of_vertex_.reserve(paint.vertex_colours.size());
   for (const Rgb8& colour : paint.vertex_colours) {
@@ -27,8 +27,8 @@ Coat::Coat(const Paint& paint, const DrawnSurface& surface, const PictureRays& r
   }
 }
 
-Skin::Shown Coat::shown(const RayHit& hit, double width) const {
-  Skin::Shown shown;
+SurfaceMaterials::Shown PreparedPaint::shown(const RayHit& hit, double width) const {
+  SurfaceMaterials::Shown shown;
   const Triangle& t = surface_->mesh().triangles[hit.face];
   const auto mixed = [&](const auto& of_vertex) {
     return (1.0F - hit.u - hit.v) * of_vertex[t[0]] + hit.u * of_vertex[t[1]] +
@@ -38,8 +38,8 @@ Skin::Shown Coat::shown(const RayHit& hit, double width) const {
     shown.colour = linear_cool_warm(mixed(share_of_vertex_));
     return shown;
   }
-  if (skin_ != nullptr) {
-    shown = skin_->at(hit.face, hit.u, hit.v, width);
+  if (materials_ != nullptr) {
+    shown = materials_->at(hit.face, hit.u, hit.v, width);
   }
   if (colour_of_vertex_.empty()) {
     shown.colour = shown.has_material ? shown.colour : colour_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "render/skin.h"
+#include "render/surface_materials.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +53,7 @@ Uv transformed(const std::array<double, 6>& rows, const std::array<float, 2>& uv
 
 }  // namespace
 
-Skin::Skin(const Appearance& appearance, const TriMesh& mesh)
+SurfaceMaterials::SurfaceMaterials(const Appearance& appearance, const TriMesh& mesh)
     : appearance_(&appearance), mesh_(&mesh) {
   check_fit(appearance, mesh);
   pyramids_.resize(2 * appearance.textures.size());
@@ -69,12 +69,12 @@ Skin::Skin(const Appearance& appearance, const TriMesh& mesh)
 }
 
 /// A texture may be shared by materials that mean its opacity and others that do not.
-std::size_t Skin::pyramid_of(const Material& material) {
+std::size_t SurfaceMaterials::pyramid_of(const Material& material) {
   return 2 * std::size_t{*material.texture} + (material.alpha == AlphaMode::Opaque ? 1 : 0);
 }
 
-Texel Skin::texel(const Material& material, std::uint32_t face, float u, float v,
-                  double spacing) const {
+Texel SurfaceMaterials::texel(const Material& material, std::uint32_t face, float u, float v,
+                              double spacing) const {
   // Faces without coordinates show the mean of the picture: wood is still brown.
   constexpr float kCoarsest = 100.0F;
   const TexturePyramid& pyramid = *pyramids_[pyramid_of(material)];
@@ -106,7 +106,8 @@ Texel Skin::texel(const Material& material, std::uint32_t face, float u, float v
                     static_cast<float>(std::log2(std::max(covered, kLeastCovered))));
 }
 
-Skin::Shown Skin::at(std::uint32_t face, float u, float v, double spacing) const {
+SurfaceMaterials::Shown SurfaceMaterials::at(std::uint32_t face, float u, float v,
+                                             double spacing) const {
   Shown shown;
   const std::uint32_t index = appearance_->material_of_triangle[face];
   if (index == Appearance::kNone) {

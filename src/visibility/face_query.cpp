@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "visibility/face_look.h"
+#include "visibility/face_query.h"
 
 #include <algorithm>
 #include <optional>
@@ -30,18 +30,19 @@ constexpr int kPartsASide = 4;
 // are taken away: in a heap of faces the first few hide most of it. [ours]
 constexpr std::size_t kFewContours = 16;
 
-class FaceLook {
+class FaceQuery {
  public:
-  FaceLook(FaceScene& scene, FaceLookMemory& memory, const Viewpoint& local, const RunContext& run)
+  FaceQuery(FaceScene& scene, FaceQueryMemory& memory, const Viewpoint& local,
+            const RunContext& run)
       : scene_(scene),
         memory_(memory),
-        surface_(scene.sight.surface()),
+        surface_(scene.sites.surface()),
         local_(local),
         run_(run),
-        look_(scene.sight, local, run, scene.meetings.hiding_backs) {}
+        sites_(scene.sites, local, run, scene.meetings.hiding_backs) {}
 
   SeenSurface seen(FaceDetail detail) {
-    seen_ = look_.seen_sites();
+    seen_ = sites_.seen_sites();
     SeenSurface result;
     result.vertices = vertices_of_sites(surface_, seen_);
     FaceSums sums(surface_, scene_.sphere, local_, memory_.along, result);
@@ -58,7 +59,7 @@ class FaceLook {
       list_hiding();
       list_contours();
       for (std::uint32_t face = 0; face < surface_.faces.size(); ++face) {
-        if (look_.is_turned(face)) {
+        if (sites_.is_turned(face)) {
           add(face, sums);
         }
       }
@@ -69,7 +70,7 @@ class FaceLook {
 
  private:
   [[nodiscard]] bool hides(std::uint32_t face) const {
-    const std::uint8_t turned = look_.turned()[face];
+    const std::uint8_t turned = sites_.turned()[face];
     return turned == 1 ||
            (turned == 2 && (!is_outside_ || scene_.meetings.hiding_backs[face] != 0));
   }
@@ -100,7 +101,7 @@ class FaceLook {
     std::size_t sum = 0;
     for (std::uint32_t f = 0; f < surface_.faces.size(); ++f) {
       const bool is_hiding = hides(f);
-      if (is_hiding || look_.is_turned(f)) {
+      if (is_hiding || sites_.is_turned(f)) {
         const Triangle& face = surface_.faces[f];
         memory_.extents[f] = memory_.picture.extent(face);
         if (is_hiding) {
@@ -118,8 +119,8 @@ class FaceLook {
     if (pair == EdgePair::None) {
       return true;
     }
-    const std::uint8_t one = look_.turned()[scene_.edges.beside[edge][0]];
-    const std::uint8_t other = look_.turned()[scene_.edges.beside[edge][1]];
+    const std::uint8_t one = sites_.turned()[scene_.edges.beside[edge][0]];
+    const std::uint8_t other = sites_.turned()[scene_.edges.beside[edge][1]];
     return one == 0 || other == 0 || (one == other) != (pair == EdgePair::Opposite);
   }
 
@@ -171,7 +172,8 @@ class FaceLook {
     const auto& [a, b] = scene_.edges.table.edges[edge];
     const auto& [one, other] = scene_.edges.beside[edge];
     if (seen_[a] != 0 || seen_[b] != 0 || scene_.meetings.crossed[one] != 0 ||
-        scene_.meetings.crossed[other] != 0 || !(look_.is_turned(one) || look_.is_turned(other))) {
+        scene_.meetings.crossed[other] != 0 ||
+        !(sites_.is_turned(one) || sites_.is_turned(other))) {
       return true;
     }
     const std::array ends{a, b};
@@ -208,7 +210,7 @@ class FaceLook {
   bool is_any_before(const CellLists& lists, const std::array<std::uint32_t, Count>& sites,
                      const PictureCells::Extent& extent, const IsWanted& is_wanted) {
     bool is_found = false;
-    memory_.picture.over_sides(sites, extent, [&](const PictureCells::Cells& cells) {
+    memory_.picture.over_sides(sites, extent, [&](const PictureCells::CellRange& cells) {
       for (std::uint32_t row = cells.bottom; row <= cells.top && !is_found; ++row) {
         const std::uint32_t first = memory_.picture.cell(cells.left, row);
         const std::uint32_t last = memory_.picture.cell(cells.right, row);
@@ -226,7 +228,7 @@ class FaceLook {
   void add_by_corners(FaceSums& sums) {
     for (std::uint32_t face = 0; face < surface_.faces.size(); ++face) {
       const auto& [a, b, c] = surface_.faces[face];
-      if (seen_[a] + seen_[b] + seen_[c] >= 2 && look_.is_turned(face)) {
+      if (seen_[a] + seen_[b] + seen_[c] >= 2 && sites_.is_turned(face)) {
         sums.begin(face);
         sums.add_whole();
       }
@@ -313,7 +315,7 @@ class FaceLook {
   /// Whether another face hides a place on a face.
   [[nodiscard]] bool is_hidden(std::uint32_t face, const Vec3& place) {
     if (!memory_.picture.is_flat()) {
-      return scene_.sight.hides_place(place, face, local_);
+      return scene_.sites.hides_place(place, face, local_);
     }
     const Segment segment = segment_to(place, local_);
     const PictureCells::Extent at = memory_.picture.extent_of(place);
@@ -372,7 +374,7 @@ class FaceLook {
     by_points_.shrink_to(0);
     const double step = 1.0 / kPartsASide;
     const auto add_if_seen = [&](const std::array<Eigen::Vector2d, 3>& part) {
-      if (!scene_.sight.hides_place(memory_.clip.middle(part), face, local_)) {
+      if (!scene_.sites.hides_place(memory_.clip.middle(part), face, local_)) {
         by_points_.add(part);
       }
     };
@@ -391,11 +393,11 @@ class FaceLook {
   }
 
   FaceScene& scene_;
-  FaceLookMemory& memory_;
+  FaceQueryMemory& memory_;
   const Surface& surface_;
   const Viewpoint& local_;
   const RunContext& run_;
-  Look look_;
+  SiteQuery sites_;
   bool is_outside_ = true;
   std::vector<std::uint8_t> seen_{};  // of each site
   std::size_t steps_ = 0;             // of all work so far
@@ -417,12 +419,12 @@ double area_of(const Surface& surface) {
 }  // namespace
 
 FaceScene::FaceScene(const TriMesh& mesh, std::span<const FaceSides> sides)
-    : sight(prepare_surface(mesh, sides)),
+    : sites(prepare_surface(mesh, sides)),
       triangles(mesh.triangles),
       face_of_mesh(mesh.triangles.size(), kNoFace),
       sphere(enclosing_sphere(referenced_points(mesh))),
-      total_area(area_of(sight.surface())) {
-  const Surface& surface = sight.surface();
+      total_area(area_of(sites.surface())) {
+  const Surface& surface = sites.surface();
   for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
     face_of_mesh[surface.face_of_mesh[f]] = f;
   }
@@ -436,10 +438,10 @@ FaceScene::FaceScene(const TriMesh& mesh, std::span<const FaceSides> sides)
   }
 }
 
-SeenSurface look_at_faces(FaceScene& scene, const Viewpoint& local, FaceDetail detail,
-                          const RunContext& run) {
-  const LentMemory<FaceLookMemory>::Loan memory(scene.memory);
-  return FaceLook(scene, *memory, local, run).seen(detail);
+SeenSurface see_faces(FaceScene& scene, const Viewpoint& local, FaceDetail detail,
+                      const RunContext& run) {
+  const LentMemory<FaceQueryMemory>::Loan memory(scene.memory);
+  return FaceQuery(scene, *memory, local, run).seen(detail);
 }
 
 }  // namespace vantage

@@ -8,28 +8,30 @@
 
 #include "render/drawn_surface.h"
 #include "render/picture_rays.h"
-#include "render/skin.h"
+#include "render/surface_materials.h"
 #include "render/tubes.h"
 
 namespace vantage {
 
 /// What one picture of a scene shows on and in its surface.
-class Coat {
+class PreparedPaint {
  public:
   /// \param surface must outlive this.
-  Coat(const Paint& paint, const DrawnSurface& surface, const PictureRays& rays,
-       const RenderOptions& options);
+  PreparedPaint(const Paint& paint, const DrawnSurface& surface, const PictureRays& rays,
+                const RenderOptions& options);
 
   /// Whether the whole surface has one colour.
   [[nodiscard]] bool is_uniform() const {
-    return skin_ == nullptr && colour_of_vertex_.empty() && share_of_vertex_.empty();
+    return materials_ == nullptr && colour_of_vertex_.empty() && share_of_vertex_.empty();
   }
 
   /// Whether any place of the surface may be seen through.
-  [[nodiscard]] bool has_openings() const { return skin_ != nullptr && skin_->has_openings(); }
+  [[nodiscard]] bool has_openings() const {
+    return materials_ != nullptr && materials_->has_openings();
+  }
 
   /// What is seen where a ray as wide as `width` hits the surface.
-  [[nodiscard]] Skin::Shown shown(const RayHit& hit, double width) const;
+  [[nodiscard]] SurfaceMaterials::Shown shown(const RayHit& hit, double width) const;
 
   /// Curves through the surface, if there are any.
   [[nodiscard]] const std::optional<Tubes>& tubes() const { return tubes_; }
@@ -42,7 +44,7 @@ class Coat {
   Vec3 colour_;
   std::vector<Vec3f> colour_of_vertex_{};  // linear; empty: colour_
   std::vector<float> share_of_vertex_{};   // of a map's range; empty: none
-  const Skin* skin_;
+  const SurfaceMaterials* materials_;
   std::optional<Tubes> tubes_{};
   Vec3 tube_colour_;
 };
