@@ -77,7 +77,9 @@ void check_values(CLI::App& app) {
           [](const std::string& text) {
             double value = 0.0;
             const bool is_number = CLI::detail::lexical_cast(text, value);
-            return is_number && !std::isfinite(value) ? "must be a finite number, not " + text : "";
+            return !is_number              ? "must be a number, not " + text
+                   : !std::isfinite(value) ? "must be a finite number, not " + text
+                                           : "";
           },
           "", "finite");
     }
@@ -87,7 +89,10 @@ void check_values(CLI::App& app) {
             std::uint64_t value = 0;
             const auto [end, error] =
                 std::from_chars(text.data(), text.data() + text.size(), value);
-            return error == std::errc::result_out_of_range ? "is too large: " + text : "";
+            return error == std::errc::result_out_of_range ? "is too large: " + text
+                   : !CLI::detail::lexical_cast(text, value)
+                       ? "must be a whole number from 0, not " + text
+                       : "";
           },
           "", "fits");
     }

@@ -45,6 +45,22 @@ class WhatWasMeant(ProgramTest):
             self.assertIn(f"did you mean {meant}?", said)
         self.assertIn("did you mean --direction?", self.complaint("render", FAN, "--directoin", "1,2,3", "-o", "b.png"))
 
+    def test_numbers(self):
+        for words, wanted in ((("view", FAN, "--fov", "400"), "--fov: must be a number from 1 to 170, not 400"),
+                              (("view", FAN, "--views", "2.5"), "--views: must be a whole number from 1 to 1000, not 2.5"),
+                              (("view", FAN, "--seed", "1.5"), "--seed: must be a whole number from 0, not 1.5"),
+                              (("batch", FAN, "-o", "out", "--timeout", "5m"), "from 0.001 to 10000000, not 5m"),
+                              (("batch", FAN, "-o", "out", "--memory", "100MB"), "from 0.3 to 1000000, not 0.1"),
+                              (("info", FAN, "--max-memory", "2 XB"), "with a unit, as in 500MB or 0.5GB, not 2 XB")):
+            self.assertIn(wanted, self.complaint(*words))
+
+    def test_sizes_have_units(self):
+        self.write("a.off", box(1))
+        for memory in ("0.5", "500MB", "0.5 gb", "1GiB"):
+            self.vantage("batch", "a.off", "-o", "out", "--memory", memory, "--output-limit", "0.1GB", "--write", "json")
+        for memory in ("500000000", "0.5GB", "500 mb"):
+            self.vantage("info", "a.off", "--max-memory", memory)
+
     def test_help_of_a_command_is_asked_for_in_two_ways(self):
         self.assertEqual(self.vantage("help", "view").out, self.vantage("view", "--help").out)
         self.assertEqual(self.vantage("help").out, self.vantage("--help").out)
