@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const vantage::RunContext run{.report = {}, .stop = {}, .max_threads = 1};
   try {
     const vantage::ShapeAnalysis shape = vantage::analyse_shape(model, options, run);
-    for (const double value : shape.map.of_vertex) {
+    for (const double value : shape.significance) {
       if (!std::isfinite(value)) {
         std::abort();
       }

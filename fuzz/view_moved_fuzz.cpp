@@ -76,7 +76,7 @@ ViewOfModel view_of(const vantage::Model& model, vantage::ModelFrame frame) {
 
 double score_fraction(const ViewOfModel& view, const vantage::Vec3& direction) {
   const vantage::VertexVisibility visibility(view.shape.surface, view.shape.sides);
-  const vantage::ViewScorer scorer(visibility, view.shape.map.of_vertex, view.report.camera);
+  const vantage::ViewScorer scorer(visibility, view.shape.significance, view.report.camera);
   return scorer.score(direction) / view.report.total;
 }
 
@@ -111,9 +111,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       vantage::cycle_count(graph) != vantage::cycle_count(other_graph)) {
     std::abort();
   }
-  const std::vector<double> map = vantage::on_input_vertices(one.shape, one.shape.map.of_vertex);
+  const std::vector<double> map = vantage::on_input_vertices(one.shape, one.shape.significance);
   const std::vector<double> other_map =
-      vantage::on_input_vertices(other.shape, other.shape.map.of_vertex);
+      vantage::on_input_vertices(other.shape, other.shape.significance);
   const double largest = *std::max_element(map.begin(), map.end());
   const double other_largest = *std::max_element(other_map.begin(), other_map.end());
   for (std::size_t v = 0; v < map.size(); ++v) {

@@ -32,7 +32,7 @@ std::string view_with_threads(const vantage::Model& model, int threads) {
         vantage::find_views(shape, vantage::choose_frame(model, shape, options), options, run);
     const vantage::Image picture =
         vantage::draw_picture(shape, report.best.picture, vantage::Picture::Map, options, {}, run);
-    return bytes_of(shape.map.of_vertex) + bytes_of(shape.skeleton.graph.nodes) +
+    return bytes_of(shape.significance) + bytes_of(shape.skeleton.graph.nodes) +
            bytes_of(shape.skeleton.node_of_vertex) + bytes_of(picture.rgba) +
            vantage::view_json(model, shape, report, options);
   } catch (const vantage::InvalidInput& refusal) {

@@ -7,6 +7,7 @@
     measure_variants.py moved PROGRAM FILE...           any file, open and broken ones too: how each was contracted, the
                                                         correlation of its map with those of `moved` and `quartered`, and
                                                         the processor time of `map`; worst moved first
+    measure_variants.py thickness PROGRAM MODEL...      how much of each model's map is thickness: their correlation
 
 Variants: `moved` (every vertex by 10^-4 D, in a random direction), `quartered` (every triangle in four), `remeshed`
 (isotropically, as many vertices: Voronoi cells of geodesic distance on a finer copy, Valette and Chassery 2004),
@@ -311,6 +312,16 @@ def moved_file(ask, file, folder):
             ", ".join(f"{n} × {s}" if n > 1 else s for s, n in strategies.most_common(3)), report["contraction"])
 
 
+def thickness_table(program, *models):
+    rows = sorted((spearman(map_of(program, m)[1], map_of(program, m, "--method", "thickness")[1]), pathlib.Path(m).name)
+                  for m in models)
+    print("| model | map and thickness |\n| --- | --- |")
+    for same, name in rows:
+        print(f"| {name} | {same:.3f} |")
+    print(f"\n{len(rows)} models: median {numpy.median([r[0] for r in rows]):.3f}, at least {GOOD} on "
+          f"{sum(r[0] >= GOOD for r in rows)}, least {rows[0][0]:.3f}")
+
+
 def moved_table(program, *files):
     resource.setrlimit(resource.RLIMIT_AS, (FILE_BYTES, resource.getrlimit(resource.RLIMIT_AS)[1]))
     ask = functools.partial(run, "timeout", FILE_SECONDS, program)
@@ -334,6 +345,6 @@ def moved_table(program, *files):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 4 or sys.argv[1] not in ("make", "table", "moved"):
+    if len(sys.argv) < 4 or sys.argv[1] not in ("make", "table", "moved", "thickness"):
         sys.exit(__doc__)
-    {"make": make, "table": table, "moved": moved_table}[sys.argv[1]](*sys.argv[2:])
+    {"make": make, "table": table, "moved": moved_table, "thickness": thickness_table}[sys.argv[1]](*sys.argv[2:])

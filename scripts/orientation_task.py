@@ -48,7 +48,7 @@ def as_files_come(plain, names, of_front):
     aside = names.index("origin_aside")
     pictures = [i for i, name in enumerate(names) if "texture" in name]
     copies = []
-    for far in (0.0, 0.6 if of_front else 1.2):  # kFar of src/orientation/evidence.cpp
+    for far in (0.0, 0.6 if of_front else 1.2):  # kFar of src/orientation/measured_sides.h
         copy = plain.copy()
         copy[:, :, height], copy[:, :, aside] = 0.5, far
         if far == 0.0:

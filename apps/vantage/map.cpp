@@ -75,12 +75,12 @@ struct MapCommand {
       session.reading([&] { require_area(shape, model); });
     }
     const std::vector<double> field = name == "thickness"
-                                          ? shape.map.thickness()
+                                          ? shape.kssm.thickness()
                                           : vertex_map(shape, options, name, session.run());
     write_output(file, map_bytes(loaded, shape, field));
     if (!levels.empty()) {
       std::vector<std::string> files;
-      for (const std::vector<double>& displacement : shape.map.displacement) {
+      for (const std::vector<double>& displacement : shape.kssm.displacement) {
         files.push_back(map_bytes(loaded, shape, displacement));
       }
       write_levels(levels, std::move(files));
@@ -98,7 +98,7 @@ struct MapCommand {
                                            {"min", *low},
                                            {"max", *high},
                                            {"levels", shape.history.level_count()},
-                                           {"level_factors", shape.map.level_factor},
+                                           {"level_factors", shape.kssm.level_factor},
                                            {"warnings", shape.warnings}};
       write_output("-", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
       return;

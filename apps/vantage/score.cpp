@@ -103,7 +103,7 @@ struct ScoreCommand {
     if (!visible.empty()) {
       const VisibleSets sets = visible_sets(visibility, scorer.camera(), points,
                                             shape.surface.positions.size(), session.run());
-      write_output(visible, visible_table(sets, shape.map.of_vertex));
+      write_output(visible, visible_table(sets, shape.significance));
     }
     session.end_progress();
     write(session, measures, points, {scores});

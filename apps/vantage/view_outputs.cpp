@@ -135,7 +135,7 @@ void add_report(OutputFolder& output, const OutputKinds& kinds, const Model& loa
 void add_data(OutputFolder& output, const OutputKinds& kinds, const Model& loaded,
               const ShapeAnalysis& shape, const ViewReport& report, const std::string& file) {
   if (kinds.has("map")) {
-    const std::vector<double> map = on_input_vertices(shape, shape.map.of_vertex);
+    const std::vector<double> map = on_input_vertices(shape, shape.significance);
     output.add("map.ply", ply_bytes(loaded.mesh, map, colour_map(map), loaded.double_precision));
   }
   if (kinds.has("skeleton")) {

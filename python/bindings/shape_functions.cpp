@@ -128,12 +128,12 @@ py::dict kssm(const py::object& model, const py::object& F, bool levels, const p
   MapParts parts = released({progress, threads}, [&](const RunContext& run) {
     const auto analysis = subject.analysed(settings, with_map, run);
     const ShapeAnalysis& shape = analysis->shape;
-    return MapParts{.of_vertex = on_input_vertices(shape, shape.map.of_vertex),
-                    .thickness = on_input_vertices(shape, shape.map.thickness()),
-                    .level_factor = shape.map.level_factor,
-                    .displacement = levels ? stacked_levels(shape, shape.map.displacement)
+    return MapParts{.of_vertex = on_input_vertices(shape, shape.significance),
+                    .thickness = on_input_vertices(shape, shape.kssm.thickness()),
+                    .level_factor = shape.kssm.level_factor,
+                    .displacement = levels ? stacked_levels(shape, shape.kssm.displacement)
                                            : std::vector<double>{},
-                    .level_count = shape.map.displacement.size(),
+                    .level_count = shape.kssm.displacement.size(),
                     .warnings = shape.warnings};
   });
   py::dict result;
@@ -159,7 +159,7 @@ py::array map_of(const py::object& model, const py::object& F, const std::string
                                            run.part(0.0, by_skeleton ? 0.95 : 0.05));
     const ShapeAnalysis& shape = analysis->shape;
     return on_input_vertices(shape, method == "thickness"
-                                        ? shape.map.thickness()
+                                        ? shape.kssm.thickness()
                                         : vertex_map(shape, settings.view, method,
                                                      run.part(by_skeleton ? 0.95 : 0.05, 1.0)));
   }));

@@ -46,14 +46,14 @@ ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& v
                            const ViewOptions& options, const RunContext& run) {
   const auto visible = visibility.visible_vertices(camera.viewpoint(direction), run.quiet());
   double total = 0.0;
-  for (const double value : shape.map.of_vertex) {
+  for (const double value : shape.significance) {
     total += value;
   }
   ReportedView view;
   view.direction = direction;
   view.eye = camera.eye(direction);
   view.up = upright(direction, up_vector(up));
-  view.score = visible_sum(shape.map.of_vertex, visible);
+  view.score = visible_sum(shape.significance, visible);
   view.score_fraction = total > 0.0 ? view.score / total : 0.0;
   view.objective = view.score;
   view.visible_area_fraction = visible_area_fraction(

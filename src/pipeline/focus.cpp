@@ -110,11 +110,11 @@ const SceneObject& find_object(const std::vector<SceneObject>& objects, std::str
 }
 
 void focus_on(ShapeAnalysis& shape, const SceneObject& object) {
-  std::vector<double> kept(shape.map.of_vertex.size(), 0.0);
+  std::vector<double> kept(shape.significance.size(), 0.0);
   for (const std::uint32_t v : object.vertices) {
-    kept[v] = shape.map.of_vertex[v];
+    kept[v] = shape.significance[v];
   }
-  shape.map.of_vertex = std::move(kept);
+  shape.significance = std::move(kept);
 }
 
 }  // namespace vantage

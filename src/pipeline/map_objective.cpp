@@ -17,7 +17,7 @@ constexpr std::size_t kManyStarts = 16;  // of ascents where all scores are soon
 /// \param areas of the vertices.
 std::vector<double> vertex_shares(const ShapeAnalysis& shape, const std::vector<double>& areas,
                                   Weight weight) {
-  std::vector<double> shares = shape.map.of_vertex;
+  std::vector<double> shares = shape.significance;
   if (weight == Weight::Area) {
     const double whole = surface_area(shape.surface);
     for (std::size_t v = 0; v < shares.size(); ++v) {
@@ -54,9 +54,9 @@ MapScorer::MapScorer(const ShapeAnalysis& shape, const VertexVisibility& visibil
     : faces_(options.weight == Weight::Area
                  ? std::optional<FaceVisibility>(std::in_place, shape.surface, shape.sides)
                  : std::nullopt),
-      scorer_(faces_
-                  ? ViewScorer(*faces_, shape.map.of_vertex, scoring_camera(shape, options))
-                  : ViewScorer(visibility, shape.map.of_vertex, scoring_camera(shape, options))) {}
+      scorer_(faces_ ? ViewScorer(*faces_, shape.significance, scoring_camera(shape, options))
+                     : ViewScorer(visibility, shape.significance, scoring_camera(shape, options))) {
+}
 
 MapObjective::MapObjective(const ShapeAnalysis& shape, const ViewOptions& options,
                            const RunContext& run)

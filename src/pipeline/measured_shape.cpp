@@ -66,7 +66,7 @@ MeasureSubject measure_subject(const ShapeAnalysis& shape, const ViewOptions& op
   subject.sides = shape.sides;
   subject.camera = scoring_camera(shape, options);
   subject.weight = options.weight;
-  subject.kssm = shape.map.of_vertex;
+  subject.kssm = shape.significance;
   subject.saliency_options = options.saliency;
   subject.seen_by_set = seen_by_set(shape, subject.camera);
   if (!shape.skeleton.graph.nodes.empty()) {
@@ -79,7 +79,7 @@ MeasureSubject measure_subject(const ShapeAnalysis& shape, const ViewOptions& op
 std::vector<double> vertex_map(const ShapeAnalysis& shape, const ViewOptions& options,
                                std::string_view name, const RunContext& run) {
   if (name == "kssm") {
-    return shape.map.of_vertex;
+    return shape.significance;
   }
   if (name == "mesh-saliency") {
     return compute_mesh_saliency(shape.surface, options.saliency, run).of_vertex;

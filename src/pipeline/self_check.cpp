@@ -80,8 +80,8 @@ std::vector<double> shares_of_surface(const ShapeAnalysis& shape) {
 }
 
 std::vector<double> shares_of_significance(const ShapeAnalysis& shape) {
-  return component_shares(shape, shape.map.of_vertex.size(), [&](std::size_t v) {
-    return std::pair<std::size_t, double>(v, shape.map.of_vertex[v]);
+  return component_shares(shape, shape.significance.size(), [&](std::size_t v) {
+    return std::pair<std::size_t, double>(v, shape.significance[v]);
   });
 }
 
@@ -121,7 +121,7 @@ bool is_map_doubtful(const ShapeAnalysis& shape) {
            is_sheet(component.shrinkage);
   };
   return std::any_of(shape.history.components.begin(), shape.history.components.end(), is_odd) ||
-         2 * shape.map.levels_used.size() <= shape.history.level_count() ||
+         2 * shape.kssm.levels_used.size() <= shape.history.level_count() ||
          shape.check.non_manifold_edges + shape.check.inconsistent_edges > 0;
 }
 
@@ -214,11 +214,11 @@ double map_agreement_when_moved(const ShapeAnalysis& shape, const ViewOptions& o
   std::vector<double> there;
   for (std::size_t v = 0; v < shape.surface.positions.size(); ++v) {
     const std::uint32_t at = is_small ? static_cast<std::uint32_t>(v) : proxy.of_vertex[v];
-    const bool is_focused = options.focus.empty() || shape.map.of_vertex[v] > 0.0;
+    const bool is_focused = options.focus.empty() || shape.significance[v] > 0.0;
     if (shape.history.component_of_vertex[v] != ContractionHistory::kIsolated &&
         at != CoarseSurface::kNone && is_focused) {
-      here.push_back(shape.map.of_vertex[v]);
-      there.push_back(moved.map.of_vertex[at]);
+      here.push_back(shape.significance[v]);
+      there.push_back(moved.significance[at]);
     }
   }
   const double agreement = spearman(here, there);

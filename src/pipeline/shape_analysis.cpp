@@ -53,14 +53,15 @@ void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext&
   const Skeleton& skeleton = shape.skeleton;
   KssmOptions kssm = options.kssm;
   kssm.area_weighted_mean |= options.weight == Weight::Area;
-  shape.map = options.kssm_to_finished_graph
-                  ? compute_kssm(shape.surface, shape.history, skeleton.graph, kssm, run)
-                  : compute_kssm(shape.surface, shape.history, skeleton.curve, kssm, run,
-                                 skeleton.other_curve);
+  shape.kssm = options.kssm_to_finished_graph
+                   ? compute_kssm(shape.surface, shape.history, skeleton.graph, kssm, run)
+                   : compute_kssm(shape.surface, shape.history, skeleton.curve, kssm, run,
+                                  skeleton.other_curve);
+  shape.significance = shape.kssm.of_vertex;
   if (options.method == "mesh-saliency") {
-    shape.map.of_vertex = compute_mesh_saliency(shape.surface, options.saliency, run).of_vertex;
+    shape.significance = compute_mesh_saliency(shape.surface, options.saliency, run).of_vertex;
   } else if (options.method == "pmi-saliency" && surface_area(shape.surface) > 0.0) {
-    shape.map.of_vertex = vertex_map(shape, options, options.method, run);
+    shape.significance = vertex_map(shape, options, options.method, run);
   }
 }
 

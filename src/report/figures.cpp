@@ -133,7 +133,7 @@ class Panels {
 
 /// The same shape with another map.
 ShapeAnalysis with_map(ShapeAnalysis shape, std::vector<double> map) {
-  shape.map.of_vertex = std::move(map);
+  shape.significance = std::move(map);
   return shape;
 }
 
@@ -173,7 +173,7 @@ SaliencyView saliency_view(const ShapeAnalysis& shape, const ViewReport& report,
   SaliencyView result{vertex_map(shape, options, method, run.part(0.0, 0.3)), {}, {}};
   result.shape = with_map(shape, result.map);
   result.report = find_views(result.shape, {report.up, report.front}, other, run.part(0.3, 1.0));
-  clip_for_colours(result.shape.map.of_vertex);
+  clip_for_colours(result.shape.significance);
   return result;
 }
 
@@ -198,10 +198,10 @@ std::vector<Figure> sequences(const ShapeAnalysis& shape, const Panels& best, co
     const std::string level = "level " + std::to_string(levels[i]);
     contraction.push_back(with_caption(best.level(levels[i], {}), level));
     displacement.push_back(
-        with_caption(best.level(levels[i], shape.map.displacement[levels[i]]), level));
-    std::vector<double> summand = level_summand(shape.surface, shape.map, levels[i], kinematics);
+        with_caption(best.level(levels[i], shape.kssm.displacement[levels[i]]), level));
+    std::vector<double> summand = level_summand(shape.surface, shape.kssm, levels[i], kinematics);
     for (std::size_t v = 0; v < summand.size(); ++v) {
-      summand[v] = shape.map.of_vertex[v] > 0.0 ? summand[v] : 0.0;  // what is out of focus is 0
+      summand[v] = shape.significance[v] > 0.0 ? summand[v] : 0.0;  // what is out of focus is 0
     }
     shares.push_back(with_caption(best.field(summand), level));
   }
@@ -223,9 +223,9 @@ Figure sphere_figure(const ShapeAnalysis& shape, const SaliencyView* saliency,
         sphere_panel(shape, values, shown, report.best.direction, report.up, options, look, run),
         std::string(name) + " seen from each direction");
   };
-  std::vector<Image> panels{panel(shape.map.of_vertex, shape.map.of_vertex, "KSSM")};
+  std::vector<Image> panels{panel(shape.significance, shape.significance, "KSSM")};
   if (saliency != nullptr) {
-    panels.push_back(panel(saliency->map, saliency->shape.map.of_vertex, "mesh saliency"));
+    panels.push_back(panel(saliency->map, saliency->shape.significance, "mesh saliency"));
   }
   return {"figure-6-spheres", side_by_side(panels), {}};
 }
@@ -233,7 +233,7 @@ Figure sphere_figure(const ShapeAnalysis& shape, const SaliencyView* saliency,
 Figure rapid_figure(const ShapeAnalysis& shape, const ViewReport& report,
                     const ViewOptions& options, const RunContext& run) {
   const std::shared_ptr<const VertexVisibility> visibility = visibility_of(shape, 200);
-  const ViewScorer scorer(*visibility, shape.map.of_vertex, report.camera);
+  const ViewScorer scorer(*visibility, shape.significance, report.camera);
   RunContext quiet = run;
   quiet.report = nullptr;
   const ScoreBatch score = [&](const std::vector<Vec3>& directions) {

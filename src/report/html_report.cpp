@@ -65,14 +65,14 @@ std::string packed_significance(const std::vector<double>& map,
 Json surface_part(const DisplayMesh& display, const ShapeAnalysis& shape) {
   return {{"faces", display.triangles.size()},
           {"indices", base64_of(display.triangles)},
-          {"significance", packed_significance(shape.map.of_vertex, display.vertex_of_row)}};
+          {"significance", packed_significance(shape.significance, display.vertex_of_row)}};
 }
 
 /// The surface, and what of it is contracted.
 void add_surfaces(Json& data, const ShapeAnalysis& shape, const PageFrame& frame,
                   const RunContext& run) {
   const std::vector<DisplayMesh> displays = display_meshes(
-      shape.surface, shape.map.of_vertex, shape.sides,
+      shape.surface, shape.significance, shape.sides,
       {{{kDisplayFaces, 2 * kDisplayFaces}, {kDisplayFaces, kHistoryVertices}}}, run);
   data["mesh"] = surface_part(displays[0], shape);
   data["mesh"]["positions"] =

@@ -55,7 +55,7 @@ class Canvas {
     look.width = options.width;
     look.height = options.height;
     if (picture == Picture::Map) {
-      values_ = shape.map.of_vertex;
+      values_ = shape.significance;
     } else if (picture == Picture::Skeleton) {
       overlay_.graph = &shape.skeleton.graph;
       overlay_.radius = kTubeRadius * shape.sphere.diameter;

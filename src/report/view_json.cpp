@@ -221,7 +221,7 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
                       {"edges", shape.skeleton.graph.edges.size()},
                       {"components", component_count(shape.skeleton.graph)},
                       {"cycles", cycle_count(shape.skeleton.graph)}};
-  json["contraction"] = contraction_of(shape.history, shape.map);
+  json["contraction"] = contraction_of(shape.history, shape.kssm);
   std::vector<std::string> warnings = model.notes;
   warnings.insert(warnings.end(), shape.warnings.begin(), shape.warnings.end());
   warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());

@@ -57,7 +57,9 @@ struct ShapeAnalysis {
   Sphere sphere{};                              ///< Smallest around all referenced vertices.
   ContractionHistory history{};                 ///< Filled by add_history().
   Skeleton skeleton{};                          ///< Filled by add_skeleton().
-  KssmMap map{};                                ///< Filled by add_map().
+  KssmMap kssm{};                               ///< Filled by add_map().
+  /// |V| values ≥ 0 that scores add up, filled by add_map(): KSSM, or another map by options.method.
+  std::vector<double> significance{};
   std::vector<std::string> warnings{};   ///< Every repair and uncertainty, one sentence each.
   std::optional<CloudAnalysis> cloud{};  ///< Set if the model has no faces.
   /// Of `surface`, filled by analyse_shape() for views. Where it is missing, what looks for views
@@ -75,8 +77,8 @@ ShapeAnalysis prepare_surface(const Model& model, const RunContext& run = {});
 void add_history(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
 /// Adds the skeleton. \pre history is there. \throw Cancelled
 void add_skeleton(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
-/// Adds the significance map. By the methods mesh-saliency and pmi-saliency `map.of_vertex` is theirs
-/// afterwards; the rest of `map` is KSSM's all the same. \pre skeleton is there. \throw Cancelled
+/// Adds KSSM, and as significance the map that options.method sums: KSSM itself, unless it is
+/// mesh-saliency or pmi-saliency. \pre skeleton is there. \throw Cancelled
 void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
 
 /// What an analysis is made for.
@@ -118,8 +120,8 @@ std::vector<SceneObject> list_objects(const Model& model, const ShapeAnalysis& s
 /// \throw InvalidInput that says what there is if there is none such.
 const SceneObject& find_object(const std::vector<SceneObject>& objects, std::string_view focus);
 
-/// Sets the significance of everything but the object to 0, and thereby what `total` refers to. A
-/// vertex that two objects share belongs to both. \pre the map is there.
+/// Sets the significance of everything but the object to 0, and thereby what `total` refers to; KSSM
+/// stays. A vertex that two objects share belongs to both. \pre the map is there.
 void focus_on(ShapeAnalysis& shape, const SceneObject& object);
 
 }  // namespace vantage

@@ -47,7 +47,7 @@ const ShapeAnalysis& analysed_box() {
 }
 
 ShapeAnalysis without_significance(ShapeAnalysis shape) {
-  shape.map.of_vertex.assign(shape.map.of_vertex.size(), 0.0);
+  shape.significance.assign(shape.significance.size(), 0.0);
   return shape;
 }
 
@@ -75,7 +75,7 @@ TEST_F(ReportOfAY, ScoresAreSumsOverTheVisibleVertices) {
     const auto visible = visibility.visible_vertices(report_.camera.viewpoint(view->direction));
     double sum = 0.0;
     for (std::size_t v = 0; v < visible.size(); ++v) {
-      sum += visible[v] != 0 ? shape_.map.of_vertex[v] : 0.0;
+      sum += visible[v] != 0 ? shape_.significance[v] : 0.0;
     }
     EXPECT_EQ(view->score, sum);
     EXPECT_EQ(view->objective, sum);
@@ -124,7 +124,7 @@ TEST_F(ReportOfAY, SearchesOfPapersKnowNothingButTheScore) {
 
 TEST_F(ReportOfAY, TotalIsTheSumOfTheMap) {
   EXPECT_EQ(report_.total,
-            std::accumulate(shape_.map.of_vertex.begin(), shape_.map.of_vertex.end(), 0.0));
+            std::accumulate(shape_.significance.begin(), shape_.significance.end(), 0.0));
 }
 
 TEST_F(ReportOfAY, NoDirectionOfTheSetBeatsTheBestOrUndercutsTheWorst) {

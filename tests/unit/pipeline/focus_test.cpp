@@ -104,7 +104,7 @@ TEST(FindObject, SaysWhatThereIs) {
 TEST(FocusOn, LeavesTheSignificanceOfTheObjectAlone) {
   const ShapeAnalysis all = analyse_shape(named_boxes(), {});
   for (std::size_t v = 0; v < 16; ++v) {
-    EXPECT_EQ(right_box().map.of_vertex[v], v < 8 ? 0.0 : all.map.of_vertex[v]) << v;
+    EXPECT_EQ(right_box().significance[v], v < 8 ? 0.0 : all.significance[v]) << v;
   }
 }
 
@@ -113,7 +113,7 @@ TEST(FocusOn, TheBestViewIsNotBlockedByTheOtherBox) {
   const ShapeAnalysis& shape = right_box();
   const ViewOptions options = focus_on("right");
   const VertexVisibility visibility(shape.surface, shape.sides);
-  const ViewScorer scorer(visibility, shape.map.of_vertex, scoring_camera(shape, options));
+  const ViewScorer scorer(visibility, shape.significance, scoring_camera(shape, options));
   EXPECT_LT(scorer.score(-Vec3::UnitX()), scorer.score(Vec3::UnitX()));
   const ViewReport report = find_views(shape, UpAxis::Y, options);
   EXPECT_GE(report.best.score, scorer.score(Vec3::UnitX()));
@@ -127,9 +127,9 @@ TEST(FocusOn, AnEyeBetweenTwoBoxesSeesTheSidesThatFaceIt) {
     double facing = 0.0;
     for (std::size_t v = 0; v < 16; ++v) {
       const double x = shape.surface.positions[v].x();
-      facing += x == 1.0 || x == 5.0 ? shape.map.of_vertex[v] : 0.0;
+      facing += x == 1.0 || x == 5.0 ? shape.significance[v] : 0.0;
     }
-    EXPECT_EQ(visible_sum(shape.map.of_vertex, visible), facing);
+    EXPECT_EQ(visible_sum(shape.significance, visible), facing);
   }
 }
 

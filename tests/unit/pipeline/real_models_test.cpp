@@ -56,12 +56,12 @@ TEST_P(RealPlate, HasItsMapInAnyOrderOfVertices) {
     Model other = model;
     other.mesh = renumbered(model.mesh, seed, &old_of_new);
     const ShapeAnalysis again = analyse_shape(other, {});
-    const std::vector<double> found = on_input_vertices(again, again.map.of_vertex);
+    const std::vector<double> found = on_input_vertices(again, again.significance);
     std::vector<double> back(found.size());
     for (std::size_t v = 0; v < found.size(); ++v) {
       back[old_of_new[v]] = found[v];
     }
-    EXPECT_GT(spearman(on_input_vertices(shape, shape.map.of_vertex), back), 0.99) << seed;
+    EXPECT_GT(spearman(on_input_vertices(shape, shape.significance), back), 0.99) << seed;
   }
 }
 

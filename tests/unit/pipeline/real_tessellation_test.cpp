@@ -59,7 +59,7 @@ class Splitter {
     if (middle_of_edge_.try_emplace(std::minmax(a, b), fresh).second) {
       split_.surface.positions.emplace_back(
           0.5 * (shape_.surface.positions[a] + shape_.surface.positions[b]));
-      split_.map.of_vertex.push_back(0.5 * (shape_.map.of_vertex[a] + shape_.map.of_vertex[b]));
+      split_.significance.push_back(0.5 * (shape_.significance[a] + shape_.significance[b]));
       split_.history.component_of_vertex.push_back(shape_.history.component_of_vertex[a]);
     }
   }
@@ -116,7 +116,7 @@ class SplitModel : public DataPackTest<testing::TestWithParam<const char*>> {
     whole = find_views(shape, UpAxis::Y, options);
     half = find_views(splitter.result(), UpAxis::Y, options);
     const FaceVisibility faces(splitter.result().surface, splitter.result().sides);
-    const ViewScorer scorer(faces, splitter.result().map.of_vertex, half.camera);
+    const ViewScorer scorer(faces, splitter.result().significance, half.camera);
     there = scorer.score(whole.best.direction);
   }
 

@@ -46,9 +46,9 @@ TEST(AnalyseShape, IsTheSameWithAVertexOfNoFace) {
     TriMesh with_stray = mesh;
     with_stray.positions.emplace_back(far, -far, 0.0);
     const ShapeAnalysis other = analyse_shape(model_of(with_stray), {});
-    std::vector<double> expected = alone.map.of_vertex;
+    std::vector<double> expected = alone.significance;
     expected.push_back(0.0);
-    EXPECT_EQ(other.map.of_vertex, expected) << far;
+    EXPECT_EQ(other.significance, expected) << far;
     EXPECT_EQ(other.skeleton.graph.nodes, alone.skeleton.graph.nodes) << far;
   }
 }
@@ -102,7 +102,7 @@ TEST(AnalyseShape, CountsAllLevelsWhereThereIsNoSecondCurve) {
   const Model model = model_of(y_of_tubes(0.2, 24));
   const auto used = [&](const ViewOptions& options) {
     const ShapeAnalysis shape = analyse_shape(model, options);
-    return std::pair(shape.map.levels_used.size(), shape.history.levels.size());
+    return std::pair(shape.kssm.levels_used.size(), shape.history.levels.size());
   };
   const auto [some, all] = used({.kssm = {.level_agreement = 0.9999}});
   EXPECT_LT(some, all);
@@ -118,7 +118,7 @@ TEST(AnalyseShape, GivesEveryInputVertexItsValueAndNode) {
   TriMesh mesh = soup(torus(1.0, 0.3, 24, 12));
   mesh.positions.emplace_back(0.0, 0.0, 0.0);  // belongs to no face
   const ShapeAnalysis shape = analyse_shape(model_of(mesh), {});
-  const std::vector<double> map = on_input_vertices(shape, shape.map.of_vertex);
+  const std::vector<double> map = on_input_vertices(shape, shape.significance);
   const std::vector<std::int64_t> nodes = nodes_of_input_vertices(shape);
   ASSERT_EQ(map.size(), mesh.positions.size());
   ASSERT_EQ(nodes.size(), mesh.positions.size());
