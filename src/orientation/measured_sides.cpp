@@ -23,8 +23,9 @@ double MeasuredSides::difference(AxisDirection up, AxisDirection front, AxisDire
   if (front == other) {
     return 0.0;
   }
+  // What looks the same after a quarter of a turn does so after two.
   return front.axis == other.axis ? std::min(half_turn[up.axis], mirror[front.axis])
-                                  : quarter_turn[up.axis];
+                                  : std::max(quarter_turn[up.axis], half_turn[up.axis]);
 }
 
 }  // namespace vantage

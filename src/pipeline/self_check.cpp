@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "vantage/mesh/curve_graph.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/measured_shape.h"
 
@@ -28,6 +29,10 @@ constexpr double kMostOutside = 0.02;
 constexpr double kLeastAgreement = 0.85;
 /// How far vertices are moved, of the diameter. [ours]
 constexpr double kMoved = 1e-4;
+/// A cloud's graph of more cycles than this, and of more than one for so many nodes, is a tangle: loops
+/// that the points do not have. [ours; docs/lab]
+constexpr std::size_t kMostCycles = 8;
+constexpr std::size_t kNodesOfACycle = 4;
 /// Vertices looked at again for each view, about. [ours]
 constexpr std::size_t kAskedAgain = 4096;
 
@@ -147,6 +152,15 @@ void look_at_skeleton(const ShapeAnalysis& shape, std::vector<std::string>& doub
     doubts.push_back(in_percent(shape.skeleton.outside_share) +
                      " of the skeleton's length is outside the surface, so do not measure by it: "
                      "look at best-skeleton.png, and close or separate walls that touch");
+  }
+  const std::size_t nodes = shape.skeleton.graph.nodes.size();
+  const std::size_t cycles = cycle_count(shape.skeleton.graph);
+  if (shape.cloud && cycles > kMostCycles && kNodesOfACycle * cycles > nodes) {
+    doubts.push_back(
+        "the skeleton of the points is a tangle of " + std::to_string(cycles) + " cycles at " +
+        std::to_string(nodes) +
+        " nodes, so that map, skeleton and views are hardly more than a guess: thin the "
+        "points out evenly, or mesh them");
   }
 }
 

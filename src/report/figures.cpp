@@ -35,8 +35,6 @@ constexpr std::size_t kMostLevels = 6;
 /// Contracted surfaces are drawn thicker by this share of D on all sides, lest limbs that have become
 /// lines vanish between the samples. [ours]
 constexpr double kThickening = 0.004;
-/// Radius of the points of a cloud over D. [ours]
-constexpr double kPointRadius = 0.005;
 constexpr Rgb8 kPaper{255, 255, 255};
 constexpr std::array kPlain{Picture::Plain};
 

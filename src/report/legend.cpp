@@ -19,24 +19,58 @@ namespace {
 // Smaller pictures have none: its letters could not be read, or it would cover the model. [ours]
 constexpr int kLeastWidth = 280;        // px
 constexpr int kLeastHeight = 200;       // px
-constexpr double kLetterShare = 0.016;  // capitals, of the picture's height [ours]
+constexpr double kLetterShare = 0.016;  // capitals, of the picture's shorter side [ours]
 constexpr double kLeastLetters = 7.0;   // px
 constexpr double kBarLetters = 11.0;    // length of the bar in heights of a capital [ours]
 /// Reads on white and on black pages.
 constexpr Rgb8 kLegendInk{118, 120, 126};
+/// Behind the legend where no corner is free.
+constexpr Rgb8 kPlate{255, 255, 255};
+constexpr double kPlateAlpha = 0.85;
+constexpr Rgb8 kInkOnPlate{60, 62, 68};
 
 /// A picture of ink with straight alpha.
 struct Stamp {
   int width = 0;
   int height = 0;
   std::vector<std::array<double, 4>> pixels{};  // red, green, blue, alpha, each in [0, 1]
+
+  [[nodiscard]] const std::array<double, 4>& at(int x, int y) const {
+    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(x)];
+  }
 };
 
 std::array<double, 4> ink_of(const Rgb8& colour, double alpha) {
   return {colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0, alpha};
 }
 
-Stamp legend_stamp(double letters) {
+/// A stamp with a plate behind it, `border` px wider all around.
+Stamp on_plate(const Stamp& stamp, int border) {
+  Stamp result;
+  result.width = stamp.width + 2 * border;
+  result.height = stamp.height + 2 * border;
+  result.pixels.assign(
+      static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height),
+      ink_of(kPlate, kPlateAlpha));
+  for (int y = 0; y < stamp.height; ++y) {
+    for (int x = 0; x < stamp.width; ++x) {
+      const auto& over = stamp.at(x, y);
+      auto& under = result.pixels[static_cast<std::size_t>(y + border) *
+                                      static_cast<std::size_t>(result.width) +
+                                  static_cast<std::size_t>(x + border)];
+      const double below = under[3] * (1.0 - over[3]);
+      const double alpha = over[3] + below;
+      for (std::size_t c = 0; c < 3; ++c) {
+        under[c] = (over[c] * over[3] + under[c] * below) / alpha;
+      }
+      under[3] = alpha;
+    }
+  }
+  return result;
+}
+
+Stamp legend_stamp(double letters, const Rgb8& ink) {
   constexpr std::string_view kLow = "low";
   constexpr std::string_view kHigh = "high";
   const double gap = 0.7 * letters;
@@ -59,7 +93,7 @@ Stamp legend_stamp(double letters) {
       const double along = (x + 0.5 - bar_left) / bar;
       const bool is_bar = along > 0.0 && along < 1.0 && y >= top && y <= bottom;
       const double covered = 1.0 - letterforms.pixel(x, y)[0] / 255.0;
-      stamp.pixels.push_back(is_bar ? ink_of(cool_warm(along), 1.0) : ink_of(kLegendInk, covered));
+      stamp.pixels.push_back(is_bar ? ink_of(cool_warm(along), 1.0) : ink_of(ink, covered));
     }
   }
   return stamp;
@@ -96,9 +130,7 @@ struct Corner {
     constexpr double kFull = std::numeric_limits<Value>::max();
     for (int y = 0; y < stamp.height; ++y) {
       for (int x = 0; x < stamp.width; ++x) {
-        const auto& over =
-            stamp.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(stamp.width) +
-                         static_cast<std::size_t>(x)];
+        const auto& over = stamp.at(x, y);
         auto* const under = pixel(left + x, top + y);
         const double below = under[3] / kFull * (1.0 - over[3]);
         const double alpha = over[3] + below;
@@ -117,8 +149,9 @@ void draw(Picture& picture) {
   if (picture.width < kLeastWidth || picture.height < kLeastHeight) {
     return;
   }
-  const double letters = std::max(kLeastLetters, std::round(kLetterShare * picture.height));
-  const Stamp stamp = legend_stamp(letters);
+  const double letters =
+      std::max(kLeastLetters, std::round(kLetterShare * std::min(picture.width, picture.height)));
+  const Stamp stamp = legend_stamp(letters, kLegendInk);
   const int margin = static_cast<int>(std::round(1.5 * letters));
   const int right = picture.width - margin - stamp.width;
   const int bottom = picture.height - margin - stamp.height;
@@ -129,9 +162,16 @@ void draw(Picture& picture) {
                                                 {&picture, margin, bottom},
                                                 {&picture, right, margin},
                                                 {&picture, margin, margin}}};
-  std::min_element(corners.begin(), corners.end(), [&](const auto& a, const auto& b) {
-    return a.covered(stamp) < b.covered(stamp);
-  })->put(stamp);
+  const auto& emptiest = *std::min_element(
+      corners.begin(), corners.end(),
+      [&](const auto& a, const auto& b) { return a.covered(stamp) < b.covered(stamp); });
+  if (emptiest.covered(stamp) == 0) {
+    emptiest.put(stamp);
+    return;
+  }
+  const int border = margin / 2;
+  const Corner<Picture> wider{&picture, emptiest.left - border, emptiest.top - border};
+  wider.put(on_plate(legend_stamp(letters, kInkOnPlate), border));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "vantage/report/view_report.h"
 
 #include "core/parallel.h"
+#include "report/cloud_picture.h"
 #include "report/legend.h"
 #include "report/smaller_picture.h"
 
@@ -33,8 +34,9 @@ bool has_aspect_of(const Image& image, int width, int height) {
   return 2 * std::abs(off) <= std::int64_t{image.width} + image.height;
 }
 
-/// The colours of a cloud's points on the surface that joins them; none if it has none.
-std::vector<Rgb8> colours_of_points(const ShapeAnalysis& shape, const Model& cloud) {
+/// The colours of a cloud's points on what shows them; none if it has none.
+std::vector<Rgb8> colours_of_points(const ShapeAnalysis& shape, const CloudPicture* picture,
+                                    const Model& cloud) {
   if (cloud.vertex_colours.empty()) {
     return {};
   }
@@ -42,20 +44,24 @@ std::vector<Rgb8> colours_of_points(const ShapeAnalysis& shape, const Model& clo
   for (std::size_t v = cloud.vertex_colours.size(); v-- > 0;) {  // of points at one place the first
     colours[shape.surface_vertex[v]] = cloud.vertex_colours[v];
   }
-  return colours;
+  return picture != nullptr ? picture->spread(std::span<const Rgb8>(colours)) : colours;
 }
 
 /// What a picture shows, and in which colours.
 class Canvas {
  public:
-  /// Sets the size of `look`.
-  Canvas(const ShapeAnalysis& shape, Picture picture, const ViewOptions& options,
-         RenderOptions& look, const Model* asset)
-      : mesh_(&shape.surface) {
+  /// Sets the size of `look`. \param cloud cloud_picture() of the shape, which must outlive this.
+  Canvas(const ShapeAnalysis& shape, const CloudPicture* cloud, Picture picture,
+         const ViewOptions& options, RenderOptions& look, const Model* asset)
+      : mesh_(cloud != nullptr ? &cloud->mesh : &shape.surface) {
     look.width = options.width;
     look.height = options.height;
     if (picture == Picture::Map) {
       values_ = shape.significance;
+      if (cloud != nullptr) {
+        spread_ = cloud->spread(values_);
+        values_ = spread_;
+      }
     } else if (picture == Picture::Skeleton) {
       overlay_.graph = &shape.skeleton.graph;
       overlay_.radius = kTubeRadius * shape.sphere.diameter;
@@ -65,7 +71,7 @@ class Canvas {
       colours_ = asset->vertex_colours;
       appearance_ = &asset->appearance;
     } else if (asset != nullptr) {
-      colours_ = colours_of_points(shape, *asset);
+      colours_ = colours_of_points(shape, cloud, *asset);
     }
   }
 
@@ -82,6 +88,7 @@ class Canvas {
   const TriMesh* mesh_;
   std::vector<Rgb8> colours_{};
   std::span<const double> values_{};
+  std::vector<double> spread_{};  // what they look into, if not the shape's own
   TubeOverlay overlay_{};
   const Appearance* appearance_ = nullptr;
 };
@@ -106,19 +113,20 @@ PictureLook PictureLook::on(const Rgb8& background) const {
 }
 
 ShapePictures::ShapePictures(const ShapeAnalysis& shape, const PictureLook& look)
-    : shape_(&shape), look_(look) {
+    : shape_(&shape), look_(look), cloud_(cloud_picture(shape)) {
   const Model* asset = look.asset;
   const bool is_plain = asset == nullptr || asset->mesh.triangles.empty() ||
                         (asset->vertex_colours.empty() && asset->appearance.materials.empty());
   look_.asset = is_plain ? nullptr : asset;
   if (asset != nullptr && asset->mesh.triangles.empty()) {
-    point_colours_ = colours_of_points(shape, *asset);
+    point_colours_ = colours_of_points(shape, cloud_.get(), *asset);
   }
 }
 
 const PictureSurface& ShapePictures::surface(const RunContext& run) {
   if (!surface_) {
-    surface_.emplace(shape_->surface, nullptr, look_.render.crease_deg, run);
+    surface_.emplace(cloud_ ? cloud_->mesh : shape_->surface, nullptr, look_.render.crease_deg,
+                     run);
   }
   return *surface_;
 }
@@ -147,7 +155,7 @@ std::vector<Image> ShapePictures::take(const Camera& camera, std::span<const Pic
   canvases.reserve(pictures.size());  // paints look into them
   for (const Picture picture : pictures) {
     if (picture != Picture::Plain || look_.asset == nullptr) {
-      canvases.emplace_back(*shape_, picture, options, look, nullptr);
+      canvases.emplace_back(*shape_, cloud_.get(), picture, options, look, nullptr);
       paints.push_back(canvases.back().paint());
       if (picture == Picture::Plain) {
         paints.back().vertex_colours = point_colours_;
@@ -221,7 +229,8 @@ std::vector<std::string> png_files(std::span<const Image> images, const RunConte
 Image draw_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
                    const ViewOptions& options, RenderOptions look, const RunContext& run,
                    const Model* asset) {
-  const Canvas canvas(shape, picture, options, look, asset);
+  const std::shared_ptr<const CloudPicture> cloud = cloud_picture(shape);
+  const Canvas canvas(shape, cloud.get(), picture, options, look, asset);
   Image image = render_painted(canvas.mesh(), camera, canvas.paint(), look, run);
   if (picture == Picture::Map) {
     draw_legend(image);
@@ -232,7 +241,8 @@ Image draw_picture(const ShapeAnalysis& shape, const Camera& camera, Picture pic
 DeepImage draw_picture_deep(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
                             const ViewOptions& options, RenderOptions look, const RunContext& run,
                             const Model* asset) {
-  const Canvas canvas(shape, picture, options, look, asset);
+  const std::shared_ptr<const CloudPicture> cloud = cloud_picture(shape);
+  const Canvas canvas(shape, cloud.get(), picture, options, look, asset);
   DeepImage image = render_deep(canvas.mesh(), camera, canvas.paint(), look, run);
   if (picture == Picture::Map) {
     draw_legend(image);

@@ -15,6 +15,9 @@ namespace vantage {
 /// At most this many points are shown; of more, one in every so many. [ours]
 inline constexpr std::size_t kMostBalls = 20'000;
 
+/// Radius of a point in pictures, over D.
+inline constexpr double kPointRadius = 0.005;
+
 /// Octahedra around points.
 struct PointBalls {
   TriMesh mesh{};

@@ -124,7 +124,8 @@ Candidate highest_near(Candidate best, AscentRules rules, double spacing_rad,
                        const SearchTarget& target, const RunContext& run) {
   const auto is_smooth = [&] { return best.spread > 0.0 && best.spread < rules.flat; };
   rules.first_rad = 0.5 * spacing_rad;
-  for (double gain = rules.flat; gain >= rules.flat && !is_smooth() && spacing_rad <= kNearRad;) {
+  double gain = std::numeric_limits<double>::infinity();
+  while (gain > 0.0 && gain >= rules.flat && !is_smooth() && spacing_rad <= kNearRad) {
     const std::vector<Vec3> around = directions_around(best.direction, kNearRad, spacing_rad);
     const Candidate end =
         ascended(largest_apart(valued(around, target), kAscendAgain, 1.5 * spacing_rad), rules,

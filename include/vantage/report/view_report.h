@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -90,8 +91,9 @@ class ShapePictures {
   const PictureSurface& asset_surface(const RunContext& run);
 
   const ShapeAnalysis* shape_;
-  PictureLook look_{};                 // without an asset that has no look of its own
-  std::vector<Rgb8> point_colours_{};  // of the shape's vertices, of a coloured cloud
+  PictureLook look_{};  // without an asset that has no look of its own
+  std::shared_ptr<const struct CloudPicture> cloud_{};  // in place of a cloud's surface
+  std::vector<Rgb8> point_colours_{};                   // of its vertices, if it has any
   std::optional<PictureSurface> surface_{};
   std::vector<std::pair<Camera, Image>> plain_{};  ///< What take() took, for take_small().
   std::optional<PictureSurface> asset_surface_{};  // the file's own faces, with their materials

@@ -132,6 +132,16 @@ TEST(Orientation, OfWhatLooksTheSameFromAllSidesIsTheFormats) {
   EXPECT_EQ(of_cube.front.source, "format");
 }
 
+/// A square seat, y up, with a back along −z that is so thin that a quarter of a turn changes little.
+TEST(Orientation, OfASquareSeatWithAThinBackIsNotItsSide) {
+  TriMesh seat = box(1.0, 0.1, 1.0, 1);
+  seat = together(seat, box(1.0, 1.0, 0.1, 1), {0.0, 0.1, 0.0});
+  const Orientation found = OrientationEvidence(seat).find({});
+  EXPECT_EQ(found.up.direction, Vec3::UnitY());
+  EXPECT_EQ(found.front.direction, Vec3::UnitZ());
+  EXPECT_GT(found.front.confidence, 0.5);
+}
+
 TEST(Orientation, OfSidesThatLookAlikeHasTheOddsInTheOneThatIsCalledTheFront) {
   // Front and back of the bar look alike, and so do its ends; views weigh what is said of the front.
   const Orientation bar = OrientationEvidence(box(3.0, 1.0, 0.5, 4))

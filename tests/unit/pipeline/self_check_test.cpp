@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/self_check.h"
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -48,6 +51,37 @@ TEST(DoubtsAbout, PartsThatDidNotBecomeCurvesHangOnHowLargeTheyAre) {
   EXPECT_NE(doubts[0].find("(43 % of it is left, in parts that hold 86 % of it and "),
             std::string::npos)
       << doubts[0];
+}
+
+TEST(DoubtsAbout, TangledSkeletonsAreThoseOfCloudsWithManyCyclesForTheirNodes) {
+  ViewOptions options;
+  options.search = {.strategy = SearchStrategy::Exhaustive, .subdivisions = 1};
+  ShapeAnalysis shape = analyse_shape(model_of(sphere(3)), options);
+  shape.views.reset();
+  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  // A chain of squares: each adds three edges and two nodes, and so a cycle.
+  CurveGraph& graph = shape.skeleton.graph;
+  graph = {.nodes = {Vec3::Zero(), Vec3::UnitX()}, .edges = {{0, 1}}};
+  const auto is_doubted = [&] {
+    const std::vector<std::string> doubts = doubts_about(shape, report, options, {});
+    return std::any_of(doubts.begin(), doubts.end(),
+                       [](const std::string& d) { return d.find("tangle") != std::string::npos; });
+  };
+  shape.cloud.emplace();
+  for (std::uint32_t squares = 1; squares <= 9; ++squares) {
+    const std::uint32_t last = 2 * squares;
+    graph.nodes.insert(graph.nodes.end(), 2, Vec3::Zero());
+    for (const std::array<std::uint32_t, 2>& edge :
+         {std::array{last - 2, last}, std::array{last - 1, last + 1}, std::array{last, last + 1}}) {
+      graph.edges.push_back(edge);
+    }
+    EXPECT_EQ(is_doubted(), squares > 8) << squares;
+  }
+  graph.nodes.resize(60, Vec3::Zero());  // nine cycles are what a larger graph may have
+  EXPECT_FALSE(is_doubted());
+  graph.nodes.resize(20);
+  shape.cloud.reset();  // of a surface they are its handles
+  EXPECT_FALSE(is_doubted());
 }
 
 }  // namespace

@@ -129,6 +129,16 @@ TEST(GlobalSearchBySurrogate, ReportsExactScoresAndNoDirectionTwice) {
   }
 }
 
+TEST(GlobalSearch, EndsWhereAllViewsAreAlike) {
+  std::size_t asked = 0;
+  const auto same = [](const Vec3& /*direction*/) { return 3.0; };
+  const FoundViews views =
+      search_best_and_worst({.score = batch_of(same, &asked), .total = 3.0, .survey_level = 5});
+  EXPECT_EQ(views.best.score, 3.0);
+  EXPECT_EQ(views.worst.score, 3.0);
+  EXPECT_LT(asked, 15'000U);
+}
+
 TEST(GlobalSearchBySurrogate, IsNotAskedByOtherStrategies) {
   std::size_t estimated = 0;
   for (const SearchStrategy strategy : {SearchStrategy::Rapid, SearchStrategy::Exhaustive,
