@@ -57,9 +57,9 @@ TEST(CloudPicture, OfACurveIsNotBlank) {
   options.width = options.height = 200;
   const Camera camera{.projection = Projection::Orthographic, .eye = Vec3(0, 0, 5), .height = 2.2};
   const Image image = take_picture(shape, camera, Picture::Plain, options);
-  // The circle's length of 2π by twice 0.01, in pixels of 0.011.
-  EXPECT_GT(pixels_shown(image), 500U);
-  EXPECT_LT(pixels_shown(image), 1500U);
+  // 200 diamonds of half diagonals 0.01, in pixels of 0.011 a side.
+  EXPECT_NEAR(static_cast<double>(pixels_shown(image)), 200 * 2 * 0.01 * 0.01 / (0.011 * 0.011),
+              100.0);
 }
 
 TEST(CloudPicture, OfASurfaceIsItsTriangles) {
