@@ -18,7 +18,8 @@
 ///
 ///     KSSM(v) = Σ_j (1 − m̄(D^(j)))² D^(j)(v),   j = 0 … K.
 ///
-/// Ours: of a surface that was meshed anew d^(0) is the mean of the distances to both meshes' curves.
+/// Ours: where a second mesh of the surface was contracted, d^(0) is the mean of the distances to the
+/// curves of both.
 /// docs/kssm.md has what is ours.
 
 namespace vantage {
