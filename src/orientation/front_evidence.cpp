@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <initializer_list>
+#include <utility>
 
 #include <Eigen/Geometry>
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <utility>
 
 #include "orientation/evidence.h"
 #include "orientation/silhouette.h"
