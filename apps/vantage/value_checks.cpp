@@ -39,6 +39,30 @@ constexpr std::array<Unit, 12> kUnits{{{"b", 1.0},
                                        {"gib", 0x1p30},
                                        {"tib", 0x1p40}}};
 
+/// What is wrong with a value of an option that takes a number; empty: nothing.
+std::string problem_of_number(const std::string& text) {
+  double value = 0.0;
+  if (!CLI::detail::lexical_cast(text, value)) {
+    return "must be a number, not " + text;
+  }
+  return std::isfinite(value) ? "" : "must be a finite number, not " + text;
+}
+
+/// The same of a whole number from 0.
+std::string problem_of_count(const std::string& text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc::result_out_of_range) {
+    return "is too large: " + text;
+  }
+  return CLI::detail::lexical_cast(text, value) ? "" : "must be a whole number from 0, not " + text;
+}
+
+/// The same of text: it is empty where a script has not set its variable.
+std::string problem_of_text(const std::string& text) {
+  return text.empty() ? "must not be empty" : "";
+}
+
 }  // namespace
 
 std::string out_of_range(const std::string& text, double low, double high, bool is_whole) {
@@ -72,33 +96,13 @@ CLI::Validator size_in(double unit) {
 
 void check_values(CLI::App& app) {
   for (CLI::Option* option : app.get_options()) {
-    if (option->get_type_name().starts_with("FLOAT")) {
-      option->check(
-          [](const std::string& text) {
-            double value = 0.0;
-            const bool is_number = CLI::detail::lexical_cast(text, value);
-            return !is_number              ? "must be a number, not " + text
-                   : !std::isfinite(value) ? "must be a finite number, not " + text
-                                           : "";
-          },
-          "", "finite");
-    }
-    if (option->get_type_name().starts_with("UINT")) {
-      option->check(
-          [](const std::string& text) {
-            std::uint64_t value = 0;
-            const auto [end, error] =
-                std::from_chars(text.data(), text.data() + text.size(), value);
-            return error == std::errc::result_out_of_range ? "is too large: " + text
-                   : !CLI::detail::lexical_cast(text, value)
-                       ? "must be a whole number from 0, not " + text
-                       : "";
-          },
-          "", "fits");
-    }
-    if (option->get_type_name() == "TEXT") {  // as of a variable that a script has not set
-      option->check([](const std::string& text) { return text.empty() ? "must not be empty" : ""; },
-                    "", "not empty");
+    const std::string type = option->get_type_name();
+    if (type.starts_with("FLOAT")) {
+      option->check(problem_of_number, "", "finite");
+    } else if (type.starts_with("UINT")) {
+      option->check(problem_of_count, "", "fits");
+    } else if (type == "TEXT") {
+      option->check(problem_of_text, "", "not empty");
     }
   }
   for (CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; })) {

@@ -106,10 +106,11 @@ NearHeights near_heights(const HeightField& depths, AxisDirection up, AxisDirect
     if (!depths.is_filled(cell)) {
       continue;
     }
-    const double place = row_is_up ? (static_cast<double>(cell / depths.columns) + 0.5) /
-                                         static_cast<double>(depths.rows)
-                                   : (static_cast<double>(cell % depths.columns) + 0.5) /
-                                         static_cast<double>(depths.columns);
+    const std::size_t row = cell / depths.columns;
+    const std::size_t column = cell % depths.columns;
+    const double place =
+        row_is_up ? (static_cast<double>(row) + 0.5) / static_cast<double>(depths.rows)
+                  : (static_cast<double>(column) + 0.5) / static_cast<double>(depths.columns);
     const double height = oriented(place, up);
     if (depths.depth(cell, front.is_positive) <= limit) {
       ahead_height += height;
