@@ -18,33 +18,33 @@ namespace {
 /// Strokes of letters over the height of capitals.
 constexpr double kLetterWeight = 0.13;
 
-/// Distance of a spot from the segment a b.
-double distance_to(const Spot& spot, const Spot& a, const Spot& b) {
+/// Distance of a point from the segment a b.
+double distance_to(const PixelPoint& point, const PixelPoint& a, const PixelPoint& b) {
   const double along_x = b[0] - a[0];
   const double along_y = b[1] - a[1];
   const double squared = along_x * along_x + along_y * along_y;
-  const double dot = (spot[0] - a[0]) * along_x + (spot[1] - a[1]) * along_y;
+  const double dot = (point[0] - a[0]) * along_x + (point[1] - a[1]) * along_y;
   const double share = squared > 0.0 ? std::clamp(dot / squared, 0.0, 1.0) : 0.0;
-  return std::hypot(spot[0] - a[0] - share * along_x, spot[1] - a[1] - share * along_y);
+  return std::hypot(point[0] - a[0] - share * along_x, point[1] - a[1] - share * along_y);
 }
 
-/// Distance of a spot from the border of a convex polygon, below 0 inside; near corners outside it
+/// Distance of a point from the border of a convex polygon, below 0 inside; near corners outside it
 /// is a little too small, by less than a pixel shows.
-double distance_to_area(const Spot& spot, const std::vector<Spot>& corners) {
+double distance_to_area(const PixelPoint& point, const std::vector<PixelPoint>& corners) {
   double twice_area = 0.0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Spot& a = corners[i];
-    const Spot& b = corners[(i + 1) % corners.size()];
+    const PixelPoint& a = corners[i];
+    const PixelPoint& b = corners[(i + 1) % corners.size()];
     twice_area += a[0] * b[1] - b[0] * a[1];
   }
   const double sense = twice_area < 0.0 ? -1.0 : 1.0;
   double distance = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Spot& a = corners[i];
-    const Spot& b = corners[(i + 1) % corners.size()];
+    const PixelPoint& a = corners[i];
+    const PixelPoint& b = corners[(i + 1) % corners.size()];
     const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
     if (length > 0.0) {
-      const double cross = (b[0] - a[0]) * (spot[1] - a[1]) - (b[1] - a[1]) * (spot[0] - a[0]);
+      const double cross = (b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0]);
       distance = std::max(distance, -sense * cross / length);
     }
   }
@@ -75,21 +75,21 @@ void blend(std::uint8_t* pixel, const Rgb8& colour, double coverage) {
 
 }  // namespace
 
-void LineDrawing::fill(std::vector<Spot> corners, Rgb8 colour) {
+void LineDrawing::fill(std::vector<PixelPoint> corners, Rgb8 colour) {
   shapes_.push_back({std::move(corners), 0.0, colour});
 }
 
-void LineDrawing::line(std::vector<Spot> points, double width, Rgb8 colour) {
+void LineDrawing::line(std::vector<PixelPoint> points, double width, Rgb8 colour) {
   shapes_.push_back({std::move(points), width, colour});
 }
 
-void LineDrawing::dot(const Spot& centre, double radius, Rgb8 colour) {
+void LineDrawing::dot(const PixelPoint& centre, double radius, Rgb8 colour) {
   shapes_.push_back({{centre}, 2.0 * radius, colour});
 }
 
-void LineDrawing::text(std::string_view text, const Spot& left, double height, Rgb8 colour) {
+void LineDrawing::text(std::string_view text, const PixelPoint& left, double height, Rgb8 colour) {
   for (const Stroke& stroke : letter_strokes(text)) {
-    std::vector<Spot> points;
+    std::vector<PixelPoint> points;
     for (const auto& [x, y] : stroke) {
       points.push_back({left[0] + height * x, left[1] - height * y});
     }
@@ -106,7 +106,7 @@ std::string LineDrawing::svg() const {
   for (const Shape& shape : shapes_) {
     const bool is_area = shape.width == 0.0;
     std::string path = "M";
-    for (const Spot& point : shape.points) {
+    for (const PixelPoint& point : shape.points) {
       path += (path.size() > 1 ? "L" : "") + coordinate(point[0]) + " " + coordinate(point[1]);
     }
     // A line without length is a dot only if it is closed.
@@ -119,14 +119,14 @@ std::string LineDrawing::svg() const {
   return text + "</g>\n</svg>\n";
 }
 
-double LineDrawing::distance(const Spot& spot, const Shape& shape) {
+double LineDrawing::distance(const PixelPoint& point, const Shape& shape) {
   if (shape.width == 0.0) {
-    return distance_to_area(spot, shape.points);
+    return distance_to_area(point, shape.points);
   }
   // A joint of two pieces is covered by both; the nearer one counts.
-  double nearest = distance_to(spot, shape.points.front(), shape.points.front());
+  double nearest = distance_to(point, shape.points.front(), shape.points.front());
   for (std::size_t i = 1; i < shape.points.size(); ++i) {
-    nearest = std::min(nearest, distance_to(spot, shape.points[i - 1], shape.points[i]));
+    nearest = std::min(nearest, distance_to(point, shape.points[i - 1], shape.points[i]));
   }
   return nearest;
 }
@@ -135,14 +135,14 @@ void LineDrawing::draw(const Shape& shape, Image& image) const {
   const double reach = 0.5 * shape.width + 1.0;
   const auto low = [&](std::size_t axis) {
     double least = shape.points.front()[axis];
-    for (const Spot& point : shape.points) {
+    for (const PixelPoint& point : shape.points) {
       least = std::min(least, point[axis]);
     }
     return std::max(0, static_cast<int>(std::floor(least - reach)));
   };
   const auto high = [&](std::size_t axis, int end) {
     double most = shape.points.front()[axis];
-    for (const Spot& point : shape.points) {
+    for (const PixelPoint& point : shape.points) {
       most = std::max(most, point[axis]);
     }
     return std::min(end, static_cast<int>(std::ceil(most + reach)));

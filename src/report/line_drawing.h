@@ -14,7 +14,7 @@
 namespace vantage {
 
 /// A place on a drawing, px from its top left corner.
-using Spot = std::array<double, 2>;
+using PixelPoint = std::array<double, 2>;
 
 /// Collects shapes, the later over the earlier, on white.
 class LineDrawing {
@@ -23,16 +23,16 @@ class LineDrawing {
   LineDrawing(int width, int height) : width_(width), height_(height) {}
 
   /// A convex area. \pre at least three corners.
-  void fill(std::vector<Spot> corners, Rgb8 colour);
+  void fill(std::vector<PixelPoint> corners, Rgb8 colour);
 
   /// A line with round ends. \param width px. \pre at least one point.
-  void line(std::vector<Spot> points, double width, Rgb8 colour);
+  void line(std::vector<PixelPoint> points, double width, Rgb8 colour);
 
-  /// A round spot. \param radius px.
-  void dot(const Spot& centre, double radius, Rgb8 colour);
+  /// A disc. \param radius px.
+  void dot(const PixelPoint& centre, double radius, Rgb8 colour);
 
   /// ASCII text. \param left where its baseline begins. \param height of its capitals, px.
-  void text(std::string_view text, const Spot& left, double height, Rgb8 colour);
+  void text(std::string_view text, const PixelPoint& left, double height, Rgb8 colour);
 
   /// As a standalone document.
   [[nodiscard]] std::string svg() const;
@@ -45,13 +45,13 @@ class LineDrawing {
 
  private:
   struct Shape {
-    std::vector<Spot> points{};
+    std::vector<PixelPoint> points{};
     double width = 0.0;  ///< Of a line; 0: an area.
     Rgb8 colour{};
   };
 
-  /// Distance of a spot from a line's middle or an area's border, below 0 inside the latter.
-  [[nodiscard]] static double distance(const Spot& spot, const Shape& shape);
+  /// Distance of a point from a line's middle or an area's border, below 0 inside the latter.
+  [[nodiscard]] static double distance(const PixelPoint& point, const Shape& shape);
   void draw(const Shape& shape, Image& image) const;
 
   int width_;

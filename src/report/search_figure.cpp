@@ -78,7 +78,7 @@ std::vector<SearchStep> path_of(const std::vector<SearchStep>& trace, Goal goal)
 class Ball {
  public:
   /// \param zoom 1: the whole sphere.
-  Ball(const Vec3& eye, const Spot& centre, double radius, double zoom)
+  Ball(const Vec3& eye, const PixelPoint& centre, double radius, double zoom)
       : back_(eye.normalized()), centre_(centre), radius_(radius), zoom_(zoom) {
     const Vec3 up = std::abs(back_.y()) < 0.95 ? Vec3::UnitY() : Vec3::UnitZ();
     right_ = up.cross(back_).normalized();
@@ -89,7 +89,7 @@ class Ball {
     return d.dot(back_) > 0.0 && std::hypot(d.dot(right_), d.dot(up_)) * zoom_ <= 1.0;
   }
 
-  [[nodiscard]] Spot at(const Vec3& d) const {
+  [[nodiscard]] PixelPoint at(const Vec3& d) const {
     return {centre_[0] + radius_ * zoom_ * d.dot(right_),
             centre_[1] - radius_ * zoom_ * d.dot(up_)};
   }
@@ -98,7 +98,7 @@ class Ball {
   void arc(LineDrawing& drawing, const Vec3& a, const Vec3& b, double width, Rgb8 colour) const {
     constexpr double kPieceRad = 0.12;  // straight pieces of an arc; a fiftieth of a turn
     const int pieces = 1 + static_cast<int>((b - a).norm() / kPieceRad);
-    std::vector<Spot> piece;
+    std::vector<PixelPoint> piece;
     for (int i = 0; i <= pieces; ++i) {
       const double share = static_cast<double>(i) / pieces;
       const Vec3 d = ((1.0 - share) * a + share * b).normalized();
@@ -123,7 +123,7 @@ class Ball {
   Vec3 back_;
   Vec3 right_ = Vec3::UnitX();
   Vec3 up_ = Vec3::UnitY();
-  Spot centre_;
+  PixelPoint centre_;
   double radius_;
   double zoom_;
 };
@@ -214,7 +214,7 @@ LineDrawing search_figure(const std::vector<SearchStep>& trace, ViewSphereBase b
   DirectionSet set = direction_set(base, 0);
   for (std::size_t panel = 0; panel < count; ++panel) {
     const int level = static_cast<int>(panel);
-    const Spot centre{(static_cast<double>(panel) + 0.5) * size, 0.5 * size};
+    const PixelPoint centre{(static_cast<double>(panel) + 0.5) * size, 0.5 * size};
     const Ball ball(eye, centre, radius, 1.0);
     ball.disc(drawing);
     draw_mesh(drawing, ball, set, 0.0025 * size);
@@ -227,7 +227,7 @@ LineDrawing search_figure(const std::vector<SearchStep>& trace, ViewSphereBase b
   }
   // The enlarged part: what lies within a ring of the last level that was drawn whole.
   constexpr double kZoom = 12.0;
-  const Spot centre{(static_cast<double>(count) + 0.5) * size, 0.5 * size};
+  const PixelPoint centre{(static_cast<double>(count) + 0.5) * size, 0.5 * size};
   const Ball close(end, centre, radius, kZoom);
   close.disc(drawing);
   draw_mesh(drawing, close, set, 0.0025 * size);

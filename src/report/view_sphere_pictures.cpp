@@ -66,7 +66,7 @@ void put_over(const Image& picture, Image& below) {
 
 struct Wire {
   double depth = 0.0;  // towards the eye, in radii
-  std::vector<Spot> ends{};
+  std::vector<PixelPoint> ends{};
   Rgb8 colour{};
 };
 
@@ -102,8 +102,8 @@ Image ViewSpherePictures::of(const ComparedMethod& method) const {
     return Vec3((kNear + (kFar - kNear) * good[v]) * comparison_->set.directions[v]);
   };
   const auto place = [&](const Vec3& p) {
-    return Spot{0.5 * model_.width + radius_px_ * p.dot(right_),
-                0.5 * model_.height - radius_px_ * p.dot(up_)};
+    return PixelPoint{0.5 * model_.width + radius_px_ * p.dot(right_),
+                      0.5 * model_.height - radius_px_ * p.dot(up_)};
   };
   std::vector<Wire> wires;
   wires.reserve(wires_.edges.size());

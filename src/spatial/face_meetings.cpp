@@ -121,25 +121,25 @@ class BackCheck {
     }
   }
 
-  /// Whether every edge of either face shares a site with the other.
+  /// Whether every edge of either face shares a sample with the other.
   [[nodiscard]] bool share_edge(std::uint32_t f, std::uint32_t g) const {
     const auto& [a, b, c] = mesh_.triangles[f];
     int shared = 0;
-    for (const std::uint32_t site : mesh_.triangles[g]) {
-      shared +=
-          static_cast<int>(site == a) + static_cast<int>(site == b) + static_cast<int>(site == c);
+    for (const std::uint32_t sample : mesh_.triangles[g]) {
+      shared += static_cast<int>(sample == a) + static_cast<int>(sample == b) +
+                static_cast<int>(sample == c);
     }
     return shared >= 2;
   }
 
-  /// Whether one of the face's edges meets another face. Left out are edges that share a site with the other face: where one lies
+  /// Whether one of the face's edges meets another face. Left out are edges that share a sample with the other face: where one lies
   /// in it, so does its other end, or it passes over an edge of that face, and a face beside it meets
   /// that.
   [[nodiscard]] bool has_edge_in(std::uint32_t of, std::uint32_t face) const {
     const Triangle& own = mesh_.triangles[of];
     const Triangle& other = mesh_.triangles[face];
-    const auto is_shared = [&](std::uint32_t site) {
-      return site == other[0] || site == other[1] || site == other[2];
+    const auto is_shared = [&](std::uint32_t sample) {
+      return sample == other[0] || sample == other[1] || sample == other[2];
     };
     const std::array<bool, 3> shared{is_shared(own[0]), is_shared(own[1]), is_shared(own[2])};
     for (std::size_t k = 0; k < 3; ++k) {

@@ -16,8 +16,8 @@ constexpr double kAhead = 1e-9;
 
 }  // namespace
 
-void PictureCells::begin(std::span<const Vec3> sites, const Viewpoint& eye, std::size_t cells) {
-  sites_ = sites;
+void PictureCells::begin(std::span<const Vec3> samples, const Viewpoint& eye, std::size_t cells) {
+  samples_ = samples;
   eye_ = eye;
   is_flat_ = project();
   const double sides = is_flat_ ? 1.0 : static_cast<double>(kSides);
@@ -38,8 +38,8 @@ void PictureCells::begin(std::span<const Vec3> sites, const Viewpoint& eye, std:
     per_unit_[k] = high[k] > low[k] ? side_ / (high[k] - low[k]) : 0.0;
   }
   places_.resize(exact_.size());
-  for (std::size_t site = 0; site < exact_.size(); ++site) {
-    places_[site] = in_cells(exact_[site]);
+  for (std::size_t sample = 0; sample < exact_.size(); ++sample) {
+    places_[sample] = in_cells(exact_[sample]);
   }
 }
 
@@ -53,12 +53,12 @@ bool PictureCells::project() {
   towards_ = eye_.position / distance_;
   right_ = towards_.unitOrthogonal();
   up_ = towards_.cross(right_);
-  exact_.resize(sites_.size());
-  for (std::size_t site = 0; site < exact_.size(); ++site) {
-    if (is_perspective && !(sites_[site].dot(towards_) < distance_ - kAhead)) {
+  exact_.resize(samples_.size());
+  for (std::size_t sample = 0; sample < exact_.size(); ++sample) {
+    if (is_perspective && !(samples_[sample].dot(towards_) < distance_ - kAhead)) {
       return false;
     }
-    exact_[site] = on_plane(sites_[site]);
+    exact_[sample] = on_plane(samples_[sample]);
   }
   return true;
 }

@@ -50,9 +50,9 @@ class PictureCells {
     CellRange cells{};  ///< That it touches, if the picture is flat.
   };
 
-  /// \param sites places of the surface's vertices, which must outlive the use of this.
+  /// \param samples places of the surface's vertices, which must outlive the use of this.
   /// \param eye in their frame. \param cells about how many there shall be.
-  void begin(std::span<const Vec3> sites, const Viewpoint& eye, std::size_t cells);
+  void begin(std::span<const Vec3> samples, const Viewpoint& eye, std::size_t cells);
 
   /// Whether all of the surface is ahead of the eye: the picture is one plane.
   [[nodiscard]] bool is_flat() const { return is_flat_; }
@@ -76,15 +76,15 @@ class PictureCells {
 
   /// Of an edge's ends or of a face's corners.
   template <std::size_t Count>
-  [[nodiscard]] Extent extent(const std::array<std::uint32_t, Count>& sites) const {
+  [[nodiscard]] Extent extent(const std::array<std::uint32_t, Count>& samples) const {
     constexpr float kAll = std::numeric_limits<float>::infinity();
     if (!is_flat_) {
       return {-kAll, kAll, -kAll, kAll, -kAll, kAll, {}};
     }
-    const Place& first = places_[sites[0]];
+    const Place& first = places_[samples[0]];
     Extent extent{first.x, first.x, first.y, first.y, first.depth, first.depth, {}};
     for (std::size_t k = 1; k < Count; ++k) {
-      const Place& place = places_[sites[k]];
+      const Place& place = places_[samples[k]];
       extent.left = std::min(extent.left, place.x);
       extent.right = std::max(extent.right, place.x);
       extent.bottom = std::min(extent.bottom, place.y);
@@ -110,14 +110,14 @@ class PictureCells {
 
     /// Whether an edge or a face clearly lies beyond one of the sides.
     template <std::size_t Count>
-    [[nodiscard]] bool is_beside(const std::array<std::uint32_t, Count>& sites) const {
+    [[nodiscard]] bool is_beside(const std::array<std::uint32_t, Count>& samples) const {
       if (!picture_.is_flat_) {
         return false;
       }
       for (const Line& line : lines_) {
         float most = -line.slack;
-        for (const std::uint32_t site : sites) {
-          const Place& place = picture_.places_[site];
+        for (const std::uint32_t sample : samples) {
+          const Place& place = picture_.places_[sample];
           most = std::max(most, line.x * place.x + line.y * place.y - line.offset);
         }
         if (most <= -line.slack) {
@@ -139,7 +139,7 @@ class PictureCells {
 
   /// Calls each(cells) for the cells that an edge or a face touches: of one side, or of several.
   template <std::size_t Count, typename Each>
-  void over_sides(const std::array<std::uint32_t, Count>& sites, const Extent& extent,
+  void over_sides(const std::array<std::uint32_t, Count>& samples, const Extent& extent,
                   const Each& each) const {
     if (is_flat_) {
       each(extent.cells);
@@ -147,7 +147,7 @@ class PictureCells {
     }
     std::array<Vec3, Count> from_eye;
     for (std::size_t k = 0; k < Count; ++k) {
-      from_eye[k] = sites_[sites[k]] - eye_.position;
+      from_eye[k] = samples_[samples[k]] - eye_.position;
     }
     for (std::uint32_t side = 0; side < kSides; ++side) {
       CellRange cells;
@@ -159,18 +159,18 @@ class PictureCells {
 
   /// How many cells an edge or a face touches.
   template <std::size_t Count>
-  [[nodiscard]] std::size_t count_cells(const std::array<std::uint32_t, Count>& sites,
+  [[nodiscard]] std::size_t count_cells(const std::array<std::uint32_t, Count>& samples,
                                         const Extent& extent) const {
     std::size_t sum = 0;
-    over_sides(sites, extent, [&](const CellRange& cells) { sum += cells.count(); });
+    over_sides(samples, extent, [&](const CellRange& cells) { sum += cells.count(); });
     return sum;
   }
 
   /// Calls each(cell) for the cells that an edge or a face touches.
   template <std::size_t Count, typename Each>
-  void over_cells(const std::array<std::uint32_t, Count>& sites, const Extent& extent,
+  void over_cells(const std::array<std::uint32_t, Count>& samples, const Extent& extent,
                   const Each& each) const {
-    over_sides(sites, extent, [&](const CellRange& cells) {
+    over_sides(samples, extent, [&](const CellRange& cells) {
       for (std::uint32_t row = cells.bottom; row <= cells.top; ++row) {
         for (std::uint32_t column = cells.left; column <= cells.right; ++column) {
           each(cell(column, row));
@@ -208,7 +208,7 @@ class PictureCells {
   [[nodiscard]] bool on_side(const Vec3* from_eye, std::size_t count, std::uint32_t side,
                              CellRange& cells) const;
 
-  std::span<const Vec3> sites_{};
+  std::span<const Vec3> samples_{};
   Viewpoint eye_{};
   bool is_flat_ = true;
   double distance_ = 0.0;  // of the eye from the frame's origin
@@ -217,7 +217,7 @@ class PictureCells {
   Eigen::Vector2d per_unit_ = Eigen::Vector2d::Zero();  // cells
   std::uint32_t side_ = 1;                              // cells along a side
   std::uint32_t columns_ = 1;                           // of all sides together
-  std::vector<Place> places_{};                         // of each site, where there is one plane
+  std::vector<Place> places_{};                         // of each sample, where there is one plane
   std::vector<Vec3> exact_{};                           // the same in double, not yet in cells
 };
 

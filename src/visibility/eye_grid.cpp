@@ -78,8 +78,8 @@ void EyeGrid::begin(const Viewpoint& eye, const TurnedFaces& turned,
   aim_ = Aim::None;
 }
 
-/// Lists the sites asked about and where they are.
-void EyeGrid::place_sites(const std::vector<std::uint8_t>& seen, const RunContext& run) {
+/// Lists the samples asked about and where they are.
+void EyeGrid::place_samples(const std::vector<std::uint8_t>& seen, const RunContext& run) {
   asked_.resize(seen.size());
   std::size_t count = 0;
   for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -98,7 +98,7 @@ void EyeGrid::place_sites(const std::vector<std::uint8_t>& seen, const RunContex
   });
 }
 
-void EyeGrid::sort_sites() {
+void EyeGrid::sort_samples() {
   const std::vector<Place>& places = picture_.places();
   begin_.assign(std::size_t{picture_.rows()} * picture_.columns() + 1, 0);
   for (const std::uint32_t cell : cell_) {
@@ -113,11 +113,11 @@ void EyeGrid::sort_sites() {
   for (std::vector<float>* field : {&x_, &y_, &depth_}) {
     field->resize(total + kWideLanes);  // so that the last cell can be read by whole lanes
   }
-  site_of_.resize(total + kWideLanes);
+  sample_of_.resize(total + kWideLanes);
   for (std::size_t k = asked_.size(); k-- > 0;) {
     const std::uint32_t i = asked_[k];
     const std::uint32_t slot = --begin_[cell_[k]];
-    site_of_[slot] = i;
+    sample_of_[slot] = i;
     x_[slot] = places[i][0];
     y_[slot] = places[i][1];
     depth_[slot] = places[i][2];
@@ -159,12 +159,12 @@ void EyeGrid::sort_faces(const Surface& surface) {
             [&](std::uint32_t f, std::uint32_t g) { return nearest[f] < nearest[g]; });
 }
 
-/// \return the number of sites left.
+/// \return the number of samples left.
 std::size_t EyeGrid::mark_hidden(std::vector<std::uint8_t>& seen) const {
   std::size_t left = hidden_.size();
   for (std::size_t slot = 0; slot < hidden_.size(); ++slot) {
     if (hidden_[slot] != 0) {
-      seen[site_of_[slot]] = 0;
+      seen[sample_of_[slot]] = 0;
       --left;
     }
   }
@@ -184,11 +184,11 @@ VANTAGE_INLINE bool EyeGrid::behind_all(float nearest, const CellRange& cells) c
   return true;
 }
 
-bool EyeGrid::blocks(const Surface& surface, std::uint32_t site, std::uint32_t face) const {
+bool EyeGrid::blocks(const Surface& surface, std::uint32_t sample, std::uint32_t face) const {
   const Triangle& corners = surface.faces[face];
-  return segment_to(surface.sites[site], eye_)
-      .crosses(surface.sites[corners[0]], surface.sites[corners[1]], surface.sites[corners[2]],
-               surface.twice_areas[face]);
+  return segment_to(surface.samples[sample], eye_)
+      .crosses(surface.samples[corners[0]], surface.samples[corners[1]],
+               surface.samples[corners[2]], surface.twice_areas[face]);
 }
 
 /// Makes the faces that were put in ready.
@@ -243,20 +243,21 @@ VANTAGE_INLINE void EyeGrid::make_ready(const Surface& surface, FacePacket<Lanes
   keep(sense * area > error_bound ? -error_bound : zero - kInfinity, h.least);
 }
 
-/// How far the site is behind the face's plane as the eye sees it; 0 for faces seen edge on.
-float EyeGrid::depth_behind(const Surface& surface, std::uint32_t site, std::uint32_t face) const {
+/// How far the sample is behind the face's plane as the eye sees it; 0 for faces seen edge on.
+float EyeGrid::depth_behind(const Surface& surface, std::uint32_t sample,
+                            std::uint32_t face) const {
   const FloatPoints& places = surface.rounded;
   const FacePlanes& planes = surface.planes;
-  const float height = planes.x[face] * places.x[site] + planes.y[face] * places.y[site] +
-                       planes.z[face] * places.z[site] - planes.offset[face];
+  const float height = planes.x[face] * places.x[sample] + planes.y[face] * places.y[sample] +
+                       planes.z[face] * places.z[sample] - planes.offset[face];
   const std::uint8_t side = turned_->of_face[face];
   return side == 1 ? -height : side == 2 ? height : 0.0F;
 }
 
 template <unsigned Lanes>
-void EyeGrid::strike_site(const Surface& surface, const FacePacket<Lanes>& h, unsigned lane,
-                          std::size_t slot) {
-  // Other threads may strike out the same site meanwhile; they can only agree.
+void EyeGrid::strike_sample(const Surface& surface, const FacePacket<Lanes>& h, unsigned lane,
+                            std::size_t slot) {
+  // Other threads may strike out the same sample meanwhile; they can only agree.
   const std::atomic_ref<std::uint8_t> hidden(hidden_[slot]);
   if (hidden.load(std::memory_order_relaxed) != 0) {
     return;
@@ -267,12 +268,12 @@ void EyeGrid::strike_site(const Surface& surface, const FacePacket<Lanes>& h, un
     inside = std::min(
         inside, x_[slot] * side.along_x[lane] + y_[slot] * side.along_y[lane] + side.offset[lane]);
   }
-  const std::uint32_t site = site_of_[slot];
-  const float behind = depth_behind(surface, site, face);
+  const std::uint32_t sample = sample_of_[slot];
+  const float behind = depth_behind(surface, sample, face);
   if (behind < -kHeightError) {
     return;  // on the eye's side
   }
-  if ((behind > kHeightError && inside > h.error_bound[lane]) || blocks(surface, site, face)) {
+  if ((behind > kHeightError && inside > h.error_bound[lane]) || blocks(surface, sample, face)) {
     hidden.store(1, std::memory_order_relaxed);
   }
 }
@@ -283,7 +284,7 @@ VANTAGE_INLINE std::size_t EyeGrid::strike(const Surface& surface, const FacePac
   const CellRange cells = cells_of(h, lane);
   const std::uint32_t face = h.face[lane];
   const FaceTest<Lanes> test(h, lane, surface.faces[face]);
-  const SiteColumns columns{x_.data(), y_.data(), depth_.data(), site_of_.data()};
+  const SampleColumns columns{x_.data(), y_.data(), depth_.data(), sample_of_.data()};
   std::size_t work = 1;
   for (std::uint32_t row = cells.top; row <= cells.bottom; ++row) {
     const std::size_t first = std::size_t{row} * picture_.columns();
@@ -296,8 +297,8 @@ VANTAGE_INLINE std::size_t EyeGrid::strike(const Surface& surface, const FacePac
         found &= (1U << (end - slot)) - 1U;
       }
       for (; found != 0; found &= found - 1) {
-        strike_site<Lanes>(surface, h, lane,
-                           slot + static_cast<std::uint32_t>(std::countr_zero(found)));
+        strike_sample<Lanes>(surface, h, lane,
+                             slot + static_cast<std::uint32_t>(std::countr_zero(found)));
       }
     }
   }
@@ -419,7 +420,7 @@ bool EyeGrid::walk(Walk& walk, std::size_t first, std::size_t count, const RunCo
 }
 
 /// Fronts first, and what is seen edge on: most of what is hidden lies behind one. The backs then have
-/// little left to do, or nothing: the eye is outside of every shell, because all sites are ahead of it
+/// little left to do, or nothing: the eye is outside of every shell, because all samples are ahead of it
 /// where cells were chosen. \return false if the patience was not enough.
 bool EyeGrid::walk_sides(const Surface& surface, const RunContext& run) {
   const std::size_t count = surface.faces.size();
@@ -454,8 +455,8 @@ bool EyeGrid::walk_sorted(const Surface& surface, std::vector<std::uint8_t>& see
       laid_out = left;
       picture_.lay_out(left, surface.blocks.balls, run);
     }
-    place_sites(seen, run);
-    sort_sites();
+    place_samples(seen, run);
+    sort_samples();
     find_deepest();
     const bool complete = walk(both, done, next, run);
     left = mark_hidden(seen);
@@ -478,8 +479,8 @@ bool EyeGrid::hide(const Surface& surface, std::vector<std::uint8_t>& seen, cons
   if (aim_ == Aim::Failed) {
     return surface.faces.empty();
   }
-  place_sites(seen, run);
-  sort_sites();
+  place_samples(seen, run);
+  sort_samples();
   if (walk_sides(surface, run)) {
     mark_hidden(seen);
     return true;

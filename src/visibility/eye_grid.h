@@ -14,9 +14,9 @@
 #include "visibility/surface.h"
 
 /// \file
-/// Which of a surface's sites one eye sees, all at once. All segments of one query end in the same
-/// eye, so the sites are sorted into a flat grid over the picture, and every face strikes out the
-/// sites behind it: what a hierarchy in space would do, at a fraction of the cost.
+/// Which of a surface's samples one eye sees, all at once. All segments of one query end in the same
+/// eye, so the samples are sorted into a flat grid over the picture, and every face strikes out the
+/// samples behind it: what a hierarchy in space would do, at a fraction of the cost.
 
 namespace vantage {
 
@@ -28,10 +28,10 @@ class EyeGrid {
   ///              backs are asked what they hide, to the same answers. Both must outlive the eye's queries.
   void begin(const Viewpoint& eye, const TurnedFaces& turned, std::span<const std::uint8_t> backs);
 
-  /// Sets seen[i] to 0 for every site that some face hides from the eye. Float arithmetic with
+  /// Sets seen[i] to 0 for every sample that some face hides from the eye. Float arithmetic with
   /// error bounds settles clear cases, the double test of segment.h the doubtful ones.
-  /// The first query of an eye chooses the cells; ask about most sites there.
-  /// \param seen 0 for sites not to be asked about. \pre begin() with what is turned of this surface.
+  /// The first query of an eye chooses the cells; ask about most samples there.
+  /// \param seen 0 for samples not to be asked about. \pre begin() with what is turned of this surface.
   /// \return false if the answer is not complete: the eye is too near for a flat grid, or the faces
   ///         are so long and thin that a grid is slow. What is 0 by then is hidden all the same.
   bool hide(const Surface& surface, std::vector<std::uint8_t>& seen, const RunContext& run);
@@ -42,8 +42,8 @@ class EyeGrid {
 
   struct Walk;
 
-  void place_sites(const std::vector<std::uint8_t>& seen, const RunContext& run);
-  void sort_sites();
+  void place_samples(const std::vector<std::uint8_t>& seen, const RunContext& run);
+  void sort_samples();
   void find_deepest();
   void sort_faces(const Surface& surface);
   std::size_t mark_hidden(std::vector<std::uint8_t>& seen) const;
@@ -69,11 +69,11 @@ class EyeGrid {
   template <unsigned Lanes>
   std::size_t strike(const Surface& surface, const FacePacket<Lanes>& h, unsigned lane);
   template <unsigned Lanes>
-  void strike_site(const Surface& surface, const FacePacket<Lanes>& h, unsigned lane,
-                   std::size_t slot);
-  [[nodiscard]] float depth_behind(const Surface& surface, std::uint32_t site,
+  void strike_sample(const Surface& surface, const FacePacket<Lanes>& h, unsigned lane,
+                     std::size_t slot);
+  [[nodiscard]] float depth_behind(const Surface& surface, std::uint32_t sample,
                                    std::uint32_t face) const;
-  [[nodiscard]] bool blocks(const Surface& surface, std::uint32_t site, std::uint32_t face) const;
+  [[nodiscard]] bool blocks(const Surface& surface, std::uint32_t sample, std::uint32_t face) const;
 
   /// Whether the eye's picture has cells, or cannot have any.
   enum class Aim { None, Taken, Failed };
@@ -82,17 +82,17 @@ class EyeGrid {
   const TurnedFaces* turned_ = nullptr;
   std::span<const std::uint8_t> backs_{};  // of each face: whether its back is asked; none: all are
   Aim aim_ = Aim::None;
-  EyePicture picture_{};  // of sites, and of blocks of faces
+  EyePicture picture_{};  // of samples, and of blocks of faces
   std::uint32_t tile_columns_ = 1, tile_rows_ = 1;
-  std::vector<std::uint32_t> asked_{};    // sites asked about, ascending
-  std::vector<std::uint32_t> cell_{};     // of each of them
-  std::vector<std::uint32_t> begin_{};    // where each cell begins in the arrays below
-  std::vector<std::uint32_t> site_of_{};  // sites, one cell after the other
-  std::vector<float> x_{}, y_{};          // of each of them
-  std::vector<float> depth_{};            // of each of them; minus infinity if known hidden
-  std::vector<std::uint8_t> hidden_{};    // of each
-  std::vector<std::uint32_t> order_{};    // of the faces, nearest first
-  std::vector<float> deepest_{};          // of the sites left in each tile of cells
+  std::vector<std::uint32_t> asked_{};      // samples asked about, ascending
+  std::vector<std::uint32_t> cell_{};       // of each of them
+  std::vector<std::uint32_t> begin_{};      // where each cell begins in the arrays below
+  std::vector<std::uint32_t> sample_of_{};  // samples, one cell after the other
+  std::vector<float> x_{}, y_{};            // of each of them
+  std::vector<float> depth_{};              // of each of them; minus infinity if known hidden
+  std::vector<std::uint8_t> hidden_{};      // of each
+  std::vector<std::uint32_t> order_{};      // of the faces, nearest first
+  std::vector<float> deepest_{};            // of the samples left in each tile of cells
 };
 
 }  // namespace vantage

@@ -48,12 +48,12 @@ struct FacePacket {
   Floats least;        // points with less than this are outside
 };
 
-/// The sites of an EyeGrid in the order of their cells, a column each.
-struct SiteColumns {
+/// The samples of an EyeGrid in the order of their cells, a column each.
+struct SampleColumns {
   const float* x;
   const float* y;
   const float* depth;
-  const std::uint32_t* site;
+  const std::uint32_t* sample;
 };
 
 /// One face of a packet, spread over registers.
@@ -62,7 +62,7 @@ class FaceTest {
  public:
   VANTAGE_INLINE FaceTest(const FacePacket<Lanes>& of, unsigned lane, const Triangle& corners) {
     const Floats zero{};
-    const Sites none{};
+    const Samples none{};
     nearest_ = zero + of.nearest[lane];
     least_ = zero + of.least[lane];
     for (std::size_t k = 0; k < 3; ++k) {
@@ -72,24 +72,25 @@ class FaceTest {
     }
   }
 
-  /// Bit i is set if the site in slot + i may lie behind the face and is none of its corners.
-  [[nodiscard]] VANTAGE_INLINE unsigned may_hide(const SiteColumns& sites, std::size_t slot) const {
-    const auto x = load<Floats>(sites.x + slot);
-    const auto y = load<Floats>(sites.y + slot);
-    typename Registers<Lanes>::Truths out = load<Floats>(sites.depth + slot) < nearest_;
+  /// Bit i is set if the sample in slot + i may lie behind the face and is none of its corners.
+  [[nodiscard]] VANTAGE_INLINE unsigned may_hide(const SampleColumns& samples,
+                                                 std::size_t slot) const {
+    const auto x = load<Floats>(samples.x + slot);
+    const auto y = load<Floats>(samples.y + slot);
+    typename Registers<Lanes>::Truths out = load<Floats>(samples.depth + slot) < nearest_;
     for (const Side& side : sides_) {
       out |= x * side.along_x + y * side.along_y + side.offset < least_;
     }
-    const auto site = load<Sites>(sites.site + slot);
-    for (const Sites& corner : corners_) {
-      out |= site == corner;
+    const auto sample = load<Samples>(samples.sample + slot);
+    for (const Samples& corner : corners_) {
+      out |= sample == corner;
     }
     return bits_of(out) ^ ((1U << Lanes) - 1U);
   }
 
  private:
   using Floats = typename Registers<Lanes>::Floats;
-  using Sites = typename Registers<Lanes>::Keys;
+  using Samples = typename Registers<Lanes>::Keys;
 
   struct Side {
     Floats along_x, along_y, offset;
@@ -97,7 +98,7 @@ class FaceTest {
 
   Floats nearest_, least_;
   std::array<Side, 3> sides_;
-  std::array<Sites, 3> corners_;
+  std::array<Samples, 3> corners_;
 };
 
 }  // namespace vantage

@@ -36,30 +36,30 @@ class FaceQuery {
             const RunContext& run)
       : scene_(scene),
         memory_(memory),
-        surface_(scene.sites.surface()),
+        surface_(scene.samples.surface()),
         local_(local),
         run_(run),
-        sites_(scene.sites, local, run, scene.meetings.hiding_backs) {}
+        samples_(scene.samples, local, run, scene.meetings.hiding_backs) {}
 
   SeenSurface seen(FaceDetail detail) {
-    seen_ = sites_.seen_sites();
+    seen_ = samples_.seen_samples();
     SeenSurface result;
-    result.vertices = vertices_of_sites(surface_, seen_);
+    result.vertices = vertices_of_samples(surface_, seen_);
     FaceSums sums(surface_, scene_.sphere, local_, memory_.along, result);
-    for (std::uint32_t site = 0; site < seen_.size(); ++site) {
-      if (seen_[site] != 0) {
-        result.deepest = std::max(result.deepest, sums.depth(site));
+    for (std::uint32_t sample = 0; sample < seen_.size(); ++sample) {
+      if (seen_[sample] != 0) {
+        result.deepest = std::max(result.deepest, sums.depth(sample));
       }
     }
     result.faces.reserve(surface_.faces.size() / 2);
     if (detail == FaceDetail::ByCorners) {
       add_by_corners(sums);
     } else {
-      memory_.clip.begin(surface_.sites, surface_.faces, local_);
+      memory_.clip.begin(surface_.samples, surface_.faces, local_);
       list_hiding();
       list_contours();
       for (std::uint32_t face = 0; face < surface_.faces.size(); ++face) {
-        if (sites_.is_turned(face)) {
+        if (samples_.is_turned(face)) {
           add(face, sums);
         }
       }
@@ -70,7 +70,7 @@ class FaceQuery {
 
  private:
   [[nodiscard]] bool hides(std::uint32_t face) const {
-    const std::uint8_t turned = sites_.turned()[face];
+    const std::uint8_t turned = samples_.turned()[face];
     return turned == 1 ||
            (turned == 2 && (!is_outside_ || scene_.meetings.hiding_backs[face] != 0));
   }
@@ -80,7 +80,7 @@ class FaceQuery {
     const auto count = static_cast<std::uint32_t>(surface_.faces.size());
     const double cells = kCellsPerFace * static_cast<double>(count);
     PictureCells& picture = memory_.picture;
-    picture.begin(surface_.sites, local_, static_cast<std::size_t>(cells) + 1);
+    picture.begin(surface_.samples, local_, static_cast<std::size_t>(cells) + 1);
     is_outside_ = picture.is_flat();
     memory_.extents.resize(count);
     while (set_extents() > kMostInCells * count && picture.coarsen()) {
@@ -101,7 +101,7 @@ class FaceQuery {
     std::size_t sum = 0;
     for (std::uint32_t f = 0; f < surface_.faces.size(); ++f) {
       const bool is_hiding = hides(f);
-      if (is_hiding || sites_.is_turned(f)) {
+      if (is_hiding || samples_.is_turned(f)) {
         const Triangle& face = surface_.faces[f];
         memory_.extents[f] = memory_.picture.extent(face);
         if (is_hiding) {
@@ -119,8 +119,8 @@ class FaceQuery {
     if (pair == EdgePair::None) {
       return true;
     }
-    const std::uint8_t one = sites_.turned()[scene_.edges.beside[edge][0]];
-    const std::uint8_t other = sites_.turned()[scene_.edges.beside[edge][1]];
+    const std::uint8_t one = samples_.turned()[scene_.edges.beside[edge][0]];
+    const std::uint8_t other = samples_.turned()[scene_.edges.beside[edge][1]];
     return one == 0 || other == 0 || (one == other) != (pair == EdgePair::Opposite);
   }
 
@@ -173,7 +173,7 @@ class FaceQuery {
     const auto& [one, other] = scene_.edges.beside[edge];
     if (seen_[a] != 0 || seen_[b] != 0 || scene_.meetings.crossed[one] != 0 ||
         scene_.meetings.crossed[other] != 0 ||
-        !(sites_.is_turned(one) || sites_.is_turned(other))) {
+        !(samples_.is_turned(one) || samples_.is_turned(other))) {
       return true;
     }
     const std::array ends{a, b};
@@ -186,10 +186,10 @@ class FaceQuery {
   /// Whether an edge crosses another one in the picture, before it.
   [[nodiscard]] bool passes_before(const std::array<std::uint32_t, 2>& edge,
                                    const std::array<std::uint32_t, 2>& other) const {
-    const Vec3& a = surface_.sites[other[0]];
-    const Vec3& b = surface_.sites[other[1]];
-    const Vec3& c = surface_.sites[edge[0]];
-    const Vec3& d = surface_.sites[edge[1]];
+    const Vec3& a = surface_.samples[other[0]];
+    const Vec3& b = surface_.samples[other[1]];
+    const Vec3& c = surface_.samples[edge[0]];
+    const Vec3& d = surface_.samples[edge[1]];
     const Vec3 across = (d - c).cross(sight_line(c, local_));
     const Vec3 other_across = (b - a).cross(sight_line(a, local_));
     const double of_a = across.dot(a - c);
@@ -207,10 +207,10 @@ class FaceQuery {
   /// Whether is_wanted(item) answers true of one of those listed that may lie before an edge or a face;
   /// asks about some more than once.
   template <std::size_t Count, typename IsWanted>
-  bool is_any_before(const CellLists& lists, const std::array<std::uint32_t, Count>& sites,
+  bool is_any_before(const CellLists& lists, const std::array<std::uint32_t, Count>& samples,
                      const PictureCells::Extent& extent, const IsWanted& is_wanted) {
     bool is_found = false;
-    memory_.picture.over_sides(sites, extent, [&](const PictureCells::CellRange& cells) {
+    memory_.picture.over_sides(samples, extent, [&](const PictureCells::CellRange& cells) {
       for (std::uint32_t row = cells.bottom; row <= cells.top && !is_found; ++row) {
         const std::uint32_t first = memory_.picture.cell(cells.left, row);
         const std::uint32_t last = memory_.picture.cell(cells.right, row);
@@ -228,7 +228,7 @@ class FaceQuery {
   void add_by_corners(FaceSums& sums) {
     for (std::uint32_t face = 0; face < surface_.faces.size(); ++face) {
       const auto& [a, b, c] = surface_.faces[face];
-      if (seen_[a] + seen_[b] + seen_[c] >= 2 && sites_.is_turned(face)) {
+      if (seen_[a] + seen_[b] + seen_[c] >= 2 && samples_.is_turned(face)) {
         sums.begin(face);
         sums.add_whole();
       }
@@ -315,7 +315,7 @@ class FaceQuery {
   /// Whether another face hides a place on a face.
   [[nodiscard]] bool is_hidden(std::uint32_t face, const Vec3& place) {
     if (!memory_.picture.is_flat()) {
-      return scene_.sites.hides_place(place, face, local_);
+      return scene_.samples.hides_place(place, face, local_);
     }
     const Segment segment = segment_to(place, local_);
     const PictureCells::Extent at = memory_.picture.extent_of(place);
@@ -323,8 +323,8 @@ class FaceQuery {
     steps_ += memory_.hiding.count(cell, cell);
     return memory_.hiding.is_any_before(cell, cell, at, [&](std::uint32_t other) {
       const auto& [a, b, c] = surface_.faces[other];
-      return other != face && segment.crosses(surface_.sites[a], surface_.sites[b],
-                                              surface_.sites[c], surface_.twice_areas[other]);
+      return other != face && segment.crosses(surface_.samples[a], surface_.samples[b],
+                                              surface_.samples[c], surface_.twice_areas[other]);
     });
   }
 
@@ -374,7 +374,7 @@ class FaceQuery {
     by_points_.shrink_to(0);
     const double step = 1.0 / kPartsASide;
     const auto add_if_seen = [&](const std::array<Eigen::Vector2d, 3>& part) {
-      if (!scene_.sites.hides_place(memory_.clip.middle(part), face, local_)) {
+      if (!scene_.samples.hides_place(memory_.clip.middle(part), face, local_)) {
         by_points_.add(part);
       }
     };
@@ -397,9 +397,9 @@ class FaceQuery {
   const Surface& surface_;
   const Viewpoint& local_;
   const RunContext& run_;
-  SiteQuery sites_;
+  SampleQuery samples_;
   bool is_outside_ = true;
-  std::vector<std::uint8_t> seen_{};  // of each site
+  std::vector<std::uint8_t> seen_{};  // of each sample
   std::size_t steps_ = 0;             // of all work so far
   std::uint32_t round_ = 0;
   std::vector<std::uint32_t> before_{};  // contours before the face at hand
@@ -419,17 +419,17 @@ double area_of(const Surface& surface) {
 }  // namespace
 
 FaceScene::FaceScene(const TriMesh& mesh, std::span<const FaceSides> sides)
-    : sites(prepare_surface(mesh, sides)),
+    : samples(prepare_surface(mesh, sides)),
       triangles(mesh.triangles),
       face_of_mesh(mesh.triangles.size(), kNoFace),
       sphere(enclosing_sphere(referenced_points(mesh))),
-      total_area(area_of(sites.surface())) {
-  const Surface& surface = sites.surface();
+      total_area(area_of(samples.surface())) {
+  const Surface& surface = samples.surface();
   for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
     face_of_mesh[surface.face_of_mesh[f]] = f;
   }
   if (!surface.faces.empty()) {
-    const TriMesh framed{surface.sites, surface.faces};
+    const TriMesh framed{surface.samples, surface.faces};
     edges = surface_edges(framed);
     meetings = find_meetings(framed, edges);
     for (const std::uint32_t fans : count_fans(framed)) {

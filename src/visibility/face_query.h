@@ -18,7 +18,7 @@
 #include "spatial/face_clip.h"
 #include "spatial/face_meetings.h"
 #include "spatial/picture_cells.h"
-#include "visibility/site_query.h"
+#include "visibility/sample_query.h"
 
 /// \file
 /// What one eye sees of a surface's faces. What is seen of a face changes only where a *contour*
@@ -37,7 +37,7 @@ struct FaceQueryMemory {
   std::vector<PictureCells::Extent> edge_extents{};  // of the contours
   std::vector<std::uint32_t> edges{};                // contours
   std::vector<std::uint32_t> seen_edges{};           // those of them that may be in view
-  std::vector<std::uint8_t> on_contour{};            // of each site, or touched
+  std::vector<std::uint8_t> on_contour{};            // of each sample, or touched
   std::vector<std::uint32_t> round{};                // in which each face was last found
   std::vector<std::uint32_t> order{};                // of each face of the mesh: where it is listed
   std::vector<double> along{};                       // see FaceSums
@@ -50,14 +50,14 @@ class FaceScene {
 
   static constexpr std::uint32_t kNoFace = ~std::uint32_t{0};
 
-  SiteScene sites;
+  SampleScene samples;
   std::vector<Triangle> triangles;            ///< Of the mesh.
   std::vector<std::uint32_t> face_of_mesh{};  ///< Of each of these the surface's face, or kNoFace.
   Sphere sphere;                              ///< Of the mesh.
   double total_area = 0.0;                    ///< Model units squared.
   SurfaceEdges edges{};
   FaceMeetings meetings{};
-  /// 1 for each site where surfaces touch: what touches a site does not hide it.
+  /// 1 for each sample where surfaces touch: what touches a sample does not hide it.
   std::vector<std::uint8_t> is_touched{};
   LentMemory<FaceQueryMemory> memory{};
 };

@@ -44,14 +44,14 @@ class FaceSums {
     towards_ = !is_perspective_ ? local.position : is_centre ? Vec3::UnitZ() : to_eye.normalized();
     plane_ = to_eye.dot(towards_);
     nearest_ = plane_ * per_diameter_ > 0.5 + kOutside ? 0.0 : kNearest / per_diameter_;
-    along_.resize(surface.sites.size());
-    for (std::size_t site = 0; site < along_.size(); ++site) {
-      along_[site] = (surface.sites[site] - centre).dot(towards_);
+    along_.resize(surface.samples.size());
+    for (std::size_t sample = 0; sample < along_.size(); ++sample) {
+      along_[sample] = (surface.samples[sample] - centre).dot(towards_);
     }
   }
 
-  /// Depth of a site from the side of the sphere next to the eye, over its diameter.
-  [[nodiscard]] double depth(std::uint32_t site) const { return depth_at(along_[site]); }
+  /// Depth of a sample from the side of the sphere next to the eye, over its diameter.
+  [[nodiscard]] double depth(std::uint32_t sample) const { return depth_at(along_[sample]); }
 
   /// Begins with a face of which something is seen.
   void begin(std::uint32_t face) {
@@ -62,10 +62,10 @@ class FaceSums {
     const Vec3& normal = surface_.area_vectors[face];
     area_ = to_model_ * surface_.twice_areas[face];
     picture_ =
-        to_model_ *
-        (is_perspective_
-             ? plane_ * plane_ * std::abs(normal.dot(surface_.sites[corners[0]] - local_.position))
-             : std::abs(normal.dot(towards_)));
+        to_model_ * (is_perspective_
+                         ? plane_ * plane_ *
+                               std::abs(normal.dot(surface_.samples[corners[0]] - local_.position))
+                         : std::abs(normal.dot(towards_)));
     result_.faces.push_back({.face = surface_.face_of_mesh[face]});
   }
 
@@ -194,7 +194,7 @@ class FaceSums {
   double to_model_;               // from twice an area in the frame to an area in the model
   double plane_ = 0.0;            // how far the eye is from the plane of projection
   double nearest_ = 0.0;          // along the line of sight, of what has a place in the picture
-  std::vector<double>& along_;    // of each site, from the centre to the eye
+  std::vector<double>& along_;    // of each sample, from the centre to the eye
   SeenSurface& result_;
   std::array<double, 3> at_corner_{};  // of those of the face at hand
   double area_ = 0.0;                  // of the face at hand

@@ -28,7 +28,7 @@ std::size_t FaceVisibility::face_count() const {
 }
 
 double FaceVisibility::face_area(std::size_t face) const {
-  const Surface& surface = scene_->sites.surface();
+  const Surface& surface = scene_->samples.surface();
   const std::uint32_t at = scene_->face_of_mesh[face];
   const double unit = surface.frame.scale;
   return at == FaceScene::kNoFace ? 0.0 : 0.5 * surface.twice_areas[at] / (unit * unit);
@@ -41,14 +41,14 @@ std::vector<SeenFace> FaceVisibility::seen_faces(const Viewpoint& eye,
 
 SeenSurface FaceVisibility::seen_surface(const Viewpoint& eye, const RunContext& run,
                                          FaceDetail detail) const {
-  return see_faces(*scene_, eye_in_frame(eye, scene_->sites.surface().frame), detail, run);
+  return see_faces(*scene_, eye_in_frame(eye, scene_->samples.surface().frame), detail, run);
 }
 
 std::vector<std::uint8_t> FaceVisibility::visible_vertices(const Viewpoint& eye,
                                                            const RunContext& run) const {
-  const Surface& surface = scene_->sites.surface();
-  SiteQuery query(scene_->sites, eye_in_frame(eye, surface.frame), run);
-  return vertices_of_sites(surface, query.seen_sites());
+  const Surface& surface = scene_->samples.surface();
+  SampleQuery query(scene_->samples, eye_in_frame(eye, surface.frame), run);
+  return vertices_of_samples(surface, query.seen_samples());
 }
 
 std::vector<double> FaceVisibility::integrals(std::span<const double> of_vertex) const {

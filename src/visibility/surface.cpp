@@ -115,13 +115,13 @@ std::vector<LooseFace> without_repeated(const std::vector<LooseFace>& faces) {
 }
 
 /// Numbers the welded vertices that faces use along a Morton curve.
-std::vector<std::uint32_t> number_sites(const std::vector<Vec3>& positions,
-                                        const std::vector<LooseFace>& faces, Surface& surface) {
-  std::vector<std::uint32_t> site_of_welded(positions.size(), Surface::kNoSite);
+std::vector<std::uint32_t> number_samples(const std::vector<Vec3>& positions,
+                                          const std::vector<LooseFace>& faces, Surface& surface) {
+  std::vector<std::uint32_t> sample_of_welded(positions.size(), Surface::kNoSample);
   std::vector<std::uint32_t> used;
   for (const LooseFace& face : faces) {
     for (const std::uint32_t v : face.corners) {
-      if (std::exchange(site_of_welded[v], 0) == Surface::kNoSite) {
+      if (std::exchange(sample_of_welded[v], 0) == Surface::kNoSample) {
         used.push_back(v);
       }
     }
@@ -132,10 +132,10 @@ std::vector<std::uint32_t> number_sites(const std::vector<Vec3>& positions,
     points.push_back(positions[v]);
   }
   for (const std::uint32_t i : morton_order(points)) {
-    site_of_welded[used[i]] = static_cast<std::uint32_t>(surface.sites.size());
-    surface.sites.push_back(points[i]);
+    sample_of_welded[used[i]] = static_cast<std::uint32_t>(surface.samples.size());
+    surface.samples.push_back(points[i]);
   }
-  return site_of_welded;
+  return sample_of_welded;
 }
 
 FacePlanes planes_of(const Surface& surface) {
@@ -145,7 +145,7 @@ FacePlanes planes_of(const Surface& surface) {
     planes.x.push_back(static_cast<float>(normal.x()));
     planes.y.push_back(static_cast<float>(normal.y()));
     planes.z.push_back(static_cast<float>(normal.z()));
-    planes.offset.push_back(static_cast<float>(normal.dot(surface.sites[surface.faces[f][0]])));
+    planes.offset.push_back(static_cast<float>(normal.dot(surface.samples[surface.faces[f][0]])));
   }
   return planes;
 }
@@ -159,7 +159,7 @@ constexpr std::size_t kBlockGrain = 128;
 /// Which side of the face is turned to the eye, in double: 1 front, 2 back, 0 edge on.
 std::uint8_t exact_side(const Surface& surface, std::size_t f, const Viewpoint& eye) {
   const Vec3 sight = eye.projection == Projection::Perspective
-                         ? Vec3(eye.position - surface.sites[surface.faces[f][0]])
+                         ? Vec3(eye.position - surface.samples[surface.faces[f][0]])
                          : eye.position;
   const double height = surface.area_vectors[f].dot(sight);
   if (!(std::abs(height) > kEdgeOn * surface.twice_areas[f] * sight.norm())) {
@@ -229,8 +229,8 @@ FaceBlocks blocks_of(const Surface& surface) {
   for (std::size_t begin = 0; begin < count; begin += FaceBlocks::kFaces) {
     std::vector<Vec3> corners;
     for (std::size_t f = begin; f < std::min(count, begin + FaceBlocks::kFaces); ++f) {
-      for (const std::uint32_t site : surface.faces[f]) {
-        corners.push_back(surface.sites[site]);
+      for (const std::uint32_t sample : surface.faces[f]) {
+        corners.push_back(surface.samples[sample]);
       }
     }
     const Box box = bounding_box(corners);
@@ -262,12 +262,12 @@ FloatPoints rounded_points(std::span<const Vec3> points) {
   return rounded;
 }
 
-std::vector<std::uint8_t> vertices_of_sites(const Surface& surface,
-                                            std::span<const std::uint8_t> of_site) {
-  std::vector<std::uint8_t> of_vertex(surface.site_of_vertex.size(), 0);
+std::vector<std::uint8_t> vertices_of_samples(const Surface& surface,
+                                              std::span<const std::uint8_t> of_sample) {
+  std::vector<std::uint8_t> of_vertex(surface.sample_of_vertex.size(), 0);
   for (std::size_t v = 0; v < of_vertex.size(); ++v) {
-    const std::uint32_t site = surface.site_of_vertex[v];
-    of_vertex[v] = site == Surface::kNoSite ? std::uint8_t{0} : of_site[site];
+    const std::uint32_t sample = surface.sample_of_vertex[v];
+    of_vertex[v] = sample == Surface::kNoSample ? std::uint8_t{0} : of_sample[sample];
   }
   return of_vertex;
 }
@@ -318,7 +318,7 @@ Surface prepare_surface(const TriMesh& mesh, std::span<const FaceSides> sides) {
   }
   const std::vector<LooseFace> faces =
       without_repeated(faces_with_area(mesh, welded, positions, sides));
-  const std::vector<std::uint32_t> site_of_welded = number_sites(positions, faces, surface);
+  const std::vector<std::uint32_t> sample_of_welded = number_samples(positions, faces, surface);
 
   std::vector<Vec3> centres;
   centres.reserve(faces.size());
@@ -328,22 +328,22 @@ Surface prepare_surface(const TriMesh& mesh, std::span<const FaceSides> sides) {
   }
   for (const std::uint32_t f : morton_order(centres)) {
     const auto& [a, b, c] = faces[f].corners;
-    surface.faces.push_back({site_of_welded[a], site_of_welded[b], site_of_welded[c]});
+    surface.faces.push_back({sample_of_welded[a], sample_of_welded[b], sample_of_welded[c]});
     surface.area_vectors.push_back(faces[f].area_vector);
     surface.twice_areas.push_back(faces[f].area_vector.norm());
     surface.sides.push_back(faces[f].sides);
     surface.face_of_mesh.push_back(faces[f].of_mesh);
   }
-  surface.rounded = rounded_points(surface.sites);
+  surface.rounded = rounded_points(surface.samples);
   surface.planes = planes_of(surface);
   surface.blocks = blocks_of(surface);
   add_cones(surface, surface.blocks);
 
   // A vertex that no face names is never seen, even at a position that others use.
-  surface.site_of_vertex.assign(mesh.positions.size(), Surface::kNoSite);
+  surface.sample_of_vertex.assign(mesh.positions.size(), Surface::kNoSample);
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t v : t) {
-      surface.site_of_vertex[v] = site_of_welded[welded.welded_of_vertex[v]];
+      surface.sample_of_vertex[v] = sample_of_welded[welded.welded_of_vertex[v]];
     }
   }
   return surface;

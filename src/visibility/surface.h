@@ -34,22 +34,22 @@ struct FaceBlocks {
   std::vector<float> cosine{};  ///< Of a cone's half angle, in (0, 1]; 0 for one that is too wide.
 };
 
-/// A vertex here is a *site*: a position that at least one face of positive area uses.
+/// A vertex here is a *sample*: a position that at least one face of positive area uses.
 struct Surface {
-  static constexpr std::uint32_t kNoSite = ~std::uint32_t{0};
+  static constexpr std::uint32_t kNoSample = ~std::uint32_t{0};
 
   UnitFrame frame{};
-  std::vector<Vec3> sites{};                    ///< In the frame, along a Morton curve.
-  std::vector<std::uint32_t> site_of_vertex{};  ///< Of each vertex of the mesh, or kNoSite.
-  std::vector<Triangle> faces{};                ///< Of sites, along a Morton curve.
-  std::vector<Vec3> area_vectors{};             ///< Of each face, in the frame.
-  std::vector<double> twice_areas{};            ///< Their lengths; > 0.
-  std::vector<FaceSides> sides{};               ///< Of each face.
-  std::vector<std::uint32_t> face_of_mesh{};    ///< The mesh's face that each face was.
-  FloatPoints rounded{};                        ///< The sites.
-  FacePlanes planes{};                          ///< Of each face.
-  FaceBlocks blocks{};                          ///< Of faces 0 … kFaces−1 and so on.
-  std::vector<std::uint8_t> backs{};            ///< FaceMeetings::hiding_backs; none: not known.
+  std::vector<Vec3> samples{};                    ///< In the frame, along a Morton curve.
+  std::vector<std::uint32_t> sample_of_vertex{};  ///< Of each vertex of the mesh, or kNoSample.
+  std::vector<Triangle> faces{};                  ///< Of samples, along a Morton curve.
+  std::vector<Vec3> area_vectors{};               ///< Of each face, in the frame.
+  std::vector<double> twice_areas{};              ///< Their lengths; > 0.
+  std::vector<FaceSides> sides{};                 ///< Of each face.
+  std::vector<std::uint32_t> face_of_mesh{};      ///< The mesh's face that each face was.
+  FloatPoints rounded{};                          ///< The samples.
+  FacePlanes planes{};                            ///< Of each face.
+  FaceBlocks blocks{};                            ///< Of faces 0 … kFaces−1 and so on.
+  std::vector<std::uint8_t> backs{};              ///< FaceMeetings::hiding_backs; none: not known.
 };
 
 /// Which side of a surface's faces is turned to an eye: 1 the front, 2 the back, 0 neither.
@@ -73,10 +73,10 @@ Viewpoint eye_in_frame(const Viewpoint& eye, const UnitFrame& frame);
 /// \throw InvalidInput if there are neither.
 Surface prepare_surface(const TriMesh& mesh, std::span<const FaceSides> sides);
 
-/// One value for each vertex of the mesh, that of its site; 0 for vertices without a site.
-/// \param of_site at least one value a site; more are not looked at.
-std::vector<std::uint8_t> vertices_of_sites(const Surface& surface,
-                                            std::span<const std::uint8_t> of_site);
+/// One value for each vertex of the mesh, that of its sample; 0 for vertices without a sample.
+/// \param of_sample at least one value a sample; more are not looked at.
+std::vector<std::uint8_t> vertices_of_samples(const Surface& surface,
+                                              std::span<const std::uint8_t> of_sample);
 
 /// The indices 0 … |points|−1 in the order of a Morton curve through their bounding box.
 std::vector<std::uint32_t> morton_order(std::span<const Vec3> points);

@@ -5,14 +5,14 @@
 
 #include "mesh/surface_edges.h"
 #include "spatial/face_meetings.h"
-#include "visibility/site_query.h"
+#include "visibility/sample_query.h"
 
 namespace vantage {
 
 struct VertexVisibility::Scene {
-  explicit Scene(Surface surface) : sites(std::move(surface)) {}
+  explicit Scene(Surface surface) : samples(std::move(surface)) {}
 
-  SiteScene sites;
+  SampleScene samples;
 };
 
 namespace {
@@ -24,27 +24,27 @@ constexpr std::size_t kManyEyes = 100;
 Surface surface_for(const TriMesh& mesh, std::span<const FaceSides> sides, std::size_t eyes) {
   Surface surface = prepare_surface(mesh, sides);
   if (eyes >= kManyEyes && !surface.faces.empty()) {
-    const TriMesh framed{surface.sites, surface.faces};
+    const TriMesh framed{surface.samples, surface.faces};
     surface.backs = find_meetings(framed, surface_edges(framed)).hiding_backs;
   }
   return surface;
 }
 
-std::vector<std::uint8_t> sites_of(const Surface& surface, std::span<const std::uint8_t> asked) {
-  std::vector<std::uint8_t> sites(surface.sites.size(), 0);
+std::vector<std::uint8_t> samples_of(const Surface& surface, std::span<const std::uint8_t> asked) {
+  std::vector<std::uint8_t> samples(surface.samples.size(), 0);
   for (std::size_t v = 0; v < asked.size(); ++v) {
-    if (asked[v] != 0 && surface.site_of_vertex[v] != Surface::kNoSite) {
-      sites[surface.site_of_vertex[v]] = 1;
+    if (asked[v] != 0 && surface.sample_of_vertex[v] != Surface::kNoSample) {
+      samples[surface.sample_of_vertex[v]] = 1;
     }
   }
-  return sites;
+  return samples;
 }
 
-/// Of vertices at one site perhaps only some were asked about.
+/// Of vertices at one sample perhaps only some were asked about.
 std::vector<std::uint8_t> of_those_asked(const Surface& surface,
                                          std::span<const std::uint8_t> asked,
-                                         const std::vector<std::uint8_t>& seen_sites) {
-  std::vector<std::uint8_t> seen = vertices_of_sites(surface, seen_sites);
+                                         const std::vector<std::uint8_t>& seen_samples) {
+  std::vector<std::uint8_t> seen = vertices_of_samples(surface, seen_samples);
   for (std::size_t v = 0; v < seen.size(); ++v) {
     seen[v] = asked[v] != 0 ? seen[v] : 0;
   }
@@ -63,26 +63,27 @@ VertexVisibility& VertexVisibility::operator=(VertexVisibility&&) noexcept = def
 
 std::vector<std::uint8_t> VertexVisibility::visible_vertices(const Viewpoint& eye,
                                                              const RunContext& run) const {
-  SiteScene& sites = scene_->sites;
-  SiteQuery query(sites, eye_in_frame(eye, sites.surface().frame), run);
-  return vertices_of_sites(sites.surface(), query.seen_sites());
+  SampleScene& samples = scene_->samples;
+  SampleQuery query(samples, eye_in_frame(eye, samples.surface().frame), run);
+  return vertices_of_samples(samples.surface(), query.seen_samples());
 }
 
 std::vector<std::uint8_t> VertexVisibility::visible_among(std::span<const std::uint8_t> asked,
                                                           const Viewpoint& eye,
                                                           const RunContext& run) const {
-  SiteScene& sites = scene_->sites;
-  SiteQuery query(sites, eye_in_frame(eye, sites.surface().frame), run);
-  return of_those_asked(sites.surface(), asked, query.seen_among(sites_of(sites.surface(), asked)));
+  SampleScene& samples = scene_->samples;
+  SampleQuery query(samples, eye_in_frame(eye, samples.surface().frame), run);
+  return of_those_asked(samples.surface(), asked,
+                        query.seen_among(samples_of(samples.surface(), asked)));
 }
 
 std::vector<std::uint8_t> VertexVisibility::visible_by_segments(std::span<const std::uint8_t> asked,
                                                                 const Viewpoint& eye,
                                                                 const RunContext& run) const {
-  SiteScene& sites = scene_->sites;
-  SiteQuery query(sites, eye_in_frame(eye, sites.surface().frame), run);
-  return of_those_asked(sites.surface(), asked,
-                        query.seen_by_segments(sites_of(sites.surface(), asked)));
+  SampleScene& samples = scene_->samples;
+  SampleQuery query(samples, eye_in_frame(eye, samples.surface().frame), run);
+  return of_those_asked(samples.surface(), asked,
+                        query.seen_by_segments(samples_of(samples.surface(), asked)));
 }
 
 std::vector<std::uint8_t> visible_vertices(const TriMesh& mesh, const Vec3& eye) {

@@ -39,8 +39,9 @@ TEST(LineDrawing, ALineHasItsLengthTimesItsWidthAndRoundEnds) {
 }
 
 TEST(LineDrawing, AnAreaIsFilledWhicheverWayRoundItIsGiven) {
-  for (const std::vector<Spot>& corners :
-       {std::vector<Spot>{{5, 5}, {25, 5}, {5, 35}}, std::vector<Spot>{{5, 5}, {5, 35}, {25, 5}}}) {
+  for (const std::vector<PixelPoint>& corners :
+       {std::vector<PixelPoint>{{5, 5}, {25, 5}, {5, 35}},
+        std::vector<PixelPoint>{{5, 5}, {5, 35}, {25, 5}}}) {
     LineDrawing drawing(40, 40);
     drawing.fill(corners, kBlack);
     EXPECT_NEAR(ink(drawing), 300.0, 5.0);

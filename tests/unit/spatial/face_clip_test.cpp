@@ -29,7 +29,7 @@ class Clipped {
       : surface_(prepare_surface(mesh, sides_)), local_(eye_in_frame(eye, surface_.frame)) {
     for (std::size_t f = 0; f < surface_.faces.size(); ++f) {
       const double height =
-          surface_.area_vectors[f].dot(sight_line(surface_.sites[surface_.faces[f][0]], local_));
+          surface_.area_vectors[f].dot(sight_line(surface_.samples[surface_.faces[f][0]], local_));
       turned_.push_back(height > 0.0 ? 1 : height < 0.0 ? 2 : 0);
     }
   }
@@ -38,7 +38,7 @@ class Clipped {
   [[nodiscard]] std::vector<double> shares() const {
     std::vector<double> result(surface_.faces.size(), 0.0);
     FaceClip clip;
-    clip.begin(surface_.sites, surface_.faces, local_);
+    clip.begin(surface_.samples, surface_.faces, local_);
     for (std::uint32_t f = 0; f < result.size(); ++f) {
       std::size_t steps = 0;
       EXPECT_TRUE(add_shadows(f, clip) || clip.subtract(steps, kEnough));
@@ -52,7 +52,7 @@ class Clipped {
   /// Whether so many steps are enough to clip a face.
   [[nodiscard]] bool is_clipped(std::uint32_t face, std::size_t steps) const {
     FaceClip clip;
-    clip.begin(surface_.sites, surface_.faces, local_);
+    clip.begin(surface_.samples, surface_.faces, local_);
     add_shadows(number_of(face), clip);
     std::size_t taken = 0;
     return clip.subtract(taken, steps);
@@ -61,19 +61,19 @@ class Clipped {
   /// Whether an edge lies before a face of the mesh, or in it; the edge by its ends' positions.
   [[nodiscard]] bool is_behind(std::uint32_t face, const Vec3& a, const Vec3& b) const {
     FaceClip clip;
-    clip.begin(surface_.sites, surface_.faces, local_);
+    clip.begin(surface_.samples, surface_.faces, local_);
     take(number_of(face), clip);
-    return clip.is_behind({site(a), site(b)});
+    return clip.is_behind({sample(a), sample(b)});
   }
 
   /// The shares of the parts of a face of the mesh that is cut along edges, ascending.
   [[nodiscard]] std::vector<double> areas_along(
       std::uint32_t face, const std::vector<std::array<Vec3, 2>>& edges) const {
     FaceClip clip;
-    clip.begin(surface_.sites, surface_.faces, local_);
+    clip.begin(surface_.samples, surface_.faces, local_);
     take(number_of(face), clip);
     for (const auto& [a, b] : edges) {
-      clip.cut_along({site(a), site(b)});
+      clip.cut_along({sample(a), sample(b)});
     }
     std::vector<double> areas;
     for (std::size_t i = 0; i < clip.parts().size(); ++i) {
@@ -98,8 +98,8 @@ class Clipped {
           const double u = (i + third) / side;
           const int row = j / 2;
           const double v = (row + third) / side;
-          seen += is_hidden(f, u * surface_.sites[a] + v * surface_.sites[b] +
-                                   (1.0 - u - v) * surface_.sites[c])
+          seen += is_hidden(f, u * surface_.samples[a] + v * surface_.samples[b] +
+                                   (1.0 - u - v) * surface_.samples[c])
                       ? 0
                       : 1;
         }
@@ -129,11 +129,11 @@ class Clipped {
     return is_hidden;
   }
 
-  [[nodiscard]] std::uint32_t site(const Vec3& place) const {
+  [[nodiscard]] std::uint32_t sample(const Vec3& place) const {
     const Vec3 there = surface_.frame.to_frame(place);
-    const auto at = std::find(surface_.sites.begin(), surface_.sites.end(), there);
-    EXPECT_NE(at, surface_.sites.end());
-    return static_cast<std::uint32_t>(at - surface_.sites.begin());
+    const auto at = std::find(surface_.samples.begin(), surface_.samples.end(), there);
+    EXPECT_NE(at, surface_.samples.end());
+    return static_cast<std::uint32_t>(at - surface_.samples.begin());
   }
 
   [[nodiscard]] std::uint32_t number_of(std::uint32_t face) const {
@@ -145,8 +145,8 @@ class Clipped {
     const Segment segment = segment_to(place, local_);
     for (std::uint32_t f = 0; f < surface_.faces.size(); ++f) {
       const auto& [a, b, c] = surface_.faces[f];
-      if (f != face && segment.crosses(surface_.sites[a], surface_.sites[b], surface_.sites[c],
-                                       surface_.twice_areas[f])) {
+      if (f != face && segment.crosses(surface_.samples[a], surface_.samples[b],
+                                       surface_.samples[c], surface_.twice_areas[f])) {
         return true;
       }
     }

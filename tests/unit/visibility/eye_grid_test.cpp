@@ -10,7 +10,7 @@
 #include "vantage/visibility/vertex_visibility.h"
 
 #include "core/random.h"
-#include "visibility/site_query.h"
+#include "visibility/sample_query.h"
 #include "visibility/surface.h"
 
 namespace vantage {
@@ -33,17 +33,17 @@ TriMesh heap(std::uint32_t faces) {
 
 TEST(EyeGrid, IsEnoughForAHeapOfLargeFaces) {
   const std::array sides{FaceSides::Both};
-  SiteScene sites(prepare_surface(heap(4000), sides));
-  const Surface& surface = sites.surface();
+  SampleScene samples(prepare_surface(heap(4000), sides));
+  const Surface& surface = samples.surface();
   const Viewpoint eye{Projection::Perspective, Vec3(2.0, 3.0, 4.0)};
   TurnedFaces turned;
   find_turned(surface, eye, turned, {});
   EyeGrid grid;
   grid.begin(eye, turned, {});
-  std::vector<std::uint8_t> seen(surface.sites.size(), 1);
+  std::vector<std::uint8_t> seen(surface.samples.size(), 1);
   EXPECT_TRUE(grid.hide(surface, seen, {}));
   for (std::uint32_t i = 0; i < seen.size(); i += 7) {
-    EXPECT_EQ(seen[i] == 0, sites.hides_site(i, eye)) << i;
+    EXPECT_EQ(seen[i] == 0, samples.hides_sample(i, eye)) << i;
   }
 }
 

@@ -8,14 +8,14 @@
 #include "vantage/visibility/vertex_visibility.h"
 
 #include "support/shapes.h"
-#include "visibility/site_query.h"
+#include "visibility/sample_query.h"
 
 namespace vantage {
 namespace {
 
 /// Which side each face turns to the eye.
-std::vector<std::uint8_t> sides_seen(SiteScene& sites, const Viewpoint& eye) {
-  return SiteQuery(sites, eye_in_frame(eye, sites.surface().frame), {}).turned();
+std::vector<std::uint8_t> sides_seen(SampleScene& samples, const Viewpoint& eye) {
+  return SampleQuery(samples, eye_in_frame(eye, samples.surface().frame), {}).turned();
 }
 
 /// Whether it makes no difference that runs of faces are told by the cones around their normals.
@@ -23,9 +23,9 @@ void expect_same_without_cones(const TriMesh& mesh) {
   const std::vector<FaceSides> sides{FaceSides::Front};
   Surface surface = prepare_surface(mesh, sides);
   ASSERT_FALSE(surface.blocks.cosine.empty());
-  SiteScene with_cones(surface);
+  SampleScene with_cones(surface);
   surface.blocks.cosine.clear();
-  SiteScene without(surface);
+  SampleScene without(surface);
   for (const Vec3& towards : direction_set(ViewSphereBase::Icosahedron, 1).directions) {
     EXPECT_EQ(sides_seen(with_cones, {Projection::Orthographic, towards}),
               sides_seen(without, {Projection::Orthographic, towards}));

@@ -60,24 +60,24 @@ class LentMemory {
   std::vector<std::unique_ptr<Memory>> free_{};
 };
 
-class SiteQuery;
+class SampleQuery;
 
 /// Queries may run on many threads at once.
-class SiteScene {
+class SampleScene {
  public:
-  explicit SiteScene(Surface prepared) : surface_(std::move(prepared)) {}
+  explicit SampleScene(Surface prepared) : surface_(std::move(prepared)) {}
 
   [[nodiscard]] const Surface& surface() const { return surface_; }
 
-  /// Whether a face hides the site from the eye; asks the hierarchy in space, which is built when
-  /// first needed. Whether a face at the site is turned to the eye is not asked.
-  bool hides_site(std::uint32_t site, const Viewpoint& eye);
+  /// Whether a face hides the sample from the eye; asks the hierarchy in space, which is built when
+  /// first needed. Whether a face at the sample is turned to the eye is not asked.
+  bool hides_sample(std::uint32_t sample, const Viewpoint& eye);
 
   /// The same of a place on a face, in the surface's frame.
   bool hides_place(const Vec3& place, std::uint32_t face, const Viewpoint& eye);
 
  private:
-  friend class SiteQuery;
+  friend class SampleQuery;
 
   template <typename Holds>
   bool hidden(const Vec3& start, const Viewpoint& eye, const Holds& holds);
@@ -96,12 +96,12 @@ class SiteScene {
 };
 
 /// What one eye sees; any number of queries. For one thread to call.
-class SiteQuery {
+class SampleQuery {
  public:
   /// \param eye in the surface's frame. \param backs as EyeGrid::begin() takes them; none: those of
   ///            the surface.
-  SiteQuery(SiteScene& scene, const Viewpoint& eye, const RunContext& run,
-            std::span<const std::uint8_t> backs = {});
+  SampleQuery(SampleScene& scene, const Viewpoint& eye, const RunContext& run,
+              std::span<const std::uint8_t> backs = {});
 
   /// Whether a side of the face that can be seen is turned to the eye.
   [[nodiscard]] bool is_turned(std::size_t face) const {
@@ -112,26 +112,26 @@ class SiteQuery {
   /// Which side each face turns to the eye: 1 its front, 2 its back, 0 neither.
   [[nodiscard]] const std::vector<std::uint8_t>& turned() const { return memory_->turned.of_face; }
 
-  /// 1 for each site at which a face is turned to the eye and that no face hides.
-  [[nodiscard]] std::vector<std::uint8_t> seen_sites();
+  /// 1 for each sample at which a face is turned to the eye and that no face hides.
+  [[nodiscard]] std::vector<std::uint8_t> seen_samples();
 
-  /// The same of those sites that have a 1.
-  [[nodiscard]] std::vector<std::uint8_t> seen_among(std::span<const std::uint8_t> sites);
+  /// The same of those samples that have a 1.
+  [[nodiscard]] std::vector<std::uint8_t> seen_among(std::span<const std::uint8_t> samples);
 
-  /// seen_among() by SiteScene::hides_site() alone.
-  [[nodiscard]] std::vector<std::uint8_t> seen_by_segments(std::span<const std::uint8_t> sites);
+  /// seen_among() by SampleScene::hides_sample() alone.
+  [[nodiscard]] std::vector<std::uint8_t> seen_by_segments(std::span<const std::uint8_t> samples);
 
-  /// 1 for each site asked about that no face hides. \param asked 1 for each such site, else 0.
+  /// 1 for each sample asked about that no face hides. \param asked 1 for each such sample, else 0.
   [[nodiscard]] std::vector<std::uint8_t> not_hidden(std::vector<std::uint8_t> asked);
 
  private:
-  [[nodiscard]] std::vector<std::uint8_t> turned_among(std::span<const std::uint8_t> sites) const;
+  [[nodiscard]] std::vector<std::uint8_t> turned_among(std::span<const std::uint8_t> samples) const;
   void strike_hidden(std::vector<std::uint8_t>& asked);
 
-  SiteScene& scene_;
+  SampleScene& scene_;
   Viewpoint eye_;
   RunContext run_;
-  LentMemory<SiteScene::QueryMemory>::Loan memory_;
+  LentMemory<SampleScene::QueryMemory>::Loan memory_;
 };
 
 }  // namespace vantage
