@@ -196,8 +196,8 @@ TEST(Orientation, IsWhatIsGivenOrCertainWhateverTheShape) {
   EXPECT_EQ(certain.front.direction.dot(certain.up.direction), 0.0);
   EXPECT_EQ(evidence.find({.front = Vec3::UnitX()}).up.direction.dot(Vec3::UnitX()), 0.0);
   EXPECT_THROW(
-      evidence.find(
-          {.front = -Vec3::UnitY(), .usual_up = Vec3::UnitY(), .usual_up_is_certain = true}),
+      static_cast<void>(evidence.find(
+          {.front = -Vec3::UnitY(), .usual_up = Vec3::UnitY(), .usual_up_is_certain = true})),
       InvalidInput);
 }
 
