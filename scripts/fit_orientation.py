@@ -14,7 +14,7 @@ The model is a sum of small regression trees over features of each candidate dir
 opposite candidate's, and those less the mean of all: gradient boosting (Friedman 2001) of the softmax
 over the candidates. What files of one archive share (its makers' habits) is no help with other files: so whole
 archives are left out, one by one, and on what is then said of them the scale of the log odds (the least log loss),
-witness and threshold are chosen: the most turned models right with at most 1 % harm. A series of near
+the log odds of the convention and the threshold are chosen: the most turned models right with at most 1 % harm. A series of near
 copies (twenty wall sockets) counts as one model, and is left out of the folds together. A format's convention
 is an up with a front: how well its front suits the shape, if its up is right, speaks for that up, too, as far
 as files face so (the share of the scans that do).
@@ -79,16 +79,16 @@ def front_odds(rows, make, task, parts, scale):
     return odds
 
 
-def describe(task, scores, witness, threshold, share):
+def describe(task, scores, log_odds, threshold, share):
     one = np.ones(len(task.rows))
     plain = task.right[np.arange(len(task.rows)), scores.argmax(1)].astype(float)
-    turned, kept = task.outcomes(scores, witness, threshold, share)
+    turned, kept = task.outcomes(scores, log_odds, threshold, share)
     rates = [("shape alone", plain), ("turned", turned), ("harm", 1 - kept)]
     if task.of_front:
-        rates.append(("if up is given", task.given_up(scores, witness, threshold, share)))
+        rates.append(("if up is given", task.given_up(scores, log_odds, threshold, share)))
     for name, counts in (("catalogue", one * task.catalogue), ("all", one)):
         print(f"  {name}: " + ", ".join(printed(what, values, counts, task.series) for what, values in rates))
-    as_they_come(task, scores, witness, threshold, share)
+    as_they_come(task, scores, log_odds, threshold, share)
     for kind in sorted({row["kind"] for row in task.rows}):
         mask = np.array([row["kind"] == kind for row in task.rows])
         print(f"    {kind:20} {mask.sum():4}  shape alone {plain[mask].mean():.2f}  turned {turned[mask].mean():.2f}  "
@@ -96,14 +96,14 @@ def describe(task, scores, witness, threshold, share):
     confusion(task, scores)
 
 
-def as_they_come(task, scores, witness, threshold, share):
+def as_they_come(task, scores, log_odds, threshold, share):
     """Right of the scans, whose formats have y up and z in front (given the up that is right, of fronts)."""
     scans = [i for i, row in enumerate(task.rows) if row["group"] == "scans"]
     if not scans:
         return
     candidates = [("z" if row["up"] == "y" else "-y") if task.of_front else "y" for row in task.rows]
     right = by_habit = 0
-    decisions = [taken for _, taken in task.decided(scores, witness, threshold, share)]
+    decisions = [taken for _, taken in task.decided(scores, log_odds, threshold, share)]
     for i in scans:
         directions = ring_around(task.rows[i]["up"]) if task.of_front else AXES
         usual = directions.index(candidates[i])
@@ -238,9 +238,9 @@ def main():
     for subject in ("up", "front"):
         task = tasks[subject]
         grid = task.grid(scores[subject], share)
-        witness, threshold, _ = task.choose_rule(grid)
-        rules[subject] = witness, threshold
-        print(f"{subject}: {len(task.rows)} models, scale {scales[subject]:g}, witness {witness:g}, "
+        log_odds, threshold, _ = task.choose_rule(grid)
+        rules[subject] = log_odds, threshold
+        print(f"{subject}: {len(task.rows)} models, scale {scales[subject]:g}, convention {log_odds:g}, "
               f"threshold {threshold:g}")
         describe_archives(task, scores[subject], rules[subject], share, grid)
         stated = calibration(task, scores[subject])
@@ -258,7 +258,7 @@ def main():
             lines += kept
             continue
         names = rows[0]["features"][f"{subject}_features"]
-        lines += [f"{subject} witness {rules[subject][0]:g}", f"{subject} threshold {rules[subject][1]:g}"]
+        lines += [f"{subject} convention_log_odds {rules[subject][0]:g}", f"{subject} threshold {rules[subject][1]:g}"]
         lines += [f"{subject} share {share:g}"] if subject == "front" else []
         lines += [f"{subject} tree {text}" for text in model.text(names)]
     if given.figure:

@@ -12,7 +12,7 @@ FOLDS = 5
 COPIES = 2
 SERIES = 0.25  # mean difference of the features of two models of one series, in standard deviations
 SCALES = np.arange(0.7, 1.51, 0.05)
-WITNESSES = np.arange(0.0, 5.01, 0.25)
+LOG_ODDS = np.arange(0.0, 5.01, 0.25)
 THRESHOLDS = np.arange(0.3, 0.96, 0.05)
 
 
@@ -189,44 +189,44 @@ class Task:
         return make().fit(inputs, np.tile(self.target[mask], (1 + count, 1)),
                           np.concatenate([self.weight[mask] / 2] + [self.weight[mask] / 2 / count] * count))
 
-    def conventions(self, witness, share):
+    def conventions(self, log_odds, share):
         """(convention's candidate, models that it has right, what it adds to the odds) of each convention."""
         rows = np.arange(len(self.rows))
         count = self.inputs.shape[1]
         for usual in range(count):
             if self.of_front:
-                yield usual, self.right[:, usual], witness * np.eye(count)[usual]
+                yield usual, self.right[:, usual], log_odds * np.eye(count)[usual]
                 continue
             for front in range(4):
                 facing = np.log(1 - share + share * 4 * self.front_odds[rows, usual, front])
                 yield (usual, (self.truth == usual) & (self.front == front),
-                       (witness + facing)[:, None] * np.eye(count)[usual])
+                       (log_odds + facing)[:, None] * np.eye(count)[usual])
 
-    def decided(self, scores, witness, threshold, share=0.0):
+    def decided(self, scores, log_odds, threshold, share=0.0):
         """For each convention: the models it has right, and the candidates taken."""
         rows = np.arange(len(scores))
-        for usual, has_right, added in self.conventions(witness, share):
+        for usual, has_right, added in self.conventions(log_odds, share):
             odds = np.minimum(np.einsum("mab,mb->ma", self.alike, softmax(scores + added)), 1.0)
             best = odds.argmax(1)
             best = np.where(odds[:, usual] >= odds.max(1) - 1e-9, usual, best)
             yield has_right, np.where(odds[rows, best] >= threshold, best, usual)
 
-    def outcomes(self, scores, witness, threshold, share=0.0):
+    def outcomes(self, scores, log_odds, threshold, share=0.0):
         """Of each model the share of turns in which it comes out right, and of those that a convention has right
         (NaN: none has)."""
         turned, kept, of, count = (np.zeros(len(scores)) for _ in range(4))
-        for has_right, taken in self.decided(scores, witness, threshold, share):
+        for has_right, taken in self.decided(scores, log_odds, threshold, share):
             ok = self.right[np.arange(len(scores)), taken]
             turned, count = turned + ok, count + 1
             kept, of = kept + (ok & has_right), of + has_right
         return turned / count, np.where(of > 0, kept / np.maximum(of, 1), np.nan)
 
     def grid(self, scores, share):
-        """(witness, threshold, outcomes) of every rule. Of fronts the witness is what the share of files that face as
+        """(log_odds, threshold, outcomes) of every rule. Of fronts the log odds are what the share of files that face as
         their format's do says: a larger one would call sure what it is not."""
-        witnesses = [round(np.log(3 * share / (1 - share)), 2)] if self.of_front else WITNESSES
+        conventions_log_odds = [round(np.log(3 * share / (1 - share)), 2)] if self.of_front else LOG_ODDS
         return [(float(w), round(float(t), 2), self.outcomes(scores, w, t, share))
-                for w in witnesses for t in THRESHOLDS]
+                for w in conventions_log_odds for t in THRESHOLDS]
 
     def choose_scale(self, scores):
         """Factor of the log odds with the least log loss."""
@@ -239,26 +239,26 @@ class Task:
         """Witness and threshold that get the most turned models right at no more harm, and the rate."""
         counts = self.counts if counts is None else counts
         best = (-1.0, 8.0, 0.99)
-        for witness, threshold, (turned, kept) in grid:
+        for log_odds, threshold, (turned, kept) in grid:
             rate = mean(turned, counts)
             if 1.0 - mean(kept, counts) <= harm and rate > best[0] + 1e-12:
-                best = (rate, witness, threshold)
+                best = (rate, log_odds, threshold)
         return best[1:] + best[:1]
 
     def rule_left_out(self, grid):
         """Turned right, and harm, of each archive by the rule chosen on the others, as models count."""
         turned, kept = (np.full(len(self.rows), np.nan) for _ in range(2))
         for part in self.archives():
-            witness, threshold, _ = self.choose_rule(grid, self.counts * ~part)
-            found = next(o for w, t, o in grid if (w, t) == (witness, threshold))
+            log_odds, threshold, _ = self.choose_rule(grid, self.counts * ~part)
+            found = next(o for w, t, o in grid if (w, t) == (log_odds, threshold))
             turned[part], kept[part] = found[0][part], found[1][part]
         return turned, kept
 
-    def given_up(self, scores, witness, threshold, share):
+    def given_up(self, scores, log_odds, threshold, share):
         """Of each model the share with the right front, turned at random, its up given."""
         rows = np.arange(len(scores))
         # One in six has its format's up; y and z have a usual front then, too; four have none.
-        own = self.outcomes(scores, witness, threshold)[0]
+        own = self.outcomes(scores, log_odds, threshold)[0]
         usual = self.outcomes(scores, np.log(3 * share / (1 - share)), 0.0)[0]
         alone = self.right[rows, np.einsum("mab,mb->ma", self.alike, softmax(scores)).argmax(1)]
         return own / 6 + usual / 6 + 4 * alone / 6

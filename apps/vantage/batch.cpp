@@ -6,10 +6,10 @@
 #include <thread>
 
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "vantage/core/error.h"
 #include "vantage/core/version.h"
+#include "vantage/io/model.h"
 #include "vantage/pipeline/sidecar.h"
 #include "vantage/pipeline/view_options.h"
 
@@ -72,8 +72,7 @@ class ShardSource : public batch::EntrySource {
 };
 
 double machine_memory_gb() {
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
-         static_cast<double>(sysconf(_SC_PAGE_SIZE)) / 1e9;
+  return static_cast<double>(usable_memory_bytes()) / 1e9;
 }
 
 int cores() {

@@ -42,7 +42,7 @@ using Json = nlohmann::ordered_json;
 
 /// For tests only: VANTAGE_TEST_FAULT="crash:part,hang:part,memory:part" makes the worker go wrong
 /// on models whose key contains `part`.
-void suffer_test_fault(const std::string& key) {
+void inject_test_fault(const std::string& key) {
   const char* faults = std::getenv("VANTAGE_TEST_FAULT");
   std::string_view rest = faults == nullptr ? "" : faults;
   while (!rest.empty()) {
@@ -58,8 +58,8 @@ void suffer_test_fault(const std::string& key) {
     while (fault.starts_with("hang")) {
       ::sleep(1);
     }
-    for (std::vector<std::string> hoard; fault.starts_with("memory");) {
-      hoard.emplace_back(std::size_t{64} << 20U, 'x');
+    for (std::vector<std::string> allocated; fault.starts_with("memory");) {
+      allocated.emplace_back(std::size_t{64} << 20U, 'x');
     }
   }
 }
@@ -149,7 +149,7 @@ struct BatchWorkerCommand {
       if (!std::getline(std::cin, word) || word != "go") {
         return nullptr;
       }
-      suffer_test_fault(key);
+      inject_test_fault(key);
       session.flags.threads = order.at("threads").get<int>();
       const RunContext run = session.run();
       const Sidecar sidecar = sidecar_of(path);

@@ -89,7 +89,6 @@ struct ScoreCommand {
       score_measures(session, loaded, options, measures, points);
       return;
     }
-    measure = "kssm";
     const ShapeAnalysis shape = session.computing([&] {
       return analyse_shape(loaded, options, run.part(0.0, 0.5), nullptr, AnalysisUse::Map);
     });
@@ -182,7 +181,7 @@ struct ScoreCommand {
     for (const Vec3& eye : points) {
       run.advance("scoring",
                   static_cast<double>(scores.size()) / static_cast<double>(points.size()));
-      scores.push_back(scorer.score_from({Projection::Perspective, eye}));
+      scores.push_back(scorer.score_from({Projection::Perspective, eye}, run.quiet()));
     }
     return scores;
   }

@@ -95,32 +95,17 @@ struct ViewCommand {
 
   void run(Session& session) {
     const auto start = Clock::now();
-    ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
-    options.pictures = !no_images;
-    options.view_set = several.request();
-    options.margin_percent = look.margin_percent();
-    measure.apply(options);
-    method.require_use(options.method == "mesh-saliency", "saliency", "mesh-saliency");
-    several.require_use(sums_a_map(options.method));
-    const RunContext run = session.run();
-
+    ViewOptions options = resolved_options(session);
     StageSeconds seconds;
-    require_distinct({{"--trace", trace}, {"--tour", several.tour()}});
-    const std::string ending = std::filesystem::path(folder).extension().string();
-    if (ending == ".png" || ending == ".webp" || ending == ".jpg") {
-      throw CLI::ValidationError(
-          "--output", "is a folder for all results; one picture is made by render and thumb");
-    }
-    session.leave_output_to(trace, "--trace");
-    check_output(trace, OutputKind::Table, session.flags);
+    check_files(session);
     const bool is_drawn = !no_images || preview.is_given();
     const Model loaded = load_posed(session, model, options, is_drawn ? &look : nullptr);
     seconds.load = seconds_since(start);
     OutputFolder output(folder.empty() ? folder_named(loaded.name, ".vantage") : folder,
                         kViewResults);
-    output.check(session.flags.force);
-    output.refuse_own_name(trace, "--trace");
-    several.check_names(output);
+    check_folder(session, output);
+
+    const RunContext run = session.run();
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_shape(loaded, options, run.part(0.02, 0.5), &seconds); });
     if (!sums_a_map(options.method)) {
@@ -151,13 +136,8 @@ struct ViewCommand {
       output.add_named(trace, trace_csv(report));
     }
     output.write();
-    const bool wants_report = !no_images && !no_report;
-    if (wants_report && !sums_a_map(options.method)) {
-      session.say(
-          "note: report.html shows a map and what is seen of it: there is none for this --method");
-    } else if (wants_report && !has_report_page()) {
-      session.say("note: this program was built without npm, so that there is no report.html");
-    }
+
+    const bool has_report = reports(session, options);
     session.end_progress();
     if (session.flags.json) {
       write_output("-", view_json(loaded, shape, report, options, &seconds));
@@ -167,14 +147,9 @@ struct ViewCommand {
       summarise(session, loaded, shape, choice, report, options, output, seconds);
     }
     // Last: who waits for the pictures and the numbers has them.
-    if (wants_report && sums_a_map(options.method) && has_report_page()) {
-      const auto report_start = Clock::now();
-      output.write_last("report.html", report_html(loaded, shape, pictures, report, options, run));
-      session.end_progress();
-      if (!session.flags.json) {
-        session.tell("  report      " + printable(output.path()) + "/report.html, " +
-                     rounded(seconds_since(report_start), 2) + " s later");
-      }
+    if (has_report) {
+      write_report(session, output,
+                   [&] { return report_html(loaded, shape, pictures, report, options, run); });
     }
     if (strict && !report.doubts.empty()) {
       throw Error(loaded.name + ": " + report.doubts.front() + " (--strict)");
@@ -182,6 +157,64 @@ struct ViewCommand {
   }
 
  private:
+  /// \throw CLI::ValidationError if flags do not go together.
+  [[nodiscard]] ViewOptions resolved_options(Session& session) {
+    ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
+    options.pictures = !no_images;
+    options.view_set = several.request();
+    options.margin_percent = look.margin_percent();
+    measure.apply(options);
+    method.require_use(options.method == "mesh-saliency", "saliency", "mesh-saliency");
+    several.require_use(sums_a_map(options.method));
+    return options;
+  }
+
+  /// What can be told of the results' places before the model is read.
+  void check_files(Session& session) const {
+    require_distinct({{"--trace", trace}, {"--tour", several.tour()}});
+    const std::string ending = std::filesystem::path(folder).extension().string();
+    if (ending == ".png" || ending == ".webp" || ending == ".jpg") {
+      throw CLI::ValidationError(
+          "--output", "is a folder for all results; one picture is made by render and thumb");
+    }
+    session.leave_output_to(trace, "--trace");
+    check_output(trace, OutputKind::Table, session.flags);
+  }
+
+  void check_folder(const Session& session, const OutputFolder& output) const {
+    output.check(session.flags.force);
+    output.refuse_own_name(trace, "--trace");
+    several.check_names(output);
+  }
+
+  /// Whether report.html is written; says why not where it is asked for and cannot be.
+  [[nodiscard]] bool reports(Session& session, const ViewOptions& options) const {
+    if (no_images || no_report) {
+      return false;
+    }
+    if (!sums_a_map(options.method)) {
+      session.say(
+          "note: report.html shows a map and what is seen of it: there is none for this --method");
+      return false;
+    }
+    if (!has_report_page()) {
+      session.say("note: this program was built without npm, so that there is no report.html");
+      return false;
+    }
+    return true;
+  }
+
+  template <class MakePage>
+  static void write_report(Session& session, OutputFolder& output, const MakePage& make_page) {
+    const auto start = Clock::now();
+    output.write_last("report.html", make_page());
+    session.end_progress();
+    if (!session.flags.json) {
+      session.tell("  report      " + printable(output.path()) + "/report.html, " +
+                   rounded(seconds_since(start), 2) + " s later");
+    }
+  }
+
   static std::string estimated(const ViewReport& report) {
     const std::size_t count = report.best_search.estimates + report.worst_search.estimates;
     return count > 0 ? ", " + grouped(count) + " estimated" : "";

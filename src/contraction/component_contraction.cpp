@@ -68,7 +68,7 @@ ContractionStop stop_for(StepFlaw flaw) {
 }
 
 /// What a step would have done, for a user.
-std::string told(StepFlaw flaw) {
+std::string description(StepFlaw flaw) {
   switch (flaw) {
     case StepFlaw::Unsolved:
       return "could not be solved";
@@ -85,7 +85,7 @@ std::string told(StepFlaw flaw) {
 }
 
 /// How it was taken instead.
-std::string told(const StepVariant& variant) {
+std::string description(const StepVariant& variant) {
   if (variant.intrinsic) {
     return std::string("taken with weights that thin triangles do not upset") +
            (variant.share < 1.0 ? " and a weaker pull" : "");
@@ -210,15 +210,15 @@ class Contraction {
     if (!is_curve) {
       is_stuck_ = true;
       remedies_.push_back("ended at step " + std::to_string(state_.steps + 1) + ", which " +
-                          told(attempt.flaw) + " however it was taken");
+                          description(attempt.flaw) + " however it was taken");
     }
     return attempt;
   }
 
   /// After a step that was sound by this way only.
   void go_on_by(const StepVariant& variant, StepFlaw else_flaw) {
-    remedies_.push_back("step " + std::to_string(state_.steps + 1) + " " + told(else_flaw) +
-                        " and was " + told(variant));
+    remedies_.push_back("step " + std::to_string(state_.steps + 1) + " " + description(else_flaw) +
+                        " and was " + description(variant));
     state_.contraction *= variant.share;
     variant_ = kSafer;
   }

@@ -60,7 +60,8 @@ std::vector<Piece> cut_into_pieces(const TriMesh& mesh, std::vector<std::uint32_
   return pieces;
 }
 
-/// Vertices of pieces that are contracted side by side: bounds the memory; equals kManyVertices of refinement.cpp. [ours]
+/// Vertices of pieces that are contracted side by side: bounds the memory; as many as kMostOfAll of
+/// refinement.cpp. [ours]
 constexpr std::size_t kTogether = 60'000;
 
 /// What one piece's contraction gave, in model units.
@@ -105,8 +106,10 @@ PieceResult contract_piece(const TriMesh& mesh, const Piece& piece,
     result.proxy.reset();
     result.history = contract_surface(scaled, result.proxy, options, run.part(0.7, 0.8));
   }
-  result.second = contract_second_mesh(result.proxy ? result.proxy->mesh : scaled, result.history,
-                                       options, run.part(0.8, 1.0));
+  if (options.second_mesh) {
+    result.second = contract_second_mesh(result.proxy ? result.proxy->mesh : scaled, result.history,
+                                         options, run.part(0.8, 1.0));
+  }
   const auto to_model = [&scaling](std::vector<Vec3>& points) {
     for (Vec3& p : points) {
       p = scaling.unscaled(p);

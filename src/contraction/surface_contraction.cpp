@@ -97,30 +97,30 @@ ComponentHistory contract_exactly(const TriMesh& scaled, const ContractionOption
   return history;
 }
 
-/// A contraction that led farther than another one, and in words what it is of.
-struct Farther {
+/// A contraction that got further than the one before, and the sentence that says of what it is.
+struct Alternative {
   ComponentHistory history{};
   std::string remedy{};
 };
 
 /// All steps by weights that slivers do not upset.
-std::optional<Farther> contract_carefully(const TriMesh& scaled, const ComponentHistory& before,
-                                          const ContractionOptions& options,
-                                          const RunContext& run) {
+std::optional<Alternative> contract_carefully(const TriMesh& scaled, const ComponentHistory& before,
+                                              const ContractionOptions& options,
+                                              const RunContext& run) {
   ComponentHistory careful =
       contract_component(scaled, without_thinning(options), run, shares_of(scaled, options), true);
   if (careful.is_stuck && careful.shrinkage.back() >= before.shrinkage.back()) {
     return std::nullopt;
   }
   careful.summary.strategy = before.summary.strategy;
-  return Farther{std::move(careful),
-                 "so all steps were taken with weights that thin triangles do not upset"};
+  return Alternative{std::move(careful),
+                     "so all steps were taken with weights that thin triangles do not upset"};
 }
 
 /// A copy with fewer vertices and evener triangles: thin ones throw parts of a surface about.
-std::optional<Farther> contract_even_copy(const TriMesh& scaled, const ComponentHistory& before,
-                                          const ContractionOptions& options,
-                                          const RunContext& run) {
+std::optional<Alternative> contract_even_copy(const TriMesh& scaled, const ComponentHistory& before,
+                                              const ContractionOptions& options,
+                                              const RunContext& run) {
   const auto most =
       static_cast<std::size_t>(kProxyShare * static_cast<double>(scaled.positions.size()));
   const std::size_t target = std::min(kEvenCopy, most);
@@ -128,7 +128,8 @@ std::optional<Farther> contract_even_copy(const TriMesh& scaled, const Component
   if (proxy.mesh.positions.size() > most) {
     return std::nullopt;
   }
-  ComponentHistory copy = contract_evenly(proxy.mesh, options, run, proxy.shares, true);
+  ComponentHistory copy =
+      contract_evenly(proxy.mesh, without_thinning(options), run, proxy.shares, true);
   if (copy.is_stuck || copy.summary.steps == 0) {
     return std::nullopt;
   }
@@ -137,19 +138,21 @@ std::optional<Farther> contract_even_copy(const TriMesh& scaled, const Component
   }
   copy.levels.front() = scaled.positions;
   copy.summary.strategy = before.summary.strategy;
-  return Farther{std::move(copy), "so a copy with evener triangles was contracted, of " +
-                                      std::to_string(proxy.mesh.positions.size()) + " vertices"};
+  return Alternative{std::move(copy), "so a copy with evener triangles was contracted, of " +
+                                          std::to_string(proxy.mesh.positions.size()) +
+                                          " vertices"};
 }
 
 /// A finer copy, whose first vertices are the surface's own: coarse meshes have too few to move.
-std::optional<Farther> contract_finer_copy(const TriMesh& scaled, const ComponentHistory& before,
-                                           const ContractionOptions& options,
-                                           const RunContext& run) {
+std::optional<Alternative> contract_finer_copy(const TriMesh& scaled,
+                                               const ComponentHistory& before,
+                                               const ContractionOptions& options,
+                                               const RunContext& run) {
   const TriMesh finer = refine_whole(scaled, run);
   if (finer.positions.size() == scaled.positions.size()) {
     return std::nullopt;
   }
-  ComponentHistory copy = contract_by(finer, options, run);
+  ComponentHistory copy = contract_by(finer, without_thinning(options), run);
   if (copy.is_stuck || copy.summary.steps <= before.summary.steps) {
     return std::nullopt;
   }
@@ -158,8 +161,8 @@ std::optional<Farther> contract_finer_copy(const TriMesh& scaled, const Componen
   }
   const std::string size = std::to_string(finer.positions.size());
   copy.summary.strategy = "refined " + size;
-  return Farther{std::move(copy),
-                 "so a finer copy of the surface was contracted, of " + size + " vertices"};
+  return Alternative{std::move(copy),
+                     "so a finer copy of the surface was contracted, of " + size + " vertices"};
 }
 
 bool is_stuck(const ComponentHistory& history, const TriMesh&, const ContractionOptions&) {
@@ -178,15 +181,15 @@ bool is_unsound(const ComponentHistory& history, const TriMesh& mesh,
          mesh.positions.size() >= kFewestEven;
 }
 
-/// A way to contract a surface, and when it is worth a try.
-struct SaferWay {
+/// Another way to contract a surface, and when it is worth a try.
+struct Fallback {
   bool (*is_called_for)(const ComponentHistory&, const TriMesh&, const ContractionOptions&);
-  std::optional<Farther> (*contract)(const TriMesh&, const ComponentHistory&,
-                                     const ContractionOptions&, const RunContext&);
+  std::optional<Alternative> (*contract)(const TriMesh&, const ComponentHistory&,
+                                         const ContractionOptions&, const RunContext&);
 };
 
 /// Tried in this order, each after what the ones before have led to.
-constexpr std::array<SaferWay, 3> kSaferWays{{{is_unsound, contract_even_copy},
+constexpr std::array<Fallback, 3> kFallbacks{{{is_unsound, contract_even_copy},
                                               {is_stuck, contract_carefully},
                                               {is_stuck_and_small, contract_finer_copy}}};
 
@@ -209,16 +212,17 @@ ComponentHistory contract_surface(const TriMesh& scaled, const std::optional<Pro
     history.summary.strategy = "direct";
   }
   double done = 0.7;
-  for (const SaferWay& way : kSaferWays) {
+  for (const Fallback& fallback : kFallbacks) {
     const RunContext part = run.part(done, done + 0.1);
     done += 0.1;
-    if (!way.is_called_for(history, scaled, options)) {
+    if (!fallback.is_called_for(history, scaled, options)) {
       continue;
     }
-    if (std::optional<Farther> farther = way.contract(scaled, history, options, part)) {
+    if (std::optional<Alternative> alternative =
+            fallback.contract(scaled, history, options, part)) {
       std::vector<std::string> remedies = std::move(history.summary.remedies);
-      remedies.push_back(std::move(farther->remedy));
-      history = std::move(farther->history);
+      remedies.push_back(std::move(alternative->remedy));
+      history = std::move(alternative->history);
       history.thinned.clear();
       history.summary.vertices = scaled.positions.size();
       std::vector<std::string>& own = history.summary.remedies;

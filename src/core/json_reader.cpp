@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/json_reader.h"
 
+#include <cmath>
+
 #include "vantage/core/error.h"
 
 namespace vantage {
@@ -24,6 +26,22 @@ void JsonReader::require_list_of_3(const Json& value, const std::string& what) c
   if (!value.is_array() || value.size() != 3) {
     fail(what + " is not a list of 3 numbers");
   }
+}
+
+Vec3 JsonReader::unit_vector(const Json& value, const std::string& what) const {
+  require_list_of_3(value, what);
+  Vec3 vector;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!value[axis].is_number()) {
+      fail(what + " is not a list of 3 numbers");
+    }
+    vector[static_cast<Eigen::Index>(axis)] = value[axis].get<double>();
+  }
+  const double length = vector.stableNorm();
+  if (!(length > 0.0) || !std::isfinite(length)) {
+    fail(what + " must be three finite numbers, not all zero");
+  }
+  return vector / length;
 }
 
 }  // namespace vantage

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "vantage/core/vec3.h"
+
 namespace vantage {
 
 /// A small JSON file that is read strictly: whatever is not as it should be ends in one sentence
@@ -25,6 +27,9 @@ class JsonReader {
 
   /// \throw FormatError unless the value is a list of 3. \param what names it.
   void require_list_of_3(const Json& value, const std::string& what) const;
+
+  /// A list of three numbers as a unit vector. \throw FormatError unless it is one, and not zero.
+  [[nodiscard]] Vec3 unit_vector(const Json& value, const std::string& what) const;
 
   [[nodiscard]] const Json& root() const { return root_; }
 

@@ -5,6 +5,8 @@
 
 #include <link.h>
 
+#include "core/fingerprint.h"
+
 namespace vantage {
 namespace {
 
@@ -31,7 +33,7 @@ bool holds(const dl_phdr_info& object, const ElfW(Phdr) & part, std::uintptr_t a
   if (!is_here) {
     return 0;
   }
-  search.hash = 0xcbf29ce484222325ULL;
+  Fingerprint fingerprint;
   for (std::size_t i = 0; i < object->dlpi_phnum; ++i) {
     const ElfW(Phdr)& part = object->dlpi_phdr[i];
     if (part.p_type != PT_LOAD || (part.p_flags & PF_W) != 0 || (part.p_flags & PF_R) == 0) {
@@ -41,9 +43,10 @@ bool holds(const dl_phdr_info& object, const ElfW(Phdr) & part, std::uintptr_t a
         static_cast<std::ptrdiff_t>(search.address - (object->dlpi_addr + part.p_vaddr));
     const unsigned char* bytes = static_cast<const unsigned char*>(search.place) - before;
     for (std::size_t k = 0; k < part.p_filesz; ++k) {
-      search.hash = (search.hash ^ bytes[k]) * 0x100000001b3ULL;
+      fingerprint.add(bytes[k]);
     }
   }
+  search.hash = fingerprint.value();
   return 1;
 }
 

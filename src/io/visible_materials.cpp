@@ -7,6 +7,8 @@
 
 #include "vantage/io/model.h"
 
+#include "mesh/texture_place.h"
+
 namespace vantage {
 namespace {
 
@@ -64,9 +66,8 @@ double largest_alpha(const Appearance& appearance, const Material& material, std
         u += weights[c] * static_cast<double>(uv[0]);
         v += weights[c] * static_cast<double>(uv[1]);
       }
-      const auto& m = material.uv_transform;
-      largest = std::max(largest,
-                         alpha_at(texture, m[0] * u + m[1] * v + m[2], m[3] * u + m[4] * v + m[5]));
+      const auto [across, down] = texture_place(material, u, v);
+      largest = std::max(largest, alpha_at(texture, across, down));
     }
   }
   return largest;

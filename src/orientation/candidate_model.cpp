@@ -116,8 +116,8 @@ CandidateModel::CandidateModel(std::string_view table, std::string_view subject)
     const std::optional<double> value = number_of(words[2]);
     if (words[1] == "tree") {
       TreeReader(*this, std::span(words).subspan(2), line).read();
-    } else if (words[1] == "witness" && value) {
-      witness = *value;
+    } else if (words[1] == "convention_log_odds" && value) {
+      convention_log_odds = *value;
     } else if (words[1] == "threshold" && value) {
       threshold = *value;
     } else if (words[1] == "share" && value) {

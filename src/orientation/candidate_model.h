@@ -15,7 +15,7 @@ namespace vantage {
 /// (Friedman 2001) of the softmax over the candidates (as in ListNet, Cao et al. 2007).
 class CandidateModel {
  public:
-  /// Reads the lines of `table` that begin with `subject`: "up witness X", "up threshold X", "up share X",
+  /// Reads the lines of `table` that begin with `subject`: "up convention_log_odds X", "up threshold X", "up share X",
   /// "up tree NAME LIMIT BELOW ABOVE", where BELOW and ABOVE are numbers or trees again, and NAME is
   /// a feature, or FEATURE-opposite (less the opposite candidate's) or FEATURE-mean (less the mean).
   /// \throw InvalidInput naming the line.
@@ -26,7 +26,7 @@ class CandidateModel {
   /// \throw InvalidInput naming a feature of the table that a candidate does not have.
   [[nodiscard]] std::vector<double> scores(const std::vector<Evidence>& candidates) const;
 
-  double witness = 0.0;    ///< Added to the score of the convention's candidate. [fitted]
+  double convention_log_odds = 0.0;  ///< Added to the score of the convention's candidate. [fitted]
   double threshold = 1.0;  ///< Probability from which another candidate is taken. [fitted]
   double share = 0.25;     ///< Of files upright by their convention, those that face as it says.
 

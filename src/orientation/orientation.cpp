@@ -21,7 +21,7 @@ namespace {
 // Directions that the shape looks the same from, but for this mean difference of its height fields
 // over the largest one that counts, are equally right. [ours]
 constexpr double kAlike = 0.1;
-// What a surface of one side has beyond kOneSided adds so much to the log odds that the front is there. [ours]
+// Log odds of a front, for each unit of net area that faces there beyond kOneSided. [ours]
 constexpr double kOneSidedWeight = 20.0;
 // A shape that makes no side likelier than this is of a kind that the fit of the front knows little of. [ours]
 constexpr double kTellsNothing = 0.5;
@@ -116,7 +116,7 @@ std::size_t place_of(AxisDirection direction, const std::vector<AxisDirection>& 
 
 /// What open surfaces say that the table's models, most of them closed, do not. \param net share of the
 /// area that looks to a side, less what looks to the opposite one.
-double one_sided_witness(double net) {
+double one_sided_log_odds(double net) {
   return kOneSidedWeight * (net - std::clamp(net, -kOneSided, kOneSided));
 }
 
@@ -128,14 +128,14 @@ std::vector<double> front_scores(const MeasuredSides& sides, AxisDirection up) {
   }
   std::vector<double> scores = front_model().scores(evidence);
   for (std::size_t side = 0; side < scores.size(); ++side) {
-    scores[side] += one_sided_witness(value_of("net_ahead", evidence[side]));
+    scores[side] += one_sided_log_odds(value_of("net_ahead", evidence[side]));
   }
   return scores;
 }
 
 /// What the side that the convention has in front adds to the log odds of its up: of files that are
 /// upright by it a share faces as it says, of all others each side is as likely.
-double facing_witness(const MeasuredSides& sides, const Vec3& usual_up) {
+double facing_log_odds(const MeasuredSides& sides, const Vec3& usual_up) {
   const AxisDirection up = axis_of(usual_up);
   const std::size_t usual = place_of(axis_of(upright_frame(usual_up).front), around(up));
   const double share = front_model().share;
@@ -167,7 +167,7 @@ DirectionChoice find_up(const MeasuredSides& sides, const OrientationRequest& re
   const auto usual_index = static_cast<std::size_t>(found - candidates.begin());
   std::vector<double> scores = up_model().scores(evidence);
   scores[usual_index] +=
-      up_model().witness + (front ? 0.0 : facing_witness(sides, request.usual_up));
+      up_model().convention_log_odds + (front ? 0.0 : facing_log_odds(sides, request.usual_up));
   DirectionChoice choice = choose(
       candidates, odds_of(std::move(scores)), usual_index, up_model().threshold,
       [&](AxisDirection a, AxisDirection b) {
@@ -185,9 +185,9 @@ bool has_usual_front(AxisDirection up) {
 
 /// What habit adds to the log odds of the usual front, also where another up than the format's is given or
 /// found.
-double front_witness(AxisDirection up, bool is_formats) {
+double usual_front_log_odds(AxisDirection up, bool is_formats) {
   if (is_formats) {
-    return front_model().witness;
+    return front_model().convention_log_odds;
   }
   const double share = front_model().share;
   return has_usual_front(up) ? std::log(3.0 * share / (1.0 - share)) : 0.0;
@@ -195,7 +195,7 @@ double front_witness(AxisDirection up, bool is_formats) {
 
 /// The odds that views go by where the shape tells nothing: the usual front has the share of the files that
 /// face so, the other sides share the rest as before.
-std::vector<double> odds_by_habit(std::vector<double> odds, std::size_t usual) {
+std::vector<double> odds_by_convention(std::vector<double> odds, std::size_t usual) {
   const double share = front_model().share;
   const double others = 1.0 - odds[usual];
   for (std::size_t side = 0; side < odds.size(); ++side) {
@@ -237,7 +237,7 @@ void find_front(const MeasuredSides& sides, const OrientationRequest& request,
   const std::size_t usual_index = place_of(usual, candidates);
   const bool is_formats = up == axis_of(request.usual_up);
   std::vector<double> scores = front_scores(sides, up);
-  scores[usual_index] += front_witness(up, is_formats);
+  scores[usual_index] += usual_front_log_odds(up, is_formats);
   std::vector<double> odds = odds_of(std::move(scores));
   const auto alike = [&](AxisDirection a, AxisDirection b) {
     return sides.difference(up, a, b) < kAlike;
@@ -247,7 +247,7 @@ void find_front(const MeasuredSides& sides, const OrientationRequest& request,
   result.front.reasons =
       reasons_for_front(front_evidence(sides, up, axis_of(result.front.likeliest)));
   if (has_usual_front(up) && result.front.likeliest_confidence < kTellsNothing) {
-    odds = odds_by_habit(std::move(odds), usual_index);
+    odds = odds_by_convention(std::move(odds), usual_index);
   }
   result.front_odds = odds_from(result.front.direction, up_vector, candidates, odds, alike);
 }

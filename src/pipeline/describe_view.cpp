@@ -54,7 +54,7 @@ ReportedView describe_view(const ShapeAnalysis& shape, const VertexVisibility& v
   view.eye = camera.eye(direction);
   view.up = upright(direction, up_vector(up));
   view.score = visible_sum(shape.significance, visible);
-  view.score_fraction = total > 0.0 ? view.score / total : 0.0;
+  view.score_fraction = score_fraction(view.score, total);
   view.objective = view.score;
   view.visible_area_fraction = visible_area_fraction(
       shape.views ? shape.views->vertex_areas : vertex_areas(shape.surface), visible);
@@ -70,10 +70,14 @@ ReportedView describe_scored_view(const ShapeAnalysis& shape, const VertexVisibi
       describe_view(shape, visibility, scorer.camera(), direction, frame.up, options, run);
   if (options.weight == Weight::Area) {
     view.score = scorer.score(direction);
-    view.score_fraction = scorer.total() > 0.0 ? view.score / scorer.total() : 0.0;
+    view.score_fraction = score_fraction(view.score, scorer.total());
   }
   view.objective = view.score;
   return view;
+}
+
+double score_fraction(double score, double total) {
+  return total == 0.0 ? 0.0 : score / total;
 }
 
 void compare_with_highest(ViewReport& report, const Vec3& direction, double score, Better better) {

@@ -17,6 +17,9 @@ ReportedView describe_scored_view(const ShapeAnalysis& shape, const VertexVisibi
                                   const ModelFrame& frame, const ViewOptions& options,
                                   const RunContext& run);
 
+/// The share of the total that a score is; 0 of none, NaN of a measure, whose total is NaN.
+double score_fraction(double score, double total);
+
 /// Takes the best score that was found, unless the best view's is better still, into the report.
 /// \pre report.best
 void compare_with_highest(ViewReport& report, const Vec3& direction, double score, Better better);

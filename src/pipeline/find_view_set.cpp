@@ -131,7 +131,7 @@ CameraWay explored_way(const SeenSphere& sphere, const Vec3& best, const ViewSet
 
 void warn_of(const ViewSet& set, const ViewSetRequest& request,
              std::vector<std::string>& warnings) {
-  if (set.level < request.set.level) {
+  if (request.selection == ViewSelection::Kssm && set.level < request.set.level) {
     warnings.push_back("the set's views were chosen from " + std::to_string(set.candidates) +
                        " directions to save memory");
   }
@@ -180,6 +180,7 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
     const ChannelViews chosen = channel_views(*sphere, request, warnings, rest.part(0.0, 0.0));
     result.choice = faces != nullptr ? measure(*faces, chosen.directions)
                                      : measure(visibility, chosen.directions);
+    result.choice.candidates = sphere->set.directions.size();
     if (result.choice.stop != ViewSetStop::Coverage) {
       result.choice.stop = chosen.stop;
     }

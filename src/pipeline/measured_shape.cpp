@@ -45,6 +45,7 @@ bool sums_a_map(std::string_view method) {
 ShapeAnalysis analyse_for(const Model& model, const ViewOptions& options,
                           std::span<const Measure> measures, const RunContext& run) {
   require_focus_tells(options, measures);
+  require_memory(measures, model.mesh.triangles.size());
   const bool deep = std::any_of(measures.begin(), measures.end(),
                                 [](const Measure& m) { return m.needs.kssm || m.needs.skeleton; });
   return deep || !options.focus.empty()

@@ -40,7 +40,7 @@ std::string in_percent(double share) {
   return std::to_string(static_cast<int>(std::lround(100.0 * share))) + " %";
 }
 
-/// Moves each vertex so far, anywhere.
+/// Moves each vertex by `distance`, in a random direction of its own.
 void move_vertices(TriMesh& mesh, double distance) {
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     Pcg32 random(1, v);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/pipeline/shape_analysis.h"
 
+#include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -33,7 +34,10 @@ void add_history(ShapeAnalysis& shape, const ViewOptions& options, const RunCont
   if (shape.cloud) {
     add_point_history(shape, options, run);
   } else {
-    shape.history = contract(shape.surface, options.contraction, run);
+    ContractionOptions contraction = options.contraction;
+    // Nothing else than a fitted curve and its map asks for it.
+    contraction.second_mesh &= options.skeleton.fit && !options.kssm_to_finished_graph;
+    shape.history = contract(shape.surface, contraction, run);
   }
   shape.warnings.insert(shape.warnings.end(), shape.history.warnings.begin(),
                         shape.history.warnings.end());
@@ -87,6 +91,9 @@ ShapeAnalysis analyse_surface(ShapeAnalysis shape, const ViewOptions& options,
   auto mark = std::chrono::steady_clock::now();
   StageSeconds ignored;
   StageSeconds& took = seconds != nullptr ? *seconds : ignored;
+  if (!sums_a_map(options.method)) {
+    require_memory(std::array{find_measure(options.method)}, shape.surface.triangles.size());
+  }
   // The contraction leaves most of a second core idle.
   std::shared_ptr<const ViewPreparation> views;
   run_both(

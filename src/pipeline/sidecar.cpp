@@ -42,7 +42,7 @@ class SidecarReader : JsonReader {
       } else if (member == "front") {
         result.front = axis(value, member, kFrontWords);
       } else if (member == "view") {
-        result.view = direction(value);
+        result.view = unit_vector(value, "\"view\"");
       } else if (member == "style") {
         result.style = style(value);
       } else {
@@ -74,22 +74,6 @@ class SidecarReader : JsonReader {
     return is_last ? std::nullopt : std::optional(static_cast<UpAxis>(*index));
   }
 
-  [[nodiscard]] Vec3 direction(const Json& value) const {
-    require_list_of_3(value, "\"view\"");
-    Vec3 result;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!value[i].is_number()) {
-        fail("\"view\" is not a list of 3 numbers");
-      }
-      result[static_cast<Eigen::Index>(i)] = value[i].get<double>();
-    }
-    const double length = result.stableNorm();
-    if (!(length > 0.0) || !std::isfinite(length)) {
-      fail("\"view\" must be three finite numbers, not all zero");
-    }
-    return result / length;
-  }
-
   [[nodiscard]] Style style(const Json& value) const {
     const std::optional<std::size_t> index = word(value, "clay|asset|technical");
     if (!index) {
@@ -108,7 +92,7 @@ bool are_along(const std::optional<UpAxis>& a, const std::optional<UpAxis>& b) {
 }  // namespace
 
 void Sidecar::apply(ViewOptions& options) const {
-  // What is given overrules what it leaves no room for, too.
+  // An up along the front that is given has no room beside it, and the reverse.
   if (!options.up && !are_along(up, options.front)) {
     options.up = up;
   }

@@ -10,6 +10,7 @@
 #include "vantage/core/version.h"
 #include "vantage/io/camera_files.h"
 
+#include "core/fingerprint.h"
 #include "io/files.h"
 #include "pipeline/option_echo.h"
 
@@ -134,15 +135,12 @@ std::string options_hash(const ViewOptions& options) {
     json["best-view"] = {options.best_view->x(), options.best_view->y(), options.best_view->z()};
   }
 
-  // FNV-1a, 64 bit: a fingerprint to compare runs by, not a seal.
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char c : json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  }
+  Fingerprint fingerprint;
+  fingerprint.add(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string text(16, '0');
   for (std::size_t i = 0; i < 16; ++i) {
-    text[15 - i] = kDigits[(hash >> (4 * i)) & 15U];
+    text[15 - i] = kDigits[(fingerprint.value() >> (4 * i)) & 15U];
   }
   return text;
 }

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/view_preparation.h"
 
+#include <algorithm>
+#include <string>
 #include <utility>
 
+#include "vantage/core/error.h"
+#include "vantage/io/model.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/spatial/directions.h"
 #include "vantage/visibility/face_visibility.h"
@@ -57,7 +61,27 @@ bool is_worthwhile(const CoarseSurface& copy) {
   return vertices > 0 && kWorthwhile * copy.mesh.positions.size() <= vertices;
 }
 
+/// Of a face that a view of the set sees: 8 bytes by view, and as many by face. [measured]
+constexpr std::uint64_t kBytesPerSeenFace = 16;
+
 }  // namespace
+
+void require_memory(std::span<const Measure> measures, std::size_t faces,
+                    std::uint64_t memory_bytes) {
+  const auto of_set = std::find_if(measures.begin(), measures.end(),
+                                   [](const Measure& measure) { return measure.is_of_set(); });
+  // About half of the faces are seen by each view.
+  const std::uint64_t views = 2 + (std::uint64_t{10} << (2U * unsigned{kMeasureSetLevel}));
+  const std::uint64_t bytes = views * (std::uint64_t{faces} / 2) * kBytesPerSeenFace;
+  if (of_set != measures.end() && bytes > memory_bytes) {
+    constexpr std::uint64_t kGigabyte = 1'000'000'000;
+    throw InvalidInput(of_set->name + " compares " + std::to_string(views) + " views, which of " +
+                       std::to_string(faces) + " faces takes about " +
+                       std::to_string(bytes / kGigabyte) + " GB, more than the " +
+                       std::to_string(memory_bytes / kGigabyte) +
+                       " there are: take another measure, or simplify the model first");
+  }
+}
 
 ViewPreparation::ViewPreparation(const ShapeAnalysis& shape, const RunContext& run,
                                  const PreparedFor& use)

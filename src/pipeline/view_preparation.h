@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "vantage/io/model.h"
 #include "vantage/orientation/orientation.h"
 #include "vantage/pipeline/shape_analysis.h"
 #include "vantage/spatial/mirror_symmetry.h"
@@ -33,6 +36,11 @@ struct SeenBySet {
   ScoringCamera camera{};
   ViewChannel channel{};
 };
+
+/// \throw InvalidInput if one of the measures looks at a set of views, and what that sees of so many
+/// faces takes more memory than there is.
+void require_memory(std::span<const Measure> measures, std::size_t faces,
+                    std::uint64_t memory_bytes = usable_memory_bytes());
 
 /// Immutable; copies of an analysis share it.
 struct ViewPreparation {

@@ -120,8 +120,10 @@ class Scene {
   /// Finds the patches of all samples, whatever the paints.
   void find_patches(SamplePacket& samples, std::size_t count, Patches& patches) const;
   static void begin_paint(Patches& patches);
+  /// Light of the first `count` samples, through all layers that let some pass.
   /// \param patches of the pixel, so far.
-  [[nodiscard]] Light light_of(const PreparedPaint& paint, Sample& sample, Patches& patches) const;
+  [[nodiscard]] std::array<Light, 4> lights_of(const PreparedPaint& paint, SamplePacket& samples,
+                                               std::size_t count, Patches& patches) const;
   [[nodiscard]] Light surface_light(const PreparedPaint& paint, Sample& sample, const RayHit& hit,
                                     bool before_tube, Patches& patches) const;
   [[nodiscard]] std::size_t patch_at(const Sample& sample, const RayHit& hit,

@@ -140,38 +140,60 @@ Light Scene::surface_light(const PreparedPaint& paint, Sample& sample, const Ray
   return {*patch.shown, opacity};
 }
 
-Light Scene::light_of(const PreparedPaint& paint, Sample& sample, Patches& patches) const {
-  Light light;
-  if (sample.on_line) {
-    light.behind(kInk, 1.0);
-    return light;
+std::array<Light, 4> Scene::lights_of(const PreparedPaint& paint, SamplePacket& samples,
+                                      std::size_t count, Patches& patches) const {
+  std::array<Light, 4> lights{};
+  std::array<TubeHit, 4> tubes{};
+  std::array<RayHit, 4> layers{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const Sample& sample = samples[i];
+    if (sample.ray.can_hit && sample.on_line) {
+      lights[i].behind(kInk, 1.0);
+    } else if (sample.ray.can_hit) {
+      layers[i] = sample.hit;
+      tubes[i] =
+          paint.tubes() ? paint.tubes()->closest_hit(sample.ray, sample.x, sample.y) : TubeHit{};
+    }
   }
-  const PictureRay& ray = sample.ray;
-  const TubeHit tube =
-      paint.tubes() ? paint.tubes()->closest_hit(ray, sample.x, sample.y) : TubeHit{};
-  const bool has_tube = std::isfinite(tube.t);
-  RayHit layer = sample.hit;
-  for (int count = 0; layer && static_cast<double>(layer.t) <= tube.t && count < kMostLayers;
-       ++count) {
-    const Light seen = surface_light(paint, sample, layer, has_tube, patches);
-    light.behind(seen.colour, seen.alpha);
-    if (!paint.has_openings() || light.alpha >= kNothingBehind) {
+  // Layer by layer, from the eye on.
+  const auto width = static_cast<float>(pixel_ / std::sqrt(static_cast<double>(pattern_.size())));
+  for (int depth = 0; depth < kMostLayers; ++depth) {
+    RayPacket next{};
+    bool any = false;
+    for (std::size_t i = 0; i < count; ++i) {
+      next[i].tfar = -1.0F;
+      if (!layers[i] || static_cast<double>(layers[i].t) > tubes[i].t) {
+        continue;
+      }
+      const bool before_tube = std::isfinite(tubes[i].t);
+      const Light seen = surface_light(paint, samples[i], layers[i], before_tube, patches);
+      lights[i].behind(seen.colour, seen.alpha);
+      if (paint.has_openings() && lights[i].alpha < kNothingBehind) {
+        next[i] = samples[i].ray.segment();
+        next[i].tnear = layers[i].t + kLayerGap;
+        any = true;
+      }
+    }
+    if (!any) {
       break;
     }
-    RayPacket next{ray.segment()};
-    next[0].tnear = layer.t + kLayerGap;
-    layer = surface_->rays().closest_hits(
-        next, 1, static_cast<float>(pixel_ / std::sqrt(static_cast<double>(pattern_.size()))))[0];
+    layers = surface_->rays().closest_hits(next, count, width);
   }
-  if (has_tube) {
-    SurfacePoint point;
-    point.albedo = paint.tube_colour();
-    point.normal = to_camera(tube.normal);
-    point.to_viewer = to_camera(-ray.direction);
-    light.behind(shade_tube(point), 1.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Sample& sample = samples[i];
+    if (!sample.ray.can_hit || sample.on_line) {
+      continue;
+    }
+    if (std::isfinite(tubes[i].t)) {
+      SurfacePoint point;
+      point.albedo = paint.tube_colour();
+      point.normal = to_camera(tubes[i].normal);
+      point.to_viewer = to_camera(-sample.ray.direction);
+      lights[i].behind(shade_tube(point), 1.0);
+    }
+    add_ground(lights[i], sample.ray, sample.x, sample.y);
   }
-  add_ground(light, ray, sample.x, sample.y);
-  return light;
+  return lights;
 }
 
 void Scene::add_ground(Light& light, const PictureRay& ray, int x, int y) const {
@@ -230,10 +252,9 @@ void Scene::look_at_few(int x, int y, const SceneBand& band, std::span<PixelLigh
       continue;
     }
     begin_paint(patches);
-    std::array<Light, kFewSamples> seen{};
+    const std::array<Light, 4> seen = lights_of(paints_[c], packet, count, patches);
     Light mean;
     for (std::size_t i = 0; i < count; ++i) {
-      seen[i] = packet[i].ray.can_hit ? light_of(paints_[c], packet[i], patches) : Light{};
       mean.colour += seen[i].colour / static_cast<double>(count);
       mean.alpha += seen[i].alpha / static_cast<double>(count);
     }
@@ -264,12 +285,12 @@ void Scene::look_at_all(int x, int y, const SceneBand& band, std::span<PixelLigh
   }
   for (std::size_t c = 0; c < paints_.size(); ++c) {
     begin_paint(patches);
-    for (std::size_t i = 0; i < pattern_.size() && lights[c].need == SampleNeed::All; ++i) {
-      Sample& sample = packets[i / 4][i % 4];
-      if (sample.ray.can_hit) {
-        const Light light = light_of(paints_[c], sample, patches);
-        lights[c].light.colour += light.colour / samples;
-        lights[c].light.alpha += light.alpha / samples;
+    for (std::size_t p = 0; p < packets.size() && lights[c].need == SampleNeed::All; ++p) {
+      const std::size_t count = std::min<std::size_t>(4, pattern_.size() - 4 * p);
+      const std::array<Light, 4> seen = lights_of(paints_[c], packets[p], count, patches);
+      for (std::size_t i = 0; i < count; ++i) {
+        lights[c].light.colour += seen[i].colour / samples;
+        lights[c].light.alpha += seen[i].alpha / samples;
       }
     }
   }

@@ -8,6 +8,8 @@
 #include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 
+#include "mesh/texture_place.h"
+
 namespace vantage {
 namespace {
 
@@ -43,12 +45,6 @@ void check_fit(const Appearance& appearance, const TriMesh& mesh) {
       !all(appearance.textures, has_pixels)) {
     throw InvalidInput("the materials belong to another mesh: their indices do not fit");
   }
-}
-
-Uv transformed(const std::array<double, 6>& rows, const std::array<float, 2>& uv) {
-  const double u = static_cast<double>(uv[0]);
-  const double v = static_cast<double>(uv[1]);
-  return {rows[0] * u + rows[1] * v + rows[2], rows[3] * u + rows[4] * v + rows[5]};
 }
 
 }  // namespace
@@ -87,7 +83,7 @@ Texel SurfaceMaterials::texel(const Material& material, std::uint32_t face, floa
     if (corners[c] == Appearance::kNone) {
       return pyramid.at(0.5F, 0.5F, kCoarsest);
     }
-    uvs[c] = transformed(material.uv_transform, appearance_->uvs[corners[c]]);
+    uvs[c] = texture_place(material, appearance_->uvs[corners[c]]);
   }
   // Texels across a sample: the root of the texels that lie on the face's area.
   const double texels = std::abs((uvs[1][0] - uvs[0][0]) * (uvs[2][1] - uvs[0][1]) -

@@ -142,7 +142,7 @@ Texel TexturePyramid::at(float u, float v, float level) const {
   u = near_origin(u, texture_->wrap_u);
   v = near_origin(v, texture_->wrap_v);
   const float last = static_cast<float>(halves_.size());
-  const float height = std::clamp(level, 0.0F, last);
+  const float height = level > 0.0F ? std::min(level, last) : 0.0F;  // not a number: the finest
   const auto low = static_cast<std::size_t>(height);
   const float share = height - static_cast<float>(low);
   Premultiplied seen = bilinear(low, u, v, texture_->nearest && height == 0.0F);

@@ -12,6 +12,7 @@
 
 #include "vantage/io/write.h"
 
+#include "mesh/texture_place.h"
 #include "report/smaller_picture.h"
 
 namespace vantage {
@@ -36,12 +37,8 @@ struct Rows {
   std::vector<std::uint32_t> indices{};
 };
 
-std::array<float, 2> transformed(const Material& material, const std::array<float, 2>& uv) {
-  const auto& m = material.uv_transform;
-  const auto u = static_cast<double>(uv[0]);
-  const auto v = static_cast<double>(uv[1]);
-  return {static_cast<float>(m[0] * u + m[1] * v + m[2]),
-          static_cast<float>(m[3] * u + m[4] * v + m[5])};
+std::array<float, 2> narrow(const std::array<double, 2>& place) {
+  return {static_cast<float>(place[0]), static_cast<float>(place[1])};
 }
 
 /// Adds the faces of one material. \param material null for faces without one.
@@ -63,8 +60,9 @@ void add_faces(const Model& model, const std::vector<std::uint32_t>& faces,
   const auto first = static_cast<std::uint32_t>(rows.positions.size());
   for (const auto& [position, uv] : own) {
     rows.positions.push_back(position);
-    rows.uvs.push_back(uv == Appearance::kNone ? std::array<float, 2>{}
-                                               : transformed(*material, appearance.uvs[uv]));
+    rows.uvs.push_back(uv == Appearance::kNone
+                           ? std::array<float, 2>{}
+                           : narrow(texture_place(*material, appearance.uvs[uv])));
   }
   for (const auto& corner : corners) {
     rows.indices.push_back(

@@ -59,8 +59,8 @@ Comparison compare_methods(const ShapeAnalysis& shape, const ViewOptions& option
                            std::vector<Measure> measures, const RunContext& run) {
   const auto start = Clock::now();
   ViewMeasurer measurer(measure_subject(shape, options), std::move(measures), kMeasureSetLevel,
-                        run.part(0.0, 0.6));
-  const MeasureValues& values = measurer.set_values(run.part(0.0, 0.6));
+                        run.part(0.0, 0.3));
+  const MeasureValues& values = measurer.set_values(run.part(0.3, 0.6));
   Comparison comparison;
   comparison.set = measurer.set();
   comparison.planes = mirror_planes(shape.surface);
@@ -74,6 +74,7 @@ Comparison compare_methods(const ShapeAnalysis& shape, const ViewOptions& option
         {measurer.measures()[m], extreme_views(measurer, m, options.search, searching), values[m]});
     comparison.methods.back().seconds = seconds_since(begun);
   }
+  searching.advance("views", 1.0);
   for (const ComparedMethod& a : comparison.methods) {
     auto& row = comparison.agreement.emplace_back();
     for (const ComparedMethod& b : comparison.methods) {

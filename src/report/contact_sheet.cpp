@@ -76,8 +76,7 @@ Image comparison_sheet(const ShapeAnalysis& shape, const Comparison& comparison,
   const int header = kLabelPx + kGapPx;
   Sheet sheet(columns * block_width, header + rows * block_height + kGapPx);
   constexpr std::array<std::string_view, kTiles> kTitles{"best view", "worst view", "all views"};
-  RunContext quiet = run;
-  quiet.report = nullptr;
+  const RunContext quiet = run.quiet();
   ViewOptions small = options;
   small.width = kTileWidth;
   small.height = kTileHeight;

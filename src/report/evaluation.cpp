@@ -92,16 +92,15 @@ std::vector<ViewAgreement> evaluate_views(const RecordedModel& record, const Mod
   const UpAxis up = options.up.value_or(default_up(model));
   const UprightFrame frame = upright_frame(up_vector(up));
   ViewMeasurer measurer(measure_subject(shape, options), measures, kMeasureSetLevel,
-                        run.part(0.3, 0.7));
-  const MeasureValues values = measurer.set_values(run.part(0.3, 0.7));
+                        run.part(0.3, 0.5));
+  const MeasureValues values = measurer.set_values(run.part(0.5, 0.7));
   std::vector<Vec3> moved;
   for (const ChosenByPerson& view : record.views) {
     if (view.moved) {
       moved.push_back(view.direction);
     }
   }
-  RunContext quiet = run;
-  quiet.report = nullptr;
+  const RunContext quiet = run.quiet();
   const MeasureValues of_people = measurer.values(moved, quiet);
   std::vector<ViewAgreement> rows = reference_rows(record, measurer.set(), frame);
   for (std::size_t m = 0; m < measures.size(); ++m) {

@@ -64,22 +64,6 @@ class Manifest : private JsonReader {
     return value.get<std::string>();
   }
 
-  [[nodiscard]] Vec3 direction(const Json& value, const std::string& what) const {
-    require_list_of_3(value, what);
-    Vec3 v = Vec3::Zero();
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (!value[k].is_number()) {
-        fail(what + " is not a list of 3 numbers");
-      }
-      v[static_cast<Eigen::Index>(k)] = value[k].get<double>();
-    }
-    const double length = v.stableNorm();
-    if (!(length > 0.0) || !std::isfinite(length)) {
-      fail(what + " has no direction");
-    }
-    return v / length;
-  }
-
   RecordedModel record_of(const Json& entry, const std::string& where) const {
     allow_only(entry, {"model", "up", "views", "mirror_planes", "gaze"}, where);
     if (!has(entry, "model")) {
@@ -101,7 +85,7 @@ class Manifest : private JsonReader {
     }
     if (has(entry, "mirror_planes")) {
       for (const Json& plane : list(entry["mirror_planes"], where + ".mirror_planes")) {
-        record.planes.push_back({.normal = direction(plane, where + ".mirror_planes")});
+        record.planes.push_back({.normal = unit_vector(plane, where + ".mirror_planes")});
       }
     }
     if (has(entry, "gaze")) {
@@ -138,7 +122,7 @@ class Manifest : private JsonReader {
         fail(where + " has a view without \"direction\"");
       }
       const bool moved = !has(view, "status") || text(view["status"], where + ".status") == "moved";
-      record.views.push_back({direction(view["direction"], where + ".direction"), moved});
+      record.views.push_back({unit_vector(view["direction"], where + ".direction"), moved});
     }
   }
 

@@ -10,6 +10,8 @@
 #include <mutex>
 #include <numeric>
 #include <sstream>
+#include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -23,6 +25,7 @@
 #include "vantage/io/write.h"
 #include "vantage/report/evaluation.h"
 
+#include "core/fingerprint.h"
 #include "core/loaded_code.h"
 #include "core/parallel.h"
 #include "io/files.h"
@@ -72,59 +75,49 @@ std::vector<Row> rows_from(const Json& list, std::string Row::*name, const Colum
   return rows;
 }
 
-/// FNV-1a, 64 bit: tells runs apart, seals nothing.
-class Fingerprint {
- public:
-  void add(std::string_view bytes) {
-    for (const char c : bytes) {
-      hash_ = (hash_ ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-    }
-    hash_ = (hash_ ^ bytes.size()) * 0x100000001b3ULL;
+/// Adds text, and where it ends.
+void add_text(Fingerprint& to, std::string_view text) {
+  to.add(text);
+  to.add(std::to_string(text.size()));
+}
+
+void add_vector(Fingerprint& to, const Vec3& v) {
+  for (const double x : {v.x(), v.y(), v.z()}) {
+    add_text(to, number_text(x));
   }
-
-  void add(const Vec3& v) {
-    for (const double x : {v.x(), v.y(), v.z()}) {
-      add(number_text(x));
-    }
-  }
-
-  [[nodiscard]] std::string text() const { return std::to_string(hash_); }
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
-};
+}
 
 /// Of all that a record's rows depend on; the program itself too, whose version stays the same while
 /// it is worked on.
 std::string key_of(const RecordedModel& record, const ViewOptions& options,
                    const std::vector<Measure>& measures, const RunContext& run) {
   Fingerprint print;
-  print.add(version());
-  print.add(library_versions());
-  print.add(std::to_string(loaded_code()));
-  print.add(options_hash(options));
-  print.add(record.name);
-  print.add(read_file(record.path));
+  add_text(print, version());
+  add_text(print, library_versions());
+  add_text(print, std::to_string(loaded_code()));
+  add_text(print, options_hash(options));
+  add_text(print, record.name);
+  add_text(print, read_file(record.path));
   const std::string extension = extension_of(record.path);
   if (extension == "gltf" || extension == "glb") {  // whose vertices may be in other files
     for (const Vec3& p : load_model(record.path, run).mesh.positions) {
-      print.add(p);
+      add_vector(print, p);
     }
   }
   for (const Measure& measure : measures) {
-    print.add(measure.name);
+    add_text(print, measure.name);
   }
   for (const ChosenByPerson& view : record.views) {
-    print.add(view.direction);
-    print.add(view.moved ? "moved" : "kept");
+    add_vector(print, view.direction);
+    add_text(print, view.moved ? "moved" : "kept");
   }
   for (const MirrorPlane& plane : record.planes) {
-    print.add(plane.normal);
+    add_vector(print, plane.normal);
   }
   for (const double seconds : record.gaze) {
-    print.add(number_text(seconds));
+    add_text(print, number_text(seconds));
   }
-  return print.text();
+  return std::to_string(print.value());
 }
 
 ViewOptions options_for(const RecordedModel& record, ViewOptions options) {

@@ -135,11 +135,6 @@ ShapeAnalysis with_map(ShapeAnalysis shape, std::vector<double> map) {
   return shape;
 }
 
-std::string percent_text(double share) {
-  const long tenths = std::lround(1000.0 * share);
-  return std::to_string(tenths / 10) + "." + std::to_string(std::abs(tenths % 10)) + " %";
-}
-
 /// What mesh saliency makes of the shape.
 struct SaliencyView {
   std::vector<double> map;  ///< In full.
@@ -215,25 +210,25 @@ Figure sphere_figure(const ShapeAnalysis& shape, const SaliencyView* saliency,
                      const RunContext& run) {
   look.width = options.width;
   look.height = options.height;
-  const auto panel = [&](const std::vector<double>& values, const std::vector<double>& shown,
+  const auto panel = [&](const ShapeAnalysis& of, const std::vector<double>& shown,
                          const char* name) {
     return with_caption(
-        sphere_panel(shape, values, shown, report.best.direction, report.up, options, look, run),
+        sphere_panel(of, shown, report.best.direction, report.up, options, look, run),
         std::string(name) + " seen from each direction");
   };
-  std::vector<Image> panels{panel(shape.significance, shape.significance, "KSSM")};
+  std::vector<Image> panels{panel(shape, shape.significance, "KSSM")};
   if (saliency != nullptr) {
-    panels.push_back(panel(saliency->map, saliency->shape.significance, "mesh saliency"));
+    panels.push_back(
+        panel(with_map(shape, saliency->map), saliency->shape.significance, "mesh saliency"));
   }
   return {"figure-6-spheres", side_by_side(panels), {}};
 }
 
-Figure rapid_figure(const ShapeAnalysis& shape, const ViewReport& report,
-                    const ViewOptions& options, const RunContext& run) {
+Figure rapid_figure(const ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
   const std::shared_ptr<const VertexVisibility> visibility = visibility_of(shape, 200);
-  const ViewScorer scorer(*visibility, shape.significance, report.camera);
-  RunContext quiet = run;
-  quiet.report = nullptr;
+  const MapScorer by_map(shape, *visibility, options);
+  const ViewScorer& scorer = by_map.scorer();
+  const RunContext quiet = run.quiet();
   const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
     return scorer.score_all(directions, quiet);
   };
@@ -259,8 +254,7 @@ Image view_sheet(const ShapeAnalysis& shape, const ReportedViewSet& set, const V
     run.advance("pictures", static_cast<double>(i) / count);
     const ReportedView& view = set.views[i];
     const ChosenView& chosen = set.choice.views[i];
-    RunContext quiet = run;
-    quiet.report = nullptr;
+    const RunContext quiet = run.quiet();
     const Camera camera = camera_for(view, {options.width, options.height});
     // Shares of what can be seen at all.
     const double before = i == 0 ? 0.0 : set.choice.views[i - 1].coverage;
@@ -288,9 +282,8 @@ std::vector<Figure> paper_figures(const ShapeAnalysis& shape, const ViewReport& 
   if (!shape.cloud) {  // mesh saliency is of curvature, which points do not have
     saliency = saliency_view(shape, report, options, run.part(0.5, 0.7));
   }
-  RunContext quiet = run;
-  quiet.report = nullptr;
-  figures.push_back(rapid_figure(shape, report, options, quiet));
+  const RunContext quiet = run.quiet();
+  figures.push_back(rapid_figure(shape, options, quiet));
   run.advance("figures", 0.8);
   figures.push_back(
       {"figure-5-skeleton",

@@ -265,8 +265,7 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, ShapePic
   }
   const PageFrame frame{report.camera.sphere.centre, 0.5 * report.camera.sphere.diameter};
   const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, kSphereLevel);
-  RunContext quiet = run;
-  quiet.report = nullptr;
+  const RunContext quiet = run.quiet();
   const ScoreBatch score = estimated_scores(shape, report, options, quiet);
 
   Json data = {{"view", Json::parse(view_json(model, shape, report, options))},

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 #include "vantage/core/error.h"
@@ -35,6 +36,11 @@ Image white(int width, int height) {
 }
 
 }  // namespace
+
+std::string percent_text(double share) {
+  const long tenths = std::lround(1000.0 * share);
+  return std::to_string(tenths / 10) + "." + std::to_string(std::abs(tenths % 10)) + " %";
+}
 
 Image with_caption(const Image& panel, std::string_view text) {
   const double wanted = std::max(kLeastLetters, kLetterShare * panel.width);

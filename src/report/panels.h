@@ -2,12 +2,16 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "vantage/core/image.h"
 
 namespace vantage {
+
+/// A share for captions: "12.3 %".
+std::string percent_text(double share);
 
 /// The picture with a line of ASCII text on white below it; the text shrinks until it fits.
 Image with_caption(const Image& panel, std::string_view text);

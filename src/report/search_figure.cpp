@@ -15,6 +15,8 @@
 
 #include "vantage/render/render.h"
 
+#include "report/panels.h"
+
 namespace vantage {
 namespace {
 
@@ -129,7 +131,7 @@ class Ball {
 };
 
 /// What all panels share.
-struct Story {
+struct SearchRecord {
   std::span<const SearchStep> trace;
   std::vector<SearchStep> path;
   double low = 0.0;
@@ -151,16 +153,16 @@ void draw_mesh(LineDrawing& drawing, const Ball& ball, const DirectionSet& set, 
 }
 
 /// Directions scored up to a level, and the way to where the search stands then.
-void draw_search(LineDrawing& drawing, const Ball& ball, const Story& story, int level,
+void draw_search(LineDrawing& drawing, const Ball& ball, const SearchRecord& record, int level,
                  double dot) {
-  for (const SearchStep& step : story.trace) {
+  for (const SearchStep& step : record.trace) {
     if (step.level <= level && ball.shows(step.direction)) {
       drawing.dot(ball.at(step.direction), (step.level == level ? 1.0 : 0.7) * dot,
-                  story.colour(step.score));
+                  record.colour(step.score));
     }
   }
-  const SearchStep* here = &story.path.front();
-  for (const SearchStep& stop : story.path) {
+  const SearchStep* here = &record.path.front();
+  for (const SearchStep& stop : record.path) {
     if (stop.level > level) {
       break;
     }
@@ -171,34 +173,29 @@ void draw_search(LineDrawing& drawing, const Ball& ball, const Story& story, int
   }
   if (ball.shows(here->direction)) {
     drawing.dot(ball.at(here->direction), 1.5 * dot, kPath);
-    drawing.dot(ball.at(here->direction), 1.05 * dot, story.colour(here->score));
+    drawing.dot(ball.at(here->direction), 1.05 * dot, record.colour(here->score));
   }
 }
 
-std::string percent(double share) {
-  const long tenths = std::lround(1000.0 * share);
-  return std::to_string(tenths / 10) + "." + std::to_string(std::abs(tenths % 10)) + " %";
-}
-
-std::string label(const Story& story, int level, double total) {
-  const auto scored = std::count_if(story.trace.begin(), story.trace.end(),
+std::string label(const SearchRecord& record, int level, double total) {
+  const auto scored = std::count_if(record.trace.begin(), record.trace.end(),
                                     [&](const SearchStep& s) { return s.level <= level; });
-  const SearchStep* here = &story.path.front();
-  for (const SearchStep& stop : story.path) {
+  const SearchStep* here = &record.path.front();
+  for (const SearchStep& stop : record.path) {
     here = stop.level <= level ? &stop : here;
   }
   return "level " + std::to_string(level) + ": " + std::to_string(scored) + " views, " +
-         percent(total > 0.0 ? here->score / total : 0.0);
+         percent_text(total > 0.0 ? here->score / total : 0.0);
 }
 
 }  // namespace
 
 LineDrawing search_figure(const std::vector<SearchStep>& trace, ViewSphereBase base, Goal goal,
                           double total, int size) {
-  Story story{trace, path_of(trace, goal), trace.front().score, trace.front().score};
+  SearchRecord record{trace, path_of(trace, goal), trace.front().score, trace.front().score};
   for (const SearchStep& step : trace) {
-    story.low = std::min(story.low, step.score);
-    story.high = std::max(story.high, step.score);
+    record.low = std::min(record.low, step.score);
+    record.high = std::max(record.high, step.score);
   }
   const int last = trace.back().level;
   const std::size_t count = std::min<std::size_t>(kMostPanels, static_cast<std::size_t>(last) + 1);
@@ -208,8 +205,8 @@ LineDrawing search_figure(const std::vector<SearchStep>& trace, ViewSphereBase b
   const int high = size + static_cast<int>(3.0 * letters);
   LineDrawing drawing(static_cast<int>(count + 1) * size, high);
   // From where the way is seen best: a little beside its end.
-  const Vec3 end = story.path.back().direction;
-  const Vec3 start = story.path.front().direction;
+  const Vec3 end = record.path.back().direction;
+  const Vec3 start = record.path.front().direction;
   const Vec3 eye = end + 0.6 * start + 0.15 * end.unitOrthogonal();
   DirectionSet set = direction_set(base, 0);
   for (std::size_t panel = 0; panel < count; ++panel) {
@@ -218,8 +215,8 @@ LineDrawing search_figure(const std::vector<SearchStep>& trace, ViewSphereBase b
     const Ball ball(eye, centre, radius, 1.0);
     ball.disc(drawing);
     draw_mesh(drawing, ball, set, 0.0025 * size);
-    draw_search(drawing, ball, story, level, 0.012 * size);
-    drawing.text(label(story, level, total), {centre[0] - radius, size + letters}, letters,
+    draw_search(drawing, ball, record, level, 0.012 * size);
+    drawing.text(label(record, level, total), {centre[0] - radius, size + letters}, letters,
                  kTextInk);
     if (level < kFinestDrawn) {
       set = loop_refined(set);
@@ -231,8 +228,8 @@ LineDrawing search_figure(const std::vector<SearchStep>& trace, ViewSphereBase b
   const Ball close(end, centre, radius, kZoom);
   close.disc(drawing);
   draw_mesh(drawing, close, set, 0.0025 * size);
-  draw_search(drawing, close, story, last, 0.012 * size);
-  drawing.text("12 x " + label(story, last, total), {centre[0] - radius, size + letters}, letters,
+  draw_search(drawing, close, record, last, 0.012 * size);
+  drawing.text("12 x " + label(record, last, total), {centre[0] - radius, size + letters}, letters,
                kTextInk);
   return drawing;
 }

@@ -56,14 +56,13 @@ void add_wire(TriMesh& mesh, std::vector<Rgb8>& colours, const std::array<Vec3, 
 
 }  // namespace
 
-Image sphere_panel(const ShapeAnalysis& shape, std::span<const double> map,
-                   std::span<const double> shown, const Vec3& from, UpAxis up,
-                   const ViewOptions& options, const RenderOptions& look, const RunContext& run) {
+Image sphere_panel(const ShapeAnalysis& shape, std::span<const double> shown, const Vec3& from,
+                   UpAxis up, const ViewOptions& options, const RenderOptions& look,
+                   const RunContext& run) {
   const std::shared_ptr<const VertexVisibility> visibility = visibility_of(shape, 200);
-  const ScoringCamera camera = scoring_camera(shape, options);
-  const ViewScorer scorer(*visibility, map, camera);
+  const MapScorer by_map(shape, *visibility, options);
   const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, kLevel);
-  const std::vector<double> scores = scorer.score_all(set.directions, run);
+  const std::vector<double> scores = by_map.scorer().score_all(set.directions, run);
   const auto [low, high] = std::minmax_element(scores.begin(), scores.end());
   const double span = *high - *low;
   const double radius = 0.5 * shape.sphere.diameter;

@@ -12,6 +12,7 @@
 #include "vantage/report/view_report.h"
 
 #include "core/degrees.h"
+#include "pipeline/describe_view.h"
 #include "pipeline/option_echo.h"
 
 namespace vantage {
@@ -123,6 +124,87 @@ Json set_of(const ReportedViewSet& set, ViewSelection selection) {
   return json;
 }
 
+Json model_of(const Model& model, const MeshReport& check) {
+  return {{"name", model.name},
+          {"format", format_name(model)},
+          {"vertices", check.vertices},
+          {"faces", check.faces},
+          {"components", check.components},
+          {"closed", check.closed},
+          {"genus", check.genus ? Json(*check.genus) : Json(nullptr)}};
+}
+
+/// The objective and the model's frame.
+void add_frame(Json& json, const ViewReport& report, const ViewOptions& options) {
+  json["objective"] = objective_of(options) == Objective::People ? "people" : "significance";
+  ViewOptions as_searched = options;
+  as_searched.objective = objective_of(options);
+  json["prior"] = prior_text(as_searched);
+  json["up"] = up_name(report.up);
+  json["up_source"] = report.orientation.up.source;
+  json["up_confidence"] = in_thousandths(report.orientation.up.confidence);
+  json["front"] = up_name(report.front);
+  json["front_source"] = report.orientation.front.source;
+  json["front_confidence"] = in_thousandths(report.orientation.front.confidence);
+  const ShapeProportions& box = report.proportions;
+  json["proportions"] = {{"height", in_thousandths(box.height)},
+                         {"width", in_thousandths(box.width)},
+                         {"mirrors_side", box.mirrors_side},
+                         {"mirrors_front", box.mirrors_front},
+                         {"mirrors_up", box.mirrors_up}};
+}
+
+void add_best_and_worst(Json& json, const ViewReport& report, bool pictures) {
+  json["best"] = view_of(report.best, pictures ? Json("best.png") : Json(nullptr), report.up);
+  json["best"]["score_of_attainable"] =
+      report.score_of_attainable ? Json(*report.score_of_attainable) : Json(nullptr);
+  json["highest_score"] = {{"direction", point(report.highest_direction)},
+                           {"score", report.highest_score}};
+  json["worst"] = view_of(report.worst, pictures ? Json("worst.png") : Json(nullptr), report.up);
+}
+
+Json twins_of(const ViewReport& report) {
+  Json twins = Json::array();
+  for (const TwinView& twin : report.twins) {
+    twins.push_back({{"direction", point(twin.direction)},
+                     {"score", twin.score},
+                     {"score_fraction", score_fraction(twin.score, report.total)},
+                     {"objective", twin.objective}});
+  }
+  return twins;
+}
+
+Json search_of(const ViewReport& report, const SearchOptions& search, const Json& echo) {
+  Json json = {
+      {"strategy", echo["search"]},
+      {"base", echo["base"]},
+      {"subdivisions", search.subdivisions},
+      {"epsilon", search.epsilon_is_fraction ? search.epsilon * report.total : search.epsilon},
+      {"evaluations", report.best_search.evaluations},
+      {"worst_evaluations", report.worst_search.evaluations},
+      {"estimates", report.best_search.estimates + report.worst_search.estimates}};
+  if (search.strategy == SearchStrategy::Gradient) {
+    json["starts"] = search.starts;
+    json["seed"] = search.seed;
+  }
+  if (report.dense_gap) {
+    json["dense"] = {{"best_ratio", report.dense_gap->best_ratio},
+                     {"worst_above", report.dense_gap->worst_above},
+                     {"evaluations", report.dense_gap->evaluations}};
+  }
+  return json;
+}
+
+/// Every sentence about the result, the doubts last.
+std::vector<std::string> warnings_of(const Model& model, const ShapeAnalysis& shape,
+                                     const ViewReport& report) {
+  std::vector<std::string> warnings = model.notes;
+  warnings.insert(warnings.end(), shape.warnings.begin(), shape.warnings.end());
+  warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
+  warnings.insert(warnings.end(), report.doubts.begin(), report.doubts.end());
+  return warnings;
+}
+
 std::string text_of(const Json& json) {
   // Names may hold bytes that are no UTF-8: replaced, so that the file stays valid JSON.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -148,85 +230,29 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
   json["vantage"] = version();
   json["schema"] = kSchema;
   json["options_hash"] = options_hash(options);
-  json["model"] = {{"name", model.name},
-                   {"format", format_name(model)},
-                   {"vertices", shape.check.vertices},
-                   {"faces", shape.check.faces},
-                   {"components", shape.check.components},
-                   {"closed", shape.check.closed},
-                   {"genus", shape.check.genus ? Json(*shape.check.genus) : Json(nullptr)}};
+  json["model"] = model_of(model, shape.check);
   if (!options.focus.empty()) {
     json["focus"] = options.focus;
   }
   json["method"] = options.method;
   json["preset"] = echo["preset"];
   json["weight"] = echo["weight"];
-  json["objective"] = objective_of(options) == Objective::People ? "people" : "significance";
-  ViewOptions as_searched = options;
-  as_searched.objective = objective_of(options);
-  json["prior"] = prior_text(as_searched);
-  json["up"] = up_name(report.up);
-  json["up_source"] = report.orientation.up.source;
-  json["up_confidence"] = in_thousandths(report.orientation.up.confidence);
-  json["front"] = up_name(report.front);
-  json["front_source"] = report.orientation.front.source;
-  json["front_confidence"] = in_thousandths(report.orientation.front.confidence);
-  const ShapeProportions& shape_of_box = report.proportions;
-  json["proportions"] = {{"height", in_thousandths(shape_of_box.height)},
-                         {"width", in_thousandths(shape_of_box.width)},
-                         {"mirrors_side", shape_of_box.mirrors_side},
-                         {"mirrors_front", shape_of_box.mirrors_front},
-                         {"mirrors_up", shape_of_box.mirrors_up}};
+  add_frame(json, report, options);
   json["camera"] = camera_of(report.camera, echo["projection"]);
-  json["best"] =
-      view_of(report.best, options.pictures ? Json("best.png") : Json(nullptr), report.up);
-  json["best"]["score_of_attainable"] =
-      report.score_of_attainable ? Json(*report.score_of_attainable) : Json(nullptr);
-  json["highest_score"] = {{"direction", point(report.highest_direction)},
-                           {"score", report.highest_score}};
-  json["worst"] =
-      view_of(report.worst, options.pictures ? Json("worst.png") : Json(nullptr), report.up);
+  add_best_and_worst(json, report, options.pictures);
   if (report.set && options.view_set) {
     json["views"] = views_of(*report.set, options.pictures, report.up);
     json["view_set"] = set_of(*report.set, options.view_set->selection);
   }
-  json["twins"] = Json::array();
-  for (const TwinView& twin : report.twins) {
-    json["twins"].push_back(
-        {{"direction", point(twin.direction)},
-         {"score", twin.score},
-         {"score_fraction", report.total > 0.0 ? twin.score / report.total : 0.0},
-         {"objective", twin.objective}});
-  }
+  json["twins"] = twins_of(report);
   json["total"] = report.total;
-  const SearchOptions& search = options.search;
-  json["search"] = {
-      {"strategy", echo["search"]},
-      {"base", echo["base"]},
-      {"subdivisions", search.subdivisions},
-      {"epsilon", search.epsilon_is_fraction ? search.epsilon * report.total : search.epsilon},
-      {"evaluations", report.best_search.evaluations},
-      {"worst_evaluations", report.worst_search.evaluations},
-      {"estimates", report.best_search.estimates + report.worst_search.estimates}};
-  if (search.strategy == SearchStrategy::Gradient) {
-    json["search"]["starts"] = search.starts;
-    json["search"]["seed"] = search.seed;
-  }
-  if (report.dense_gap) {
-    json["search"]["dense"] = {{"best_ratio", report.dense_gap->best_ratio},
-                               {"worst_above", report.dense_gap->worst_above},
-                               {"evaluations", report.dense_gap->evaluations}};
-  }
+  json["search"] = search_of(report, options.search, echo);
   json["skeleton"] = {{"nodes", shape.skeleton.graph.nodes.size()},
                       {"edges", shape.skeleton.graph.edges.size()},
                       {"components", component_count(shape.skeleton.graph)},
                       {"cycles", cycle_count(shape.skeleton.graph)}};
   json["contraction"] = contraction_of(shape.history, shape.kssm);
-  std::vector<std::string> warnings = model.notes;
-  warnings.insert(warnings.end(), shape.warnings.begin(), shape.warnings.end());
-  warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
-  warnings.insert(warnings.end(), report.doubts.begin(), report.doubts.end());
-  json["warnings"] = warnings;
+  json["warnings"] = warnings_of(model, shape, report);
   json["doubts"] = report.doubts;
   json["options"] = std::move(echo);
   if (seconds != nullptr) {

@@ -12,9 +12,9 @@ namespace {
 constexpr std::size_t kPoll = 4096;
 /// Entries of the queue for each edge; of more, those that newer ones replaced are dropped.
 constexpr std::size_t kMostQueued = 8;
-/// A cluster of more neighbours than any surface's queues its edges anew only once it has taken in a
-/// share of that many: until then they wait by what they cost before, which is looked at again when
-/// their turn comes. Each time, thousands of neighbours at one edge would take hours.
+/// A cluster of more than kLargestRing neighbours queues its edges anew only after it has taken in one
+/// kRingShare-th of that many vertices: until then they keep the costs they had, which are looked at again
+/// when their turn comes. At every collapse, thousands of neighbours would take hours.
 constexpr std::size_t kLargestRing = 1000;
 constexpr std::size_t kRingShare = 16;
 /// Where this many local refinements do not free the way, more will not (on real models a few

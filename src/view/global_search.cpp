@@ -117,9 +117,9 @@ std::vector<Candidate> ascended(std::vector<Candidate> candidates, const AscentR
   return largest_apart(std::move(candidates), count, 0.0);
 }
 
-/// The highest end of ascents from near a candidate, again while much is gained: where the score
-/// is rough, or goes in steps and is the same all around, a higher maximum is often near. Where the
-/// survey is coarser than that, the candidate.
+/// Scores directions within kNearRad of a maximum and ascends from the best of them, again while that
+/// gains rules.flat at least: where the score is rough or goes in steps, a higher maximum is often near.
+/// Does nothing where the score is smooth or the survey is coarser than kNearRad.
 Candidate highest_near(Candidate best, AscentRules rules, double spacing_rad,
                        const SearchTarget& target, const RunContext& run) {
   const auto is_smooth = [&] { return best.spread > 0.0 && best.spread < rules.flat; };

@@ -29,7 +29,7 @@ struct Candidate {
   Vec3 direction = Vec3::UnitZ();
   double value = 0.0;
   LatticePlace place{};
-  /// By how much the values of the last ring around it and its own differ.
+  /// Range of the values on the last ring around it, its own included.
   double spread = std::numeric_limits<double>::infinity();
 };
 

@@ -21,7 +21,7 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t kNotOfSet = ~std::size_t{0};
-constexpr double kNotTold = std::numeric_limits<double>::quiet_NaN();  // never a value
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();  // never a value
 
 MeasureNeeds both(MeasureNeeds a, const MeasureNeeds& b) {
   a.vertices |= b.vertices;
@@ -36,7 +36,7 @@ MeasureNeeds both(MeasureNeeds a, const MeasureNeeds& b) {
 }
 
 /// Whether a look for `wanted` tells all that is needed.
-bool is_told(const MeasureNeeds& needed, const MeasureNeeds& wanted) {
+bool is_covered(const MeasureNeeds& needed, const MeasureNeeds& wanted) {
   return both(wanted, needed) == wanted;
 }
 
@@ -215,13 +215,13 @@ MeasureValues ViewMeasurer::State::values_with(std::size_t m, std::span<const Ve
   wanted.channel |= wanted.faces && needs.channel;
   wanted.kssm |= needs.kssm;
   wanted.saliency |= needs.saliency;
-  MeasureValues values(measures.size(), std::vector<double>(directions.size(), kNotTold));
+  MeasureValues values(measures.size(), std::vector<double>(directions.size(), kNotMeasured));
   parallel_for(run, directions.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const SightTable sight = look(model.given.camera.viewpoint(directions[i]), wanted, kNotOfSet);
       for (std::size_t k = 0; k < measures.size(); ++k) {
         const MeasureNeeds own = needs_of(k);
-        if (k == m || (is_told(own, wanted) && !own.neighbours)) {  // comparing views takes long
+        if (k == m || (is_covered(own, wanted) && !own.neighbours)) {  // comparing views takes long
           values[k][i] = value(k, sight);
         }
       }
@@ -234,7 +234,7 @@ std::vector<double> ViewMeasurer::State::kept_values_of(std::size_t m,
                                                         std::span<const Vec3> directions,
                                                         const RunContext& run) {
   const auto row_of = [&](const Vec3& d) -> std::vector<double>& {
-    return kept.try_emplace({d.x(), d.y(), d.z()}, measures.size(), kNotTold).first->second;
+    return kept.try_emplace({d.x(), d.y(), d.z()}, measures.size(), kNotMeasured).first->second;
   };
   std::vector<Vec3> fresh;
   for (const Vec3& direction : directions) {

@@ -106,7 +106,7 @@ class Sweep {
     active_.sort_at_bottom();
   }
 
-  /// A slab in which the sides are straight of all chains whose crossings matter.
+  /// Processes a slab in which every chain whose crossings matter is one straight segment.
   void straight_slab(double bottom, double top) {
     cuts_.assign(1, top);
     for (const ActiveChains::Range& range : ranges_) {

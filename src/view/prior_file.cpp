@@ -93,17 +93,7 @@ class PriorReader : private JsonReader {
     }
     refuse_others(object, {"direction", "weight", "width_deg"});
     PriorLobe result;
-    const Json& direction = object.at("direction");
-    require_list_of_3(direction, what + ".direction");
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      result.direction[static_cast<Eigen::Index>(axis)] =
-          number(direction[axis], what + ".direction", -1e100, 1e100);
-    }
-    const double length = result.direction.stableNorm();
-    if (!(length > 0.0)) {
-      fail(what + ".direction must not be zero");
-    }
-    result.direction /= length;
+    result.direction = unit_vector(object.at("direction"), what + ".direction");
     if (object.contains("weight")) {
       result.weight = number(object.at("weight"), what + ".weight", 0.0, kHighestLobe);
     }

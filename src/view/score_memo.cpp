@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "vantage/core/error.h"
 
@@ -31,6 +32,9 @@ std::vector<double> ScoreMemo::scores(const std::vector<Vec3>& directions, int l
     if (values.size() != fresh.size()) {
       throw InvalidInput("the score function returned " + std::to_string(values.size()) +
                          " values for " + std::to_string(fresh.size()) + " directions");
+    }
+    if (std::any_of(values.begin(), values.end(), [](double x) { return std::isnan(x); })) {
+      throw InvalidInput("the score function returned a value that is not a number");
     }
     for (std::size_t i = 0; i < fresh.size(); ++i) {
       score_of_[key_of(fresh[i])] = values[i];

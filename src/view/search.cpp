@@ -21,6 +21,7 @@ constexpr std::size_t kDenseStarts = 3;
 constexpr AscentRules kDenseRules{.first_rad = 4.0 * kRadPerDeg, .last_rad = 0.01 * kRadPerDeg};
 // Share of the progress bar that a start set takes.
 constexpr double kStartShare = 0.7;
+constexpr int kMostSurveyLevel = 6;
 
 /// Ascends from the highest peaks of the set.
 Candidate search_densely(const SearchTarget& target, const DirectionSet& set,
@@ -72,6 +73,12 @@ void check_search(const ViewObjective& objective, const SearchOptions& options) 
   check_fields(options, kSearchFields);
   if (objective.starts == 0) {
     throw InvalidInput("a search starts its ascent from one direction at least");
+  }
+  if (!(objective.finest_deg > 0.0) || !(objective.finest_preferred_deg > 0.0)) {
+    throw InvalidInput("the narrowest ring of a search must be wider than 0 degrees");
+  }
+  if (objective.survey_level < 0 || objective.survey_level > kMostSurveyLevel) {
+    throw InvalidInput("a search surveys a set of level 0 to 6");
   }
   if (!(options.epsilon >= 0.0) || !std::isfinite(options.epsilon)) {
     throw InvalidInput("option epsilon must be finite and not negative");

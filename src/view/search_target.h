@@ -52,7 +52,7 @@ class SearchTarget {
   /// Whether every view is as good as any other.
   [[nodiscard]] bool is_flat() const { return objective_->total == 0.0; }
 
-  /// Whether it is not the score itself that is searched.
+  /// Whether a preference, not the score, is maximised.
   [[nodiscard]] bool is_preference() const {
     return goal_ == Goal::Best && static_cast<bool>(objective_->preference);
   }

@@ -56,19 +56,20 @@ std::vector<double> shown_nodes(const MeasuredModel& model, const SightTable& si
   return shown;
 }
 
-struct Bone {
+struct ProjectedEdge {
   std::uint32_t a = 0, b = 0;  // nodes
   std::uint32_t branch = 0;    // of graph_branches()
   double length = 0.0;         // in space
   PicturePoint from{}, to{};   // in the picture
   double near_a = 0.0,
-         near_b = 0.0;  // of both ends, smaller is farther; even along the bone in the picture
+         near_b = 0.0;  // of both ends, smaller is farther; even along the edge in the picture
 
   /// At a share of the way along the picture.
   [[nodiscard]] double near_at(double share) const { return near_a + share * (near_b - near_a); }
 };
 
-std::vector<Bone> bones_of(const CurveGraph& graph, const Sphere& sphere, const SightTable& sight) {
+std::vector<ProjectedEdge> projected_edges(const CurveGraph& graph, const Sphere& sphere,
+                                           const SightTable& sight) {
   const Vec3 right = sight.towards.unitOrthogonal();
   const Vec3 up = sight.towards.cross(right);
   const bool is_perspective = sight.eye.projection == Projection::Perspective;
@@ -83,29 +84,29 @@ std::vector<Bone> bones_of(const CurveGraph& graph, const Sphere& sphere, const 
     places.emplace_back(shrink * p.dot(right), shrink * p.dot(up));
     near.push_back(is_perspective ? shrink : depth);  // what is behind the eye is farthest
   }
-  std::vector<Bone> bones;
+  std::vector<ProjectedEdge> edges;
   const auto branches = graph_branches(graph);
   for (std::uint32_t k = 0; k < branches.size(); ++k) {
     for (std::size_t i = 0; i + 1 < branches[k].size(); ++i) {
       const std::uint32_t a = branches[k][i];
       const std::uint32_t b = branches[k][i + 1];
-      bones.push_back({a, b, k, (graph.nodes[a] - graph.nodes[b]).norm(), places[a], places[b],
+      edges.push_back({a, b, k, (graph.nodes[a] - graph.nodes[b]).norm(), places[a], places[b],
                        near[a], near[b]});
     }
   }
-  return bones;
+  return edges;
 }
 
-/// Marks the farther of each two bones of different branches that cross in the picture.
-std::vector<std::uint8_t> crossed_bones(const std::vector<Bone>& bones) {
-  std::vector<std::uint8_t> crossed(bones.size(), 0);
-  for (std::size_t i = 0; i < bones.size(); ++i) {
-    const Bone& p = bones[i];
+/// Marks the farther of each two edges of different branches that cross in the picture.
+std::vector<std::uint8_t> crossed_edges(const std::vector<ProjectedEdge>& edges) {
+  std::vector<std::uint8_t> crossed(edges.size(), 0);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const ProjectedEdge& p = edges[i];
     const PicturePoint low = p.from.cwiseMin(p.to);
     const PicturePoint high = p.from.cwiseMax(p.to);
     const PicturePoint along = p.to - p.from;
-    for (std::size_t j = i + 1; j < bones.size(); ++j) {
-      const Bone& q = bones[j];
+    for (std::size_t j = i + 1; j < edges.size(); ++j) {
+      const ProjectedEdge& q = edges[j];
       if (std::max(q.from.x(), q.to.x()) < low.x() || std::min(q.from.x(), q.to.x()) > high.x() ||
           std::max(q.from.y(), q.to.y()) < low.y() || std::min(q.from.y(), q.to.y()) > high.y() ||
           p.branch == q.branch || p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b) {
@@ -131,22 +132,22 @@ std::vector<std::uint8_t> crossed_bones(const std::vector<Bone>& bones) {
 SkeletonSight skeleton_sight(const MeasuredModel& model, const SightTable& sight) {
   const CurveGraph& graph = *model.given.skeleton;
   const std::vector<double> shown = shown_nodes(model, sight);
-  const std::vector<Bone> bones = bones_of(graph, model.given.camera.sphere, sight);
-  const std::vector<std::uint8_t> crossed = crossed_bones(bones);
+  const std::vector<ProjectedEdge> edges = projected_edges(graph, model.given.camera.sphere, sight);
+  const std::vector<std::uint8_t> crossed = crossed_edges(edges);
   SkeletonSight result;
   double all = 0.0;
   double all_shown = 0.0;
   double branch = 0.0;
   double branch_shown = 0.0;
-  for (std::size_t i = 0; i < bones.size(); ++i) {
-    const Bone& bone = bones[i];
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const ProjectedEdge& edge = edges[i];
     // An end without surface of its own goes with the other end.
-    const double a = shown[bone.a] < 0.0 ? shown[bone.b] : shown[bone.a];
-    const double b = shown[bone.b] < 0.0 ? shown[bone.a] : shown[bone.b];
+    const double a = shown[edge.a] < 0.0 ? shown[edge.b] : shown[edge.a];
+    const double b = shown[edge.b] < 0.0 ? shown[edge.a] : shown[edge.b];
     const double share = std::max(0.0, 0.5 * (a + b)) * (crossed[i] != 0 ? kCrossed : 1.0);
-    branch += bone.length;
-    branch_shown += share * bone.length;
-    if (i + 1 == bones.size() || bones[i + 1].branch != bone.branch) {
+    branch += edge.length;
+    branch_shown += share * edge.length;
+    if (i + 1 == edges.size() || edges[i + 1].branch != edge.branch) {
       all += branch;
       all_shown += branch_shown;
       result.limbs += branch > 0.0 && branch_shown >= kLimbShare * branch ? 1.0 : 0.0;

@@ -31,7 +31,7 @@ constexpr std::size_t kPatience = 64;
 constexpr std::size_t kMostPatience = 1024;
 // The patience is spent evenly over the faces, but for this share of it.
 constexpr std::size_t kAhead = 16;
-// Faces that are nearest to the eye, struck first; then so many times as many, and so on.
+// Faces of the first batch, the nearest to the eye; each later batch is kThenTimes times all before.
 constexpr std::size_t kNearestFaces = 64;
 constexpr std::size_t kThenTimes = 3;
 constexpr std::size_t kGrain = 4096;  // faces or points per chunk: some tenths of a millisecond
@@ -255,9 +255,9 @@ float EyeGrid::depth_behind(const Surface& surface, std::uint32_t sample,
 }
 
 template <unsigned Lanes>
-void EyeGrid::strike_sample(const Surface& surface, const FacePacket<Lanes>& h, unsigned lane,
-                            std::size_t slot) {
-  // Other threads may strike out the same sample meanwhile; they can only agree.
+void EyeGrid::hide_sample(const Surface& surface, const FacePacket<Lanes>& h, unsigned lane,
+                          std::size_t slot) {
+  // Other threads may hide_behind out the same sample meanwhile; they can only agree.
   const std::atomic_ref<std::uint8_t> hidden(hidden_[slot]);
   if (hidden.load(std::memory_order_relaxed) != 0) {
     return;
@@ -279,8 +279,8 @@ void EyeGrid::strike_sample(const Surface& surface, const FacePacket<Lanes>& h, 
 }
 
 template <unsigned Lanes>
-VANTAGE_INLINE std::size_t EyeGrid::strike(const Surface& surface, const FacePacket<Lanes>& h,
-                                           unsigned lane) {
+VANTAGE_INLINE std::size_t EyeGrid::hide_behind(const Surface& surface, const FacePacket<Lanes>& h,
+                                                unsigned lane) {
   const CellRange cells = cells_of(h, lane);
   const std::uint32_t face = h.face[lane];
   const FaceTest<Lanes> test(h, lane, surface.faces[face]);
@@ -297,8 +297,8 @@ VANTAGE_INLINE std::size_t EyeGrid::strike(const Surface& surface, const FacePac
         found &= (1U << (end - slot)) - 1U;
       }
       for (; found != 0; found &= found - 1) {
-        strike_sample<Lanes>(surface, h, lane,
-                             slot + static_cast<std::uint32_t>(std::countr_zero(found)));
+        hide_sample<Lanes>(surface, h, lane,
+                           slot + static_cast<std::uint32_t>(std::countr_zero(found)));
       }
     }
   }
@@ -331,7 +331,7 @@ struct EyeGrid::Walk {
 };
 
 template <unsigned Lanes>
-VANTAGE_INLINE std::size_t EyeGrid::strike_all(Walk& walk, FacePacket<Lanes>& h) {
+VANTAGE_INLINE std::size_t EyeGrid::hide_behind_all(Walk& walk, FacePacket<Lanes>& h) {
   if (h.count == 0) {
     return 0;
   }
@@ -341,7 +341,7 @@ VANTAGE_INLINE std::size_t EyeGrid::strike_all(Walk& walk, FacePacket<Lanes>& h)
   std::size_t work = 0;
   for (unsigned lane = 0; lane < h.count; ++lane) {
     if (holds_asked || !behind_all(h.nearest[lane], cells_of(h, lane))) {
-      work += strike<Lanes>(walk.surface, h, lane);
+      work += hide_behind<Lanes>(walk.surface, h, lane);
     }
   }
   h.count = 0;
@@ -368,7 +368,7 @@ VANTAGE_INLINE void EyeGrid::walk_blocks(Walk& walk, std::size_t begin, std::siz
       }
       some.face[some.count++] = static_cast<std::uint32_t>(f);
       if (some.count == Lanes) {
-        work += strike_all<Lanes>(walk, some);
+        work += hide_behind_all<Lanes>(walk, some);
       }
     }
     if (walk.is_too_much(work, last - begin)) {
@@ -376,7 +376,7 @@ VANTAGE_INLINE void EyeGrid::walk_blocks(Walk& walk, std::size_t begin, std::siz
       break;
     }
   }
-  work += strike_all<Lanes>(walk, some);
+  work += hide_behind_all<Lanes>(walk, some);
   walk.spent.fetch_add(work, std::memory_order_relaxed);
 }
 
@@ -391,10 +391,10 @@ VANTAGE_INLINE void EyeGrid::walk_order(Walk& walk, std::size_t begin, std::size
     }
     some.face[some.count++] = f;
     if (some.count == Lanes) {
-      work += strike_all<Lanes>(walk, some);
+      work += hide_behind_all<Lanes>(walk, some);
     }
   }
-  work += strike_all<Lanes>(walk, some);
+  work += hide_behind_all<Lanes>(walk, some);
   walk.spent.fetch_add(work, std::memory_order_relaxed);
 }
 

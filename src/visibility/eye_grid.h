@@ -15,7 +15,7 @@
 
 /// \file
 /// Which of a surface's samples one eye sees, all at once. All segments of one query end in the same
-/// eye, so the samples are sorted into a flat grid over the picture, and every face strikes out the
+/// eye, so the samples are sorted into a flat grid over the picture, and every face hides the
 /// samples behind it: what a hierarchy in space would do, at a fraction of the cost.
 
 namespace vantage {
@@ -63,14 +63,14 @@ class EyeGrid {
   template <unsigned Lanes>
   void walk_order(Walk& walk, std::size_t begin, std::size_t end);
   template <unsigned Lanes>
-  std::size_t strike_all(Walk& walk, FacePacket<Lanes>& h);
+  std::size_t hide_behind_all(Walk& walk, FacePacket<Lanes>& h);
   template <unsigned Lanes>
   void make_ready(const Surface& surface, FacePacket<Lanes>& h) const;
   template <unsigned Lanes>
-  std::size_t strike(const Surface& surface, const FacePacket<Lanes>& h, unsigned lane);
+  std::size_t hide_behind(const Surface& surface, const FacePacket<Lanes>& h, unsigned lane);
   template <unsigned Lanes>
-  void strike_sample(const Surface& surface, const FacePacket<Lanes>& h, unsigned lane,
-                     std::size_t slot);
+  void hide_sample(const Surface& surface, const FacePacket<Lanes>& h, unsigned lane,
+                   std::size_t slot);
   [[nodiscard]] float depth_behind(const Surface& surface, std::uint32_t sample,
                                    std::uint32_t face) const;
   [[nodiscard]] bool blocks(const Surface& surface, std::uint32_t sample, std::uint32_t face) const;

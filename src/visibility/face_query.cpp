@@ -419,7 +419,7 @@ double area_of(const Surface& surface) {
 }  // namespace
 
 FaceScene::FaceScene(const TriMesh& mesh, std::span<const FaceSides> sides)
-    : samples(prepare_surface(mesh, sides)),
+    : samples(visibility_surface(mesh, sides)),
       triangles(mesh.triangles),
       face_of_mesh(mesh.triangles.size(), kNoFace),
       sphere(enclosing_sphere(referenced_points(mesh))),

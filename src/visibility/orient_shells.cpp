@@ -23,8 +23,8 @@
 namespace vantage {
 namespace {
 
-// So many rays have to agree on whether a shell is inside an odd number of others; and the most that
-// are cast, as one that grazes an edge is replaced by another.
+// Votes that decide whether a shell is inside an odd number of others, and the most rays that are cast:
+// one that grazes an edge has no vote.
 constexpr int kAgreeing = 3;
 constexpr int kMaxRays = 40;
 // A crossing nearer to an edge, or a start nearer to a plane, than this is not trusted: relative to

@@ -82,11 +82,11 @@ std::vector<std::uint8_t> SampleQuery::seen_among(std::span<const std::uint8_t> 
 
 std::vector<std::uint8_t> SampleQuery::seen_by_segments(std::span<const std::uint8_t> samples) {
   std::vector<std::uint8_t> asked = turned_among(samples);
-  strike_hidden(asked);
+  clear_hidden(asked);
   return asked;
 }
 
-void SampleQuery::strike_hidden(std::vector<std::uint8_t>& asked) {
+void SampleQuery::clear_hidden(std::vector<std::uint8_t>& asked) {
   parallel_for(run_, asked.size(), kPointsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (asked[i] != 0 && scene_.hides_sample(static_cast<std::uint32_t>(i), eye_)) {
@@ -98,7 +98,7 @@ void SampleQuery::strike_hidden(std::vector<std::uint8_t>& asked) {
 
 std::vector<std::uint8_t> SampleQuery::not_hidden(std::vector<std::uint8_t> asked) {
   if (!memory_->grid.hide(scene_.surface_, asked, run_)) {
-    strike_hidden(asked);
+    clear_hidden(asked);
   }
   return asked;
 }

@@ -126,7 +126,7 @@ class SampleQuery {
 
  private:
   [[nodiscard]] std::vector<std::uint8_t> turned_among(std::span<const std::uint8_t> samples) const;
-  void strike_hidden(std::vector<std::uint8_t>& asked);
+  void clear_hidden(std::vector<std::uint8_t>& asked);
 
   SampleScene& scene_;
   Viewpoint eye_;

@@ -307,7 +307,7 @@ std::vector<std::uint32_t> morton_order(std::span<const Vec3> points) {
   return order;
 }
 
-Surface prepare_surface(const TriMesh& mesh, std::span<const FaceSides> sides) {
+Surface visibility_surface(const TriMesh& mesh, std::span<const FaceSides> sides) {
   const WeldedMesh welded = weld(mesh);
   Surface surface;
   surface.frame = unit_frame(referenced_points(mesh));

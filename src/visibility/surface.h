@@ -69,9 +69,10 @@ FloatPoints rounded_points(std::span<const Vec3> points);
 /// \throw InvalidInput if it is not finite, or an orthographic direction is zero.
 Viewpoint eye_in_frame(const Viewpoint& eye, const UnitFrame& frame);
 
+/// Welds, and leaves out faces without area and repeated ones: for queries alone, the mesh stays as it is.
 /// \param sides one per component of connected_components(mesh), or a single one for all.
 /// \throw InvalidInput if there are neither.
-Surface prepare_surface(const TriMesh& mesh, std::span<const FaceSides> sides);
+Surface visibility_surface(const TriMesh& mesh, std::span<const FaceSides> sides);
 
 /// One value for each vertex of the mesh, that of its sample; 0 for vertices without a sample.
 /// \param of_sample at least one value a sample; more are not looked at.

@@ -17,12 +17,12 @@ struct VertexVisibility::Scene {
 
 namespace {
 
-// From so many eyes on it pays to know which backs can hide nothing: that takes as long as twenty
-// eyes, and spares each a fifth. [ours, by measurement]
+// From so many eyes on it pays to find the back faces that occlude nothing: that takes as long as twenty
+// queries, and spares each a fifth. [ours, by measurement]
 constexpr std::size_t kManyEyes = 100;
 
 Surface surface_for(const TriMesh& mesh, std::span<const FaceSides> sides, std::size_t eyes) {
-  Surface surface = prepare_surface(mesh, sides);
+  Surface surface = visibility_surface(mesh, sides);
   if (eyes >= kManyEyes && !surface.faces.empty()) {
     const TriMesh framed{surface.samples, surface.faces};
     surface.backs = find_meetings(framed, surface_edges(framed)).hiding_backs;

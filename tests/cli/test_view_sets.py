@@ -120,6 +120,7 @@ class ViewSets(ProgramTest):
             report = self.report(name)
             self.assertEqual(report["view_set"]["selection"], name)
             self.assertEqual(len(report["views"]), 3)
+            self.assertEqual(report["view_set"]["candidates"], 2562 if name == "kssm" else 642)
 
     def test_set_and_tour_are_the_same_for_any_thread_count(self):
         for threads in (1, 2):

@@ -48,6 +48,7 @@ struct ContractionOptions {
   double diagonal_limit = 1e4;        ///< Rows of L with a larger diagonal are scaled down (Cao).
   double shrinkage_tolerance = 0.01;  ///< Stop when a_{t−1} − a_t falls below (Cao).
   int max_steps = 20;                 ///< At most this many steps (Cao).
+  bool second_mesh = true;            ///< Whether ContractionHistory::second is made; no flag.
 };
 
 /// The table of ContractionOptions.
@@ -83,7 +84,8 @@ inline constexpr auto kContractionFields = std::tuple{
 /// \throw Cancelled
 /// \complexity One sparse Cholesky factorisation a step: of a proxy of at most 10 000 vertices where a
 /// component has more than 20 000 and the method is Auto. A step that is not sound is tried up to nine
-/// ways, and a second, coarser mesh is contracted as well (ContractionHistory::second).
+/// ways, each with up to seven weights; what still fails is contracted anew up to three times, a plate up to
+/// four. A second, coarser mesh is contracted as well (ContractionHistory::second).
 ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& options = {},
                             const RunContext& run = {});
 

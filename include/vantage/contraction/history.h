@@ -26,7 +26,8 @@ enum class ContractionScaling {
 enum class ContractionStop {
   /// A step shrank the surface by less than the tolerance, or enlarged it; that step was discarded.
   Shrunk,
-  Grew,           ///< A side of the bounding box grew past its bound; that step was discarded.
+  /// The bounding box or a vertex left its bound; that step was discarded.
+  Grew,
   Collapsed,      ///< A step would have run a curve to a point; that step was discarded.
   StepLimit,      ///< `max_steps` were taken.
   NothingToMove,  ///< No face with area: a point or a needle.

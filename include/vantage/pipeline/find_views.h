@@ -82,7 +82,7 @@ std::string frame_summary(const FrameChoice& choice);
 /// A view that a mirror plane of the model makes as good as the best.
 struct TwinView {
   Vec3 direction = Vec3::UnitZ();  ///< From the centre to the eye.
-  double score = 0.0;              ///< Pure sum of the visible significance.
+  double score = 0.0;              ///< As the best view's.
   double objective = 0.0;          ///< As the best view's.
 };
 

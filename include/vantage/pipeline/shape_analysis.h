@@ -100,7 +100,8 @@ ShapeAnalysis analyse_surface(ShapeAnalysis shape, const ViewOptions& options,
 /// A per-vertex field of the surface carried to the input's vertices; isolated ones get 0.
 std::vector<double> on_input_vertices(const ShapeAnalysis& shape, std::span<const double> field);
 
-/// Skeleton node of each input vertex; −1 for vertices without faces.
+/// Skeleton node of each input vertex; −1 where none stands for it: a vertex without faces, an outlier
+/// of a cloud.
 std::vector<std::int64_t> nodes_of_input_vertices(const ShapeAnalysis& shape);
 
 /// An object of a scene.

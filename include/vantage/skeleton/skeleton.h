@@ -54,14 +54,14 @@ struct Skeleton {
   std::vector<double> radius{};  ///< |N| mean distance of a node to its vertices (of the
                                  ///< refined surface, if that was contracted), level 0.
   std::vector<std::uint32_t>
-      node_of_vertex{};  ///< |V| nodes of `graph`; kNone for isolated vertices.
+      node_of_vertex{};  ///< |V| nodes of `graph`; kNone where none stands for it.
   CurveGraph raw{};      ///< Before centring and pruning.
   /// What KSSM measures to: `raw`, in pieces of half the spacing that follow the contracted surface,
   /// as fine as what is left of that; or `raw` itself. Its first nodes are those of `raw`.
   CurveGraph curve{};
   /// The same of ContractionHistory::second, or empty.
   CurveGraph other_curve{};
-  std::vector<std::uint32_t> raw_node_of_vertex{};  ///< |V| nodes of `raw`; kNone if isolated.
+  std::vector<std::uint32_t> raw_node_of_vertex{};  ///< |V| nodes of `raw`; kNone likewise.
   double outside_share = 0.0;  ///< Of the length of `graph` in closed components, what is outside
                                ///< their shells.
   std::vector<std::string> warnings{};  ///< One sentence each.

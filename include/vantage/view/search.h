@@ -104,7 +104,7 @@ using ScoreBatch = std::function<std::vector<double>(const std::vector<Vec3>&)>;
 /// What is looked for on the view sphere. KSSM, every measure, thumbnails and scores of your own
 /// are searched by this one interface.
 struct ViewObjective {
-  ScoreBatch score{};  ///< Required; finite.
+  ScoreBatch score{};  ///< Required; never NaN. −∞ of a view that is not to be taken.
   /// The score if everything were visible, ≥ 0: what SearchOptions::epsilon as a fraction refers
   /// to. At 0 all views are equal, and the first direction is the answer.
   double total = 0.0;
@@ -131,7 +131,7 @@ struct ViewObjective {
 FoundView search_view(const ViewObjective& objective, Goal goal, const SearchOptions& options = {},
                       const RunContext& run = {});
 
-/// All of these searches, sharing what they score. \throw InvalidInput, Cancelled
+/// Finds the best, the highest and the worst view; no direction is scored twice. \throw InvalidInput, Cancelled
 FoundViews search_best_and_worst(const ViewObjective& objective, const SearchOptions& options = {},
                                  const RunContext& run = {});
 

@@ -13,13 +13,13 @@ namespace {
 
 TEST(CandidateModel, AddsUpTheLeavesThatEachCandidateComesTo) {
   const CandidateModel model(
-      "# a comment\nup witness 1.5\nup threshold 0.75\nup share 0.5\n"
+      "# a comment\nup convention_log_odds 1.5\nup threshold 0.75\nup share 0.5\n"
       "up tree height 0.5 -1 width 2 3 4\n"
       "up tree height-opposite 0 10 20\n"
       "up tree width-mean 0 100 200\n"
       "front tree height 0 7 8\n",
       "up");
-  EXPECT_EQ(model.witness, 1.5);
+  EXPECT_EQ(model.convention_log_odds, 1.5);
   EXPECT_EQ(model.threshold, 0.75);
   EXPECT_EQ(model.share, 0.5);
   const std::vector<double> scores =
@@ -30,7 +30,7 @@ TEST(CandidateModel, AddsUpTheLeavesThatEachCandidateComesTo) {
 
 TEST(CandidateModel, RefusesLinesThatAreNoTree) {
   for (const char* const line : {"up tree height 0.5 -1", "up tree height low 1 2",
-                                 "up tree height 0.5 1 2 3", "up witness much"}) {
+                                 "up tree height 0.5 1 2 3", "up convention_log_odds much"}) {
     try {
       const CandidateModel model(line, "up");
       ADD_FAILURE() << line;

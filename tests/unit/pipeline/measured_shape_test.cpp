@@ -10,6 +10,7 @@
 #include "vantage/core/error.h"
 #include "vantage/pipeline/find_views.h"
 
+#include "pipeline/view_preparation.h"
 #include "support/model_of.h"
 #include "support/shapes.h"
 
@@ -96,6 +97,16 @@ TEST(FindViewsByAMeasure, SaysHowFarItIsFromTheDenseSearch) {
   EXPECT_GT(report.dense_gap->evaluations, 10'000U);
   EXPECT_GT(report.dense_gap->best_ratio, 0.99);
   EXPECT_LT(report.dense_gap->best_ratio, 1.01);
+}
+
+TEST(RequireMemory, CountsTheViewsThatMeasuresOfASetCompare) {
+  const std::vector<Measure> alone{find_measure("viewpoint-entropy")};
+  const std::vector<Measure> of_set{find_measure("viewpoint-entropy"), find_measure("vmi")};
+  constexpr std::size_t kFaces = 1'000'000;
+  constexpr std::uint64_t kGigabyte = 1'000'000'000;
+  EXPECT_NO_THROW(require_memory(alone, 1000 * kFaces, kGigabyte));
+  EXPECT_NO_THROW(require_memory(of_set, kFaces, 6 * kGigabyte));
+  EXPECT_THROW(require_memory(of_set, kFaces, 5 * kGigabyte), InvalidInput);
 }
 
 TEST(FindViewsByAMeasure, RefusesAnObjectThatItCannotLookAtAlone) {

@@ -62,6 +62,15 @@ std::vector<std::uint8_t> pixel_of(const Image& image, int x, int y) {
 
 constexpr std::uint8_t kOn = 255;
 
+TEST(SurfaceMaterials, DrawsATextureThatIsPlacedBeyondAllNumbers) {
+  Square square(std::vector<std::uint8_t>(16, 255));
+  square.appearance.textures[0].wrap_u = TextureWrap::Repeat;
+  square.appearance.uvs = {{0, 1}, {3, 1}, {3, 0}, {0, 0}};
+  square.appearance.materials[0].uv_transform = {1e308, 0, 0, 0, 1e308, 1e308};
+  const Image image = picture(square, small());
+  EXPECT_EQ(pixel_of(image, 16, 16), (std::vector<std::uint8_t>{255, 255, 255, 255}));
+}
+
 TEST(SurfaceMaterials, LaysATextureTheRightWayRound) {
   const Square square({kOn, 0, 0, kOn, 0, kOn, 0, kOn, 0, 0, kOn, kOn, kOn, kOn, kOn, kOn});
   const Image image = picture(square, small());

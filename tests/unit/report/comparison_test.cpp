@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "support/model_of.h"
+#include "support/shapes.h"
+
 namespace vantage {
 namespace {
 
@@ -26,6 +29,18 @@ TEST(RankCorrelation, GivesTiesTheirMeanRank) {
 
 TEST(RankCorrelation, OfAFlatListIsNoNumber) {
   EXPECT_TRUE(std::isnan(rank_correlation(std::vector<double>{1, 1}, std::vector<double>{1, 2})));
+}
+
+TEST(CompareMethods, ReportsFractionsThatNeverDecrease) {
+  const ShapeAnalysis shape = analyse_shape(test::model_of(test::box(1.0, 2.0, 3.0, 2)), {});
+  double last = 0.0;
+  const RunContext run{.report = [&](std::string_view, double fraction) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+  }};
+  (void)compare_methods(shape, {}, {find_measure("projected-area"), find_measure("mesh-saliency")},
+                        run);
+  EXPECT_EQ(last, 1.0);
 }
 
 TEST(FoldedAngle, TakesTheNearestMirrorImage) {

@@ -9,6 +9,7 @@
 #include "vantage/mesh/measures.h"
 
 #include "report/point_balls.h"
+#include "report/sphere_figure.h"
 #include "support/model_of.h"
 #include "support/shapes.h"
 
@@ -74,6 +75,18 @@ TEST(PaperFigures, DrawTheSearchAsLinesAndAsPixels) {
       EXPECT_NE(figure.svg.find("<svg"), std::string::npos);
     }
   }
+}
+
+TEST(SpherePanel, IsRaisedByTheScoreThatTheWeightAsksFor) {
+  ViewOptions options;
+  const ShapeAnalysis shape = analyse_shape(model_of(y_of_tubes(0.2, 16)), options);
+  const auto panel = [&](Weight weight) {
+    options.weight = weight;
+    return sphere_panel(shape, shape.significance, Vec3::UnitX(), UpAxis::Y, options,
+                        {.width = 64, .height = 48}, {});
+  };
+  EXPECT_EQ(panel(Weight::Vertex).rgba, panel(Weight::Vertex).rgba);
+  EXPECT_NE(panel(Weight::Vertex).rgba, panel(Weight::Area).rgba);
 }
 
 TEST(TimesTable, HasOneRowAModelAndAddsUp) {

@@ -28,6 +28,20 @@ TEST(ViewJson, HasNoNumberThatIsNotFinite) {
   }
 }
 
+TEST(ViewJson, GivesNoShareOfATotalThatAMeasureDoesNotHave) {
+  const Model model = model_of(box(1.0, 2.0, 3.0, 2));
+  const ViewOptions options{.method = "viewpoint-entropy"};
+  const ShapeAnalysis shape = analyse_shape(model, options);
+  const json report =
+      json::parse(view_json(model, shape, find_views(shape, UpAxis::Y, options), options, nullptr));
+  EXPECT_TRUE(report["best"]["score_fraction"].is_null());
+  ASSERT_FALSE(report["twins"].empty());
+  for (const json& twin : report["twins"]) {
+    EXPECT_GT(twin["score"].get<double>(), 0.0);
+    EXPECT_TRUE(twin["score_fraction"].is_null());
+  }
+}
+
 TEST(ViewJson, GenusIsNullForAnOpenSurface) {
   const json report = json::parse(report_text(model_of(sheet(1.0, 1.0, 4))));
   EXPECT_TRUE(report["model"]["genus"].is_null());

@@ -26,7 +26,7 @@ constexpr std::size_t kEnough = 100'000'000;  // steps
 class Clipped {
  public:
   Clipped(const TriMesh& mesh, const Viewpoint& eye)
-      : surface_(prepare_surface(mesh, sides_)), local_(eye_in_frame(eye, surface_.frame)) {
+      : surface_(visibility_surface(mesh, sides_)), local_(eye_in_frame(eye, surface_.frame)) {
     for (std::size_t f = 0; f < surface_.faces.size(); ++f) {
       const double height =
           surface_.area_vectors[f].dot(sight_line(surface_.samples[surface_.faces[f][0]], local_));

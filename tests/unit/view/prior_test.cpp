@@ -173,7 +173,7 @@ TEST(PriorFile, ProblemsAreNamedInOneSentence) {
   EXPECT_EQ(problem_of(R"({"vantage_prior": 1, "lobes": [{"direction": [0, 1]}]})"),
             "my.json: lobes[0].direction is not a list of 3 numbers");
   EXPECT_EQ(problem_of(R"({"vantage_prior": 1, "lobes": [{"direction": [0, 0, 0]}]})"),
-            "my.json: lobes[0].direction must not be zero");
+            "my.json: lobes[0].direction must be three finite numbers, not all zero");
   EXPECT_EQ(
       problem_of(R"({"vantage_prior": 1, "lobes": [{"direction": [0, 0, 1], "width_deg": 0}]})"),
       "my.json: lobes[0].width_deg is not a number between 1.0 and 180.0");

@@ -316,6 +316,17 @@ TEST(SearchView, RefusesOptionsOutsideTheirRange) {
   EXPECT_THROW(search_view({scoring(three_hills), 1.0}, Goal::Best, {.epsilon = -1.0}),
                InvalidInput);
   EXPECT_THROW(search_view({scoring(three_hills), -1.0}, Goal::Best), InvalidInput);
+  EXPECT_THROW(
+      search_view({.score = scoring(three_hills), .total = 1.0, .survey_level = 7}, Goal::Best),
+      InvalidInput);
+  EXPECT_THROW(
+      search_view({.score = scoring(three_hills), .total = 1.0, .finest_deg = 0.0}, Goal::Best),
+      InvalidInput);
+}
+
+TEST_P(SearchBy, RefusesAScoreThatIsNotANumber) {
+  const auto partly = scoring([](const Vec3& d) { return d.x() > 0.5 ? std::nan("") : d.y(); });
+  EXPECT_THROW(search_view({partly, 1.0}, Goal::Best, {.strategy = GetParam()}), InvalidInput);
 }
 
 }  // namespace

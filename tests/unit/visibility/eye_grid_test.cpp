@@ -33,7 +33,7 @@ TriMesh heap(std::uint32_t faces) {
 
 TEST(EyeGrid, IsEnoughForAHeapOfLargeFaces) {
   const std::array sides{FaceSides::Both};
-  SampleScene samples(prepare_surface(heap(4000), sides));
+  SampleScene samples(visibility_surface(heap(4000), sides));
   const Surface& surface = samples.surface();
   const Viewpoint eye{Projection::Perspective, Vec3(2.0, 3.0, 4.0)};
   TurnedFaces turned;

@@ -27,7 +27,7 @@ struct Count {
 
 Count backs_of(const TriMesh& mesh) {
   const std::vector<FaceSides> sides{FaceSides::Front};
-  const Surface surface = prepare_surface(mesh, sides);
+  const Surface surface = visibility_surface(mesh, sides);
   const TriMesh framed{surface.samples, surface.faces};
   const auto asked = find_meetings(framed, surface_edges(framed)).hiding_backs;
   return {static_cast<std::size_t>(std::count(asked.begin(), asked.end(), 1)), asked.size()};

@@ -21,7 +21,7 @@ std::vector<std::uint8_t> sides_seen(SampleScene& samples, const Viewpoint& eye)
 /// Whether it makes no difference that runs of faces are told by the cones around their normals.
 void expect_same_without_cones(const TriMesh& mesh) {
   const std::vector<FaceSides> sides{FaceSides::Front};
-  Surface surface = prepare_surface(mesh, sides);
+  Surface surface = visibility_surface(mesh, sides);
   ASSERT_FALSE(surface.blocks.cosine.empty());
   SampleScene with_cones(surface);
   surface.blocks.cosine.clear();
