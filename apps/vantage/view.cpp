@@ -158,7 +158,7 @@ struct ViewCommand {
 
  private:
   /// \throw CLI::ValidationError if flags do not go together.
-  [[nodiscard]] ViewOptions resolved_options(Session& session) {
+  [[nodiscard]] ViewOptions resolved_options(Session& session) const {
     ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
     options.pictures = !no_images;
     options.view_set = several.request();

@@ -132,6 +132,8 @@ class Scene {
                                       double openness) const;
   [[nodiscard]] Vec3 shaded(const SurfacePoint& point) const;
   [[nodiscard]] float probed(const SurfacePlace& place, std::span<const Vec3f> directions) const;
+  void add_tube_and_ground(Light& light, const PreparedPaint& paint, const Sample& sample,
+                           const TubeHit& tube) const;
   void add_ground(Light& light, const PictureRay& ray, int x, int y) const;
   [[nodiscard]] double shadow(const PictureRay& ray, double t, int x, int y) const;
   [[nodiscard]] Vec3 to_camera(const Vec3& vector) const;

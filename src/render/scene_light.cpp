@@ -140,6 +140,18 @@ Light Scene::surface_light(const PreparedPaint& paint, Sample& sample, const Ray
   return {*patch.shown, opacity};
 }
 
+void Scene::add_tube_and_ground(Light& light, const PreparedPaint& paint, const Sample& sample,
+                                const TubeHit& tube) const {
+  if (std::isfinite(tube.t)) {
+    SurfacePoint point;
+    point.albedo = paint.tube_colour();
+    point.normal = to_camera(tube.normal);
+    point.to_viewer = to_camera(-sample.ray.direction);
+    light.behind(shade_tube(point), 1.0);
+  }
+  add_ground(light, sample.ray, sample.x, sample.y);
+}
+
 std::array<Light, 4> Scene::lights_of(const PreparedPaint& paint, SamplePacket& samples,
                                       std::size_t count, Patches& patches) const {
   std::array<Light, 4> lights{};
@@ -180,18 +192,9 @@ std::array<Light, 4> Scene::lights_of(const PreparedPaint& paint, SamplePacket& 
     layers = surface_->rays().closest_hits(next, count, width);
   }
   for (std::size_t i = 0; i < count; ++i) {
-    const Sample& sample = samples[i];
-    if (!sample.ray.can_hit || sample.on_line) {
-      continue;
+    if (samples[i].ray.can_hit && !samples[i].on_line) {
+      add_tube_and_ground(lights[i], paint, samples[i], tubes[i]);
     }
-    if (std::isfinite(tubes[i].t)) {
-      SurfacePoint point;
-      point.albedo = paint.tube_colour();
-      point.normal = to_camera(tubes[i].normal);
-      point.to_viewer = to_camera(-sample.ray.direction);
-      lights[i].behind(shade_tube(point), 1.0);
-    }
-    add_ground(lights[i], sample.ray, sample.x, sample.y);
   }
   return lights;
 }
