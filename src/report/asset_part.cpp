@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kTextureSide = 1024;
 /// Textures of no more pixels are PNG: WebP shares its colours among four, which palettes and pixel
 /// art show. [ours]
-constexpr std::size_t kSmallTexture = 256 * 256;
+constexpr std::size_t kSmallTexture = std::size_t{256} * 256;
 
 /// Coordinates, in radii of the enclosing sphere, are stored as 16 bits over [-1.25, 1.25]: a
 /// contracted surface may reach a little beyond the sphere.
