@@ -68,11 +68,11 @@ std::string LookFlags::write(const std::string& path, const Model& model,
     const DeepImage image =
         draw_picture_deep(shape, camera, picture, options, look(up), run, asset);
     write_output(path, png_bytes(image));
-    return doubt_about_picture(image);
+    return emptiness_warning(image);
   }
   const Image image = draw_picture(shape, camera, picture, options, look(up), run, asset);
   write_output(path, picture_bytes(path, image));
-  return doubt_about_picture(image);
+  return emptiness_warning(image);
 }
 
 RenderOptions LookFlags::look(const Vec3& up) const {

@@ -53,7 +53,7 @@ class LookFlags {
   [[nodiscard]] ReadOptions reading(int width, int height) const;
 
   /// Takes the picture that was asked for and writes it, in as many bits as were asked for.
-  /// \return doubt_about_picture().
+  /// \return emptiness_warning().
   /// \throw IoError, InvalidInput, Cancelled
   std::string write(const std::string& path, const Model& model, const ShapeAnalysis& shape,
                     const Camera& camera, Picture picture, const ViewOptions& options,

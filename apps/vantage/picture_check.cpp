@@ -12,7 +12,7 @@ constexpr std::size_t kOneIn = 2000;
 constexpr std::size_t kChannels = 4;
 
 template <class Channel>
-std::string doubt_about(const std::vector<Channel>& rgba) {
+std::string warning_about(const std::vector<Channel>& rgba) {
   if (rgba.size() < kChannels) {
     return {};
   }
@@ -35,12 +35,12 @@ std::string doubt_about(const std::vector<Channel>& rgba) {
 
 }  // namespace
 
-std::string doubt_about_picture(const Image& picture) {
-  return doubt_about(picture.rgba);
+std::string emptiness_warning(const Image& picture) {
+  return warning_about(picture.rgba);
 }
 
-std::string doubt_about_picture(const DeepImage& picture) {
-  return doubt_about(picture.rgba);
+std::string emptiness_warning(const DeepImage& picture) {
+  return warning_about(picture.rgba);
 }
 
 }  // namespace vantage::cli

@@ -10,7 +10,7 @@ namespace vantage::cli {
 /// Why a picture of a model cannot be what was wanted, in a sentence with what to do; empty for one
 /// that shows something in a two-thousandth of its pixels or more. Pixels that are as its first one,
 /// in the corner, show nothing.
-std::string doubt_about_picture(const Image& picture);
-std::string doubt_about_picture(const DeepImage& picture);
+std::string emptiness_warning(const Image& picture);
+std::string emptiness_warning(const DeepImage& picture);
 
 }  // namespace vantage::cli

@@ -98,11 +98,11 @@ struct RenderCommand {
                                        : RenderOptions{}.up;
     const std::map<std::string, Picture> pictures{
         {"plain", Picture::Plain}, {"kssm", Picture::Map}, {"skeleton", Picture::Skeleton}};
-    const std::string doubt = look.write(file, loaded, shape, frame->camera, pictures.at(show),
-                                         with_size(options, frame->size), up, run.part(0.9, 1.0));
+    const std::string warning = look.write(file, loaded, shape, frame->camera, pictures.at(show),
+                                           with_size(options, frame->size), up, run.part(0.9, 1.0));
     report(session, *frame, options, loaded.notes);
-    if (!doubt.empty()) {
-      session.say("warning: " + doubt);
+    if (!warning.empty()) {
+      session.say("warning: " + warning);
     }
     if (look.of_asset()) {
       for (const std::string& note : loaded.notes) {

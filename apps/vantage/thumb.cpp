@@ -93,14 +93,14 @@ struct ThumbCommand {
     const Camera& camera = found.view.picture;
     const Vec3 above = up_vector(found.choice.frame.up);
     options = with_size(options, found.view.size);
-    const std::string doubt =
+    const std::string warning =
         look.write(file, loaded, shape, camera, Picture::Plain, options, above, run.part(0.7, 1.0));
     if (file != "-") {
       preview.show(session, shape, camera, options, look.of(loaded, above), run);
     }
     report(session, found, loaded.notes);
-    if (!doubt.empty()) {
-      session.say("warning: " + doubt);
+    if (!warning.empty()) {
+      session.say("warning: " + warning);
     }
     for (const std::string& note : loaded.notes) {
       if (session.flags.verbose || note == kMadeOpaque) {

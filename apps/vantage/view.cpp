@@ -123,7 +123,7 @@ struct ViewCommand {
     if (!no_images) {
       const std::optional<Image> best =
           add_pictures(output, OutputKinds::all(), pictures, report, options, run.part(0.9, 0.95));
-      doubt_empty_picture(best, report);
+      warn_of_empty_picture(best, report);
     }
     output.add("view.json", view_json(loaded, shape, report, options));
     several.write(output, shape, pictures, report, choice.frame.up, options, run.part(0.95, 1.0));
@@ -151,8 +151,8 @@ struct ViewCommand {
       write_report(session, output,
                    [&] { return report_html(loaded, shape, pictures, report, options, run); });
     }
-    if (strict && !report.doubts.empty()) {
-      throw Error(loaded.name + ": " + report.doubts.front() + " (--strict)");
+    if (strict && !report.reliability_warnings.empty()) {
+      throw Error(loaded.name + ": " + report.reliability_warnings.front() + " (--strict)");
     }
   }
 
@@ -263,8 +263,8 @@ struct ViewCommand {
         session.say("note: " + warning);
       }
     }
-    for (const std::string& doubt : report.doubts) {
-      session.say("warning: " + doubt);
+    for (const std::string& warning : report.reliability_warnings) {
+      session.say("warning: " + warning);
     }
   }
 };

@@ -118,9 +118,9 @@ std::optional<Image> add_pictures(OutputFolder& output, const OutputKinds& kinds
   return best;
 }
 
-void doubt_empty_picture(const std::optional<Image>& best, ViewReport& report) {
-  if (std::string doubt = best ? doubt_about_picture(*best) : ""; !doubt.empty()) {
-    report.doubts.push_back(std::move(doubt));
+void warn_of_empty_picture(const std::optional<Image>& best, ViewReport& report) {
+  if (std::string warning = best ? emptiness_warning(*best) : ""; !warning.empty()) {
+    report.reliability_warnings.push_back(std::move(warning));
   }
 }
 

@@ -43,8 +43,8 @@ std::optional<Image> add_pictures(OutputFolder& output, const OutputKinds& kinds
                                   ShapePictures& pictures, const ViewReport& report,
                                   const ViewOptions& options, const RunContext& run);
 
-/// Adds a doubt if the picture of the best view shows next to nothing.
-void doubt_empty_picture(const std::optional<Image>& best, ViewReport& report);
+/// Adds a warning if the picture of the best view shows next to nothing.
+void warn_of_empty_picture(const std::optional<Image>& best, ViewReport& report);
 
 /// Adds report.html if it is among `kinds`. \throw Cancelled
 void add_report(OutputFolder& output, const OutputKinds& kinds, const Model& loaded,

@@ -91,9 +91,10 @@ py::dict report_dict(const Outcome& outcome) {
   add_set(result, report.set);
   std::vector<std::string> warnings = outcome.analysis->shape.warnings;
   warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
-  warnings.insert(warnings.end(), report.doubts.begin(), report.doubts.end());
+  warnings.insert(warnings.end(), report.reliability_warnings.begin(),
+                  report.reliability_warnings.end());
   result["warnings"] = texts_of(warnings);
-  result["doubts"] = texts_of(report.doubts);
+  result["doubts"] = texts_of(report.reliability_warnings);
   result["json"] = text_of(outcome.json);
   return result;
 }

@@ -60,7 +60,7 @@ ViewReport find_views_by_map(const ShapeAnalysis& shape, const FrameChoice& choi
 }
 
 /// Warns of a rapid search that ends at once: what a ring gains is seldom a hundredth of the total.
-void doubt_epsilon(const SearchOptions& search, ViewReport& report) {
+void warn_of_coarse_epsilon(const SearchOptions& search, ViewReport& report) {
   constexpr double kCoarse = 0.01;
   const double share = search.epsilon / report.total;
   if (search.strategy == SearchStrategy::Rapid && !search.epsilon_is_fraction && share > kCoarse) {
@@ -82,11 +82,11 @@ ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
   if (options.best_view) {
     report.warnings.emplace_back("the best view is the one that the sidecar names, not one found");
   }
-  doubt_epsilon(options.search, report);
+  warn_of_coarse_epsilon(options.search, report);
   report.proportions = proportions_of(shape.surface, shape.sphere.diameter / 2.0, planes_of(shape),
                                       upright_frame(choice.frame));
   report.warnings.insert(report.warnings.end(), choice.notes.begin(), choice.notes.end());
-  report.doubts = doubts_about(shape, report, options, run);
+  report.reliability_warnings = reliability_warnings(shape, report, options, run);
   return report;
 }
 

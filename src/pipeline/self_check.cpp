@@ -90,7 +90,7 @@ std::vector<double> shares_of_significance(const ShapeAnalysis& shape) {
   });
 }
 
-void look_at_contraction(const ShapeAnalysis& shape, std::vector<std::string>& doubts) {
+void look_at_contraction(const ShapeAnalysis& shape, std::vector<std::string>& warnings) {
   if (shape.history.components.empty()) {
     return;  // maps of other measures need no contraction
   }
@@ -110,12 +110,13 @@ void look_at_contraction(const ShapeAnalysis& shape, std::vector<std::string>& d
     }
   }
   if (std::max(thick, significant) > kMinorShare) {
-    doubts.push_back("the surface could not be contracted to a curve (" + in_percent(left) +
-                     " of it is left, in parts that hold " + in_percent(thick) + " of it and " +
-                     in_percent(significant) +
-                     " of its significance), so that map, skeleton and views are hardly more than "
-                     "a guess: mend the mesh, cut it into small even triangles, or choose another "
-                     "--method");
+    warnings.push_back(
+        "the surface could not be contracted to a curve (" + in_percent(left) +
+        " of it is left, in parts that hold " + in_percent(thick) + " of it and " +
+        in_percent(significant) +
+        " of its significance), so that map, skeleton and views are hardly more than "
+        "a guess: mend the mesh, cut it into small even triangles, or choose another "
+        "--method");
   }
 }
 
@@ -131,13 +132,13 @@ bool is_map_doubtful(const ShapeAnalysis& shape) {
 }
 
 void look_at_map(const ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run,
-                 std::vector<std::string>& doubts) {
+                 std::vector<std::string>& warnings) {
   if (shape.cloud || !shape.views || options.method != "kssm" || !is_map_doubtful(shape)) {
     return;
   }
   const double agreement = map_agreement_when_moved(shape, options, run);
   if (agreement < kLeastAgreement) {
-    doubts.push_back(
+    warnings.push_back(
         "the significance map hangs on how the surface is cut into triangles: on a "
         "copy moved by a ten-thousandth of its size the ranks of its values agree "
         "to " +
@@ -147,16 +148,16 @@ void look_at_map(const ShapeAnalysis& shape, const ViewOptions& options, const R
   }
 }
 
-void look_at_skeleton(const ShapeAnalysis& shape, std::vector<std::string>& doubts) {
+void look_at_skeleton(const ShapeAnalysis& shape, std::vector<std::string>& warnings) {
   if (shape.skeleton.outside_share > kMostOutside) {
-    doubts.push_back(in_percent(shape.skeleton.outside_share) +
-                     " of the skeleton's length is outside the surface, so do not measure by it: "
-                     "look at best-skeleton.png, and close or separate walls that touch");
+    warnings.push_back(in_percent(shape.skeleton.outside_share) +
+                       " of the skeleton's length is outside the surface, so do not measure by it: "
+                       "look at best-skeleton.png, and close or separate walls that touch");
   }
   const std::size_t nodes = shape.skeleton.graph.nodes.size();
   const std::size_t cycles = cycle_count(shape.skeleton.graph);
   if (shape.cloud && cycles > kMostCycles && kNodesOfACycle * cycles > nodes) {
-    doubts.push_back(
+    warnings.push_back(
         "the skeleton of the points is a tangle of " + std::to_string(cycles) + " cycles at " +
         std::to_string(nodes) +
         " nodes, so that map, skeleton and views are hardly more than a guess: thin the "
@@ -183,15 +184,15 @@ std::size_t disagreements(const ShapeAnalysis& shape, const VertexVisibility& vi
 }
 
 void look_at_views(const ShapeAnalysis& shape, const ViewReport& report, const ViewOptions& options,
-                   const RunContext& run, std::vector<std::string>& doubts) {
+                   const RunContext& run, std::vector<std::string>& warnings) {
   if (sums_a_map(options.method) && !(report.total > 0.0)) {
-    doubts.emplace_back(
+    warnings.emplace_back(
         "the significance map is zero everywhere, so every view is as good as any other: choose "
         "another --method");
     return;
   }
   if (!(report.best.visible_area_fraction > 0.0)) {
-    doubts.emplace_back("nothing of the surface is seen from the best view: look at its picture");
+    warnings.emplace_back("nothing of the surface is seen from the best view: look at its picture");
   }
   const std::shared_ptr<const VertexVisibility> visibility = visibility_of(shape, 2);
   const std::pair<const char*, std::pair<const ReportedView*, const FoundView*>> views[] = {
@@ -204,9 +205,9 @@ void look_at_views(const ShapeAnalysis& shape, const ViewReport& report, const V
     const bool same_score = !sums_a_map(options.method) ||
                             std::abs(told->score - found->score) <= 1e-9 * std::abs(report.total);
     if (wrong > 0 || !same_score) {
-      doubts.push_back("what the " + std::string(name) +
-                       " view sees was computed in two ways that disagree: this is an error of "
-                       "the program, please report it with the model");
+      warnings.push_back("what the " + std::string(name) +
+                         " view sees was computed in two ways that disagree: this is an error of "
+                         "the program, please report it with the model");
     }
   }
 }
@@ -239,16 +240,16 @@ double map_agreement_when_moved(const ShapeAnalysis& shape, const ViewOptions& o
   return std::isnan(agreement) ? 1.0 : agreement;  // where nothing varies
 }
 
-std::vector<std::string> doubts_about(const ShapeAnalysis& shape, const ViewReport& report,
-                                      const ViewOptions& options, const RunContext& run) {
-  std::vector<std::string> doubts;
-  look_at_views(shape, report, options, run, doubts);
+std::vector<std::string> reliability_warnings(const ShapeAnalysis& shape, const ViewReport& report,
+                                              const ViewOptions& options, const RunContext& run) {
+  std::vector<std::string> warnings;
+  look_at_views(shape, report, options, run, warnings);
   if (sums_a_map(options.method)) {
-    look_at_contraction(shape, doubts);
-    look_at_map(shape, options, run, doubts);
+    look_at_contraction(shape, warnings);
+    look_at_map(shape, options, run, warnings);
   }
-  look_at_skeleton(shape, doubts);
-  return doubts;
+  look_at_skeleton(shape, warnings);
+  return warnings;
 }
 
 }  // namespace vantage

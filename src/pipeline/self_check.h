@@ -15,8 +15,8 @@ namespace vantage {
 
 /// Why the answer should not be trusted, and what to do, one sentence each; empty almost always.
 /// \param report with both views described. \throw Cancelled
-std::vector<std::string> doubts_about(const ShapeAnalysis& shape, const ViewReport& report,
-                                      const ViewOptions& options, const RunContext& run);
+std::vector<std::string> reliability_warnings(const ShapeAnalysis& shape, const ViewReport& report,
+                                              const ViewOptions& options, const RunContext& run);
 
 /// How well the ranks of the map's values agree with those on a copy of the surface whose vertices
 /// are moved by 1e-4 of its diameter (Spearman), of the proxy where there is one; 1 where the map is

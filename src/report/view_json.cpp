@@ -195,13 +195,14 @@ Json search_of(const ViewReport& report, const SearchOptions& search, const Json
   return json;
 }
 
-/// Every sentence about the result, the doubts last.
+/// Every sentence about the result, those about reliability last.
 std::vector<std::string> warnings_of(const Model& model, const ShapeAnalysis& shape,
                                      const ViewReport& report) {
   std::vector<std::string> warnings = model.notes;
   warnings.insert(warnings.end(), shape.warnings.begin(), shape.warnings.end());
   warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
-  warnings.insert(warnings.end(), report.doubts.begin(), report.doubts.end());
+  warnings.insert(warnings.end(), report.reliability_warnings.begin(),
+                  report.reliability_warnings.end());
   return warnings;
 }
 
@@ -253,7 +254,7 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
                       {"cycles", cycle_count(shape.skeleton.graph)}};
   json["contraction"] = contraction_of(shape.history, shape.kssm);
   json["warnings"] = warnings_of(model, shape, report);
-  json["doubts"] = report.doubts;
+  json["doubts"] = report.reliability_warnings;
   json["options"] = std::move(echo);
   if (seconds != nullptr) {
     json["seconds"] = seconds_of(*seconds);

@@ -71,11 +71,11 @@ class BackCheck {
     check_edges();
     check_volumes();
     check_meetings();
-    std::vector<std::uint8_t> backs(hides_.size());
-    for (std::uint32_t f = 0; f < backs.size(); ++f) {
-      backs[f] = hides_[edges_.shell_of_face[f]];
+    std::vector<std::uint8_t> back_faces(hides_.size());
+    for (std::uint32_t f = 0; f < back_faces.size(); ++f) {
+      back_faces[f] = hides_[edges_.shell_of_face[f]];
     }
-    return {std::move(backs), std::move(crossed_)};
+    return {std::move(back_faces), std::move(crossed_)};
   }
 
  private:

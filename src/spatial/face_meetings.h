@@ -10,7 +10,7 @@
 
 /// \file
 /// Faces that meet others elsewhere than at corners and edges that they share, and what that says of
-/// backs. A shell is made of faces that edges hold together. On a closed one that is wound outwards
+/// back faces. A shell is made of faces that edges hold together. On a closed one that is wound outwards
 /// and nowhere meets itself, a line of sight that passes a back enters the shell, and to reach an eye
 /// outside it must leave through a front: what the back hides that front hides too, whatever other
 /// shells do.
@@ -20,7 +20,7 @@ namespace vantage {
 /// One entry a face.
 struct FaceMeetings {
   /// 1 for each face whose back may hide something that no front hides, from an eye outside.
-  std::vector<std::uint8_t> hiding_backs{};
+  std::vector<std::uint8_t> occluding_back_faces{};
   /// 1 for each face that may pass through another one or touch it.
   std::vector<std::uint8_t> crossed{};
 };

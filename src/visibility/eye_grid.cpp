@@ -71,10 +71,10 @@ VANTAGE_INLINE void keep_cells(const typename Registers<Lanes>::Floats& at, floa
 }  // namespace
 
 void EyeGrid::begin(const Viewpoint& eye, const TurnedFaces& turned,
-                    std::span<const std::uint8_t> backs) {
+                    std::span<const std::uint8_t> back_faces) {
   eye_ = eye;
   turned_ = &turned;
-  backs_ = backs;
+  back_faces_ = back_faces;
   aim_ = Aim::None;
 }
 
@@ -257,7 +257,7 @@ float EyeGrid::depth_behind(const Surface& surface, std::uint32_t sample,
 template <unsigned Lanes>
 void EyeGrid::hide_sample(const Surface& surface, const FacePacket<Lanes>& h, unsigned lane,
                           std::size_t slot) {
-  // Other threads may hide_behind out the same sample meanwhile; they can only agree.
+  // Other threads may hide the same sample meanwhile; they can only agree.
   const std::atomic_ref<std::uint8_t> hidden(hidden_[slot]);
   if (hidden.load(std::memory_order_relaxed) != 0) {
     return;
@@ -386,7 +386,7 @@ VANTAGE_INLINE void EyeGrid::walk_order(Walk& walk, std::size_t begin, std::size
   std::size_t work = 0;
   for (std::size_t k = begin; k < end && work <= walk.limit; ++k) {
     const std::uint32_t f = order_[k];
-    if (turned_->of_face[f] == 2 && !backs_.empty() && backs_[f] == 0) {
+    if (turned_->of_face[f] == 2 && !back_faces_.empty() && back_faces_[f] == 0) {
       continue;
     }
     some.face[some.count++] = f;
@@ -419,7 +419,7 @@ bool EyeGrid::walk(Walk& walk, std::size_t first, std::size_t count, const RunCo
   return walk.spent.load() <= walk.limit;
 }
 
-/// Fronts first, and what is seen edge on: most of what is hidden lies behind one. The backs then have
+/// Fronts first, and what is seen edge on: most of what is hidden lies behind one. The back faces then have
 /// little left to do, or nothing: the eye is outside of every shell, because all samples are ahead of it
 /// where cells were chosen. \return false if the patience was not enough.
 bool EyeGrid::walk_sides(const Surface& surface, const RunContext& run) {
@@ -430,12 +430,13 @@ bool EyeGrid::walk_sides(const Surface& surface, const RunContext& run) {
   if (!walk(fronts, 0, count, run)) {
     return false;
   }
-  if (!backs_.empty() && std::find(backs_.begin(), backs_.end(), 1) == backs_.end()) {
+  if (!back_faces_.empty() &&
+      std::find(back_faces_.begin(), back_faces_.end(), 1) == back_faces_.end()) {
     return true;
   }
   find_deepest();
-  Walk backs{surface, 2, limit, backs_};
-  return walk(backs, 0, count, run);
+  Walk back_faces{surface, 2, limit, back_faces_};
+  return walk(back_faces, 0, count, run);
 }
 
 /// For large faces that lie in a heap: the nearest of them hide most points, and all others are soon

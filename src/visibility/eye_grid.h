@@ -24,9 +24,10 @@ namespace vantage {
 class EyeGrid {
  public:
   /// Begins with an eye in the surface's frame.
-  /// \param turned to it of the surface's faces. \param backs FaceMeetings::hiding_backs; none: all
-  ///              backs are asked what they hide, to the same answers. Both must outlive the eye's queries.
-  void begin(const Viewpoint& eye, const TurnedFaces& turned, std::span<const std::uint8_t> backs);
+  /// \param turned to it of the surface's faces. \param back_faces FaceMeetings::occluding_back_faces; none: all
+  ///              back faces are asked what they hide, to the same answers. Both must outlive the eye's queries.
+  void begin(const Viewpoint& eye, const TurnedFaces& turned,
+             std::span<const std::uint8_t> back_faces);
 
   /// Sets seen[i] to 0 for every sample that some face hides from the eye. Float arithmetic with
   /// error bounds settles clear cases, the double test of segment.h the doubtful ones.
@@ -80,7 +81,8 @@ class EyeGrid {
 
   Viewpoint eye_{};
   const TurnedFaces* turned_ = nullptr;
-  std::span<const std::uint8_t> backs_{};  // of each face: whether its back is asked; none: all are
+  std::span<const std::uint8_t>
+      back_faces_{};  // of each face: whether its back is asked; none: all are
   Aim aim_ = Aim::None;
   EyePicture picture_{};  // of samples, and of blocks of faces
   std::uint32_t tile_columns_ = 1, tile_rows_ = 1;

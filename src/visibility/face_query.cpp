@@ -39,7 +39,7 @@ class FaceQuery {
         surface_(scene.samples.surface()),
         local_(local),
         run_(run),
-        samples_(scene.samples, local, run, scene.meetings.hiding_backs) {}
+        samples_(scene.samples, local, run, scene.meetings.occluding_back_faces) {}
 
   SeenSurface seen(FaceDetail detail) {
     seen_ = samples_.seen_samples();
@@ -72,7 +72,7 @@ class FaceQuery {
   [[nodiscard]] bool hides(std::uint32_t face) const {
     const std::uint8_t turned = samples_.turned()[face];
     return turned == 1 ||
-           (turned == 2 && (!is_outside_ || scene_.meetings.hiding_backs[face] != 0));
+           (turned == 2 && (!is_outside_ || scene_.meetings.occluding_back_faces[face] != 0));
   }
 
   /// Lists the faces that may hide others by the cells of the picture.

@@ -44,10 +44,11 @@ bool SampleScene::hides_place(const Vec3& place, std::uint32_t face, const Viewp
 }
 
 SampleQuery::SampleQuery(SampleScene& scene, const Viewpoint& eye, const RunContext& run,
-                         std::span<const std::uint8_t> backs)
+                         std::span<const std::uint8_t> back_faces)
     : scene_(scene), eye_(eye), run_(run), memory_(scene.memory_) {
   find_turned(scene.surface_, eye, memory_->turned, run);
-  memory_->grid.begin(eye, memory_->turned, backs.empty() ? scene.surface_.backs : backs);
+  memory_->grid.begin(eye, memory_->turned,
+                      back_faces.empty() ? scene.surface_.back_faces : back_faces);
 }
 
 std::vector<std::uint8_t> SampleQuery::seen_samples() {

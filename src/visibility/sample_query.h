@@ -98,10 +98,10 @@ class SampleScene {
 /// What one eye sees; any number of queries. For one thread to call.
 class SampleQuery {
  public:
-  /// \param eye in the surface's frame. \param backs as EyeGrid::begin() takes them; none: those of
+  /// \param eye in the surface's frame. \param back_faces as EyeGrid::begin() takes them; none: those of
   ///            the surface.
   SampleQuery(SampleScene& scene, const Viewpoint& eye, const RunContext& run,
-              std::span<const std::uint8_t> backs = {});
+              std::span<const std::uint8_t> back_faces = {});
 
   /// Whether a side of the face that can be seen is turned to the eye.
   [[nodiscard]] bool is_turned(std::size_t face) const {

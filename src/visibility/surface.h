@@ -49,7 +49,7 @@ struct Surface {
   FloatPoints rounded{};                          ///< The samples.
   FacePlanes planes{};                            ///< Of each face.
   FaceBlocks blocks{};                            ///< Of faces 0 … kFaces−1 and so on.
-  std::vector<std::uint8_t> backs{};              ///< FaceMeetings::hiding_backs; none: not known.
+  std::vector<std::uint8_t> back_faces{};  ///< FaceMeetings::occluding_back_faces; none: not known.
 };
 
 /// Which side of a surface's faces is turned to an eye: 1 the front, 2 the back, 0 neither.

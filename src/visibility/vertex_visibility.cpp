@@ -25,7 +25,7 @@ Surface surface_for(const TriMesh& mesh, std::span<const FaceSides> sides, std::
   Surface surface = visibility_surface(mesh, sides);
   if (eyes >= kManyEyes && !surface.faces.empty()) {
     const TriMesh framed{surface.samples, surface.faces};
-    surface.backs = find_meetings(framed, surface_edges(framed)).hiding_backs;
+    surface.back_faces = find_meetings(framed, surface_edges(framed)).occluding_back_faces;
   }
   return surface;
 }

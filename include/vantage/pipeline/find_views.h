@@ -113,9 +113,9 @@ struct ViewReport {
   FoundView worst_search{};             ///< Evaluations beyond the best view's.
   std::optional<DenseGap> dense_gap{};  ///< If options.certify.
   std::vector<std::string> warnings{};  ///< One sentence each.
-  /// Why the answer should not be trusted, and what to do, one sentence each; see doubts_about().
+  /// Why the answer should not be trusted, and what to do, one sentence each.
   /// Empty almost always. They are among the `warnings` of view.json.
-  std::vector<std::string> doubts{};
+  std::vector<std::string> reliability_warnings{};
   /// If several views were asked for.
   std::optional<ReportedViewSet> set{};
 };

@@ -210,8 +210,8 @@ TEST(FindViews, OfAMapThatIsZeroGivesTheFirstDirectionAndAWarning) {
   EXPECT_EQ(report.best.direction, first);
   EXPECT_EQ(report.worst.direction, first);
   EXPECT_EQ(report.best.score_fraction, 0.0);
-  ASSERT_EQ(report.doubts.size(), 1U);
-  EXPECT_NE(report.doubts.front().find("zero everywhere"), std::string::npos);
+  ASSERT_EQ(report.reliability_warnings.size(), 1U);
+  EXPECT_NE(report.reliability_warnings.front().find("zero everywhere"), std::string::npos);
 }
 
 TEST(FindViews, OfAMapThatIsZeroTakesWhatPeopleChooseAndTheFirstForTheWorst) {

@@ -40,17 +40,17 @@ TEST(DoubtsAbout, PartsThatDidNotBecomeCurvesHangOnHowLargeTheyAre) {
     other.views.reset();  // so that only the contraction is looked at
     const std::uint32_t component = other.history.component_of_vertex[vertex];
     other.history.components[component].shrinkage = shrinkage;
-    return doubts_about(other, report, options, {});
+    return reliability_warnings(other, report, options, {});
   };
   const std::size_t of_the_small = shape.surface.positions.size() - 1;
   EXPECT_TRUE(doubts_where_left(0, 0.01).empty());
   EXPECT_TRUE(doubts_where_left(of_the_small, 0.5).empty());
-  const std::vector<std::string> doubts = doubts_where_left(0, 0.5);
-  ASSERT_EQ(doubts.size(), 1U);
+  const std::vector<std::string> warnings = doubts_where_left(0, 0.5);
+  ASSERT_EQ(warnings.size(), 1U);
   // The large one holds 1 / (1 + 0.4²) of the area.
-  EXPECT_NE(doubts[0].find("(43 % of it is left, in parts that hold 86 % of it and "),
+  EXPECT_NE(warnings[0].find("(43 % of it is left, in parts that hold 86 % of it and "),
             std::string::npos)
-      << doubts[0];
+      << warnings[0];
 }
 
 TEST(DoubtsAbout, TangledSkeletonsAreThoseOfCloudsWithManyCyclesForTheirNodes) {
@@ -63,8 +63,8 @@ TEST(DoubtsAbout, TangledSkeletonsAreThoseOfCloudsWithManyCyclesForTheirNodes) {
   CurveGraph& graph = shape.skeleton.graph;
   graph = {.nodes = {Vec3::Zero(), Vec3::UnitX()}, .edges = {{0, 1}}};
   const auto is_doubted = [&] {
-    const std::vector<std::string> doubts = doubts_about(shape, report, options, {});
-    return std::any_of(doubts.begin(), doubts.end(),
+    const std::vector<std::string> warnings = reliability_warnings(shape, report, options, {});
+    return std::any_of(warnings.begin(), warnings.end(),
                        [](const std::string& d) { return d.find("tangle") != std::string::npos; });
   };
   shape.cloud.emplace();

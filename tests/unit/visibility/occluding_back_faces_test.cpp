@@ -18,7 +18,7 @@
 namespace vantage {
 namespace {
 
-/// Faces whose backs are to be asked, and all faces.
+/// Faces whose back_faces are to be asked, and all faces.
 struct Count {
   std::size_t asked = 0, all = 0;
 
@@ -29,7 +29,7 @@ Count backs_of(const TriMesh& mesh) {
   const std::vector<FaceSides> sides{FaceSides::Front};
   const Surface surface = visibility_surface(mesh, sides);
   const TriMesh framed{surface.samples, surface.faces};
-  const auto asked = find_meetings(framed, surface_edges(framed)).hiding_backs;
+  const auto asked = find_meetings(framed, surface_edges(framed)).occluding_back_faces;
   return {static_cast<std::size_t>(std::count(asked.begin(), asked.end(), 1)), asked.size()};
 }
 
@@ -101,7 +101,7 @@ TEST(HidingBacks, OfAPocketHideWhatNoFrontHides) {
   const TriMesh mesh = funnel(1.5, Vec3(0.1, 0.03, 0.0));
   for (std::size_t v = 0; v < seen.size(); ++v) {
     if (mesh.positions[v] == Vec3(0.5, 0.5, 0.0)) {
-      EXPECT_EQ(seen[v], 0);  // inside the pocket, whose backs are all that is below it
+      EXPECT_EQ(seen[v], 0);  // inside the pocket, whose back_faces are all that is below it
     }
   }
 }
