@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Everything too slow for every commit: full lint, sanitizers over all tests, fuzzers, pages.
+# Everything too slow for every commit: full lint, sanitizers over all tests, slow tests, fuzzers, pages.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-60}  # a fuzzer
@@ -13,6 +13,7 @@ if [[ -n ${VANTAGE_DATA:-} ]]; then
   scripts/check_hostile.py "$VANTAGE_DATA" --command info --most-bytes 200
   scripts/check_hostile.py "$VANTAGE_DATA" --command all --program build/asan/apps/vantage/vantage --seconds 600
 fi
+scripts/test.sh all
 scripts/check_threads.sh
 scripts/check_symbols.sh  # of the build with the preset release
 scripts/check_without_npm.sh

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "vantage/contraction/contraction.h"
 #include "vantage/mesh/measures.h"
@@ -21,8 +22,11 @@ namespace {
 constexpr std::size_t kMostSamples = 12'000;
 constexpr std::size_t kOutlierNeighbours = 16;
 /// A point whose neighbours are this many times farther than theirs are is an outlier (ours: points
-/// at the border of a scan stay below 2, a point off the surface by 4 spacings is above).
-constexpr double kOutlierRatio = 4.0;
+/// at the border of a scan stay below 2).
+constexpr double kOutlierRatio = 3.0;
+/// Outliers are each other's neighbours, so that the next are found when these are gone: of points
+/// strewn over a figure's box, 2 % of all, four rounds find 111 of 120, one 61. A guard of time.
+constexpr int kMostOutlierRounds = 16;
 /// Fewer points than this are no statistics.
 constexpr std::size_t kFewPoints = 64;
 /// Pieces of fewer points than this are specks: they are left out, unless there is nothing else.
@@ -224,12 +228,25 @@ void carry_back(std::span<const Vec3> points, std::span<const std::uint8_t> left
 
 std::vector<std::uint8_t> find_outliers(std::span<const Vec3> points, const RunContext& run) {
   std::vector<std::uint8_t> outlier(points.size(), 0);
-  if (points.size() < kFewPoints) {
-    return outlier;
-  }
-  const NeighbourDistances near = neighbour_distances(points, kOutlierNeighbours, run);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    outlier[i] = near.mean[i] > kOutlierRatio * near.median_of_neighbours[i] ? 1 : 0;
+  std::vector<std::size_t> left(points.size());
+  std::iota(left.begin(), left.end(), std::size_t{0});
+  std::vector<Vec3> places(points.begin(), points.end());
+  for (int round = 0; round < kMostOutlierRounds && left.size() >= kFewPoints; ++round) {
+    const NeighbourDistances near = neighbour_distances(places, kOutlierNeighbours, run);
+    std::size_t kept = 0;
+    for (std::size_t row = 0; row < left.size(); ++row) {
+      if (near.mean[row] > kOutlierRatio * near.median_of_neighbours[row]) {
+        outlier[left[row]] = 1;
+      } else {
+        places[kept] = places[row];
+        left[kept++] = left[row];
+      }
+    }
+    if (kept == left.size()) {
+      break;
+    }
+    places.resize(kept);
+    left.resize(kept);
   }
   return outlier;
 }

@@ -12,6 +12,7 @@
 #include "vantage/io/camera_files.h"
 
 #include "core/degrees.h"
+#include "core/dense_algebra.h"
 #include "io/camera_axes.h"
 
 namespace vantage {
@@ -37,7 +38,7 @@ Matrix3 turn_to_y(const Vec3& up) {
   if (up.y() < -1.0 + kLevel) {
     return Vec3(1.0, -1.0, -1.0).asDiagonal();
   }
-  return Eigen::Quaterniond::FromTwoVectors(up, Vec3::UnitY()).toRotationMatrix();
+  return shortest_rotation(up, Vec3::UnitY()).toRotationMatrix();
 }
 
 /// Decimal places without an exponent, which the element's attributes are easiest to read with.

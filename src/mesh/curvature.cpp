@@ -6,10 +6,11 @@
 #include <numbers>
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
+
+#include "core/dense_algebra.h"
 
 namespace vantage {
 namespace {
@@ -72,7 +73,7 @@ double fitted_mean_curvature(const std::vector<Vec3>& positions, std::size_t v, 
   const Vec3 right = normal.unitOrthogonal();
   const Vec3 up = normal.cross(right);
   const auto rows = static_cast<Eigen::Index>(near.size());
-  Eigen::Matrix<double, Eigen::Dynamic, static_cast<int>(kUnknowns)> system(rows, kUnknowns);
+  Eigen::MatrixXd system(rows, kUnknowns);
   Eigen::VectorXd kappa(rows);
   for (Eigen::Index row = 0; row < rows; ++row) {
     // In units of the mean length, so that the columns weigh the same at any scale.
@@ -92,7 +93,7 @@ double fitted_mean_curvature(const std::vector<Vec3>& positions, std::size_t v, 
     system.row(row) << c * c, 2.0 * c * s, s * s, tilt * c, tilt * s;
     kappa[row] = -2.0 * normal.dot(along) / squared;
   }
-  const Eigen::VectorXd form = system.completeOrthogonalDecomposition().solve(kappa);
+  const Eigen::VectorXd form = least_squares(system, kappa);
   return 0.5 * (form[0] + form[2]) / mean_length;
 }
 

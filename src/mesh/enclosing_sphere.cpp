@@ -4,9 +4,9 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/Dense>
-
 #include "vantage/mesh/measures.h"
+
+#include "core/dense_algebra.h"
 
 namespace vantage {
 namespace {
@@ -39,8 +39,7 @@ Ball circumscribed(const std::vector<Vec3>& boundary) {
     Q.col(i) = boundary[static_cast<std::size_t>(i) + 1] - origin;
     b(i) = Q.col(i).squaredNorm();
   }
-  const Eigen::VectorXd lambda =
-      (2.0 * Q.transpose() * Q).completeOrthogonalDecomposition().solve(b);
+  const Eigen::VectorXd lambda = least_squares(2.0 * Q.transpose() * Q, b);
   const Vec3 offset = Q * lambda;
   return {origin + offset, offset.squaredNorm()};
 }

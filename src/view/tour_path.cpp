@@ -8,6 +8,7 @@
 #include "vantage/core/error.h"
 #include "vantage/view/view_set.h"
 
+#include "core/dense_algebra.h"
 #include "view/sphere_angles.h"
 
 namespace vantage {
@@ -132,7 +133,7 @@ std::vector<TourPose> tour_path(std::span<const Vec3> stops, const Vec3& model_u
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3& here = directions[i];
     const Vec3& next = directions[(i + 1) % count];
-    const Vec3 carried = Eigen::Quaterniond::FromTwoVectors(here, next) * zero[i];
+    const Vec3 carried = shortest_rotation(here, next) * zero[i];
     zero.push_back((carried - carried.dot(next) * next).normalized());
     upright.push_back(unwrapped(roll_of(model_up, next, zero[i + 1]), upright[i]));
     weights.push_back(std::max(kLeastWeight, 1.0 - std::pow(here.dot(model_up), 2)));

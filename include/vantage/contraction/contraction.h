@@ -97,8 +97,8 @@ struct PointContraction {
   std::vector<std::uint32_t> sample_of_point{};  ///< Nearest sample; kIsolated for outliers.
 };
 
-/// Marks statistical outliers: points whose mean distance to their k nearest exceeds 4 × the median
-/// of what those have. Of a few points none is one.
+/// Marks statistical outliers: points whose mean distance to their 16 nearest exceeds 3 × the median
+/// of what those have; then among the rest, until there are none. Of a few points none is one.
 /// \return one entry per point, 1 for outliers. \pre points pairwise different.
 std::vector<std::uint8_t> find_outliers(std::span<const Vec3> points, const RunContext& run = {});
 
