@@ -9,6 +9,7 @@
 #include "look_flags.h"
 #include "measure_flags.h"
 #include "method_flags.h"
+#include "notes.h"
 #include "output_file.h"
 #include "output_folder.h"
 #include "terminal.h"
@@ -88,11 +89,8 @@ struct CompareCommand {
       return;
     }
     summarise(session, comparison, output.path());
-    for (const auto* list : {&std::as_const(loaded.notes), &shape.warnings}) {
-      for (const std::string& warning : *list) {
-        session.say("note: " + warning);
-      }
-    }
+    say_notes(session, loaded.notes);
+    say_notes(session, shape);
   }
 
  private:

@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "method_flags.h"
+#include "notes.h"
 #include "output_file.h"
 #include "terminal.h"
 
@@ -48,9 +49,7 @@ struct InfoCommand {
     } else {
       print(session, loaded, welded, as_read, check);
       print_objects(session, objects);
-      for (const std::string& note : loaded.notes) {
-        session.say("note: " + note);
-      }
+      say_notes(session, loaded.notes);
     }
   }
 

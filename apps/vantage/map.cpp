@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "method_flags.h"
+#include "notes.h"
 #include "output_file.h"
 #include "output_folder.h"
 #include "terminal.h"
@@ -99,7 +100,8 @@ struct MapCommand {
                                            {"max", *high},
                                            {"levels", shape.history.level_count()},
                                            {"level_factors", shape.kssm.level_factor},
-                                           {"warnings", shape.warnings}};
+                                           {"warnings", shape.warnings},
+                                           {"doubts", skeleton_warnings(shape)}};
       write_output("-", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
       return;
     }
@@ -108,8 +110,9 @@ struct MapCommand {
         " over " + plural(field.size(), "vertex") +
         (shape.history.levels.empty() ? "" : ", " + plural(shape.history.level_count(), "level")) +
         " → " + printable(file));
-    for (const std::string& warning : shape.warnings) {
-      session.say("note: " + warning);
+    say_notes(session, shape);
+    for (const std::string& doubt : skeleton_warnings(shape)) {
+      session.say("warning: " + doubt);
     }
   }
 };

@@ -14,6 +14,7 @@
 #include "commands.h"
 #include "input_text.h"
 #include "method_flags.h"
+#include "notes.h"
 #include "output_file.h"
 #include "terminal.h"
 
@@ -230,9 +231,7 @@ struct OrientCommand {
     if (!stood.isIdentity(0.0)) {
       session.say("note: " + loaded.notes.back());
     }
-    for (const std::string& note : choice.notes) {
-      session.say("note: " + note);
-    }
+    say_notes(session, choice.notes);
   }
 };
 

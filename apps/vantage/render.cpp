@@ -16,6 +16,7 @@
 #include "load_posed.h"
 #include "look_flags.h"
 #include "method_flags.h"
+#include "notes.h"
 #include "output_file.h"
 #include "picture_file.h"
 #include "terminal.h"
@@ -105,9 +106,7 @@ struct RenderCommand {
       session.say("warning: " + warning);
     }
     if (look.of_asset()) {
-      for (const std::string& note : loaded.notes) {
-        session.say("note: " + note);
-      }
+      say_notes(session, loaded.notes);
     }
   }
 

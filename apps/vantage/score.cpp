@@ -16,6 +16,7 @@
 #include "input_text.h"
 #include "measure_flags.h"
 #include "method_flags.h"
+#include "notes.h"
 #include "output_file.h"
 #include "terminal.h"
 #include "value_checks.h"
@@ -106,9 +107,7 @@ struct ScoreCommand {
     }
     session.end_progress();
     write(session, measures, points, {scores});
-    for (const std::string& warning : shape.warnings) {
-      session.say("note: " + warning);
-    }
+    say_notes(session, shape);
   }
 
  private:
@@ -135,9 +134,7 @@ struct ScoreCommand {
     } else {
       write(session, measures, points, measurer.values(points, run.part(0.9, 1.0)));
     }
-    for (const std::string& warning : shape.warnings) {
-      session.say("note: " + warning);
-    }
+    say_notes(session, shape);
   }
 
   void write(Session& session, const std::vector<Measure>& measures,

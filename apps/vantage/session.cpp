@@ -47,9 +47,10 @@ int code_of_signal(int number) {
 }
 
 const char* words_of_signal(int number) {
-  return number == SIGTERM   ? "stopped by SIGTERM before the end; run it again"
-         : number == SIGALRM ? "stopped: it took longer than --timeout allows"
-                             : "interrupted; nothing was left half written";
+  return number == SIGTERM ? "stopped by SIGTERM before the end; nothing was left half written"
+         : number == SIGALRM
+             ? "stopped: it took longer than --timeout allows; give it more, or a smaller model"
+             : "interrupted; nothing was left half written";
 }
 
 /// Waits for signals in a thread of its own, where more than an async-signal-safe flag is allowed.

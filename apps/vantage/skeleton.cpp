@@ -15,6 +15,7 @@
 
 #include "commands.h"
 #include "method_flags.h"
+#include "notes.h"
 #include "output_file.h"
 #include "output_folder.h"
 #include "terminal.h"
@@ -169,7 +170,8 @@ struct SkeletonCommand {
                                      {"length", total_length(graph)},
                                      {"levels", shape.history.level_count()},
                                      {"shrinkage", shape.history.shrinkage},
-                                     {"warnings", shape.warnings}};
+                                     {"warnings", shape.warnings},
+                                     {"doubts", skeleton_warnings(shape)}};
       json["closed"] = shape.check.closed;
       json["genus"] = shape.check.genus ? nlohmann::ordered_json(*shape.check.genus) : nullptr;
       if (quality) {
@@ -186,8 +188,9 @@ struct SkeletonCommand {
     if (quality) {
       session.tell(measured_text());
     }
-    for (const std::string& warning : shape.warnings) {
-      session.say("note: " + warning);
+    say_notes(session, shape);
+    for (const std::string& doubt : skeleton_warnings(shape)) {
+      session.say("warning: " + doubt);
     }
   }
 };

@@ -14,6 +14,7 @@
 #include "look_flags.h"
 #include "measure_flags.h"
 #include "method_flags.h"
+#include "notes.h"
 #include "output_file.h"
 #include "output_folder.h"
 #include "preview_flag.h"
@@ -258,11 +259,9 @@ struct ViewCommand {
         session.tell("              " + name);
       }
     }
-    for (const auto* list : {&loaded.notes, &shape.warnings, &report.warnings}) {
-      for (const std::string& warning : *list) {
-        session.say("note: " + warning);
-      }
-    }
+    say_notes(session, loaded.notes);
+    say_notes(session, shape);
+    say_notes(session, report.warnings);
     for (const std::string& warning : report.reliability_warnings) {
       session.say("warning: " + warning);
     }

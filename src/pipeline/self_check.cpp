@@ -112,11 +112,11 @@ void look_at_contraction(const ShapeAnalysis& shape, std::vector<std::string>& w
   if (std::max(thick, significant) > kMinorShare) {
     warnings.push_back(
         "the surface could not be contracted to a curve (" + in_percent(left) +
-        " of it is left, in parts that hold " + in_percent(thick) + " of it and " +
-        in_percent(significant) +
-        " of its significance), so that map, skeleton and views are hardly more than "
-        "a guess: mend the mesh, cut it into small even triangles, or choose another "
-        "--method");
+        " of it is left, in parts that hold " + in_percent(thick) + " of it" +
+        (shape.significance.empty() ? ""
+                                    : " and " + in_percent(significant) + " of its significance") +
+        "), so that map, skeleton and views are hardly more than a guess: mend the mesh, cut it "
+        "into small even triangles, or choose another --method");
   }
 }
 
@@ -152,7 +152,7 @@ void look_at_skeleton(const ShapeAnalysis& shape, std::vector<std::string>& warn
   if (shape.skeleton.outside_share > kMostOutside) {
     warnings.push_back(in_percent(shape.skeleton.outside_share) +
                        " of the skeleton's length is outside the surface, so do not measure by it: "
-                       "look at best-skeleton.png, and close or separate walls that touch");
+                       "look at its picture, and close or separate walls that touch");
   }
   const std::size_t nodes = shape.skeleton.graph.nodes.size();
   const std::size_t cycles = cycle_count(shape.skeleton.graph);
@@ -238,6 +238,13 @@ double map_agreement_when_moved(const ShapeAnalysis& shape, const ViewOptions& o
   }
   const double agreement = spearman(here, there);
   return std::isnan(agreement) ? 1.0 : agreement;  // where nothing varies
+}
+
+std::vector<std::string> skeleton_warnings(const ShapeAnalysis& shape) {
+  std::vector<std::string> warnings;
+  look_at_contraction(shape, warnings);
+  look_at_skeleton(shape, warnings);
+  return warnings;
 }
 
 std::vector<std::string> reliability_warnings(const ShapeAnalysis& shape, const ViewReport& report,

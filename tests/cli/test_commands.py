@@ -21,6 +21,21 @@ class Skeleton(ProgramTest):
         self.assertGreater(len(set(skeleton["vertex_node"])), len(skeleton["nodes"]) / 2)
         self.assertTrue(all(radius > 0 for radius in skeleton["radius"]))
 
+    def test_skeleton_and_map_say_what_view_doubts_of_the_skeleton(self):
+        for command, file in (("skeleton", "s.json"), ("map", "m.ply")):
+            done = self.vantage(command, MODELS / "dustbin.ply", "-o", file)
+            self.assertRegex(done.err, r"warning: \d+ % of the skeleton's length is outside the surface")
+            report = json.loads(self.vantage(command, MODELS / "dustbin.ply", "-o", file, "--json").out)
+            self.assertEqual(len(report["doubts"]), 1)
+            report = json.loads(self.vantage(command, MODELS / "fan.ply", "-o", file, "--json").out)
+            self.assertEqual(report["doubts"], [])
+
+    def test_steps_of_the_contraction_are_told_one_by_one_with_v_only(self):
+        done = self.vantage("skeleton", MODELS / "cat_lowpoly.ply", "-o", "s.json")
+        self.assertEqual(done.err, "note: some steps of the contraction were taken with more care; -v lists them\n")
+        done = self.vantage("skeleton", MODELS / "cat_lowpoly.ply", "-o", "s.json", "-v")
+        self.assertRegex(done.err, r"note: contraction: step \d+ would ")
+
     def test_obj_and_ply_hold_the_same_graph(self):
         self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json")
         self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.obj")

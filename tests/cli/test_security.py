@@ -133,7 +133,7 @@ class Limits(ProgramTest):
     def test_a_run_that_takes_longer_than_allowed_ends_in_one_sentence_and_leaves_nothing(self):
         done = self.vantage("view", MODELS / "mannequin.ply", "-o", "out", "--search", "exhaustive", "--subdivisions",
                             "5", "--timeout", "0.5", exit_code=1)
-        self.assertEqual(done.err.strip(), "vantage: stopped: it took longer than --timeout allows")
+        self.assertEqual(done.err.strip(), "vantage: stopped: it took longer than --timeout allows; give it more, or a smaller model")
         self.assertFalse((self.dir / "out").exists())
 
     def test_standard_input_that_never_ends_is_cut_off_too(self):

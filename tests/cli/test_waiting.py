@@ -62,7 +62,7 @@ class Waiting(ProgramTest):
         self.assert_ends("info", "a.off", "--config", "pipe")
         self.vantage("info", "a.off", "--config", "/dev/zero", exit_code=2)
         self.assertEqual(self.vantage("info", "a.off", "--config", "pipe", "--timeout", "0.2", exit_code=1).err.strip(),
-                         "vantage: stopped: it took longer than --timeout allows")
+                         "vantage: stopped: it took longer than --timeout allows; give it more, or a smaller model")
 
     def test_a_pipe_without_a_reader_or_that_reads_no_further(self):
         self.assert_ends("thumb", "a.off", "pipe")

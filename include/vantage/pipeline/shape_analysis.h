@@ -100,6 +100,10 @@ ShapeAnalysis analyse_surface(ShapeAnalysis shape, const ViewOptions& options,
 /// A per-vertex field of the surface carried to the input's vertices; isolated ones get 0.
 std::vector<double> on_input_vertices(const ShapeAnalysis& shape, std::span<const double> field);
 
+/// Why contraction and skeleton should not be trusted, one sentence each; empty almost always.
+/// `ViewReport::reliability_warnings` has these and what there is to say of the views.
+std::vector<std::string> skeleton_warnings(const ShapeAnalysis& shape);
+
 /// Skeleton node of each input vertex; −1 where none stands for it: a vertex without faces, an outlier
 /// of a cloud.
 std::vector<std::int64_t> nodes_of_input_vertices(const ShapeAnalysis& shape);
