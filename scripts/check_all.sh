@@ -7,7 +7,7 @@ scripts/install_dependencies.sh all
 scripts/check_format.sh
 scripts/check_tidy.sh
 cmake --preset asan >/dev/null && cmake --build --preset asan
-ctest --test-dir build/asan -j "$(nproc)" --output-on-failure
+ctest --test-dir build/asan -LE slow -j "$(nproc)" --output-on-failure
 scripts/fuzz.sh "$seconds"
 if [[ -n ${VANTAGE_DATA:-} ]]; then
   scripts/check_hostile.py "$VANTAGE_DATA" --command info --most-bytes 200

@@ -24,8 +24,8 @@ constexpr std::size_t kOutlierNeighbours = 16;
 /// A point whose neighbours are this many times farther than theirs are is an outlier (ours: points
 /// at the border of a scan stay below 2).
 constexpr double kOutlierRatio = 3.0;
-/// Outliers are each other's neighbours, so that the next are found when these are gone: of points
-/// strewn over a figure's box, 2 % of all, four rounds find 111 of 120, one 61. A guard of time.
+/// Outliers are each other's neighbours, so that more are found when some are gone: of 120 points
+/// strewn over the box of a figure of 6 000, one round finds 65, all rounds 115. No more than these.
 constexpr int kMostOutlierRounds = 16;
 /// Fewer points than this are no statistics.
 constexpr std::size_t kFewPoints = 64;
