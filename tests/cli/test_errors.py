@@ -46,13 +46,11 @@ class Usage(ProgramTest):
                         "batch"):
             text = self.vantage(command, "--help-all").out
             for option in re.findall(r"^ +(?:-\w,)?(--[a-z-]+) X\b", text, re.MULTILINE):
-                # Every option by two spellings, the others in turn: starting the program is what takes the time.
-                others = ("-nan", "inf", "1e999", "infinity", "nan(1)")
-                for number in ("nan", "-inf", others[real % len(others)]):
+                real += 1
+                for number in ("nan", "-nan", "inf", "-inf", "1e999", "infinity", "nan(1)"):
                     done = self.vantage(command, "a.off", f"{option}={number}", exit_code=2)
                     self.assertIn(option, done.err, (command, option, number))
                     self.assertEqual(len(done.err.strip().splitlines()), 1, done.err)
-                real += 1
         self.assertGreater(real, 50)
         for command in (("view", "a.off", "--epsilon=nan"), ("view", "a.off", "--epsilon=inf"), ("view", "a.off", "--epsilon=inf%"),
                         ("render", "a.off", "-o", "r.png", "--direction=nan,0,1"),

@@ -137,6 +137,12 @@ TEST_P(SkeletonProperty, NodesOfTheFinishedGraphAreInsideTheShell) {
   }
 }
 
+TEST(SkeletonOfALattice, HasAllHandlesOfACubeOfThreeByThreeByThree) {
+  // 64 crossings, 144 bars.
+  const auto is_bar = [](int i, int j, int k) { return i % 2 + j % 2 + k % 2 <= 1; };
+  EXPECT_EQ(cycle_count(skeleton_of(test::voxel_surface(7, 7, 7, is_bar)).graph), 144U - 64U + 1U);
+}
+
 TEST_P(SkeletonProperty, AWiderSpacingGivesFewerNodesAndTheSameTopology) {
   const Skeleton skeleton = skeleton_of(GetParam().mesh, {.spacing = 0.05});
   const CurveGraph coarser = skeleton_of(GetParam().mesh, {.spacing = 0.1}).raw;

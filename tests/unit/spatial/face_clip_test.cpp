@@ -215,7 +215,7 @@ TEST(FaceClip, KeepsWhatShadowsPassByInOnePart) {
 TEST(FaceClip, LeavesWhatSamplesSee) {
   for (const Viewpoint& eye : {Viewpoint{Projection::Orthographic, Vec3(0.3, -0.2, 1.0)},
                                Viewpoint{Projection::Perspective, Vec3(3.0, 2.0, 4.0)}}) {
-    const Clipped clipped(test::random_soup(36, 7), eye);
+    const Clipped clipped(test::random_soup(60, 7), eye);
     const std::vector<double> exact = clipped.shares();
     const std::vector<double> sampled = clipped.sampled_shares(40);
     double sum = 0.0;
