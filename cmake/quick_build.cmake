@@ -1,6 +1,6 @@
-# With VANTAGE_QUICK_BUILD, for builds from nothing: what most sources include is parsed once a target instead of once
-# a source, and the sources of a folder are compiled as one. Off by default, because a source that forgets an include
-# would compile, and because a change of one source compiles its neighbours again.
+# With VANTAGE_QUICK_BUILD, as in the preset release, for builds from nothing: what most sources include is parsed once a
+# target instead of once a source, and the sources of a folder are compiled as one. Off elsewhere, because a source that
+# forgets an include would compile, and because a change of one source compiles its neighbours again.
 set(VANTAGE_SHARED_HEADERS <algorithm> <array> <cmath> <cstdint> <limits> <map> <memory> <numbers> <numeric> <optional>
     <span> <string> <string_view> <tuple> <utility> <vector> <Eigen/Geometry>)
 

@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install_dependencies.sh build
-cmake --preset release -DVANTAGE_BUILD_TESTS=OFF -DVANTAGE_BUILD_BENCH=OFF -DVANTAGE_QUICK_BUILD=ON -B build/demo >/dev/null
+cmake --preset release -DVANTAGE_BUILD_TESTS=OFF -DVANTAGE_BUILD_BENCH=OFF -B build/demo >/dev/null
 cmake --build build/demo -j "$(nproc)"
 build/demo/apps/vantage/vantage view models/horse.ply -o build/horse.vantage
 echo

@@ -11,7 +11,7 @@ SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}
 export SOURCE_DATE_EPOCH
 build=build/dist
 # With the flags that the tests run with: assertions stay.
-cmake --preset release -B $build -DVANTAGE_BUILD_TESTS=OFF -DVANTAGE_BUILD_BENCH=OFF -DVANTAGE_QUICK_BUILD=ON >/dev/null
+cmake --preset release -B $build -DVANTAGE_BUILD_TESTS=OFF -DVANTAGE_BUILD_BENCH=OFF >/dev/null
 cmake --build $build
 (cd $build && cpack -G DEB >/dev/null)
 

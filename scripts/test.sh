@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install_dependencies.sh test
-cmake --preset release -DVANTAGE_BUILD_BENCH=OFF -DVANTAGE_QUICK_BUILD=ON >/dev/null
+cmake --preset release -DVANTAGE_BUILD_BENCH=OFF >/dev/null
 cmake --build --preset release -j "$(nproc)"
 code=0
 log=$PWD/build/release/tests.log

@@ -12,6 +12,7 @@
 #include <malloc.h>
 #endif
 
+#include "vantage/core/error.h"
 #include "vantage/core/version.h"
 
 #include "commands.h"

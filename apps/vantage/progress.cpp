@@ -9,6 +9,8 @@
 
 #include <unistd.h>
 
+#include "vantage/core/error.h"
+
 #include "terminal.h"
 
 namespace vantage::cli {

@@ -83,7 +83,9 @@ struct RenderCommand {
     const bool is_sought = !view.empty() && !(view == "best" && options.best_view);
     const bool needs_map = is_sought || show != "plain";
     const ShapeAnalysis shape = session.computing([&] {
-      const AnalysisUse use = is_sought ? AnalysisUse::Views : AnalysisUse::Map;
+      const AnalysisUse use = !is_sought           ? AnalysisUse::Map
+                              : show == "skeleton" ? AnalysisUse::Views
+                                                   : AnalysisUse::Picture;
       return needs_map ? analyse_shape(loaded, options, run.part(0.0, 0.5), nullptr, use)
                        : prepare_surface(loaded, run);
     });

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "vantage/core/error.h"
+
 #include "results_table.h"
 #include "terminal.h"
 

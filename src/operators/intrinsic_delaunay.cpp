@@ -34,6 +34,7 @@ class IntrinsicTriangulation {
   IntrinsicTriangulation(std::span<const Vec3> positions, std::span<const Triangle> triangles)
       : triangles_(triangles.begin(), triangles.end()),
         length_(triangles.size()),
+        cotangent_(triangles.size()),
         beyond_(triangles.size()) {
     for (std::size_t f = 0; f < triangles_.size(); ++f) {
       for (std::size_t c = 0; c < 3; ++c) {
@@ -43,6 +44,9 @@ class IntrinsicTriangulation {
     }
     glue();
     mollify();
+    for (std::size_t f = 0; f < size(); ++f) {
+      keep_cotangents(f);
+    }
   }
 
   [[nodiscard]] std::size_t size() const { return triangles_.size(); }
@@ -50,13 +54,7 @@ class IntrinsicTriangulation {
   [[nodiscard]] const Triangle& corners(std::size_t f) const { return triangles_[f]; }
 
   /// Of the angle at a corner; 0 in a triangle without area.
-  [[nodiscard]] double cotangent(std::size_t f, std::size_t c) const {
-    const double a = length_[f][c];
-    const double b = length_[f][(c + 1) % 3];
-    const double d = length_[f][(c + 2) % 3];
-    const double area4 = 4.0 * area(f);
-    return area4 > 0.0 ? (b * b + d * d - a * a) / area4 : 0.0;
-  }
+  [[nodiscard]] double cotangent(std::size_t f, std::size_t c) const { return cotangent_[f][c]; }
 
   /// Flips edges until all are Delaunay.
   void flip_to_delaunay() {
@@ -153,6 +151,17 @@ class IntrinsicTriangulation {
     return product > 0.0 ? 0.25 * std::sqrt(product) : 0.0;
   }
 
+  /// Kept because each is asked for several times before its triangle changes.
+  void keep_cotangents(std::size_t f) {
+    const double area4 = 4.0 * area(f);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double a = length_[f][c];
+      const double b = length_[f][(c + 1) % 3];
+      const double d = length_[f][(c + 2) % 3];
+      cotangent_[f][c] = area4 > 0.0 ? (b * b + d * d - a * a) / area4 : 0.0;
+    }
+  }
+
   [[nodiscard]] bool wants_flip(Side side) const {
     const Side other = beyond(side);
     return other.face != kNone && other.face != side.face &&
@@ -206,6 +215,8 @@ class IntrinsicTriangulation {
     triangles_[g.face] = {l, j, k};
     length_[f.face] = length_f;
     length_[g.face] = length_g;
+    keep_cotangents(f.face);
+    keep_cotangents(g.face);
     join({f.face, 1}, {g.face, 1});
     join({f.face, 0}, il);
     join({f.face, 2}, ki);
@@ -215,6 +226,7 @@ class IntrinsicTriangulation {
 
   std::vector<Triangle> triangles_;
   std::vector<std::array<double, 3>> length_;
+  std::vector<std::array<double, 3>> cotangent_;  ///< Of the angle at each corner.
   std::vector<std::array<Side, 3>> beyond_;
 };
 

@@ -141,7 +141,8 @@ PictureView find_picture_view(const Model& model, const ShapeAnalysis& prepared,
     surface.surface = std::move(coarse.mesh);
     surface.sides = std::move(coarse.sides);
   }
-  const ShapeAnalysis shape = analyse_surface(std::move(surface), options, run.part(0.3, 0.8));
+  const ShapeAnalysis shape = analyse_surface(std::move(surface), options, run.part(0.3, 0.8),
+                                              nullptr, AnalysisUse::Picture);
   PictureView found;
   // By the surface as it is: all commands answer alike.
   found.choice = choose_frame(model, is_large ? prepared : shape, options);

@@ -10,7 +10,7 @@ namespace {
 // views of a finer set are scored: at most so many vertices. [ours]
 constexpr std::size_t kFewVertices = 500;
 constexpr int kFineLevel = 5;
-constexpr std::size_t kManyStarts = 16;  // of ascents where all scores are soon done [ours]
+constexpr std::size_t kManyStarts = 16;  // of ascents where scores are soon done [ours]
 
 /// What each vertex adds to a score that sees it: its significance, or by area that of its third of
 /// the faces there over the whole area, the integral of the map wherever a face is seen whole.
@@ -96,22 +96,21 @@ std::vector<double> MapObjective::estimates(const std::vector<Vec3>& directions)
 ViewObjective MapObjective::objective(const Preference& preference) const {
   ViewObjective objective;
   objective.total = scorer().total();
-  if (is_sampled(*prepared_)) {
-    objective.survey_level = 3;  // a look costs ten times as much as at surfaces of one skin
-  }
   objective.score = [this](const std::vector<Vec3>& directions) {
     return scorer().score_all(directions, quiet_);
   };
   const bool is_by_area = scorer().faces() != nullptr;
+  if (is_sampled(*prepared_)) {
+    objective.survey_level = 3;  // a look costs ten times as much as at surfaces of one skin
+  } else if (!is_by_area) {
+    objective.starts = kManyStarts;
+  }
   if (prepared_->is_coarse() || is_sampled(*prepared_) || is_by_area) {
     objective.surrogate = [this](const std::vector<Vec3>& directions) {
       return estimates(directions);
     };
-  } else {  // scores are soon done
-    objective.starts = kManyStarts;
-    if (prepared_->vertex_areas.size() <= kFewVertices) {
-      objective.survey_level = kFineLevel;
-    }
+  } else if (prepared_->vertex_areas.size() <= kFewVertices) {
+    objective.survey_level = kFineLevel;
   }
   // By area the score is an integral over faces, which the proxy's vertices are too few to follow.
   if (!is_by_area && prepared_->has_proxy()) {

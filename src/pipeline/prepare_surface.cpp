@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
 #include <span>
 #include <string>
 #include <string_view>
@@ -6,12 +7,14 @@
 #include <vector>
 
 #include "vantage/core/error.h"
+#include "vantage/io/write.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/mesh_check.h"
 #include "vantage/pipeline/shape_analysis.h"
 
 #include "core/parallel.h"
 #include "mesh/extent.h"
+#include "mesh/specks.h"
 #include "pipeline/prepare_points.h"
 
 namespace vantage {
@@ -53,6 +56,18 @@ void list_repairs(const WeldedMesh& welded, const OrientedMesh& oriented, const 
   }
 }
 
+void list_specks(const Specks& specks, std::vector<std::string>& warnings) {
+  constexpr double kMuchLarger = 1.5;  // [ours]
+  if (specks.enlargement >= kMuchLarger) {
+    const double tenths = std::round(10.0 * specks.enlargement) / 10.0;
+    warnings.push_back(counted(specks.count, "small component makes", "small components make",
+                               " the box of the model " + number_text(tenths) +
+                                   " times as large: if nothing is lost by it, remove " +
+                                   (specks.count == 1 ? "it" : "them") +
+                                   ", and pictures show the rest larger"));
+  }
+}
+
 }  // namespace
 
 void check_extent(std::span<const Vec3> points, const std::string& name) {
@@ -84,6 +99,7 @@ ShapeAnalysis prepare_surface(const Model& model, const RunContext& run) {
       [&] { shape.check = check_mesh(welded.mesh, run); });
   list_repairs(welded, oriented, shape.check, shape.warnings);
   list_coarse_coordinates(points, shape.warnings);
+  list_specks(find_specks(welded.mesh), shape.warnings);
   run.check();
   shape.sphere = enclosing_sphere(points);
   if (model.format == ModelFormat::Obj) {  // whose reader always keeps them

@@ -223,7 +223,7 @@ double map_agreement_when_moved(const ShapeAnalysis& shape, const ViewOptions& o
   move_vertices(moved.surface, kMoved * shape.sphere.diameter);
   const RunContext quiet = run.quiet();
   add_history(moved, options, quiet);
-  add_skeleton(moved, options, quiet);
+  add_curve(moved, options, quiet);
   add_map(moved, options, quiet);
   std::vector<double> here;
   std::vector<double> there;

@@ -16,6 +16,7 @@
 #include "mesh/extent.h"
 #include "pipeline/prepare_points.h"
 #include "pipeline/view_preparation.h"
+#include "skeleton/collapsed.h"
 
 namespace vantage {
 namespace {
@@ -51,6 +52,14 @@ void add_skeleton(ShapeAnalysis& shape, const ViewOptions& options, const RunCon
   }
   shape.warnings.insert(shape.warnings.end(), shape.skeleton.warnings.begin(),
                         shape.skeleton.warnings.end());
+}
+
+void add_curve(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
+  if (shape.cloud || options.kssm_to_finished_graph || !sums_a_map(options.method)) {
+    add_skeleton(shape, options, run);
+  } else {
+    shape.skeleton = extract_curve(shape.surface, shape.history, options.skeleton, run);
+  }
 }
 
 void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
@@ -101,11 +110,12 @@ ShapeAnalysis analyse_surface(ShapeAnalysis shape, const ViewOptions& options,
       [&] {
         add_history(shape, options, run.part(0.0, 0.8));
         took.contract = lap(mark);
-        add_skeleton(shape, options, run.part(0.8, 0.95));
+        const auto add = use == AnalysisUse::Picture ? add_curve : add_skeleton;
+        add(shape, options, run.part(0.8, 0.95));
         took.skeleton = lap(mark);
       },
       [&] {
-        if (use == AnalysisUse::Views) {
+        if (use != AnalysisUse::Map) {
           views = std::make_shared<ViewPreparation>(shape, run, use_of(shape, options));
         }
       });

@@ -294,9 +294,8 @@ std::unique_ptr<const Shell> shell_to_finish(const TriMesh& mesh,
                                 : std::make_unique<Shell>(mesh, history.component_of_vertex);
 }
 
-Skeleton finish_skeleton(const TriMesh& mesh, const ContractionHistory& history,
-                         Collapsed collapsed, const Shell* shell, const SkeletonOptions& options,
-                         const RunContext& run) {
+Skeleton raw_skeleton(const TriMesh& mesh, const ContractionHistory& history, Collapsed collapsed,
+                      const SkeletonOptions& options) {
   Skeleton skeleton;
   if (collapsed.lost_handles > 0) {
     skeleton.warnings.push_back("the skeleton may have lost " +
@@ -307,25 +306,39 @@ Skeleton finish_skeleton(const TriMesh& mesh, const ContractionHistory& history,
   const CurveGraph fine = without_isolated(collapsed.graph, history, skeleton.raw_node_of_vertex);
   skeleton.raw = resampled(fine, mesh, sample_spacing(mesh, options), skeleton.raw_node_of_vertex);
   skeleton.curve = skeleton.raw;
+  return skeleton;
+}
+
+Skeleton finish_skeleton(const TriMesh& mesh, const ContractionHistory& history,
+                         Collapsed collapsed, const Shell* shell, const SkeletonOptions& options,
+                         const RunContext& run) {
+  Skeleton skeleton = raw_skeleton(mesh, history, std::move(collapsed), options);
   finish(mesh, history, shell, options, run, skeleton);
   return skeleton;
 }
 
 namespace {
 
+enum class Extent : std::uint8_t { Finished, OfTheMap };
+
 /// The skeleton of a surface that was contracted as it is.
 Skeleton skeleton_of(const TriMesh& mesh, const ContractionHistory& history,
-                     const SkeletonOptions& options, const RunContext& run) {
+                     const SkeletonOptions& options, Extent extent, const RunContext& run) {
   const double spacing = sample_spacing(mesh, options);
-  // The collapse, from one edge to the next, leaves the other cores idle.
   Collapsed collapsed;
-  std::unique_ptr<const Shell> shell;
-  run_both(
-      run,
-      [&] { collapsed = SurfaceCollapse(mesh, history, spacing).thinnest(run.part(0.0, 0.9)); },
-      [&] { shell = shell_to_finish(mesh, history); });
-  Skeleton skeleton =
-      finish_skeleton(mesh, history, std::move(collapsed), shell.get(), options, run);
+  const auto collapse = [&] {
+    collapsed = SurfaceCollapse(mesh, history, spacing).thinnest(run.part(0.0, 0.9));
+  };
+  Skeleton skeleton;
+  if (extent == Extent::OfTheMap) {
+    collapse();
+    skeleton = raw_skeleton(mesh, history, std::move(collapsed), options);
+  } else {
+    // The collapse, from one edge to the next, leaves the other cores idle.
+    std::unique_ptr<const Shell> shell;
+    run_both(run, collapse, [&] { shell = shell_to_finish(mesh, history); });
+    skeleton = finish_skeleton(mesh, history, std::move(collapsed), shell.get(), options, run);
+  }
   if (options.fit) {
     skeleton.curve = fitted(skeleton.raw, mesh, history, skeleton.raw_node_of_vertex, options);
   }
@@ -335,16 +348,34 @@ Skeleton skeleton_of(const TriMesh& mesh, const ContractionHistory& history,
 /// \param whole the history of `mesh`, with that of the finer surface that was contracted. \return its
 /// skeleton, with what its first vertices belong to.
 Skeleton of_refinement(const TriMesh& mesh, const ContractionHistory& whole,
-                       const SkeletonOptions& options, const RunContext& run) {
+                       const SkeletonOptions& options, Extent extent, const RunContext& run) {
   const ContractedRefinement& refinement = *whole.refinement;
   ContractionHistory history;
   history.levels = refinement.levels;
   history.component_of_vertex = refinement.component_of_vertex;
   history.thinned = refinement.thinned;
   history.merged = whole.merged;
-  Skeleton skeleton = skeleton_of(refinement.mesh, history, options, run);
-  skeleton.node_of_vertex.resize(mesh.positions.size());
+  Skeleton skeleton = skeleton_of(refinement.mesh, history, options, extent, run);
+  if (extent == Extent::Finished) {
+    skeleton.node_of_vertex.resize(mesh.positions.size());
+  }
   skeleton.raw_node_of_vertex.resize(mesh.positions.size());
+  return skeleton;
+}
+
+Skeleton extract(const TriMesh& mesh, const ContractionHistory& history,
+                 const SkeletonOptions& options, Extent extent, const RunContext& run) {
+  check_fields(options, kSkeletonFields);
+  if (!belongs_to(history, mesh)) {
+    throw InvalidInput("the contraction history does not belong to this mesh");
+  }
+  const RunContext most = run.part(0.0, 0.9);
+  Skeleton skeleton = history.refinement ? of_refinement(mesh, history, options, extent, most)
+                                         : skeleton_of(mesh, history, options, extent, most);
+  if (options.fit && !history.second.levels.empty()) {
+    skeleton.other_curve = curve_of(history.second, options, run.part(0.9, 1.0));
+  }
+  run.advance("skeleton", 1.0);
   return skeleton;
 }
 
@@ -352,18 +383,12 @@ Skeleton of_refinement(const TriMesh& mesh, const ContractionHistory& whole,
 
 Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history,
                           const SkeletonOptions& options, const RunContext& run) {
-  check_fields(options, kSkeletonFields);
-  if (!belongs_to(history, mesh)) {
-    throw InvalidInput("the contraction history does not belong to this mesh");
-  }
-  const RunContext most = run.part(0.0, 0.9);
-  Skeleton skeleton = history.refinement ? of_refinement(mesh, history, options, most)
-                                         : skeleton_of(mesh, history, options, most);
-  if (options.fit && !history.second.levels.empty()) {
-    skeleton.other_curve = curve_of(history.second, options, run.part(0.9, 1.0));
-  }
-  run.advance("skeleton", 1.0);
-  return skeleton;
+  return extract(mesh, history, options, Extent::Finished, run);
+}
+
+Skeleton extract_curve(const TriMesh& mesh, const ContractionHistory& history,
+                       const SkeletonOptions& options, const RunContext& run) {
+  return extract(mesh, history, options, Extent::OfTheMap, run);
 }
 
 }  // namespace vantage

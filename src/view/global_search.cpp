@@ -22,6 +22,7 @@ constexpr double kFirstReachRad = 5.0 * kRadPerDeg;
 constexpr double kNotWorthARing = 3e-4;        // share of the range that is not worth a finer ring
 constexpr std::size_t kAscendAgain = 2;        // of ends by a proxy, and of what is near an end
 constexpr double kNearRad = 8.0 * kRadPerDeg;  // so far from a maximum a higher one is often
+constexpr std::size_t kStartsAMaximum = 4;  // of the maxima near which is looked, one for so many
 
 // Of the progress bar: where the survey ends, and the ascent after it.
 constexpr double kSurveyed = 0.5;
@@ -151,12 +152,18 @@ Candidate search_globally(const SearchTarget& target, const RunContext& run) {
                           .last_rad = target.finest_deg() * kRadPerDeg,
                           .flat = kNotWorthARing * range_of(estimates),
                           .drops_losers = true};
+  const std::size_t starts = target.objective().starts;
   std::vector<Candidate> ends =
-      ascended(largest_apart(valued(promising(set, estimates, 1.5 * spacing_rad), cheapest),
-                             target.objective().starts, kFirstReachRad),
+      ascended(largest_apart(valued(promising(set, estimates, 1.5 * spacing_rad), cheapest), starts,
+                             kFirstReachRad),
                rules, cheapest, run.part(kSurveyed, kAscended));
   if (!target.is_smooth()) {
-    ends[0] = highest_near(ends[0], rules, spacing_rad, cheapest, run);
+    const std::size_t looked_near =
+        std::min(ends.size(), std::max<std::size_t>(1, starts / kStartsAMaximum));
+    for (std::size_t i = 0; i < looked_near; ++i) {
+      ends[i] = highest_near(ends[i], rules, spacing_rad, cheapest, run);
+    }
+    ends = largest_apart(std::move(ends), ends.size(), 0.0);
   }
   if (target.has_proxy()) {
     ends = ascended(best_by_score(ends, target), rules, target, run.part(kAscended, 1.0));

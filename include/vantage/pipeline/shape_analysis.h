@@ -77,14 +77,18 @@ ShapeAnalysis prepare_surface(const Model& model, const RunContext& run = {});
 void add_history(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
 /// Adds the skeleton. \pre history is there. \throw Cancelled
 void add_skeleton(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
+/// Adds as much of the skeleton as the map needs: the finished graph only where the options have KSSM
+/// measure to that, or a measure may look at it. \pre history is there. \throw Cancelled
+void add_curve(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
 /// Adds KSSM, and as significance the map that options.method sums: KSSM itself, unless it is
-/// mesh-saliency or pmi-saliency. \pre skeleton is there. \throw Cancelled
+/// mesh-saliency or pmi-saliency. \pre skeleton or curve is there. \throw Cancelled
 void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
 
 /// What an analysis is made for.
 enum class AnalysisUse {
-  Views,  ///< Views will be looked for: what that needs is made beside the contraction.
-  Map,    ///< The map and the skeleton are all that is wanted.
+  Views,    ///< Views will be looked for: what that needs is made beside the contraction.
+  Picture,  ///< Views likewise, but nothing will be said of the skeleton: add_curve() is enough.
+  Map,      ///< The map and the skeleton are all that is wanted.
 };
 
 /// All of the above; `seconds` receives the stage times if not null.

@@ -91,6 +91,20 @@ TEST(PrepareSurface, WarnsOfCoarseCoordinates) {
   EXPECT_THAT(prepare_surface(model).warnings, testing::Contains(testing::HasSubstr("coarse")));
 }
 
+TEST(PrepareSurface, NotesSmallComponentsThatMakeTheModelsBoxMuchLarger) {
+  for (const double away : {0.1, 2.0}) {
+    TriMesh mesh = test::sphere(2);
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const Vec3& corner : {Vec3(0.0, 0.0, 0.0), Vec3(0.01, 0.0, 0.0), Vec3(0.0, 0.01, 0.0)}) {
+      mesh.positions.emplace_back(corner + (1.0 + away) * Vec3::Ones());
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    EXPECT_THAT(prepare_surface(model_of(mesh)).warnings,
+                testing::Contains(testing::HasSubstr("1 small component makes the box"))
+                    .Times(away > 1.0 ? 1 : 0));
+  }
+}
+
 TEST(PrepareSurface, RefusesAModelWithoutExtent) {
   TriMesh dot;
   dot.positions.assign(3, Vec3(1.0, 2.0, 3.0));
