@@ -10,6 +10,7 @@
 #include "vantage/pipeline/measured_shape.h"
 #include "vantage/render/render.h"
 
+#include "core/parallel.h"
 #include "pipeline/coarse_surface.h"
 #include "pipeline/describe_view.h"
 #include "pipeline/map_objective.h"
@@ -75,9 +76,15 @@ void warn_of_coarse_epsilon(const SearchOptions& search, ViewReport& report) {
 ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
                       const ViewOptions& options, const RunContext& run) {
   check_fields(options, kViewFields);
-  ViewReport report = sums_a_map(options.method)
-                          ? find_views_by_map(shape, choice, options, run)
-                          : find_views_by_measure(shape, choice, options, run);
+  ViewReport report;
+  double agreement = 1.0;
+  run_both(
+      run,
+      [&] {
+        report = sums_a_map(options.method) ? find_views_by_map(shape, choice, options, run)
+                                            : find_views_by_measure(shape, choice, options, run);
+      },
+      [&] { agreement = checked_map_agreement(shape, options, run.quiet()); });
   report.orientation = choice.orientation;
   if (options.best_view) {
     report.warnings.emplace_back("the best view is the one that the sidecar names, not one found");
@@ -86,7 +93,7 @@ ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
   report.proportions = proportions_of(shape.surface, shape.sphere.diameter / 2.0, planes_of(shape),
                                       upright_frame(choice.frame));
   report.warnings.insert(report.warnings.end(), choice.notes.begin(), choice.notes.end());
-  report.reliability_warnings = reliability_warnings(shape, report, options, run);
+  report.reliability_warnings = reliability_warnings(shape, report, options, agreement, run);
   return report;
 }
 

@@ -131,12 +131,7 @@ bool is_map_doubtful(const ShapeAnalysis& shape) {
          shape.check.non_manifold_edges + shape.check.inconsistent_edges > 0;
 }
 
-void look_at_map(const ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run,
-                 std::vector<std::string>& warnings) {
-  if (shape.cloud || !shape.views || options.method != "kssm" || !is_map_doubtful(shape)) {
-    return;
-  }
-  const double agreement = map_agreement_when_moved(shape, options, run);
+void look_at_map(double agreement, std::vector<std::string>& warnings) {
   if (agreement < kLeastAgreement) {
     warnings.push_back(
         "the significance map hangs on how the surface is cut into triangles: on a "
@@ -240,6 +235,12 @@ double map_agreement_when_moved(const ShapeAnalysis& shape, const ViewOptions& o
   return std::isnan(agreement) ? 1.0 : agreement;  // where nothing varies
 }
 
+double checked_map_agreement(const ShapeAnalysis& shape, const ViewOptions& options,
+                             const RunContext& run) {
+  const bool has_map = !shape.cloud && shape.views && options.method == "kssm";
+  return has_map && is_map_doubtful(shape) ? map_agreement_when_moved(shape, options, run) : 1.0;
+}
+
 std::vector<std::string> skeleton_warnings(const ShapeAnalysis& shape) {
   std::vector<std::string> warnings;
   look_at_contraction(shape, warnings);
@@ -248,12 +249,13 @@ std::vector<std::string> skeleton_warnings(const ShapeAnalysis& shape) {
 }
 
 std::vector<std::string> reliability_warnings(const ShapeAnalysis& shape, const ViewReport& report,
-                                              const ViewOptions& options, const RunContext& run) {
+                                              const ViewOptions& options, double agreement,
+                                              const RunContext& run) {
   std::vector<std::string> warnings;
   look_at_views(shape, report, options, run, warnings);
   if (sums_a_map(options.method)) {
     look_at_contraction(shape, warnings);
-    look_at_map(shape, options, run, warnings);
+    look_at_map(agreement, warnings);
   }
   look_at_skeleton(shape, warnings);
   return warnings;
