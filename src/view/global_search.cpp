@@ -118,23 +118,48 @@ std::vector<Candidate> ascended(std::vector<Candidate> candidates, const AscentR
   return largest_apart(std::move(candidates), count, 0.0);
 }
 
-/// Scores directions within kNearRad of a maximum and ascends from the best of them, again while that
-/// gains rules.flat at least: where the score is rough or goes in steps, a higher maximum is often near.
-/// Does nothing where the score is smooth or the survey is coarser than kNearRad.
-Candidate highest_near(Candidate best, AscentRules rules, double spacing_rad,
+/// Those ends of ascents, highest first, near which a higher one may be: one for kStartsAMaximum starts,
+/// apart from each other, that the first does not exceed by more than the values on their last rings
+/// differ. None where the score is smooth.
+std::vector<Candidate> worth_a_look_near(const std::vector<Candidate>& ends,
+                                         const AscentRules& rules, std::size_t starts) {
+  std::vector<Candidate> worth;
+  const std::size_t most = std::max<std::size_t>(1, starts / kStartsAMaximum);
+  for (const Candidate& end : largest_apart(ends, most, kFirstReachRad)) {
+    const bool is_smooth = end.spread > 0.0 && end.spread < rules.flat;
+    const bool may_win = end.spread == 0.0 || end.value + end.spread >= ends[0].value;
+    if (!is_smooth && may_win) {
+      worth.push_back(end);
+    }
+  }
+  return worth;
+}
+
+/// Scores directions within kNearRad of ends and ascends from the best of them, again while that gains
+/// rules.flat at least: where the score is rough or goes in steps, a higher maximum is often near.
+/// \return the highest. Does nothing where the survey is coarser than kNearRad.
+Candidate highest_near(const std::vector<Candidate>& ends, AscentRules rules, double spacing_rad,
                        const SearchTarget& target, const RunContext& run) {
-  const auto is_smooth = [&] { return best.spread > 0.0 && best.spread < rules.flat; };
+  Candidate best = ends[0];
+  std::vector<Candidate> centres = worth_a_look_near(ends, rules, target.objective().starts);
   rules.first_rad = 0.5 * spacing_rad;
-  double gain = std::numeric_limits<double>::infinity();
-  while (gain > 0.0 && gain >= rules.flat && !is_smooth() && spacing_rad <= kNearRad) {
-    const std::vector<Vec3> around = directions_around(best.direction, kNearRad, spacing_rad);
-    const Candidate end =
-        ascended(largest_apart(valued(around, target), kAscendAgain, 1.5 * spacing_rad), rules,
-                 target, run.quiet())[0];
-    gain = end.value - best.value;
+  while (!centres.empty() && spacing_rad <= kNearRad) {
+    std::vector<Candidate> starts;
+    for (const Candidate& centre : centres) {
+      const std::vector<Vec3> around = directions_around(centre.direction, kNearRad, spacing_rad);
+      for (const Candidate& start :
+           largest_apart(valued(around, target), kAscendAgain, 1.5 * spacing_rad)) {
+        starts.push_back(start);
+      }
+    }
+    rules.to_beat = best.value;
+    const Candidate end = ascended(std::move(starts), rules, target, run.quiet())[0];
+    const double gain = end.value - best.value;
     if (gain > 0.0) {
       best = end;
     }
+    centres = gain > 0.0 && gain >= rules.flat ? worth_a_look_near({best}, rules, 1)
+                                               : std::vector<Candidate>{};
   }
   return best;
 }
@@ -152,18 +177,12 @@ Candidate search_globally(const SearchTarget& target, const RunContext& run) {
                           .last_rad = target.finest_deg() * kRadPerDeg,
                           .flat = kNotWorthARing * range_of(estimates),
                           .drops_losers = true};
-  const std::size_t starts = target.objective().starts;
   std::vector<Candidate> ends =
-      ascended(largest_apart(valued(promising(set, estimates, 1.5 * spacing_rad), cheapest), starts,
-                             kFirstReachRad),
+      ascended(largest_apart(valued(promising(set, estimates, 1.5 * spacing_rad), cheapest),
+                             target.objective().starts, kFirstReachRad),
                rules, cheapest, run.part(kSurveyed, kAscended));
   if (!target.is_smooth()) {
-    const std::size_t looked_near =
-        std::min(ends.size(), std::max<std::size_t>(1, starts / kStartsAMaximum));
-    for (std::size_t i = 0; i < looked_near; ++i) {
-      ends[i] = highest_near(ends[i], rules, spacing_rad, cheapest, run);
-    }
-    ends = largest_apart(std::move(ends), ends.size(), 0.0);
+    ends.insert(ends.begin(), highest_near(ends, rules, spacing_rad, cheapest, run));
   }
   if (target.has_proxy()) {
     ends = ascended(best_by_score(ends, target), rules, target, run.part(kAscended, 1.0));
