@@ -119,16 +119,13 @@ std::vector<Candidate> ascended(std::vector<Candidate> candidates, const AscentR
 }
 
 /// Those ends of ascents, highest first, near which a higher one may be: one for kStartsAMaximum starts,
-/// apart from each other, that the first does not exceed by more than the values on their last rings
-/// differ. None where the score is smooth.
+/// apart from each other, but none where the score is smooth.
 std::vector<Candidate> worth_a_look_near(const std::vector<Candidate>& ends,
                                          const AscentRules& rules, std::size_t starts) {
   std::vector<Candidate> worth;
   const std::size_t most = std::max<std::size_t>(1, starts / kStartsAMaximum);
   for (const Candidate& end : largest_apart(ends, most, kFirstReachRad)) {
-    const bool is_smooth = end.spread > 0.0 && end.spread < rules.flat;
-    const bool may_win = end.spread == 0.0 || end.value + end.spread >= ends[0].value;
-    if (!is_smooth && may_win) {
+    if (end.spread == 0.0 || end.spread >= rules.flat) {
       worth.push_back(end);
     }
   }
@@ -152,7 +149,6 @@ Candidate highest_near(const std::vector<Candidate>& ends, AscentRules rules, do
         starts.push_back(start);
       }
     }
-    rules.to_beat = best.value;
     const Candidate end = ascended(std::move(starts), rules, target, run.quiet())[0];
     const double gain = end.value - best.value;
     if (gain > 0.0) {

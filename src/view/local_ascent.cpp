@@ -79,13 +79,10 @@ void end_some(std::vector<Climb>& climbs, const AscentRules& rules) {
                            })->at;
   for (Climb& climb : climbs) {
     climb.is_over |= climb.width_rad < rules.last_rad;
-    if (!rules.drops_losers) {
+    if (!rules.drops_losers || climb.at == &best) {
       continue;
     }
-    climb.is_over |= climb.at->value + climb.at->spread < std::max(best.value, rules.to_beat);
-    if (climb.at == &best) {
-      continue;
-    }
+    climb.is_over |= climb.at->value + climb.at->spread < best.value;
     for (const Climb& other : climbs) {
       const bool is_lesser =
           &other < &climb ? climb.at->value <= other.at->value : climb.at->value < other.at->value;

@@ -42,8 +42,6 @@ struct AscentRules {
   /// Gives those up that the best cannot lose to: a finer ring seldom gains more than the values of
   /// the last one differ by. Of two that met the lesser goes.
   bool drops_losers = false;
-  /// A value that was found elsewhere: losers are dropped behind that, too.
-  double to_beat = -std::numeric_limits<double>::infinity();
 };
 
 /// Index of the largest value; the lowest of equals. \pre not empty.

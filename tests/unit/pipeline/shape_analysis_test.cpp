@@ -175,6 +175,21 @@ TEST(PrepareSurface, EachOfItsPartsStopsWhenAsked) {
   EXPECT_THROW(orient_shells(mesh, run), Cancelled);
 }
 
+TEST(AnalyseShape, ForAPictureHasTheSameMapAndNoSkeletonUnlessTheMapMeasuresToThat) {
+  const Model model = model_of(torus(1.0, 0.3, 48, 20));
+  for (const bool to_finished : {false, true}) {
+    ViewOptions options;
+    options.kssm_to_finished_graph = to_finished;
+    const ShapeAnalysis whole = analyse_shape(model, options);
+    const ShapeAnalysis for_picture =
+        analyse_shape(model, options, {}, nullptr, AnalysisUse::Picture);
+    EXPECT_EQ(for_picture.significance, whole.significance);
+    EXPECT_TRUE(for_picture.views);
+    EXPECT_FALSE(whole.skeleton.graph.nodes.empty());
+    EXPECT_EQ(for_picture.skeleton.graph.nodes.empty(), !to_finished);
+  }
+}
+
 TEST(AnalyseShape, StopsWhenAsked) {
   std::stop_source stop;
   RunContext run;

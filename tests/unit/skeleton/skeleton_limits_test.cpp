@@ -11,6 +11,7 @@
 #include "vantage/core/error.h"
 #include "vantage/skeleton/skeleton.h"
 
+#include "skeleton/collapsed.h"
 #include "support/shapes.h"
 #include "support/skeletons.h"
 #include "support/voxel_surface.h"
@@ -69,6 +70,21 @@ TEST(SkeletonThatIsNotCentred, IsMeasuredAllTheSame) {
   left.centre = false;
   EXPECT_EQ(extract_skeleton(ring, history, centred).outside_share, 0.0);
   EXPECT_GT(extract_skeleton(ring, history, left).outside_share, 0.2);
+}
+
+TEST(CurveOfASkeleton, IsThatOfTheFinishedOne) {
+  for (const TriMesh& mesh : {test::torus(1.0, 0.2, 48, 12), test::box(1.0, 1.0, 4.0, 1)}) {
+    const ContractionHistory history = contract(mesh);
+    const Skeleton whole = extract_skeleton(mesh, history);
+    const Skeleton curve = extract_curve(mesh, history, {}, {});
+    EXPECT_EQ(curve.raw.nodes, whole.raw.nodes);
+    EXPECT_EQ(curve.curve.nodes, whole.curve.nodes);
+    EXPECT_EQ(curve.curve.edges, whole.curve.edges);
+    EXPECT_EQ(curve.other_curve.nodes, whole.other_curve.nodes);
+    EXPECT_EQ(curve.raw_node_of_vertex, whole.raw_node_of_vertex);
+    EXPECT_FALSE(whole.graph.nodes.empty());
+    EXPECT_TRUE(curve.graph.nodes.empty());
+  }
 }
 
 TEST(SkeletonOfPaperWithTwoSides, HasNothingToBeOutsideOf) {

@@ -194,6 +194,38 @@ TEST(GlobalSearch, ReachesAHundredthOfADegreeOfACusp) {
   EXPECT_LT(degrees_between(found.direction, top), 0.01);
 }
 
+/// The middle of the triangle of the survey's directions whose middle is nearest to 6.5 degrees from z.
+Vec3 place_between_directions() {
+  const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, 4);
+  Vec3 place = Vec3::UnitX();
+  for (const Triangle& t : set.triangles) {
+    const Vec3 middle =
+        (set.directions[t[0]] + set.directions[t[1]] + set.directions[t[2]]).normalized();
+    if (std::abs(degrees_between(middle, Vec3::UnitZ()) - 6.5) <
+        std::abs(degrees_between(place, Vec3::UnitZ()) - 6.5)) {
+      place = middle;
+    }
+  }
+  return place;
+}
+
+TEST(GlobalSearch, FindsASpikeBesideTheLesserOfTwoHills) {
+  const Vec3 spike = place_between_directions();
+  const auto score = [&](const Vec3& d) {
+    const auto terraces = [&](const Vec3& top, double tall, double steep) {
+      const double angle = degrees_between(d, top) * std::numbers::pi / 180.0;
+      return std::floor(20.0 * (tall - steep * angle)) / 20.0;
+    };
+    const double hills =
+        std::max(terraces(Vec3::UnitX(), 1.0, 4.0), terraces(Vec3::UnitZ(), 0.94, 1.0));
+    const double away = degrees_between(d, spike);
+    return away < 1.5 ? std::max(hills, 1.1 - 0.01 * away) : hills;
+  };
+  const FoundView found =
+      search_view({.score = scoring(score), .total = 1.0, .starts = 16}, Goal::Best);
+  EXPECT_NEAR(found.score, 1.1, 1e-3);
+}
+
 TEST(GlobalSearch, EndsOnASmoothSummitWhereTheScoreGainsNoMore) {
   const Vec3 top = Vec3(0.123, 0.456, -0.789).normalized();
   const FoundView found =
