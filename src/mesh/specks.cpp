@@ -23,6 +23,8 @@ std::vector<double> area_shares(const TriMesh& mesh, const Components& component
   return shares;
 }
 
+constexpr double kMostSpeckArea = 0.01;  // of the surface [ours]
+
 /// Whether each component is one of the smallest, which together hold kMostSpeckArea at most.
 std::vector<bool> are_small(const std::vector<double>& shares) {
   std::vector<std::uint32_t> order(shares.size());
@@ -75,7 +77,6 @@ Specks find_specks(const TriMesh& mesh) {
   Specks specks;
   for (std::size_t c = 0; c < components.count; ++c) {
     specks.count += is_speck[c] ? 1 : 0;
-    specks.area_share += is_speck[c] ? shares[c] : 0.0;
   }
   if (specks.count > 0) {
     specks.enlargement = bounding_box(all).size().norm() / box.size().norm();
