@@ -6,7 +6,8 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kManyStarts = 16;  // of ascents where scores are soon done [ours]
+// Of ascents where there is no proxy: small surfaces have the narrower maxima, and are soon done. [ours]
+constexpr std::size_t kManyStarts = 16;
 
 /// What each vertex adds to a score that sees it: its significance, or by area that of its third of
 /// the faces there over the whole area, the integral of the map wherever a face is seen whole.
@@ -98,7 +99,7 @@ ViewObjective MapObjective::objective(const Preference& preference) const {
   const bool is_by_area = scorer().faces() != nullptr;
   if (is_sampled(*prepared_)) {
     objective.survey_level = 3;  // a look costs ten times as much as at surfaces of one skin
-  } else if (!is_by_area) {
+  } else if (!is_by_area && !prepared_->has_proxy()) {
     objective.starts = kManyStarts;
   }
   if (prepared_->is_coarse() || is_sampled(*prepared_) || is_by_area) {

@@ -173,9 +173,13 @@ Candidate search_globally(const SearchTarget& target, const RunContext& run) {
                           .last_rad = target.finest_deg() * kRadPerDeg,
                           .flat = kNotWorthARing * range_of(estimates),
                           .drops_losers = true};
+  // Where it is smooth there are few maxima.
+  const std::size_t starts = target.is_smooth()
+                                 ? std::min(target.objective().starts, kStartsAMaximum)
+                                 : target.objective().starts;
   std::vector<Candidate> ends =
-      ascended(largest_apart(valued(promising(set, estimates, 1.5 * spacing_rad), cheapest),
-                             target.objective().starts, kFirstReachRad),
+      ascended(largest_apart(valued(promising(set, estimates, 1.5 * spacing_rad), cheapest), starts,
+                             kFirstReachRad),
                rules, cheapest, run.part(kSurveyed, kAscended));
   if (!target.is_smooth()) {
     ends.insert(ends.begin(), highest_near(ends, rules, spacing_rad, cheapest, run));
