@@ -22,7 +22,7 @@ constexpr double kFirstReachRad = 5.0 * kRadPerDeg;
 constexpr double kNotWorthARing = 3e-4;        // share of the range that is not worth a finer ring
 constexpr std::size_t kAscendAgain = 2;        // of ends by a proxy, and of what is near an end
 constexpr double kNearRad = 8.0 * kRadPerDeg;  // so far from a maximum a higher one is often
-constexpr std::size_t kStartsAMaximum = 4;  // of the maxima near which is looked, one for so many
+constexpr std::size_t kStartsPerLook = 4;      // one end is looked near for so many starts
 
 // Of the progress bar: where the survey ends, and the ascent after it.
 constexpr double kSurveyed = 0.5;
@@ -118,12 +118,12 @@ std::vector<Candidate> ascended(std::vector<Candidate> candidates, const AscentR
   return largest_apart(std::move(candidates), count, 0.0);
 }
 
-/// Those ends of ascents, highest first, near which a higher one may be: one for kStartsAMaximum starts,
+/// Those ends of ascents, highest first, near which a higher one may be: one for kStartsPerLook starts,
 /// apart from each other, but none where the score is smooth.
 std::vector<Candidate> worth_a_look_near(const std::vector<Candidate>& ends,
                                          const AscentRules& rules, std::size_t starts) {
   std::vector<Candidate> worth;
-  const std::size_t most = std::max<std::size_t>(1, starts / kStartsAMaximum);
+  const std::size_t most = std::max<std::size_t>(1, starts / kStartsPerLook);
   for (const Candidate& end : largest_apart(ends, most, kFirstReachRad)) {
     if (end.spread == 0.0 || end.spread >= rules.flat) {
       worth.push_back(end);
@@ -173,16 +173,12 @@ Candidate search_globally(const SearchTarget& target, const RunContext& run) {
                           .last_rad = target.finest_deg() * kRadPerDeg,
                           .flat = kNotWorthARing * range_of(estimates),
                           .drops_losers = true};
-  // Where it is smooth there are few maxima.
-  const std::size_t starts = target.is_smooth()
-                                 ? std::min(target.objective().starts, kStartsAMaximum)
-                                 : target.objective().starts;
   std::vector<Candidate> ends =
-      ascended(largest_apart(valued(promising(set, estimates, 1.5 * spacing_rad), cheapest), starts,
-                             kFirstReachRad),
+      ascended(largest_apart(valued(promising(set, estimates, 1.5 * spacing_rad), cheapest),
+                             target.objective().starts, kFirstReachRad),
                rules, cheapest, run.part(kSurveyed, kAscended));
   if (!target.is_smooth()) {
-    ends.insert(ends.begin(), highest_near(ends, rules, spacing_rad, cheapest, run));
+    ends[0] = highest_near(ends, rules, spacing_rad, cheapest, run);
   }
   if (target.has_proxy()) {
     ends = ascended(best_by_score(ends, target), rules, target, run.part(kAscended, 1.0));
