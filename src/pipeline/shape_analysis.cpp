@@ -16,7 +16,6 @@
 #include "mesh/extent.h"
 #include "pipeline/prepare_points.h"
 #include "pipeline/view_preparation.h"
-#include "skeleton/collapsed.h"
 
 namespace vantage {
 namespace {
@@ -27,6 +26,12 @@ double lap(std::chrono::steady_clock::time_point& mark) {
   const double seconds = std::chrono::duration<double>(now - mark).count();
   mark = now;
   return seconds;
+}
+
+/// Carries the skeleton's warnings to those of the analysis.
+void note_skeleton(ShapeAnalysis& shape) {
+  shape.warnings.insert(shape.warnings.end(), shape.skeleton.warnings.begin(),
+                        shape.skeleton.warnings.end());
 }
 
 }  // namespace
@@ -50,8 +55,7 @@ void add_skeleton(ShapeAnalysis& shape, const ViewOptions& options, const RunCon
   } else {
     shape.skeleton = extract_skeleton(shape.surface, shape.history, options.skeleton, run);
   }
-  shape.warnings.insert(shape.warnings.end(), shape.skeleton.warnings.begin(),
-                        shape.skeleton.warnings.end());
+  note_skeleton(shape);
 }
 
 void add_curve(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
@@ -59,6 +63,7 @@ void add_curve(ShapeAnalysis& shape, const ViewOptions& options, const RunContex
     add_skeleton(shape, options, run);
   } else {
     shape.skeleton = extract_curve(shape.surface, shape.history, options.skeleton, run);
+    note_skeleton(shape);
   }
 }
 

@@ -24,19 +24,10 @@ struct Collapsed {
 std::unique_ptr<const Shell> shell_to_finish(const TriMesh& mesh,
                                              const ContractionHistory& history);
 
-/// Resamples it, which gives the raw graph; the finished one stays empty. \pre as finish_skeleton().
-Skeleton raw_skeleton(const TriMesh& mesh, const ContractionHistory& history, Collapsed collapsed,
-                      const SkeletonOptions& options);
-
 /// Resamples it, which gives the raw graph, and centres, prunes and routes that.
 /// \param shell of shell_to_finish(). \pre the history belongs to the mesh. \throw Cancelled
 Skeleton finish_skeleton(const TriMesh& mesh, const ContractionHistory& history,
                          Collapsed collapsed, const Shell* shell, const SkeletonOptions& options,
                          const RunContext& run);
-
-/// extract_skeleton() for who only wants the map: what KSSM measures to, without a finished graph and
-/// what that takes, which on parts of thin walls is most of the time. \throw InvalidInput, Cancelled
-Skeleton extract_curve(const TriMesh& mesh, const ContractionHistory& history,
-                       const SkeletonOptions& options, const RunContext& run);
 
 }  // namespace vantage

@@ -267,6 +267,22 @@ CurveGraph resampled(const CurveGraph& fine, const TriMesh& mesh, double spacing
                            node_of_vertex);
 }
 
+/// Resamples a collapsed graph, which gives the raw one; the finished one stays empty.
+Skeleton raw_skeleton(const TriMesh& mesh, const ContractionHistory& history, Collapsed collapsed,
+                      const SkeletonOptions& options) {
+  Skeleton skeleton;
+  if (collapsed.lost_handles > 0) {
+    skeleton.warnings.push_back("the skeleton may have lost " +
+                                std::to_string(collapsed.lost_handles) +
+                                " handle(s) of the surface");
+  }
+  skeleton.raw_node_of_vertex = std::move(collapsed.node_of_vertex);
+  const CurveGraph fine = without_isolated(collapsed.graph, history, skeleton.raw_node_of_vertex);
+  skeleton.raw = resampled(fine, mesh, sample_spacing(mesh, options), skeleton.raw_node_of_vertex);
+  skeleton.curve = skeleton.raw;
+  return skeleton;
+}
+
 /// What fitted() makes of the surface meshed anew: another curve as good as that.
 CurveGraph curve_of(const SecondMesh& second, const SkeletonOptions& options,
                     const RunContext& run) {
@@ -294,21 +310,6 @@ std::unique_ptr<const Shell> shell_to_finish(const TriMesh& mesh,
                                 : std::make_unique<Shell>(mesh, history.component_of_vertex);
 }
 
-Skeleton raw_skeleton(const TriMesh& mesh, const ContractionHistory& history, Collapsed collapsed,
-                      const SkeletonOptions& options) {
-  Skeleton skeleton;
-  if (collapsed.lost_handles > 0) {
-    skeleton.warnings.push_back("the skeleton may have lost " +
-                                std::to_string(collapsed.lost_handles) +
-                                " handle(s) of the surface");
-  }
-  skeleton.raw_node_of_vertex = std::move(collapsed.node_of_vertex);
-  const CurveGraph fine = without_isolated(collapsed.graph, history, skeleton.raw_node_of_vertex);
-  skeleton.raw = resampled(fine, mesh, sample_spacing(mesh, options), skeleton.raw_node_of_vertex);
-  skeleton.curve = skeleton.raw;
-  return skeleton;
-}
-
 Skeleton finish_skeleton(const TriMesh& mesh, const ContractionHistory& history,
                          Collapsed collapsed, const Shell* shell, const SkeletonOptions& options,
                          const RunContext& run) {
@@ -319,7 +320,8 @@ Skeleton finish_skeleton(const TriMesh& mesh, const ContractionHistory& history,
 
 namespace {
 
-enum class Extent : std::uint8_t { Finished, OfTheMap };
+/// How much of a skeleton is made: all, or what the map measures to.
+enum class Extent { Finished, OfTheMap };
 
 /// The skeleton of a surface that was contracted as it is.
 Skeleton skeleton_of(const TriMesh& mesh, const ContractionHistory& history,

@@ -78,6 +78,11 @@ double sample_spacing(const TriMesh& mesh, const SkeletonOptions& options);
 Skeleton extract_skeleton(const TriMesh& mesh, const ContractionHistory& history,
                           const SkeletonOptions& options = {}, const RunContext& run = {});
 
+/// As much of extract_skeleton() as KSSM measures to: Skeleton::raw, curve and other_curve. The finished
+/// graph stays empty, which on parts of thin walls is most of the time. \throw InvalidInput, Cancelled
+Skeleton extract_curve(const TriMesh& mesh, const ContractionHistory& history,
+                       const SkeletonOptions& options = {}, const RunContext& run = {});
+
 /// Measures of a finished skeleton. Lengths are in model units.
 struct SkeletonQuality {
   double length = 0.0;          ///< Of all edges of closed components.

@@ -2,6 +2,7 @@
 #include "mesh/specks.h"
 
 #include <cmath>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,6 @@
 #include "vantage/core/error.h"
 #include "vantage/skeleton/skeleton.h"
 
-#include "skeleton/collapsed.h"
 #include "support/shapes.h"
 #include "support/skeletons.h"
 #include "support/voxel_surface.h"
@@ -76,7 +75,7 @@ TEST(CurveOfASkeleton, IsThatOfTheFinishedOne) {
   for (const TriMesh& mesh : {test::torus(1.0, 0.2, 48, 12), test::box(1.0, 1.0, 4.0, 1)}) {
     const ContractionHistory history = contract(mesh);
     const Skeleton whole = extract_skeleton(mesh, history);
-    const Skeleton curve = extract_curve(mesh, history, {}, {});
+    const Skeleton curve = extract_curve(mesh, history);
     EXPECT_EQ(curve.raw.nodes, whole.raw.nodes);
     EXPECT_EQ(curve.curve.nodes, whole.curve.nodes);
     EXPECT_EQ(curve.curve.edges, whole.curve.edges);
