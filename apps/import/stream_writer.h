@@ -59,8 +59,6 @@ class StreamWriter {
   void material(const StreamMaterial& material);
   void mesh(const StreamMesh& mesh);
 
-  [[nodiscard]] std::uint64_t meshes() const { return meshes_; }
-
   /// The last record, and everything out.
   void fail(std::string_view text);
   void done();

@@ -339,9 +339,9 @@ struct BatchCommand {
   void run_shards(Session& session, batch::EntrySource& source, const batch::ConfinedFolder& root) {
     batch::SlurmRequest& request = slurm.request;
     request.folder = fs::absolute(folder).lexically_normal().string();
-    request.cpus = std::max(1, jobs) * runner.threads;
+    request.cpus = std::int64_t{std::max(1, jobs)} * runner.threads;
     const double task_gb = std::max(1, jobs) * (memory_gb > 0.0 ? memory_gb : kSlurmMemoryGb);
-    request.memory_mb = static_cast<int>((task_gb + kParentMemoryGb) * 1e3);
+    request.memory_mb = static_cast<std::int64_t>((task_gb + kParentMemoryGb) * 1e3);
     request.command = {fs::read_symlink("/proc/self/exe").string(),
                        "batch",
                        "--manifest=" + request.folder + "/slurm/plan.jsonl",
@@ -370,10 +370,13 @@ struct BatchCommand {
       batch::write_overview(root, store, session.run());
     }
     const batch::StatusCounts counts = store.counts();
-    summarise(session,
-              {.done = counts.done, .failed = counts.failed, .duplicates = counts.duplicates});
+    const std::int64_t doubted = store.count_doubted();
+    summarise(session, {.done = counts.done,
+                        .failed = counts.failed,
+                        .duplicates = counts.duplicates,
+                        .doubted = doubted});
     finish_standard_output();
-    settle_exit_code(session, counts.failed, strict ? store.count_doubted() : 0);
+    settle_exit_code(session, counts.failed, doubted);
   }
 
   void settle_exit_code(Session& session, std::int64_t failed, std::int64_t doubted) const {

@@ -40,15 +40,7 @@ constexpr const char* kJob = "slurm/job";
 constexpr const char* kScript = "slurm/shard.sh";
 
 std::uint32_t shard_of(const Entry& entry, std::uint32_t shards) {
-  if (entry.shard) {
-    return *entry.shard % shards;
-  }
-  for (std::uint32_t index = 0; index + 1 < shards; ++index) {
-    if (batch::Shard{index, shards}.holds(entry.key)) {
-      return index;
-    }
-  }
-  return shards - 1;
+  return entry.shard ? *entry.shard % shards : batch::Shard::of_key(entry.key, shards);
 }
 
 /// One collection on its way through Slurm.

@@ -40,9 +40,21 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// For tests only: VANTAGE_TEST_FAULT="crash:part,hang:part,memory:part" makes the worker go wrong
-/// on models whose key contains `part`.
-void inject_test_fault(const std::string& key) {
+/// One line to the batch.
+void say(int answers, const Json& json) {
+  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t count = ::write(answers, text.data() + done, text.size() - done);
+    if (count < 0 && errno != EINTR) {
+      throw IoError("batch", "does not listen any more", errno);
+    }
+    done += count > 0 ? static_cast<std::size_t>(count) : 0;
+  }
+}
+
+/// For tests only: VANTAGE_TEST_FAULT="crash:part,hang:part,memory:part,nonsense:part" makes the worker go
+/// wrong on models whose key contains `part`.
+void inject_test_fault(const std::string& key, int answers) {
   const char* faults = std::getenv("VANTAGE_TEST_FAULT");
   std::string_view rest = faults == nullptr ? "" : faults;
   while (!rest.empty()) {
@@ -54,6 +66,9 @@ void inject_test_fault(const std::string& key) {
     }
     if (fault.starts_with("crash")) {
       std::abort();
+    }
+    if (fault.starts_with("nonsense")) {
+      say(answers, {{"result", 5}});
     }
     while (fault.starts_with("hang")) {
       ::sleep(1);
@@ -122,17 +137,6 @@ struct BatchWorkerCommand {
   }
 
  private:
-  static void say(int answers, const Json& json) {
-    const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-    for (std::size_t done = 0; done < text.size();) {
-      const ssize_t count = ::write(answers, text.data() + done, text.size() - done);
-      if (count < 0 && errno != EINTR) {
-        throw IoError("batch", "does not listen any more", errno);
-      }
-      done += count > 0 ? static_cast<std::size_t>(count) : 0;
-    }
-  }
-
   /// Null if the model is not to be done after all.
   [[nodiscard]] Json answer_to(const Json& order, Session& session, int answers) const {
     const std::string path = batch::path_of_key(order.at("path").get<std::string>());
@@ -149,7 +153,7 @@ struct BatchWorkerCommand {
       if (!std::getline(std::cin, word) || word != "go") {
         return nullptr;
       }
-      inject_test_fault(key);
+      inject_test_fault(key, answers);
       session.flags.threads = order.at("threads").get<int>();
       const RunContext run = session.run();
       const Sidecar sidecar = sidecar_of(path);

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
+#include <unistd.h>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -63,6 +65,16 @@ void keep_freed_memory() {
 #endif
 }
 
+/// Where standard input, output or error is closed, the first files that are opened would be taken for them.
+/// What stands there instead can neither be read from nor written to as they are, so that errors remain.
+void reserve_standard_files() {
+  for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(number, F_GETFD) < 0) {
+      ::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY);  // takes the lowest number
+    }
+  }
+}
+
 /// The words of a command line, where `help view` asks for what `view --help` does. A command that is
 /// none is left to be complained about: the parser prints help before it looks at it.
 std::vector<std::string> words_of(const CLI::App& program, int argc, char** argv) {
@@ -85,6 +97,7 @@ std::vector<std::string> words_of(const CLI::App& program, int argc, char** argv
 // NOLINTNEXTLINE(bugprone-exception-escape): out of memory while reporting a failure may end it
 int main(int argc, char** argv) {
   using namespace vantage::cli;
+  reserve_standard_files();
   keep_freed_memory();
   Session session;
   CLI::App program{kAbout, "vantage"};

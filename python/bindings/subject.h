@@ -69,17 +69,6 @@ ShapeAnalysis with_skeleton(const Model& model, const ViewOptions& options, cons
 /// Everything.
 ShapeAnalysis with_map(const Model& model, const ViewOptions& options, const RunContext& run);
 
-/// One row of `of_surface` for each vertex of the input.
-template <class Value>
-std::vector<Value> on_input(const ShapeAnalysis& shape, const std::vector<Value>& of_surface) {
-  std::vector<Value> of_input;
-  of_input.reserve(shape.surface_vertex.size());
-  for (const std::uint32_t v : shape.surface_vertex) {
-    of_input.push_back(of_surface[v]);
-  }
-  return of_input;
-}
-
 /// Adds Model, Analysis, load() and analyse() to the module.
 void define_models(py::module_& module);
 /// Adds skeleton(), kssm() and vertex_map().

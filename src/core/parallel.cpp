@@ -22,7 +22,7 @@ constexpr std::chrono::milliseconds kStopPoll{50};
 }  // namespace
 
 void with_threads(const RunContext& run, const std::function<void()>& work) {
-  // Inside of loops that have few enough threads, an arena of its own would add to them.
+  // A loop inside of one that is bounded already stays in its arena: another would add threads.
   if (run.max_threads <= 0 || tbb::this_task_arena::max_concurrency() <= run.max_threads) {
     work();
     return;

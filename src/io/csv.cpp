@@ -13,10 +13,21 @@
 namespace vantage {
 namespace {
 
+/// The first comma outside of quotes, or npos.
+std::size_t next_comma(std::string_view line) {
+  bool quoted = false;
+  const auto* const found = std::find_if(line.begin(), line.end(), [&](char c) {
+    quoted ^= c == '"';
+    return c == ',' && !quoted;
+  });
+  return found == line.end() ? std::string_view::npos
+                             : static_cast<std::size_t>(found - line.begin());
+}
+
 std::vector<std::string_view> split(std::string_view line) {
   std::vector<std::string_view> fields;
   while (true) {
-    const std::size_t comma = line.find(',');
+    const std::size_t comma = next_comma(line);
     std::string_view field = trimmed(line.substr(0, comma));
     if (field.size() >= 2 && field.front() == '"' && field.back() == '"') {
       field = field.substr(1, field.size() - 2);

@@ -11,8 +11,8 @@
 #include "vantage/core/error.h"
 
 #include "io/byte_cursor.h"
-#include "io/gltf_uri.h"
 #include "io/model_builder.h"
+#include "io/named_path.h"
 #include "io/readers.h"
 #include "io/texture_loader.h"
 
@@ -201,24 +201,10 @@ class StreamReader {
     if (picture.inside) {
       return loader_.embedded(picture.content, "inside the file");
     }
-    std::string path(picture.content);
-    std::replace(path.begin(), path.end(), '\\', '/');
-    path = path.starts_with("./") ? path.substr(2) : path;
-    std::optional<std::string> inside = inside_folder(path);
-    // A path of the author's own disk: the picture has usually been put beside the model.
-    if (!inside || (surroundings_.side_files && !surroundings_.side_files(*inside).bytes)) {
-      inside = inside_folder(path.substr(path.find_last_of('/') + 1));
-    }
-    return inside ? loader_.beside(*inside) : std::nullopt;
-  }
-
-  /// A relative path as the file names it; nothing if it leaves the folder.
-  static std::optional<std::string> inside_folder(const std::string& path) {
-    std::string escaped;
-    for (const char c : path) {
-      escaped += c == '%' ? std::string("%25") : std::string(1, c);
-    }
-    return relative_path_of_uri(escaped);
+    const std::string named = with_slashes(picture.content);
+    const std::optional<std::string> path = place_of_picture(
+        named.starts_with("./") ? named.substr(2) : named, surroundings_.side_files);
+    return path ? loader_.beside(*path) : std::nullopt;
   }
 
   void read_mesh(RecordCursor& record) {

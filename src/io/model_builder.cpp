@@ -17,6 +17,8 @@ namespace {
 
 /// Vertex indices are 32 bits wide and the highest value is kept free.
 constexpr std::uint64_t kMostVertices = std::numeric_limits<std::uint32_t>::max() - 1;
+/// So are indices of the three sides of all triangles.
+constexpr std::size_t kMostTriangles = std::numeric_limits<std::uint32_t>::max() / 3;
 
 }  // namespace
 
@@ -57,9 +59,8 @@ void ModelBuilder::add_corner(std::uint64_t vertex, Place place) {
          "face names vertex " + std::to_string(vertex + first_index_) + ", which no file can hold");
   }
   const auto index = static_cast<std::uint32_t>(vertex);
-  if (index > highest_vertex_ || corners_.empty()) {
-    highest_vertex_ = index;
-    highest_place_ = place;
+  if (open_corners_ == 0 || index > open_highest_.vertex) {
+    open_highest_ = {index, place};
   }
   corners_.push_back(index);
   ++open_corners_;
@@ -105,6 +106,9 @@ void ModelBuilder::end_polygon() {
     corner_uvs_.resize(std::min(corner_uvs_.size(), corners_.size()));
     ++model_.skipped_faces;
     return;
+  }
+  if (corner_counts_.empty() || open_highest_.vertex > highest_.vertex) {
+    highest_ = open_highest_;
   }
   corner_counts_.push_back(count);
   ++model_.polygons;
@@ -154,8 +158,8 @@ void ModelBuilder::advance(std::size_t done_bytes, std::size_t all_bytes) {
 }
 
 void ModelBuilder::check_indices() const {
-  if (!corners_.empty() && highest_vertex_ >= point_count()) {
-    fail(highest_place_, "face names vertex " + std::to_string(highest_vertex_ + first_index_) +
+  if (!corners_.empty() && highest_.vertex >= point_count()) {
+    fail(highest_.place, "face names vertex " + std::to_string(highest_.vertex + first_index_) +
                              ", but the file has " + std::to_string(point_count()) +
                              " vertices, counted from " + std::to_string(first_index_));
   }
@@ -174,7 +178,11 @@ void ModelBuilder::triangulate() {
   std::uint32_t material = Appearance::kNone;
   std::size_t first_corner = 0;
   std::vector<Triangle>& triangles = model_.mesh.triangles;
-  triangles.reserve(corners_.size() - 2 * corner_counts_.size());
+  const std::size_t count = corners_.size() - 2 * corner_counts_.size();
+  if (count > kMostTriangles) {
+    fail("more than " + std::to_string(kMostTriangles) + " triangles");
+  }
+  triangles.reserve(count);
   if (!corner_uvs_.empty()) {
     corner_uvs_.resize(corners_.size(), Appearance::kNone);
     model_.appearance.uv_of_triangle.reserve(triangles.capacity());

@@ -98,6 +98,12 @@ class ModelBuilder {
     std::size_t first_polygon;
   };
 
+  /// A vertex and where a face names it.
+  struct NamedVertex {
+    std::uint32_t vertex = 0;
+    Place place{};
+  };
+
   void check_indices() const;
   void check_extent() const;
   void triangulate();
@@ -114,8 +120,8 @@ class ModelBuilder {
   std::vector<std::uint32_t> corners_{};        ///< Of all polygons, one after the other.
   std::vector<std::uint32_t> corner_counts_{};  ///< Of each polygon.
   std::uint32_t open_corners_ = 0;              ///< Of the polygon being built.
-  std::uint32_t highest_vertex_ = 0;
-  Place highest_place_{};
+  NamedVertex highest_{};                       ///< The highest vertex of all polygons.
+  NamedVertex open_highest_{};                  ///< Of the polygon being built.
   std::vector<ColourValue> colours_{};
   std::vector<PartStart> part_starts_{};
 

@@ -16,13 +16,12 @@ namespace vantage {
 namespace {
 
 /// Keywords of the format that do not shape the polygons.
-constexpr std::array<std::string_view, 45> kSilentKeywords = {
-    "vn",   "vt",    "vp",       "s",        "usemtl",   "mtllib",     "usemap",    "maplib",
-    "mg",   "bevel", "c_interp", "d_interp", "lod",      "shadow_obj", "trace_obj", "cstype",
-    "deg",  "bmat",  "step",     "curv",     "curv2",    "surf",       "parm",      "trim",
-    "hole", "scrv",  "sp",       "end",      "con",      "ctech",      "stech",     "call",
-    "csh",  "bsp",   "bzp",      "cdc",      "cdp",      "res",        "newmtl",    "Ka",
-    "Kd",   "Ks",    "illum",    "maplib",   "usemtllib"};
+constexpr std::array<std::string_view, 40> kSilentKeywords = {
+    "vn",    "vp",       "s",        "usemtl", "mtllib",     "usemap",    "maplib", "mg",
+    "bevel", "c_interp", "d_interp", "lod",    "shadow_obj", "trace_obj", "cstype", "deg",
+    "bmat",  "step",     "parm",     "trim",   "hole",       "scrv",      "sp",     "end",
+    "con",   "ctech",    "stech",    "call",   "csh",        "bsp",       "bzp",    "cdc",
+    "cdp",   "res",      "newmtl",   "Ka",     "Kd",         "Ks",        "illum",  "usemtllib"};
 
 class ObjReader {
  public:

@@ -177,8 +177,8 @@ void read_binary(std::string_view bytes, ModelBuilder& builder) {
 }
 
 /// An STL file repeats each vertex in every triangle; make it one again.
-void join_equal_positions(TriMesh& mesh) {
-  WeldedMesh welded = weld(mesh);
+void join_equal_positions(TriMesh& mesh, const RunContext& run) {
+  WeldedMesh welded = weld(mesh, run.quiet());
   for (Triangle& triangle : mesh.triangles) {
     for (std::uint32_t& v : triangle) {
       v = welded.welded_of_vertex[v];
@@ -197,7 +197,7 @@ Model parse_stl(std::string_view bytes, std::string_view name, const RunContext&
     read_binary(bytes, builder);
   }
   Model model = builder.finish();
-  join_equal_positions(model.mesh);
+  join_equal_positions(model.mesh, run);
   return model;
 }
 

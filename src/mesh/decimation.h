@@ -33,7 +33,7 @@ Decimation decimate(const TriMesh& fine, std::size_t target, const RunContext& r
 /// A surface on the way to a coarser one.
 struct TwoDecimations {
   Decimation between{};  ///< The first state between two passes of at most so many vertices.
-  Decimation coarse{};   ///< As decimate() gives it.
+  Decimation coarse{};   ///< At most `target` vertices, if edges may go.
 };
 
 /// decimate(), and what it was when at most `between` vertices were left, ≥ target.

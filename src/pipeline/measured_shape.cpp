@@ -160,7 +160,7 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, const FrameChoice& 
   const auto described = [&](const FoundView& found) {
     ReportedView view = describe_view(shape, *visibility, report.camera, found.direction,
                                       choice.frame.up, options, run);
-    view.score = measurer.values(std::vector<Vec3>{found.direction}).front().front();
+    view.score = measurer.values(std::vector<Vec3>{found.direction}, run.quiet()).front().front();
     view.score_fraction = kNone;
     return view;
   };

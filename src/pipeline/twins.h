@@ -11,12 +11,12 @@
 
 namespace vantage {
 
-/// Mirror images of `best` whose score is at least kTwinShare of its score, as the model's own
+/// Mirror images of `best` whose score is at least 98 % of its score, as the model's own
 /// mirror planes make them; in the order of mirror_images().
 std::vector<TwinView> twins_of(const Vec3& best, const ShapeAnalysis& shape,
                                const ScoreBatch& score, const Preference& preference);
 
-/// Of the best view and its twins within kNearTie of its objective, the one most toward the front,
+/// Of the best view and its twins within 1 % of its objective, the one most toward the front,
 /// then the one most to the side (of which there is one); swaps it with the best.
 /// \pre `best` has its objective.
 void settle_near_ties(TwinView& best, std::vector<TwinView>& twins, const UprightFrame& frame);

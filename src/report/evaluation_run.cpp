@@ -223,7 +223,7 @@ void EvaluationJournal::add(const std::string& key, const EvaluatedModel& rows) 
   const off_t before = ::lseek(file, 0, SEEK_END);
   const ssize_t written = ::write(file, line.data(), line.size());
   const bool is_whole = written == static_cast<ssize_t>(line.size());
-  const bool is_written = is_whole && (::fsync(file) == 0 || errno == EINVAL);
+  const bool is_written = is_whole && (::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP);
   const int problem = is_written ? 0 : written >= 0 && !is_whole ? ENOSPC : errno;
   if (!is_written && before >= 0) {
     // No part of a row stays, to which the next one would be joined.

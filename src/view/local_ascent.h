@@ -39,8 +39,8 @@ struct AscentRules {
   double last_rad = 0.0;   ///< No ring is narrower.
   /// A ring on which the values differ by less ends the ascent: nothing is left to be gained.
   double flat = 0.0;
-  /// Gives those up that the best cannot lose to: a finer ring seldom gains more than the values of
-  /// the last one differ by. Of two that met the lesser goes.
+  /// Drops ascents that will hardly reach the best: a finer ring seldom gains more than the values of the last
+  /// one differ by. Of two that converge the higher goes on.
   bool drops_losers = false;
 };
 

@@ -16,7 +16,7 @@ constexpr std::size_t kDirectionsAtOnce = 32;
 }  // namespace
 
 ScoreMemo::Key ScoreMemo::key_of(const Vec3& direction) {
-  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };  // not of −0
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };  // −0 is 0
   return {bits(direction.x()), bits(direction.y()), bits(direction.z())};
 }
 

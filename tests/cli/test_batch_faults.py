@@ -48,6 +48,10 @@ class OneModel(FaultTest):
         rows = self.run_with(*self.names, fault="crash:m2", exit_code=4)
         self.assert_only_failure(rows, "m2.off", "crash", "signal 6")
 
+    def test_a_worker_that_talks_nonsense_costs_only_its_model(self):
+        rows = self.run_with(*self.names, fault="nonsense:m4", exit_code=4)
+        self.assert_only_failure(rows, "m4.off", "crash", "makes no sense")
+
     def test_a_hang_ends_at_the_time_limit(self):
         # The limit holds for the five sound boxes too. A batch of one such box took 1.5 s in all on a loaded
         # machine, so that 6 s leave room; longer would only be waited for, since m3 takes all of it.

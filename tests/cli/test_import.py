@@ -39,6 +39,12 @@ class Import(ProgramTest):
         self.assertLess(info["volume"], exact)
         self.assertGreater(info["volume"], exact - 0.0203 * (exact - 12000))
 
+    def test_standard_input_need_not_be_open(self):
+        shell = subprocess.run(["sh", "-c", 'exec "$0" info --json "$1" <&-', PROGRAM, DATA / "stand.step"],
+                               capture_output=True, timeout=60, check=False)
+        self.assertEqual(shell.returncode, 0, shell.stderr)
+        self.assertEqual(json.loads(shell.stdout)["format"], "step")
+
     def test_other_formats_of_solids(self):
         plate, block = self.info("plate.iges"), self.info("block.brep")
         self.assertEqual((plate["format"], plate["faces"], plate["welded"]["closed"]), ("iges", 12, True))

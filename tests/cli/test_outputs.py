@@ -71,6 +71,8 @@ class Foreign(ProgramTest):
             self.vantage("thumb", "a.off", name)
         self.write("empty.tmp", "")  # as file managers make one
         self.vantage("thumb", "a.off", "empty.tmp")
+        for name, begin in (("x.png", b"\x89PNG"), ("x.webp", b"RIFF"), ("empty.tmp", b"\x89PNG")):
+            self.assertTrue((self.dir / name).read_bytes().startswith(begin), name)
 
     def test_json_that_may_be_an_input_is_not_replaced_by_a_skeleton(self):
         for theirs in ('{"camera_angle_x": 1, "frames": []}\n', '{\n  "nodes": [\n    {"mesh": 0}\n  ],\n  "asset": {}\n}\n'):

@@ -130,8 +130,10 @@ class OddSurfaces(ProgramTest):
         self.assertEqual(right["best"]["score"], turned["best"]["score"])
 
     def test_three_faces_on_an_edge(self):
-        self.view([(0, 0, 0), (0, 0, 1), (1, 0, 0), (-1, 1, 0), (-1, -1, 0)],
-                  [(0, 1, 2), (0, 1, 3), (0, 1, 4)])
+        report = self.view([(0, 0, 0), (0, 0, 1), (1, 0, 0), (-1, 1, 0), (-1, -1, 0)],
+                           [(0, 1, 2), (0, 1, 3), (0, 1, 4)])
+        self.assertFalse(report["model"]["closed"])
+        self.assertEqual(report["model"]["faces"], 3)
 
     def test_separate_seams_are_welded(self):
         vertices, faces = TETRAHEDRON

@@ -16,8 +16,32 @@ using Json = nlohmann::json;
 // The largest dictionary of an .xz file is 1.5 GiB.
 constexpr std::uint64_t kUnpackerMemory = 2'000'000'000;
 
-Json parsed(const std::optional<std::string>& line) {
-  return Json::parse(line.value_or(""), nullptr, false);
+/// What the process that unpacks says: of an entry, of what became of one, or that there are no more.
+struct Answer {
+  explicit Answer(const Json& json)
+      : number(json.contains("number") ? std::optional(json.at("number").get<std::uint64_t>())
+                                       : std::nullopt),
+        member(json.value("member", "")),
+        problem(json.value("problem", "")),
+        repeat(json.value("repeat", 0)),
+        failed(json.value("failed", "")),
+        reason(json.value("reason", "input")) {}
+
+  std::optional<std::uint64_t> number;  // of the entry, if it is about one
+  std::string member;                   // its name in the archive
+  std::string problem;                  // why it, or all that follows, cannot be read
+  int repeat;                           // how many before it have its name
+  std::string failed;                   // why it could not be unpacked
+  std::string reason;                   // of that, in a word
+};
+
+/// \return nothing if there is no line, or it makes no sense: the process is lost.
+std::optional<Answer> parsed(const std::optional<std::string>& line) {
+  try {
+    return line ? std::optional<Answer>(Json::parse(*line)) : std::nullopt;
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace
@@ -61,12 +85,12 @@ std::optional<Entry> ArchiveReader::next(const EntryFilter& filter) {
     if (std::exchange(offered_, false)) {
       process_->send("skip");
     }
-    const Json json = parsed(answer());
+    const std::optional<Answer> said = parsed(answer());
     if (limits_.stop.stop_requested()) {
       ended_ = true;
       return std::nullopt;
     }
-    if (!json.is_object()) {
+    if (!said) {
       const End end = end_of_process();
       if (++deaths_ >= limits_.attempts) {
         return broken("what comes here " + end.words, end.reason);
@@ -75,28 +99,27 @@ std::optional<Entry> ArchiveReader::next(const EntryFilter& filter) {
       continue;
     }
     deaths_ = 0;
-    if (json.contains("problem") && !json.contains("number")) {
-      return broken(json["problem"].get<std::string>(), "input");
+    if (!said->number && !said->problem.empty()) {
+      return broken(said->problem, "input");
     }
-    if (!json.contains("number")) {
+    if (!said->number) {
       ended_ = true;
       return std::nullopt;
     }
-    at_ = json["number"].get<std::uint64_t>();
+    at_ = *said->number;
     passed_ = at_;
     offered_ = true;
-    const auto member = json.value("member", std::string());
-    Entry entry{.path = path_, .member = path_of_key(member)};
-    entry.problem = json.value("problem", std::string());
-    if (!member.empty() && !filter.accepts(entry.member)) {
+    Entry entry{.path = path_, .member = path_of_key(said->member)};
+    entry.problem = said->problem;
+    if (!said->member.empty() && !filter.accepts(entry.member)) {
       continue;
     }
     // No normal path holds "//", so no file beside the archive can have this key.
     // No key_of_path() holds a single backslash before an e or an r, so no entry can be called so.
-    entry.key =
-        key_of_path(path_) + "//" + (member.empty() ? "\\entry " + std::to_string(at_) : member);
-    if (const auto repeat = json.value("repeat", 0); repeat > 0) {
-      entry.key += "\\repeat " + std::to_string(repeat + 1);
+    entry.key = key_of_path(path_) + "//" +
+                (said->member.empty() ? "\\entry " + std::to_string(at_) : said->member);
+    if (said->repeat > 0) {
+      entry.key += "\\repeat " + std::to_string(said->repeat + 1);
     }
     return entry;
   }
@@ -105,18 +128,17 @@ std::optional<Entry> ArchiveReader::next(const EntryFilter& filter) {
 
 /// After a new start before the entry that next() gave last: whether it is there again.
 bool ArchiveReader::is_offered_again() {
-  const Json json = parsed(answer());
-  return json.is_object() && json.value("number", std::uint64_t{0}) == at_;
+  const std::optional<Answer> said = parsed(answer());
+  return said && said->number == at_;
 }
 
 void ArchiveReader::fetch(Entry& entry, const std::string& file) {
   offered_ = false;
   for (int attempt = 1;; ++attempt) {
     process_->send("take " + Json(key_of_path(file)).dump());
-    const Json json = parsed(answer());
-    if (json.is_object()) {
-      entry.problem = json.value("failed", std::string());
-      entry.reason = json.value("reason", std::string("input"));
+    if (const std::optional<Answer> said = parsed(answer())) {
+      entry.problem = said->failed;
+      entry.reason = said->reason;
       return;
     }
     if (limits_.stop.stop_requested()) {

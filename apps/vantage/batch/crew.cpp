@@ -125,20 +125,20 @@ void Crew::listen(Seat& seat, std::vector<CrewEvent>& events) {
     if (!line) {
       return;
     }
-    conclude(seat, *line, events);
+    try {
+      conclude(seat, *line, events);
+    } catch (const Json::exception&) {
+      events.push_back(lost(seat, "crash", "the worker said something that makes no sense"));
+    }
   }
 }
 
 void Crew::conclude(Seat& seat, const std::string& line, std::vector<CrewEvent>& events) {
-  const Json answer = Json::parse(line, nullptr, false);
-  if (!answer.is_object()) {
-    events.push_back(lost(seat, "crash", "the worker said something that makes no sense"));
-    return;
-  }
+  const Json answer = Json::parse(line);
   Job& job = *seat.job;
   if (answer.contains("content")) {
-    job.record.content = answer["content"].get<std::string>();
-    job.record.beside = beside_of(answer["beside"]);
+    job.record.content = answer.at("content").get<std::string>();
+    job.record.beside = beside_of(answer.at("beside"));
     job.stage = Stage::Hashed;
     events.push_back({.job = &job, .kind = CrewEvent::Kind::Content});
     return;
@@ -146,7 +146,7 @@ void Crew::conclude(Seat& seat, const std::string& line, std::vector<CrewEvent>&
   job.record.timings.seconds = seconds_since(job.start);
   job.record.timings.peak_bytes = answer.value("peak_bytes", std::int64_t{0});
   if (answer.contains("result")) {
-    job.record.result = answer["result"].get<std::string>();
+    job.record.result = answer.at("result").get<std::string>();
     seat.job = nullptr;
     job.seat = nullptr;
     events.push_back(

@@ -59,7 +59,7 @@ struct Seat {
 /// What a worker, or its end, has said about its job.
 struct CrewEvent {
   enum class Kind { Content, Result, Failure };
-  Job* job = nullptr;         ///< For Failure and Result no longer in its worker's hands.
+  Job* job = nullptr;         ///< After Failure and Result its seat is free.
   Kind kind = Kind::Failure;  ///< Content: job->record.content is known.
   std::string staging{};      ///< Of a Result: name of the folder to put in place.
   std::string reason{};       ///< Of a Failure.
@@ -92,6 +92,7 @@ class Crew {
 
  private:
   void listen(Seat& seat, std::vector<CrewEvent>& events);
+  /// \throw nlohmann::json::exception if the line makes no sense; the seat is as it was then.
   void conclude(Seat& seat, const std::string& line, std::vector<CrewEvent>& events);
   void enforce_time(std::vector<CrewEvent>& events);
   CrewEvent lost(Seat& seat, std::string reason, std::string error);

@@ -78,7 +78,7 @@ std::unique_ptr<EntrySource> entries_of_paths(std::vector<std::string> inputs, E
                                               std::string skipped, ArchiveLimits archive_limits);
 
 /// Entries of a manifest ("-": standard input): JSON lines with "path" and, if wanted, "key",
-/// "name", "up"; or CSV with such columns in its header; or a path a line (or ended by a zero
+/// "name", "up", "front"; or CSV with such columns in its header; or a path a line (or ended by a zero
 /// byte). What it is shows in its first line. Paths are relative to the manifest's folder.
 /// \param stop ends waiting for a pipe: next() throws Cancelled.
 /// \throw IoError if it cannot be opened.

@@ -12,7 +12,7 @@ namespace vantage::batch {
 /// What a file takes on the disk, bytes; 0 if there is none.
 std::uint64_t bytes_on_disk(const std::string& path);
 
-/// By what a file is known to be the one that it was; of nothing if there is none.
+/// Size, time and inode, by which an unchanged file is known; empty if there is no file.
 FileStamp stamp_of(const std::string& path);
 
 /// Whether the files beside a model look as they did when it was read.

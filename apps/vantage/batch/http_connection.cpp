@@ -16,7 +16,7 @@ constexpr std::size_t kLargestRequest = 1U << 16U;  ///< Bytes; requests carry n
 constexpr auto kBetweenRequests = 5s;
 constexpr auto kOneRequest = 5s;
 constexpr auto kOneWrite = 10s;  ///< Until the other side takes more.
-constexpr int kPulse = 20;       ///< ms between two looks whether the server ends.
+constexpr int kPulse = 20;       ///< ms between two looks whether the server is to stop.
 
 }  // namespace
 

@@ -26,7 +26,7 @@ struct Overview {
 Overview write_overview(const ConfinedFolder& folder, ResultsStore& store, const RunContext& run);
 
 /// The same complaint about the first page and the first sheet, before there is anything to write.
-/// \throw IoError
+/// \throw IoError if such a file is in the way
 void check_overview(const ConfinedFolder& folder);
 
 /// Removes what write_overview() wrote, which would be out of date. \throw IoError

@@ -28,7 +28,7 @@ struct RunnerOptions {
   bool retry_failed = false;                     ///< Do again what failed before.
   bool verify = false;                           ///< Read every input again, whatever its stamp.
   bool quiet_workers = true;                     ///< Their messages go nowhere.
-  /// Options hash of a model with the given up axis ("" if it has none of its own).
+  /// Options hash of a model, with what its entry and its sidecar say of it.
   std::function<std::string(const Entry& entry)> options_hash{};
 };
 

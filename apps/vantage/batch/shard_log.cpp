@@ -59,8 +59,8 @@ bool stands_for_its_content(const ModelRecord& record) {
 
 }  // namespace
 
-bool Shard::holds(const std::string& key) const {
-  return stable_number(key) % count == index;
+std::uint32_t Shard::of_key(const std::string& key, std::uint32_t count) {
+  return static_cast<std::uint32_t>(stable_number(key) % count);
 }
 
 Shard parse_shard(const std::string& text) {

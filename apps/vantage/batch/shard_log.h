@@ -21,8 +21,11 @@ struct Shard {
   std::uint32_t index = 0;  ///< In [0, count).
   std::uint32_t count = 1;  ///< At least 1.
 
-  /// Whether a model belongs to it: by a hash of its key, so that new models move no other one.
-  [[nodiscard]] bool holds(const std::string& key) const;
+  /// Whether a model belongs to it.
+  [[nodiscard]] bool holds(const std::string& key) const { return of_key(key, count) == index; }
+
+  /// The index of a model's shard: by a hash of its key, so that new models move no other one.
+  static std::uint32_t of_key(const std::string& key, std::uint32_t count);
 };
 
 /// Parses "3/64". \throw InvalidInput

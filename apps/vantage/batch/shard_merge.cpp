@@ -13,6 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The logs come first: a shard that runs may put its log into its file meanwhile, and what is read twice
+/// counts once.
 std::vector<std::string> shard_files(const std::string& folder) {
   std::vector<std::string> files;
   std::error_code error;
@@ -28,6 +30,9 @@ std::vector<std::string> shard_files(const std::string& folder) {
     throw IoError(shards.string(), "cannot be listed", error.value());
   }
   std::sort(files.begin(), files.end());
+  std::stable_partition(files.begin(), files.end(), [](const std::string& name) {
+    return fs::path(name).extension() == ".log";
+  });
   return files;
 }
 

@@ -16,8 +16,8 @@ struct SlurmRequest {
   std::vector<std::string> command{};  ///< The shard's command line; "--shard i/n" is added.
   std::uint32_t shards = 1;            ///< [n], tasks of the array.
   std::uint32_t at_once = 0;           ///< Tasks that may run together; 0: as many as fit.
-  int cpus = 1;                        ///< Of each task.
-  int memory_mb = 0;                   ///< Of each task; 0: the cluster's default.
+  std::int64_t cpus = 1;               ///< Of each task.
+  std::int64_t memory_mb = 0;          ///< Of each task; 0: the cluster's default.
   int minutes = 0;                     ///< Time limit of a task; 0: the partition's.
   std::string partition{};             ///< Empty: the default one.
   std::vector<std::string> extra{};    ///< Further options of sbatch, as they are.

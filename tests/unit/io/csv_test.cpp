@@ -33,6 +33,11 @@ TEST(PointsCsv, FindsItsColumnsInTheHeader) {
               ElementsAre(Vec3(1, 2, 3)));
 }
 
+TEST(PointsCsv, ACommaInQuotesEndsNoField) {
+  EXPECT_THAT(parse_points_csv("name,dx,dy,dz\n\"a,5,6,7,\"\"b\",1,2,3\n", "d.csv", kDirection),
+              ElementsAre(Vec3(1, 2, 3)));
+}
+
 TEST(PointsCsv, AnEmptyFileHasNoPoints) {
   EXPECT_THAT(parse_points_csv("", "d.csv", kDirection), IsEmpty());
 }

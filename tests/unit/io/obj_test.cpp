@@ -71,6 +71,14 @@ TEST(Obj, AFaceMayComeBeforeItsVertices) {
   EXPECT_EQ(obj(std::string("f 1 2 3\n") + kThreePoints).mesh.triangles.size(), 1U);
 }
 
+TEST(Obj, ACornerOfAFaceThatIsLeftOutMayNameAnything) {
+  for (const char* faces : {"f 1 99\nf 1 2 3\n", "f 1 2 3\nf 1 99\n"}) {
+    const Model model = obj(std::string(kThreePoints) + faces);
+    EXPECT_EQ(model.polygons, 1U);
+    EXPECT_EQ(model.skipped_faces, 1U);
+  }
+}
+
 TEST(Obj, CountsPolygonsBySize) {
   const Model model =
       obj("v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3\nf 1 2 3 4\nf 1 2 3 4 5\nf 1 2\n");

@@ -178,6 +178,41 @@ TEST(GlobalSearchByProxy, ChoosesAmongItsEndsByTheScore) {
   EXPECT_GT(exact, 0U);
 }
 
+/// The middle of a triangle of the survey's directions that is 3.5° to 4.5° from `centre`.
+Vec3 between_directions_near(const Vec3& centre) {
+  const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, 4);
+  Vec3 place = centre;
+  for (const auto& [a, b, c] : set.triangles) {
+    const Vec3 middle = (set.directions[a] + set.directions[b] + set.directions[c]).normalized();
+    const double away = angle_between(middle, centre);
+    if (away > 3.5 * kRadPerDeg && away < 4.5 * kRadPerDeg) {
+      place = middle;
+    }
+  }
+  return place;
+}
+
+TEST(GlobalSearchByProxy, ScoresAreAscendedFromTwoMaximaNotTwiceFromOne) {
+  // By the proxy a broad maximum with a narrow one beside it is the highest, and the other is 8° away
+  // from where it is: there the score is below both of these, until it is ascended.
+  const Vec3 narrow = between_directions_near(Vec3::UnitX());
+  const Vec3 astray = (kHigh + std::tan(8.0 * kRadPerDeg) * kHigh.unitOrthogonal()).normalized();
+  const auto score = [](const Vec3& d) {
+    return 5.0 + std::max(2.7 * bump(d, Vec3::UnitX(), 1.0), 3.0 * bump(d, kHigh, 0.4));
+  };
+  const auto nearly = [&](const Vec3& d) {
+    return 5.0 + std::max(3.0 * bump(d, Vec3::UnitX(), 1.0), 2.8 * bump(d, astray, 0.4)) +
+           (angle_between(d, narrow) < 1.3 * kRadPerDeg ? 0.2 : 0.0);
+  };
+  ASSERT_LT(score(astray), score(narrow));
+  const FoundView best = search_view({.score = batch_of(score),
+                                      .total = kTotal,
+                                      .surrogate = batch_of(nearly),
+                                      .proxy = batch_of(nearly)},
+                                     Goal::Best);
+  EXPECT_LT(angle_between(best.direction, kHigh), kFoundRad);
+}
+
 TEST(GlobalSearch, SurveysByTheScoreWhereThereIsNoSurrogate) {
   const FoundView best = search_view({batch_of(hills), kTotal}, Goal::Best);
   EXPECT_LT(angle_between(best.direction, kHigh), kFoundRad);
@@ -187,15 +222,7 @@ TEST(GlobalSearch, SurveysByTheScoreWhereThereIsNoSurrogate) {
 
 TEST(GlobalSearch, FindsANarrowSummitBesideABroadOne) {
   // In the middle of a triangle of the survey, beside a summit that is flat to 3° from its middle.
-  const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, 4);
-  Vec3 summit = Vec3::Zero();
-  for (const auto& [a, b, c] : set.triangles) {
-    const Vec3 middle = (set.directions[a] + set.directions[b] + set.directions[c]).normalized();
-    const double from_broad = angle_between(middle, kHigh);
-    if (from_broad > 3.5 * kRadPerDeg && from_broad < 4.5 * kRadPerDeg) {
-      summit = middle;
-    }
-  }
+  const Vec3 summit = between_directions_near(kHigh);
   const auto both = [&](const Vec3& d) {
     return std::min(bump(d, kHigh, 0.4), 0.98) +
            (angle_between(d, summit) < 1.3 * kRadPerDeg ? 0.2 : 0.0);
