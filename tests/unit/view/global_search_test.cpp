@@ -193,15 +193,16 @@ Vec3 between_directions_near(const Vec3& centre) {
 }
 
 TEST(GlobalSearchByProxy, ScoresAreAscendedFromTwoMaximaNotTwiceFromOne) {
-  // By the proxy a broad maximum with a narrow one beside it is the highest, and the other is 8° away
+  // By the proxy a broad maximum with a narrow one beside it is the highest, and the other is 11° away
   // from where it is: there the score is below both of these, until it is ascended.
   const Vec3 narrow = between_directions_near(Vec3::UnitX());
-  const Vec3 astray = (kHigh + std::tan(8.0 * kRadPerDeg) * kHigh.unitOrthogonal()).normalized();
+  const Vec3 astray = (kHigh + std::tan(11.0 * kRadPerDeg) * kHigh.unitOrthogonal()).normalized();
   const auto score = [](const Vec3& d) {
     return 5.0 + std::max(2.7 * bump(d, Vec3::UnitX(), 1.0), 3.0 * bump(d, kHigh, 0.4));
   };
   const auto nearly = [&](const Vec3& d) {
-    return 5.0 + std::max(3.0 * bump(d, Vec3::UnitX(), 1.0), 2.8 * bump(d, astray, 0.4)) +
+    const double broad = std::min(bump(d, Vec3::UnitX(), 0.3), 0.98);  // flat: worth a look near it
+    return 5.0 + std::max(3.0 * broad, 2.8 * bump(d, astray, 0.4)) +
            (angle_between(d, narrow) < 1.3 * kRadPerDeg ? 0.2 : 0.0);
   };
   ASSERT_LT(score(astray), score(narrow));
