@@ -91,7 +91,7 @@ class SlurmRun {
     constexpr std::size_t kLongestId = 32;
     const std::string text = folder_.beginning_of(kJob, kLongestId);
     const std::string job = text.substr(0, text.find('\n'));
-    if (batch::is_job(job) && has_tasks(batch::slurm_progress(job))) {
+    if (batch::is_job(job) && has_tasks(batch::slurm_progress(job, session_.run()))) {
       session_.say("job " + job + " of an earlier run is still there; waiting for it first");
       await(job);
     } else {
@@ -118,8 +118,8 @@ class SlurmRun {
     const RunContext run = session_.run();
     auto pause = kFirstLook;
     try {
-      for (batch::SlurmProgress progress = batch::slurm_progress(job); has_tasks(progress);
-           progress = batch::slurm_progress(job)) {
+      for (batch::SlurmProgress progress = batch::slurm_progress(job, run); has_tasks(progress);
+           progress = batch::slurm_progress(job, run)) {
         run.advance("job " + job + ": " + std::to_string(progress.running) + " running, " +
                         std::to_string(progress.waiting) + " waiting",
                     0.0);

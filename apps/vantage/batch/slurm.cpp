@@ -18,7 +18,8 @@ namespace {
 constexpr int kWarningSeconds = 30;
 /// The controller may be restarted under a running batch; after this many silent tries it is gone.
 constexpr int kTries = 30;
-constexpr std::chrono::seconds kBetweenTries(2);
+constexpr std::chrono::milliseconds kBetweenTries(2000);
+constexpr std::chrono::milliseconds kStopLook(100);  // between two looks whether the run is to stop
 
 /// A word for the shell.
 std::string quoted(const std::string& word) {
@@ -132,7 +133,7 @@ bool is_job(const std::string& text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-SlurmProgress slurm_progress(const std::string& job) {
+SlurmProgress slurm_progress(const std::string& job, const RunContext& run) {
   for (int attempt = 0;; ++attempt) {
     const ProgramResult result = call_program(
         {"squeue", "--noheader", "--array", "--jobs=" + job, "--name=vantage", "--format=%T %r"});
@@ -154,7 +155,10 @@ SlurmProgress slurm_progress(const std::string& job) {
     if (attempt == kTries) {
       throw IoError("squeue", "cannot tell about job " + job + ": " + first_line(result.messages));
     }
-    std::this_thread::sleep_for(kBetweenTries);
+    for (auto slept = kStopLook; slept <= kBetweenTries; slept += kStopLook) {
+      std::this_thread::sleep_for(kStopLook);
+      run.check();
+    }
   }
 }
 

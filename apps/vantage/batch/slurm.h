@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "vantage/core/run_context.h"
+
 /// \file
 /// Job arrays of Slurm, through its own programs: sbatch, squeue, scancel.
 
@@ -34,7 +36,8 @@ struct SlurmProgress {
 std::string index_ranges(const std::vector<std::uint32_t>& indices);
 
 /// The batch script of a request. A shard asked to stop by SIGTERM (time limit, preemption) ends
-/// with 75, for RequeueExit=75, unless no model of it had ended since it began; shards whose models have all ended succeed, even if some failed.
+/// with 75, for RequeueExit=75, unless no model of it had ended since it began; shards whose models have
+/// all ended succeed, even if some failed.
 std::string slurm_script(const SlurmRequest& request);
 
 /// Submits tasks `indices` of the request, whose script is in folder/slurm/shard.sh.
@@ -42,8 +45,8 @@ std::string slurm_script(const SlurmRequest& request);
 std::string submit_slurm(const SlurmRequest& request, const std::vector<std::uint32_t>& indices);
 
 /// Tasks of a job that have not ended; none if the job is unknown (it has ended, and was forgotten).
-/// \throw IoError if the controller does not answer for long.
-SlurmProgress slurm_progress(const std::string& job);
+/// \throw IoError if the controller does not answer for long, Cancelled
+SlurmProgress slurm_progress(const std::string& job, const RunContext& run);
 
 /// Whether a text can be the id of a job.
 bool is_job(const std::string& text);
