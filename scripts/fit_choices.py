@@ -39,7 +39,9 @@ FROM_BELOW = -0.1      # what is lower is seldom meant
 AMBIGUOUS = 0.02       # overlaps so near do not tell front from back, nor above from below
 OUTLIERS = 0.05        # share of choices that the likelihood lets come from anywhere
 KERNEL = np.radians(10)  # a choice is as good as its neighbourhood
-LEAST_WEIGHT = 1e-4    # as src/choice/view_habit.cpp has it
+LEAST_WEIGHT = 1e-4    # as src/choice/view_habit.cpp has it, and the next two
+WIDEN = 1.1
+LEAST_CHOICES = 2
 LEAST_SHARE = 1e-3     # as src/pipeline/preference.cpp has it
 BANDWIDTHS, MIRRORS = (0.35, 0.5, 0.7), (0.1, 0.2, 0.3)
 FOLDS = 10
@@ -155,8 +157,13 @@ def habits(entries, train, bandwidth, mirror):
     scale = np.array([1, 1, mirror, mirror, mirror])
     result = []
     for i, entry in enumerate(entries):
-        weights = np.exp(-((shapes[train] - entry.shape) ** 2 @ scale) / (2 * bandwidth ** 2)) + LEAST_WEIGHT
-        weights[np.asarray(train) == i] = 0
+        unlike = (shapes[train] - entry.shape) ** 2 @ scale
+        unlike[np.asarray(train) == i] = np.inf
+        weights, width = np.exp(-unlike / (2 * bandwidth ** 2)), bandwidth
+        while weights.sum() < LEAST_CHOICES:
+            width *= WIDEN
+            weights = np.exp(-unlike / (2 * width ** 2))
+        weights += LEAST_WEIGHT * np.isfinite(unlike)
         result.append(weights @ angles / weights.sum())
     return result
 

@@ -98,11 +98,13 @@ struct ThumbCommand {
     if (file != "-") {
       preview.show(session, shape, camera, options, look.of(loaded, above), run);
     }
-    report(session, found, loaded.notes);
+    std::vector<std::string> notes = loaded.notes;
+    notes.insert(notes.end(), found.choice.notes.begin(), found.choice.notes.end());
+    report(session, found, notes);
     if (!warning.empty()) {
       session.say("warning: " + warning);
     }
-    for (const std::string& note : loaded.notes) {
+    for (const std::string& note : notes) {
       if (session.flags.verbose || note == kMadeOpaque) {
         session.say("note: " + note);
       }

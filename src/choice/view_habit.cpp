@@ -14,6 +14,10 @@ namespace {
 constexpr double kThin = 0.02;
 // A mirror plane within 8° of an axis is that axis'. [ours]
 constexpr double kAlongAxis = 0.99;
+// The bandwidth of a shape like few others is widened by this factor until the weights add up to so many
+// choices: one odd choice is no habit. [ours]
+constexpr double kWiden = 1.1;
+constexpr double kLeastChoices = 2.0;
 // What every choice weighs, however unlike its shape: a shape like no other has their mean. [ours]
 constexpr double kLeastWeight = 1e-4;
 
@@ -82,15 +86,24 @@ ViewHabit::ViewHabit(const ChoiceTable& table, const ShapeProportions& shape) {
     of_choice->resize(count);
   }
   mirrors_front_.resize(count);
+  Eigen::ArrayXd unlike(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const RecordedChoice& choice = table.choices[static_cast<std::size_t>(i)];
     side_[i] = choice.direction.x();
     up_[i] = choice.direction.y();
     front_[i] = choice.direction.z();
     mirrors_front_[i] = choice.shape.mirrors_front;
-    const double d2 = squared_distance(choice.shape, shape, table.mirror_weight);
-    weights_[i] = std::exp(-d2 / (2.0 * table.bandwidth * table.bandwidth)) + kLeastWeight;
+    unlike[i] = squared_distance(choice.shape, shape, table.mirror_weight);
   }
+  const double least = std::min(kLeastChoices, static_cast<double>(count) / kLeastChoices);
+  double bandwidth = table.bandwidth;
+  const auto kernel = [&] { return (-unlike / (2.0 * bandwidth * bandwidth)).exp(); };
+  weights_ = kernel();
+  while (weights_.sum() < least) {
+    bandwidth *= kWiden;
+    weights_ = kernel();
+  }
+  weights_ += kLeastWeight;
   weights_ /= weights_.sum();
 }
 

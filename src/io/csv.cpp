@@ -66,7 +66,9 @@ std::vector<Vec3> parse_points_csv(std::string_view bytes, std::string_view name
       if (is_header) {
         const auto found = std::find(fields.begin(), fields.end(), columns[c]);
         if (found == fields.end()) {
-          fail("the header has no column " + std::string(columns[c]));
+          fail("the header has no column " + std::string(columns[c]) + "; expected " +
+               std::string(columns[0]) + "," + std::string(columns[1]) + "," +
+               std::string(columns[2]) + ", or three numbers a line, with commas between");
         }
         places[c] = static_cast<std::size_t>(found - fields.begin());
         continue;

@@ -71,6 +71,21 @@ void warn_of_coarse_epsilon(const SearchOptions& search, ViewReport& report) {
   }
 }
 
+/// Says so where the best view shows the back of what the shape says has a front.
+void note_a_view_from_behind(const DirectionChoice& front, const ViewOptions& options,
+                             ViewReport& report) {
+  constexpr double kLikely = 0.5;
+  constexpr double kBehind = -0.1;  // cosine
+  if (objective_of(options) == Objective::People && !options.best_view && front.source != "given" &&
+      front.confidence > kLikely && !report.proportions.mirrors_front &&
+      report.best.direction.dot(front.direction) < kBehind) {
+    const std::string name(up_name(report.front));
+    report.warnings.push_back("the best view is from behind, if the front is " + name + " (" +
+                              std::to_string(std::lround(100.0 * front.confidence)) +
+                              " % sure); --front " + name + " shows that side");
+  }
+}
+
 }  // namespace
 
 ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
@@ -93,6 +108,7 @@ ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
   report.proportions = proportions_of(shape.surface, shape.sphere.diameter / 2.0, planes_of(shape),
                                       upright_frame(choice.frame));
   report.warnings.insert(report.warnings.end(), choice.notes.begin(), choice.notes.end());
+  note_a_view_from_behind(choice.orientation.front, options, report);
   report.reliability_warnings = reliability_warnings(shape, report, options, agreement, run);
   return report;
 }

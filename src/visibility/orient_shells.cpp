@@ -23,10 +23,10 @@
 namespace vantage {
 namespace {
 
-// Votes that decide whether a shell is inside an odd number of others, and the most rays that are cast:
-// one that grazes an edge has no vote.
-constexpr int kAgreeing = 3;
-constexpr int kMaxRays = 40;
+// Rays that ask whether a shell is inside an odd number of others, and how many of them must tell: one
+// that grazes an edge has no vote. A shell that is inside lies there whole, so one vote against it is enough.
+constexpr int kRays = 40;
+constexpr int kLeastVotes = 3;
 // A crossing nearer to an edge, or a start nearer to a plane, than this is not trusted: relative to
 // the products it is computed from; some thousand rounding errors.
 constexpr double kErrorBound = 1e-12;
@@ -196,7 +196,7 @@ Vec3 odd_direction(int turn) {
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
-/// Tells for closed shells whether an odd number of other closed shells holds them.
+/// Tells for closed shells whether an odd number of other closed shells holds them, whole.
 class Nesting {
  public:
   explicit Nesting(const Shells& shells) : shells_(shells) {
@@ -209,21 +209,22 @@ class Nesting {
     if (!scene_) {
       return false;  // there is no other one
     }
-    int odd = 0;
-    int even = 0;
-    for (int turn = 0; turn < kMaxRays && odd < kAgreeing && even < kAgreeing; ++turn) {
-      if (const std::optional<bool> vote = ask(shell, turn)) {
-        ++(*vote ? odd : even);
+    int votes = 0;
+    for (int turn = 0; turn < kRays; ++turn) {
+      const std::optional<bool> is_inside = ask(shell, turn);
+      if (is_inside == false) {
+        return false;
       }
+      votes += is_inside ? 1 : 0;
     }
-    return odd > even;
+    return votes >= kLeastVotes;
   }
 
  private:
   /// One ray from the middle of a face of the shell; nothing if it grazes an edge.
   [[nodiscard]] std::optional<bool> ask(std::uint32_t shell, int turn) const {
     const std::vector<std::uint32_t>& members = shells_.members[shell];
-    const std::size_t pick = static_cast<std::size_t>(turn) * members.size() / kMaxRays;
+    const std::size_t pick = static_cast<std::size_t>(turn) * members.size() / kRays;
     const auto& [a, b, c] = shells_.faces[members[pick]];
     const Vec3 start = (shells_.positions[a] + shells_.positions[b] + shells_.positions[c]) / 3.0;
     const Vec3 direction = odd_direction(turn);

@@ -48,12 +48,25 @@ TEST(ViewHabit, TakesLeftForRightAndFrontForBackOnlyOfWhatMirrorsThem) {
 
 TEST(ViewHabit, OfAShapeLikeNoOtherIsTheMeanOfAll) {
   const ChoiceTable table = of_two();
-  const ViewHabit odd(table, {.height = 60.0});
+  const ViewHabit odd(table, {.height = 1e15});
   for (const Vec3& d : direction_set(ViewSphereBase::Icosahedron, 1).directions) {
     const double to_first = std::acos(d.y());
     const double to_second = std::acos(std::abs(0.6 * d.x()) + 0.8 * d.z());
     EXPECT_NEAR(odd.distance(d), (to_first + to_second) / 2.0, 1e-12);
   }
+}
+
+TEST(ViewHabit, OneOddChoiceIsNoHabit) {
+  ChoiceTable table;
+  table.bandwidth = 0.1;
+  table.choices = {{.shape = {.height = 0.0}, .direction = Vec3::UnitY()}};
+  for (int i = 0; i < 6; ++i) {
+    table.choices.push_back({.shape = {.height = 1.0}, .direction = Vec3::UnitZ()});
+  }
+  // Alone it would be all there is; widened, the kernel gives it half of the weight at most.
+  const ViewHabit habit(table, {.height = 0.0});
+  EXPECT_GE(habit.distance(Vec3::UnitY()), 0.5 * kRight);
+  EXPECT_GE(habit.distance(Vec3::UnitZ()), 0.3 * kRight);
 }
 
 TEST(Proportions, AreThoseOfTheBoxInItsFrame) {

@@ -65,6 +65,17 @@ TEST(OrientShells, TurnsOneOfTwoShellsSideBySide) {
   EXPECT_NEAR(signed_volume(oriented.mesh), 2.0 * signed_volume(ball(1.0)), 1e-12);
 }
 
+TEST(OrientShells, LeavesShellsThatReachThroughEachOtherAlone) {
+  for (const double apart :
+       {0.75, 0.85, 0.95, 1.05, 1.2}) {  // of the small one little to half is outside
+    const TriMesh two = test::together(ball(1.0), ball(0.3), Vec3(apart, 0.0, 0.0));
+    EXPECT_EQ(orient_shells(two).turned_shells, 0U) << apart;
+    const TriMesh wrong =
+        test::together(ball(1.0), test::inside_out(ball(0.3)), Vec3(apart, 0.0, 0.0));
+    EXPECT_EQ(orient_shells(wrong).turned_shells, 1U) << apart;
+  }
+}
+
 TEST(OrientShells, GivesOpenSurfacesBothSides) {
   const TriMesh mesh = test::open_cylinder(1.0, 2.0, 12, 3);
   const OrientedMesh oriented = orient_shells(mesh);
