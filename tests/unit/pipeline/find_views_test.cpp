@@ -202,6 +202,30 @@ TEST(FindViews, OfFewVerticesFindsWhatTheDenseSearchFinds) {
   }
 }
 
+TEST(FindViews, SaysWhereTheBestViewIsFromBehind) {
+  TriMesh skew = box(1.0, 2.0, 3.0, 4);  // so that front and back differ
+  for (Vec3& p : skew.positions) {
+    p.x() += 0.4 * p.z() * p.z() * p.y();
+  }
+  ViewOptions options = quick_search();
+  options.objective = Objective::People;
+  const ShapeAnalysis shape = analyse_shape(model_of(skew), options);
+  FrameChoice choice;
+  choice.orientation.up.direction = Vec3::UnitY();
+  choice.orientation.front = {.direction = Vec3::UnitZ(), .source = "format", .confidence = 0.8};
+  for (const bool is_front_right : {true, false}) {
+    choice.orientation.front_odds = {is_front_right ? 1.0 : 0.0, 0.0, is_front_right ? 0.0 : 1.0,
+                                     0.0};
+    const ViewReport report = find_views(shape, choice, options);
+    ASSERT_FALSE(report.proportions.mirrors_front);
+    const bool is_said =
+        std::any_of(report.warnings.begin(), report.warnings.end(), [](const auto& warning) {
+          return warning.starts_with("the best view is from behind, if the front is z (80 % sure)");
+        });
+    EXPECT_EQ(is_said, !is_front_right);
+  }
+}
+
 TEST(FindViews, OfAMapThatIsZeroGivesTheFirstDirectionAndAWarning) {
   const ViewOptions options = quick_search();
   const ViewReport report = find_views(without_significance(analysed_box()), UpAxis::Y, options);
