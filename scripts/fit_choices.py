@@ -160,7 +160,7 @@ def habits(entries, train, bandwidth, mirror):
         unlike = (shapes[train] - entry.shape) ** 2 @ scale
         unlike[np.asarray(train) == i] = np.inf
         weights, width = np.exp(-unlike / (2 * bandwidth ** 2)), bandwidth
-        while weights.sum() < LEAST_CHOICES:
+        while weights.sum() < min(LEAST_CHOICES, np.isfinite(unlike).sum() / 2):
             width *= WIDEN
             weights = np.exp(-unlike / (2 * width ** 2))
         weights += LEAST_WEIGHT * np.isfinite(unlike)

@@ -15,7 +15,7 @@ constexpr double kThin = 0.02;
 // A mirror plane within 8° of an axis is that axis'. [ours]
 constexpr double kAlongAxis = 0.99;
 // The bandwidth of a shape like few others is widened by this factor until the weights add up to so many
-// choices: one odd choice is no habit. [ours]
+// choices, or to half of the table if it is that small: one odd choice is no habit. [ours]
 constexpr double kWiden = 1.1;
 constexpr double kLeastChoices = 2.0;
 // What every choice weighs, however unlike its shape: a shape like no other has their mean. [ours]
@@ -95,9 +95,11 @@ ViewHabit::ViewHabit(const ChoiceTable& table, const ShapeProportions& shape) {
     mirrors_front_[i] = choice.shape.mirrors_front;
     unlike[i] = squared_distance(choice.shape, shape, table.mirror_weight);
   }
-  const double least = std::min(kLeastChoices, static_cast<double>(count) / kLeastChoices);
+  const double least = std::min(kLeastChoices, 0.5 * static_cast<double>(count));
   double bandwidth = table.bandwidth;
-  const auto kernel = [&] { return (-unlike / (2.0 * bandwidth * bandwidth)).exp(); };
+  const auto kernel = [&]() -> Eigen::ArrayXd {
+    return (-unlike / (2.0 * bandwidth * bandwidth)).exp();
+  };
   weights_ = kernel();
   while (weights_.sum() < least) {
     bandwidth *= kWiden;
