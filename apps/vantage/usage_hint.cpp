@@ -131,7 +131,10 @@ class Reading {
       const std::string whole = word.substr(0, equals);
       const std::string flag = is_long ? whole : "-" + whole;  // "-size" for "--size"
       const std::string nearest = nearest_word(flag, flags_.names());
-      return "vantage " + call_of(*command_) + " knows no flag " + whole + meant(nearest);
+      std::error_code error;
+      const bool is_file = std::filesystem::is_regular_file(word, error);
+      return "vantage " + call_of(*command_) + " knows no flag " + whole +
+             (is_file ? "; ./" + word + " is the file of this name" : meant(nearest));
     }
     const bool holds_value = is_long ? equals != std::string::npos : word.size() > 2;
     at_ += takes_value(*option) && !holds_value ? 1 : 0;

@@ -43,6 +43,8 @@ class WhatWasMeant(ProgramTest):
             said = self.complaint("view", *words)
             self.assertIn(f"knows no flag {wrong}", said)
             self.assertIn(f"did you mean {meant}?", said)
+        self.write("-a.off", box(1))
+        self.assertIn("knows no flag -a.off; ./-a.off is the file of this name", self.complaint("view", "-a.off"))
         self.assertIn("did you mean --direction?", self.complaint("render", FAN, "--directoin", "1,2,3", "-o", "b.png"))
 
     def test_numbers(self):
