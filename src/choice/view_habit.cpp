@@ -18,7 +18,7 @@ constexpr double kAlongAxis = 0.99;
 // choices, or to half of the table if it is that small: one odd choice is no habit. [ours]
 constexpr double kWiden = 1.1;
 constexpr double kLeastChoices = 2.0;
-// What every choice weighs, however unlike its shape: a shape like no other has their mean. [ours]
+// What every choice weighs at least, however unlike its shape. [ours]
 constexpr double kLeastWeight = 1e-4;
 
 double squared_distance(const ShapeProportions& a, const ShapeProportions& b, double mirror) {

@@ -123,6 +123,13 @@ class Thumb(ProgramTest):
         self.assertAlmostEqual(sum(x * x for x in said["direction"]), 1.0, 9)
         self.assertEqual((said["size"], said["up"]), (256, "z"))
 
+    def test_it_tells_what_it_is_unsure_of(self):
+        deer = MODELS / "deer.ply"
+        said = json.loads(self.vantage("thumb", deer, "t.png", "-s", 32, "--json").out)["warnings"]
+        self.assertTrue(any(note.startswith("front is unsure: ") for note in said), said)
+        self.assertIn("note: " + said[0], self.vantage("thumb", deer, "t.png", "-s", 32, "-v").err)
+        self.assertNotIn("front is unsure", self.vantage("thumb", deer, "t.png", "-s", 32).err)
+
     def test_its_view_is_about_as_good_as_the_best(self):
         best = json.loads(self.vantage("view", FAN, "--no-images", "-o", "r", "--json").out)["best"]
         said = json.loads(self.vantage("thumb", FAN, "fan.png", "--json").out)
