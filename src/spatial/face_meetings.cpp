@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -13,6 +14,7 @@
 #include "vantage/mesh/tri_mesh.h"
 
 #include "spatial/close_faces.h"
+#include "spatial/winding_number.h"
 
 namespace vantage {
 namespace {
@@ -26,6 +28,9 @@ constexpr double kFlatPart = 1e-9;
 
 // Steps a face that the search for faces near each other may take; a fine mesh takes thirty.
 constexpr std::size_t kStepsPerFace = 100;
+
+// Patches looked at of a shell that meets itself, at most: each takes a walk over its faces. [ours]
+constexpr std::size_t kMostPatches = 16;
 
 using Corners = std::array<Vec3, 3>;
 
@@ -61,6 +66,7 @@ class BackCheck {
       : mesh_(mesh),
         edges_(edges),
         hides_(mesh.triangles.size(), 0),
+        meets_itself_(mesh.triangles.size(), 0),
         crossed_(mesh.triangles.size(), 0) {
     for (const Triangle& face : mesh.triangles) {
       normals_.push_back(area_vector(mesh, face));
@@ -72,8 +78,18 @@ class BackCheck {
     check_volumes();
     check_meetings();
     std::vector<std::uint8_t> back_faces(hides_.size());
+    std::map<std::uint32_t, std::vector<std::uint32_t>>
+        crossing;  // faces of shells that meet themselves
     for (std::uint32_t f = 0; f < back_faces.size(); ++f) {
-      back_faces[f] = hides_[edges_.shell_of_face[f]];
+      const std::uint32_t shell = edges_.shell_of_face[f];
+      back_faces[f] = hides_[shell] | meets_itself_[shell];
+      if (meets_itself_[shell] != 0 && hides_[shell] == 0) {
+        crossing[shell].push_back(f);
+      }
+    }
+    std::vector<std::uint8_t> is_done(crossed_);
+    for (const auto& [name, shell] : crossing) {
+      clear_patches(shell, is_done, back_faces);
     }
     return {std::move(back_faces), std::move(crossed_)};
   }
@@ -111,7 +127,7 @@ class BackCheck {
       if (!share_edge(f, g) && (has_edge_in(f, g) || has_edge_in(g, f))) {
         crossed_[f] = crossed_[g] = 1;
         if (edges_.shell_of_face[f] == edges_.shell_of_face[g]) {
-          hides_[edges_.shell_of_face[f]] = 1;
+          meets_itself_[edges_.shell_of_face[f]] = 1;
         }
       }
     };
@@ -119,6 +135,56 @@ class BackCheck {
       std::fill(hides_.begin(), hides_.end(), 1);
       std::fill(crossed_.begin(), crossed_.end(), 1);
     }
+  }
+
+  /// Sets to 0 the faces outside of which a shell has no negative winding number. It is the same all over
+  /// a patch, whose faces edges hold together and no other face crosses.
+  void clear_patches(const std::vector<std::uint32_t>& shell, std::vector<std::uint8_t>& is_done,
+                     std::vector<std::uint8_t>& back_faces) const {
+    for (const std::uint32_t first : shell) {
+      if (is_done[first] != 0) {
+        continue;
+      }
+      const std::vector<std::uint32_t> patch = patch_of(first, is_done);
+      if (kMostPatches * patch.size() > shell.size() && winds_forwards(patch, shell)) {
+        for (const std::uint32_t f : patch) {
+          back_faces[f] = 0;
+        }
+      }
+    }
+  }
+
+  /// The faces that can be reached from one over edges, none of them done; they are then.
+  [[nodiscard]] std::vector<std::uint32_t> patch_of(std::uint32_t first,
+                                                    std::vector<std::uint8_t>& is_done) const {
+    std::vector<std::uint32_t> patch{first};
+    is_done[first] = 1;
+    for (std::size_t next = 0; next < patch.size(); ++next) {
+      for (const std::uint32_t edge : edges_.of_face[patch[next]]) {
+        for (const std::uint32_t f : edges_.beside[edge]) {
+          if (is_done[f] == 0) {
+            is_done[f] = 1;
+            patch.push_back(f);
+          }
+        }
+      }
+    }
+    return patch;
+  }
+
+  /// Whether the shell's winding number outside of the patch is 0 or more, beyond doubt.
+  [[nodiscard]] bool winds_forwards(const std::vector<std::uint32_t>& patch,
+                                    std::vector<std::uint32_t> shell) const {
+    const std::uint32_t largest =
+        *std::max_element(patch.begin(), patch.end(), [&](std::uint32_t f, std::uint32_t g) {
+          return normals_[f].squaredNorm() < normals_[g].squaredNorm();
+        });
+    std::erase(shell, largest);
+    const auto& [a, b, c] = mesh_.triangles[largest];
+    const Vec3 middle = (mesh_.positions[a] + mesh_.positions[b] + mesh_.positions[c]) / 3.0;
+    constexpr double kDoubt = 0.1;
+    const double outside = winding_number(mesh_, shell, middle) - 0.5;
+    return outside > -0.5 && std::abs(outside - std::round(outside)) < kDoubt;
   }
 
   /// Whether every edge of either face shares a sample with the other.
@@ -160,8 +226,10 @@ class BackCheck {
 
   const TriMesh& mesh_;
   const SurfaceEdges& edges_;
-  std::vector<Vec3> normals_{};        // of each face, of twice its area
-  std::vector<std::uint8_t> hides_;    // of the face that each shell is named after
+  std::vector<Vec3> normals_{};  // of each face, of twice its area
+  // Of the face that each shell is named after: whether it is open, wound inwards or too crowded to
+  // tell; whether it meets itself.
+  std::vector<std::uint8_t> hides_, meets_itself_;
   std::vector<std::uint8_t> crossed_;  // of each face
 };
 

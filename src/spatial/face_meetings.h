@@ -10,10 +10,11 @@
 
 /// \file
 /// Faces that meet others elsewhere than at corners and edges that they share, and what that says of
-/// back faces. A shell is made of faces that edges hold together. On a closed one that is wound outwards
-/// and nowhere meets itself, a line of sight that passes a back enters the shell, and to reach an eye
-/// outside it must leave through a front: what the back hides that front hides too, whatever other
-/// shells do.
+/// back faces. A shell is made of faces that edges hold together. From an eye outside a closed one, the
+/// number of times that it winds around a place is that of fronts less that of backs on the line of sight to
+/// the place. So its backs hide what its fronts do not only where the number is negative, and then there is one
+/// among them with a negative number on its outer side. A shell that is wound outwards and nowhere meets itself
+/// has none; where limbs pass through each other the number is 2. Other shells change nothing.
 
 namespace vantage {
 

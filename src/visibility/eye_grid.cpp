@@ -316,6 +316,11 @@ struct EyeGrid::Walk {
         limit_each(most / std::max<std::size_t>(1, of.faces.size()) + 1),
         ahead(of.faces.size() / kAhead + 1) {}
 
+  /// Whether one of a block's faces is asked.
+  [[nodiscard]] bool asks_any(std::size_t first, std::size_t last) const {
+    return asked.empty() || std::memchr(asked.data() + first, 1, last - first) != nullptr;
+  }
+
   /// Whether it is too much work for so many faces.
   [[nodiscard]] bool is_too_much(std::size_t work, std::size_t faces) const {
     return work >= limit_each * (faces + ahead) || spent.load(std::memory_order_relaxed) > limit;
@@ -357,10 +362,11 @@ VANTAGE_INLINE void EyeGrid::walk_blocks(Walk& walk, std::size_t begin, std::siz
     const std::size_t block = first / FaceBlocks::kFaces;
     const std::uint8_t all = turned_->of_block[block];
     const EyePicture::Extent& extent = picture_.extent_of(block);
-    if ((all != 0 && all != walk.side) || behind_all(extent.low[2], picture_.cells_of(extent))) {
+    const std::size_t last = std::min(end, first + FaceBlocks::kFaces);
+    if ((all != 0 && all != walk.side) || !walk.asks_any(first, last) ||
+        behind_all(extent.low[2], picture_.cells_of(extent))) {
       continue;
     }
-    const std::size_t last = std::min(end, first + FaceBlocks::kFaces);
     for (std::size_t f = first; f < last; ++f) {
       if ((all == 0 && (turned_->of_face[f] == 2) != (walk.side == 2)) ||
           (!walk.asked.empty() && walk.asked[f] == 0)) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -65,6 +66,19 @@ void expect_no_change(const TriMesh& mesh, const std::vector<FaceSides>& sides) 
   }
 }
 
+/// Whether it makes no difference to know about many eyes.
+void expect_same_for_many(const TriMesh& mesh, const std::vector<FaceSides>& sides) {
+  const VertexVisibility one(mesh, sides);
+  const VertexVisibility many(mesh, sides, 1000);
+  for (const Vec3& towards : direction_set(ViewSphereBase::Icosahedron, 2).directions) {
+    for (const Viewpoint& eye : {Viewpoint{Projection::Orthographic, towards},
+                                 Viewpoint{Projection::Perspective, 5.0 * towards},
+                                 Viewpoint{Projection::Perspective, 0.4 * towards}}) {
+      ASSERT_EQ(one.visible_vertices(eye), many.visible_vertices(eye)) << towards.transpose();
+    }
+  }
+}
+
 TEST(HidingBacks, AreNoneOfShellsThatAreClosedAndOutward) {
   EXPECT_EQ(backs_of(test::box(1.0, 2.0, 3.0, 2)).asked, 0U);
   EXPECT_EQ(backs_of(test::torus(1.0, 0.3, 20, 12)).asked, 0U);
@@ -86,12 +100,35 @@ TEST(HidingBacks, AreCountedShellByShell) {
             (Count{12, 24}));
 }
 
-TEST(HidingBacks, AreAllOfAShellThatPassesThroughItself) {
-  // Edges pass through faces, and, straight below, exactly through edges and the corner between.
-  EXPECT_EQ(backs_of(funnel(1.5, Vec3(0.1, 0.03, 0.0))), (Count{48, 48}));
-  EXPECT_EQ(backs_of(funnel(2.0)), (Count{48, 48}));
-  EXPECT_EQ(backs_of(funnel(1.0, Vec3(0.1, 0.03, 0.0))), (Count{48, 48}));  // a touch
+/// A bar bent to a ring so far that one end lies in the other.
+TriMesh ring_through_itself() {
+  TriMesh mesh = test::box(12.0, 1.0, 1.0, 12);
+  for (Vec3& p : mesh.positions) {
+    const double angle = -0.56 * p.x();  // more than once around
+    const double radius = 3.0 + p.y();
+    p = Vec3(radius * std::cos(angle), radius * std::sin(angle), p.z() + 0.03 * p.x());
+  }
+  return mesh;
+}
+
+TEST(HidingBacks, AreThoseOfAPocketAndOfWhatIsCrossed) {
+  // Edges pass through faces, and, straight below, exactly through edges and the corner between. The
+  // four faces that are crossed, and the eight of the funnel, outside of which the box is inside out.
+  EXPECT_EQ(backs_of(funnel(1.5, Vec3(0.1, 0.03, 0.0))), (Count{12, 48}));
+  EXPECT_EQ(backs_of(funnel(2.0)), (Count{12, 48}));
+  EXPECT_EQ(backs_of(funnel(1.0, Vec3(0.1, 0.03, 0.0))), (Count{7, 48}));  // a touch
   EXPECT_EQ(backs_of(funnel(1.0)), (Count{0, 48}));  // corners that are one enclose nothing
+  // Inside out, its pocket is the right way around, and all else is not.
+  EXPECT_EQ(backs_of(test::inside_out(funnel(1.5, Vec3(0.1, 0.03, 0.0)))), (Count{48, 48}));
+}
+
+TEST(HidingBacks, AreOnlyThoseThatAreCrossedWhereLimbsPassThroughEachOther) {
+  const TriMesh ring = ring_through_itself();
+  const Count backs = backs_of(ring);
+  EXPECT_GT(backs.asked, 0U);
+  EXPECT_LT(4 * backs.asked, backs.all);
+  expect_no_change(ring, {FaceSides::Front});
+  expect_same_for_many(ring, {FaceSides::Front});
 }
 
 TEST(HidingBacks, OfAPocketHideWhatNoFrontHides) {
@@ -121,19 +158,6 @@ TEST(HidingBacks, AreAllOfWhatIsTooCrowdedToLookAt) {
   };
   EXPECT_EQ(backs_of(needles(5)), (Count{0, 60}));
   EXPECT_EQ(backs_of(needles(60)), (Count{720, 720}));
-}
-
-/// Whether it makes no difference to know about many eyes.
-void expect_same_for_many(const TriMesh& mesh, const std::vector<FaceSides>& sides) {
-  const VertexVisibility one(mesh, sides);
-  const VertexVisibility many(mesh, sides, 1000);
-  for (const Vec3& towards : direction_set(ViewSphereBase::Icosahedron, 2).directions) {
-    for (const Viewpoint& eye : {Viewpoint{Projection::Orthographic, towards},
-                                 Viewpoint{Projection::Perspective, 5.0 * towards},
-                                 Viewpoint{Projection::Perspective, 0.4 * towards}}) {
-      ASSERT_EQ(one.visible_vertices(eye), many.visible_vertices(eye)) << towards.transpose();
-    }
-  }
 }
 
 TEST(HidingBacks, AreLeftOutForManyEyesAndChangeNothing) {
