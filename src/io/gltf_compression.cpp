@@ -17,6 +17,7 @@
 #include "core/parallel.h"
 #include "io/draco_mesh.h"
 #include "io/gltf_accessor.h"
+#include "io/gltf_json.h"
 
 namespace vantage {
 namespace {
@@ -32,32 +33,19 @@ constexpr std::size_t kMostBytesPerByte = 64;
 /// … and in any case, room for a million corners. [ours]
 constexpr std::size_t kMostBytesOfSmallFile = 16'000'000;
 
-/// A member of an object; null if there is none.
-const Json* member(const Json* object, const char* name) {
-  if (object == nullptr || !object->is_object()) {
-    return nullptr;
-  }
-  const auto found = object->find(name);
-  return found == object->end() ? nullptr : &*found;
-}
-
-const Json* extension(const Json& object, const char* name) {
-  return member(member(&object, "extensions"), name);
-}
-
 /// A member that counts something; `otherwise` if it is not there, nothing if it is no such number.
 std::optional<std::size_t> count(const Json& object, const char* name,
                                  std::optional<std::size_t> otherwise = std::nullopt) {
-  const Json* value = member(&object, name);
-  if (value == nullptr) {
+  const Json& value = member(object, name);
+  if (value.is_null()) {
     return otherwise;
   }
-  return value->is_number_unsigned() ? std::optional(value->get<std::size_t>()) : std::nullopt;
+  return value.is_number_unsigned() ? std::optional(value.get<std::size_t>()) : std::nullopt;
 }
 
 std::string text(const Json& object, const char* name, const char* otherwise) {
-  const Json* value = member(&object, name);
-  return value != nullptr && value->is_string() ? value->get<std::string>() : otherwise;
+  const Json& value = member(object, name);
+  return value.is_string() ? value.get<std::string>() : otherwise;
 }
 
 /// A run of packed bytes and what becomes of it.
@@ -121,11 +109,12 @@ class Unpacker {
         bytes_left_(kMostBytesOfSmallFile + kMostBytesPerByte * document.total_bytes) {}
 
   void unpack_views() {
-    const Json* views = member(&root_, "bufferViews");
-    const std::size_t in_json = views != nullptr && views->is_array() ? views->size() : 0;
+    const Json& views = member(root_, "bufferViews");
+    const std::size_t in_json = views.is_array() ? views.size() : 0;
     for (std::size_t v = 0; v < std::min(gltf_.bufferViews.size(), in_json); ++v) {
-      if (const Json* packed = extension((*views)[v], kMeshopt)) {
-        unpack_view(v, *packed);
+      const Json& packed = extension(views[v], kMeshopt);
+      if (!packed.is_null()) {
+        unpack_view(v, packed);
       }
     }
   }
@@ -136,7 +125,7 @@ class Unpacker {
       for (tinygltf::Primitive& primitive : mesh.primitives) {
         const tinygltf::Value& number = primitive.extras.Get(kPrimitiveNumber);
         const auto p = static_cast<std::size_t>(number.IsInt() ? number.GetNumberAsInt() : -1);
-        if (p < packs.size() && packs[p] != nullptr) {
+        if (p < packs.size() && !packs[p]->is_null()) {
           unpack_primitive(primitive, *packs[p]);
         }
       }
@@ -144,18 +133,12 @@ class Unpacker {
   }
 
  private:
-  /// Of every primitive of the file what Draco packed, null where it is plain.
+  /// Of every primitive of the file what Draco packed, kNoJson where it is plain.
   [[nodiscard]] std::vector<const Json*> packs_of_primitives() const {
     std::vector<const Json*> packs;
-    const Json* meshes = member(&root_, "meshes");
-    if (meshes == nullptr) {
-      return packs;
-    }
-    for (const Json& mesh : *meshes) {
-      if (const Json* primitives = member(&mesh, "primitives")) {
-        for (const Json& primitive : *primitives) {
-          packs.push_back(extension(primitive, kDraco));
-        }
+    for (const Json& mesh : member(root_, "meshes")) {
+      for (const Json& primitive : member(mesh, "primitives")) {
+        packs.push_back(&extension(primitive, kDraco));
       }
     }
     return packs;
@@ -227,8 +210,7 @@ class Unpacker {
     std::vector<int*> places;
     std::vector<DracoAttribute> wanted;
     for (auto& [name, accessor] : primitive.attributes) {
-      const Json* ids = member(&json, "attributes");
-      const auto id = ids == nullptr ? std::nullopt : count(*ids, name.c_str());
+      const auto id = count(member(json, "attributes"), name.c_str());
       const bool is_used = name == "POSITION" || name == "COLOR_0" || name.starts_with("TEXCOORD_");
       if (id && is_used) {
         wanted.push_back(wish(static_cast<std::uint32_t>(*id), accessor, who));
@@ -343,13 +325,12 @@ class Unpacker {
 }  // namespace
 
 bool is_fallback_buffer(const Json& buffer) {
-  const Json* meshopt = extension(buffer, kMeshopt);
-  const Json* fallback = member(meshopt, "fallback");
-  return fallback != nullptr && fallback->is_boolean() && fallback->get<bool>();
+  const Json& fallback = member(extension(buffer, kMeshopt), "fallback");
+  return fallback.is_boolean() && fallback.get<bool>();
 }
 
 bool is_packed_primitive(const Json& primitive) {
-  return extension(primitive, kDraco) != nullptr;
+  return !extension(primitive, kDraco).is_null();
 }
 
 void unpack_gltf(const Json& root, GltfDocument& document, const ModelBuilder& builder) {

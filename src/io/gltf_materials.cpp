@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "io/gltf_json.h"
 #include "io/gltf_uri.h"
 #include "io/texture_loader.h"
 
@@ -16,21 +17,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Stands for what a file does not have.
-const Json kNothing{};
-
-/// A member of an object; nothing if it is none or has none.
-const Json& member(const Json& object, const char* name) {
-  const auto found = object.is_object() ? object.find(name) : object.end();
-  return found == object.end() ? kNothing : *found;
-}
-
 /// An item of a list in the root; nothing if there is none.
 const Json& item(const Json& root, const char* list, const Json& index) {
   const Json& items = member(root, list);
   return items.is_array() && index.is_number_unsigned() && index.get<std::size_t>() < items.size()
              ? items[index.get<std::size_t>()]
-             : kNothing;
+             : kNoJson;
 }
 
 double number(const Json& value, double otherwise) {
@@ -41,10 +33,6 @@ double share(const Json& list, std::size_t index, double otherwise) {
   return list.is_array() && index < list.size()
              ? std::clamp(number(list[index], otherwise), 0.0, 1.0)
              : otherwise;
-}
-
-const Json& extension(const Json& object, const char* name) {
-  return member(member(object, "extensions"), name);
 }
 
 /// Where a material says its colour: its factor and its texture have other names in the extension of

@@ -2,7 +2,6 @@
 #include "vantage/pipeline/find_views.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -14,6 +13,7 @@
 #include "pipeline/coarse_surface.h"
 #include "pipeline/describe_view.h"
 #include "pipeline/map_objective.h"
+#include "pipeline/percent.h"
 #include "pipeline/preference.h"
 #include "pipeline/self_check.h"
 #include "pipeline/settled_search.h"
@@ -66,8 +66,8 @@ void warn_of_coarse_epsilon(const SearchOptions& search, ViewReport& report) {
   const double share = search.epsilon / report.total;
   if (search.strategy == SearchStrategy::Rapid && !search.epsilon_is_fraction && share > kCoarse) {
     report.warnings.push_back("the rapid search ends where a ring gains less than epsilon, here " +
-                              std::to_string(std::lround(100.0 * std::min(share, 1e4))) +
-                              " % of the total: give a smaller one, or a share as 0.1%");
+                              percent(std::min(share, 1e4)) +
+                              " of the total: give a smaller one, or a share as 0.1%");
   }
 }
 
@@ -81,8 +81,8 @@ void note_a_view_from_behind(const DirectionChoice& front, const ViewOptions& op
       report.best.direction.dot(front.direction) < kBehind) {
     const std::string name(up_name(report.front));
     report.warnings.push_back("the best view is from behind, if the front is " + name + " (" +
-                              std::to_string(std::lround(100.0 * front.confidence)) +
-                              " % sure); --front " + name + " shows that side");
+                              percent(front.confidence) + " sure); --front " + name +
+                              " shows that side");
   }
 }
 

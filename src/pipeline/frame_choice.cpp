@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -7,6 +6,7 @@
 #include "vantage/io/write.h"
 #include "vantage/pipeline/find_views.h"
 
+#include "pipeline/percent.h"
 #include "pipeline/view_preparation.h"
 
 namespace vantage {
@@ -14,10 +14,6 @@ namespace {
 
 // A choice that is less sure than this gets a note. [ours]
 constexpr double kUnsure = 0.5;
-
-std::string percent(double share) {
-  return std::to_string(static_cast<int>(std::floor(100.0 * share + 0.5))) + " %";
-}
 
 std::string name_of(const Vec3& direction) {
   return std::string(up_name(axis_nearest(direction)));

@@ -15,6 +15,7 @@
 
 #include "core/random.h"
 #include "core/spearman.h"
+#include "pipeline/percent.h"
 #include "pipeline/view_preparation.h"
 
 namespace vantage {
@@ -35,10 +36,6 @@ constexpr std::size_t kMostCycles = 8;
 constexpr std::size_t kNodesOfACycle = 4;
 /// Vertices looked at again for each view, about. [ours]
 constexpr std::size_t kAskedAgain = 4096;
-
-std::string in_percent(double share) {
-  return std::to_string(static_cast<int>(std::lround(100.0 * share))) + " %";
-}
 
 /// Moves each vertex by `distance`, in a random direction of its own.
 void move_vertices(TriMesh& mesh, double distance) {
@@ -111,10 +108,10 @@ void look_at_contraction(const ShapeAnalysis& shape, std::vector<std::string>& w
   }
   if (std::max(thick, significant) > kMinorShare) {
     warnings.push_back(
-        "the surface could not be contracted to a curve (" + in_percent(left) +
-        " of it is left, in parts that hold " + in_percent(thick) + " of it" +
+        "the surface could not be contracted to a curve (" + percent(left) +
+        " of it is left, in parts that hold " + percent(thick) + " of it" +
         (shape.significance.empty() ? ""
-                                    : " and " + in_percent(significant) + " of its significance") +
+                                    : " and " + percent(significant) + " of its significance") +
         "), so that map, skeleton and views are hardly more than a guess: mend the mesh, cut it "
         "into small even triangles, or choose another --method");
   }
@@ -137,7 +134,7 @@ void look_at_map(double agreement, std::vector<std::string>& warnings) {
         "the significance map hangs on how the surface is cut into triangles: on a "
         "copy moved by a ten-thousandth of its size the ranks of its values agree "
         "to " +
-        in_percent(std::max(agreement, 0.0)) +
+        percent(std::max(agreement, 0.0)) +
         " only, so that other views may be as good: unless the shape is so even that all "
         "are, mend the mesh, cut it into small even triangles, or choose another --method");
   }
@@ -145,7 +142,7 @@ void look_at_map(double agreement, std::vector<std::string>& warnings) {
 
 void look_at_skeleton(const ShapeAnalysis& shape, std::vector<std::string>& warnings) {
   if (shape.skeleton.outside_share > kMostOutside) {
-    warnings.push_back(in_percent(shape.skeleton.outside_share) +
+    warnings.push_back(percent(shape.skeleton.outside_share) +
                        " of the skeleton's length is outside the surface, so do not measure by it: "
                        "look at its picture, and close or separate walls that touch");
   }
