@@ -13,7 +13,7 @@
 #include "vantage/core/error.h"
 
 #include "batch/descriptor.h"
-#include "scratch_folder.h"
+#include "support/temporary_folder.h"
 
 namespace vantage::batch {
 namespace {
@@ -29,18 +29,18 @@ std::string text_of(const std::string& path) {
 class ConfinedFolderTest : public ::testing::Test {
  protected:
   ConfinedFolderTest() {
-    fs::create_directories(scratch_.path("own"));
-    fs::create_directories(scratch_.path("victim"));
+    fs::create_directories(scratch_.file("own"));
+    fs::create_directories(scratch_.file("victim"));
     static_cast<void>(scratch_.write("victim/file", "mine"));
-    fs::create_symlink("../victim", scratch_.path("own/link"));
+    fs::create_symlink("../victim", scratch_.file("own/link"));
   }
 
   void expect_untouched() const {
-    EXPECT_EQ(text_of(scratch_.path("victim/file")), "mine");
-    EXPECT_EQ(std::distance(fs::directory_iterator(scratch_.path("victim")), {}), 1);
+    EXPECT_EQ(text_of(scratch_.file("victim/file")), "mine");
+    EXPECT_EQ(std::distance(fs::directory_iterator(scratch_.file("victim")), {}), 1);
   }
 
-  ScratchFolder scratch_{};
+  test::TemporaryFolder scratch_{};
 };
 
 TEST(ConfinedFolder, TakesOnlyNamesThatStayInside) {
@@ -54,9 +54,9 @@ TEST(ConfinedFolder, TakesOnlyNamesThatStayInside) {
 }
 
 TEST_F(ConfinedFolderTest, NeitherWritesNorRemovesNorSeesWhatIsOutside) {
-  const ConfinedFolder folder(scratch_.path("own"));
+  const ConfinedFolder folder(scratch_.file("own"));
   for (const std::string& name :
-       {std::string("link/file"), std::string("../victim/file"), scratch_.path("victim/file")}) {
+       {std::string("link/file"), std::string("../victim/file"), scratch_.file("victim/file")}) {
     EXPECT_FALSE(folder.exists(name)) << name;
     EXPECT_FALSE(folder.remove(name)) << name;
     EXPECT_THROW(folder.write(name, "x"), IoError) << name;
@@ -68,29 +68,29 @@ TEST_F(ConfinedFolderTest, NeitherWritesNorRemovesNorSeesWhatIsOutside) {
 }
 
 TEST_F(ConfinedFolderTest, RemovesALinkAndNotWhatItLeadsTo) {
-  const ConfinedFolder folder(scratch_.path("own"));
-  fs::create_directories(scratch_.path("own/tree/below"));
-  fs::create_symlink("../../../victim", scratch_.path("own/tree/below/link"));
+  const ConfinedFolder folder(scratch_.file("own"));
+  fs::create_directories(scratch_.file("own/tree/below"));
+  fs::create_symlink("../../../victim", scratch_.file("own/tree/below/link"));
   EXPECT_TRUE(folder.remove("tree"));
   EXPECT_TRUE(folder.remove("link"));
-  EXPECT_FALSE(fs::exists(fs::symlink_status(scratch_.path("own/link"))));
+  EXPECT_FALSE(fs::exists(fs::symlink_status(scratch_.file("own/link"))));
   expect_untouched();
 }
 
 TEST_F(ConfinedFolderTest, AFileTakesThePlaceOfALink) {
-  const ConfinedFolder folder(scratch_.path("own"));
-  fs::create_symlink("../victim/file", scratch_.path("own/page"));
+  const ConfinedFolder folder(scratch_.file("own"));
+  fs::create_symlink("../victim/file", scratch_.file("own/page"));
   folder.write("page", "new");
-  EXPECT_EQ(text_of(scratch_.path("own/page")), "new");
-  EXPECT_FALSE(fs::exists(scratch_.path("own/.work/local.part")));
+  EXPECT_EQ(text_of(scratch_.file("own/page")), "new");
+  EXPECT_FALSE(fs::exists(scratch_.file("own/.work/local.part")));
   expect_untouched();
 }
 
 TEST_F(ConfinedFolderTest, OpensNeitherLinksNorPipesNorASecondNameForWriting) {
-  const ConfinedFolder folder(scratch_.path("own"));
-  fs::create_symlink("../victim/file", scratch_.path("own/page"));
-  fs::create_hard_link(scratch_.path("victim/file"), scratch_.path("own/twin"));
-  ::mkfifo(scratch_.path("own/pipe").c_str(), 0600);
+  const ConfinedFolder folder(scratch_.file("own"));
+  fs::create_symlink("../victim/file", scratch_.file("own/page"));
+  fs::create_hard_link(scratch_.file("victim/file"), scratch_.file("own/twin"));
+  ::mkfifo(scratch_.file("own/pipe").c_str(), 0600);
   for (const char* name : {"page", "pipe", "twin", "link"}) {
     EXPECT_LT(Descriptor(folder.open_file(name, O_WRONLY | O_APPEND)).number(), 0) << name;
   }
@@ -99,15 +99,15 @@ TEST_F(ConfinedFolderTest, OpensNeitherLinksNorPipesNorASecondNameForWriting) {
 }
 
 TEST_F(ConfinedFolderTest, MovesAFolderIntoThePlaceOfAnother) {
-  const ConfinedFolder folder(scratch_.path("own"));
-  fs::create_directories(scratch_.path("own/new"));
-  fs::create_directories(scratch_.path("own/models/a"));
+  const ConfinedFolder folder(scratch_.file("own"));
+  fs::create_directories(scratch_.file("own/new"));
+  fs::create_directories(scratch_.file("own/models/a"));
   static_cast<void>(scratch_.write("own/new/x", "new"));
   static_cast<void>(scratch_.write("own/models/a/x", "old"));
   folder.move("new", "models/a");
-  EXPECT_EQ(text_of(scratch_.path("own/models/a/x")), "new");
-  EXPECT_FALSE(fs::exists(scratch_.path("own/new")));
-  fs::create_directories(scratch_.path("own/new"));
+  EXPECT_EQ(text_of(scratch_.file("own/models/a/x")), "new");
+  EXPECT_FALSE(fs::exists(scratch_.file("own/new")));
+  fs::create_directories(scratch_.file("own/new"));
   EXPECT_THROW(folder.move("new", "link/a"), IoError);
   expect_untouched();
 }

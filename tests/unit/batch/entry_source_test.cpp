@@ -10,7 +10,7 @@
 
 #include "vantage/core/error.h"
 
-#include "scratch_folder.h"
+#include "support/temporary_folder.h"
 
 namespace vantage::batch {
 namespace {
@@ -33,25 +33,25 @@ TEST(EntryFilter, TakesReadableFormatsInAnyCaseUnlessToldOtherwise) {
 }
 
 TEST(EntriesOfPaths, WalkFoldersByTheBytesOfNames) {
-  const ScratchFolder scratch;
-  std::filesystem::create_directory(scratch.path("b"));
+  const test::TemporaryFolder scratch;
+  std::filesystem::create_directory(scratch.file("b"));
   for (const char* name : {"c.ply", "a.ply", "b/z.ply", "B.ply"}) {
     static_cast<void>(scratch.write(name, ""));
   }
-  const auto source = entries_of_paths({scratch.path("")}, {}, "", {});
+  const auto source = entries_of_paths({scratch.file("")}, {}, "", {});
   std::vector<std::string> names;
   for (const Entry& entry : all_of(*source)) {
     EXPECT_EQ(entry.position, static_cast<std::int64_t>(names.size()));
     names.push_back(
-        std::filesystem::path(entry.path).lexically_relative(scratch.path("")).string());
+        std::filesystem::path(entry.path).lexically_relative(scratch.file("")).string());
   }
   EXPECT_EQ(names, (std::vector<std::string>{"B.ply", "a.ply", "b/z.ply", "c.ply"}));
 }
 
 TEST(EntriesOfPaths, AreNoResultsOfOurOwn) {
-  const ScratchFolder scratch;
+  const test::TemporaryFolder scratch;
   for (const char* folder : {"a.vantage", "results", "results/models", "theirs"}) {
-    std::filesystem::create_directory(scratch.path(folder));
+    std::filesystem::create_directory(scratch.file(folder));
   }
   for (const char* name : {"a.vantage/a.ply", "a.vantage/map.ply", "a.vantage/camera-best.gltf",
                            "results/results.sqlite", "results/models/b.ply", "theirs/map.ply"}) {
@@ -60,39 +60,39 @@ TEST(EntriesOfPaths, AreNoResultsOfOurOwn) {
   static_cast<void>(scratch.write("a.vantage/view.json", "{\n  \"vantage\": \"0.1.0\"}"));
   static_cast<void>(scratch.write("theirs/view.json", "{}"));
   std::vector<std::string> names;
-  for (const Entry& entry : all_of(*entries_of_paths({scratch.path("")}, {}, "", {}))) {
+  for (const Entry& entry : all_of(*entries_of_paths({scratch.file("")}, {}, "", {}))) {
     names.push_back(
-        std::filesystem::path(entry.path).lexically_relative(scratch.path("")).string());
+        std::filesystem::path(entry.path).lexically_relative(scratch.file("")).string());
   }
   EXPECT_EQ(names, (std::vector<std::string>{"a.vantage/a.ply", "theirs/map.ply"}));
 }
 
 TEST(EntriesOfPaths, DoNotWaitForAPipeThatIsNamedLikeResults) {
-  const ScratchFolder scratch;
-  ASSERT_EQ(::mkfifo(scratch.path("view.json").c_str(), 0600), 0);
+  const test::TemporaryFolder scratch;
+  ASSERT_EQ(::mkfifo(scratch.file("view.json").c_str(), 0600), 0);
   static_cast<void>(scratch.write("map.ply", ""));
-  EXPECT_EQ(all_of(*entries_of_paths({scratch.path("")}, {}, "", {})).size(), 1U);
+  EXPECT_EQ(all_of(*entries_of_paths({scratch.file("")}, {}, "", {})).size(), 1U);
 }
 
 TEST(EntriesOfPaths, DoNotFollowLinksToFolders) {
-  const ScratchFolder scratch;
-  std::filesystem::create_directory_symlink(".", scratch.path("loop"));
+  const test::TemporaryFolder scratch;
+  std::filesystem::create_directory_symlink(".", scratch.file("loop"));
   static_cast<void>(scratch.write("a.ply", ""));
-  EXPECT_EQ(all_of(*entries_of_paths({scratch.path("")}, {}, "", {})).size(), 1U);
+  EXPECT_EQ(all_of(*entries_of_paths({scratch.file("")}, {}, "", {})).size(), 1U);
 }
 
 TEST(EntriesOfManifest, PathsAreRelativeToItsFolder) {
-  const ScratchFolder scratch;
+  const test::TemporaryFolder scratch;
   const auto source = entries_of_manifest(scratch.write("list", "a.ply\n/b.ply\n"));
   const std::vector<Entry> entries = all_of(*source);
   ASSERT_EQ(entries.size(), 2U);
   EXPECT_EQ(entries[0].key, "a.ply");
-  EXPECT_EQ(entries[0].path, scratch.path("a.ply"));
+  EXPECT_EQ(entries[0].path, scratch.file("a.ply"));
   EXPECT_EQ(entries[1].path, "/b.ply");
 }
 
 TEST(EntriesOfManifest, CellsOfCsvMayHoldCommasQuotesAndLineEnds) {
-  const ScratchFolder scratch;
+  const test::TemporaryFolder scratch;
   const auto source = entries_of_manifest(
       scratch.write("list.csv", "name,path,up\n\"a \"\"b\"\"\",\"c,d\ne.ply\",-z\n"));
   const std::vector<Entry> entries = all_of(*source);
@@ -104,14 +104,14 @@ TEST(EntriesOfManifest, CellsOfCsvMayHoldCommasQuotesAndLineEnds) {
 
 // Found by fuzzing: any line with a field of that name was an entry of ours, without path or key.
 TEST(EntriesOfManifest, AFieldCalledPlannedMakesNoPlan) {
-  const ScratchFolder scratch;
+  const test::TemporaryFolder scratch;
   const auto source = entries_of_manifest(
       scratch.write("list", "{\"planned\": 2}\n{\"planned\": true, \"path\": \"a.ply\"}\n"));
   const std::vector<Entry> entries = all_of(*source);
   ASSERT_EQ(entries.size(), 2U);
   EXPECT_EQ(entries[0].problem, "line 1 of the manifest names no path");
   EXPECT_EQ(entries[1].problem, "");
-  EXPECT_EQ(entries[1].path, scratch.path("a.ply"));
+  EXPECT_EQ(entries[1].path, scratch.file("a.ply"));
   EXPECT_EQ(entries[1].key, "a.ply");
 }
 

@@ -7,7 +7,7 @@
 
 #include "vantage/core/error.h"
 
-#include "scratch_folder.h"
+#include "support/temporary_folder.h"
 
 namespace vantage::batch {
 namespace {
@@ -34,9 +34,9 @@ std::string column(ResultsStore& store, const std::string& name) {
 }
 
 TEST(ResultsStore, ARecordReadsBackAfterReopening) {
-  const ScratchFolder scratch;
-  { ResultsStore(scratch.path(), Database::Mode::Create).put(record("k", 3, "c")); }
-  ResultsStore store(scratch.path(), Database::Mode::Read);
+  const test::TemporaryFolder scratch;
+  { ResultsStore(scratch.file(), Database::Mode::Create).put(record("k", 3, "c")); }
+  ResultsStore store(scratch.file(), Database::Mode::Read);
   const auto read = store.find("k");
   ASSERT_TRUE(read);
   EXPECT_EQ(read->position, 3);
@@ -45,27 +45,27 @@ TEST(ResultsStore, ARecordReadsBackAfterReopening) {
 }
 
 TEST(ResultsStore, KeepsWhatFilesBesideAModelWereLike) {
-  const ScratchFolder scratch;
+  const test::TemporaryFolder scratch;
   ModelRecord made = record("k", 3, "c");
   made.beside = {{"a.mtl", {10, 20, 30}}, {"Bilder/ö.png", {}}};
-  { ResultsStore(scratch.path(), Database::Mode::Create).put(made); }
-  ResultsStore store(scratch.path(), Database::Mode::Read);
+  { ResultsStore(scratch.file(), Database::Mode::Create).put(made); }
+  ResultsStore store(scratch.file(), Database::Mode::Read);
   EXPECT_EQ(store.find("k")->beside, made.beside);
 }
 
 TEST(ResultsStore, AStoreOfBeforeThatIsReadAndGoesOn) {
-  const ScratchFolder scratch;
-  { ResultsStore(scratch.path(), Database::Mode::Create).put(record("k", 3, "c")); }
+  const test::TemporaryFolder scratch;
+  { ResultsStore(scratch.file(), Database::Mode::Create).put(record("k", 3, "c")); }
   {
-    Database database(scratch.path() + "/" + ResultsStore::kFileName, Database::Mode::Create);
+    Database database(scratch.file() + "/" + ResultsStore::kFileName, Database::Mode::Create);
     database.run("ALTER TABLE models DROP COLUMN beside; PRAGMA user_version = 1");
   }
   {
-    ResultsStore store(scratch.path(), Database::Mode::Read);
+    ResultsStore store(scratch.file(), Database::Mode::Read);
     EXPECT_EQ(store.find("k")->position, 3);
     EXPECT_TRUE(store.find("k")->beside.empty());
   }
-  ResultsStore store(scratch.path(), Database::Mode::Create);
+  ResultsStore store(scratch.file(), Database::Mode::Create);
   EXPECT_EQ(store.find("k")->position, 3);
   ModelRecord made = record("new", 4, "d");
   made.beside = {{"a.mtl", {10, 20, 30}}};
@@ -74,8 +74,8 @@ TEST(ResultsStore, AStoreOfBeforeThatIsReadAndGoesOn) {
 }
 
 TEST(ResultsStore, EqualModelsStandForOneHoweverManyOfThemWereRun) {
-  const ScratchFolder scratch;
-  ResultsStore store(scratch.path(), Database::Mode::Create);
+  const test::TemporaryFolder scratch;
+  ResultsStore store(scratch.file(), Database::Mode::Create);
   store.put(record("a", 5, "same"));
   store.put(record("b", 1, "same"));
   store.put(record("c", 9, "other"));
@@ -86,8 +86,8 @@ TEST(ResultsStore, EqualModelsStandForOneHoweverManyOfThemWereRun) {
 }
 
 TEST(ResultsStore, ModelsThatCouldNotBeReadAreNotEqual) {
-  const ScratchFolder scratch;
-  ResultsStore store(scratch.path(), Database::Mode::Create);
+  const test::TemporaryFolder scratch;
+  ResultsStore store(scratch.file(), Database::Mode::Create);
   store.put(record("a", 0, "", "failed"));
   store.put(record("b", 1, "", "failed"));
   EXPECT_EQ(store.counts().failed, 2);
@@ -95,28 +95,28 @@ TEST(ResultsStore, ModelsThatCouldNotBeReadAreNotEqual) {
 }
 
 TEST(ResultsStore, MergingTwiceChangesNothing) {
-  const ScratchFolder scratch;
-  ResultsStore store(scratch.path(), Database::Mode::Create);
+  const test::TemporaryFolder scratch;
+  ResultsStore store(scratch.file(), Database::Mode::Create);
   EXPECT_TRUE(store.merge(record("a", 0, "A")));
   EXPECT_FALSE(store.merge(record("a", 0, "A")));
   EXPECT_FALSE(store.merge(record("a", 0, "A", "failed")));
 }
 
 TEST(ResultsStore, AFolderWithoutOneIsRefusedForReading) {
-  const ScratchFolder scratch;
-  EXPECT_THROW(ResultsStore(scratch.path(), Database::Mode::Read), IoError);
+  const test::TemporaryFolder scratch;
+  EXPECT_THROW(ResultsStore(scratch.file(), Database::Mode::Read), IoError);
 }
 
 TEST(ResultsStore, AFileThatIsNoDatabaseIsRefused) {
-  const ScratchFolder scratch;
+  const test::TemporaryFolder scratch;
   const std::string path =
       scratch.write(ResultsStore::kFileName, std::string(4096, 'x') + "no database at all");
-  EXPECT_THROW(ResultsStore(scratch.path(), Database::Mode::Create), IoError) << path;
+  EXPECT_THROW(ResultsStore(scratch.file(), Database::Mode::Create), IoError) << path;
 }
 
 TEST(ResultsStore, FindsAllModelsOfOneContentOptionsAndVersion) {
-  const ScratchFolder scratch;
-  ResultsStore store(scratch.path(), Database::Mode::Create);
+  const test::TemporaryFolder scratch;
+  ResultsStore store(scratch.file(), Database::Mode::Create);
   ModelRecord other = record("d", 3, "A");
   other.options = "another";
   for (const ModelRecord& each :
@@ -131,8 +131,8 @@ TEST(ResultsStore, FindsAllModelsOfOneContentOptionsAndVersion) {
 }
 
 TEST(ResultsStore, KeysMayHoldQuotesAndLineEnds) {
-  const ScratchFolder scratch;
-  ResultsStore store(scratch.path(), Database::Mode::Create);
+  const test::TemporaryFolder scratch;
+  ResultsStore store(scratch.file(), Database::Mode::Create);
   const std::string key = "'); DROP TABLE models;--\n\"";
   store.put(record(key, 0, "A"));
   EXPECT_TRUE(store.find(key));

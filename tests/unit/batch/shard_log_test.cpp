@@ -12,7 +12,7 @@
 #include "vantage/core/error.h"
 
 #include "batch/content_hash.h"
-#include "scratch_folder.h"
+#include "support/temporary_folder.h"
 
 namespace vantage::batch {
 namespace {
@@ -51,8 +51,8 @@ TEST(ParseShard, TakesAnIndexBelowItsCount) {
 }
 
 TEST(ShardLog, FindsAllOfOneContentAndKeepsAFolderWithTheOneThatTookIt) {
-  const ScratchFolder scratch;
-  ShardLog log(scratch.path(), {0, 2});
+  const test::TemporaryFolder scratch;
+  ShardLog log(scratch.file(), {0, 2});
   ModelRecord first = record("first", 1, "same");
   ModelRecord second = record("second", 2, "same");
   second.folder = first.folder;
@@ -66,8 +66,8 @@ TEST(ShardLog, FindsAllOfOneContentAndKeepsAFolderWithTheOneThatTookIt) {
 }
 
 TEST(ShardLog, FindsTheFirstOfEqualContentByPosition) {
-  const ScratchFolder scratch;
-  ShardLog log(scratch.path(), {0, 2});
+  const test::TemporaryFolder scratch;
+  ShardLog log(scratch.file(), {0, 2});
   log.put(record("late", 9, "same"));
   log.put(record("early", 2, "same"));
   EXPECT_EQ(log.find_content(record("new", 5, "same"))->key, "early");
@@ -75,15 +75,15 @@ TEST(ShardLog, FindsTheFirstOfEqualContentByPosition) {
 }
 
 TEST(ShardLog, RecordsSurviveWithoutFinishAndATornLineIsPassedOver) {
-  const ScratchFolder scratch;
+  const test::TemporaryFolder scratch;
   {
-    ShardLog log(scratch.path(), {0, 2});
+    ShardLog log(scratch.file(), {0, 2});
     log.put(record("a", 0, "A"));
     log.put(record("b", 1, "B"));
   }
-  const std::string file = scratch.path("shards/shard-00000-of-00002.jsonl");
+  const std::string file = scratch.file("shards/shard-00000-of-00002.jsonl");
   std::ofstream(file + ".log", std::ios::app) << R"({"key": "torn", "posi)";
-  ShardLog log(scratch.path(), {0, 2});
+  ShardLog log(scratch.file(), {0, 2});
   EXPECT_TRUE(log.find("a"));
   EXPECT_TRUE(log.find("b"));
   EXPECT_FALSE(log.find("torn"));
@@ -93,12 +93,12 @@ TEST(ShardLog, RecordsSurviveWithoutFinishAndATornLineIsPassedOver) {
 TEST(ShardLog, WritesTheSameBytesInWhateverOrderModelsEnd) {
   std::vector<std::string> files;
   for (const bool forward : {true, false}) {
-    const ScratchFolder scratch;
-    ShardLog log(scratch.path(), {0, 2});
+    const test::TemporaryFolder scratch;
+    ShardLog log(scratch.file(), {0, 2});
     log.put(forward ? record("a", 0, "A") : record("b", 1, "B"));
     log.put(forward ? record("b", 1, "B") : record("a", 0, "A"));
     log.finish();
-    std::ifstream stream(scratch.path("shards/shard-00000-of-00002.jsonl"));
+    std::ifstream stream(scratch.file("shards/shard-00000-of-00002.jsonl"));
     files.emplace_back(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
   }
   EXPECT_EQ(files[0], files[1]);

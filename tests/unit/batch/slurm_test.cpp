@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "unit/batch/scratch_folder.h"
+#include "support/temporary_folder.h"
 
 namespace vantage::batch {
 namespace {
@@ -21,23 +21,23 @@ std::string content_of(const std::string& file) {
 // The script is the one place where words of ours meet a shell: it is run, with a program that puts
 // down its arguments in place of the shard.
 TEST(SlurmScript, HandsItsWordsOnWhateverIsInThem) {
-  const ScratchFolder scratch;
-  const std::string taken = scratch.path("taken");
+  const test::TemporaryFolder scratch;
+  const std::string taken = scratch.file("taken");
   const std::vector<std::string> words = {"it's", "$(touch evil)",  "`touch evil`", "a b\nc",
                                           "--",   "-x; touch evil", "\"q\" \\ *"};
-  SlurmRequest request{.folder = scratch.path("it's $(touch evil)"), .shards = 3};
+  SlurmRequest request{.folder = scratch.file("it's $(touch evil)"), .shards = 3};
   request.command = {"bash", "-c", "printf '%s\\0' \"$@\" > " + taken, "shard"};
   request.command.insert(request.command.end(), words.begin(), words.end());
   const std::string script = scratch.write("shard.sh", slurm_script(request));
   const std::string run =
-      "cd '" + scratch.path("") + "' && SLURM_ARRAY_TASK_ID=2 bash '" + script + "' 2>&1";
+      "cd '" + scratch.file("") + "' && SLURM_ARRAY_TASK_ID=2 bash '" + script + "' 2>&1";
   ASSERT_EQ(std::system(run.c_str()), 0);
   std::string expected;
   for (const std::string& word : words) {
     expected += word + std::string(1, '\0');
   }
   EXPECT_EQ(content_of(taken), expected + std::string("--shard\0002/3\0", 12));
-  EXPECT_FALSE(std::filesystem::exists(scratch.path("evil")));
+  EXPECT_FALSE(std::filesystem::exists(scratch.file("evil")));
 }
 
 TEST(IndexRanges, JoinWhatFollowsEachOther) {

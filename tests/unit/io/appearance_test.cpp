@@ -13,7 +13,7 @@
 #include "io/model_builder.h"
 #include "io/readers.h"
 #include "io/texture_loader.h"
-#include "unit/io/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace vantage::test {
 namespace {

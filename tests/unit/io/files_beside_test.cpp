@@ -8,7 +8,7 @@
 #include "vantage/io/write.h"
 
 #include "io/byte_cursor.h"
-#include "unit/io/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace vantage::test {
 namespace {

@@ -9,7 +9,7 @@
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
 
-#include "unit/io/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace vantage::test {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "io/files.h"
 #include "support/shapes.h"
-#include "unit/io/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace vantage::test {
 namespace {

@@ -20,8 +20,8 @@
 #include "report/agreement.h"
 #include "report/constant_camera.h"
 #include "support/shapes.h"
+#include "support/temporary_folder.h"
 #include "support/worst.h"
-#include "unit/io/temporary_folder.h"
 
 namespace vantage {
 namespace {

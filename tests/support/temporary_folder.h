@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 
@@ -30,7 +31,16 @@ class TemporaryFolder {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-  [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
+  /// The path of what has this name in it; the folder's own without a name.
+  [[nodiscard]] std::string file(const std::string& name = "") const {
+    return (path_ / name).string();
+  }
+
+  /// Writes a file. \return its path.
+  [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return file(name);
+  }
 
  private:
   std::filesystem::path path_;
