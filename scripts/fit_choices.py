@@ -9,7 +9,8 @@ views.csv has archive, model, overlap, azimuth_deg, elevation_deg, dx, dy, dz an
 direction from the model's centre to the eye of its icon, y up and +z in front after the catalogue's rotation.
 Overlaps below 0.88 are left out, and overlaps of 1 in two directions: such an icon has no silhouette, it is opaque all
 over. Where another direction within 0.02 of the overlap is not from below, or else is in front, it is taken. A
-table of rebuild_catalogue.py, with a column confidence, is taken as it is: it has told front from back by colours.
+table of rebuild_catalogue.py, with a column confidence, is taken as it is: it has told front from back by colours,
+and the shipped table is made from it.
 --write replaces src/choice/choice_table.txt, --check compares it with what it would be, --page puts the table
 of errors on models left out between the marks of a page. docs/people.md explains the model. What --cache keeps counts
 for the very program and model that it was measured with; what failed or took too long is tried anew the next time.
@@ -271,8 +272,9 @@ def table_text(entries):
     value, bandwidth, mirror, weights, _ = choose_shape(entries, list(range(len(entries))), 1)
     head = ["# Views that the makers of a furniture catalogue (Debian's sweethome3d-furniture: CC BY 3.0, CC0 and",
             "# public domain) show their things from, and the model made of them: docs/people.md. Written by",
-            "# scripts/fit_choices.py. view: log(up/sqrt(side*front)), log(side/front) of the box, mirror planes of",
-            "# side, front and up, and the direction to the eye along side, up and front."]
+            "# scripts/fit_choices.py from what scripts/rebuild_catalogue.py found. view: log(up/sqrt(side*front)),",
+            "# log(side/front) of the box, mirror planes of side, front and up, and the direction to the eye along",
+            "# side, up and front."]
     return "\n".join(head + ["habit %.2f" % weights[0], "significance %.2f" % weights[1], f"bandwidth {bandwidth}",
                              f"mirror {mirror}"] + [e.line() for e in entries]) + "\n"
 
