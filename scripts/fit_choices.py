@@ -46,6 +46,8 @@ LEAST_CHOICES = 2
 LEAST_SHARE = 1e-3     # as src/pipeline/preference.cpp has it
 BANDWIDTHS, MIRRORS = (0.35, 0.5, 0.7), (0.1, 0.2, 0.3)
 FOLDS = 10
+SPLITS = 3             # into such folds
+SIGNIFICANCE = (0.05, 0.1, 0.15, 0.2, 0.25, 0.3)  # times the habit's weight, tried beside the likelihood's
 FIXED = {"three-quarter (1, 0.6, 1)": (1, 0.6, 1), "f3d's default (1, 0.5, 1)": (1, 0.5, 1),
          "isometric (1, 1, 1)": (1, 1, 1), "straight front": (0, 0, 1)}
 
@@ -222,7 +224,9 @@ def held_out(entries, directions, groups, use):
     errors = np.zeros(len(entries))
     for group in sorted(set(groups)):
         train = [i for i in range(len(entries)) if groups[i] != group]
-        _, _, _, weights, habit = choose_shape(entries, train, use)
+        _, bandwidth, mirror, weights, habit = choose_shape(entries, train, use)
+        if use:
+            weights = most_significance(entries, train, bandwidth, mirror, weights)
         for i in (i for i in range(len(entries)) if groups[i] == group):
             z = np.stack([-habit[i], entries[i].share][:1 + use], 1) @ weights
             errors[i] = entries[i].angles[z.argmax()]
@@ -268,8 +272,30 @@ def table_of(entries, directions):
     return "\n".join([f"{len(entries)} models, {FOLDS} folds.", ""] + lines) + "\n"
 
 
+def most_significance(entries, train, bandwidth, mirror, weights):
+    """The weights with a smaller one of the habit: the least before the error on models left out exceeds that of the
+    weights given by more than a standard error of the difference, as errors do not tell more than that (the
+    one-standard-error rule: Hastie, Tibshirani, Friedman 2009, 7.10). What people's views leave open the significance
+    decides."""
+    ratios = [weights[1] / weights[0], *(ratio for ratio in SIGNIFICANCE if ratio > weights[1] / weights[0])]
+    errors = np.zeros((len(ratios), len(train)))
+    for seed in range(SPLITS):
+        fold_of = np.random.default_rng(seed).permutation(len(train)) % FOLDS
+        for fold in range(FOLDS):
+            habit = habits(entries, [i for i, f in zip(train, fold_of) if f != fold], bandwidth, mirror)
+            for n in np.flatnonzero(fold_of == fold):
+                entry = entries[train[n]]
+                for error, ratio in zip(errors, ratios):
+                    error[n] += entry.angles[(ratio * entry.share - habit[train[n]]).argmax()] / SPLITS
+    more = errors - errors[0]
+    exceeds = more.mean(1) > more.std(1) / np.sqrt(len(train))
+    last = exceeds.argmax() - 1 if exceeds.any() else len(ratios) - 1
+    return np.array([weights[1] / ratios[last], weights[1]])
+
+
 def table_text(entries):
     value, bandwidth, mirror, weights, _ = choose_shape(entries, list(range(len(entries))), 1)
+    weights = most_significance(entries, list(range(len(entries))), bandwidth, mirror, weights)
     head = ["# Views that the makers of a furniture catalogue (Debian's sweethome3d-furniture: CC BY 3.0, CC0 and",
             "# public domain) show their things from, and the model made of them: docs/people.md. Written by",
             "# scripts/fit_choices.py from what scripts/rebuild_catalogue.py found. view: log(up/sqrt(side*front)),",

@@ -17,9 +17,9 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-METHODS = "kssm,pmi-saliency"
+METHODS = "kssm"
 ROWS = {"best possible single view", "another person", "best constant camera, model left out", "three-quarter (1, 0.6, 1)",
-        "vantage view"} | set(METHODS.split(","))
+        "vantage view", METHODS}
 
 LEFT_OUT = ("| f3d", "| isometric", "| straight front", "| best constant camera, archives",
             "| random")

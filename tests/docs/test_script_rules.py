@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 import unittest.mock
 
@@ -152,6 +153,18 @@ class Scripts(unittest.TestCase):
         self.assertIsNone(measure("exit 1", "a"))
         (self.dir / "chair.json").write_text('{"failed": "timed out"}')  # of an older form
         self.assertEqual(measure(works, "a")["total"], 1)
+
+    @unittest.skipUnless(HAS_NUMPY, "numpy is not installed")
+    def test_the_habit_weighs_less_until_that_costs_more_than_a_standard_error(self):
+        import fit_choices
+        import numpy as np
+        angles = np.linspace(0, 1, 21)  # of 21 directions to what was recorded, the same for all
+
+        def weights(share):
+            entries = [types.SimpleNamespace(shape=np.zeros(5), angles=angles + 1e-3 * i, share=share) for i in range(40)]
+            return fit_choices.most_significance(entries, list(range(40)), 0.5, 0.1, np.array([100.0, 1.0])).tolist()
+        self.assertEqual(weights(np.zeros(21)), [1 / max(fit_choices.SIGNIFICANCE), 1.0])  # it costs nothing
+        self.assertEqual(weights(12 * angles), [1 / 0.05, 1.0])  # the next would take the other end
 
 
 if __name__ == "__main__":
