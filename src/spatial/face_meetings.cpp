@@ -78,8 +78,8 @@ class BackCheck {
     check_volumes();
     check_meetings();
     std::vector<std::uint8_t> back_faces(hides_.size());
-    std::map<std::uint32_t, std::vector<std::uint32_t>>
-        crossing;  // faces of shells that meet themselves
+    // The faces of each shell that meets itself.
+    std::map<std::uint32_t, std::vector<std::uint32_t>> crossing;
     for (std::uint32_t f = 0; f < back_faces.size(); ++f) {
       const std::uint32_t shell = edges_.shell_of_face[f];
       back_faces[f] = hides_[shell] | meets_itself_[shell];
