@@ -17,9 +17,9 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-METHODS = "kssm"
+METHOD = "kssm"
 ROWS = {"best possible single view", "another person", "best constant camera, model left out", "three-quarter (1, 0.6, 1)",
-        "vantage view", METHODS}
+        "vantage view", METHOD}
 
 LEFT_OUT = ("| f3d", "| isometric", "| straight front", "| best constant camera, archives",
             "| random")
@@ -27,7 +27,7 @@ LEFT_OUT = ("| f3d", "| isometric", "| straight front", "| best constant camera,
 
 def of_people(program, data, folder):
     """The rows above of the table of views that an evaluation writes."""
-    subprocess.run([program, "eval", data, "-o", folder, "--method", METHODS], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([program, "eval", data, "-o", folder, "--method", METHOD], check=True, stdout=subprocess.DEVNULL)
     lines = (folder / "tables.md").read_text(encoding="utf-8").splitlines()
     start = next(i for i, line in enumerate(lines) if line.startswith("| view | error, folded"))
     count = next(line for line in lines if re.fullmatch(r"\d+ models\.", line))

@@ -112,14 +112,47 @@ TriMesh ring_through_itself() {
 }
 
 TEST(HidingBacks, AreThoseOfAPocketAndOfWhatIsCrossed) {
-  // Edges pass through faces, and, straight below, exactly through edges and the corner between. The
-  // four faces that are crossed, and the eight of the funnel, outside of which the box is inside out.
+  // Edges pass through faces, and, straight below, exactly through edges and the corner between: all
+  // eight faces of the funnel and four of the bottom are crossed.
   EXPECT_EQ(backs_of(funnel(1.5, Vec3(0.1, 0.03, 0.0))), (Count{12, 48}));
   EXPECT_EQ(backs_of(funnel(2.0)), (Count{12, 48}));
   EXPECT_EQ(backs_of(funnel(1.0, Vec3(0.1, 0.03, 0.0))), (Count{7, 48}));  // a touch
   EXPECT_EQ(backs_of(funnel(1.0)), (Count{0, 48}));  // corners that are one enclose nothing
   // Inside out, its pocket is the right way around, and all else is not.
   EXPECT_EQ(backs_of(test::inside_out(funnel(1.5, Vec3(0.1, 0.03, 0.0)))), (Count{48, 48}));
+}
+
+/// A unit box whose top but for a rim is pushed down through its bottom: the floor of this well, which
+/// nothing crosses, has an inside-out room above it.
+TriMesh well_through_the_bottom() {
+  TriMesh mesh = test::box(1.0, 1.0, 1.0, 6);
+  for (Vec3& p : mesh.positions) {
+    const bool is_inner = std::abs(p.x() - 0.5) < 0.4 && std::abs(p.y() - 0.5) < 0.4;
+    if (is_inner && p.z() == 1.0) {
+      p = Vec3(p.x() + 0.01, p.y() + 0.02, -0.2);
+    }
+  }
+  return mesh;
+}
+
+TEST(HidingBacks, AreThoseOfAFloorThatNothingCrosses) {
+  const TriMesh well = well_through_the_bottom();
+  const Surface surface = visibility_surface(well, std::vector<FaceSides>{FaceSides::Front});
+  const TriMesh framed{surface.samples, surface.faces};
+  const FaceMeetings meetings = find_meetings(framed, surface_edges(framed));
+  std::size_t floor = 0;
+  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    const Triangle& corners = well.triangles[surface.face_of_mesh[f]];
+    if (std::all_of(corners.begin(), corners.end(),
+                    [&](std::uint32_t v) { return well.positions[v].z() == -0.2; })) {
+      ++floor;
+      EXPECT_EQ(meetings.crossed[f], 0) << f;
+      EXPECT_EQ(meetings.occluding_back_faces[f], 1) << f;
+    }
+  }
+  EXPECT_EQ(floor, 32U);
+  expect_same_for_many(well, {FaceSides::Front});
+  expect_no_change(well, {FaceSides::Front});
 }
 
 TEST(HidingBacks, AreOnlyThoseThatAreCrossedWhereLimbsPassThroughEachOther) {
