@@ -64,6 +64,8 @@ class ShardSource : public batch::EntrySource {
     }
   }
 
+  [[nodiscard]] bool has_more_now() const override { return all_->has_more_now(); }
+
   void fetch(batch::Entry& entry, const std::string& file) override { all_->fetch(entry, file); }
 
  private:

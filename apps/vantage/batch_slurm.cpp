@@ -52,7 +52,7 @@ class SlurmRun {
 
   void plan(batch::EntrySource& entries) {
     folder_.make_folders(kFolder);
-    models_ = batch::write_plan(entries, folder_, kPlan);
+    models_ = session_.reading([&] { return batch::write_plan(entries, folder_, kPlan); });
     if (flags_.request.shards == 0) {
       const std::int64_t wanted = (models_ + kModelsPerShard - 1) / kModelsPerShard;
       flags_.request.shards =

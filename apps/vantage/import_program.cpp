@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -152,7 +153,7 @@ class ImportProcess {
              " MB when it is read as " + title());
       }
     }
-    check_end(wait());
+    check_end(await_end());
     return std::move(received_);
   }
 
@@ -179,6 +180,21 @@ class ImportProcess {
       received_.append(block_.data(), static_cast<std::size_t>(got));
     }
     return got > 0 || (got < 0 && errno == EINTR);
+  }
+
+  /// Its status, once its output has ended. One that stays all the same is killed.
+  int await_end() {
+    constexpr int kPatienceMs = 5000;
+    int status = 0;
+    for (int waited_ms = 0; waited_ms < kPatienceMs; ++waited_ms) {
+      if (::waitpid(pid_, &status, WNOHANG) == pid_) {
+        pid_ = -1;
+        return status;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    ::kill(pid_, SIGKILL);
+    return wait();
   }
 
   int wait() {

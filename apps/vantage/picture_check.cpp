@@ -11,17 +11,21 @@ namespace {
 constexpr std::size_t kOneIn = 2000;
 constexpr std::size_t kChannels = 4;
 
-template <class Channel>
-std::string warning_about(const std::vector<Channel>& rgba) {
-  if (rgba.size() < kChannels) {
+template <class Picture>
+std::string warning_about(const Picture& picture) {
+  const std::size_t width = kChannels * static_cast<std::size_t>(picture.width);
+  if (width == 0 || picture.rgba.size() < width) {
     return {};
   }
-  const auto first = rgba.begin();
   std::size_t shown = 0;
-  for (auto pixel = first; pixel != rgba.end(); pixel += kChannels) {
-    shown += std::equal(pixel, pixel + kChannels, first) ? 0 : 1;
+  for (auto row = picture.rgba.begin(); row != picture.rgba.end();
+       row += static_cast<std::ptrdiff_t>(width)) {
+    for (std::size_t at = 0; at < width; at += kChannels) {
+      const auto pixel = row + static_cast<std::ptrdiff_t>(at);
+      shown += std::equal(pixel, pixel + kChannels, row) ? 0 : 1;
+    }
   }
-  const std::size_t pixels = rgba.size() / kChannels;
+  const std::size_t pixels = picture.rgba.size() / kChannels;
   if (shown > 0 && kOneIn * shown >= pixels) {
     return {};
   }
@@ -36,11 +40,11 @@ std::string warning_about(const std::vector<Channel>& rgba) {
 }  // namespace
 
 std::string emptiness_warning(const Image& picture) {
-  return warning_about(picture.rgba);
+  return warning_about(picture);
 }
 
 std::string emptiness_warning(const DeepImage& picture) {
-  return warning_about(picture.rgba);
+  return warning_about(picture);
 }
 
 }  // namespace vantage::cli

@@ -105,6 +105,15 @@ std::optional<ViewSetRequest> ViewSetFlags::request() const {
                                "say how many views are wanted, with --views N or --coverage C");
   }
   check_sides(tour_, width_, height_, "--tour-size");
+  if (!tour_.empty() && std::round(seconds_ * fps_) > kMostFrames) {
+    throw CLI::ValidationError("--tour-seconds", "makes " + rounded(seconds_ * fps_, 6) +
+                                                     " pictures with --fps " + rounded(fps_) +
+                                                     ", but at most " +
+                                                     std::to_string(kMostFrames) + " are made");
+  }
+  if (!tour_.empty() && request && request->set.views == 1 && request->path == TourPath::Round) {
+    throw CLI::ValidationError("--tour", "goes over two views at least: ask for more with --views");
+  }
   return request;
 }
 
@@ -119,7 +128,8 @@ ViewSetRequest ViewSetFlags::request_or(int views) const {
 }
 
 double ViewSetFlags::seconds(const ReportedViewSet& set) const {
-  return seconds_ > 0.0 ? seconds_ : std::max(1.0, set.way_rad() * kDegPerRad / kDegPerSecond);
+  const double usual = std::max(1.0, set.way_rad() * kDegPerRad / kDegPerSecond);
+  return seconds_ > 0.0 ? seconds_ : std::min(usual, static_cast<double>(kMostFrames) / fps_);
 }
 
 namespace {
@@ -202,12 +212,7 @@ void ViewSetFlags::write_tour(OutputFolder& output, const ShapeAnalysis& shape,
   if (tour_.empty()) {
     return;
   }
-  const double wanted = std::max(3.0, std::round(length * fps_));
-  if (wanted > kMostFrames) {
-    throw InvalidInput("the tour would have " + rounded(wanted, 6) + " pictures, but at most " +
-                       std::to_string(kMostFrames) + " are made; lower --fps or --tour-seconds");
-  }
-  const int frames = static_cast<int>(wanted);
+  const int frames = static_cast<int>(std::max(3.0, std::round(length * fps_)));
   RenderOptions look = pictures.look().render;
   look.width = width_;
   look.height = height_;

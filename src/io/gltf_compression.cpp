@@ -211,7 +211,9 @@ class Unpacker {
     std::vector<DracoAttribute> wanted;
     for (auto& [name, accessor] : primitive.attributes) {
       const auto id = count(member(json, "attributes"), name.c_str());
-      const bool is_used = name == "POSITION" || name == "COLOR_0" || name.starts_with("TEXCOORD_");
+      const bool is_used = name == "POSITION" || name == "COLOR_0" ||
+                           name.starts_with("TEXCOORD_") || name.starts_with("JOINTS_") ||
+                           name.starts_with("WEIGHTS_");
       if (id && is_used) {
         wanted.push_back(wish(static_cast<std::uint32_t>(*id), accessor, who));
         places.push_back(&accessor);

@@ -187,9 +187,10 @@ KssmMap compute_kssm(const TriMesh& mesh, const ContractionHistory& history,
       options.area_weighted_mean ? vertex_areas(mesh) : std::vector<double>(vertex_count, 1.0);
 
   KssmMap map;
-  map.displacement = displacements(history, skeleton, other, run);
-  map.of_vertex.assign(vertex_count, 0.0);
   const bool velocity = options.kinematics == Kinematics::Velocity;
+  // A step's velocity is a difference of distances to one curve.
+  map.displacement = displacements(history, skeleton, velocity ? CurveGraph{} : other, run);
+  map.of_vertex.assign(vertex_count, 0.0);
   const std::vector<double> level_weight =
       level_weights(history, skeleton, other, options.level_agreement, run);
   map.level_factor.assign(velocity ? 1 : 0, 0.0);  // no step led to the input

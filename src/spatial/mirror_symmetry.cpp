@@ -27,7 +27,8 @@ constexpr std::size_t kMostImages = 16;
 // layers would need more than about kSamples of them.
 constexpr double kSpacing = 0.03;
 constexpr double kSamples = 20000.0;
-// Of larger meshes some faces are sampled, about so many: theirs are smaller than the spacing by far.
+// Of faces within the spacing, and of longer ones, some are sampled where there are more, about so many;
+// each then stands for as many as there are for one.
 constexpr std::size_t kMostFaces = 50000;
 // Samples whose mirror image is looked up: 2 % of the area are 80 of them.
 constexpr std::size_t kQueries = 4000;
@@ -39,7 +40,9 @@ struct SurfacePoints {
 };
 
 /// Bisects a triangle at its longest side until that is at most `spacing`; adds the centres.
-void add_samples(const std::array<Vec3, 3>& corners, double spacing, SurfacePoints& set) {
+/// \param weight of its area.
+void add_samples(const std::array<Vec3, 3>& corners, double spacing, double weight,
+                 SurfacePoints& set) {
   std::vector<std::array<Vec3, 3>> pending{corners};
   while (!pending.empty()) {
     const std::array<Vec3, 3> t = pending.back();
@@ -57,7 +60,7 @@ void add_samples(const std::array<Vec3, 3>& corners, double spacing, SurfacePoin
       pending.push_back({middle, b, c});
     } else {
       set.points.emplace_back((a + b + c) / 3.0);
-      set.shares.push_back(0.5 * (b - a).cross(c - a).norm());
+      set.shares.push_back(weight * 0.5 * (b - a).cross(c - a).norm());
     }
   }
 }
@@ -110,15 +113,27 @@ SurfacePoints normalised_points(const TriMesh& surface, Vec3& centroid, double& 
   const double reach = 0.5 * around.diameter;
   centroid = around.centre;
   spacing = std::max(kSpacing, std::sqrt(total / (reach * reach) / kSamples));
-  const std::size_t one_of = 1 + surface.triangles.size() / kMostFaces;
-  for (const auto& [a, b, c] : surface.triangles) {
-    if (lot_of(surface.positions[a], surface.positions[b], surface.positions[c]) % one_of != 0) {
-      continue;
+  const auto corners_of = [&](const Triangle& t) {
+    return std::array<Vec3, 3>{(surface.positions[t[0]] - centroid) / reach,
+                               (surface.positions[t[1]] - centroid) / reach,
+                               (surface.positions[t[2]] - centroid) / reach};
+  };
+  const auto is_long = [&](const std::array<Vec3, 3>& t) {
+    return std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()}) > spacing;
+  };
+  const auto long_faces = static_cast<std::size_t>(
+      std::count_if(surface.triangles.begin(), surface.triangles.end(),
+                    [&](const Triangle& t) { return is_long(corners_of(t)); }));
+  const std::size_t one_of_long = 1 + long_faces / kMostFaces;
+  const std::size_t one_of_short = 1 + (surface.triangles.size() - long_faces) / kMostFaces;
+  for (const Triangle& t : surface.triangles) {
+    const std::array<Vec3, 3> corners = corners_of(t);
+    const std::size_t one_of = is_long(corners) ? one_of_long : one_of_short;
+    if (lot_of(surface.positions[t[0]], surface.positions[t[1]], surface.positions[t[2]]) %
+            one_of ==
+        0) {
+      add_samples(corners, spacing, static_cast<double>(one_of), set);
     }
-    const auto local = [&](std::uint32_t v) {
-      return Vec3((surface.positions[v] - centroid) / reach);
-    };
-    add_samples({local(a), local(b), local(c)}, spacing, set);
   }
   const double sampled = std::accumulate(set.shares.begin(), set.shares.end(), 0.0);
   for (double& share : set.shares) {

@@ -89,6 +89,21 @@ class OneModel(FaultTest):
         self.assertEqual(rows["twin.off"]["status"], "failed")
         self.assertEqual(rows["twin.off"]["duplicate_of"], "m2.off")
 
+    def test_a_hang_with_an_equal_before_many_others_ends(self):
+        # Its equal is read again behind it: before those that follow, which would have all workers otherwise.
+        names = [f"n{i:02}.off" for i in range(60)]  # which take longer than the hang
+        for i, name in enumerate(names):
+            self.write(name, box(10 + i))
+        self.write("m0-twin.off", box(1))
+        done = subprocess.run([PROGRAM, "batch", "m0.off", "m0-twin.off", *names, "-o", "out", "--write", "json", "--jobs", "2",
+                               "--timeout", "6"], cwd=self.dir, capture_output=True, check=False, timeout=300,
+                              env={**os.environ, "VANTAGE_TEST_FAULT": "hang:m0.off"})
+        self.assertEqual(done.returncode, 4, done.stderr)
+        rows = self.rows()
+        self.assertEqual((rows["m0.off"]["status"], rows["m0.off"]["reason"]), ("failed", "timeout"))
+        self.assertEqual({rows[name]["status"] for name in names}, {"done"})
+        self.assertEqual(len(rows), 62)
+
     def test_inputs_that_are_not_there_fail_and_are_done_when_they_come(self):
         rows = self.run_with(*self.names, "gone.off", exit_code=4)
         self.assert_only_failure(rows, "gone.off", "input", "No such file")

@@ -324,6 +324,28 @@ class Inputs(HostileTest):
             stop.set()
             replacer.join()
 
+    def test_a_slow_writer_of_the_list_keeps_no_model_waiting(self):
+        self.write("a.off", box(1))
+        process = subprocess.Popen([PROGRAM, "batch", "--manifest", "-", "-o", "out", *FAST], cwd=self.dir,
+                                   stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(process.kill)
+        process.stdin.write(b"a.off\n")
+        process.stdin.flush()
+        end = time.monotonic() + 100
+        while not list((self.dir / "out").glob("models/*/view.json")) and time.monotonic() < end:
+            time.sleep(0.05)
+        self.assertTrue(list((self.dir / "out").glob("models/*/view.json")))
+        self.assertIsNone(process.poll())  # the list goes on
+        process.communicate(timeout=100)
+        self.assertEqual(process.returncode, 0)
+
+    def test_archives_are_not_shared_out_by_slurm(self):
+        with zipfile.ZipFile(self.dir / "m.zip", "w") as archive:
+            archive.writestr("a.off", box(1))
+        done = self.vantage("batch", "m.zip", "-o", "out", "--engine", "slurm", "--detach", exit_code=3)
+        self.assertIn("unpack it first", done.err)
+        self.assertEqual(len(done.err.splitlines()), 1, done.err)
+
     def test_odd_output_folders_and_long_names_work(self):
         long = "x" * 251
         self.write(long + ".off", box(1))

@@ -100,11 +100,13 @@ class Looks(ProgramTest):
         self.assertGreater(left[0], 3 * left[2])
         self.assertGreater(right[2], 3 * right[0])
 
-    def test_an_empty_picture_is_doubted_at_either_depth(self):
+    def test_an_empty_picture_is_doubted_at_either_depth_on_every_background(self):
         self.write("flat.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n")
         for depth in ("8", "16"):
-            said = self.vantage("render", "flat.off", "-o", "p.png", "--direction", "1,0,0", "--depth", depth, "--size", "32").err
-            self.assertIn("the picture shows nothing", said)
+            for background in ("transparent", "white", "gradient"):
+                said = self.vantage("render", "flat.off", "-o", "p.png", "--direction", "1,0,0", "--depth", depth, "--size",
+                                    "32", "--background", background).err
+                self.assertIn("the picture shows nothing", said)
 
     def test_depth_of_16_bit_is_for_pngs_and_the_same_for_any_number_of_threads(self):
         deep = []

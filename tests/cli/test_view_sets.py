@@ -176,7 +176,9 @@ class ViewSets(ProgramTest):
                 (("--select", "feixas", "--coverage", 0.5), "--select"),
                 (("--select", "vazquez", "--views", 3, "--min-separation", 20), "--select"),
                 (("--views", 2, "--information", 0.5), "feixas"),
-                (("--views", 2, "--tour-size", "0x9"), "pixels")):
+                (("--views", 2, "--tour-size", "0x9"), "pixels"),
+                (("--views", 1, "--tour", "t.webp"), "--views"),
+                (("--views", 3, "--tour", "t.webp", "--tour-seconds", 600, "--fps", 60), "36000")):
             done = self.vantage("view", FAN, "-o", "out", *flags, exit_code=2)
             self.assertIn(word, done.err)
             self.assertEqual(len(done.err.splitlines()), 1)

@@ -42,6 +42,9 @@ class EntrySource {
   /// \throw IoError
   virtual std::optional<Entry> next() = 0;
 
+  /// Whether next() need not wait for whoever writes the list: it may be a pipe.
+  [[nodiscard]] virtual bool has_more_now() const { return true; }
+
   /// Copies the entry that next() gave last out of its archive into a new file; where that cannot
   /// be, `problem` and `reason` say why.
   virtual void fetch(Entry& entry, const std::string& file) {

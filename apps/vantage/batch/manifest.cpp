@@ -23,6 +23,9 @@ constexpr const char* kNoFront = " has a \"front\" that is none of x y z -x -y -
 
 enum class ManifestForm { Unknown, JsonLines, Csv, Paths };
 
+/// Where one is in a cell of a table; Closed: behind a quote that ends it, or is one of two.
+enum class CellPart { Begin, Plain, Quoted, Closed };
+
 using Fields = std::map<std::string, std::string>;
 
 class ManifestSource : public EntrySource {
@@ -34,8 +37,7 @@ class ManifestSource : public EntrySource {
 
   std::optional<Entry> next() override {
     while (true) {
-      std::optional<std::string> line =
-          read_line(kind_ == ManifestForm::Csv || kind_ == ManifestForm::Unknown);
+      std::optional<std::string> line = read_line();
       if (!line) {
         return std::nullopt;
       }
@@ -51,12 +53,15 @@ class ManifestSource : public EntrySource {
     }
   }
 
+  [[nodiscard]] bool has_more_now() const override { return bytes_.is_there(); }
+
  private:
-  /// A line without its end; with `quotes`, line ends between double quotes belong to it.
-  std::optional<std::string> read_line(bool quotes) {
+  /// A line without its end; line ends in quoted cells of a table belong to it.
+  std::optional<std::string> read_line() {
     std::string line;
-    bool inside = false;
+    CellPart part = CellPart::Begin;
     bool any = false;
+    ++line_number_;
     while (const std::optional<char> read = bytes_.next()) {
       const char c = *read;
       any = true;
@@ -64,15 +69,20 @@ class ManifestSource : public EntrySource {
         zero_ended_ = true;
         break;
       }
-      inside = (c == '"' && quotes && kind_ == ManifestForm::Csv) ? !inside : inside;
-      if (c == '\n' && !inside && !zero_ended_) {
+      if (kind_ == ManifestForm::Csv) {
+        part = part_with(part, c);
+      }
+      if (c == '\n' && part != CellPart::Quoted && !zero_ended_) {
         break;
       }
       if (line.size() < kLongestLine) {
         line += c;
       }
     }
-    ++line_number_;
+    if (part == CellPart::Quoted) {
+      throw FormatError(manifest_, "line " + std::to_string(line_number_),
+                        "opens a cell with a quote that is never closed");
+    }
     if (!any) {
       return std::nullopt;
     }
@@ -136,23 +146,35 @@ class ManifestSource : public EntrySource {
     }
   }
 
+  /// Where in its cell a character is, after the one before. Quotes inside a cell that does not begin with
+  /// one are text, as in `5" pipe`.
+  [[nodiscard]] CellPart part_with(CellPart before, char c) const {
+    if (before == CellPart::Quoted) {
+      return c == '"' ? CellPart::Closed : CellPart::Quoted;
+    }
+    if (c == separator_) {
+      return CellPart::Begin;
+    }
+    if (c == '"' && before != CellPart::Plain) {
+      return CellPart::Quoted;  // the first of a cell, or the second of two that stand for one
+    }
+    return before == CellPart::Begin && is_blank(c) ? CellPart::Begin : CellPart::Plain;
+  }
+
   [[nodiscard]] std::vector<std::string> cells_of(const std::string& line) const {
     std::vector<std::string> cells(1);
-    bool inside = false;
+    CellPart part = CellPart::Begin;
     std::size_t quoted = 0;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      const char c = line[i];
-      if (c == '"' && inside && i + 1 < line.size() && line[i + 1] == '"') {
-        cells.back() += c;
-        ++i;
-      } else if (c == '"') {
-        inside = !inside;
+    for (const char c : line) {
+      const CellPart before = std::exchange(part, part_with(part, c));
+      if (part == CellPart::Closed) {
         quoted = cells.back().size();
-      } else if (c == separator_ && !inside) {
+      } else if (c == separator_ && part == CellPart::Begin) {
         end_cell(cells.back(), quoted);
         cells.emplace_back();
         quoted = 0;
-      } else if (inside || !cells.back().empty() || !is_blank(c)) {
+      } else if (part != CellPart::Begin &&
+                 !(before == CellPart::Begin && part == CellPart::Quoted)) {
         cells.back() += c;
       }
     }

@@ -103,11 +103,13 @@ class Runner {
     return true;
   }
 
-  /// Takes up entries until every worker has a next one.
+  /// Takes up entries until every worker has a next one; while there is work, without waiting for a
+  /// slow pipe.
   void fill() {
     while (!source_ended_ && ready_.size() < static_cast<std::size_t>(options_.workers) &&
            waiting_ < kMostWaiting && unpacked_ < kMostUnpacked &&
-           unpacked_bytes_ < kMostUnpackedBytes && !stop_.stop_requested()) {
+           unpacked_bytes_ < kMostUnpackedBytes && !stop_.stop_requested() &&
+           (jobs_.empty() || source_.has_more_now())) {
       std::optional<Entry> entry;
       try {
         entry = source_.next();
@@ -158,8 +160,19 @@ class Runner {
     if (!kept.entry.problem.empty()) {
       fail(kept, kept.entry.reason, kept.entry.problem);
     } else {
-      ready_.push_back(&kept);
+      make_ready(kept);
     }
+  }
+
+  /// The earliest in the input is the next to get a worker: decide() lets nothing run before what comes
+  /// ahead of it has been read, so later ones might else have all workers and wait for ever.
+  void make_ready(Job& job) {
+    job.stage = Stage::Ready;
+    ready_.insert(std::upper_bound(ready_.begin(), ready_.end(), &job,
+                                   [](const Job* a, const Job* b) {
+                                     return a->entry.position < b->entry.position;
+                                   }),
+                  &job);
   }
 
   /// Whether an earlier record still says how this model ends, or it is listed twice.
@@ -227,8 +240,7 @@ class Runner {
     release(job);
     if (may_pass_next_time(event.reason) && job.attempts < options_.attempts) {
       part_from_equals(job);
-      job.stage = Stage::Ready;
-      ready_.push_front(&job);
+      make_ready(job);
       return;
     }
     fail(job, event.reason, event.error);
@@ -278,9 +290,8 @@ class Runner {
   /// Before another attempt: the file may be another one by then. Those that waited are read again.
   void part_from_equals(Job& job) {
     for (Job* other : std::exchange(job.equals, {})) {
-      other->stage = Stage::Ready;
       other->attempts = 0;
-      ready_.push_back(other);
+      make_ready(*other);
       --waiting_;
     }
   }
@@ -457,8 +468,8 @@ class Runner {
   std::stop_token stop_;
   const Report& report_;
   const ConfinedFolder root_;
-  std::list<Job> jobs_{};  // in the order of the input
-  std::deque<Job*> ready_{};
+  std::list<Job> jobs_{};                        // in the order of the input
+  std::deque<Job*> ready_{};                     // in that order, too
   std::map<std::string, Job*> running_{};        // by content and options
   std::map<std::string, std::string> claims_{};  // folder → key of the running model
   std::set<std::string> asked_{};                // options of all models so far

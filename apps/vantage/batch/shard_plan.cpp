@@ -91,6 +91,11 @@ std::int64_t write_plan(EntrySource& entries, const ConfinedFolder& folder,
   WholeFile file(folder, name);
   std::int64_t count = 0;
   while (const std::optional<Entry> entry = entries.next()) {
+    if (!entry->member.empty() && entry->problem.empty()) {
+      throw IoError(entry->path,
+                    "is an archive, and models in archives are not shared out to other machines; "
+                    "unpack it first, or leave --engine out");
+    }
     write_entry(file, *entry, std::nullopt);
     ++count;
   }

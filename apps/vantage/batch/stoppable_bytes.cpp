@@ -43,6 +43,11 @@ void StoppableBytes::wait() const {
   } while (::poll(&ready, 1, kPulse) == 0);
 }
 
+bool StoppableBytes::is_there() const {
+  pollfd ready{.fd = file_, .events = POLLIN, .revents = 0};
+  return at_ < held_.size() || ::poll(&ready, 1, 0) != 0;
+}
+
 bool StoppableBytes::fill() {
   at_ = 0;
   for (;;) {

@@ -21,6 +21,9 @@ class StoppableBytes {
     return at_ < held_.size() || fill() ? std::optional(held_[at_++]) : std::nullopt;
   }
 
+  /// Whether next() has something to return, the end included, without waiting.
+  [[nodiscard]] bool is_there() const;
+
  private:
   /// \return false at the end.
   bool fill();

@@ -73,13 +73,14 @@ struct KssmMap {
   std::vector<double> level_factor{};
   std::vector<std::size_t> levels_used{};  ///< Ascending; those that contribute.
 
-  /// d^(0), the distance of the surface itself to the skeleton, or its mean to both curves; model units.
+  /// d^(0), the distance of the surface itself to the skeleton, or, of displacements, its mean to both
+  /// curves; model units.
   [[nodiscard]] const std::vector<double>& thickness() const { return displacement.front(); }
 };
 
 /// Computes the map of `mesh` from its contraction and the graph it contracts to.
-/// \param other the curve of `history.second`. The input is measured to it, too, and it tells which
-/// levels are the surface's and which hang on how it is meshed; without nodes all count and the skeleton
+/// \param other the curve of `history.second`. The input is measured to it, too, if displacements are
+/// summed, and it tells which levels are the surface's and which hang on how it is meshed; without nodes all count and the skeleton
 /// alone is measured to. Skeleton::curve and Skeleton::other_curve.
 /// \throw InvalidInput if `history` has no level or not one point a vertex at each, if the skeleton has
 /// no nodes, or an option is outside its range. \throw Cancelled

@@ -102,6 +102,31 @@ TEST(EntriesOfManifest, CellsOfCsvMayHoldCommasQuotesAndLineEnds) {
   EXPECT_EQ(entries[0].up, "-z");
 }
 
+// A stray quote once made the rest of the table one name.
+TEST(EntriesOfManifest, AQuoteInsideACellOfCsvIsText) {
+  const test::TemporaryFolder scratch;
+  const auto source =
+      entries_of_manifest(scratch.write("list.csv", "path,name\nc.ply,5\" pipe\nd.ply, \"d\" \n"));
+  const std::vector<Entry> entries = all_of(*source);
+  ASSERT_EQ(entries.size(), 2U);
+  EXPECT_EQ(entries[0].name, "5\" pipe");
+  EXPECT_EQ(entries[1].key, "d.ply");
+  EXPECT_EQ(entries[1].name, "d");
+}
+
+TEST(EntriesOfManifest, ACellOfCsvThatIsNeverClosedIsRefusedByItsLine) {
+  const test::TemporaryFolder scratch;
+  const auto source =
+      entries_of_manifest(scratch.write("list.csv", "path,name\nc.ply,c\nd.ply,\"d\ne.ply,e\n"));
+  EXPECT_EQ(source->next()->key, "c.ply");
+  try {
+    static_cast<void>(source->next());
+    FAIL();
+  } catch (const FormatError& error) {
+    EXPECT_NE(std::string(error.what()).find("line 3"), std::string::npos) << error.what();
+  }
+}
+
 // Found by fuzzing: any line with a field of that name was an entry of ours, without path or key.
 TEST(EntriesOfManifest, AFieldCalledPlannedMakesNoPlan) {
   const test::TemporaryFolder scratch;

@@ -74,6 +74,22 @@ TEST(ComputeKssm, FromVelocitiesNeedsAStep) {
   EXPECT_DOUBLE_EQ(map.of_vertex[2], 0.5 * 0.75 * 0.75);
 }
 
+// A vertex that a step leaves where it is has no velocity, however far the second curve is from the first.
+TEST(ComputeKssm, MeasuresVelocitiesToOneCurve) {
+  HandMade made;
+  made.history.levels.push_back(made.mesh.positions);
+  made.history.levels[1][3] *= 0.5;
+  CurveGraph other = made.graph;
+  for (Vec3& node : other.nodes) {
+    node.x() += 0.3;
+  }
+  const KssmMap map = compute_kssm(made.mesh, made.history, made.graph,
+                                   {.kinematics = Kinematics::Velocity}, {}, other);
+  EXPECT_EQ(map.of_vertex[0], 0.0);
+  EXPECT_EQ(map.of_vertex[1], 0.0);
+  EXPECT_GT(map.of_vertex[3], 0.0);
+}
+
 TEST(ComputeKssm, TakesNothingFromAFlatLevel) {
   HandMade made;
   made.history.levels.push_back(std::vector<Vec3>(4, Vec3(1, 0, 0)));

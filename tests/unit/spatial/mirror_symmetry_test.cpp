@@ -70,6 +70,17 @@ TEST(MirrorPlanes, OfALargeMeshDoNotDependOnTheOrderOfItsFaces) {
   }
 }
 
+// 12 faces make nearly all of the surface; those of the ornaments are so many that some are drawn by lot.
+TEST(MirrorPlanes, OfAPlainBoxWithFineOrnamentsAreThoseOfBoth) {
+  const TriMesh knob = box(0.05, 0.04, 0.03, 90);
+  const TriMesh body = together(box(4.0, 2.0, 1.5, 1), knob, Vec3(4.0, 0.98, 0.735));
+  const auto planes = mirror_planes(together(body, knob, Vec3(-0.05, 0.98, 0.735)));
+  ASSERT_EQ(planes.size(), 3U);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_TRUE(has_normal(planes, Vec3::Unit(axis)));
+  }
+}
+
 TEST(MirrorPlanes, MayBeBrokenByAShareOfTheArea) {
   // A small bump has 0.24 of 22.24, and most of that is far from its image in x.
   const TriMesh surface =
