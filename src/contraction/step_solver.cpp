@@ -131,6 +131,9 @@ std::optional<std::vector<Vec3>> StepSolver::solve(const TriMesh& now, double W_
   const LaplacianLimits limits = limits_of(options, variant.regularisation);
   if (variant.intrinsic) {  // its pattern is another one each time
     const Eigen::SparseMatrix<double> L = intrinsic_laplacian(now.positions, now.triangles, limits);
+    if (!NormalMatrix::fits(L)) {
+      return std::nullopt;
+    }
     NormalMatrix normal(L);
     PositionSolver system;
     return solved(L, normal, system, now.positions, std::move(rows), std::move(held),
@@ -138,6 +141,9 @@ std::optional<std::vector<Vec3>> StepSolver::solve(const TriMesh& now, double W_
   }
   const Eigen::SparseMatrix<double>& L = laplacian_.assemble(now.positions, limits);
   if (!normal_) {
+    if (!NormalMatrix::fits(L)) {
+      return std::nullopt;
+    }
     normal_.emplace(L);
   }
   return solved(L, *normal_, system_, now.positions, std::move(rows), std::move(held),

@@ -20,6 +20,19 @@ bool is_wide(int entries) {
 
 }  // namespace
 
+bool NormalMatrix::fits(const Eigen::SparseMatrix<double>& L) {
+  constexpr double kAlwaysAllowed = 2e6;
+  constexpr double kMostAVertex = 500.0;
+  const auto half_square = [](double width) { return 0.5 * width * (width + 1.0); };
+  double entries = 0.0;
+  for (Eigen::Index k = 0; k < L.cols(); ++k) {
+    const int width = L.outerIndexPtr()[k + 1] - L.outerIndexPtr()[k];
+    entries += is_wide(width) ? 0.0 : half_square(width);
+  }
+  const auto n = static_cast<double>(L.cols());
+  return std::min(entries, half_square(n)) <= std::max(kAlwaysAllowed, kMostAVertex * n);
+}
+
 NormalMatrix::NormalMatrix(const Eigen::SparseMatrix<double>& L)
     : A_(L.rows(), L.cols()), transposed_(static_cast<std::size_t>(L.nonZeros())) {
   const int n = static_cast<int>(L.cols());

@@ -114,7 +114,18 @@ std::vector<std::uint32_t> ClusterComplex::pinched_by(std::uint32_t edge) const 
   if (common.size() == edge_faces_[edge]) {
     return {};
   }
-  std::erase_if(common, [&, x = a, y = b](std::uint32_t c) { return has_face(c, x, y); });
+  const std::uint32_t end = faces_of_[a].size() < faces_of_[b].size() ? a : b;
+  const std::uint32_t far = end == a ? b : a;
+  std::vector<std::uint32_t> filled;
+  for (const std::uint32_t f : faces_of_[end]) {
+    const auto [p, q] = others(faces_[f], end);
+    if (p == far || q == far) {
+      filled.push_back(p == far ? q : p);
+    }
+  }
+  std::sort(filled.begin(), filled.end());
+  std::erase_if(
+      common, [&](std::uint32_t c) { return std::binary_search(filled.begin(), filled.end(), c); });
   return common;
 }
 

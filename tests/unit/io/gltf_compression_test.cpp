@@ -168,8 +168,8 @@ TEST(GltfMeshopt, RefusesTheSuccessorByNameAndSaysWhatToDo) {
   EXPECT_THAT(error_text(bytes, "a.glb"), HasSubstr("gltfpack -c"));
 }
 
-/// A tetrahedron as Draco packs it.
-std::string draco_bytes(int method) {
+/// A tetrahedron as Draco packs it. \param is_held whether joint 0 holds all of it: attributes 1 and 2.
+std::string draco_bytes(int method, bool is_held = false) {
   draco::TriangleSoupMeshBuilder builder;
   builder.Start(4);
   const int position =
@@ -178,6 +178,20 @@ std::string draco_bytes(int method) {
     builder.SetAttributeValuesForFace(
         position, draco::FaceIndex(static_cast<std::uint32_t>(f)), kCorners[kFaces[3 * f]].data(),
         kCorners[kFaces[3 * f + 1]].data(), kCorners[kFaces[3 * f + 2]].data());
+  }
+  if (is_held) {
+    constexpr std::array<std::uint8_t, 4> kJoints{};
+    constexpr std::array<float, 4> kWeights{1.0F};
+    const int joints = builder.AddAttribute(draco::GeometryAttribute::GENERIC, 4, draco::DT_UINT8);
+    const int weights =
+        builder.AddAttribute(draco::GeometryAttribute::GENERIC, 4, draco::DT_FLOAT32);
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      const draco::FaceIndex face(f);
+      builder.SetAttributeValuesForFace(joints, face, kJoints.data(), kJoints.data(),
+                                        kJoints.data());
+      builder.SetAttributeValuesForFace(weights, face, kWeights.data(), kWeights.data(),
+                                        kWeights.data());
+    }
   }
   const auto mesh = builder.Finalize();
   draco::Encoder encoder;
@@ -234,6 +248,30 @@ TEST_P(GltfDraco, UnpacksTheMeshAndMovesItByItsNode) {
 INSTANTIATE_TEST_SUITE_P(Methods, GltfDraco,
                          testing::Values(draco::MESH_EDGEBREAKER_ENCODING,
                                          draco::MESH_SEQUENTIAL_ENCODING));
+
+TEST(GltfDracoSkin, MovesThePackedVerticesWithTheirJoint) {
+  const std::string packed = draco_bytes(draco::MESH_SEQUENTIAL_ENCODING, true);
+  const Model model = parse_model(
+      glb(R"({"asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"],)"
+          R"("extensionsUsed":["KHR_draco_mesh_compression"],"scenes":[{"nodes":[0,1]}],)"
+          R"("nodes":[{"mesh":0,"skin":0},{"translation":[0,0,50]}],"skins":[{"joints":[1]}],)"
+          R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2},)"
+          R"("indices":3,"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,)"
+          R"("attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}}}}]}],)"
+          R"("accessors":[{"componentType":5126,"count":4,"type":"VEC3"},)"
+          R"({"componentType":5121,"count":4,"type":"VEC4"},)"
+          R"({"componentType":5126,"count":4,"type":"VEC4"},)"
+          R"({"componentType":5125,"count":12,"type":"SCALAR"}],)"
+          R"("bufferViews":[{"buffer":0,"byteLength":)" +
+              std::to_string(packed.size()) + R"(}],"buffers":[{"byteLength":)" +
+              std::to_string(packed.size()) + "}]}",
+          packed),
+      "a.glb");
+  ASSERT_EQ(model.mesh.positions.size(), 4U);
+  for (const Vec3& p : model.mesh.positions) {
+    EXPECT_GT(p.z(), 40.0);
+  }
+}
 
 TEST(GltfDracoStrip, IsTrianglesOnceUnpacked) {
   DracoScene scene;
