@@ -6,6 +6,7 @@
 #include "vantage/core/error.h"
 #include "vantage/io/model.h"
 #include "vantage/pipeline/measured_shape.h"
+#include "vantage/pipeline/sidecar.h"
 
 #include "arrays.h"
 #include "released_run.h"
@@ -148,7 +149,24 @@ Subject::Subject(const py::object& model, const py::object& faces) {
 }
 
 Settings Subject::settings(const py::dict& keywords) const {
-  return analysis_ ? settings_over(analysis_->settings, keywords) : settings_of(keywords);
+  if (analysis_) {
+    return settings_over(analysis_->settings, keywords);
+  }
+  Settings settings = settings_of(keywords);
+  if (!path_.empty()) {
+    const Sidecar sidecar = sidecar_of(path_);
+    sidecar.apply(settings.view);
+    const bool has_style = keywords.contains("style") && !keywords["style"].is_none();
+    settings.look.style =
+        has_style ? settings.look.style : sidecar.style.value_or(settings.look.style);
+  }
+  if (settings.view.up == UpAxis::Any) {
+    throw InvalidInput(
+        "option up: any turns the model, which would no longer be where its arrays are; write it "
+        "with "
+        "vantage orient MODEL --up any -o OUT, and take what that writes");
+  }
+  return settings;
 }
 
 std::shared_ptr<const Analysis> Subject::analysed(const Settings& settings, const Analyser& analyse,

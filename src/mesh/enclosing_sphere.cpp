@@ -99,7 +99,10 @@ Sphere enclosing_sphere(std::span<const Vec3> points) {
     active.push_back(candidate);
     ball = smallest_ball(active, active.size(), boundary);
     if (round + 1 == kMaxRounds) {
-      ball.radius_squared = std::max(ball.radius_squared, farthest);
+      for (const Vec3& p : points) {
+        ball.radius_squared =
+            std::max(ball.radius_squared, ((p - middle) / scale - ball.centre).squaredNorm());
+      }
     }
   }
   return {middle + scale * ball.centre,

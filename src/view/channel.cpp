@@ -10,7 +10,9 @@
 #include "vantage/mesh/topology.h"
 
 #include "core/parallel.h"
+#include "core/shannon.h"
 #include "view/channel_check.h"
+#include "view/entropy_of_new.h"
 
 namespace vantage {
 namespace {
@@ -35,7 +37,7 @@ std::vector<double> seen_areas(const ViewChannel& channel) {
 
 /// x log2(x / y), and 0 for x = 0.
 double divergence_term(double x, double y) {
-  return x > 0.0 ? x * std::log2(x / y) : 0.0;
+  return x > 0.0 ? x * log_2(x / y) : 0.0;
 }
 
 /// What Feixas's merge keeps of v̂: Σ a_z, Σ a_t and Σ_z s_z log(s_z / p_z).
@@ -60,7 +62,7 @@ class MergedView {
   /// I(v̂;Z) if the view were merged in. Only its own faces change their terms.
   [[nodiscard]] double with(std::size_t view) const {
     const double total = total_ + seen_[view];
-    return (sum_ + change(view)) / total - std::log2(total);
+    return (sum_ + change(view)) / total - log_2(total);
   }
 
   void merge(std::size_t view) {
@@ -102,12 +104,7 @@ std::vector<ChannelPick> greedy_entropy_views(const ViewChannel& channel, std::s
     parallel_for(run.quiet(), entropy.size(), kDirectionsPerTask,
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t v = begin; v < end; ++v) {
-                     double sum = 0.0;
-                     for (const FaceArea& a : channel.views[v]) {
-                       const double p = static_cast<double>(a.area) / seen[v];
-                       sum -= dropped[a.face] == 0 ? p * std::log2(p) : 0.0;
-                     }
-                     entropy[v] = sum;
+                     entropy[v] = entropy_of_new(channel.views[v], seen[v], dropped);
                    }
                  });
     const auto best = std::max_element(entropy.begin(), entropy.end());

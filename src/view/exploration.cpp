@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cmath>
 
 #include "vantage/core/error.h"
 #include "vantage/view/channel.h"
 
 #include "view/channel_check.h"
+#include "view/entropy_of_new.h"
 
 namespace vantage {
 namespace {
@@ -54,7 +54,7 @@ class Explorer {
           if (from[beside] == kUnreached) {
             from[beside] = view;
             farther.push_back(beside);
-            const double entropy = entropy_of_new(beside);
+            const double entropy = entropy_of_new(channel_->views[beside], seen_[beside], dropped_);
             const bool is_better = entropy > most || (entropy == most && beside < best);
             best = entropy > 0.0 && is_better ? beside : best;
             most = std::max(most, entropy);
@@ -75,16 +75,6 @@ class Explorer {
   }
 
  private:
-  /// As greedy_entropy_views() has it: p is a share of all that the view sees.
-  [[nodiscard]] double entropy_of_new(std::uint32_t view) const {
-    double sum = 0.0;
-    for (const FaceArea& a : channel_->views[view]) {
-      const double p = static_cast<double>(a.area) / seen_[view];
-      sum -= dropped_[a.face] == 0 ? p * std::log2(p) : 0.0;
-    }
-    return sum;
-  }
-
   const ViewChannel* channel_;
   const IndexLists* next_;
   std::vector<std::uint8_t> dropped_;  // faces that were seen

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -97,31 +99,43 @@ std::vector<ProjectedEdge> projected_edges(const CurveGraph& graph, const Sphere
   return edges;
 }
 
-/// Marks the farther of each two edges of different branches that cross in the picture.
+/// Marks the farther of two edges of different branches if they cross in the picture.
+void mark_crossing(const std::vector<ProjectedEdge>& edges, std::size_t i, std::size_t j,
+                   std::vector<std::uint8_t>& crossed) {
+  const ProjectedEdge& p = edges[i];
+  const ProjectedEdge& q = edges[j];
+  if (std::max(q.from.y(), q.to.y()) < std::min(p.from.y(), p.to.y()) ||
+      std::min(q.from.y(), q.to.y()) > std::max(p.from.y(), p.to.y()) || p.branch == q.branch ||
+      p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b) {
+    return;
+  }
+  const PicturePoint along = p.to - p.from;
+  const PicturePoint other = q.to - q.from;
+  const double area = cross(along, other);
+  if (area == 0.0) {
+    return;
+  }
+  const double s = cross(q.from - p.from, other) / area;
+  const double t = cross(q.from - p.from, along) / area;
+  if (s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0) {
+    crossed[p.near_at(s) < q.near_at(t) ? i : j] = 1;
+  }
+}
+
+/// Of each two edges of different branches that cross in the picture the farther one is marked. Found by a
+/// sweep from left to right.
 std::vector<std::uint8_t> crossed_edges(const std::vector<ProjectedEdge>& edges) {
+  const auto left_of = [&](std::size_t i) { return std::min(edges[i].from.x(), edges[i].to.x()); };
+  const auto right_of = [&](std::size_t i) { return std::max(edges[i].from.x(), edges[i].to.x()); };
+  std::vector<std::size_t> order(edges.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return std::pair(left_of(i), i) < std::pair(left_of(j), j);
+  });
   std::vector<std::uint8_t> crossed(edges.size(), 0);
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const ProjectedEdge& p = edges[i];
-    const PicturePoint low = p.from.cwiseMin(p.to);
-    const PicturePoint high = p.from.cwiseMax(p.to);
-    const PicturePoint along = p.to - p.from;
-    for (std::size_t j = i + 1; j < edges.size(); ++j) {
-      const ProjectedEdge& q = edges[j];
-      if (std::max(q.from.x(), q.to.x()) < low.x() || std::min(q.from.x(), q.to.x()) > high.x() ||
-          std::max(q.from.y(), q.to.y()) < low.y() || std::min(q.from.y(), q.to.y()) > high.y() ||
-          p.branch == q.branch || p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b) {
-        continue;
-      }
-      const PicturePoint other = q.to - q.from;
-      const double area = cross(along, other);
-      if (area == 0.0) {
-        continue;
-      }
-      const double s = cross(q.from - p.from, other) / area;
-      const double t = cross(q.from - p.from, along) / area;
-      if (s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0) {
-        crossed[p.near_at(s) < q.near_at(t) ? i : j] = 1;
-      }
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    for (std::size_t l = k + 1; l < order.size() && left_of(order[l]) <= right_of(order[k]); ++l) {
+      mark_crossing(edges, std::min(order[k], order[l]), std::max(order[k], order[l]), crossed);
     }
   }
   return crossed;

@@ -36,6 +36,22 @@ def test_best_view_is_view_json(program, tmp_path, models, flags, keywords):
     assert vantage.best_view(model, **keywords).json == (tmp_path / "out/view.json").read_text()
 
 
+def test_a_sidecar_beside_a_path_is_obeyed_and_keywords_come_first(program, tmp_path, models):
+    model = tmp_path / "cat.ply"
+    model.write_bytes((models / "cat_lowpoly.ply").read_bytes())
+    (tmp_path / "cat.vantage.json").write_text('{"up": "z", "front": "-y", "view": [1, -1, 0.5]}')
+    program("view", model, "-o", "out", "--no-images", "--size", "800x600")
+    written = (tmp_path / "out/view.json").read_text()
+    assert json.loads(written)["up"] == "z"
+    assert vantage.best_view(model).json == written
+    assert json.loads(vantage.best_view(model, up="-y").json)["up"] == "-y"
+
+
+def test_up_any_is_refused_for_arrays_stay_where_they_are(models):
+    with pytest.raises(vantage.InvalidInput, match="vantage orient"):
+        vantage.best_view(models / "cat_lowpoly.ply", up="any")
+
+
 def test_arrays_and_another_method_give_what_a_file_does(program, tmp_path):
     V, F = torus(8, 6, bump=0.1)
     lines = ["OFF", f"{len(V)} {len(F)} 0", *(" ".join(map(repr, p)) for p in V.tolist()),

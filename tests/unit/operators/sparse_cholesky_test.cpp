@@ -128,6 +128,25 @@ TEST(NormalMatrix, StaysSparseAtAVertexOfThousandsOfNeighbours) {
   EXPECT_LT((Eigen::MatrixXd(A) - lower).norm(), 1e-9 * lower.norm());
 }
 
+/// The full pattern of n vertices, each with `neighbours` others behind it.
+Sparse band_of(int n, int neighbours) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < n; ++i) {
+    for (int k = -neighbours / 2; k <= neighbours / 2; ++k) {
+      entries.emplace_back((i + k + n) % n, i, 1.0);
+    }
+  }
+  Sparse L(n, n);
+  L.setFromTriplets(entries.begin(), entries.end());
+  return L;
+}
+
+TEST(NormalMatrix, FitsUnlessItsEntriesAreAsManyAsOfFacesByLot) {
+  EXPECT_TRUE(NormalMatrix::fits(band_of(20000, 30)));
+  EXPECT_TRUE(NormalMatrix::fits(band_of(1500, 800)));  // all of 1500² / 2 entries are few
+  EXPECT_FALSE(NormalMatrix::fits(band_of(8000, 220)));
+}
+
 TEST(SparseCholeskyFactorize, WorksAgainAfterAFailure) {
   SparseCholesky solver;
   solver.analyze(system_of_torus(1.0));
