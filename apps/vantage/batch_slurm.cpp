@@ -95,7 +95,7 @@ class SlurmRun {
       session_.say("job " + job + " of an earlier run is still there; waiting for it first");
       await(job);
     } else {
-      batch::merge_shards({flags_.request.folder}, store_);
+      batch::merge_shards({flags_.request.folder}, store_, folder_);
     }
   }
 
@@ -131,12 +131,12 @@ class SlurmRun {
       }
     } catch (const Cancelled&) {
       batch::cancel_slurm(job);
-      batch::merge_shards({flags_.request.folder}, store_);
+      batch::merge_shards({flags_.request.folder}, store_, folder_);
       throw;
     }
     batch::cancel_slurm(job);  // tasks that are held would stay for ever
     folder_.remove(kJob);
-    batch::merge_shards({flags_.request.folder}, store_);
+    batch::merge_shards({flags_.request.folder}, store_, folder_);
   }
 
   bool has_ended(const Entry& entry) {

@@ -70,8 +70,19 @@ struct FiguresCommand {
     }
     OutputFolder output(folder, kFigureResults);
     std::vector<StageTimes> times;
+    refuse_equal_names();
     for (const std::string& model : models) {
-      times.push_back(draw(session, model, options, output));
+      try {
+        times.push_back(draw(session, model, options, output));
+      } catch (const Cancelled&) {
+        throw;
+      } catch (const Error&) {
+        if (times.empty() && &model == &models.back()) {
+          throw;  // of one, or the last of several of which none could be drawn
+        }
+        session.report_failure();
+        session.exit_code = kSomeFailed;
+      }
     }
     for (const std::string& former : former_folders()) {
       output.replace_below(former);
@@ -131,6 +142,22 @@ struct FiguresCommand {
     return times;
   }
 
+  /// Before the work: two files that would have one folder. \throw InvalidInput
+  void refuse_equal_names() const {
+    std::set<std::string> names;
+    for (const std::string& model : models) {
+      if (const std::string name = folder_of(std::filesystem::path(model).stem().string());
+          models.size() > 1 && !names.insert(name).second) {
+        refuse_name(name);
+      }
+    }
+  }
+
+  [[noreturn]] static void refuse_name(const std::string& name) {
+    throw InvalidInput("two models are called '" + name +
+                       "'; give each a folder of its own with -o");
+  }
+
   static std::string folder_of(const std::string& name) {
     const bool climbs = name == "." || name == "..";  // of a file "...ply"
     return folder_named(name, climbs ? "_" : "");
@@ -140,8 +167,7 @@ struct FiguresCommand {
   std::string own_folder(const Model& loaded) {
     std::string name = folder_of(loaded.name);
     if (!folders.insert(name).second) {
-      throw InvalidInput("two models are called '" + name +
-                         "'; give each a folder of its own with -o");
+      refuse_name(name);
     }
     return name;
   }

@@ -268,16 +268,15 @@ struct MergeCommand {
 
   void run(Session& session) const {
     batch::prepare_folder(folders.front());
-    const std::string corner = "merge";
-    const batch::ConfinedFolder root(folders.front(), corner);
+    const batch::ConfinedFolder root(folders.front(), batch::kMergeCorner);
     if (!no_overview) {
       batch::check_overview(root);
     }
     const RunContext context = session.run();
-    const batch::FolderLock lock(root, corner, context);
+    const batch::FolderLock lock(root, batch::kMergeCorner, context);
     batch::ResultsStore store(folders.front(), batch::Database::Mode::Create);
     const batch::MergeCounts merged =
-        session.reading([&] { return batch::merge_shards(folders, store, context); });
+        session.reading([&] { return batch::merge_shards(folders, store, root, context); });
     if (!no_overview) {
       batch::write_overview(root, store, context);
     }
@@ -296,6 +295,15 @@ struct MergeCommand {
     if (merged.torn > 0) {
       session.say("note: " + plural(merged.torn, "line") +
                   " of shards and stores were no sound records and were left out");
+    }
+    if (merged.clashes > 0) {
+      session.say("warning: " + plural(merged.clashes, "record") +
+                  " left out, since their results have the folder's name of another model's; run "
+                  "those batches with a --name that has {key8}");
+    }
+    if (merged.missing > 0) {
+      session.say("warning: " + plural(merged.missing, "record") +
+                  " came without results; run their batches again, then merge");
     }
     if (session.flags.json) {
       const Json json = {{"read", merged.seen},

@@ -451,6 +451,33 @@ class Shards(BatchTest):
             self.assertEqual(self.export(out), self.export("one"))
             self.assertIn("0 new", self.vantage("results", "merge", out).out)
 
+    def test_further_batches_bring_their_results(self):
+        for folder in "pq":
+            (self.dir / folder).mkdir()
+        self.write("p/a.off", box(30))
+        self.write("q/b.off", box(31))
+        self.write("q/a.off", box(30))  # the same name and bytes as p's
+        self.batch("p", out="all")
+        self.batch("q", out="part")
+        self.vantage("results", "merge", "all", "part")
+        self.assertIn("all sound", self.vantage("results", "verify", "all").out)
+        self.assertEqual(len(self.export("all").splitlines()), 3)
+        for view in (self.dir / "part").glob("models/b-*/view.json"):
+            self.assertEqual((self.dir / "all/models" / view.parent.name / "view.json").read_bytes(), view.read_bytes())
+        self.assertEqual(len(list((self.dir / "all").glob("models/*"))), 2)
+        self.assertIn("0 new", self.vantage("results", "merge", "all", "part").out)
+
+    def test_of_two_models_with_one_folder_name_the_further_one_is_left_out_and_said(self):
+        for folder in "pq":
+            (self.dir / folder).mkdir()
+        self.write("p/a.off", box(30))
+        self.write("q/a.off", box(31))
+        for folder, out in (("p", "all"), ("q", "part")):
+            self.batch(folder, "--name", "{stem}", out=out)
+        done = self.vantage("results", "merge", "all", "part")
+        self.assertIn("1 record left out", done.err)
+        self.assertIn("all sound", self.vantage("results", "verify", "all").out)
+
     def test_a_new_model_moves_no_other_one(self):
         def keys(out):
             return {path.name: {json.loads(line)["key"] for line in path.read_text().splitlines()}

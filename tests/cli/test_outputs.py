@@ -105,6 +105,16 @@ class Foreign(ProgramTest):
         done = self.vantage("figures", "a.off", "other/a.off", "-o", "f", "--size", "32", *FAST, exit_code=1)
         self.assertIn("'a'", done.err)
 
+    def test_a_model_that_cannot_be_read_costs_no_other_ones_figures(self):
+        self.write("bad.off", "no OFF")
+        self.write("c.off", box(2.0))
+        done = self.vantage("figures", "a.off", "bad.off", "c.off", "-o", "f", "--size", "32", *FAST, exit_code=4)
+        self.assertIn("bad.off", done.err)
+        self.assertTrue((self.dir / "f/a").is_dir() and (self.dir / "f/c").is_dir())
+        self.assertEqual(len((self.dir / "f/table-1-times.csv").read_text().splitlines()), 3)
+        self.vantage("figures", "bad.off", "bad.off", "-o", "g", "--size", "32", *FAST, exit_code=1)
+        self.vantage("figures", "bad.off", "-o", "g", "--size", "32", *FAST, exit_code=3)
+
     def test_a_name_of_dots_does_not_lead_out_of_the_folder_of_figures(self):
         self.write("...off", box(2.0))
         self.vantage("figures", "a.off", "...off", "-o", "f", "--size", "32", *FAST)

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "vantage/core/error.h"
 
+#include "batch/runner.h"
 #include "batch/shard_log.h"
 
 namespace vantage::batch {
@@ -36,36 +38,111 @@ std::vector<std::string> shard_files(const std::string& folder) {
   return files;
 }
 
+/// All of a regular file.
+std::string bytes_of(const ConfinedFolder& folder, const std::string& name) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(folder.path_of(name), error);
+  return error ? std::string() : folder.beginning_of(name, static_cast<std::size_t>(size));
+}
+
+/// Takes records in, and from other folders the results that they stand for.
+class Merge {
+ public:
+  Merge(ResultsStore& store, const ConfinedFolder& root, const RunContext& run)
+      : store_(store), root_(root), run_(run) {}
+
+  /// \param origin folder that the record comes from; null: the one that receives them.
+  void take(const ModelRecord& record, const ConfinedFolder* origin) {
+    run_.check();
+    if (!is_sound(record)) {  // a row of a store
+      ++counts_.torn;
+      return;
+    }
+    ++counts_.seen;
+    const bool brings_results = origin != nullptr && !record.folder.empty();
+    const std::string owner = brings_results ? store_.owner_of(record.folder) : std::string();
+    if (!owner.empty() && owner != record.key) {
+      take_beside(record, owner);
+      return;
+    }
+    if (store_.merge(record)) {
+      ++counts_.taken;
+      if (brings_results) {
+        copy_results(record, *origin);
+      }
+    }
+  }
+
+  [[nodiscard]] MergeCounts& counts() { return counts_; }
+
+ private:
+  /// Takes in a record whose folder is there, as another model's: of equal models, that one's results stand
+  /// for both.
+  void take_beside(const ModelRecord& record, const std::string& owner) {
+    const std::optional<ModelRecord> holder = store_.find(owner);
+    if (!holder || holder->content != record.content || holder->options != record.options ||
+        holder->version != record.version) {
+      ++counts_.clashes;
+      return;
+    }
+    ModelRecord equal = record;
+    equal.folder.clear();
+    equal.result.clear();
+    equal.duplicate_of = owner;
+    counts_.taken += store_.merge(equal) ? 1 : 0;
+  }
+
+  void copy_results(const ModelRecord& record, const ConfinedFolder& origin) {
+    const std::string place = model_folder(record.folder);
+    if (!origin.is_folder(place)) {
+      ++counts_.missing;
+      return;
+    }
+    const std::string staging = work_folder(kMergeCorner) + "/in";
+    root_.remove(staging);
+    root_.make_folders(staging);
+    for (const fs::directory_entry& file : fs::directory_iterator(origin.path_of(place))) {
+      const std::string name = "/" + file.path().filename().string();
+      root_.write(staging + name, bytes_of(origin, place + name));
+    }
+    root_.move(staging, place);
+  }
+
+  ResultsStore& store_;
+  const ConfinedFolder& root_;
+  const RunContext& run_;
+  MergeCounts counts_{};
+};
+
 }  // namespace
 
 MergeCounts merge_shards(const std::vector<std::string>& folders, ResultsStore& store,
-                         const RunContext& run) {
-  MergeCounts counts;
-  const auto take = [&](const ModelRecord& record) {
-    run.check();
-    if (!is_sound(record)) {  // a row of a store
-      ++counts.torn;
-      return;
-    }
-    ++counts.seen;
-    counts.taken += store.merge(record) ? 1 : 0;
-  };
+                         const ConfinedFolder& root, const RunContext& run) {
   for (const std::string& folder : folders) {
     if (!fs::is_directory(folder)) {
       throw IoError(folder, "is not a folder of a batch");
     }
   }
+  Merge merge(store, root, run);
   store.begin();
   for (const std::string& folder : folders) {
-    for (const std::string& file : shard_files(folder)) {
-      counts.torn += read_shard_file(file, take);
+    std::optional<ConfinedFolder> other;
+    if (!fs::equivalent(folder, folders.front())) {
+      other.emplace(folder, kMergeCorner);
     }
-    if (folder != folders.front() && fs::exists(fs::path(folder) / ResultsStore::kFileName)) {
+    const auto take = [&](const ModelRecord& record) {
+      merge.take(record, other ? &*other : nullptr);
+    };
+    for (const std::string& file : shard_files(folder)) {
+      merge.counts().torn += read_shard_file(file, take);
+    }
+    if (other && fs::exists(fs::path(folder) / ResultsStore::kFileName)) {
       ResultsStore(folder, Database::Mode::Read).for_each_record(take);
     }
   }
   store.commit();
-  return counts;
+  root.remove(work_folder(kMergeCorner));
+  return merge.counts();
 }
 
 }  // namespace vantage::batch
