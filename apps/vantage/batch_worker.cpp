@@ -225,8 +225,6 @@ struct BatchWorkerCommand {
              batch::path_of_key(order.at("file").get<std::string>()));
     const Json view = without_missing_images(Json::parse(view_json(model, shape, report, own)));
     output.add("view.json", view.dump(2) + "\n");
-    output.write();
-
     Json result;
     for (const char* part : {"format", "vertices", "faces", "components", "closed", "genus"}) {
       result[part] = view["model"][part];
@@ -234,6 +232,8 @@ struct BatchWorkerCommand {
     for (const char* part : {"total", "up", "front", "camera", "best", "worst", "doubts"}) {
       result[part] = view[part];
     }
+    result["files"] = output.sizes();
+    output.write();
     return {{"result", result.dump()}, {"peak_bytes", peak_bytes()}};
   }
 

@@ -352,4 +352,12 @@ std::vector<std::string> OutputFolder::names() const {
   return names;
 }
 
+std::map<std::string, std::size_t> OutputFolder::sizes() const {
+  std::map<std::string, std::size_t> sizes;
+  for (const auto& [name, bytes] : files_) {
+    sizes[name] = bytes.size();
+  }
+  return sizes;
+}
+
 }  // namespace vantage::cli

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -63,6 +65,9 @@ class OutputFolder {
   [[nodiscard]] const std::string& path() const { return path_; }
 
   [[nodiscard]] std::vector<std::string> names() const;
+
+  /// Bytes of each file, by its name.
+  [[nodiscard]] std::map<std::string, std::size_t> sizes() const;
 
  private:
   using File = std::pair<std::string, std::string>;  // name and bytes

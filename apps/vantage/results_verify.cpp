@@ -148,12 +148,26 @@ class Verification {
         return;
       }
     }
-    for (const char* side : {"best", "worst"}) {
-      const Json image = view.value(side, Json::object()).value("image", Json());
-      if (image.is_string() && !root_.exists(folder + "/" + image.get<std::string>())) {
-        complain_of(image.get<std::string>(), "is not there");
+    const Json files = result.value("files", Json::object());
+    for (const auto& [file, size] : files.items()) {
+      const std::string problem = problem_with(std::string(folder).append("/").append(file), size);
+      if (file != "view.json" && !problem.empty()) {
+        complain_of(file, problem);
       }
     }
+  }
+
+  /// What is wrong with a file that its record names; empty if nothing is, or flaw_of() says it.
+  [[nodiscard]] std::string problem_with(const std::string& file, const Json& size) const {
+    if (!root_.exists(file)) {
+      return "is not there";
+    }
+    std::error_code error;
+    const std::uintmax_t bytes = fs::file_size(root_.path_of(file), error);
+    if (error || size == bytes || !flaw_of(file, bytes_of(file)).empty()) {
+      return "";
+    }
+    return "has " + std::to_string(bytes) + " bytes, not " + size.dump();
   }
 
   const batch::ConfinedFolder root_;

@@ -18,7 +18,7 @@ class Verify(ProgramTest):
         self.write("again.off", box(1))
         self.write("bad.off", "OFF\n1 1 0\n")
         self.words = ("batch", "m0.off", "m1.off", "m2.off", "again.off", "bad.off", "-o", "out", "--search", "rapid",
-                      "--size", "48", "--name", "{stem}", "-q")
+                      "--size", "48", "--name", "{stem}", "--write", "best,worst,camera", "-q")
         self.vantage(*self.words, exit_code=4)
 
     def problems(self):
@@ -50,6 +50,10 @@ class Verify(ProgramTest):
         picture = (self.dir / "out/models/m1/best.png").read_bytes()
         self.assertEqual(self.damaged("best.png", picture[:-7]), [f"m1.off: models/m1/best.png is no whole picture{remedy}"])
         self.assertEqual(self.damaged("worst.png", None), [f"m1.off: models/m1/worst.png is not there{remedy}"])
+        self.assertEqual(self.damaged("camera-best.gltf", None), [f"m1.off: models/m1/camera-best.gltf is not there{remedy}"])
+        camera = (self.dir / "out/models/m1/camera-best.gltf").read_bytes()
+        self.assertEqual(self.damaged("camera-best.gltf", camera[:-7]),
+                         [f"m1.off: models/m1/camera-best.gltf has {len(camera) - 7} bytes, not {len(camera)}{remedy}"])
         self.assertEqual(self.damaged("view.json", b'{"vantage": '),
                          [f"m1.off: models/m1/view.json is no JSON{remedy}",
                           f"m1.off: models/m1/view.json is not there or damaged{remedy}"])
