@@ -11,6 +11,7 @@
 
 #include "vantage/core/error.h"
 
+#include "output_folder.h"
 #include "standard_output.h"
 
 namespace vantage::cli {
@@ -52,6 +53,9 @@ RowFile::RowFile(std::string path) : path_(std::move(path)) {
     if (fs::is_symlink(path_, error)) {  // the file that the link names is replaced, not the link
       const fs::path target = fs::canonical(path_, error);
       path_ = error ? path_ : target.string();
+    }
+    if (const fs::path folder = fs::path(path_).parent_path(); !folder.empty()) {
+      make_folder(folder.string());
     }
     part_ = create_beside(path_, file_);
   }

@@ -281,6 +281,11 @@ PointContraction contract_points(std::span<const Vec3> points,
   });
   carry_back(points, left_out, rings, result, run);
   ContractionHistory& history = result.history;
+  if (const ContractionOptions usual;
+      options.method != usual.method || options.weights != usual.weights) {
+    history.warnings.push_back(
+        "method and weights of the contraction are for meshes; the cloud was contracted as ever");
+  }
   if (samples.size() < kept.size()) {
     history.warnings.push_back("the cloud was contracted on " + std::to_string(samples.size()) +
                                " samples of its " + std::to_string(kept.size()) + " points");

@@ -28,7 +28,8 @@ struct Proxy {
   MergedSurface merged{};  ///< Between `fine` and `mesh`.
 };
 
-/// Decimates `fine` to about `target` vertices; `merged` has at most `between`. \pre as decimate(). \throw Cancelled
+/// Decimates `fine` to about `target` vertices; `merged` has about `between`, or more where
+/// nothing can be collapsed any more. \pre as decimate(). \throw Cancelled
 Proxy make_proxy(const TriMesh& fine, std::size_t between, std::size_t target,
                  const RunContext& run);
 

@@ -17,11 +17,11 @@
 
 namespace vantage {
 
-/// Components of more vertices are contracted by a proxy of at most this many [ours; trials in
-/// docs/lab].
+/// Components of more vertices are contracted by a proxy of about this many, where they can be
+/// decimated so far [ours; trials in docs/lab].
 inline constexpr std::size_t kProxyFrom = 20'000;
 inline constexpr std::size_t kProxySize = 10'000;
-/// The skeleton of such a component starts from at most so many merged vertices [ours: fewer lose
+/// The skeleton of such a component starts from about so many merged vertices [ours: fewer lose
 /// limbs; trials in docs/lab].
 inline constexpr std::size_t kMergedSize = 40'000;
 /// A proxy must be smaller than this share of its component to be worth it.

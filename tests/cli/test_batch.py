@@ -352,6 +352,8 @@ class Results(BatchTest):
         self.assertNotIn("seconds", plain[0])
         timed = self.vantage("results", "export", "out", "--timings").out
         self.assertEqual(next(csv.DictReader(io.StringIO(timed)))["attempts"], "1")
+        self.vantage("results", "export", "out", "-o", "new/x.csv")  # a folder is made, as by other commands
+        self.assertEqual((self.dir / "new/x.csv").read_text(), self.vantage("results", "export", "out").out)
 
     def test_query_chooses_sorts_and_limits(self):
         for i in range(5):

@@ -42,6 +42,16 @@ TEST(PointContraction, LeavesPointsWhereTheyAreIfAllAreLeftOut) {
   EXPECT_TRUE(cloud.samples.positions.empty());
 }
 
+TEST(PointContraction, SaysThatMethodsOfMeshesDoNotHold) {
+  const std::vector<Vec3> points = torus(1.0, 0.3, 10, 10).positions;
+  const std::vector<std::uint8_t> none(points.size(), 0);
+  EXPECT_TRUE(contract_points(points, none, {}).history.warnings.empty());
+  const ContractionHistory exact =
+      contract_points(points, none, {.method = ContractionMethod::Exact}).history;
+  ASSERT_EQ(exact.warnings.size(), 1U);
+  EXPECT_NE(exact.warnings.front().find("for meshes"), std::string::npos);
+}
+
 TEST(PointContraction, KeepsTheOneLoopOfATorus) {
   const PointContraction cloud = contracted(torus(1.0, 0.3, 60, 20).positions);
   const Skeleton skeleton = extract_point_skeleton(cloud.samples, cloud.sample_history);
