@@ -163,8 +163,7 @@ Settings Subject::settings(const py::dict& keywords) const {
   if (settings.view.up == UpAxis::Any) {
     throw InvalidInput(
         "option up: any turns the model, which would no longer be where its arrays are; write it "
-        "with "
-        "vantage orient MODEL --up any -o OUT, and take what that writes");
+        "with vantage orient MODEL --up any -o OUT, and take what that writes");
   }
   return settings;
 }

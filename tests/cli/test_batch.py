@@ -469,6 +469,15 @@ class Shards(BatchTest):
         self.assertEqual(len(list((self.dir / "all").glob("models/*"))), 2)
         self.assertIn("0 new", self.vantage("results", "merge", "all", "part").out)
 
+    def test_a_further_batch_replaces_results_of_its_models_made_before(self):
+        (self.dir / "p").mkdir()
+        self.write("p/a.off", box(30))
+        self.batch("p", out="all")
+        self.write("p/a.off", box(31))
+        self.batch("p", out="part")
+        self.vantage("results", "merge", "all", "part")
+        self.assertIn("1 folder of results: all sound", self.vantage("results", "verify", "all").out)
+
     def test_of_two_models_with_one_folder_name_the_further_one_is_left_out_and_said(self):
         for folder in "pq":
             (self.dir / folder).mkdir()

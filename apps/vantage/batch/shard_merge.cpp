@@ -65,10 +65,13 @@ class Merge {
       take_beside(record, owner);
       return;
     }
+    const std::optional<ModelRecord> former =
+        brings_results ? store_.find(record.key) : std::nullopt;
     if (store_.merge(record)) {
       ++counts_.taken;
       if (brings_results) {
         copy_results(record, *origin);
+        remove_former(former);
       }
     }
   }
@@ -108,6 +111,13 @@ class Merge {
     root_.move(staging, place);
   }
 
+  /// Removes the results of a record that another one has replaced, where they are nobody's now.
+  void remove_former(const std::optional<ModelRecord>& former) const {
+    if (former && !former->folder.empty() && store_.owner_of(former->folder).empty()) {
+      root_.remove(model_folder(former->folder));
+    }
+  }
+
   ResultsStore& store_;
   const ConfinedFolder& root_;
   const RunContext& run_;
@@ -141,7 +151,9 @@ MergeCounts merge_shards(const std::vector<std::string>& folders, ResultsStore& 
     }
   }
   store.commit();
-  root.remove(work_folder(kMergeCorner));
+  if (folders.size() > 1) {
+    root.remove(work_folder(kMergeCorner));
+  }
   return merge.counts();
 }
 

@@ -85,7 +85,8 @@ inline constexpr auto kContractionFields = std::tuple{
 /// \complexity One sparse Cholesky factorisation a step: of a proxy of about 10 000 vertices where a
 /// component has more than 20 000, can be decimated to less than 0.7 of them and the method is Auto. A step
 /// that is not sound is tried up to nine ways, each with up to seven weights; what still fails is contracted
-/// anew up to three times, a plate up to four. A second, coarser mesh is contracted as well (ContractionHistory::second).
+/// anew up to three times, a plate up to four. A second, coarser mesh is contracted as well
+/// (ContractionHistory::second).
 ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& options = {},
                             const RunContext& run = {});
 
