@@ -19,6 +19,7 @@
 
 #include "batch/archive_reader.h"
 #include "batch/content_hash.h"
+#include "batch/json_line.h"
 #include "batch/naming.h"
 #include "batch/thumbnail.h"
 #include "commands.h"
@@ -40,15 +41,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// One line to the batch.
 void say(int answers, const Json& json) {
-  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t count = ::write(answers, text.data() + done, text.size() - done);
-    if (count < 0 && errno != EINTR) {
-      throw IoError("batch", "does not listen any more", errno);
-    }
-    done += count > 0 ? static_cast<std::size_t>(count) : 0;
+  if (!batch::write_json_line(answers, json)) {
+    throw IoError("batch", "does not listen any more", errno);
   }
 }
 

@@ -13,7 +13,6 @@
 #include "vantage/io/write.h"
 
 #include "mesh/texture_place.h"
-#include "report/smaller_picture.h"
 
 namespace vantage {
 namespace {

@@ -13,7 +13,6 @@
 #include "core/parallel.h"
 #include "report/cloud_picture.h"
 #include "report/legend.h"
-#include "report/smaller_picture.h"
 
 namespace vantage {
 namespace {

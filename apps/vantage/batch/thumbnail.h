@@ -14,8 +14,7 @@ inline constexpr const char* kThumbnailFile = "thumb.png";
 /// Longest side of a small picture, px.
 inline constexpr int kThumbnailSide = 160;
 
-/// The picture made smaller, each pixel the mean of those it stands for, weighted by their alpha;
-/// its longest side is kThumbnailSide. Pictures that are small already stay as they are.
+/// The picture made smaller, as by smaller_picture(); its longest side is kThumbnailSide. Pictures that are small already stay as they are.
 Image thumbnail_of(const Image& image);
 
 /// Decodes a PNG. Empty if it is none or a side is longer than `longest_side`.

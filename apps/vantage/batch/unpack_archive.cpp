@@ -18,6 +18,7 @@
 #include "batch/archive_reader.h"
 #include "batch/content_hash.h"
 #include "batch/descriptor.h"
+#include "batch/json_line.h"
 #include "batch/naming.h"
 
 namespace vantage::batch {
@@ -35,13 +36,8 @@ struct CloseArchive {
 };
 
 void say(int answers, const Json& json) {
-  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t count = ::write(answers, text.data() + done, text.size() - done);
-    if (count < 0 && errno != EINTR) {
-      ::_exit(1);  // nobody listens any more
-    }
-    done += count > 0 ? static_cast<std::size_t>(count) : 0;
+  if (!write_json_line(answers, json)) {
+    ::_exit(1);
   }
 }
 

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "vantage/core/run_context.h"
+
 namespace vantage {
 
 /// Red, green, blue as sRGB bytes.
@@ -30,5 +32,9 @@ struct DeepImage {
   int height = 0;                     ///< px
   std::vector<std::uint16_t> rgba{};  ///< 4 · width · height values.
 };
+
+/// A smaller copy: means over areas, of light times opacity. \pre 0 < width ≤ that of the image, and
+/// the same for the height. \throw Cancelled
+Image smaller_picture(const Image& image, int width, int height, const RunContext& run = {});
 
 }  // namespace vantage

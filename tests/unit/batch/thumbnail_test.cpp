@@ -38,6 +38,15 @@ TEST(Thumbnail, TransparentPixelsDoNotColourTheirNeighbours) {
   EXPECT_EQ(small.rgba, filled(160, 160, {255, 0, 0, 128}).rgba);
 }
 
+TEST(Thumbnail, IsAsLightAsThePicture) {
+  Image image = filled(320, 320, {255, 255, 255, 255});
+  for (std::size_t i = 0; i < image.rgba.size(); i += 8) {  // every second column: black
+    image.rgba[i] = image.rgba[i + 1] = image.rgba[i + 2] = 0;
+  }
+  // 188 is half the light of 255 (IEC 61966-2-1); 128 would be a fifth.
+  EXPECT_EQ(thumbnail_of(image).rgba, filled(160, 160, {188, 188, 188, 255}).rgba);
+}
+
 TEST(Thumbnail, APngReadsBackUnlessItIsTooLargeOrTorn) {
   const Image image = filled(20, 10, {1, 2, 3, 255});
   const std::string bytes = png_bytes(image);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "report/smaller_picture.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "vantage/core/image.h"
 #include "vantage/core/vec3.h"
 
 #include "core/parallel.h"
