@@ -13,7 +13,7 @@
 #include "vantage/core/error.h"
 
 #include "batch/confined_folder.h"
-#include "batch/runner.h"
+#include "batch/result_folders.h"
 
 namespace vantage::cli {
 namespace {
@@ -100,13 +100,8 @@ class Verification {
   }
 
  private:
-  /// All of a regular file; empty if there is none.
   [[nodiscard]] std::string bytes_of(const std::string& name) const {
-    std::error_code error;
-    const std::uintmax_t size = fs::file_size(root_.path_of(name), error);
-    constexpr std::uintmax_t kMost = std::uintmax_t{1} << 31U;
-    return error ? std::string()
-                 : root_.beginning_of(name, static_cast<std::size_t>(std::min(size, kMost)));
+    return root_.content_of(name).value_or("");
   }
 
   void look_into(const batch::ModelRecord& record) {

@@ -10,6 +10,7 @@
 #include <new>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include <pthread.h>
 #include <unistd.h>
@@ -165,6 +166,7 @@ void Session::show(const std::string& text) {
 
 int Session::report_failure() {
   progress_.finish();
+  const bool is_of_input = std::exchange(reading_input_, false);
   const auto complain = [](const std::string& problem) {
     std::fprintf(stderr, "vantage: %s\n", printable(problem).c_str());
   };
@@ -189,16 +191,16 @@ int Session::report_failure() {
     if (error.error_number() == ENOSPC || error.error_number() == EDQUOT) {
       return kTryAgain;
     }
-    return reading_input_ ? kUnreadableInput : kFailed;
+    return is_of_input ? kUnreadableInput : kFailed;
   } catch (const FormatError& error) {
     complain(error.what());
     return kUnreadableInput;
   } catch (const std::bad_alloc&) {
     complain("out of memory" + memory_remedy());
-    return reading_input_ ? kUnreadableInput : kFailed;
+    return is_of_input ? kUnreadableInput : kFailed;
   } catch (const std::exception& error) {
     complain(error.what());
-    return reading_input_ ? kUnreadableInput : kFailed;
+    return is_of_input ? kUnreadableInput : kFailed;
   }
 }
 

@@ -149,6 +149,12 @@ class Broken(ProgramTest):
         self.assertIn("--timeout", done.stderr)
         self.assertEqual(len(done.stderr.splitlines()), 1)
 
+    def test_a_reader_that_stays_after_its_output_is_ended(self):
+        copy = self.stand_in("exec >&-; exec sleep 100")
+        done = subprocess.run([copy, "info", DATA / "lamp.fbx"], capture_output=True, check=False, text=True, timeout=60)
+        self.assertEqual((done.returncode, len(done.stderr.splitlines())), (3, 1))
+        self.assertIn("broke down", done.stderr)
+
     def test_without_the_package_the_message_names_it(self):
         shutil.copy(PROGRAM, self.dir / "vantage")
         nowhere = {**os.environ, "PATH": "/usr/bin:/bin"}

@@ -149,6 +149,26 @@ std::string ConfinedFolder::beginning_of(const std::string& name, std::size_t mo
   return bytes;
 }
 
+std::optional<std::string> ConfinedFolder::content_of(const std::string& name) const {
+  constexpr off_t kMost = off_t{1} << 31U;
+  const Descriptor file(open_file(name, O_RDONLY));
+
+  struct stat status {};
+
+  if (file.number() < 0 || ::fstat(file.number(), &status) != 0 || status.st_size > kMost) {
+    return std::nullopt;
+  }
+  std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t got = ::read(file.number(), bytes.data() + done, bytes.size() - done);
+    if (got == 0 || (got < 0 && errno != EINTR)) {
+      return std::nullopt;
+    }
+    done += got > 0 ? static_cast<std::size_t>(got) : 0;
+  }
+  return bytes;
+}
+
 void ConfinedFolder::make_folders(const std::string& name) const {
   if (!is_name(name)) {
     throw IoError(path_of(name), "is no place inside the results' folder");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -39,6 +40,9 @@ class ConfinedFolder {
 
   /// The first bytes of a regular file; empty if there is none. \param most at most so many.
   [[nodiscard]] std::string beginning_of(const std::string& name, std::size_t most) const;
+
+  /// All of a regular file; nothing if there is none that can be read, or it has more than 2^31 bytes.
+  [[nodiscard]] std::optional<std::string> content_of(const std::string& name) const;
 
   /// Makes a folder and those above it, where they are missing. \throw IoError
   void make_folders(const std::string& name) const;

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "batch/naming.h"
+#include "batch/result_folders.h"
 
 namespace vantage::batch {
 namespace {

@@ -17,7 +17,7 @@
 #include "vantage/report/figures.h"
 
 #include "batch/index_page.h"
-#include "batch/runner.h"
+#include "batch/result_folders.h"
 #include "batch/thumbnail.h"
 
 namespace vantage::batch {

@@ -17,7 +17,7 @@
 #include "batch/crew.h"
 #include "batch/file_stamp.h"
 #include "batch/naming.h"
-#include "result_names.h"
+#include "batch/result_folders.h"
 
 namespace vantage::batch {
 namespace {
@@ -336,7 +336,7 @@ class Runner {
       }
       job.replaces = owner;
     }
-    if (!may_be_replaced(record.folder)) {
+    if (!may_be_replaced(root_, record.folder)) {
       refuse_name(job, "is not a folder of results of vantage; move it away, then --retry failed");
       return false;
     }
@@ -349,24 +349,6 @@ class Runner {
     fail(
         job, "name",
         "its results would go to '" + std::exchange(job.record.folder, {}) + "', which " + because);
-  }
-
-  /// Whether there is nothing in a model's place, or results of ours.
-  [[nodiscard]] bool may_be_replaced(const std::string& folder) const {
-    const std::string place = model_folder(folder);
-    for (std::size_t slash = place.find('/'); slash != std::string::npos;
-         slash = place.find('/', slash + 1)) {
-      if (const std::string above = place.substr(0, slash);
-          root_.exists(above) && !root_.is_folder(above)) {
-        return false;
-      }
-    }
-    return !root_.exists(place) || root_.is_empty_folder(place) || holds_results(place);
-  }
-
-  /// Whether a folder is one that a worker has made: only such a one is ever removed.
-  [[nodiscard]] bool holds_results(const std::string& place) const {
-    return root_.beginning_of(place + "/view.json", cli::kViewBegins.size()) == cli::kViewBegins;
   }
 
   /// Whether results of the same content, made by an earlier run with what no model of this one asks
@@ -446,8 +428,7 @@ class Runner {
     job.record.timings.finished_ms = std::max(now_ms(), started_ms_ + 1);
     book_.put(job.record);
     if (job.before && !job.before->folder.empty() && job.before->folder != job.record.folder &&
-        book_.owner_of(job.before->folder).empty() &&
-        holds_results(model_folder(job.before->folder))) {
+        book_.owner_of(job.before->folder).empty() && holds_results(root_, job.before->folder)) {
       root_.remove(model_folder(job.before->folder));  // results of what the file held before
     }
     report_(counts_, &job.record);
@@ -484,14 +465,6 @@ class Runner {
 };
 
 }  // namespace
-
-std::string work_folder(const std::string& work_name) {
-  return ".work/" + work_name;
-}
-
-std::string model_folder(const std::string& folder) {
-  return "models/" + folder;
-}
 
 RunnerCounts run_batch(EntrySource& source, ResultBook& book, const RunnerOptions& options,
                        const std::stop_token& stop,

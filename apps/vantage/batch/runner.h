@@ -51,10 +51,4 @@ RunnerCounts run_batch(EntrySource& source, ResultBook& book, const RunnerOption
                        const std::stop_token& stop,
                        const std::function<void(const RunnerCounts&, const ModelRecord*)>& report);
 
-/// Name, in a batch's folder, of the folder that holds what is being worked on; its contents may be
-/// lost.
-std::string work_folder(const std::string& work_name);
-/// Name, in a batch's folder, of a model's results. \param folder as its record has it.
-std::string model_folder(const std::string& folder);
-
 }  // namespace vantage::batch

@@ -7,7 +7,7 @@
 
 #include "vantage/core/error.h"
 
-#include "batch/runner.h"
+#include "batch/result_folders.h"
 #include "batch/shard_log.h"
 
 namespace vantage::batch {
@@ -36,13 +36,6 @@ std::vector<std::string> shard_files(const std::string& folder) {
     return fs::path(name).extension() == ".log";
   });
   return files;
-}
-
-/// All of a regular file.
-std::string bytes_of(const ConfinedFolder& folder, const std::string& name) {
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(folder.path_of(name), error);
-  return error ? std::string() : folder.beginning_of(name, static_cast<std::size_t>(size));
 }
 
 /// Takes records in, and from other folders the results that they stand for.
@@ -105,15 +98,23 @@ class Merge {
     root_.remove(staging);
     root_.make_folders(staging);
     for (const fs::directory_entry& file : fs::directory_iterator(origin.path_of(place))) {
+      if (file.symlink_status().type() != fs::file_type::regular) {
+        continue;  // none of ours
+      }
       const std::string name = "/" + file.path().filename().string();
-      root_.write(staging + name, bytes_of(origin, place + name));
+      const std::optional<std::string> bytes = origin.content_of(place + name);
+      if (!bytes) {
+        throw IoError(origin.path_of(place + name), "cannot be read");
+      }
+      root_.write(staging + name, *bytes);
     }
     root_.move(staging, place);
   }
 
   /// Removes the results of a record that another one has replaced, where they are nobody's now.
   void remove_former(const std::optional<ModelRecord>& former) const {
-    if (former && !former->folder.empty() && store_.owner_of(former->folder).empty()) {
+    if (former && !former->folder.empty() && store_.owner_of(former->folder).empty() &&
+        holds_results(root_, former->folder)) {
       root_.remove(model_folder(former->folder));
     }
   }

@@ -23,6 +23,12 @@ std::vector<Entry> all_of(EntrySource& source) {
   return entries;
 }
 
+/// What a manifest of this text lists.
+std::vector<Entry> listed(const std::string& text) {
+  const test::TemporaryFolder scratch;
+  return all_of(*entries_of_manifest(scratch.write("list", text)));
+}
+
 TEST(EntryFilter, TakesReadableFormatsInAnyCaseUnlessToldOtherwise) {
   EXPECT_TRUE(EntryFilter{}.accepts("d/A.PLY"));
   EXPECT_FALSE(EntryFilter{}.accepts("d/a.txt"));
@@ -92,10 +98,7 @@ TEST(EntriesOfManifest, PathsAreRelativeToItsFolder) {
 }
 
 TEST(EntriesOfManifest, CellsOfCsvMayHoldCommasQuotesAndLineEnds) {
-  const test::TemporaryFolder scratch;
-  const auto source = entries_of_manifest(
-      scratch.write("list.csv", "name,path,up\n\"a \"\"b\"\"\",\"c,d\ne.ply\",-z\n"));
-  const std::vector<Entry> entries = all_of(*source);
+  const std::vector<Entry> entries = listed("name,path,up\n\"a \"\"b\"\"\",\"c,d\ne.ply\",-z\n");
   ASSERT_EQ(entries.size(), 1U);
   EXPECT_EQ(entries[0].name, "a \"b\"");
   EXPECT_EQ(entries[0].key, "c,d\ne.ply");
@@ -104,10 +107,7 @@ TEST(EntriesOfManifest, CellsOfCsvMayHoldCommasQuotesAndLineEnds) {
 
 // A stray quote once made the rest of the table one name.
 TEST(EntriesOfManifest, AQuoteInsideACellOfCsvIsText) {
-  const test::TemporaryFolder scratch;
-  const auto source =
-      entries_of_manifest(scratch.write("list.csv", "path,name\nc.ply,5\" pipe\nd.ply, \"d\" \n"));
-  const std::vector<Entry> entries = all_of(*source);
+  const std::vector<Entry> entries = listed("path,name\nc.ply,5\" pipe\nd.ply, \"d\" \n");
   ASSERT_EQ(entries.size(), 2U);
   EXPECT_EQ(entries[0].name, "5\" pipe");
   EXPECT_EQ(entries[1].key, "d.ply");

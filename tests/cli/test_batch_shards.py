@@ -1,0 +1,98 @@
+"""Shards of a batch, and merging them and further batches."""
+
+import json
+import unittest
+
+from program import contract_quickly as setUpModule
+from shapes import box
+from test_batch import FAST, BatchTest
+
+
+class Shards(BatchTest):
+
+    def setUp(self):
+        super().setUp()
+        for i in range(12):
+            self.write(f"{i:02}.off", box(1 + i // 2))  # pairs of equal models, apart or together
+        self.write("bad.off", "no OFF")
+        self.names = [f"{i:02}.off" for i in range(12)] + ["bad.off"]
+
+    def test_merged_shards_export_the_same_bytes_as_one_run(self):
+        self.batch(*self.names, exit_code=4, out="one")
+        for count in (1, 3, 64):
+            out = f"shards-{count}"
+            for i in range(count):
+                done = self.vantage("batch", *self.names, "-o", out, *FAST, "--shard", f"{i}/{count}",
+                                    exit_code=None)
+                self.assertIn(done.returncode, (0, 4))
+                if i == count // 2:
+                    self.vantage("results", "merge", out)  # at any time, as often as wanted
+            self.vantage("results", "merge", out)
+            self.assertEqual(self.export(out), self.export("one"))
+            self.assertIn("0 new", self.vantage("results", "merge", out).out)
+
+    def test_further_batches_bring_their_results(self):
+        for folder in "pq":
+            (self.dir / folder).mkdir()
+        self.write("p/a.off", box(30))
+        self.write("q/b.off", box(31))
+        self.write("q/a.off", box(30))  # the same name and bytes as p's
+        self.batch("p", out="all")
+        self.batch("q", out="part")
+        self.vantage("results", "merge", "all", "part")
+        self.assertIn("all sound", self.vantage("results", "verify", "all").out)
+        self.assertEqual(len(self.export("all").splitlines()), 3)
+        for view in (self.dir / "part").glob("models/b-*/view.json"):
+            self.assertEqual((self.dir / "all/models" / view.parent.name / "view.json").read_bytes(), view.read_bytes())
+        self.assertEqual(len(list((self.dir / "all").glob("models/*"))), 2)
+        self.assertIn("0 new", self.vantage("results", "merge", "all", "part").out)
+
+    def test_a_further_batch_replaces_results_of_its_models_made_before(self):
+        (self.dir / "p").mkdir()
+        self.write("p/a.off", box(30))
+        self.batch("p", out="all")
+        self.write("p/a.off", box(31))
+        self.batch("p", out="part")
+        self.vantage("results", "merge", "all", "part")
+        self.assertIn("1 folder of results: all sound", self.vantage("results", "verify", "all").out)
+
+    def test_of_two_models_with_one_folder_name_the_further_one_is_left_out_and_said(self):
+        for folder in "pq":
+            (self.dir / folder).mkdir()
+        self.write("p/a.off", box(30))
+        self.write("q/a.off", box(31))
+        for folder, out in (("p", "all"), ("q", "part")):
+            self.batch(folder, "--name", "{stem}", out=out)
+        done = self.vantage("results", "merge", "all", "part")
+        self.assertIn("1 record left out", done.err)
+        self.assertIn("all sound", self.vantage("results", "verify", "all").out)
+
+    def test_a_new_model_moves_no_other_one(self):
+        def keys(out):
+            return {path.name: {json.loads(line)["key"] for line in path.read_text().splitlines()}
+                    for path in (self.dir / out / "shards").iterdir()}
+        for i in range(3):
+            self.vantage("batch", *self.names, "-o", "a", *FAST, "--shard", f"{i}/3", exit_code=None)
+        self.write("new.off", box(99))
+        for i in range(3):
+            self.vantage("batch", "new.off", *self.names, "-o", "b", *FAST, "--shard", f"{i}/3", exit_code=None)
+        before, after = keys("a"), keys("b")
+        self.assertEqual({name: after[name] - {"new.off"} for name in after}, before)
+
+    def test_a_finished_shard_does_nothing_again(self):
+        self.vantage("batch", *self.names, "-o", "out", *FAST, "--shard", "1/3", exit_code=None)
+        file = self.dir / "out/shards/shard-00001-of-00003.jsonl"
+        before = file.read_bytes()
+        counts = json.loads(self.vantage("batch", *self.names, "-o", "out", *FAST, "--shard", "1/3", "--json",
+                                         exit_code=None).out)
+        self.assertEqual(counts["done"] + counts["duplicates"], 0)
+        self.assertEqual(file.read_bytes(), before)
+
+    def test_shards_need_names_that_cannot_meet(self):
+        self.vantage("batch", *self.names, "-o", "out", "--shard", "0/2", "--name", "{stem}", exit_code=2)
+        for shard in ("2/2", "a/b", "1", "-1/2", "0/0"):
+            self.vantage("batch", *self.names, "-o", "out", f"--shard={shard}", exit_code=2)
+
+
+if __name__ == "__main__":
+    unittest.main()
