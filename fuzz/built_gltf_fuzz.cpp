@@ -10,9 +10,9 @@
 
 #include "vantage/core/error.h"
 #include "vantage/io/model.h"
+#include "vantage/io/write.h"
 
 #include "choices.h"
-#include "io/base64.h"
 #include "io/byte_cursor.h"
 #include "io/readers.h"
 #include "sound_model.h"

@@ -16,6 +16,7 @@
 #include "batch/confined_folder.h"
 #include "batch/content_hash.h"
 #include "batch/entry_source.h"
+#include "batch/file_stamp.h"
 #include "batch/folder_lock.h"
 #include "batch/folder_owner.h"
 #include "batch/naming.h"
@@ -246,10 +247,8 @@ struct BatchCommand {
   void settle_overview(const batch::ConfinedFolder& root, batch::ResultsStore& store,
                        const batch::RunnerCounts& counts, const RunContext& run) const {
     const bool changed = counts.done + counts.failed + counts.duplicates > 0;
-    if (no_overview && changed) {
-      batch::remove_overview(root);
-    } else if (!no_overview && (changed || !root.exists("index.html"))) {
-      batch::write_overview(root, store, run);
+    if (changed || (!no_overview && !root.exists("index.html"))) {
+      batch::renew_overview(root, store, !no_overview, run);
     }
   }
 
@@ -314,7 +313,7 @@ struct BatchCommand {
       // Of equal bytes the file's ending says how they are read.
       return batch::text_hash(options_hash(own) + ' ' + kinds.text() + ' ' +
                               (kinds.has_pictures() ? own_look.text() : "") + ' ' +
-                              extension_of(entry.shown_path()) + ' ' + trouble)
+                              suffix_of(entry.shown_path()) + ' ' + trouble)
           .substr(0, 16);
     };
     runner.worker_arguments = {"batch-worker",
@@ -362,15 +361,18 @@ struct BatchCommand {
     batch::ResultsStore store(folder, batch::Database::Mode::Create);
     const SlurmBatch plan{
         .attempts = runner.attempts,
+        .verify = runner.verify,
         .is_current = [this](const batch::Entry& entry, const batch::ModelRecord& record) {
-          return record.version == version() &&
+          return record.version == version() && record.stamp == batch::stamp_of(entry.path) &&
+                 batch::are_as_they_were(record.beside, entry.path) &&
                  (record.options == runner.options_hash(entry) || record.options.empty()) &&
                  !(runner.retry_failed && record.status == "failed");
         }};
-    run_on_slurm(session, source, store, root, slurm, plan);
-    if (!no_overview && !slurm.detach) {
-      batch::write_overview(root, store, session.run());
+    if (!run_on_slurm(session, source, store, root, slurm, plan)) {
+      finish_standard_output();
+      return;
     }
+    batch::renew_overview(root, store, !no_overview, session.run());
     const batch::StatusCounts counts = store.counts();
     const std::int64_t doubted = store.count_doubted();
     summarise(session, {.done = counts.done,

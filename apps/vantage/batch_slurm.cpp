@@ -11,6 +11,7 @@
 #include "vantage/core/error.h"
 #include "vantage/core/version.h"
 
+#include "batch/file_stamp.h"
 #include "batch/shard_log.h"
 #include "batch/shard_merge.h"
 #include "batch/shard_plan.h"
@@ -63,12 +64,14 @@ class SlurmRun {
     }
   }
 
-  void run() {
+  /// \return whether all has ended.
+  bool run() {
     join_earlier_job();
     for (int attempt = 0; attempt < batch_.attempts; ++attempt) {
-      const std::vector<std::uint32_t> shards = unfinished_shards();
+      const std::vector<std::uint32_t> shards = shards_with(
+          [&](const Entry& entry) { return (batch_.verify && attempt == 0) || !has_ended(entry); });
       if (shards.empty()) {
-        return;
+        return true;
       }
       remove_links();
       folder_.write(kScript, batch::slurm_script(flags_.request));
@@ -78,11 +81,12 @@ class SlurmRun {
                    " in " + plural(shards.size(), "shard"));
       if (flags_.detach) {
         session_.say("when it has ended: vantage results merge " + flags_.request.folder);
-        return;
+        return false;
       }
       await(job);
     }
     give_up();
+    return true;
   }
 
  private:
@@ -145,19 +149,22 @@ class SlurmRun {
   }
 
   template <class Take>
-  void for_each_unfinished(Take&& take) {
+  void for_each_planned(Take&& take) {
     const auto entries = batch::entries_of_manifest(folder_.path_of(kPlan));
     while (const std::optional<Entry> entry = entries->next()) {
-      if (!has_ended(*entry)) {
-        take(*entry);
-      }
+      take(*entry);
     }
   }
 
-  std::vector<std::uint32_t> unfinished_shards() {
+  /// Those that have an entry for which `is_to_run` holds.
+  template <class IsToRun>
+  std::vector<std::uint32_t> shards_with(IsToRun&& is_to_run) {
     std::vector<bool> needed(flags_.request.shards, false);
-    for_each_unfinished(
-        [&](const Entry& entry) { needed[shard_of(entry, flags_.request.shards)] = true; });
+    for_each_planned([&](const Entry& entry) {
+      if (is_to_run(entry)) {
+        needed[shard_of(entry, flags_.request.shards)] = true;
+      }
+    });
     std::vector<std::uint32_t> shards;
     for (std::uint32_t i = 0; i < needed.size(); ++i) {
       if (needed[i]) {
@@ -170,11 +177,16 @@ class SlurmRun {
   /// Nothing is to be left without a record: what no attempt could end has failed.
   void give_up() {
     std::vector<Entry> lost;
-    for_each_unfinished([&](const Entry& entry) { lost.push_back(entry); });
+    for_each_planned([&](const Entry& entry) {
+      if (!has_ended(entry)) {
+        lost.push_back(entry);
+      }
+    });
     for (const Entry& entry : lost) {
       batch::ModelRecord record;
       record.key = entry.key;
       record.position = entry.position;
+      record.stamp = batch::stamp_of(entry.path);
       record.version = version();
       record.status = "failed";
       record.reason = "crash";
@@ -231,12 +243,12 @@ void SlurmFlags::refuse_any() const {
   }
 }
 
-void run_on_slurm(Session& session, batch::EntrySource& entries, batch::ResultsStore& store,
+bool run_on_slurm(Session& session, batch::EntrySource& entries, batch::ResultsStore& store,
                   const batch::ConfinedFolder& folder, const SlurmFlags& flags,
                   const SlurmBatch& batch) {
   SlurmRun run(session, store, folder, flags, batch);
   run.plan(entries);
-  run.run();
+  return run.run();
 }
 
 }  // namespace vantage::cli

@@ -33,7 +33,8 @@ struct SlurmFlags {
 
 /// What a collection on Slurm needs to know of the batch.
 struct SlurmBatch {
-  int attempts = 2;  ///< At shards that end before their models have.
+  int attempts = 2;     ///< At shards that end before their models have.
+  bool verify = false;  ///< Every shard runs once, whatever is known of its models.
   /// Whether a model's record is up to date: same options and version.
   std::function<bool(const batch::Entry&, const batch::ModelRecord&)> is_current{};
 };
@@ -41,8 +42,9 @@ struct SlurmBatch {
 /// Plans the shards, submits them as a job array, waits, merges, and submits again the shards that
 /// ended before their models had; models that no attempt could end are recorded as failed.
 /// Interrupted, it cancels the job and merges what there is; run again, it joins a job that still
-/// runs. \throw Cancelled, IoError
-void run_on_slurm(Session& session, batch::EntrySource& entries, batch::ResultsStore& store,
+/// runs. \return whether all has ended, which a detached job that was just submitted has not.
+/// \throw Cancelled, IoError
+bool run_on_slurm(Session& session, batch::EntrySource& entries, batch::ResultsStore& store,
                   const batch::ConfinedFolder& folder, const SlurmFlags& flags,
                   const SlurmBatch& batch);
 

@@ -49,44 +49,11 @@ ViewOptions MethodFlags::resolve(std::uint64_t seed) const {
   flags_.apply(all);
   all.view.fit_size |= fits_ && !flags_.has("size");
   SearchOptions& search = all.view.search;
-  const bool by_gradient = search.strategy == SearchStrategy::Gradient;
-  if (!by_gradient && search.starts != SearchOptions{}.starts) {
-    throw CLI::ValidationError("--starts", "goes with --search gradient only");
-  }
-  if (flags_.has("epsilon") && search.strategy != SearchStrategy::Rapid) {
-    throw CLI::ValidationError("--epsilon", "goes with --search rapid only");
-  }
-  for (const char* const flag : {"base", "subdivisions"}) {
-    if (flags_.has(flag) && search.strategy != SearchStrategy::Rapid &&
-        search.strategy != SearchStrategy::Exhaustive) {
-      throw CLI::ValidationError(std::string("--") + flag,
-                                 "goes with --search rapid and exhaustive only");
-    }
-  }
-  for (const char* const flag : {"fov", "distance"}) {
-    if (flags_.has(flag) && all.view.projection == Projection::Orthographic) {
-      throw CLI::ValidationError(std::string("--") + flag,
-                                 "goes with --projection perspective only");
-    }
-  }
-  if (flags_.has("level-agreement") &&
-      (all.view.kssm_to_finished_graph || !all.view.skeleton.fit)) {
-    throw CLI::ValidationError(
-        "--level-agreement", "compares two fitted curves: leave out --graph finished and --no-fit");
-  }
-  if (all.view.up && all.view.up != UpAxis::Any && all.view.front &&
-      up_vector(*all.view.up).dot(up_vector(*all.view.front)) != 0.0) {
-    throw CLI::ValidationError("--front",
-                               "is along the axis of --up: give one at right angles to it");
-  }
-  search.seed = by_gradient ? seed : 0;
-  if (flags_.has("objective") && flags_.has("prior")) {
-    throw CLI::ValidationError("--prior", "says what is maximised, as --objective does: give one");
-  }
-  if (flags_.has("objective") && all.view.objective == Objective::People &&
-      objective_of(all.view) != Objective::People) {
-    throw CLI::ValidationError("--objective",
-                               "people goes with --search global, dense and exhaustive only");
+  search.seed = search.strategy == SearchStrategy::Gradient ? seed : 0;
+  try {
+    check_together(all.view, [&](std::string_view name) { return has(std::string(name)); });
+  } catch (const InvalidInput& error) {
+    throw refused(error);
   }
   return all.view;
 }

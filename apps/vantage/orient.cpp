@@ -118,7 +118,7 @@ struct OrientCommand {
   }
 
  private:
-  [[nodiscard]] bool is_ply() const { return extension_of(file) == ".ply"; }
+  [[nodiscard]] bool is_ply() const { return suffix_of(file) == ".ply"; }
 
   [[nodiscard]] std::string turned(Session& session, const Model& loaded, const AxisTurn& turn,
                                    bool is_quarter_turn) const {
@@ -134,7 +134,7 @@ struct OrientCommand {
       throw CLI::ValidationError(
           "-o", "must end in .ply: the model is turned by other than quarter turns");
     }
-    if (!in_place || extension_of(file) != own) {
+    if (!in_place || suffix_of(file) != own) {
       throw CLI::ValidationError("-o", in_place
                                            ? "must end in " + own + ", as the model is, or in .ply"
                                            : "must end in .ply: a " + own + " is not written");

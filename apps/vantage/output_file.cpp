@@ -90,7 +90,7 @@ std::optional<std::string> head_of(const fs::path& path) {
 
 }  // namespace
 
-std::string extension_of(const std::string& path) {
+std::string suffix_of(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

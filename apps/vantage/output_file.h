@@ -15,7 +15,7 @@
 namespace vantage::cli {
 
 /// Of a file's name, in small letters, with its point; empty if it has none.
-std::string extension_of(const std::string& path);
+std::string suffix_of(const std::string& path);
 
 /// What is written to a file.
 enum class OutputKind { Picture, Shape, Table };

@@ -30,7 +30,7 @@ inline constexpr ResultKind kLevelResults{"level-00.ply", is_level_file};
 class OutputFolder {
  public:
   /// \param path the folder; made if it is missing. A folder that holds files but no marker of ours
-  /// is refused by check(), before any work is done.
+  /// is refused by check().
   OutputFolder(std::string path, const ResultKind& kind) : path_(std::move(path)), kind_(kind) {}
 
   /// Says that nobody else knows the folder before it is whole, nor keeps it if it never is: then no file has to tell

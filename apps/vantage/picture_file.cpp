@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 12> kOtherFormats{".jpg",  ".jpeg", ".gif
 }  // namespace
 
 std::string checked_picture_name(const std::string& path) {
-  const std::string extension = extension_of(path);
+  const std::string extension = suffix_of(path);
   if (std::find(kOtherFormats.begin(), kOtherFormats.end(), extension) != kOtherFormats.end()) {
     throw CLI::ValidationError("--output", "pictures are written as .png or .webp, not " +
                                                extension + "; convert one of these");
@@ -30,12 +30,12 @@ std::string checked_picture_name(const std::string& path) {
 }
 
 std::string picture_bytes(const std::string& path, const Image& image) {
-  return extension_of(path) == ".webp" ? webp_bytes(image) : png_bytes(image);
+  return suffix_of(path) == ".webp" ? webp_bytes(image) : png_bytes(image);
 }
 
 void check_sides(const std::string& path, int width, int height, const std::string& option) {
   constexpr int kLargest = 16383;  // of the format, px
-  if (extension_of(path) == ".webp" && std::max(width, height) > kLargest) {
+  if (suffix_of(path) == ".webp" && std::max(width, height) > kLargest) {
     throw CLI::ValidationError(
         option, "a WebP has sides of at most " + std::to_string(kLargest) + " pixels, not " +
                     std::to_string(std::max(width, height)) + "; write a PNG");
@@ -43,7 +43,7 @@ void check_sides(const std::string& path, int width, int height, const std::stri
 }
 
 void check_depth(const std::string& path, int depth) {
-  if (depth != 8 && extension_of(path) == ".webp") {
+  if (depth != 8 && suffix_of(path) == ".webp") {
     throw CLI::ValidationError("--depth", "a WebP has 8 bits a channel; write a PNG");
   }
 }

@@ -155,7 +155,7 @@ struct RenderCommand {
     };
     if (session.flags.json) {
       session.end_progress();
-      const nlohmann::ordered_json json = {
+      nlohmann::ordered_json json = {
           {"file", file},
           {"width", size.width},
           {"height", size.height},
@@ -166,6 +166,9 @@ struct RenderCommand {
           {"options",
            nlohmann::ordered_json::parse(options_json({.view = options, .look = look.look()}))},
           {"warnings", notes}};
+      if (camera.projection == Projection::Orthographic) {
+        json["height"] = camera.height;
+      }
       write_output("-", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
       return;
     }

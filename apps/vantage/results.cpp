@@ -262,7 +262,8 @@ struct MergeCommand {
            "DIR", folders,
            "folder of a batch that receives its shards' results, and those of further folders")
         ->required();
-    app.add_flag("--no-overview", no_overview, "no index.html and no contact sheets");
+    app.add_flag("--no-overview", no_overview,
+                 "no index.html and no contact sheets; those of an earlier run go");
     add_common_flags(app, session.flags);
   }
 
@@ -277,9 +278,7 @@ struct MergeCommand {
     batch::ResultsStore store(folders.front(), batch::Database::Mode::Create);
     const batch::MergeCounts merged =
         session.reading([&] { return batch::merge_shards(folders, store, root, context); });
-    if (!no_overview) {
-      batch::write_overview(root, store, context);
-    }
+    batch::renew_overview(root, store, !no_overview, context);
     summarise(session, merged, store.counts());
   }
 

@@ -82,8 +82,8 @@ Abandonable::Abandonable() {
 }
 
 Abandonable::~Abandonable() {
-  Phase computing = Phase::Computing;
-  while (!phase.compare_exchange_strong(computing, Phase::Writing)) {
+  for (Phase now = Phase::Computing; !phase.compare_exchange_strong(now, Phase::Writing);
+       now = Phase::Computing) {
     ::pause();  // the process is being ended
   }
 }

@@ -22,7 +22,7 @@ constexpr std::size_t kLargest = 1U << 20U;  ///< Of a file of options, bytes.
 
 /// A value and where it stands.
 struct Setting {
-  std::string value{};
+  std::vector<std::string> values{};  // of a list; else one
   std::string origin{};
 };
 
@@ -94,19 +94,28 @@ std::string value_of(const Json& value, const std::string& origin) {
     return value.get<std::string>();
   }
   if (value.is_array()) {
-    std::vector<std::string> parts;
-    for (const Json& part : value) {
-      if (part.is_array()) {  // however deep, which is the machine's stack to pay
-        throw CLI::ValidationError(origin, "is a list of lists; give a list of values");
-      }
-      parts.push_back(value_of(part, origin));
-    }
-    return CLI::detail::join(parts, ",");
+    throw CLI::ValidationError(origin, "is a list of lists; give a list of values");
   }
   if (value.is_number() || value.is_boolean()) {
     return value.dump();
   }
   throw CLI::ValidationError(origin, "has no value; give a string, a number, true or false");
+}
+
+std::vector<std::string> values_of(const Json& setting, const std::string& origin) {
+  if (!setting.is_array()) {
+    return {value_of(setting, origin)};
+  }
+  std::vector<std::string> values;
+  for (const Json& value : setting) {
+    values.push_back(value_of(value, origin));
+  }
+  return values;
+}
+
+/// As one text, as an option with parts takes it.
+std::string joined(const std::vector<std::string>& values) {
+  return CLI::detail::join(values, ",");
 }
 
 std::optional<Setting> from_file(const Json& settings, const CLI::App& command,
@@ -116,7 +125,7 @@ std::optional<Setting> from_file(const Json& settings, const CLI::App& command,
   const Json* table = &settings;  // from what is for all to what is for the command alone
   const auto look = [&] {
     if (table->is_object() && table->contains(option)) {
-      found = Setting{value_of(table->at(option), origin), origin};
+      found = Setting{values_of(table->at(option), origin), origin};
     }
   };
   look();
@@ -139,7 +148,7 @@ std::optional<Setting> from_environment(const CLI::App& command, const std::stri
     }
     const char* value = std::getenv(name.c_str());
     if (value != nullptr && *value != '\0') {
-      return Setting{value, name};
+      return Setting{{value}, name};
     }
   }
   return std::nullopt;
@@ -155,10 +164,16 @@ bool is_open(const CLI::Option& option) {
 
 void set(CLI::Option& option, const Setting& setting) {
   try {
-    if (option.get_expected_max() == 0 && CLI::detail::to_flag_value(setting.value) < 1) {
-      return;  // a flag that is said to be off
+    if (option.get_expected_max() == 0) {
+      if (CLI::detail::to_flag_value(joined(setting.values)) < 1) {
+        return;  // a flag that is said to be off
+      }
+      option.add_result("true");
+    } else if (option.get_expected_max() > 1) {
+      option.add_result(setting.values);
+    } else {
+      option.add_result(joined(setting.values));
     }
-    option.add_result(option.get_expected_max() == 0 ? "true" : setting.value);
     option.run_callback();
   } catch (const CLI::ParseError& error) {
     throw CLI::ValidationError(setting.origin, error.what());

@@ -76,7 +76,7 @@ struct SkeletonCommand {
     ShapeAnalysis shape = session.computing([&] {
       ShapeAnalysis result = prepare_surface(loaded, session.run());
       add_history(result, options, run.part(0.0, 0.8));
-      add_skeleton(result, options, run.part(0.8, 1.0));
+      add_skeleton(result, options, run.part(0.8, measure ? 0.9 : 1.0));
       return result;
     });
     write_output(file, bytes(shape));
@@ -89,8 +89,10 @@ struct SkeletonCommand {
     warn_of_cut_loops(shape);
     if (measure) {
       const double spacing = sample_spacing(shape.surface, options.skeleton);
-      quality = measure_skeleton(shape.surface, shape.history.component_of_vertex, shape.skeleton,
-                                 spacing, run.part(0.9, 1.0));
+      quality = session.computing([&] {
+        return measure_skeleton(shape.surface, shape.history.component_of_vertex, shape.skeleton,
+                                spacing, run.part(0.9, 1.0));
+      });
     }
     report(session, loaded, shape);
   }

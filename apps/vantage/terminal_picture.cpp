@@ -152,22 +152,6 @@ std::string half_blocks(const Image& image) {
   return text;
 }
 
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t j = 0; j < 3; ++j) {
-      three = three << 8U | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0U);
-    }
-    for (std::size_t j = 0; j < 4; ++j) {
-      text += i + j > bytes.size() ? '=' : kDigits[three >> (18U - 6U * j) & 63U];
-    }
-  }
-  return text;
-}
-
 std::string kitty_picture(const Image& image) {
   constexpr std::size_t kChunk = 4096;  // the most that the protocol allows
   const std::string data = base64(png_bytes(image));

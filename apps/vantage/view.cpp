@@ -99,7 +99,7 @@ struct ViewCommand {
     ViewOptions options = resolved_options(session);
     StageSeconds seconds;
     check_files(session);
-    const bool is_drawn = !no_images || preview.is_given();
+    const bool is_drawn = !no_images || preview.is_given() || several.has_tour();
     const Model loaded = load_posed(session, model, options, is_drawn ? &look : nullptr);
     seconds.load = seconds_since(start);
     OutputFolder output(folder.empty() ? folder_named(loaded.name, ".vantage") : folder,

@@ -29,6 +29,10 @@ class ViewSetFlags {
   [[nodiscard]] std::optional<ViewSetRequest> request() const;
   /// Refuses flags of the set where a method chooses none. \throw CLI::ValidationError
   void require_use(bool is_used) const;
+
+  /// Whether a moving picture was asked for.
+  [[nodiscard]] bool has_tour() const { return !tour_.empty(); }
+
   /// What was asked for, or `views` of them where no flag says how many.
   [[nodiscard]] ViewSetRequest request_or(int views) const;
 

@@ -182,4 +182,20 @@ std::vector<std::array<std::uint8_t, 3>> colours_of(const py::object& value) {
   return colours;
 }
 
+double number_of(const py::object& value, const char* name) {
+  try {
+    return value.cast<double>();
+  } catch (const py::cast_error&) {
+    throw py::type_error(std::string(name) + " must be a number");
+  }
+}
+
+int whole_number_of(const py::object& value, const char* name) {
+  try {
+    return value.cast<int>();
+  } catch (const py::cast_error&) {
+    throw py::type_error(std::string(name) + " must be a whole number");
+  }
+}
+
 }  // namespace vantage::python

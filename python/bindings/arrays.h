@@ -99,4 +99,8 @@ Vec3 vector_of(const py::object& value, const char* name);
 /// Colours of an n × 3 array of bytes.
 std::vector<std::array<std::uint8_t, 3>> colours_of(const py::object& value);
 
+/// \throw py::type_error that begins with `name`
+double number_of(const py::object& value, const char* name);
+int whole_number_of(const py::object& value, const char* name);
+
 }  // namespace vantage::python

@@ -89,11 +89,8 @@ py::dict report_dict(const Outcome& outcome) {
     result["dense_gap"] = py::make_tuple(gap->best_ratio, gap->worst_above, gap->evaluations);
   }
   add_set(result, report.set);
-  std::vector<std::string> warnings = outcome.analysis->shape.warnings;
-  warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
-  warnings.insert(warnings.end(), report.reliability_warnings.begin(),
-                  report.reliability_warnings.end());
-  result["warnings"] = texts_of(warnings);
+  result["warnings"] =
+      texts_of(warnings_of(*outcome.analysis->model, outcome.analysis->shape, report));
   result["doubts"] = texts_of(report.reliability_warnings);
   result["json"] = text_of(outcome.json);
   return result;

@@ -22,6 +22,11 @@ py::dict camera_dict(const Camera& camera) {
 }
 
 Camera camera_of(const py::object& object) {
+  for (const char* const name : {"projection", "eye", "target", "up", "fov_y_deg", "height"}) {
+    if (!py::hasattr(object, name)) {
+      throw py::type_error(std::string("camera must be a vantage.Camera, but has no ") + name);
+    }
+  }
   Camera camera;
   const auto projection = py::str(object.attr("projection")).cast<std::string>();
   if (projection != "perspective" && projection != "orthographic") {
@@ -32,8 +37,8 @@ Camera camera_of(const py::object& object) {
       projection == "perspective" ? Projection::Perspective : Projection::Orthographic;
   camera.eye = vector_of(object.attr("eye"), "camera.eye");
   camera.target = vector_of(object.attr("target"), "camera.target");
-  camera.fov_y_deg = object.attr("fov_y_deg").cast<double>();
-  camera.height = object.attr("height").cast<double>();
+  camera.fov_y_deg = number_of(object.attr("fov_y_deg"), "camera.fov_y_deg");
+  camera.height = number_of(object.attr("height"), "camera.height");
   const Vec3 line = camera.target - camera.eye;
   const double distance = line.stableNorm();
   const Vec3 up = vector_of(object.attr("up"), "camera.up");

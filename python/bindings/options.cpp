@@ -2,6 +2,8 @@
 #include "options.h"
 
 #include <algorithm>
+#include <functional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -131,36 +133,54 @@ py::object object_of(const Option& option, const OptionValue& value) {
   return py::cast(value);
 }
 
+bool is_given(const py::dict& keywords, const std::string& keyword) {
+  return keywords.contains(keyword) && !keywords[py::str(keyword)].is_none();
+}
+
 /// A complaint about an option, by its keyword.
-std::string in_keywords(std::string what, const Option& option) {
-  const std::string start = "option " + option.name;
-  return what.starts_with(start) ? what.replace(0, start.size(), "option " + keyword_of(option))
-                                 : what;
+std::string in_keywords(std::string what) {
+  constexpr std::size_t kName = std::string_view("option ").size();
+  if (what.starts_with("option ")) {
+    std::replace(what.begin() + kName,
+                 what.begin() + static_cast<std::ptrdiff_t>(what.find(' ', kName)), '-', '_');
+  }
+  return what;
+}
+
+/// \throw py::type_error, InvalidInput
+void set_option(Settings& settings, const Option& option, const py::object& given) {
+  try {
+    option.set(settings, value_from(option, given));
+  } catch (const py::cast_error&) {
+    throw py::type_error("option " + keyword_of(option) + " must be " + type_of(option));
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(in_keywords(error.what()));
+  }
 }
 
 void apply(Settings& settings, const py::dict& keywords, bool is_analysed) {
+  std::set<std::string, std::less<>> changed;  // defaults may be given, and mean nothing
   for (const Option& option : option_table()) {
     const std::string keyword = keyword_of(option);
-    if (!option.is_listed() || !keywords.contains(keyword)) {
-      continue;
-    }
-    const py::object given = keywords[py::str(keyword)];
-    if (given.is_none()) {
+    if (!option.is_listed() || !is_given(keywords, keyword)) {
       continue;
     }
     if (is_analysed && (option.group == "method" || option.group == "map")) {
       throw InvalidInput("option " + keyword +
                          " shapes the analysis; give it to analyse() instead");
     }
-    try {
-      option.set(settings, value_from(option, given));
-    } catch (const py::cast_error&) {
-      throw py::type_error("option " + keyword + " must be " + type_of(option));
-    } catch (const InvalidInput& error) {
-      throw InvalidInput(in_keywords(error.what(), option));
+    const OptionValue before = option.value(settings);
+    set_option(settings, option, keywords[py::str(keyword)]);
+    if (option.value(settings) != before) {
+      changed.insert(option.name);
     }
   }
-  settings.view.view_set = checked_view_set(settings.view);
+  try {
+    check_together(settings.view, [&](std::string_view name) { return changed.contains(name); });
+    settings.view.view_set = checked_view_set(settings.view);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(in_keywords(error.what()));
+  }
 }
 
 }  // namespace

@@ -149,10 +149,8 @@ Subject::Subject(const py::object& model, const py::object& faces) {
 }
 
 Settings Subject::settings(const py::dict& keywords) const {
-  if (analysis_) {
-    return settings_over(analysis_->settings, keywords);
-  }
-  Settings settings = settings_of(keywords);
+  Settings settings =
+      analysis_ ? settings_over(analysis_->settings, keywords) : settings_of(keywords);
   if (!path_.empty()) {
     const Sidecar sidecar = sidecar_of(path_);
     sidecar.apply(settings.view);

@@ -51,7 +51,7 @@ Views views_of(const py::object& directions, const py::object& eyes, const py::o
   if (!eyes.is_none()) {
     return {.points = points_of(eyes, "eyes"), .are_eyes = true};
   }
-  const int level = sphere.cast<int>();
+  const int level = whole_number_of(sphere, "sphere");
   return {.points = direction_set(ViewSphereBase::Icosahedron, level).directions, .sphere = level};
 }
 

@@ -243,7 +243,7 @@ class BestView(_Record):
     doubts: Tuple[str, ...]
     """Of these, why the answer should not be trusted; empty almost always."""
     json: str
-    """The text of view.json, as `vantage view --no-images` writes it."""
+    """The text of view.json, as `vantage view --no-images --size 800x600` writes it."""
 
     def _show_by(self, take: Callable[[Camera], Bytes]) -> None:
         """How a notebook gets the picture; not part of the record, and not pickled."""

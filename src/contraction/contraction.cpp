@@ -300,24 +300,6 @@ ContractionHistory of_refined(const TriMesh& mesh, TriMesh refined,
 
 }  // namespace
 
-std::string_view stop_name(ContractionStop stop) {
-  switch (stop) {
-    case ContractionStop::Shrunk:
-      return "shrunk";
-    case ContractionStop::Grew:
-      return "grew";
-    case ContractionStop::Collapsed:
-      return "collapsed";
-    case ContractionStop::StepLimit:
-      return "step-limit";
-    case ContractionStop::NothingToMove:
-      return "nothing-to-move";
-    case ContractionStop::SolverFailed:
-      return "solver-failed";
-  }
-  return "unknown";
-}
-
 ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& options,
                             const RunContext& run) {
   check_fields(options, kContractionFields);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "io/base64.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+
+#include "vantage/io/write.h"
 
 namespace vantage {
 

@@ -7,8 +7,8 @@
 
 #include "vantage/core/error.h"
 #include "vantage/io/camera_files.h"
+#include "vantage/io/write.h"
 
-#include "io/base64.h"
 #include "io/byte_cursor.h"
 #include "io/camera_axes.h"
 

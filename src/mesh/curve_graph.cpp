@@ -32,6 +32,17 @@ std::vector<std::vector<std::uint32_t>> node_neighbours(const CurveGraph& graph)
   return lists;
 }
 
+std::vector<Vec3> smoothed_along_chains(std::span<const Vec3> positions,
+                                        const std::vector<std::vector<std::uint32_t>>& neighbours) {
+  std::vector<Vec3> smooth(positions.begin(), positions.end());
+  for (std::size_t i = 0; i < smooth.size(); ++i) {
+    if (const std::vector<std::uint32_t>& around = neighbours[i]; around.size() == 2) {
+      smooth[i] = 0.5 * positions[i] + 0.25 * (positions[around[0]] + positions[around[1]]);
+    }
+  }
+  return smooth;
+}
+
 std::size_t component_count(const CurveGraph& graph) {
   DisjointSets sets(graph.nodes.size());
   std::size_t count = graph.nodes.size();

@@ -46,13 +46,9 @@ SeenSphere seen_sphere(const ShapeAnalysis& shape, const ScoringCamera& camera,
     warnings.push_back("the views were chosen from " + std::to_string(directions.size()) +
                        " directions instead of 642 to save memory");
   }
-  std::vector<Viewpoint> eyes;
-  eyes.reserve(directions.size());
-  for (const Vec3& d : directions) {
-    eyes.push_back(camera.viewpoint(d));
-  }
   const FaceVisibility faces(shape.surface, shape.sides);
-  sphere.channel = channel_table(faces, shape.surface.triangles.size(), eyes, run);
+  sphere.channel =
+      channel_table(faces, shape.surface.triangles.size(), camera.viewpoints(directions), run);
   return sphere;
 }
 

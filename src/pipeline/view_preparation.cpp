@@ -47,13 +47,10 @@ CoarseSurface coarse_of(const ShapeAnalysis& shape, const CoarseSurface& proxy,
 
 SeenBySet look_through(const ScoringCamera& camera, const ShapeAnalysis& shape,
                        const RunContext& run) {
-  std::vector<Viewpoint> eyes;
-  for (const Vec3& direction :
-       direction_set(ViewSphereBase::Icosahedron, kMeasureSetLevel).directions) {
-    eyes.push_back(camera.viewpoint(direction));
-  }
+  const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, kMeasureSetLevel);
   const FaceVisibility faces(shape.surface, shape.sides);
-  return {camera, channel_table(faces, shape.surface.triangles.size(), eyes, run)};
+  return {camera, channel_table(faces, shape.surface.triangles.size(),
+                                camera.viewpoints(set.directions), run)};
 }
 
 bool is_worthwhile(const CoarseSurface& copy) {

@@ -17,7 +17,6 @@
 #include "vantage/spatial/directions.h"
 
 #include "core/parallel.h"
-#include "io/base64.h"
 #include "pipeline/map_objective.h"
 #include "pipeline/preference.h"
 #include "report/asset_part.h"
@@ -45,6 +44,9 @@ constexpr double kTourStepDeg = 4.0;
 /// Size of the pictures in the filmstrip, px.
 constexpr int kStripWidth = 288;
 constexpr int kStripHeight = 216;
+/// From there and so high a parallel projection shows the whole unit sphere.
+constexpr double kParallelDistance = 2.0;
+constexpr double kParallelHeight = 2.1;
 
 Json numbers(const Vec3& p) {
   return Json::array({p.x(), p.y(), p.z()});
@@ -118,6 +120,31 @@ Json rapid_part(const ScoreBatch& score, double total, Goal goal, const RunConte
   return steps;
 }
 
+/// A camera in the page's lengths. It has `height` where lines of sight are parallel, else `fov_y_deg`.
+Json camera_part(const Camera& camera, double aspect, const PageFrame& frame) {
+  Json json = {{"eye", numbers(frame.to(camera.eye))},
+               {"target", numbers(frame.to(camera.target))},
+               {"up", numbers(camera.up)},
+               {"aspect", aspect}};
+  if (camera.projection == Projection::Orthographic) {
+    json["height"] = camera.height / frame.radius;
+  } else {
+    json["fov_y_deg"] = camera.fov_y_deg;
+  }
+  return json;
+}
+
+/// How the page looks from a direction of the sphere that nothing was framed for.
+Json lens_part(const ScoringCamera& camera, const PageFrame& frame) {
+  if (camera.projection == Projection::Orthographic) {
+    return {{"distance", kParallelDistance}, {"height", kParallelHeight}, {"aspect", 1.0}};
+  }
+  const double distance = camera.distance() / frame.radius;
+  return {{"distance", distance},
+          {"fov_y_deg", 2.0 * std::asin(1.0 / distance) * 180.0 / std::numbers::pi},
+          {"aspect", 1.0}};
+}
+
 /// What commands call the model by.
 const std::string& file_of(const Model& model) {
   return model.file_name.empty() ? model.name : model.file_name;
@@ -134,21 +161,17 @@ Json view_part(const char* name, const ReportedView& view, const ShapeAnalysis& 
   };
   const std::string png = png_bytes(
       pictures.take_small(view.picture, side(size.width), side(size.height), options, run));
-  return {{"name", name},
-          {"direction", numbers(view.direction)},
-          {"score", view.score},
-          {"score_fraction", view.score_fraction},
-          {"eye", numbers(frame.to(view.picture.eye))},
-          {"target", numbers(frame.to(view.picture.target))},
-          {"up", numbers(view.picture.up)},
-          {"fov_y_deg", view.picture.fov_y_deg},
-          {"aspect", static_cast<double>(size.width) / size.height},
-          {"picture", "data:image/png;base64," + base64(png)},
-          {"cameras",
-           {{"glTF", camera_gltf(view.picture, size, shape.sphere.diameter)},
-            {"NeRF transforms.json",
-             camera_transforms_json(view.picture, size, std::string(name) + ".png")},
-            {"f3d", camera_f3d(view.picture, size, file_of(model))}}}};
+  Json json = {{"name", name},
+               {"direction", numbers(view.direction)},
+               {"score", view.score},
+               {"score_fraction", view.score_fraction}};
+  json.update(camera_part(view.picture, static_cast<double>(size.width) / size.height, frame));
+  json["picture"] = "data:image/png;base64," + base64(png);
+  json["cameras"] = {{"glTF", camera_gltf(view.picture, size, shape.sphere.diameter)},
+                     {"NeRF transforms.json",
+                      camera_transforms_json(view.picture, size, std::string(name) + ".png")},
+                     {"f3d", camera_f3d(view.picture, size, file_of(model))}};
+  return json;
 }
 
 /// The views of a set after the first, which is the best one, and the round over all of them.
@@ -174,11 +197,7 @@ void add_set(Json& data, const ViewReport& report, const ShapeAnalysis& shape,
   Json poses = Json::array();
   for (const Camera& camera : tour_cameras(shape, *report.set, report.camera, report.up, 1.0, count,
                                            options.margin_percent)) {
-    poses.push_back({{"eye", numbers(frame.to(camera.eye))},
-                     {"target", numbers(frame.to(camera.target))},
-                     {"up", numbers(camera.up)},
-                     {"fov_y_deg", camera.fov_y_deg},
-                     {"aspect", 1.0}});
+    poses.push_back(camera_part(camera, 1.0, frame));
   }
   data["tour"] = {{"degrees", degrees}, {"poses", poses}};
 }
@@ -270,10 +289,8 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, ShapePic
 
   Json data = {{"view", Json::parse(view_json(model, shape, report, options))},
                {"up", numbers(up_vector(report.up))},
-               {"lens",
-                {{"distance", report.camera.distance() / frame.radius},
-                 {"fov_y_deg", report.camera.fov_y_deg},
-                 {"aspect", 1.0}}},
+               {"frame", {{"centre", numbers(frame.centre)}, {"radius", frame.radius}}},
+               {"lens", lens_part(report.camera, frame)},
                {"colours", colour_table()}};
   run.advance("report", 0.0);
   add_surfaces(data, shape, frame, quiet);

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "vantage/core/vec3.h"
-
-#include "io/base64.h"
+#include "vantage/io/write.h"
 
 /// \file
 /// Numbers as the page report.html reads them: viewer/README.md.

@@ -196,16 +196,6 @@ Json search_of(const ViewReport& report, const SearchOptions& search, const Json
 }
 
 /// Every sentence about the result, those about reliability last.
-std::vector<std::string> warnings_of(const Model& model, const ShapeAnalysis& shape,
-                                     const ViewReport& report) {
-  std::vector<std::string> warnings = model.notes;
-  warnings.insert(warnings.end(), shape.warnings.begin(), shape.warnings.end());
-  warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
-  warnings.insert(warnings.end(), report.reliability_warnings.begin(),
-                  report.reliability_warnings.end());
-  return warnings;
-}
-
 std::string text_of(const Json& json) {
   // Names may hold bytes that are no UTF-8: replaced, so that the file stays valid JSON.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -260,6 +250,16 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
     json["seconds"] = seconds_of(*seconds);
   }
   return text_of(json);
+}
+
+std::vector<std::string> warnings_of(const Model& model, const ShapeAnalysis& shape,
+                                     const ViewReport& report) {
+  std::vector<std::string> warnings = model.notes;
+  for (const auto* const further :
+       {&shape.warnings, &report.warnings, &report.reliability_warnings}) {
+    warnings.insert(warnings.end(), further->begin(), further->end());
+  }
+  return warnings;
 }
 
 std::string timings_json(const StageSeconds& seconds) {

@@ -66,11 +66,7 @@ class FinerCurve {
         mean[i] += sum[i] / total[i];
       }
     }
-    for (std::size_t i = 0; i < mean.size(); ++i) {
-      const auto& around = neighbours_[i];
-      curve_.nodes[i] =
-          around.size() == 2 ? 0.5 * mean[i] + 0.25 * (mean[around[0]] + mean[around[1]]) : mean[i];
-    }
+    curve_.nodes = smoothed_along_chains(mean, neighbours_);
   }
 
   /// Unit vector out of an end of the curve; zero at other nodes.

@@ -121,15 +121,8 @@ CurveGraph centre_nodes(const CurveGraph& graph, const TriMesh& mesh,
       centred.nodes[i] += sum[i] / weight[i];
     }
   }
-  const Adjacency lists = node_neighbours(graph);
-  CurveGraph smooth = centred;
-  for (std::size_t i = 0; i < lists.size(); ++i) {
-    if (lists[i].size() == 2) {
-      smooth.nodes[i] =
-          0.5 * centred.nodes[i] + 0.25 * (centred.nodes[lists[i][0]] + centred.nodes[lists[i][1]]);
-    }
-  }
-  return smooth;
+  centred.nodes = smoothed_along_chains(centred.nodes, node_neighbours(graph));
+  return centred;
 }
 
 CurveGraph prune_ends(const CurveGraph& graph, double ratio, std::vector<double>& radius,

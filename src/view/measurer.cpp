@@ -435,12 +435,7 @@ MeasureValues ViewMeasurer::values(std::span<const Viewpoint> eyes, const RunCon
 }
 
 MeasureValues ViewMeasurer::values(std::span<const Vec3> directions, const RunContext& run) const {
-  std::vector<Viewpoint> eyes;
-  eyes.reserve(directions.size());
-  for (const Vec3& direction : directions) {
-    eyes.push_back(state_->model.given.camera.viewpoint(direction));
-  }
-  return values(eyes, run);
+  return values(state_->model.given.camera.viewpoints(directions), run);
 }
 
 std::vector<double> ViewMeasurer::values_of(std::size_t m, std::span<const Vec3> directions,

@@ -28,6 +28,15 @@ Viewpoint ScoringCamera::viewpoint(const Vec3& direction) const {
   return {projection, projection == Projection::Perspective ? eye(direction) : direction};
 }
 
+std::vector<Viewpoint> ScoringCamera::viewpoints(std::span<const Vec3> directions) const {
+  std::vector<Viewpoint> eyes;
+  eyes.reserve(directions.size());
+  for (const Vec3& direction : directions) {
+    eyes.push_back(viewpoint(direction));
+  }
+  return eyes;
+}
+
 double visible_sum(std::span<const double> significance, std::span<const std::uint8_t> visible) {
   double sum = 0.0;
   for (std::size_t v = 0; v < significance.size(); ++v) {

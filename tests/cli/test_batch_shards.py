@@ -1,6 +1,7 @@
 """Shards of a batch, and merging them and further batches."""
 
 import json
+import os
 import unittest
 
 from program import contract_quickly as setUpModule
@@ -55,6 +56,34 @@ class Shards(BatchTest):
         self.batch("p", out="part")
         self.vantage("results", "merge", "all", "part")
         self.assertIn("1 folder of results: all sound", self.vantage("results", "verify", "all").out)
+
+    def test_a_merge_leaves_an_overview_of_what_it_stored_or_none(self):
+        self.batch("01.off", out="all")
+        self.batch("04.off", out="part")
+        self.vantage("results", "merge", "all", "part")
+        self.assertIn("04", (self.dir / "all/index.html").read_text())
+        self.batch("06.off", out="part")
+        self.vantage("results", "merge", "all", "part", "--no-overview")
+        self.assertFalse((self.dir / "all/index.html").exists())
+        self.assertFalse(list((self.dir / "all").glob("contact-sheet-*")))
+
+    def test_a_model_that_is_broken_since_replaces_its_result(self):
+        self.write("m.off", box(40))
+        self.batch("m.off", out="out")
+        self.write("m.off", "no OFF")
+        self.vantage("batch", "m.off", "-o", "out", *FAST, "--shard", "0/1", exit_code=4)
+        self.assertIn("1 failed", self.vantage("results", "merge", "out").out)
+
+    def test_a_touched_model_is_read_once_by_shards(self):
+        self.write("m.off", box(40))
+        shard = ("batch", "m.off", "-o", "out", *FAST, "--shard", "0/1")
+        self.vantage(*shard)
+        self.vantage("results", "merge", "out")
+        before = self.export("out")
+        os.utime(self.dir / "m.off", ns=(1, 1))
+        self.vantage(*shard)
+        self.assertIn("1 new", self.vantage("results", "merge", "out").out)  # its new time is stored
+        self.assertEqual(self.export("out"), before)
 
     def test_of_two_models_with_one_folder_name_the_further_one_is_left_out_and_said(self):
         for folder in "pq":

@@ -39,6 +39,15 @@ class Settings(ProgramTest):
         os.environ["VANTAGE_CONFIG"] = "c.json"
         self.assertEqual(self.thumbnail_width(), 45)
 
+    def test_a_list_is_one_value_each_where_an_option_takes_several(self):
+        (self.dir / "models").mkdir()
+        for name in ("a.off", "b.ply", "c.obj"):
+            self.write(f"models/{name}", "no model")
+        self.write("c.json", '{"include": ["*.off", "*.obj"], "up": ["y"]}')
+        self.vantage("batch", "models", "-o", "out", "--config", "c.json", "-q", exit_code=4)
+        keys = self.vantage("results", "query", "out", "--columns", "key").out
+        self.assertEqual(keys.split(), ["key", "models/a.off", "models/c.obj"])
+
     def test_config_none_leaves_all_settings_out(self):
         os.environ["VANTAGE_SIZE"] = "42"
         self.assertEqual(self.thumbnail_width("--config", "none"), 256)

@@ -31,7 +31,7 @@ COMMANDS = {  # what offers which groups of the table
 }
 TEXTS = {"focus": "0", "epsilon": "2%", "prior": "none", "size": (40, 30), "background": "#102030"}
 OF_PROGRAM = {("view", "size"): "auto", ("render", "size"): "800x600"}  # other defaults
-WITH = {"starts": {"search": "gradient"}, "seed": {"search": "gradient"}, "refine": {"views": 2},
+WITH = {"base": {"search": "exhaustive"}, "subdivisions": {"search": "exhaustive"}, "epsilon": {"search": "rapid"}, "starts": {"search": "gradient"}, "seed": {"search": "gradient"}, "refine": {"views": 2},
         "min_separation": {"views": 2}, "information": {"select": "feixas", "views": 2}, "select": {"views": 2},
         "tour_path": {"views": 2}}
 
@@ -183,3 +183,41 @@ def test_a_prior_may_be_a_file(tmp_path, cat):
     assert vantage.best_view(cat, prior=file, up="y").best.direction[1] < -0.9
     with pytest.raises(vantage.IoError, match="missing.json"):
         vantage.best_view(cat, prior=tmp_path / "missing.json")
+
+
+@pytest.mark.parametrize("options, message", [
+    ({"search": "global", "epsilon": 1}, "option epsilon goes with search rapid only"),
+    ({"subdivisions": 5}, "option subdivisions goes with search rapid and exhaustive only"),
+    ({"starts": 3}, "option starts goes with search gradient only"),
+    ({"projection": "orthographic", "fov": 60}, "option fov goes with projection perspective only"),
+    ({"objective": "significance", "prior": "upright"}, "option prior says what is maximised"),
+    ({"level_agreement": 0.5, "fit": False}, "option level_agreement compares two fitted curves"),
+    ({"up": "y", "front": "-y"}, "option front is along the axis of up"),
+])
+def test_options_that_contradict_each_other_are_refused_as_by_the_program(options, message):
+    with pytest.raises(vantage.InvalidInput, match=message):
+        vantage.best_view(V, F, **options)
+
+
+def test_up_any_is_refused_of_an_analysis_too():
+    with pytest.raises(vantage.InvalidInput, match="option up: any"):
+        vantage.best_view(vantage.analyse(V, F), up="any")
+
+
+def test_other_types_are_type_errors():
+    with pytest.raises(TypeError, match="sphere must be a whole number"):
+        vantage.score(V, F, sphere="3")
+    with pytest.raises(TypeError, match="camera must be a vantage.Camera"):
+        vantage.render(V, F, camera=42)
+
+
+def test_warnings_are_those_of_view_json(tmp_path):
+    path = tmp_path / "surplus.ply"  # rows of one number more than the header says, which the reader notes
+    path.write_text("ply\nformat ascii 1.0\n"
+                    f"element vertex {len(V)}\nproperty float x\nproperty float y\nproperty float z\n"
+                    f"element face {len(F)}\nproperty list uchar int vertex_indices\nend_header\n"
+                    + "".join("%r %r %r 1\n" % tuple(map(float, p)) for p in V)
+                    + "".join("3 %d %d %d\n" % tuple(f) for f in F))
+    result = vantage.best_view(path)
+    assert any("its rows hold" in note for note in result.warnings)
+    assert list(result.warnings) == json.loads(result.json)["warnings"]

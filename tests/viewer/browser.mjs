@@ -23,9 +23,10 @@ export async function launch() {
   });
 }
 
-/** Opens a report from disk and waits for its first frame; collects what must not happen. */
+/** Opens a report from disk and waits for its first frame; collects what must not happen. Flights take no time,
+ *  unless reducedMotion is 'no-preference'. */
 export async function open(browser, file, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1200, height: 800 }, ...options });
+  const context = await browser.newContext({ viewport: { width: 1200, height: 800 }, reducedMotion: 'reduce', ...options });
   context.setDefaultTimeout(kPatienceMs);
   const page = await context.newPage();
   page.complaints = [];

@@ -29,6 +29,16 @@ after(async () => {
   fs.rmSync(folder, { recursive: true, force: true });
 });
 
+let shared;
+/** The report as it was opened: one page for many tests, as a new one takes seconds to draw. */
+async function opened() {
+  shared ??= await open(browser, report);
+  await shared.click('#reset');
+  await shared.evaluate(() => document.activeElement.blur());
+  await waitForFlight(shared);
+  return shared;
+}
+
 /** A PNG of one row: red, blue. */
 function redAndBlue() {
   const chunk = (type, data) => {
@@ -65,17 +75,16 @@ function texturedReport() {
 
 /** Position and axes of the camera, in the model's own coordinates. */
 async function camera(page) {
-  const [matrix, fov] = await page.evaluate(() => {
+  const [matrix, { centre, radius }] = await page.evaluate(() => {
     const { camera } = window.vantage.model;
     camera.updateMatrixWorld();
-    return [camera.matrixWorld.toArray(), camera.fov];
+    return [camera.matrixWorld.toArray(), window.vantage.data.frame];
   });
-  const radius = view.camera.distance * Math.sin((view.camera.fov_y_deg * Math.PI) / 360);
   return {
-    eye: [12, 13, 14].map((k, axis) => view.camera.target[axis] + radius * matrix[k]),
+    eye: [12, 13, 14].map((k, axis) => centre[axis] + radius * matrix[k]),
+    right: matrix.slice(0, 3),
     up: matrix.slice(4, 7),
     back: matrix.slice(8, 11),
-    fov,
     radius,
   };
 }
@@ -97,7 +106,7 @@ test('opens from disk without errors, warnings or requests', async () => {
 
 for (const name of ['best', 'worst']) {
   test(`a click on the ${name} view brings the camera of view.json`, async () => {
-    const page = await open(browser, report);
+    const page = await opened();
     await page.click('.view >> nth=' + (name === 'best' ? 1 : 0)); // leave the view first
     await waitForFlight(page);
     await page.click(`.view[data-view=${name}]`);
@@ -108,7 +117,6 @@ for (const name of ['best', 'worst']) {
     const back = unit(view[name].eye.map((x, i) => x - view[name].frame.target[i]));
     assert.ok(distance(seen.back, back) < 1e-5, 'line of sight');
     assert.ok(seen.up.reduce((s, x, i) => s + x * view[name].up[i], 0) > 0.95, 'up');
-    await page.context().close();
   });
 }
 
@@ -151,7 +159,7 @@ test('the window shows the silhouette of best.png', async () => {
 });
 
 test('the slider plays the history: the last level is thinner than the first', async () => {
-  const page = await open(browser, report);
+  const page = await opened();
   const area = () => page.evaluate(async () => {
     await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
     const gl = window.vantage.model.renderer.getContext();
@@ -171,11 +179,10 @@ test('the slider plays the history: the last level is thinner than the first', a
   }
   assert.ok(levels[1] < levels[0] && levels[2] < 0.7 * levels[0], levels.join(' '));
   assert.deepEqual(page.complaints, []);
-  await page.context().close();
 });
 
 test('the map gives the surface its colours, and they can be switched off', async () => {
-  const page = await open(browser, report);
+  const page = await opened();
   const spread = () => page.evaluate(async () => {
     await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
     const gl = window.vantage.model.renderer.getContext();
@@ -194,11 +201,10 @@ test('the map gives the surface its colours, and they can be switched off', asyn
   await page.click('#show-skeleton');
   await page.click('#show-map');
   assert.equal(await spread(), 0); // the bones, which are red, went with the map
-  await page.context().close();
 });
 
 test('a click on the view sphere flies there and tells the score', async () => {
-  const page = await open(browser, report);
+  const page = await opened();
   const before = (await camera(page)).eye;
   const box = await page.locator('#sphere').boundingBox();
   await page.mouse.click(box.x + 0.35 * box.width, box.y + 0.4 * box.height);
@@ -207,11 +213,10 @@ test('a click on the view sphere flies there and tells the score', async () => {
   assert.ok(distance(before, after.eye) > 0.1 * after.radius);
   assert.ok(Math.abs(distance(after.eye, view.camera.target) - view.camera.distance) < 1e-4 * after.radius);
   assert.match(await page.textContent('#direction'), /score about [\d.]+ \([\d.]+ %\)/);
-  await page.context().close();
 });
 
 test('the replayed search takes fewer views for a larger ε, and all of them for the smallest', async () => {
-  const page = await open(browser, report);
+  const page = await opened();
   const views = async (exponent) => {
     await page.locator('#epsilon').evaluate((slider, value) => {
       slider.value = value;
@@ -221,11 +226,10 @@ test('the replayed search takes fewer views for a larger ε, and all of them for
   };
   const counts = [await views(-3), await views(0), await views(3)];
   assert.ok(counts[0] >= counts[1] && counts[1] > counts[2] && counts[2] >= 8, counts.join(' '));
-  await page.context().close();
 });
 
 test('keys turn the model, pick views and toggle what is shown', async () => {
-  const page = await open(browser, report);
+  const page = await opened();
   await page.focus('#model');
   const start = (await camera(page)).eye;
   await page.keyboard.press('ArrowRight');
@@ -241,20 +245,118 @@ test('keys turn the model, pick views and toggle what is shown', async () => {
   assert.equal(await page.isChecked('#show-map'), false);
   await page.keyboard.press('d');
   assert.equal(await page.getAttribute('html', 'data-theme'), 'dark');
-  await page.context().close();
 });
 
 test('a further view of the set brings its camera', async () => {
-  const page = await open(browser, report);
+  const page = await opened();
   await page.click('.view[data-view="3"]');
   await waitForFlight(page);
   const seen = await camera(page);
   assert.ok(distance(seen.eye, view.views[2].eye) < 1e-5 * seen.radius);
+});
+
+test('a flight takes a while, and ends at the view', async () => {
+  const page = await open(browser, report, { reducedMotion: 'no-preference' });
+  await page.click('.view[data-view=worst]');
+  assert.notEqual(await page.evaluate(() => window.vantage.model.flight), undefined);
+  await waitForFlight(page);
+  const seen = await camera(page);
+  assert.ok(distance(seen.eye, view.worst.eye) < 1e-5 * seen.radius);
   await page.context().close();
 });
 
+test('turned by hand or by keys the model stands upright, and keys stop at the poles', async () => {
+  const page = await opened();
+  const lean = async () => { // of the horizon: how far the picture's right is from the horizontal
+    const up = await page.evaluate(() => window.vantage.data.up);
+    return Math.abs((await camera(page)).right.reduce((sum, x, i) => sum + x * up[i], 0));
+  };
+  const box = await page.locator('#model').boundingBox();
+  await page.mouse.move(box.x + 200, box.y + 300);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 420, box.y + 300, { steps: 8 });
+  await page.mouse.up();
+  assert.ok(await lean() < 1e-3, `leans by ${await lean()}`);
+  await page.keyboard.press('r');
+  await page.keyboard.press('ArrowRight'); // nothing has the focus
+  assert.ok(await lean() < 1e-3);
+  for (let i = 0; i < 50; ++i) {
+    await page.keyboard.press('ArrowUp');
+  }
+  const high = await camera(page);
+  await page.keyboard.press('ArrowUp');
+  const higher = await camera(page);
+  assert.ok(high.back[1] > 0.999 && distance(high.eye, higher.eye) < 1e-3 * high.radius, high.back.join(' '));
+  assert.ok(distance(high.right, higher.right) < 1e-3);
+  const away = ({ eye, radius }) => distance(eye, view.camera.target) / radius;
+  await page.keyboard.press('+');
+  assert.ok(away(await camera(page)) < 0.95 * away(higher));
+});
+
+test('hiding the significance ends the contraction that is played', async () => {
+  const page = await opened();
+  await page.keyboard.press(' ');
+  await page.waitForFunction(() => window.vantage.model.level > 0);
+  await page.keyboard.press('k');
+  await page.evaluate(() => new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(resolve)); }));
+  assert.equal(await page.evaluate(() => window.vantage.model.level), 0);
+});
+
+/** Of the report that view makes with these options: its page, and what its view.json says. */
+async function openWith(name, ...options) {
+  const result = path.join(folder, name);
+  vantage('view', path.join(models, 'horse.ply'), '-o', result, '--search', 'rapid', ...options);
+  const json = JSON.parse(fs.readFileSync(path.join(result, 'view.json'), 'utf8'));
+  return [await open(browser, path.join(result, 'report.html')), json];
+}
+
+/** Share of the window's height that is drawn on. */
+const drawnHeight = (page) => page.evaluate(async () => {
+  await new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(resolve)); });
+  const gl = window.vantage.model.renderer.getContext();
+  const [w, h] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+  const data = new Uint8Array(4 * w * h);
+  gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, data);
+  let rows = 0;
+  for (let y = 0; y < h; ++y) {
+    rows += data.subarray(4 * w * y, 4 * w * (y + 1)).some((a, i) => i % 4 === 3 && a > 0) ? 1 : 0;
+  }
+  return rows / h;
+});
+
+for (const [name, ...options] of [['far', '--distance', '60'], ['flat', '--projection', 'orthographic']]) {
+  test(`stands at the view's eye and shows the whole model with ${options.join(' ')}`, async () => {
+    const [page, json] = await openWith(name, ...options);
+    const seen = await camera(page);
+    const line = json.best.eye.map((x, i) => x - json.best.frame.target[i]);
+    const away = name === 'far' ? line : seen.eye.map((x, i) => x - json.best.frame.target[i]); // of parallel lines any is right
+    const eye = json.best.frame.target.map((x, i) => x + away[i]);
+    assert.ok(distance(seen.eye, eye) < 1e-4 * Math.hypot(...away), seen.eye.join(' '));
+    assert.ok(distance(seen.back, name === 'far' ? unit(line) : json.best.direction) < 1e-4, seen.back.join(' '));
+    const narrow = Math.max(1, (json.best.size[0] / json.best.size[1]) / await page.evaluate(() => window.vantage.model.aspect));
+    const drawn = narrow * await drawnHeight(page); // of the picture's height; the rest is margin
+    assert.ok(drawn > 0.6 && drawn <= 1, `${drawn} of the height`);
+    const text = async (format) => {
+      await page.selectOption('#format', format);
+      return page.inputValue('#camera');
+    };
+    const location = (await text('Blender')).match(/location = \(([^)]+)\)/)[1].split(', ').map(Number);
+    assert.ok(distance(location, seen.eye) < 1e-4 * Math.hypot(...away), location.join(' '));
+    const scale = (await text('Blender')).match(/ortho_scale = (.+)/)?.[1];
+    assert.equal(scale === undefined, name === 'far');
+    assert.ok(scale === undefined || Math.abs(Number(scale) - json.best.frame.height) < 1e-5 * json.best.frame.height, scale);
+    const formats = await page.locator('#format option').evaluateAll((all) => all.map((o) => o.value));
+    assert.equal(formats.includes('model-viewer'), name === 'far'); // it knows no parallel lines of sight
+    const box = await page.locator('#sphere').boundingBox();
+    await page.mouse.click(box.x + 0.35 * box.width, box.y + 0.4 * box.height);
+    assert.ok(await drawnHeight(page) > 0.3);
+    assert.deepEqual(page.complaints, []);
+    await page.context().close();
+  });
+}
+
 test('the tour goes on until something else is asked for', async () => {
-  const page = await open(browser, report);
+  const page = await open(browser, report, { reducedMotion: 'no-preference' });
   await page.click('#tour');
   await page.waitForFunction(() => window.vantage.model.touring);
   const first = (await camera(page)).eye;
@@ -271,7 +373,7 @@ test('the tour goes on until something else is asked for', async () => {
 });
 
 test('every camera format of the result folder is in the box', async () => {
-  const page = await open(browser, report);
+  const page = await opened();
   const texts = new Map();
   for (const format of await page.locator('#format option').evaluateAll((all) => all.map((o) => o.value))) {
     await page.selectOption('#format', format);
@@ -284,7 +386,6 @@ test('every camera format of the result folder is in the box', async () => {
   }
   assert.equal(new Set(texts.values()).size, cameras.length + 1); // and a script for Blender, which is no file
   assert.match(texts.get('Blender'), /bpy/);
-  await page.context().close();
 });
 
 test('a finger turns the model', async () => {
@@ -304,22 +405,20 @@ test('a finger turns the model', async () => {
 });
 
 test('the camera box holds the file that view wrote', async () => {
-  const page = await open(browser, report);
+  const page = await opened();
   await page.selectOption('#format', 'NeRF transforms.json');
   assert.equal(await page.inputValue('#camera'),
     fs.readFileSync(path.join(out, 'camera-best.transforms.json'), 'utf8'));
-  await page.context().close();
 });
 
 test('opens on the model as it is; colours, legend, skeleton and contraction come and go as one', async () => {
-  const page = await open(browser, report);
+  const page = await opened();
   const shown = async () => [await page.isVisible('#legend'), await page.isVisible('#show-skeleton'), await page.isVisible('#level')];
   assert.deepEqual(await shown(), [false, false, false]);
   await page.click('#show-map');
   assert.deepEqual(await shown(), [true, true, true]);
   await page.click('#show-map');
   assert.deepEqual(await shown(), [false, false, false]);
-  await page.context().close();
 });
 
 /** The report of a search that maximises what people choose; a rapid one maximises the score. */
@@ -332,9 +431,8 @@ function peoplesReport() {
 }
 
 test('a sphere of the score alone has no switch', async () => {
-  const page = await open(browser, report);
+  const page = await opened();
   assert.equal(await page.locator('#sphere-of').count(), 0);
-  await page.context().close();
 });
 
 test('the sphere shows what best maximises until it is switched to the score', async () => {
@@ -360,7 +458,7 @@ test('the sphere shows what best maximises until it is switched to the score', a
 });
 
 test('reset brings back the page as it was opened', async () => {
-  const page = await open(browser, report);
+  const page = await opened();
   const first = (await camera(page)).eye;
   await page.click('.view[data-view=worst]');
   await waitForFlight(page);
@@ -373,11 +471,10 @@ test('reset brings back the page as it was opened', async () => {
   assert.equal(await page.isChecked('#show-map'), false);
   assert.equal(await page.evaluate(() => window.vantage.model.skeleton.visible), false);
   assert.match(await page.textContent('#camera-of'), /best/);
-  await page.context().close();
 });
 
 test('the picture and the camera can be saved', async () => {
-  const page = await open(browser, report);
+  const page = await opened();
   const saved = async (button) => {
     const [download] = await Promise.all([page.waitForEvent('download'), page.click(button)]);
     return [download.suggestedFilename(), fs.readFileSync(await download.path())];
@@ -389,11 +486,10 @@ test('the picture and the camera can be saved', async () => {
   const [cameraName, text] = await saved('#save-camera');
   assert.equal(cameraName, 'horse-best.transforms.json');
   assert.equal(text.toString(), fs.readFileSync(path.join(out, 'camera-best.transforms.json'), 'utf8'));
-  await page.context().close();
 });
 
 test("cameras for Blender and model-viewer stand at the view's eye", async () => {
-  const page = await open(browser, report);
+  const page = await opened();
   await page.selectOption('#format', 'model-viewer');
   const text = await page.inputValue('#camera');
   const numbers = (name) => text.match(new RegExp(`${name}="([^"]+)"`))[1].split(' ').map(parseFloat);
@@ -407,7 +503,6 @@ test("cameras for Blender and model-viewer stand at the view's eye", async () =>
   await page.selectOption('#format', 'Blender');
   const location = (await page.inputValue('#camera')).match(/location = \(([^)]+)\)/)[1].split(', ').map(Number);
   assert.ok(distance(location, view.best.eye) < 1e-4 * size, location.join(' '));
-  await page.context().close();
 });
 
 test("shows a file's own texture", async () => {

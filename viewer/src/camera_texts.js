@@ -7,33 +7,34 @@ const minus = (a, b) => a.map((x, i) => x - b[i]);
 const length = (v) => Math.hypot(...v);
 const unit = (v) => v.map((x) => x / length(v));
 
-/** A view's camera in the model's own coordinates. */
-function worldCamera(view, json) {
-  const { camera } = json;
-  const radius = camera.distance * Math.sin((camera.fov_y_deg * Math.PI) / 360);
-  const world = (p) => p.map((x, i) => camera.target[i] + radius * x);
-  return { eye: world(view.eye), target: world(view.target), up: view.up, fov: view.fov_y_deg };
-}
+const same = (v) => v;
+const yUpToZUp = (v) => [v[0], -v[2], v[1]];
+/** Where Blender's own importers put a point of such a file. Others turn and scale by what the file says. */
+const IN_BLENDER = { glb: yUpToZUp, gltf: yUpToZUp, obj: yUpToZUp, ply: same, stl: same };
 
-/** Blender's importers of glTF and OBJ turn y up into z up. */
-function inBlender(v, format) {
-  return ['glb', 'gltf', 'obj'].includes(format) ? [v[0], -v[2], v[1]] : v;
-}
-
-export function blenderScript(view, json) {
-  const format = json.model.format.toLowerCase();
-  const camera = worldCamera(view, json);
-  const [eye, target, up] = [camera.eye, camera.target, camera.up].map((v) => inBlender(v, format));
+/** @param frame the centre and the radius that the page's lengths are measured by. Empty where the camera's place
+ *  in Blender is not known. */
+export function blenderScript(view, frame, format) {
+  const placed = IN_BLENDER[format.toLowerCase()];
+  if (!placed) {
+    return '';
+  }
+  const world = (p) => p.map((x, i) => frame.centre[i] + frame.radius * x);
+  const [eye, target, up] = [world(view.eye), world(view.target), view.up].map(placed);
   const back = unit(minus(eye, target));
   const right = unit(cross(up, back));
+  const away = length(minus(eye, target));
+  const lens = view.height === undefined
+    ? [`camera.data.angle = math.radians(${triple([view.fov_y_deg])})`]
+    : ["camera.data.type = 'ORTHO'", `camera.data.ortho_scale = ${triple([frame.radius * view.height])}`];
   return [
     'import bpy, math, mathutils',
     "camera = bpy.data.objects.new('vantage', bpy.data.cameras.new('vantage'))",
     `camera.matrix_world = mathutils.Matrix(((${triple(right)}), (${triple(cross(back, right))}), (${triple(back)}))).transposed().to_4x4()`,
     `camera.location = (${triple(eye)})`,
     "camera.data.sensor_fit = 'VERTICAL'",
-    `camera.data.angle = math.radians(${triple([camera.fov])})`,
-    `camera.data.clip_start, camera.data.clip_end = ${triple([1e-3 * length(minus(eye, target))])}, ${triple([10 * length(minus(eye, target))])}`,
+    ...lens,
+    `camera.data.clip_start, camera.data.clip_end = ${triple([1e-3 * away])}, ${triple([10 * away])}`,
     'bpy.context.scene.collection.objects.link(camera)',
     'bpy.context.scene.camera = camera',
     '',

@@ -17,7 +17,7 @@ panel.fillHeader(view);
 panel.fillNumbers(data);
 panel.fillWarnings(data.warnings);
 panel.fillLegend(asBytes(data.colours));
-const showCamera = panel.fillCameras(data.views, view);
+const showCamera = panel.fillCameras(data);
 
 const sphere = new ScoreSphere(element('sphere'), data, (direction) => {
   // The distance and the lens of the scoring camera: the whole model is in the picture.
@@ -37,7 +37,8 @@ model = new ModelView(element('model'), data, (direction, up) => {
   sphere.turn(direction, up);
   const { scores, objective } = data.sphere;
   panel.showDirection(direction, valueNear(direction, scores, view.best.score, bestEye), view.total,
-    sphere.hasObjective ? valueNear(direction, objective, view.best.objective, bestEye) / view.best.objective : undefined);
+    sphere.hasObjective && view.best.objective > 0
+      ? valueNear(direction, objective, view.best.objective, bestEye) / view.best.objective : undefined);
 });
 const press = panel.fillViews(data.views, (picked) => {
   press(picked.name);
@@ -55,6 +56,9 @@ function showAnalysis(on) {
   model.showMap(on);
   showSkeleton(on && element('show-skeleton').checked);
   if (!on) {
+    if (playing) {
+      play();
+    }
     setLevel(0);
   }
 }
@@ -79,9 +83,6 @@ for (const input of document.querySelectorAll('input[name=sphere]')) {
 
 /** All as it was when the page was opened. */
 function reset() {
-  if (playing) {
-    play();
-  }
   showSkeleton(false);
   showAnalysis(false);
   if (sphere.hasObjective) {
@@ -206,6 +207,11 @@ document.addEventListener('keydown', (event) => {
   const typed = ['SELECT', 'TEXTAREA'].includes(event.target.tagName);
   const pressed = event.key === ' ' && ['INPUT', 'BUTTON'].includes(event.target.tagName);
   if (typed || pressed || event.ctrlKey || event.metaKey || event.altKey) {
+    return;
+  }
+  const elsewhere = event.target !== document.body && event.target !== element('model');
+  if (!elsewhere && model.moveByKey(event.key)) {
+    event.preventDefault();
     return;
   }
   const digit = Number(event.key);

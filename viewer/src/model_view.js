@@ -15,6 +15,14 @@ const CREASE_RAD = (50 * Math.PI) / 180; // bends of scans up to this stay smoot
 const THICKENING = 0.006;
 const FLIGHT_MS = 700;
 const KEY_STEP_RAD = Math.PI / 36;
+const KEY_ZOOM = 1.1;
+const POLE_RAD = 0.01; // keys turn the eye no nearer to the axis, where it would look from the other side
+// All that is drawn lies within so many radii of the centre.
+const REACH = 1.5;
+
+/** Half of what a view shows at a distance of one: by its angle, or its height where lines of sight are parallel. */
+const halfHeight = (view) => (view.height === undefined ? Math.tan((view.fov_y_deg * Math.PI) / 360) : view.height / 2);
+const wantsNoMotion = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
 
 /** The legend's colours, looked up after values are mixed within a face: none has a colour that the legend has not. */
 function palette(table) {
@@ -49,7 +57,8 @@ export class ModelView {
     this.onMove = onMove;
     this.up = new THREE.Vector3(...data.up);
     this.scene = new THREE.Scene();
-    this.camera = new THREE.PerspectiveCamera(30, 1, 0.01, 50);
+    this.aspect = 1; // of the window
+    this.camera = data.lens.height === undefined ? new THREE.PerspectiveCamera() : new THREE.OrthographicCamera();
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.addLights();
@@ -65,7 +74,6 @@ export class ModelView {
     this.showMap(false);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     this.resize();
-    canvas.addEventListener('keydown', (event) => this.turnByKey(event));
   }
 
   addLights() {
@@ -237,25 +245,37 @@ export class ModelView {
     this.view = view;
     this.controls?.dispose();
     this.camera.position.set(...view.eye);
-    this.camera.up.set(...view.up);
-    this.setLens(view);
-    this.camera.lookAt(new THREE.Vector3(...view.target));
+    this.camera.zoom = 1;
+    this.setLens(halfHeight(view), view.aspect);
+    this.camera.up.copy(this.up); // the controls turn about what is up when they are made
     this.controls = new OrbitControls(this.camera, this.canvas);
+    this.camera.up.set(...view.up);
     this.controls.target.set(...view.target);
     this.controls.enablePan = false;
     this.controls.minDistance = 0.2;
-    this.controls.maxDistance = 20;
-    this.controls.addEventListener('start', () => this.stop());
+    this.controls.maxDistance = Math.max(20, 2 * this.camera.position.length());
+    this.controls.addEventListener('start', () => this.take());
     this.controls.addEventListener('change', () => this.moved());
     this.controls.update();
     this.moved();
   }
 
+  /** Leaves the views: from now on the reader turns the model, which stands upright. */
+  take() {
+    this.stop();
+    this.camera.up.copy(this.up);
+  }
+
   /** Flies along the great circle to a view. */
   fly(view, done) {
     this.stop();
-    const from = { eye: this.camera.position.clone(), up: this.camera.up.clone(), target: this.controls.target.clone(), fov: this.view.fov_y_deg };
-    const to = { eye: new THREE.Vector3(...view.eye), up: new THREE.Vector3(...view.up), target: new THREE.Vector3(...view.target), fov: view.fov_y_deg };
+    if (wantsNoMotion()) {
+      this.look(view);
+      done?.();
+      return;
+    }
+    const from = { eye: this.camera.position.clone(), up: this.camera.up.clone(), target: this.controls.target.clone(), half: halfHeight(this.view) };
+    const to = { eye: new THREE.Vector3(...view.eye), up: new THREE.Vector3(...view.up), target: new THREE.Vector3(...view.target), half: halfHeight(view) };
     const turn = new THREE.Quaternion().setFromUnitVectors(from.eye.clone().normalize(), to.eye.clone().normalize());
     const start = performance.now();
     const step = (now) => {
@@ -270,7 +290,7 @@ export class ModelView {
       const part = new THREE.Quaternion().slerp(turn, share);
       this.camera.position.copy(from.eye).applyQuaternion(part).setLength(distance);
       this.camera.up.copy(from.up).lerp(to.up, share).normalize();
-      this.setLens({ ...view, fov_y_deg: from.fov * (1 - share) + to.fov * share });
+      this.setLens(from.half * (1 - share) + to.half * share, view.aspect);
       this.camera.lookAt(from.target.clone().lerp(to.target, share));
       this.moved();
       this.flight = requestAnimationFrame(step);
@@ -293,7 +313,7 @@ export class ModelView {
       this.camera.position.copy(mix(from.eye, to.eye, share)).setLength(distance);
       this.camera.up.copy(mix(from.up, to.up, share)).normalize();
       this.controls.target.copy(mix(from.target, to.target, share));
-      this.setLens(from);
+      this.setLens(halfHeight(from), from.aspect);
       this.camera.lookAt(this.controls.target);
       this.moved();
       this.flight = requestAnimationFrame(step);
@@ -308,11 +328,16 @@ export class ModelView {
     this.touring = undefined;
   }
 
-  /** The picture's field of view, widened where the window is narrower than the picture. */
-  setLens(view) {
-    const half = Math.tan((view.fov_y_deg * Math.PI) / 360);
-    const narrow = Math.max(1, view.aspect / this.camera.aspect);
-    this.camera.fov = (360 / Math.PI) * Math.atan(half * narrow);
+  /** The picture's lens, widened where the window is narrower than the picture. */
+  setLens(halfOfPicture, aspect) {
+    const half = halfOfPicture * Math.max(1, aspect / this.aspect);
+    if (this.camera.isPerspectiveCamera) {
+      this.camera.aspect = this.aspect;
+      this.camera.fov = (360 / Math.PI) * Math.atan(half);
+    } else {
+      [this.camera.top, this.camera.bottom] = [half, -half];
+      [this.camera.left, this.camera.right] = [-half * this.aspect, half * this.aspect];
+    }
     this.camera.updateProjectionMatrix();
   }
 
@@ -320,20 +345,38 @@ export class ModelView {
     return this.camera.position.clone().normalize();
   }
 
-  turnByKey(event) {
+  /** Turns or zooms, if the key is for that. */
+  moveByKey(key) {
     const turns = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
-    const turn = turns[event.key];
-    if (!turn) {
-      return;
+    const zooms = { '+': KEY_ZOOM, '=': KEY_ZOOM, '-': 1 / KEY_ZOOM };
+    if (!turns[key] && !zooms[key]) {
+      return false;
     }
-    event.preventDefault();
-    this.stop();
+    this.take();
     const offset = this.camera.position.clone().sub(this.controls.target);
-    const side = new THREE.Vector3().crossVectors(this.camera.up, offset).normalize();
-    offset.applyAxisAngle(this.camera.up, turn[0] * KEY_STEP_RAD).applyAxisAngle(side, turn[1] * KEY_STEP_RAD);
+    if (turns[key]) {
+      this.turn(offset, ...turns[key].map((steps) => steps * KEY_STEP_RAD));
+    } else if (this.camera.isPerspectiveCamera) {
+      offset.divideScalar(zooms[key]);
+    } else {
+      this.camera.zoom *= zooms[key];
+    }
     this.camera.position.copy(this.controls.target).add(offset);
     this.controls.update();
     this.moved();
+    return true;
+  }
+
+  /** Turns an offset of the eye about the vertical, and away from the top. */
+  turn(offset, aroundRad, downRad) {
+    const right = new THREE.Vector3().crossVectors(this.up, offset);
+    if (right.length() < POLE_RAD * offset.length()) {
+      right.setFromMatrixColumn(this.camera.matrixWorld, 0);
+    }
+    right.normalize();
+    const tilt = offset.angleTo(this.up);
+    const wanted = Math.min(Math.max(tilt + downRad, POLE_RAD), Math.PI - POLE_RAD);
+    offset.applyAxisAngle(right, wanted - tilt).applyAxisAngle(this.up, aroundRad);
   }
 
   /** What the window shows, as a PNG on nothing. */
@@ -345,12 +388,16 @@ export class ModelView {
   resize() {
     const { clientWidth, clientHeight } = this.canvas.parentElement;
     this.renderer.setSize(clientWidth, clientHeight, false);
-    this.camera.aspect = clientWidth / Math.max(1, clientHeight);
-    this.setLens(this.view);
+    this.aspect = clientWidth / Math.max(1, clientHeight);
+    this.setLens(halfHeight(this.view), this.view.aspect);
     this.draw();
   }
 
   moved() {
+    const away = this.camera.position.length();
+    this.camera.near = this.camera.isPerspectiveCamera ? Math.max(0.01, away - REACH) : away - REACH;
+    this.camera.far = away + REACH;
+    this.camera.updateProjectionMatrix();
     this.onMove(this.direction(), this.camera.up);
     this.draw();
   }

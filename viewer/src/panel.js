@@ -105,12 +105,15 @@ const FORMATS = {
 };
 
 /** Fills the camera box; returns a function that shows another view's camera. */
-export function fillCameras(views, json) {
-  const textOf = (view, format) => (format === 'Blender' ? blenderScript(view, json) : view.cameras[format] ?? '');
-  for (const [value, { name }] of Object.entries(FORMATS)) {
-    make('option', name, element('format')).setAttribute('value', value);
-  }
+export function fillCameras({ views, frame, view: json }) {
+  const textOf = (view, format) =>
+    (format === 'Blender' ? blenderScript(view, frame, json.model.format) : view.cameras[format] ?? '');
   let current = views[0];
+  for (const [value, { name }] of Object.entries(FORMATS)) {
+    if (textOf(current, value) !== '') {
+      make('option', name, element('format')).setAttribute('value', value);
+    }
+  }
   const show = (view = current) => {
     current = view;
     element('camera-of').textContent = /^\d/.test(view.name) ? `view ${view.name}` : `the ${view.name} view`;

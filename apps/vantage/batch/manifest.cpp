@@ -18,6 +18,8 @@ namespace {
 // A longer line is no path and no options; it is cut so that a wrong file cannot fill the memory.
 constexpr std::size_t kLongestLine = 1U << 20U;
 
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 constexpr const char* kNoAxis = " has an \"up\" that is none of x y z -x -y -z";
 constexpr const char* kNoFront = " has a \"front\" that is none of x y z -x -y -z";
 
@@ -61,7 +63,7 @@ class ManifestSource : public EntrySource {
     std::string line;
     CellPart part = CellPart::Begin;
     bool any = false;
-    ++line_number_;
+    line_number_ += 1 + std::exchange(ends_in_cells_, 0);
     while (const std::optional<char> read = bytes_.next()) {
       const char c = *read;
       any = true;
@@ -75,6 +77,7 @@ class ManifestSource : public EntrySource {
       if (c == '\n' && part != CellPart::Quoted && !zero_ended_) {
         break;
       }
+      ends_in_cells_ += c == '\n' && part == CellPart::Quoted ? 1 : 0;
       if (line.size() < kLongestLine) {
         line += c;
       }
@@ -92,17 +95,22 @@ class ManifestSource : public EntrySource {
     return line;
   }
 
-  /// Decides what the manifest is. \return whether the line is a header.
+  /// Decides what the manifest is by its first line that is not blank.
+  /// \return whether the line is blank or a header, and so none that lists a model
   bool take_first(std::string& line) {
-    if (line.starts_with("\xEF\xBB\xBF")) {
-      line.erase(0, 3);
+    if (line_number_ == 1 && line.starts_with(kByteOrderMark)) {
+      line.erase(0, kByteOrderMark.size());
     }
-    if (line.starts_with('{')) {
+    const std::size_t begin = line.find_first_not_of(" \t");
+    if (begin == std::string::npos) {
+      return true;
+    }
+    if (line[begin] == '{') {
       kind_ = ManifestForm::JsonLines;
       return false;
     }
     if (!zero_ended_ && is_json_list(line)) {
-      throw FormatError(manifest_, "line 1",
+      throw FormatError(manifest_, "line " + std::to_string(line_number_),
                         "is the begin of a JSON list; write one object a line, like "
                         "{\"path\": \"a.obj\"}, without brackets and commas around them");
     }
@@ -294,7 +302,8 @@ class ManifestSource : public EntrySource {
   bool zero_ended_ = false;
   std::vector<std::string> header_{};  ///< In small letters.
   char separator_ = ',';
-  std::int64_t line_number_ = 0;
+  std::int64_t line_number_ = 0;    ///< Where the line read last begins.
+  std::int64_t ends_in_cells_ = 0;  ///< Line ends in its quoted cells.
   std::int64_t position_ = 0;
 };
 

@@ -139,9 +139,12 @@ std::optional<ModelRecord> record_from_line(const std::string& line) {
 }
 
 bool supersedes(const ModelRecord& a, const ModelRecord& b) {
-  const auto rank = [](const ModelRecord& r) {
-    return std::make_tuple(r.status == "done", r.timings.finished_ms, std::cref(r.version),
-                           std::cref(r.options), std::cref(r.folder), std::cref(r.result));
+  const bool same_question =
+      a.content == b.content && a.options == b.options && a.version == b.version;
+  const auto rank = [&](const ModelRecord& r) {
+    return std::make_tuple(same_question && r.status == "done", r.timings.finished_ms,
+                           std::cref(r.version), std::cref(r.options), std::cref(r.folder),
+                           std::cref(r.result));
   };
   return rank(a) > rank(b);
 }

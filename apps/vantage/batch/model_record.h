@@ -33,7 +33,7 @@ struct Timings {
   double seconds = 0.0;          ///< Wall clock of the last attempt.
   std::int64_t peak_bytes = 0;   ///< Resident memory of the worker during it.
   int attempts = 0;              ///< 0 for duplicates: nothing was run.
-  std::int64_t finished_ms = 0;  ///< Since 1970, milliseconds.
+  std::int64_t finished_ms = 0;  ///< Or found to be what it was; since 1970, milliseconds.
 };
 
 /// One model and how it ended.
@@ -77,8 +77,8 @@ bool is_sound(const ModelRecord& record);
 /// Reads to_json(). Empty if the text is not a sound record (a torn last line, for instance).
 std::optional<ModelRecord> record_from_line(const std::string& line);
 
-/// Whether `a` is to be kept where two shards or runs recorded the same model: done before failed,
-/// then the one finished later, then by text.
+/// Whether `a` is to be kept where two shards or runs recorded the same model: of equal content, options
+/// and version done before failed; else the one finished later, then by text.
 bool supersedes(const ModelRecord& a, const ModelRecord& b);
 
 }  // namespace vantage::batch

@@ -259,11 +259,6 @@ void check_overview(const ConfinedFolder& folder) {
   check_place(folder, sheet_name(0), is_sheet);
 }
 
-void remove_overview(const ConfinedFolder& folder) {
-  remove_pages(folder, 0);
-  remove_sheets(folder, 0);
-}
-
 Overview write_overview(const ConfinedFolder& folder, ResultsStore& store, const RunContext& run) {
   ContactSheets sheets(folder);
   const StatusCounts counts = store.counts();
@@ -287,6 +282,16 @@ Overview write_overview(const ConfinedFolder& folder, ResultsStore& store, const
   }
   remove_pages(folder, pages);
   return {pages, sheets.finish()};
+}
+
+void renew_overview(const ConfinedFolder& folder, ResultsStore& store, bool wanted,
+                    const RunContext& run) {
+  if (wanted) {
+    write_overview(folder, store, run);
+    return;
+  }
+  remove_pages(folder, 0);
+  remove_sheets(folder, 0);
 }
 
 std::optional<std::string> overview_page(const std::string& folder, ResultsStore& store,

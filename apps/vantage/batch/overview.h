@@ -29,8 +29,9 @@ Overview write_overview(const ConfinedFolder& folder, ResultsStore& store, const
 /// \throw IoError if such a file is in the way
 void check_overview(const ConfinedFolder& folder);
 
-/// Removes what write_overview() wrote, which would be out of date. \throw IoError
-void remove_overview(const ConfinedFolder& folder);
+/// Leaves an overview of the store as it is now, or none. \throw IoError, Cancelled
+void renew_overview(const ConfinedFolder& folder, ResultsStore& store, bool wanted,
+                    const RunContext& run);
 
 /// One page of the table as the store is now; nothing beyond the last page. \throw IoError
 std::optional<std::string> overview_page(const std::string& folder, ResultsStore& store,

@@ -302,6 +302,7 @@ class Runner {
     unchanged.stamp = job.record.stamp;
     unchanged.beside = job.record.beside;
     unchanged.position = job.record.position;
+    unchanged.timings.finished_ms = now_after_start();  // so that a merge takes the new stamp
     ++counts_.skipped;
     counts_.skipped_failed += unchanged.status == "failed" ? 1 : 0;
     counts_.doubted += is_doubted(unchanged) ? 1 : 0;
@@ -416,6 +417,8 @@ class Runner {
     job.record.reason = first.reason;
     job.record.error = first.error;
     job.record.duplicate_of = first.key;
+    job.record.folder.clear();  // that an earlier attempt, at other content, had claimed
+    job.record.result.clear();
     job.record.timings = {};
     ++(first.status == "done" ? counts_.duplicates : counts_.failed);
     job.attempts = 0;
@@ -423,9 +426,12 @@ class Runner {
     remove(job);
   }
 
+  /// Later than any record of an earlier run.
+  [[nodiscard]] std::int64_t now_after_start() const { return std::max(now_ms(), started_ms_ + 1); }
+
   void write(Job& job) {
     job.record.timings.attempts = job.attempts;
-    job.record.timings.finished_ms = std::max(now_ms(), started_ms_ + 1);
+    job.record.timings.finished_ms = now_after_start();
     book_.put(job.record);
     if (job.before && !job.before->folder.empty() && job.before->folder != job.record.folder &&
         book_.owner_of(job.before->folder).empty() && holds_results(root_, job.before->folder)) {

@@ -64,7 +64,19 @@ class Merge {
       ++counts_.taken;
       if (brings_results) {
         copy_results(record, *origin);
-        remove_former(former);
+        if (former && !former->folder.empty() && former->folder != record.folder) {
+          former_.push_back(former->folder);
+        }
+      }
+    }
+  }
+
+  /// Removes the results of records that others have replaced, where they are nobody's now. \pre What was
+  /// taken in is stored: a merge that ends before leaves no record without its results.
+  void remove_former() const {
+    for (const std::string& folder : former_) {
+      if (store_.owner_of(folder).empty() && holds_results(root_, folder)) {
+        root_.remove(model_folder(folder));
       }
     }
   }
@@ -111,17 +123,10 @@ class Merge {
     root_.move(staging, place);
   }
 
-  /// Removes the results of a record that another one has replaced, where they are nobody's now.
-  void remove_former(const std::optional<ModelRecord>& former) const {
-    if (former && !former->folder.empty() && store_.owner_of(former->folder).empty() &&
-        holds_results(root_, former->folder)) {
-      root_.remove(model_folder(former->folder));
-    }
-  }
-
   ResultsStore& store_;
   const ConfinedFolder& root_;
   const RunContext& run_;
+  std::vector<std::string> former_{};  // folders of records that were replaced
   MergeCounts counts_{};
 };
 
@@ -152,6 +157,7 @@ MergeCounts merge_shards(const std::vector<std::string>& folders, ResultsStore& 
     }
   }
   store.commit();
+  merge.remove_former();
   if (folders.size() > 1) {
     root.remove(work_folder(kMergeCorner));
   }

@@ -30,9 +30,10 @@ const std::string kNothing =
 /// The pages made here have a script that only ever sets text.
 const std::string kOwnPage = kNothing + "img-src 'self'; script-src 'unsafe-inline'";
 /// Anybody may have written a file of these names: in a sandbox it has no origin, so that it can
-/// read nothing of this server, and it can ask nobody for anything.
+/// read nothing of this server, and it can ask nobody for anything. Reports hand out pictures and cameras.
 const std::string kReport =
-    kNothing + "img-src data: blob:; script-src 'unsafe-inline'; sandbox allow-scripts";
+    kNothing +
+    "img-src data: blob:; script-src 'unsafe-inline'; sandbox allow-scripts allow-downloads";
 const std::string kFile = kNothing + "img-src 'self' data:; sandbox";
 
 /// Whether the name by which the server was asked for is this machine's own. A page from elsewhere

@@ -46,9 +46,6 @@ inline bool is_plate(double shrinkage) {
   return shrinkage > 0.1;
 }
 
-/// Lower-case name of a stop reason for results, e.g. "shrunk".
-std::string_view stop_name(ContractionStop stop);
-
 /// What happened to one connected component.
 struct ComponentContraction {
   std::size_t vertices = 0;  ///< Of the component.

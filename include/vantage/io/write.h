@@ -20,7 +20,6 @@
 /// \file
 /// Writers give bytes; write_file() puts them on disk before they have a name, so that a failed run
 /// leaves no half-written file.
-/// A file that is whole on the disk before anybody sees it.
 /// Models turned by quarter turns about their axes, with all else as it is.
 
 namespace vantage {
@@ -32,6 +31,9 @@ void write_file(const std::string& path, std::string_view bytes);
 
 /// The same under a name that the user gave: links are followed and pipes written to. \throw IoError
 void write_named_file(const std::string& path, std::string_view bytes);
+
+/// The bytes in base64 (RFC 4648, section 4), padded, without line breaks.
+std::string base64(std::string_view bytes);
 
 /// Binary little-endian PLY of a map: x y z, quality (float), red green blue, triangles.
 /// \param double_precision positions as double instead of float.

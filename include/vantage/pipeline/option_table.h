@@ -72,6 +72,11 @@ AllOptions all_options(Preset preset, Quality quality = Quality::Normal);
 /// not go together.
 std::optional<ViewSetRequest> checked_view_set(const ViewOptions& options);
 
+/// Refuses what was given and contradicts other options, or has no effect beside them. \param is_given
+/// tells by an option's name. \throw InvalidInput that begins with "option NAME"
+void check_together(const ViewOptions& options,
+                    const std::function<bool(std::string_view)>& is_given);
+
 /// {"NAME": VALUE, …}: all options, as they are.
 std::string options_json(const AllOptions& options);
 

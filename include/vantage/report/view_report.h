@@ -116,6 +116,10 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, ShapePic
                         const ViewReport& report, const ViewOptions& options,
                         const RunContext& run = {});
 
+/// All that the reader, the steps and the search had to say, one sentence each.
+std::vector<std::string> warnings_of(const Model& model, const ShapeAnalysis& shape,
+                                     const ViewReport& report);
+
 /// view.json: the same bytes for the same input, options and version.
 /// \param seconds adds the times, for `--json`; null for the file.
 std::string view_json(const Model& model, const ShapeAnalysis& shape, const ViewReport& report,

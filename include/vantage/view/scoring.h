@@ -35,6 +35,7 @@ struct ScoringCamera {
   [[nodiscard]] double distance() const;                           ///< R in model units.
   [[nodiscard]] Vec3 eye(const Vec3& direction) const;             ///< Position of the eye.
   [[nodiscard]] Viewpoint viewpoint(const Vec3& direction) const;  ///< What visibility is asked.
+  [[nodiscard]] std::vector<Viewpoint> viewpoints(std::span<const Vec3> directions) const;
 };
 
 /// Sum of `significance` over the vertices marked visible, added in vertex order.

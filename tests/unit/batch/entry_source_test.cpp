@@ -127,6 +127,24 @@ TEST(EntriesOfManifest, ACellOfCsvThatIsNeverClosedIsRefusedByItsLine) {
   }
 }
 
+// A blank first line once made every manifest a list of paths.
+TEST(EntriesOfManifest, BlankLinesAheadAreNoFirstLine) {
+  for (const char* const text :
+       {"\n{\"path\": \"a.ply\"}\n", "\xEF\xBB\xBF\r\n {\"path\": \"a.ply\"}\n",
+        " \t\npath\na.ply\n"}) {
+    const std::vector<Entry> entries = listed(text);
+    ASSERT_EQ(entries.size(), 1U) << text;
+    EXPECT_EQ(entries[0].key, "a.ply");
+    EXPECT_EQ(entries[0].problem, "");
+  }
+}
+
+TEST(EntriesOfManifest, LinesAreCountedWithThoseInsideCells) {
+  const std::vector<Entry> entries = listed("path,name\na.ply,\"x\ny\"\n,c\n");
+  ASSERT_EQ(entries.size(), 2U);
+  EXPECT_EQ(entries[1].problem, "line 4 of the manifest names no path");
+}
+
 // Found by fuzzing: any line with a field of that name was an entry of ours, without path or key.
 TEST(EntriesOfManifest, AFieldCalledPlannedMakesNoPlan) {
   const test::TemporaryFolder scratch;

@@ -51,6 +51,20 @@ TEST(ModelRecord, ARecordThatIsDoneStandsAgainstALaterFailure) {
   EXPECT_FALSE(supersedes(failed, done));
 }
 
+// An old answer once hid that the file was broken since, or that new options fail.
+TEST(ModelRecord, ALaterFailureAtOtherContentOrOptionsReplacesWhatWasDone) {
+  for (std::string ModelRecord::*const member :
+       {&ModelRecord::content, &ModelRecord::options, &ModelRecord::version}) {
+    const ModelRecord done = full_record();
+    ModelRecord failed = full_record();
+    failed.status = "failed";
+    failed.*member = "other";
+    failed.timings.finished_ms = done.timings.finished_ms + 1;
+    EXPECT_TRUE(supersedes(failed, done));
+    EXPECT_FALSE(supersedes(done, failed));
+  }
+}
+
 TEST(ModelRecord, OfTwoAlikeTheLaterOneIsKeptAndOneNeverReplacesItself) {
   ModelRecord early = full_record();
   ModelRecord late = full_record();

@@ -210,15 +210,6 @@ TEST(Contract, RefusesOptionsBelowTheirRangeByName) {
   });
 }
 
-TEST(StopName, OfEveryReason) {
-  EXPECT_EQ(stop_name(ContractionStop::Shrunk), "shrunk");
-  EXPECT_EQ(stop_name(ContractionStop::Grew), "grew");
-  EXPECT_EQ(stop_name(ContractionStop::Collapsed), "collapsed");
-  EXPECT_EQ(stop_name(ContractionStop::StepLimit), "step-limit");
-  EXPECT_EQ(stop_name(ContractionStop::NothingToMove), "nothing-to-move");
-  EXPECT_EQ(stop_name(ContractionStop::SolverFailed), "solver-failed");
-}
-
 TEST(ContractProgress, NeverGoesBackOverManyComponents) {
   // The large component first: the shares of the later ones must still follow on.
   TriMesh mesh = test::torus(1.0, 0.3, 24, 12);

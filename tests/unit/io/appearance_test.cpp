@@ -9,7 +9,6 @@
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
 
-#include "io/base64.h"
 #include "io/model_builder.h"
 #include "io/readers.h"
 #include "io/texture_loader.h"
