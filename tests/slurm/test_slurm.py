@@ -221,6 +221,29 @@ class SlurmTest(unittest.TestCase):
         # The files are about alike, so their counts are.
         self.assertLessEqual(max(sizes) - min(sizes), 2)
 
+    def test_run_again_it_does_what_changed_since_and_no_more(self):
+        write_boxes(self.folder / "changing", 4)
+        run = lambda *flags: self.start("changing", "--shards", "1", *FAST, *flags)
+        local = lambda: subprocess.run(
+            self.command("changing", self.folder / "changing-local", *FAST), cwd=self.folder, check=False,
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        run().communicate(timeout=200)
+        _, errors = run().communicate(timeout=200)
+        self.assertEqual(errors.count("job "), 0, errors)  # nothing changed: nothing is submitted
+        models = sorted((self.folder / "changing").iterdir())
+        models[1].write_bytes(models[0].read_bytes().replace(b" 2", b" 3"))
+        models[2].write_text("f 1 2 3\n")
+        os.utime(models[3], ns=(1, 1))
+        process = run()
+        _, errors = process.communicate(timeout=200)
+        self.assertEqual((process.returncode, errors.count("job ")), (4, 1), errors)
+        local()
+        self.assertEqual(self.exported(self.out), self.exported(self.folder / "changing-local"))
+        self.assertIn(b"failed", self.exported(self.out))
+        _, errors = run("--verify").communicate(timeout=200)
+        self.assertEqual(errors.count("job "), 1, errors)  # all are read again
+        self.assertEqual(self.exported(self.out), self.exported(self.folder / "changing-local"))
+
     def test_without_slurm_it_says_what_is_missing(self):
         environment = {k: v for k, v in self.cluster.environment.items() if k != "PATH"}
         run = subprocess.run(self.command("boxes", self.out, "--engine", "slurm", *FAST), cwd=self.folder,
