@@ -5,8 +5,6 @@
 #include <optional>
 #include <thread>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/error.h"
 #include "vantage/core/version.h"
 #include "vantage/io/model.h"
@@ -19,6 +17,7 @@
 #include "batch/file_stamp.h"
 #include "batch/folder_lock.h"
 #include "batch/folder_owner.h"
+#include "batch/json_text.h"
 #include "batch/naming.h"
 #include "batch/overview.h"
 #include "batch/results_store.h"
@@ -428,13 +427,13 @@ struct BatchCommand {
   }
 
   void summarise(Session& session, const batch::RunnerCounts& counts) const {
-    const nlohmann::ordered_json json = {
+    const batch::Json json = {
         {"done", counts.done},       {"failed", counts.failed + counts.skipped_failed},
         {"skipped", counts.skipped}, {"duplicates", counts.duplicates},
         {"doubted", counts.doubted}, {"folder", batch::key_of_path(folder)}};
     session.end_progress();
     if (session.flags.json) {
-      std::printf("%s\n", json.dump().c_str());
+      std::printf("%s\n", batch::json_text(json).c_str());
       return;
     }
     const auto count = [](std::int64_t number) {

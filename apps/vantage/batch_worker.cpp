@@ -9,7 +9,6 @@
 
 #include <fcntl.h>
 #include <malloc.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "vantage/core/error.h"
@@ -19,7 +18,7 @@
 
 #include "batch/archive_reader.h"
 #include "batch/content_hash.h"
-#include "batch/json_line.h"
+#include "batch/json_text.h"
 #include "batch/naming.h"
 #include "batch/thumbnail.h"
 #include "commands.h"
@@ -39,7 +38,7 @@
 namespace vantage::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using batch::Json;
 
 void say(int answers, const Json& json) {
   if (!batch::write_json_line(answers, json)) {
@@ -124,7 +123,7 @@ struct BatchWorkerCommand {
     ::dup2(STDERR_FILENO, STDOUT_FILENO);
     session.flags.quiet = true;
     for (std::string line; std::getline(std::cin, line);) {
-      const Json answer = answer_to(Json::parse(line), session, answers);
+      const Json answer = answer_to(batch::parsed_json(line), session, answers);
       if (!answer.is_null()) {
         say(answers, answer);
       }
@@ -218,8 +217,9 @@ struct BatchWorkerCommand {
     add_report(output, kinds_, model, shape, pictures, report, own, run);
     add_data(output, kinds_, model, shape, report,
              batch::path_of_key(order.at("file").get<std::string>()));
-    const Json view = without_missing_images(Json::parse(view_json(model, shape, report, own)));
-    output.add("view.json", view.dump(2) + "\n");
+    const Json view =
+        without_missing_images(batch::parsed_json(view_json(model, shape, report, own)));
+    output.add("view.json", batch::json_text(view, 2) + "\n");
     Json result;
     for (const char* part : {"format", "vertices", "faces", "components", "closed", "genus"}) {
       result[part] = view["model"][part];
@@ -229,7 +229,7 @@ struct BatchWorkerCommand {
     }
     result["files"] = output.sizes();
     output.write();
-    return {{"result", result.dump()}, {"peak_bytes", peak_bytes()}};
+    return {{"result", batch::json_text(result)}, {"peak_bytes", peak_bytes()}};
   }
 
   /// Pictures that were not asked for are not named either.

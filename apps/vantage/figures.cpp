@@ -8,11 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
 
+#include "batch/json_text.h"
 #include "clock.h"
 #include "commands.h"
 #include "load_posed.h"
@@ -91,14 +90,14 @@ struct FiguresCommand {
     output.add("table-1-times.md", times_markdown(times));
     output.write();
     session.end_progress();
-    nlohmann::ordered_json files = nlohmann::ordered_json::array();
+    batch::Json files = batch::Json::array();
     for (const std::string& name : output.names()) {
       const std::string path = (std::filesystem::path(folder) / name).string();
       files.push_back(path);
       session.tell(printable(path));
     }
     if (session.flags.json) {
-      write_output("-", nlohmann::ordered_json{{"files", files}}.dump(2) + "\n");
+      write_output("-", batch::json_text(batch::Json{{"files", files}}, 2) + "\n");
     }
   }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/mesh_check.h"
 #include "vantage/pipeline/shape_analysis.h"
 
+#include "batch/json_text.h"
 #include "commands.h"
 #include "method_flags.h"
 #include "notes.h"
@@ -16,7 +15,7 @@
 namespace vantage::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using batch::Json;
 
 // Objects listed for people; --json lists more, but a soup has one for each face.
 constexpr std::size_t kShownObjects = 12;
@@ -108,7 +107,7 @@ struct InfoCommand {
           {"non_manifold_vertices", check.non_manifold_vertices},
           {"inconsistent_edges", check.inconsistent_edges}}},
         {"notes", loaded.notes}};
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return batch::json_text(json, 2) + "\n";
   }
 
   static void print(Session& session, const Model& loaded, const WeldedMesh& welded,

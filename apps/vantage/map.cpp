@@ -2,12 +2,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/io/write.h"
 #include "vantage/pipeline/measured_shape.h"
 #include "vantage/render/render.h"
 
+#include "batch/json_text.h"
 #include "commands.h"
 #include "method_flags.h"
 #include "notes.h"
@@ -94,15 +93,15 @@ struct MapCommand {
               const std::vector<double>& field) const {
     const auto [low, high] = std::minmax_element(field.begin(), field.end());
     if (session.flags.json) {
-      const nlohmann::ordered_json json = {{"file", file},
-                                           {"method", name},
-                                           {"min", *low},
-                                           {"max", *high},
-                                           {"levels", shape.history.level_count()},
-                                           {"level_factors", shape.kssm.level_factor},
-                                           {"warnings", shape.warnings},
-                                           {"doubts", skeleton_warnings(shape)}};
-      write_output("-", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+      const batch::Json json = {{"file", file},
+                                {"method", name},
+                                {"min", *low},
+                                {"max", *high},
+                                {"levels", shape.history.level_count()},
+                                {"level_factors", shape.kssm.level_factor},
+                                {"warnings", shape.warnings},
+                                {"doubts", skeleton_warnings(shape)}};
+      write_output("-", batch::json_text(json, 2) + "\n");
       return;
     }
     session.tell(

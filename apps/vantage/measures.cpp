@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/view/measure.h"
 
+#include "batch/json_text.h"
 #include "commands.h"
 #include "method_flags.h"
 #include "output_file.h"
@@ -22,17 +21,16 @@ struct MeasuresCommand {
 
   void run(Session& session) {
     if (session.flags.json) {
-      auto rows = nlohmann::ordered_json::array();
+      auto rows = batch::Json::array();
       for (const Measure& m : builtin_measures()) {
         rows.push_back({{"name", m.name},
-                        {"alias", m.alias.empty() ? nlohmann::ordered_json(nullptr)
-                                                  : nlohmann::ordered_json(m.alias)},
+                        {"alias", m.alias.empty() ? batch::Json(nullptr) : batch::Json(m.alias)},
                         {"best", m.better == Better::More ? "max" : "min"},
                         {"cost", m.cost()},
                         {"meaning", m.meaning},
                         {"source", m.source}});
       }
-      write_output("-", rows.dump(2) + "\n");
+      write_output("-", batch::json_text(rows, 2) + "\n");
       return;
     }
     constexpr std::size_t kNameWidth = 30;

@@ -3,7 +3,6 @@
 #include <filesystem>
 
 #include <Eigen/Geometry>
-#include <nlohmann/json.hpp>
 
 #include "vantage/core/error.h"
 #include "vantage/io/model.h"
@@ -11,6 +10,7 @@
 #include "vantage/pipeline/find_views.h"
 #include "vantage/pipeline/sidecar.h"
 
+#include "batch/json_text.h"
 #include "commands.h"
 #include "input_text.h"
 #include "method_flags.h"
@@ -21,7 +21,7 @@
 namespace vantage::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using batch::Json;
 
 std::string axis_name(const Vec3& direction) {
   return std::string(up_name(axis_nearest(direction)));
@@ -60,7 +60,7 @@ std::string features_json(const ShapeAnalysis& shape) {
                                 {"values", std::move(values)}});
     }
   }
-  return json.dump() + "\n";
+  return batch::json_text(json) + "\n";
 }
 
 struct OrientCommand {
@@ -158,9 +158,9 @@ struct OrientCommand {
 
   /// Whether a glTF, which was read before, has buffers or pictures that are not within itself.
   [[nodiscard]] static bool names_files(const std::string& gltf) {
-    const nlohmann::json json = nlohmann::json::parse(gltf);
+    const batch::Json json = batch::parsed_json(gltf);
     for (const char* kind : {"buffers", "images"}) {
-      for (const nlohmann::json& one : json.value(kind, nlohmann::json::array())) {
+      for (const batch::Json& one : json.value(kind, batch::Json::array())) {
         const std::string uri = one.value("uri", "data:");
         if (!uri.starts_with("data:")) {
           return true;
@@ -218,7 +218,7 @@ struct OrientCommand {
                          {"rotation", q},
                          {"turned", !is_none},
                          {"warnings", choice.notes}};
-      write_output("-", json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+      write_output("-", batch::json_text(json, 2) + "\n");
       return;
     }
     if (print) {

@@ -14,13 +14,13 @@
 
 #include <CLI/CLI.hpp>
 #include <fcntl.h>
-#include <nlohmann/json.hpp>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
 
+#include "batch/json_text.h"
 #include "output_file.h"
 
 namespace vantage::cli {
@@ -65,7 +65,7 @@ bool holds(const fs::path& folder, std::string_view marker) {
     constexpr std::size_t kHead = 128;
     return text_of(folder / marker, kHead).find(" written by vantage\n") != std::string::npos;
   }
-  const auto json = nlohmann::json::parse(text_of(folder / marker), nullptr, false);
+  const auto json = batch::parsed_json(text_of(folder / marker));
   return json.is_object() && json.contains("vantage") && json.contains("options_hash");
 }
 

@@ -3,14 +3,13 @@
 
 #include <map>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/error.h"
 #include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/find_views.h"
 #include "vantage/report/view_report.h"
 
+#include "batch/json_text.h"
 #include "commands.h"
 #include "input_text.h"
 #include "load_posed.h"
@@ -150,12 +149,10 @@ struct RenderCommand {
   void report(Session& session, const PictureFrame& frame, const ViewOptions& options,
               const std::vector<std::string>& notes) const {
     const auto& [camera, size] = frame;
-    const auto point = [](const Vec3& p) {
-      return nlohmann::ordered_json::array({p.x(), p.y(), p.z()});
-    };
+    const auto point = [](const Vec3& p) { return batch::Json::array({p.x(), p.y(), p.z()}); };
     if (session.flags.json) {
       session.end_progress();
-      nlohmann::ordered_json json = {
+      batch::Json json = {
           {"file", file},
           {"width", size.width},
           {"height", size.height},
@@ -163,13 +160,12 @@ struct RenderCommand {
           {"target", point(camera.target)},
           {"up", point(camera.up)},
           {"fov_y_deg", camera.fov_y_deg},
-          {"options",
-           nlohmann::ordered_json::parse(options_json({.view = options, .look = look.look()}))},
+          {"options", batch::parsed_json(options_json({.view = options, .look = look.look()}))},
           {"warnings", notes}};
       if (camera.projection == Projection::Orthographic) {
         json["height"] = camera.height;
       }
-      write_output("-", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+      write_output("-", batch::json_text(json, 2) + "\n");
       return;
     }
     session.tell(printable(file) + ": " + std::to_string(size.width) + " × " +

@@ -6,12 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/error.h"
 
 #include "batch/folder_lock.h"
 #include "batch/folder_owner.h"
+#include "batch/json_text.h"
 #include "batch/overview.h"
 #include "batch/results_store.h"
 #include "batch/shard_merge.h"
@@ -29,16 +28,11 @@
 namespace vantage::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using batch::Json;
 
 std::unique_ptr<batch::ResultsStore> open_store(Session& session, const std::string& folder) {
   return session.reading(
       [&] { return std::make_unique<batch::ResultsStore>(folder, batch::Database::Mode::Read); });
-}
-
-/// JSON as text; what a foreign store has that is no UTF-8 is replaced.
-std::string text_of(const Json& json, int indent = -1) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 struct ExportCommand {
@@ -102,11 +96,11 @@ struct ExportCommand {
         json[name] = cell_json(row, i, name);
       }
     }
-    const Json result = Json::parse(row.text(result_column), nullptr, false);
+    const Json result = batch::parsed_json(row.text(result_column));
     for (const char* part : {"up", "camera", "best", "worst"}) {
       json[part] = result.is_object() && result.contains(part) ? result[part] : Json(nullptr);
     }
-    return text_of(json) + "\n";
+    return batch::json_text(json) + "\n";
   }
 };
 
@@ -153,7 +147,7 @@ struct QueryCommand {
       table.push_back(std::move(row.cells));
     }
     if (session.flags.json) {
-      std::printf("%s\n", text_of(list, 2).c_str());
+      std::printf("%s\n", batch::json_text(list, 2).c_str());
     } else {
       std::printf("%s\n", aligned(table, Alignment::Left).c_str());
     }
@@ -244,7 +238,7 @@ struct DiffCommand {
                          {"only_in_a", counts.removed},
                          {"only_in_b", counts.added},
                          {"differences", std::move(differences)}};
-      std::printf("%s\n", text_of(json, 2).c_str());
+      std::printf("%s\n", batch::json_text(json, 2).c_str());
     }
     session.tell(plural(counts.equal, "model") + " alike, " + grouped(counts.changed) +
                  " changed, " + grouped(counts.removed) + " only in A, " + grouped(counts.added) +
@@ -310,7 +304,7 @@ struct MergeCommand {
                          {"done", counts.done},
                          {"failed", counts.failed},
                          {"duplicates", counts.duplicates}};
-      std::printf("%s\n", json.dump().c_str());
+      std::printf("%s\n", batch::json_text(json).c_str());
     }
     finish_standard_output();
   }
@@ -338,7 +332,7 @@ struct VerifyCommand {
     if (session.flags.json) {
       std::printf(
           "%s\n",
-          text_of(
+          batch::json_text(
               {{"records", counts.records}, {"folders", counts.folders}, {"problems", problems}}, 2)
               .c_str());
     }

@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/error.h"
 
+#include "batch/json_text.h"
 #include "results_table.h"
 #include "terminal.h"
 
@@ -81,8 +80,8 @@ std::string difference_line(const Difference& difference) {
   return printable(line);
 }
 
-nlohmann::ordered_json to_json(const Difference& difference) {
-  nlohmann::ordered_json json = {{"key", difference.key}, {"kind", difference.kind}};
+batch::Json to_json(const Difference& difference) {
+  batch::Json json = {{"key", difference.key}, {"kind", difference.kind}};
   for (const Difference::Change& change : difference.changes) {
     json["changes"][change.column] = {change.a, change.b};
   }

@@ -9,14 +9,15 @@
 #include <utility>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include "vantage/io/write.h"
+
+#include "batch/json_text.h"
 
 namespace vantage::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using batch::Json;
 
 bool is_column(const std::string& name) {
   const auto in = [&](const std::vector<std::string>& columns) {

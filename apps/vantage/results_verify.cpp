@@ -8,18 +8,17 @@
 #include <string_view>
 #include <system_error>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/error.h"
 
 #include "batch/confined_folder.h"
+#include "batch/json_text.h"
 #include "batch/result_folders.h"
 
 namespace vantage::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using batch::Json;
 
 /// Whether a picture begins and ends as one does.
 bool is_whole_png(std::string_view bytes) {
@@ -36,7 +35,7 @@ std::string flaw_of(const std::string& name, const std::string& bytes) {
   if (name.ends_with(".png") && !is_whole_png(bytes)) {
     return "is no whole picture";
   }
-  if (name.ends_with(".json") && Json::parse(bytes, nullptr, false).is_discarded()) {
+  if (name.ends_with(".json") && batch::parsed_json(bytes).is_discarded()) {
     return "is no JSON";
   }
   return "";
@@ -131,12 +130,12 @@ class Verification {
         complain_of(name, flaw);
       }
     }
-    const Json view = Json::parse(bytes_of(folder + "/view.json"), nullptr, false);
+    const Json view = batch::parsed_json(bytes_of(folder + "/view.json"));
     if (!view.is_object()) {
       complain_of("view.json", "is not there or damaged");
       return;
     }
-    const Json result = Json::parse(record.result, nullptr, false);
+    const Json result = batch::parsed_json(record.result);
     for (const char* part : {"total", "best", "worst"}) {
       if (!result.is_object() || result.value(part, Json()) != view.value(part, Json())) {
         complain_of("view.json", "is not what its record says");
@@ -162,7 +161,7 @@ class Verification {
     if (error || size == bytes || !flaw_of(file, bytes_of(file)).empty()) {
       return "";
     }
-    return "has " + std::to_string(bytes) + " bytes, not " + size.dump();
+    return "has " + std::to_string(bytes) + " bytes, not " + batch::json_text(size);
   }
 
   const batch::ConfinedFolder root_;

@@ -4,14 +4,13 @@
 #include <iterator>
 #include <optional>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/error.h"
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/measured_shape.h"
 #include "vantage/spatial/directions.h"
 
+#include "batch/json_text.h"
 #include "commands.h"
 #include "input_text.h"
 #include "measure_flags.h"
@@ -202,17 +201,16 @@ struct ScoreCommand {
   [[nodiscard]] std::string json(const std::vector<Measure>& measures,
                                  const std::vector<Vec3>& points,
                                  const MeasureValues& values) const {
-    auto rows = nlohmann::ordered_json::array();
+    auto rows = batch::Json::array();
     for (std::size_t m = 0; m < measures.size(); ++m) {
       for (std::size_t i = 0; i < points.size(); ++i) {
-        rows.push_back(
-            {{"method", measures[m].name},
-             {eyes.empty() ? "direction" : "eye",
-              nlohmann::ordered_json::array({points[i].x(), points[i].y(), points[i].z()})},
-             {"score", values[m][i]}});
+        rows.push_back({{"method", measures[m].name},
+                        {eyes.empty() ? "direction" : "eye",
+                         batch::Json::array({points[i].x(), points[i].y(), points[i].z()})},
+                        {"score", values[m][i]}});
       }
     }
-    return rows.dump(2) + "\n";
+    return batch::json_text(rows, 2) + "\n";
   }
 };
 

@@ -8,14 +8,13 @@
 #include <optional>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "batch/json_text.h"
 #include "option_text.h"
 
 namespace vantage::cli {
 namespace {
 
-using Json = nlohmann::json;
+using batch::Json;
 
 constexpr const char* kConfig = "config";
 constexpr std::size_t kLargest = 1U << 20U;  ///< Of a file of options, bytes.
@@ -97,7 +96,7 @@ std::string value_of(const Json& value, const std::string& origin) {
     throw CLI::ValidationError(origin, "is a list of lists; give a list of values");
   }
   if (value.is_number() || value.is_boolean()) {
-    return value.dump();
+    return batch::json_text(value);
   }
   throw CLI::ValidationError(origin, "has no value; give a string, a number, true or false");
 }

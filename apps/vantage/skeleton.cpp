@@ -7,12 +7,11 @@
 #include <optional>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/shape_analysis.h"
 
+#include "batch/json_text.h"
 #include "commands.h"
 #include "method_flags.h"
 #include "notes.h"
@@ -141,7 +140,7 @@ struct SkeletonCommand {
     }
   }
 
-  [[nodiscard]] nlohmann::ordered_json quality_json(const ShapeAnalysis& shape) const {
+  [[nodiscard]] batch::Json quality_json(const ShapeAnalysis& shape) const {
     const double whole = quality->length > 0.0 ? quality->length : 1.0;
     const double diameter = shape.sphere.diameter;
     return {{"ends", quality->ends},
@@ -164,22 +163,22 @@ struct SkeletonCommand {
   void report(Session& session, const Model& loaded, const ShapeAnalysis& shape) const {
     const CurveGraph& graph = shape.skeleton.graph;
     if (session.flags.json) {
-      nlohmann::ordered_json json = {{"file", file},
-                                     {"nodes", graph.nodes.size()},
-                                     {"edges", graph.edges.size()},
-                                     {"components", component_count(graph)},
-                                     {"cycles", cycle_count(graph)},
-                                     {"length", total_length(graph)},
-                                     {"levels", shape.history.level_count()},
-                                     {"shrinkage", shape.history.shrinkage},
-                                     {"warnings", shape.warnings},
-                                     {"doubts", skeleton_warnings(shape)}};
+      batch::Json json = {{"file", file},
+                          {"nodes", graph.nodes.size()},
+                          {"edges", graph.edges.size()},
+                          {"components", component_count(graph)},
+                          {"cycles", cycle_count(graph)},
+                          {"length", total_length(graph)},
+                          {"levels", shape.history.level_count()},
+                          {"shrinkage", shape.history.shrinkage},
+                          {"warnings", shape.warnings},
+                          {"doubts", skeleton_warnings(shape)}};
       json["closed"] = shape.check.closed;
-      json["genus"] = shape.check.genus ? nlohmann::ordered_json(*shape.check.genus) : nullptr;
+      json["genus"] = shape.check.genus ? batch::Json(*shape.check.genus) : nullptr;
       if (quality) {
         json["quality"] = quality_json(shape);
       }
-      write_output("-", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+      write_output("-", batch::json_text(json, 2) + "\n");
       return;
     }
     session.tell(printable(loaded.name) + ": " + plural(graph.nodes.size(), "node") + ", " +

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/error.h"
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
@@ -10,6 +8,7 @@
 #include "vantage/render/render.h"
 #include "vantage/report/view_report.h"
 
+#include "batch/json_text.h"
 #include "commands.h"
 #include "load_posed.h"
 #include "look_flags.h"
@@ -118,16 +117,16 @@ struct ThumbCommand {
     if (session.flags.json) {
       const Vec3& d = found.view.direction;
       const PictureSize& of = found.view.size;
-      const nlohmann::ordered_json json = {{"file", file},
-                                           {"size", std::max(of.width, of.height)},
-                                           {"width", of.width},
-                                           {"height", of.height},
-                                           {"direction", {d.x(), d.y(), d.z()}},
-                                           {"up", up_name(found.choice.frame.up)},
-                                           {"front", up_name(found.choice.frame.front)},
-                                           {"vertices", found.vertices},
-                                           {"warnings", notes}};
-      write_output("-", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+      const batch::Json json = {{"file", file},
+                                {"size", std::max(of.width, of.height)},
+                                {"width", of.width},
+                                {"height", of.height},
+                                {"direction", {d.x(), d.y(), d.z()}},
+                                {"up", up_name(found.choice.frame.up)},
+                                {"front", up_name(found.choice.frame.front)},
+                                {"vertices", found.vertices},
+                                {"warnings", notes}};
+      write_output("-", batch::json_text(json, 2) + "\n");
     }
   }
 };

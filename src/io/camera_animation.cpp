@@ -3,19 +3,17 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
-#include <nlohmann/json.hpp>
 
 #include "vantage/core/error.h"
 #include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
 
+#include "core/json_text.h"
 #include "io/byte_cursor.h"
 #include "io/camera_axes.h"
 
 namespace vantage {
 namespace {
-
-using OrderedJson = nlohmann::ordered_json;
 
 // glTF's codes: 32-bit float.
 constexpr int kFloat = 5126;
@@ -107,7 +105,7 @@ std::string views_transforms_json(std::span<const NamedCamera> cameras) {
   for (const NamedCamera& named : cameras) {
     // What the file of one camera says of the whole file belongs to its frame here.
     const OrderedJson one =
-        OrderedJson::parse(camera_transforms_json(named.camera, named.size, named.image_name));
+        parsed_json(camera_transforms_json(named.camera, named.size, named.image_name));
     OrderedJson frame = one["frames"][0];
     for (const auto& [key, value] : one.items()) {
       if (key != "frames") {
@@ -120,7 +118,7 @@ std::string views_transforms_json(std::span<const NamedCamera> cameras) {
   file["w"] = first.width;
   file["h"] = first.height;
   file["frames"] = frames;
-  return file.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
+  return json_text(file, 2) + "\n";
 }
 
 std::string camera_animation_gltf(std::span<const Camera> cameras, double seconds, PictureSize size,
@@ -128,7 +126,7 @@ std::string camera_animation_gltf(std::span<const Camera> cameras, double second
   if (cameras.size() < 2 || !(seconds > 0.0) || !std::isfinite(seconds)) {
     throw InvalidInput("a camera's animation needs at least two poses and some time");
   }
-  OrderedJson file = OrderedJson::parse(camera_gltf(cameras[0], size, near_far_scale));
+  OrderedJson file = parsed_json(camera_gltf(cameras[0], size, near_far_scale));
   const Eigen::Quaterniond turn = rotation_of(cameras[0]);
   const Vec3& eye = cameras[0].eye;
   OrderedJson& node = file["nodes"][0];
@@ -138,7 +136,7 @@ std::string camera_animation_gltf(std::span<const Camera> cameras, double second
   AnimationBuffer buffer;
   file["animations"] = OrderedJson::array({animation_of(cameras, seconds, buffer)});
   buffer.store_in(file);
-  return file.dump(2) + "\n";
+  return json_text(file, 2) + "\n";
 }
 
 }  // namespace vantage

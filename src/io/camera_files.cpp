@@ -6,18 +6,16 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
-#include <nlohmann/json.hpp>
 
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
 
 #include "core/degrees.h"
+#include "core/json_text.h"
 #include "io/camera_axes.h"
 
 namespace vantage {
 namespace {
-
-using OrderedJson = nlohmann::ordered_json;
 
 /// Camera-to-world: columns are the camera's x (right), y (up), −(view direction), and the eye.
 Eigen::Matrix4d camera_to_world(const Camera& camera) {
@@ -86,7 +84,7 @@ std::string camera_gltf(const Camera& camera, PictureSize size, double near_far_
                             {"scenes", OrderedJson::array({{{"nodes", OrderedJson::array({0})}}})},
                             {"nodes", OrderedJson::array({node})},
                             {"cameras", OrderedJson::array({lens})}};
-  return file.dump(2) + "\n";
+  return json_text(file, 2) + "\n";
 }
 
 std::string camera_transforms_json(const Camera& camera, PictureSize size,
@@ -114,7 +112,7 @@ std::string camera_transforms_json(const Camera& camera, PictureSize size,
   file["frames"] = OrderedJson::array({{{"file_path", std::string(image_name)},
                                         {"transform_matrix", rows},
                                         {"target", list(camera.target)}}});
-  return file.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
+  return json_text(file, 2) + "\n";
 }
 
 std::string camera_f3d(const Camera& camera, PictureSize size, std::string_view model) {

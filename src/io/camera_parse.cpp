@@ -226,8 +226,10 @@ class CameraReader : private JsonReader {
     } else if (has_lens("camera_angle_y")) {
       camera.fov_y_deg = lens("camera_angle_y") * kDegPerRad;
     } else if (has_lens("camera_angle_x")) {
-      const double width = lens("w");
-      const double height = lens("h");
+      // Without a size, as in the synthetic scenes of NeRF, pictures are square.
+      const bool has_size = has_lens("w") && has_lens("h");
+      const double width = has_size ? lens("w") : 1.0;
+      const double height = has_size ? lens("h") : 1.0;
       const double half = std::tan(0.5 * lens("camera_angle_x"));
       camera.fov_y_deg = 2.0 * std::atan(half * height / width) * kDegPerRad;
     } else if (has_lens("fl_y") || has_lens("fl_x")) {

@@ -70,9 +70,11 @@ std::vector<std::string> names_in_obj(const std::string& text, const SideFileSou
   libraries.read();
   std::vector<std::string> names = libraries.paths();
   for (const auto& [material, look] : libraries.materials()) {
-    const auto place = look.picture.empty() ? std::nullopt : libraries.place_of(look.picture);
-    if (place) {
-      names.push_back(*place);
+    for (const std::string& picture : {look.picture, look.mask}) {
+      const auto place = picture.empty() ? std::nullopt : libraries.place_of(picture);
+      if (place) {
+        names.push_back(*place);
+      }
     }
   }
   return names;

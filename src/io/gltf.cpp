@@ -58,6 +58,10 @@ class SceneReader {
       builder_.note("primitives without positions left out: " +
                     std::to_string(shapeless_primitives_));
     }
+    if (uncoloured_primitives_ > 0) {
+      builder_.note("colours of vertices that cannot be read were left out (" +
+                    std::to_string(uncoloured_primitives_) + " of such)");
+    }
     if (untextured_primitives_ > 0) {
       builder_.note("texture coordinates of a primitive left out: they are not in the file (" +
                     std::to_string(untextured_primitives_) + " of such)");
@@ -301,7 +305,9 @@ class SceneReader {
     read_colours(primitive, points.count());
     read_uvs(primitive, points.count());
     if (primitive.mode != TINYGLTF_MODE_POINTS) {
-      const bool is_mirrored = !is_held && world.topLeftCorner<3, 3>().determinant() < 0.0;
+      const Eigen::Matrix4d placed =
+          is_held && points.count() > 0 ? skinned->transform(0) : Eigen::Matrix4d(world);
+      const bool is_mirrored = placed.topLeftCorner<3, 3>().determinant() < 0.0;
       read_faces(primitive, first, points.count(), is_mirrored);
     }
   }
@@ -320,15 +326,23 @@ class SceneReader {
       }
       return;
     }
-    const GltfAccessor colours(document_, colour->second, count, builder_);
-    if (colours.count() != count || colours.components() < 3) {
-      builder_.fail("the colours of a primitive do not fit its positions");
+    std::vector<std::array<double, 3>> values(count, {1.0, 1.0, 1.0});
+    try {
+      const GltfAccessor colours(document_, colour->second, count, builder_);
+      if (colours.count() != count || colours.components() < 3) {
+        builder_.fail("the colours of a primitive do not fit its positions");
+      }
+      for (std::size_t i = 0; i < count; ++i) {
+        has_clear_ |= colours.components() > 3 && colours.value(i, 3) < 1.0;
+        values[i] = {colours.value(i, 0), colours.value(i, 1), colours.value(i, 2)};
+      }
+    } catch (const FormatError&) {  // the shape is sound without them
+      ++uncoloured_primitives_;
     }
-    for (std::size_t i = 0; i < count; ++i) {
-      has_clear_ |= colours.components() > 3 && colours.value(i, 3) < 1.0;
-      builder_.add_colour(encoded_of_linear(base[0] * colours.value(i, 0)),
-                          encoded_of_linear(base[1] * colours.value(i, 1)),
-                          encoded_of_linear(base[2] * colours.value(i, 2)));
+    for (const auto& value : values) {
+      builder_.add_colour(encoded_of_linear(base[0] * value[0]),
+                          encoded_of_linear(base[1] * value[1]),
+                          encoded_of_linear(base[2] * value[2]));
     }
   }
 
@@ -445,6 +459,7 @@ class SceneReader {
   std::size_t hidden_nodes_ = 0;
   std::size_t skipped_primitives_ = 0;
   std::size_t shapeless_primitives_ = 0;
+  std::size_t uncoloured_primitives_ = 0;
   std::size_t untextured_primitives_ = 0;
 };
 

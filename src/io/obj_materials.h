@@ -36,6 +36,7 @@ class ObjMaterials {
  private:
   Material material(const MtlMaterial& source);
   std::optional<std::uint32_t> texture(const MtlMaterial& source);
+  std::optional<Image> picture(const std::string& name);
 
   ModelBuilder& builder_;
   TextureLoader loader_;

@@ -36,8 +36,9 @@ class OffReader {
       return builder_.finish();
     }
     read_counts();
-    // Values of one vertex or face end with their line, unless the file has fewer lines than that.
-    by_line_ = content_lines(cursor_.rest()) >= points_ + faces_;
+    // Numbers may stand on any lines. Where each vertex and face has one, there may be more of them than
+    // the header word says.
+    by_line_ = content_lines(cursor_.rest()) >= points_ + faces_ && tokens_of_next_line() > 1;
     read_points();
     read_faces();
     finish_notes();
@@ -69,11 +70,7 @@ class OffReader {
     }
     cursor_ = after_word;
     if (layout_.any_dimension) {
-      const std::int64_t dimension = count("dimension");
-      if (dimension != 3) {
-        builder_.fail(cursor_.place(), "the points have " + std::to_string(dimension) +
-                                           " dimensions, only 3 can be read");
-      }
+      require_three_dimensions(count("dimension"), cursor_.place(), builder_);
     }
     return false;
   }
@@ -91,11 +88,13 @@ class OffReader {
 
   void read_counts() {
     const auto points = static_cast<std::uint64_t>(count("vertices"));
+    const std::uint64_t first_line = cursor_.place().value;
     const auto faces = static_cast<std::uint64_t>(count("faces"));
     const Place place = cursor_.place();
-    if (const std::string_view edges = cursor_.token_on_line(kComment);
-        !edges.empty() && !integer_from(edges)) {
-      builder_.fail(place, "expected the number of edges, found " + in_quotes(edges));
+    if (place.value != first_line && tokens_of_next_line() == 1) {
+      count("edges");  // a line for each number
+    } else {
+      pass_edges(place);
     }
     // The shortest vertex is "0 0 0 " and the shortest face "0 ".
     const std::uint64_t most = cursor_.remaining() + 1;
@@ -106,6 +105,24 @@ class OffReader {
     points_ = static_cast<std::size_t>(points);
     faces_ = static_cast<std::size_t>(faces);
     builder_.reserve_points(points_);
+  }
+
+  /// The number of edges, which some writers leave out.
+  void pass_edges(Place place) {
+    if (const std::string_view edges = cursor_.token_on_line(kComment);
+        !edges.empty() && !integer_from(edges)) {
+      builder_.fail(place, "expected the number of edges, found " + in_quotes(edges));
+    }
+  }
+
+  /// Of the next line that has any.
+  [[nodiscard]] std::size_t tokens_of_next_line() const {
+    TextCursor ahead = cursor_;
+    std::size_t tokens = ahead.next_token(kComment).empty() ? 0 : 1;
+    while (tokens > 0 && !ahead.token_on_line(kComment).empty()) {
+      ++tokens;
+    }
+    return tokens;
   }
 
   static std::size_t content_lines(std::string_view text) {
@@ -267,6 +284,13 @@ std::optional<OffLayout> off_layout(std::string_view word) {
 bool has_off_header(std::string_view bytes) {
   const std::string_view word = TextCursor(without_bom(bytes)).next_token(kComment);
   return off_layout(word.substr(0, word.find_last_not_of("0123456789") + 1)).has_value();
+}
+
+void require_three_dimensions(std::int64_t dimension, Place place, const ModelBuilder& builder) {
+  if (dimension != 3) {
+    builder.fail(
+        place, "the points have " + std::to_string(dimension) + " dimensions, only 3 can be read");
+  }
 }
 
 void add_off_point(ModelBuilder& builder, const OffLayout& layout, const double* numbers,

@@ -34,6 +34,9 @@ struct OffLayout {
 /// is none.
 std::optional<OffLayout> off_layout(std::string_view word);
 
+/// \throw FormatError unless it is 3.
+void require_three_dimensions(std::int64_t dimension, Place place, const ModelBuilder& builder);
+
 /// Reads the vertex x y z [w] whose numbers are given. \throw FormatError if w is 0.
 void add_off_point(ModelBuilder& builder, const OffLayout& layout, const double* numbers,
                    Place place);

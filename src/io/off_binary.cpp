@@ -78,11 +78,15 @@ void read_binary_off(std::string_view bytes, std::size_t start, const OffLayout&
                      ModelBuilder& builder) {
   const std::size_t point_words =
       layout.coordinates() + layout.beside_colour() + (layout.colour ? 4 : 0);
-  const bool little_endian = is_little_endian(bytes, start, point_words);
+  const std::size_t counts = start + (layout.any_dimension ? 4 : 0);
+  const bool little_endian = is_little_endian(bytes, std::min(counts, bytes.size()), point_words);
   if (little_endian) {
     builder.note("the numbers stand lowest byte first, against the format's rule");
   }
   Words words(bytes, start, little_endian ? ByteOrder::Little : ByteOrder::Big, builder);
+  if (layout.any_dimension) {
+    require_three_dimensions(words.integer(), words.place(), builder);
+  }
   const std::size_t points = read_count(words, builder, "vertices", point_words);
   const std::size_t faces = read_count(words, builder, "faces", 1);
   words.skip(1);  // number of edges, which nobody uses

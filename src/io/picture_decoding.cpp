@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include <png.h>
@@ -15,6 +17,31 @@ namespace {
 Image blank(std::size_t width, std::size_t height) {
   return {static_cast<int>(width), static_cast<int>(height),
           std::vector<std::uint8_t>(4 * width * height)};
+}
+
+/// Without what says how light its numbers mean, if it says so: in textures they are sRGB, whatever it says
+/// (glTF 2.0, 3.9.2; other formats by custom).
+std::optional<std::string> without_colour_space(std::string_view png) {
+  constexpr std::size_t kSignature = 8;
+  constexpr std::size_t kFrame = 12;  // length, name and checksum of a chunk
+  std::string rest;
+  std::size_t kept = 0;  // up to here of `png`
+  for (std::size_t at = kSignature; at + kFrame <= png.size();) {
+    const std::string_view name = png.substr(at + 4, 4);
+    std::size_t length = kFrame;
+    for (std::size_t i = 0; i < 4; ++i) {
+      length += std::size_t{static_cast<std::uint8_t>(png[at + i])} << (24 - 8 * i);
+    }
+    if (name == "IDAT" || length > png.size() - at) {
+      break;
+    }
+    if (name == "gAMA" || name == "cHRM" || name == "iCCP") {
+      rest += png.substr(kept, at - kept);
+      kept = at + length;
+    }
+    at += length;
+  }
+  return kept == 0 ? std::nullopt : std::optional(rest.append(png.substr(kept)));
 }
 
 }  // namespace
@@ -32,6 +59,8 @@ std::string picture_size_problem(std::size_t width, std::size_t height, std::siz
 }
 
 DecodedPicture decode_png(std::string_view bytes, std::size_t most_pixels) {
+  const std::optional<std::string> plain = without_colour_space(bytes);
+  bytes = plain ? *plain : bytes;
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) {
@@ -42,6 +71,7 @@ DecodedPicture decode_png(std::string_view bytes, std::size_t most_pixels) {
     png_image_free(&png);
     return {std::nullopt, std::move(problem)};
   }
+  png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
   png.format = PNG_FORMAT_RGBA;
   const std::size_t pixels = std::size_t{png.width} * png.height;
   Image image = blank(png.width, png.height);

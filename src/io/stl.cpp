@@ -60,7 +60,6 @@ class TextReader {
       read_solid_name();
       is_before_facets_ = true;
     } else if (is("endsolid")) {
-      cursor_.token_on_line();
       cursor_.skip_line();
     } else if (is_before_facets_) {  // comments, colours and the like
       first_left_out_ = left_out_++ == 0 ? cursor_.place().value : first_left_out_;

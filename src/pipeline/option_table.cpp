@@ -4,17 +4,16 @@
 #include <algorithm>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/error.h"
 
+#include "core/json_text.h"
 #include "pipeline/option_echo.h"
 #include "pipeline/option_rows.h"
 
 namespace vantage {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 
 /// Lets an option set what follows from it, too.
 void also(std::vector<Option>& rows, std::string_view name,
@@ -122,7 +121,7 @@ std::optional<ViewSetRequest> checked_view_set(const ViewOptions& options) {
   return std::nullopt;
 }
 
-nlohmann::ordered_json option_echo(const ViewOptions& options) {
+OrderedJson option_echo(const ViewOptions& options) {
   const AllOptions all{.view = options};
   Json json;
   for (const Option& option : option_table()) {
@@ -140,7 +139,7 @@ std::string options_json(const AllOptions& options) {
       json[option.name] = json_of(option.value(options));
     }
   }
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(json);
 }
 
 }  // namespace vantage

@@ -5,12 +5,11 @@
 #include <cstdint>
 #include <string>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/version.h"
 #include "vantage/io/camera_files.h"
 
 #include "core/fingerprint.h"
+#include "core/json_text.h"
 #include "io/files.h"
 #include "pipeline/option_echo.h"
 
@@ -39,8 +38,8 @@ constexpr std::string_view kAutoOf = "auto:";
 constexpr std::string_view kPeople = "people";
 
 /// Everything of a prior that shapes the result; its name does not.
-nlohmann::ordered_json prior_echo(const ViewPrior& prior) {
-  nlohmann::ordered_json json;
+OrderedJson prior_echo(const ViewPrior& prior) {
+  OrderedJson json;
   if (prior.is_uniform) {
     return json;
   }
@@ -127,7 +126,7 @@ ViewOptions preset_options(Preset preset) {
 }
 
 std::string options_hash(const ViewOptions& options) {
-  nlohmann::ordered_json json = option_echo(options);
+  OrderedJson json = option_echo(options);
   json["version"] = version();
   json["prior"] = prior_echo(options.prior);
   json["view-set"] = options.view_set.has_value();
@@ -136,7 +135,7 @@ std::string options_hash(const ViewOptions& options) {
   }
 
   Fingerprint fingerprint;
-  fingerprint.add(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  fingerprint.add(json_text(json));
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string text(16, '0');
   for (std::size_t i = 0; i < 16; ++i) {

@@ -2,16 +2,16 @@
 #include <cmath>
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/version.h"
 #include "vantage/io/write.h"
 #include "vantage/report/comparison.h"
 
+#include "core/json_text.h"
+
 namespace vantage {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -125,7 +125,7 @@ std::string comparison_json(const Model& model, const Comparison& comparison, Up
                                    {"rank_correlation", number(pair.rank_correlation)}});
     }
   }
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 std::string comparison_csv(const Comparison& comparison) {

@@ -16,7 +16,6 @@
 #include <utility>
 
 #include <fcntl.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "vantage/core/error.h"
@@ -26,6 +25,7 @@
 #include "vantage/report/evaluation.h"
 
 #include "core/fingerprint.h"
+#include "core/json_text.h"
 #include "core/loaded_code.h"
 #include "core/parallel.h"
 #include "io/files.h"
@@ -35,7 +35,7 @@
 namespace vantage {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 
 // Columns of a row behind its two names, in the order in which the journal lists them.
 constexpr std::array kViewColumns{&ViewAgreement::mean_deg, &ViewAgreement::mean_folded_deg,
@@ -172,7 +172,7 @@ EvaluationJournal::EvaluationJournal(std::string file) : state_(std::make_unique
   std::string whole;
   for (std::string line; std::getline(lines, line);) {
     try {
-      const Json json = Json::parse(line);
+      const Json json = parsed_json(line);
       EvaluatedModel rows{static_cast<UpAxis>(json.at("up").get<int>()),
                           rows_from(json.at("views"), &ViewAgreement::method, kViewColumns),
                           rows_from(json.at("gaze"), &GazeAgreement::map, kGazeColumns)};
@@ -180,7 +180,7 @@ EvaluationJournal::EvaluationJournal(std::string file) : state_(std::make_unique
       whole += line + '\n';
     } catch (const Json::exception&) {
       // One of an older program is left out, and one that was cut as its program was killed.
-      const Json found = Json::parse(line, nullptr, false);
+      const Json found = parsed_json(line);
       const bool is_row = found.is_object() && found.contains("key") && found.contains("views");
       if (!is_row && !lines.eof()) {
         throw FormatError(state_->file, "after byte " + std::to_string(whole.size()),
@@ -212,7 +212,7 @@ void EvaluationJournal::add(const std::string& key, const EvaluatedModel& rows) 
                   {"up", static_cast<int>(rows.up)},
                   {"views", rows_json(rows.views, &ViewAgreement::method, kViewColumns)},
                   {"gaze", rows_json(rows.gaze, &GazeAgreement::map, kGazeColumns)}};
-  const std::string line = json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+  const std::string line = json_text(json) + '\n';
   const std::lock_guard lock(state_->mutex);
   constexpr mode_t kMode = 0644;
   const int file =

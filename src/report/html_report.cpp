@@ -7,8 +7,6 @@
 #include <numbers>
 #include <optional>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/error.h"
 #include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
@@ -16,6 +14,7 @@
 #include "vantage/report/view_report.h"
 #include "vantage/spatial/directions.h"
 
+#include "core/json_text.h"
 #include "core/parallel.h"
 #include "pipeline/map_objective.h"
 #include "pipeline/preference.h"
@@ -27,7 +26,7 @@
 namespace vantage {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 
 /// Past this many faces the page shows a simplified copy.
 constexpr std::size_t kDisplayFaces = 300000;
@@ -222,7 +221,7 @@ std::string colour_table() {
 
 /// Text that may stand inside a script element: no "<" can end it.
 std::string script_safe(const Json& json) {
-  std::string safe = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string safe = json_text(json);
   for (std::size_t at = safe.find('<'); at != std::string::npos; at = safe.find('<', at)) {
     safe.replace(at, 1, "\\u003c");
   }
@@ -287,7 +286,7 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, ShapePic
   const RunContext quiet = run.quiet();
   const ScoreBatch score = estimated_scores(shape, report, options, quiet);
 
-  Json data = {{"view", Json::parse(view_json(model, shape, report, options))},
+  Json data = {{"view", parsed_json(view_json(model, shape, report, options))},
                {"up", numbers(up_vector(report.up))},
                {"frame", {{"centre", numbers(frame.centre)}, {"radius", frame.radius}}},
                {"lens", lens_part(report.camera, frame)},

@@ -4,21 +4,20 @@
 #include <string>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/version.h"
 #include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
 #include "vantage/report/view_report.h"
 
 #include "core/degrees.h"
+#include "core/json_text.h"
 #include "pipeline/describe_view.h"
 #include "pipeline/option_echo.h"
 
 namespace vantage {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 
 constexpr int kSchema = 1;
 
@@ -195,12 +194,6 @@ Json search_of(const ViewReport& report, const SearchOptions& search, const Json
   return json;
 }
 
-/// Every sentence about the result, those about reliability last.
-std::string text_of(const Json& json) {
-  // Names may hold bytes that are no UTF-8: replaced, so that the file stays valid JSON.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
 void add_trace(std::string& csv, std::string_view goal, const FoundView& found) {
   std::size_t step = 0;
   for (const SearchStep& s : found.trace) {
@@ -249,7 +242,7 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
   if (seconds != nullptr) {
     json["seconds"] = seconds_of(*seconds);
   }
-  return text_of(json);
+  return json_text(json, 2) + "\n";
 }
 
 std::vector<std::string> warnings_of(const Model& model, const ShapeAnalysis& shape,
@@ -263,7 +256,7 @@ std::vector<std::string> warnings_of(const Model& model, const ShapeAnalysis& sh
 }
 
 std::string timings_json(const StageSeconds& seconds) {
-  return text_of({{"seconds", seconds_of(seconds)}});
+  return json_text({{"seconds", seconds_of(seconds)}}, 2) + "\n";
 }
 
 std::string trace_csv(const ViewReport& report) {

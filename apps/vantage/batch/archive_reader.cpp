@@ -3,15 +3,13 @@
 
 #include <utility>
 
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "batch/json_text.h"
 #include "batch/naming.h"
 
 namespace vantage::batch {
 namespace {
-
-using Json = nlohmann::json;
 
 // The largest dictionary of an .xz file is 1.5 GiB.
 constexpr std::uint64_t kUnpackerMemory = 2'000'000'000;
@@ -38,7 +36,7 @@ struct Answer {
 /// \return nothing if there is no line, or it makes no sense: the process is lost.
 std::optional<Answer> parsed(const std::optional<std::string>& line) {
   try {
-    return line ? std::optional<Answer>(Json::parse(*line)) : std::nullopt;
+    return line ? std::optional<Answer>(parsed_json(*line)) : std::nullopt;
   } catch (const Json::exception&) {
     return std::nullopt;
   }
@@ -135,7 +133,7 @@ bool ArchiveReader::is_offered_again() {
 void ArchiveReader::fetch(Entry& entry, const std::string& file) {
   offered_ = false;
   for (int attempt = 1;; ++attempt) {
-    process_->send("take " + Json(key_of_path(file)).dump());
+    process_->send("take " + json_text(Json(key_of_path(file))));
     if (const std::optional<Answer> said = parsed(answer())) {
       entry.problem = said->failed;
       entry.reason = said->reason;

@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <utility>
 
-#include <nlohmann/json.hpp>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include "batch/json_text.h"
 #include "batch/naming.h"
 #include "batch/result_folders.h"
 
@@ -18,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-using Json = nlohmann::json;
 
 // Workers that say nothing are looked at this often, for their time limit.
 constexpr int kPollMs = 200;
@@ -73,7 +72,7 @@ void Crew::start(Job& job, bool last) {
                       {"front", job.entry.front},
                       {"staging", key_of_path(root_.path_of(seat->staging))},
                       {"threads", std::max(options_.threads, shared)}};
-  seat->process->send(order.dump());
+  seat->process->send(json_text(order));
 }
 
 void Crew::go(Job& job) {
@@ -135,7 +134,7 @@ void Crew::listen(Seat& seat, std::vector<CrewEvent>& events) {
 }
 
 void Crew::conclude(Seat& seat, const std::string& line, std::vector<CrewEvent>& events) {
-  const Json answer = Json::parse(line);
+  const Json answer = parsed_json(line);
   Job& job = *seat.job;
   if (answer.contains("content")) {
     job.record.content = answer.at("content").get<std::string>();

@@ -92,7 +92,7 @@ class Crew {
 
  private:
   void listen(Seat& seat, std::vector<CrewEvent>& events);
-  /// \throw nlohmann::json::exception if the line makes no sense; the seat is as it was then.
+  /// \throw Json::exception if the line makes no sense; the seat is as it was then.
   void conclude(Seat& seat, const std::string& line, std::vector<CrewEvent>& events);
   void enforce_time(std::vector<CrewEvent>& events);
   CrewEvent lost(Seat& seat, std::string reason, std::string error);

@@ -10,11 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/error.h"
 
 #include "batch/index_page.h"
+#include "batch/json_text.h"
 #include "batch/overview.h"
 #include "batch/results_store.h"
 #include "batch/thumbnail.h"
@@ -23,7 +22,6 @@ namespace vantage::batch {
 namespace {
 
 namespace fs = std::filesystem;
-using OrderedJson = nlohmann::ordered_json;
 
 /// How deep results are looked for.
 constexpr int kDepth = 4;
@@ -66,33 +64,33 @@ bool is_file(const fs::path& path) {
 }
 
 /// A view.json of ours; nothing if it is not one.
-std::optional<OrderedJson> read_result(const fs::path& folder) {
+std::optional<Json> read_result(const fs::path& folder) {
   const fs::path path = folder / "view.json";
   std::error_code error;
   if (!is_file(path) || fs::file_size(path, error) > kLargestJson || error) {
     return std::nullopt;
   }
   std::ifstream stream(path, std::ios::binary);
-  OrderedJson json = OrderedJson::parse(std::istreambuf_iterator<char>(stream), {}, nullptr, false);
+  Json json = parsed_json(std::string{std::istreambuf_iterator<char>(stream), {}});
   const bool ours = json.is_object() && json.contains("vantage") && json.contains("model") &&
                     json["model"].is_object() && json.contains("best") && json["best"].is_object();
   return ours ? std::optional(std::move(json)) : std::nullopt;
 }
 
-OrderedJson number_or_null(const OrderedJson& object, const char* member) {
+Json number_or_null(const Json& object, const char* member) {
   const auto found = object.find(member);
-  return found != object.end() && found->is_number() ? *found : OrderedJson(nullptr);
+  return found != object.end() && found->is_number() ? *found : Json(nullptr);
 }
 
-OrderedJson row_of(const OrderedJson& result, const fs::path& folder, const std::string& name) {
+Json row_of(const Json& result, const fs::path& folder, const std::string& name) {
   const int has = (is_file(folder / "best.png") ? kHasThumbnail | kHasPicture : 0) |
                   (is_file(folder / "report.html") ? kHasReport : 0);
-  const OrderedJson& best = result["best"];
+  const Json& best = result["best"];
   const auto title = result["model"].find("name");
   const bool named = title != result["model"].end() && title->is_string();
-  return OrderedJson::array({name, named ? *title : OrderedJson(name), "done", "", "", name,
-                             number_or_null(best, "score_fraction"), number_or_null(best, "score"),
-                             number_or_null(result["model"], "vertices"), has});
+  return Json::array({name, named ? *title : Json(name), "done", "", "", name,
+                      number_or_null(best, "score_fraction"), number_or_null(best, "score"),
+                      number_or_null(result["model"], "vertices"), has});
 }
 
 /// Folders inside `root`, itself included, sorted by path; hidden ones and links left out.
@@ -139,7 +137,7 @@ std::string FolderSite::results_index() const {
   std::string rows;
   StatusCounts counts;
   for (const fs::path& folder : folders_in(root_)) {
-    const std::optional<OrderedJson> result = read_result(folder);
+    const std::optional<Json> result = read_result(folder);
     if (!result || counts.done == static_cast<std::int64_t>(kMostResults)) {
       continue;
     }
@@ -147,8 +145,7 @@ std::string FolderSite::results_index() const {
     // The folder itself goes by its own name.
     const std::string name =
         folder == root_ ? root_.filename().string() : folder.lexically_relative(root_).string();
-    const std::string row =
-        row_of(*result, folder, name).dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+    const std::string row = json_text(row_of(*result, folder, name));
     rows += (rows.empty() ? "" : ",\n") + script_safe(row);
   }
   return index_page(rows, {"index.html"}, 0, counts);

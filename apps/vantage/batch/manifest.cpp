@@ -4,11 +4,10 @@
 #include <map>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/error.h"
 
 #include "batch/entry_source.h"
+#include "batch/json_text.h"
 #include "batch/naming.h"
 #include "batch/stoppable_bytes.h"
 
@@ -192,8 +191,8 @@ class ManifestSource : public EntrySource {
 
   /// An entry as write_plan() put it, or nothing if the line is none.
   static std::optional<Entry> planned_entry(const std::string& line) {
-    const auto json = nlohmann::json::parse(line, nullptr, false);
-    if (!json.is_object() || json.value("planned", nlohmann::json()) != true) {
+    const auto json = parsed_json(line);
+    if (!json.is_object() || json.value("planned", Json()) != true) {
       return std::nullopt;
     }
     const auto text = [&](const char* name) {
@@ -236,7 +235,7 @@ class ManifestSource : public EntrySource {
         fields[header_[i]] = cells[i];
       }
     } else {
-      const auto json = nlohmann::json::parse(line, nullptr, false);
+      const auto json = parsed_json(line);
       if (!json.is_object()) {
         problem = " is not a JSON object";
         return fields;

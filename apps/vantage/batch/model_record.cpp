@@ -3,9 +3,8 @@
 
 #include <tuple>
 
-#include <nlohmann/json.hpp>
-
 #include "batch/confined_folder.h"
+#include "batch/json_text.h"
 
 namespace vantage::batch {
 namespace {
@@ -40,8 +39,7 @@ bool is_sound(const ModelRecord& record) {
     return false;
   }
   return record.result.empty() ||
-         (is_shallow(record.result) &&
-          nlohmann::json::parse(record.result, nullptr, false).is_object());
+         (is_shallow(record.result) && parsed_json(record.result).is_object());
 }
 
 bool may_pass_next_time(const std::string& reason) {
@@ -54,15 +52,15 @@ bool is_doubted(const ModelRecord& record) {
   return record.result.find("\"doubts\":[\"") != std::string::npos;
 }
 
-nlohmann::ordered_json to_json(const std::vector<StampBeside>& beside) {
-  auto json = nlohmann::ordered_json::array();
+Json to_json(const std::vector<StampBeside>& beside) {
+  auto json = Json::array();
   for (const auto& [name, stamp] : beside) {
     json.push_back({name, stamp.size_bytes, stamp.modified_ns, stamp.inode});
   }
   return json;
 }
 
-std::vector<StampBeside> beside_of(const nlohmann::ordered_json& json) {
+std::vector<StampBeside> beside_of(const Json& json) {
   std::vector<StampBeside> beside;
   try {
     for (const auto& file : json) {
@@ -70,14 +68,14 @@ std::vector<StampBeside> beside_of(const nlohmann::ordered_json& json) {
                         {file.at(1).get<std::int64_t>(), file.at(2).get<std::int64_t>(),
                          file.at(3).get<std::uint64_t>()}});
     }
-  } catch (const nlohmann::json::exception&) {
+  } catch (const Json::exception&) {
     return {};
   }
   return beside;
 }
 
-nlohmann::ordered_json to_json(const ModelRecord& record) {
-  nlohmann::ordered_json json;
+Json to_json(const ModelRecord& record) {
+  Json json;
   json["key"] = record.key;
   json["position"] = record.position;
   json["stamp"] = {record.stamp.size_bytes, record.stamp.modified_ns, record.stamp.inode};
@@ -93,8 +91,7 @@ nlohmann::ordered_json to_json(const ModelRecord& record) {
   json["folder"] = record.folder;
   json["duplicate_of"] = record.duplicate_of;
   json["name"] = record.name;
-  json["result"] = record.result.empty() ? nlohmann::ordered_json(nullptr)
-                                         : nlohmann::ordered_json::parse(record.result);
+  json["result"] = record.result.empty() ? Json(nullptr) : parsed_json(record.result);
   json["timings"] = {{"seconds", record.timings.seconds},
                      {"peak_bytes", record.timings.peak_bytes},
                      {"attempts", record.timings.attempts},
@@ -103,8 +100,7 @@ nlohmann::ordered_json to_json(const ModelRecord& record) {
 }
 
 std::optional<ModelRecord> record_from_line(const std::string& line) {
-  const auto json =
-      is_shallow(line) ? nlohmann::ordered_json::parse(line, nullptr, false) : nullptr;
+  const auto json = is_shallow(line) ? parsed_json(line) : nullptr;
   if (!json.is_object()) {
     return std::nullopt;
   }
@@ -113,7 +109,7 @@ std::optional<ModelRecord> record_from_line(const std::string& line) {
     const auto& stamp = json.at("stamp");
     record.stamp = {stamp.at(0).get<std::int64_t>(), stamp.at(1).get<std::int64_t>(),
                     stamp.at(2).get<std::uint64_t>()};
-    record.beside = beside_of(json.value("beside", nlohmann::ordered_json::array()));
+    record.beside = beside_of(json.value("beside", Json::array()));
     record.position = json.at("position").get<std::int64_t>();
     using Member = std::string ModelRecord::*;
     const std::pair<const char*, Member> texts[] = {
@@ -126,13 +122,13 @@ std::optional<ModelRecord> record_from_line(const std::string& line) {
       record.*member = json.at(name).get<std::string>();
     }
     if (!json.at("result").is_null()) {
-      record.result = json.at("result").dump();
+      record.result = json_text(json.at("result"));
     }
     const auto& timings = json.at("timings");
     record.timings = {
         timings.at("seconds").get<double>(), timings.at("peak_bytes").get<std::int64_t>(),
         timings.at("attempts").get<int>(), timings.at("finished_ms").get<std::int64_t>()};
-  } catch (const nlohmann::json::exception&) {
+  } catch (const Json::exception&) {
     return std::nullopt;
   }
   return is_sound(record) ? std::optional(std::move(record)) : std::nullopt;

@@ -9,21 +9,18 @@
 #include <set>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/error.h"
 #include "vantage/core/image.h"
 #include "vantage/io/write.h"
 #include "vantage/report/figures.h"
 
 #include "batch/index_page.h"
+#include "batch/json_text.h"
 #include "batch/result_folders.h"
 #include "batch/thumbnail.h"
 
 namespace vantage::batch {
 namespace {
-
-using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::size_t kRowsPerPage = 50'000;
 constexpr int kTileColumns = 10;
@@ -219,14 +216,14 @@ std::string row_of(const Statement& row, const ConfinedFolder& root) {
     return root.exists(model_folder(folder) + "/" + file) ? bit : 0;
   };
   const auto number = [&](int column) {
-    return row.is_null(column) ? OrderedJson(nullptr) : OrderedJson(row.number(column));
+    return row.is_null(column) ? Json(nullptr) : Json(row.number(column));
   };
-  const OrderedJson cells = OrderedJson::array(
-      {row.text(0), row.text(1), row.text(2), row.text(3), row.text(4), folder, number(6),
-       number(7), row.is_null(8) ? OrderedJson(nullptr) : OrderedJson(row.integer(8)),
-       shown(kThumbnailFile, kHasThumbnail) | shown("best.png", kHasPicture) |
-           shown("report.html", kHasReport)});
-  return script_safe(cells.dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
+  const Json cells =
+      Json::array({row.text(0), row.text(1), row.text(2), row.text(3), row.text(4), folder,
+                   number(6), number(7), row.is_null(8) ? Json(nullptr) : Json(row.integer(8)),
+                   shown(kThumbnailFile, kHasThumbnail) | shown("best.png", kHasPicture) |
+                       shown("report.html", kHasReport)});
+  return script_safe(json_text(cells));
 }
 
 /// The small picture of a model that was really run.

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/error.h"
+
+#include "batch/json_text.h"
 
 namespace vantage::batch {
 namespace {
@@ -93,7 +93,7 @@ ModelRecord record_of(const Statement& row) {
   record.result = record.result == "{}" ? "" : record.result;  // nothing is known of a failure
   record.timings = {row.number(15), row.integer(16), static_cast<int>(row.integer(17)),
                     row.integer(18)};
-  record.beside = beside_of(nlohmann::ordered_json::parse(row.text(19), nullptr, false));
+  record.beside = beside_of(parsed_json(row.text(19)));
   return record;
 }
 
@@ -236,7 +236,7 @@ void ResultsStore::put(const ModelRecord& record) {
   put.bind(9, record.status).bind(10, record.reason).bind(11, record.error);
   put.bind(12, record.folder).bind(13, record.duplicate_of).bind(14, record.name);
   put.bind(15, record.result.empty() ? std::string_view("{}") : record.result);
-  const std::string beside = record.beside.empty() ? "" : to_json(record.beside).dump();
+  const std::string beside = record.beside.empty() ? "" : json_text(to_json(record.beside));
   put.bind(16, std::string_view(beside));
   put.run();
   Statement& timings = statements_->put_timings;

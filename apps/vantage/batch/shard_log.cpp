@@ -8,13 +8,13 @@
 #include <charconv>
 
 #include <fcntl.h>
-#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
 #include "vantage/core/error.h"
 
 #include "batch/content_hash.h"
 #include "batch/descriptor.h"
+#include "batch/json_text.h"
 
 namespace vantage::batch {
 namespace {
@@ -206,7 +206,7 @@ void ShardLog::put(const ModelRecord& record) {
   if (log_ == nullptr) {
     open_log();
   }
-  const std::string line = to_json(record).dump() + "\n";
+  const std::string line = json_text(to_json(record)) + "\n";
   if (std::fwrite(line.data(), 1, line.size(), log_) != line.size() || std::fflush(log_) != 0) {
     throw IoError(folder_.path_of(log_name_), "cannot be written", errno);
   }
@@ -219,7 +219,7 @@ void ShardLog::put(const ModelRecord& record) {
 void ShardLog::finish() {
   std::string text;
   for (const auto& [key, record] : records_) {
-    text += to_json(record).dump() + "\n";
+    text += json_text(to_json(record)) + "\n";
   }
   folder_.write(name_, text);
   // Only now, with the records safe under their final name, may the log go.

@@ -12,10 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "vantage/core/error.h"
 
+#include "batch/json_text.h"
 #include "batch/naming.h"
 
 namespace vantage::batch {
@@ -33,9 +32,8 @@ class WholeFile {
   WholeFile(const ConfinedFolder& folder, std::string name)
       : folder_(folder), name_(std::move(name)), file_(::fdopen(folder.create_part(), "wb")) {}
 
-  void line(const nlohmann::ordered_json& json) {
-    const std::string text =
-        json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+  void line(const Json& json) {
+    const std::string text = json_text(json) + '\n';
     if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) {
       throw IoError(folder_.path_of(name_), "cannot be written", errno);
     }
@@ -59,9 +57,9 @@ class WholeFile {
 };
 
 void write_entry(WholeFile& file, const Entry& entry, std::optional<std::uint32_t> shard) {
-  nlohmann::ordered_json json = {{"planned", true},
-                                 {"path", key_of_path(fs::absolute(entry.path).string())},
-                                 {"key", entry.key}};
+  Json json = {{"planned", true},
+               {"path", key_of_path(fs::absolute(entry.path).string())},
+               {"key", entry.key}};
   const std::pair<const char*, const std::string&> rest[] = {
       {"name", entry.name}, {"up", entry.up}, {"front", entry.front}, {"problem", entry.problem}};
   for (const auto& [name, value] : rest) {

@@ -11,20 +11,17 @@
 #include <archive.h>
 #include <archive_entry.h>
 #include <fcntl.h>
-#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "batch/archive_reader.h"
 #include "batch/content_hash.h"
 #include "batch/descriptor.h"
-#include "batch/json_line.h"
+#include "batch/json_text.h"
 #include "batch/naming.h"
 
 namespace vantage::batch {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kBlock = 1U << 16U;
 // Deflate, which .zip has, packs at most 1 032 to one; what the others pack denser is no model.
@@ -197,7 +194,7 @@ int offer_entries(archive* a, const UnpackLimits& limits, const Allowance& most,
       return ARCHIVE_EOF;
     }
     if (order.starts_with("take ")) {
-      const Json file = Json::parse(order.substr(5), nullptr, false);
+      const Json file = parsed_json(order.substr(5));
       const Failure failure =
           unpack(a, entry, path_of_key(file.is_string() ? file.get<std::string>() : ""), most);
       say(answers, {{"failed", failure.problem}, {"reason", failure.reason}});

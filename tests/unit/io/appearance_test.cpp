@@ -284,6 +284,21 @@ TEST_F(ObjAppearance, DoesNotReadALibraryOutsideItsFolder) {
               IsEmpty());
 }
 
+TEST_F(ObjAppearance, AMaskOfItsOwnMakesHolesWhereItIsDark) {
+  write_file(folder_.file("mask.png"), png_bytes(Image{2, 1, {0, 0, 0, 255, 255, 255, 255, 255}}));
+  const Model model =
+      loaded("mtllib a.mtl\nvt 0 0\nusemtl leaf\nf 1/1 2/1 3/1\nusemtl bare\nf 1 3 4\n",
+             "newmtl leaf\nmap_Kd green.png\nmap_d mask.png\n"
+             "newmtl bare\nmap_d mask.png\n");
+  ASSERT_EQ(model.appearance.textures.size(), 2U);
+  for (const Material& material : model.appearance.materials) {
+    EXPECT_EQ(material.alpha, AlphaMode::Mask);
+    const Image& image = model.appearance.textures.at(material.texture.value()).image;
+    EXPECT_EQ(image.pixel(0, 0)[3], 0);
+    EXPECT_EQ(image.pixel(image.width - 1, 0)[3], 255);
+  }
+}
+
 TEST_F(ObjAppearance, AMaskOfTheSamePictureMakesHolesAndDissolvingMakesGlass) {
   const Model model =
       loaded("mtllib a.mtl\nvt 0 0\nusemtl leaf\nf 1/1 2/1 3/1\nusemtl glass\nf 1 3 4\n",

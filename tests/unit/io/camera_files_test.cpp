@@ -103,6 +103,14 @@ TEST(CameraTransforms, OfOtherToolsNeedOnlyTheHorizontalAngle) {
   EXPECT_EQ(camera.target, Vec3(0, 0, 4));
 }
 
+TEST(CameraTransforms, WithoutASizeAreOfSquarePictures) {
+  const Camera camera = parse_camera(
+      R"({"camera_angle_x": 1.5707963267948966, "frames": [{"transform_matrix":
+          [[1,0,0,0],[0,1,0,0],[0,0,1,5],[0,0,0,1]]}]})",
+      "t.json");
+  EXPECT_NEAR(camera.fov_y_deg, 90.0, 1e-12);
+}
+
 TEST(CameraTransforms, OfNerfstudioSayFocalLengths) {
   const std::string pose = R"("transform_matrix":[[1,0,0,0],[0,1,0,0],[0,0,1,4],[0,0,0,1]])";
   const double expected = 2.0 * std::atan(300.0 / 500.0) * 180.0 / std::numbers::pi;

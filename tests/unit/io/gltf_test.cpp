@@ -93,6 +93,15 @@ TEST(Gltf, PlacesSkinnedVerticesByTheirJointsAndNotByTheirNode) {
   EXPECT_THAT(model.notes, testing::Contains(HasSubstr("as their joints stand in the file")));
 }
 
+TEST(Gltf, SkinnedFacesAreTurnedWhereTheirJointsAreMirroredAndNotWhereTheirNodeIs) {
+  Scene scene = skinned_square();
+  const std::string joints = R"({"translation":[5,0,0]},{"translation":[7,0,0]}])";
+  scene.nodes = R"([{"scale":[-1,1,1],"children":[1,2,3]},{"mesh":0,"skin":0},)" + joints;
+  EXPECT_THAT(scene.parsed().mesh.triangles, ElementsAre(Triangle{0, 2, 1}, Triangle{2, 3, 1}));
+  scene.nodes = R"([{"children":[1,2,3]},{"mesh":0,"skin":0,"scale":[-1,1,1]},)" + joints;
+  EXPECT_THAT(scene.parsed().mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{2, 1, 3}));
+}
+
 TEST(Gltf, PlacesAChainOfTenThousandJointsInLinearTime) {
   Scene scene = skinned_square();
   constexpr int kJoints = 10'000;
@@ -246,6 +255,17 @@ TEST(Gltf, AWhiteMaterialGivesNoColours) {
   scene.primitive = R"({"attributes":{"POSITION":0},"indices":1,"mode":5,"material":0})";
   scene.more = R"(,"materials":[{"name":"white"}])";
   EXPECT_TRUE(scene.parsed().vertex_colours.empty());
+}
+
+TEST(Gltf, LeavesColoursOutThatDoNotFitItsPositions) {
+  Scene scene;
+  scene.views += R"(,{"buffer":0,"byteLength":16})";
+  scene.accessors +=
+      R"(,{"bufferView":2,"componentType":5121,"normalized":true,"count":3,"type":"VEC4"})";
+  scene.primitive = R"({"attributes":{"POSITION":0,"COLOR_0":2}})";
+  const Model model = scene.parsed();
+  EXPECT_EQ(model.mesh.positions.size(), 4U);
+  EXPECT_THAT(model.notes, Contains(HasSubstr("colours of vertices that cannot be read")));
 }
 
 TEST(Gltf, TurnsLinearColoursIntoSrgb) {

@@ -26,10 +26,13 @@ void append_word(std::string& bytes, std::uint32_t word, bool high_first) {
 }
 
 /// A binary file of one triangle; each face ends with a number of colour components if high first.
-std::string binary_off(bool high_first) {
-  std::string bytes = "OFF BINARY\n";
+std::string binary_off(bool high_first, bool says_dimension = false) {
+  std::string bytes = says_dimension ? "nOFF BINARY\n" : "OFF BINARY\n";
   const auto add = [&](std::uint32_t word) { append_word(bytes, word, high_first); };
   const auto add_real = [&](float value) { add(std::bit_cast<std::uint32_t>(value)); };
+  if (says_dimension) {
+    add(3);
+  }
   for (const std::uint32_t count : {3U, 1U, 0U}) {
     add(count);
   }
@@ -110,6 +113,24 @@ TEST(Off, DividesHomogeneousCoordinates) {
 
 TEST(Off, ReadsAThreeDimensionalFileThatSaysSo) {
   EXPECT_EQ(off("nOFF\n3\n1 0 0\n1 2 3\n").mesh.positions[0], Vec3(1, 2, 3));
+}
+
+TEST(Off, ReadsABinaryFileThatSaysItsDimension) {
+  for (const bool high_first : {true, false}) {
+    const Model model = parse_model(binary_off(high_first, true), "a.off");
+    EXPECT_EQ(model.mesh.positions[2], Vec3(0, 2.5, 0));
+    EXPECT_THAT(model.mesh.triangles, ElementsAre(Triangle{0, 1, 2}));
+  }
+}
+
+TEST(Off, ReadsCountsAndCoordinatesEachOnALineOfItsOwn) {
+  for (const std::string text :
+       {"OFF\n3\n1\n0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "OFF\n3\n1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+        "OFF\n3 1 0\n0\n0\n0\n1\n0\n0\n0\n1\n0\n3 0 1 2\n"}) {
+    const Model model = parse_model(text, "a.off");
+    EXPECT_EQ(model.mesh.positions[2], Vec3(0, 1, 0)) << text;
+    EXPECT_THAT(model.mesh.triangles, ElementsAre(Triangle{0, 1, 2})) << text;
+  }
 }
 
 TEST(Off, ReadsBinaryWithTheHighestByteFirst) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "io/picture_decoding.h"
 
+#include <cstdint>
 #include <cstdlib>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include "vantage/io/write.h"
 
@@ -50,6 +52,37 @@ TEST(DecodePicture, GivesTheUpperBytesOfA16BitPng) {
   const std::optional<Image> image = decode_picture(png_bytes(deep)).image;
   ASSERT_TRUE(image);
   EXPECT_THAT(image->rgba, testing::ElementsAre(255, 128, 0, 255));
+}
+
+/// A chunk of a PNG, whose checksum libpng does not need to be right where the chunk may be left out.
+std::string png_chunk(const std::string& name, const std::string& content) {
+  std::string chunk;
+  for (int i = 0; i < 4; ++i) {
+    chunk += static_cast<char>(content.size() >> (24 - 8 * i) & 0xFFU);
+  }
+  chunk += name + content;
+  const auto sum =
+      static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const unsigned char*>(chunk.data()) + 4,
+                                       static_cast<unsigned>(chunk.size() - 4)));
+  for (int i = 0; i < 4; ++i) {
+    chunk += static_cast<char>(sum >> (24 - 8 * i) & 0xFFU);
+  }
+  return chunk;
+}
+
+// Textures are sRGB (glTF 2.0, 3.9.2): linear light, as 16 bits and gamma 1 once meant, made them pale.
+TEST(DecodePicture, TakesNumbersAsTheyAreWhateverThePngSaysOfItsColourSpace) {
+  constexpr std::size_t kBehindHeader = 8 + 25;
+  const std::string gamma = png_chunk("gAMA", std::string("\x00\x01\x86\xA0", 4));  // 1.0
+  std::string shallow = png_bytes(two_pixels());
+  EXPECT_EQ(decode_picture(shallow.insert(kBehindHeader, gamma)).image->rgba, two_pixels().rgba);
+  std::string deep = png_bytes(DeepImage{1, 1, {0x4040, 0x8080, 0xC0C0, 0xFFFF}});
+  if (const std::size_t said = deep.find("sRGB"); said != std::string::npos) {
+    deep.erase(said - 4, 13);
+  }
+  for (const std::string& bytes : {deep, std::string(deep).insert(kBehindHeader, gamma)}) {
+    EXPECT_THAT(decode_picture(bytes).image->rgba, testing::ElementsAre(0x40, 0x80, 0xC0, 255));
+  }
 }
 
 TEST(DecodePicture, ReadsJpegAndItsSize) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Files turned in place: what they hold afterwards is what the readers find in them.
+#include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <set>
 #include <string>
 
@@ -12,6 +14,7 @@
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
 
+#include "glb_bytes.h"
 #include "io/byte_cursor.h"
 
 namespace vantage::test {
@@ -34,6 +37,31 @@ TEST(TurnedBytes, OfAnObjHaveEveryVertexTurned) {
                 testing::ElementsAre(Vec3(1, 3, -2), Vec3(4, 6, -5), Vec3(7, 10, -8)))
         << text;
   }
+}
+
+// Which ears are cut first at corners on one line is a matter of rounding.
+TEST(TurnedBytes, OfAnObjWithAConcavePolygonAreTurned) {
+  std::string text;
+  std::string face = "f";
+  const double corners[][2] = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 2},
+                               {2, 2}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+  for (const auto& [x, y] : corners) {
+    text += "v " + std::to_string(x) + " " + std::to_string(y) + " " +
+            std::to_string(0.5 * x + 0.25 * y) + "\n";
+    face += " " + std::to_string(std::count(text.begin(), text.end(), '\n'));
+  }
+  const Model model = parse_model(turned(text + face + "\n", "a.obj", ModelFormat::Obj), "a.obj");
+  EXPECT_EQ(model.mesh.triangles.size(), 8U);
+}
+
+TEST(TurnedBytes, OfAGlbWithBytesBehindItsEndAreReadable) {
+  const std::string json = R"({"asset":{"version":"2.0"},"nodes":[{}],"scenes":[{"nodes":[0]}]})";
+  const std::string whole = glb(json, "");
+  const std::string after = turned(whole + "what follows", "a.glb", ModelFormat::Glb);
+  std::uint32_t length = 0;
+  std::memcpy(&length, after.data() + 8, sizeof length);
+  EXPECT_EQ(length, after.size());
+  EXPECT_EQ(after, turned(whole, "a.glb", ModelFormat::Glb));
 }
 
 TEST(TurnedBytes, OfAnObjThatIsWrittenOtherwiseAreRefused) {

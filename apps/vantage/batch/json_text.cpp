@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#include "batch/json_text.h"
 
 #include <cerrno>
 #include <cstddef>
-#include <string>
 
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 namespace vantage::batch {
 
-/// Writes JSON as one line, which is how a batch and its workers speak. \return false, and errno, if
-/// nobody listens any more.
-inline bool write_json_line(int descriptor, const nlohmann::ordered_json& json) {
-  using Handler = nlohmann::ordered_json::error_handler_t;
-  const std::string text = json.dump(-1, ' ', false, Handler::replace) + "\n";
+std::string json_text(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+Json parsed_json(std::string_view text) {
+  return Json::parse(text, nullptr, false);
+}
+
+bool write_json_line(int descriptor, const Json& json) {
+  const std::string text = json_text(json) + "\n";
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t count = ::write(descriptor, text.data() + done, text.size() - done);
     if (count < 0 && errno != EINTR) {
