@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 #include <thread>
+#include <unordered_set>
+#include <utility>
 
 #include "vantage/core/error.h"
 #include "vantage/core/version.h"
@@ -17,6 +19,7 @@
 #include "batch/file_stamp.h"
 #include "batch/folder_lock.h"
 #include "batch/folder_owner.h"
+#include "batch/forget.h"
 #include "batch/json_text.h"
 #include "batch/naming.h"
 #include "batch/overview.h"
@@ -91,6 +94,7 @@ struct BatchCommand {
   std::string retry{};
   std::string engine = "local";
   bool no_overview = false;
+  bool forget = false;
   bool strict = false;
   int jobs = 0;
   double memory_gb = 0.0;
@@ -121,6 +125,9 @@ struct BatchCommand {
                    "folder of a model's results: {stem} {name} {ext} {parent} {hash2} {hash8} "
                    "{hash16} {hash} {key8}")
         ->capture_default_str();
+    app.add_flag(
+        "--forget", forget,
+        "remove what earlier runs stored of models that are not among the inputs any more");
     app.add_flag("--no-overview", no_overview,
                  "no index.html and no contact sheets; those of an earlier run go");
     add_running_flags(app);
@@ -180,8 +187,10 @@ struct BatchCommand {
            "exit code 1 if an answer should not be trusted (column doubts of results); all are "
            "stored")
         ->group(group);
-    app.add_flag("--verify", runner.verify,
-                 "read every input again instead of trusting size, time and inode")
+    app.add_flag(
+           "--verify", runner.verify,
+           "read every input again instead of trusting size, time and inode, and do again what "
+           "lacks files of its results")
         ->group(group);
     app.add_option("--shard", shard,
                    "INDEX/COUNT, from 0: only this share of the models, into DIR/shards/")
@@ -201,6 +210,9 @@ struct BatchCommand {
     if (!on_slurm) {
       slurm.refuse_any();
     }
+    if (forget && (on_slurm || !shard.empty())) {
+      throw CLI::ValidationError("--forget", "goes with neither --shard nor --engine slurm");
+    }
     const std::optional<batch::Shard> part = checked_shard();
     prepare(session, part);
     std::unique_ptr<batch::EntrySource> source = open_source(session);
@@ -213,6 +225,9 @@ struct BatchCommand {
       run_shards(session, *source, root);
       return;
     }
+    auto listed = std::make_unique<batch::ListedEntries>(std::move(source));
+    const std::unordered_set<std::string>& keys = listed->keys();
+    source = std::move(listed);
     std::unique_ptr<batch::ResultBook> book;
     if (part) {
       source = std::make_unique<ShardSource>(std::move(source), *part);
@@ -231,7 +246,14 @@ struct BatchCommand {
     };
     const batch::RunnerCounts counts = batch::run_batch(*source, *book, runner, run.stop, report);
     if (auto* const store = dynamic_cast<batch::ResultsStore*>(book.get())) {
-      settle_overview(root, *store, counts, run);
+      const std::size_t forgotten = forget ? batch::forget_others(*store, root, keys) : 0;
+      if (forgotten > 0) {
+        session.say("forgotten: " + plural(forgotten, "model") + " that are not among the inputs");
+      }
+      const bool changed = forgotten > 0 || counts.done + counts.failed + counts.duplicates > 0;
+      if (changed || (!no_overview && !root.exists("index.html"))) {
+        batch::renew_overview(root, *store, !no_overview, run);
+      }
     }
     summarise(session, counts);
     if (!part) {
@@ -242,15 +264,6 @@ struct BatchCommand {
   }
 
  private:
-  /// Leaves an overview that is up to date, or none.
-  void settle_overview(const batch::ConfinedFolder& root, batch::ResultsStore& store,
-                       const batch::RunnerCounts& counts, const RunContext& run) const {
-    const bool changed = counts.done + counts.failed + counts.duplicates > 0;
-    if (changed || (!no_overview && !root.exists("index.html"))) {
-      batch::renew_overview(root, store, !no_overview, run);
-    }
-  }
-
   void warn_of_nothing(Session& session, const batch::RunnerCounts& counts) const {
     if (counts.done + counts.failed + counts.skipped + counts.duplicates == 0) {
       session.say("warning: there was nothing to do: no models were found in " +

@@ -106,7 +106,7 @@ void add_common_flags(CLI::App& app, CommonFlags& flags, Answer answer) {
       ->group(group);
   app.add_option("--seed", flags.seed,
                  "start of random sequences: --search gradient draws its starts")
-      ->check(CLI::NonNegativeNumber)
+      ->check(whole_from_zero())
       ->capture_default_str()
       ->group(group);
   if (!app.get_group().empty()) {  // workers are held to limits by whoever starts them

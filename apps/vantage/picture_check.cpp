@@ -33,8 +33,10 @@ std::string warning_about(const Picture& picture) {
                                        : "the model in " + std::to_string(shown) + " of " +
                                              std::to_string(pixels) + " pixels only";
   return "the picture shows " + shows +
-         ": the model is too thin from there, its parts are far apart, or its materials make it "
-         "transparent; try a larger --size, --style clay, --front or --focus";
+         ": the model is too thin from there, its parts are far apart, its materials make it "
+         "transparent, or a given camera looks elsewhere; try a larger --size, --style clay, "
+         "--front "
+         "or --focus";
 }
 
 }  // namespace

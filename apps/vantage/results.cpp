@@ -38,15 +38,14 @@ std::unique_ptr<batch::ResultsStore> open_store(Session& session, const std::str
 struct ExportCommand {
   std::vector<std::string> folders{};
   std::string output = "-";
-  std::string format = "csv";
+  std::string format{};
   bool timings = false;
 
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("DIR", folders, "folder of a batch; of several, all rows")->required();
     app.add_option("-o,--output", output, "file to write")->capture_default_str();
-    app.add_option("--format", format, "of the table")
-        ->check(CLI::IsMember({"csv", "jsonl"}))
-        ->capture_default_str();
+    app.add_option("--format", format, "of the table; default: jsonl for a FILE.jsonl, else csv")
+        ->check(CLI::IsMember({"csv", "jsonl"}));
     app.add_flag("--timings", timings,
                  "also seconds, memory and attempts, which differ every time");
     add_force_flag(app, session.flags);
@@ -54,13 +53,16 @@ struct ExportCommand {
   }
 
   void run(Session& session) const {
+    const std::string kind = !format.empty()                 ? format
+                             : suffix_of(output) == ".jsonl" ? "jsonl"
+                                                             : "csv";
     std::vector<std::string> columns = batch::result_columns();
     if (timings) {
       columns.insert(columns.end(), batch::timing_columns().begin(), batch::timing_columns().end());
     }
     check_output(output, OutputKind::Table, session.flags);
     RowFile file(output);
-    if (format == "csv") {
+    if (kind == "csv") {
       file.add(csv_line(columns));
     }
     std::vector<std::string> selected = columns;
@@ -71,7 +73,7 @@ struct ExportCommand {
       batch::Statement rows = select_rows(*store, selected, {}, {});
       while (rows.step()) {
         context.check();
-        file.add(format == "csv" ? csv_row(rows, columns.size()) : json_row(rows, columns));
+        file.add(kind == "csv" ? csv_row(rows, columns.size()) : json_row(rows, columns));
       }
     }
     file.finish();
@@ -122,7 +124,7 @@ struct QueryCommand {
     app.add_option("--sort", sort, "column to sort by; -COLUMN for the largest first");
     app.add_option("--columns", columns, "what to show")->capture_default_str();
     app.add_option("--limit", limit, "at most so many rows; 0: all")
-        ->check(CLI::NonNegativeNumber)
+        ->check(whole_from_zero())
         ->capture_default_str();
     add_common_flags(app, session.flags);
   }

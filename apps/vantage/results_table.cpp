@@ -68,6 +68,12 @@ void require_column(const std::string& name, const std::string& flag) {
   }
 }
 
+std::string trimmed_blanks(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  return begin == std::string::npos ? ""
+                                    : text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
+}
+
 }  // namespace
 
 Condition parse_condition(const std::string& text) {
@@ -84,8 +90,8 @@ Condition parse_condition(const std::string& text) {
     if (at == std::string::npos || text.compare(at, std::string_view(sign).size(), sign) != 0) {
       continue;
     }
-    Condition condition{.column = text.substr(0, at),
-                        .value = text.substr(at + std::string_view(sign).size())};
+    Condition condition{.column = trimmed_blanks(text.substr(0, at)),
+                        .value = trimmed_blanks(text.substr(at + std::string_view(sign).size()))};
     require_column(condition.column, "--where");
     condition.comparison = *sql == '\0' ? "instr(lower(" + condition.column + "), lower(?)) > 0"
                                         : condition.column + sql;

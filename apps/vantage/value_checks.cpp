@@ -70,6 +70,14 @@ std::string out_of_range(const std::string& text, double low, double high, bool 
          " to " + plain(high) + ", not " + text;
 }
 
+CLI::Validator whole_from_zero() {
+  return {[](std::string& text) {
+            return text.starts_with('-') ? "must be a whole number from 0, not " + text
+                                         : std::string();
+          },
+          ""};
+}
+
 CLI::Validator size_in(double unit) {
   return {[unit](std::string& text) {
             double number = 0.0;

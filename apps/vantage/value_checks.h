@@ -25,6 +25,9 @@ CLI::Validator within(Number low, Number high) {
   return check;
 }
 
+/// Refuses a sign before a whole number without an upper bound, which would make it a large one.
+CLI::Validator whole_from_zero();
+
 /// Turns a size such as 500MB, 0.5 GB or 2GiB into a number of `unit` bytes; a plain number is one
 /// already.
 CLI::Validator size_in(double unit);

@@ -67,10 +67,21 @@ py::tuple parts_of(const ModelHandle& handle) {
   return py::tuple(parts);
 }
 
+/// For people: "12 vertices, 20 faces".
+std::string sizes_of(const Model& model) {
+  return std::to_string(model.mesh.positions.size()) + " vertices, " +
+         std::to_string(model.mesh.triangles.size()) + " faces";
+}
+
 void define_model(py::module_& module) {
   py::class_<ModelHandle>(module, "Model")
       .def(py::init(&model_of_arrays), py::arg("V"), py::arg("F") = py::none(), py::kw_only(),
            py::arg("name") = "arrays", py::arg("colours") = py::none())
+      .def("__repr__",
+           [](const ModelHandle& h) {
+             return "Model(" + py::repr(text_of(h.model->name)).cast<std::string>() + ", " +
+                    sizes_of(*h.model) + ")";
+           })
       .def_property_readonly("name", [](const ModelHandle& h) { return text_of(h.model->name); })
       .def_property_readonly("format", [](const ModelHandle& h) { return format_name(*h.model); })
       .def_property_readonly(
@@ -101,6 +112,12 @@ void define_analysis(py::module_& module) {
     return h.analysis->shape;
   };
   py::class_<AnalysisHandle>(module, "Analysis")
+      .def("__repr__",
+           [](const AnalysisHandle& h) {
+             const Model& model = *h.analysis->model;
+             return "Analysis of " + py::repr(text_of(model.name)).cast<std::string>() + ", " +
+                    sizes_of(model);
+           })
       .def_property_readonly("model",
                              [](const AnalysisHandle& h) { return ModelHandle{h.analysis->model}; })
       .def_property_readonly("closed",

@@ -117,7 +117,12 @@ def visible_vertices(model: Any, F: Any = None, *, eyes: Any = None, directions:
     Raises InvalidInput, IoError, FormatError, TypeError.
     """
     model, F = subject_of(model, F)
-    return _core.visible_vertices(model, F, eyes, directions, sphere, options, progress, threads)
+    return _core.visible_vertices(model, F, eyes, _points_of(directions), sphere, options, progress, threads)
+
+
+def _points_of(directions: Any) -> Any:
+    """A DirectionSet's directions; anything else as it is."""
+    return directions.directions if isinstance(directions, DirectionSet) else directions
 
 
 def _is_single(eyes: Any, directions: Any) -> bool:
@@ -141,6 +146,7 @@ def score(model: Any, F: Any = None, *, directions: Any = None, eyes: Any = None
     """
     model, F = subject_of(model, F)
     names = [method] if isinstance(method, str) else list(method)
+    directions = _points_of(directions)
     table = _core.score(model, F, directions, eyes, sphere, names, view_set, options, progress,
                         threads)
     if _is_single(eyes, directions):

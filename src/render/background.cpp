@@ -14,13 +14,17 @@ namespace {
 constexpr Rgb8 kGradientTop{250, 251, 252};
 constexpr Rgb8 kGradientBottom{190, 198, 208};
 
-/// "white", "black" or "#rrggbb"; nothing for any other text.
+/// "white", "black", "#rrggbb" or "#rgb"; nothing for any other text.
 std::optional<Rgb8> parse_colour(std::string_view text) {
   if (text == "white") {
     return Rgb8{255, 255, 255};
   }
   if (text == "black") {
     return Rgb8{0, 0, 0};
+  }
+  if (text.size() == 4 && text.front() == '#') {
+    const std::string twice{'#', text[1], text[1], text[2], text[2], text[3], text[3]};
+    return parse_colour(twice);
   }
   if (text.size() != 7 || text.front() != '#') {
     return std::nullopt;

@@ -221,3 +221,14 @@ def test_warnings_are_those_of_view_json(tmp_path):
     result = vantage.best_view(path)
     assert any("its rows hold" in note for note in result.warnings)
     assert list(result.warnings) == json.loads(result.json)["warnings"]
+
+
+def test_a_set_of_directions_is_taken_as_its_directions():
+    sphere = vantage.directions(0)
+    assert (vantage.score(V, F, directions=sphere) == vantage.score(V, F, directions=sphere.directions)).all()
+    assert vantage.visible_vertices(V, F, directions=sphere).shape == (12, len(V))
+
+
+def test_models_and_analyses_say_what_they_are():
+    assert repr(vantage.Model(V, F, name="ring")) == f"Model('ring', {len(V)} vertices, {len(F)} faces)"
+    assert repr(vantage.analyse(V, F)) == f"Analysis of 'arrays', {len(V)} vertices, {len(F)} faces"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -114,6 +115,11 @@ class ManifestSource : public EntrySource {
                         "{\"path\": \"a.obj\"}, without brackets and commas around them");
     }
     const bool is_table = !zero_ended_ && take_header(line);
+    if (!is_table && !zero_ended_ && is_header_of_something(line)) {
+      throw FormatError(manifest_, "line " + std::to_string(line_number_),
+                        "is the header of a table without a column called path, which is to name "
+                        "the models");
+    }
     kind_ = is_table ? ManifestForm::Csv : ManifestForm::Paths;
     return is_table;
   }
@@ -126,8 +132,22 @@ class ManifestSource : public EntrySource {
            (next == std::string::npos || line[next] == '{' || line[next] == '"');
   }
 
+  /// Several words, among them one that a table of models has, and no file of that name.
+  [[nodiscard]] bool is_header_of_something(const std::string& line) const {
+    static const std::array<std::string_view, 9> kKnown{
+        "key", "name", "up", "front", "file", "model", "filename", "mesh", "url"};
+    std::error_code error;
+    return header_.size() > 1 &&
+           std::any_of(header_.begin(), header_.end(),
+                       [](const std::string& name) {
+                         return std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end();
+                       }) &&
+           !std::filesystem::exists(folder_ / line, error);
+  }
+
   /// Finds by which character the columns are parted, if one of them is called path.
   bool take_header(const std::string& line) {
+    std::vector<std::string> other;  // columns of which none is
     for (const char separator : {',', ';', '\t'}) {
       separator_ = separator;
       header_ = cells_of(line);
@@ -139,7 +159,11 @@ class ManifestSource : public EntrySource {
       if (std::find(header_.begin(), header_.end(), "path") != header_.end()) {
         return true;
       }
+      if (header_.size() > 1 && other.empty()) {
+        other = header_;
+      }
     }
+    header_ = other;
     return false;
   }
 
@@ -270,6 +294,12 @@ class ManifestSource : public EntrySource {
     Fields fields = fields_of(line, problem);
     if (problem.empty() && fields["path"].empty()) {
       problem = " names no path";
+    }
+    for (const char* const axis : {"up", "front"}) {
+      std::string& name = fields[axis];
+      std::transform(name.begin(), name.end(), name.begin(), [](char c) {
+        return c >= 'X' && c <= 'Z' ? static_cast<char>(c - 'X' + 'x') : c;
+      });
     }
     const std::string& up = fields["up"];
     if (problem.empty() && !is_axis(up)) {

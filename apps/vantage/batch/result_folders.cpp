@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "batch/result_folders.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <filesystem>
+#include <string>
+#include <system_error>
 
+#include "batch/json_text.h"
 #include "result_names.h"
 
 namespace vantage::batch {
@@ -18,6 +23,17 @@ std::string model_folder(const std::string& folder) {
 bool holds_results(const ConfinedFolder& root, const std::string& folder) {
   return root.beginning_of(model_folder(folder) + "/view.json", cli::kViewBegins.size()) ==
          cli::kViewBegins;
+}
+
+bool holds_named_files(const ConfinedFolder& root, const ModelRecord& record) {
+  const Json result = parsed_json(record.result);
+  const Json files = result.is_object() ? result.value("files", Json::object()) : Json::object();
+  return std::all_of(files.items().begin(), files.items().end(), [&](const auto& file) {
+    const std::string name = model_folder(record.folder) + "/" + file.key();
+    std::error_code error;
+    return root.exists(name) &&
+           file.value() == std::filesystem::file_size(root.path_of(name), error) && !error;
+  });
 }
 
 bool may_be_replaced(const ConfinedFolder& root, const std::string& folder) {

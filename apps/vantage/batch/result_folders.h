@@ -4,6 +4,7 @@
 #include <string>
 
 #include "batch/confined_folder.h"
+#include "batch/model_record.h"
 
 /// \file
 /// Where in a batch's folder the results of models are, and work in progress.
@@ -19,6 +20,9 @@ std::string model_folder(const std::string& folder);
 
 /// Whether a model's place holds results that a worker has made: only such a folder is ever removed.
 bool holds_results(const ConfinedFolder& root, const std::string& folder);
+
+/// Whether all files that a record names are there, as large as it says.
+bool holds_named_files(const ConfinedFolder& root, const ModelRecord& record);
 
 /// Whether there is nothing in a model's place, or results of ours.
 bool may_be_replaced(const ConfinedFolder& root, const std::string& folder);

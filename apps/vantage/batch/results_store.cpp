@@ -255,6 +255,14 @@ bool ResultsStore::merge(const ModelRecord& record) {
   return true;
 }
 
+void ResultsStore::forget(const std::string& key) {
+  for (const char* const table : {"models", "timings"}) {
+    Statement remove(database_, std::string("DELETE FROM ") + table + " WHERE key = ?1");
+    remove.bind(1, key);
+    remove.run();
+  }
+}
+
 void ResultsStore::for_each_record(const std::function<void(const ModelRecord&)>& take) {
   Statement rows(database_, "SELECT " + columns_ + "ORDER BY m.key");
   while (rows.step()) {

@@ -42,6 +42,9 @@ class ResultsStore : public ResultBook {
   /// Puts a record unless one that is to be kept is there. \return whether it was put.
   bool merge(const ModelRecord& record);
 
+  /// Removes the record of that key.
+  void forget(const std::string& key);
+
   /// Makes the puts until commit() one transaction.
   void begin() { database_.run("BEGIN IMMEDIATE"); }
 

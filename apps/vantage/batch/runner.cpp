@@ -199,7 +199,8 @@ class Runner {
       return !options_.retry_failed;
     }
     if (before.duplicate_of.empty()) {
-      return !before.folder.empty() && root_.is_folder(model_folder(before.folder));
+      return !before.folder.empty() && root_.is_folder(model_folder(before.folder)) &&
+             (!options_.verify || holds_named_files(root_, before));
     }
     const std::optional<ModelRecord> first = book_.find(before.duplicate_of);
     return first && first->duplicate_of.empty() && first->content == before.content &&

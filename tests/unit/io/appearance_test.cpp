@@ -295,7 +295,7 @@ TEST_F(ObjAppearance, AMaskOfItsOwnMakesHolesWhereItIsDark) {
     EXPECT_EQ(material.alpha, AlphaMode::Mask);
     const Image& image = model.appearance.textures.at(material.texture.value()).image;
     EXPECT_EQ(image.pixel(0, 0)[3], 0);
-    EXPECT_EQ(image.pixel(image.width - 1, 0)[3], 255);
+    EXPECT_EQ(image.pixel(image.width - 1, 0)[3], image.width > 1 ? 255 : 0);
   }
 }
 
