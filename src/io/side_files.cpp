@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "io/side_files.h"
 
+#include <algorithm>
+#include <string>
+
 #include "vantage/core/error.h"
 
 #include "io/files.h"
@@ -9,10 +12,56 @@ namespace vantage {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Entries of a folder that are looked through for a name. [ours]
+constexpr int kMostNames = 10'000;
+
+std::string in_small_letters(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : static_cast<char>(c);
+  });
+  return text;
+}
+
+/// The place below a folder whose name differs from the one wanted in capitals alone, as those differ whose
+/// author's disk makes no difference; the first by name. Empty if there is none.
+fs::path spelled_otherwise(const fs::path& folder, const fs::path& relative) {
+  fs::path place = folder;
+  for (const fs::path& part : relative) {
+    std::error_code error;
+    if (part == "." || part == ".." || fs::exists(place / part, error)) {
+      place /= part;
+      continue;
+    }
+    const std::string wanted = in_small_letters(part.string());
+    std::string found;
+    int names = 0;
+    for (fs::directory_iterator entry(place, error), end;
+         !error && entry != end && names < kMostNames; entry.increment(error), ++names) {
+      const std::string name = entry->path().filename().string();
+      if (in_small_letters(name) == wanted && (found.empty() || name < found)) {
+        found = name;
+      }
+    }
+    if (found.empty()) {
+      return {};
+    }
+    place /= found;
+  }
+  return place;
+}
+
+}  // namespace
+
 fs::path place_beside(const std::string& model_path, const std::string& relative,
                       std::error_code& error) {
   const fs::path folder = fs::canonical(fs::absolute(model_path).parent_path(), error);
-  const fs::path wanted = error ? fs::path() : fs::canonical(folder / relative, error);
+  fs::path wanted = error ? fs::path() : fs::canonical(folder / relative, error);
+  if (error && !folder.empty()) {
+    const fs::path other = spelled_otherwise(folder, relative);
+    wanted = other.empty() ? wanted : fs::canonical(other, error);
+  }
   const fs::path inside = wanted.lexically_relative(folder);
   return inside.empty() || *inside.begin() == ".." ? fs::path() : wanted;
 }

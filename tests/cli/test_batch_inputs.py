@@ -35,6 +35,17 @@ class ArchivesOfStrangers(HostileTest):
             self.assertEqual(sorted(self.rows(locale)), sorted("m.zip//" + name for name in names))
         self.assertEqual(self.vantage("results", "export", "C").out, self.vantage("results", "export", "C.UTF-8").out)
 
+    def test_an_archive_in_a_folder_is_read_where_a_pattern_names_it(self):
+        (self.dir / "all/deep").mkdir(parents=True)
+        with zipfile.ZipFile(self.dir / "all/deep/m.zip", "w") as archive:
+            archive.writestr("a.off", box(1))
+            archive.writestr("b.txt", "no model")
+        self.write("all/c.off", box(2))
+        self.vantage("batch", "all", "-o", "zip", *FAST, "--include", "*.zip")
+        self.assertEqual(sorted(self.rows("zip")), ["all/deep/m.zip//a.off"])
+        self.vantage("batch", "all", "-o", "both", *FAST, "--include", "*.zip", "--include", "*.off")
+        self.assertEqual(sorted(self.rows("both")), ["all/c.off", "all/deep/m.zip//a.off"])
+
     def test_what_cannot_be_named_or_followed_is_recorded(self):
         with zipfile.ZipFile(self.dir / "m.zip", "w") as archive:
             archive.writestr("ü.off", box(1))

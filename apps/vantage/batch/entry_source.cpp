@@ -136,7 +136,7 @@ class PathSource : public EntrySource {
   std::optional<Entry> next() override {
     while (true) {
       if (archive_) {
-        if (std::optional<Entry> entry = archive_->next(filter_)) {
+        if (std::optional<Entry> entry = archive_->next(archive_filter_)) {
           return numbered(std::move(*entry));
         }
         archive_.reset();
@@ -147,6 +147,7 @@ class PathSource : public EntrySource {
             return numbered(std::move(*entry));
           }
           archive_ = std::make_unique<ArchiveReader>(entry->path, archive_limits_);
+          archive_filter_ = filter_.inside(entry->path);
           continue;
         }
         walk_.reset();
@@ -173,6 +174,7 @@ class PathSource : public EntrySource {
       walk_ = std::make_unique<FolderWalk>(path, filter_, skipped_);
     } else if (is_archive(path)) {
       archive_ = std::make_unique<ArchiveReader>(path, archive_limits_);
+      archive_filter_ = filter_;
     } else {
       Entry entry{.key = key_of_path(path), .path = path};
       if (input.find("://") != std::string::npos && !fs::exists(path, error)) {
@@ -198,6 +200,7 @@ class PathSource : public EntrySource {
   std::unique_ptr<FolderWalk> walk_{};
   ArchiveLimits archive_limits_;
   std::unique_ptr<ArchiveReader> archive_{};
+  EntryFilter archive_filter_{};
 };
 
 }  // namespace
@@ -219,6 +222,13 @@ bool EntryFilter::accepts(const std::string& path_below) const {
   const bool included =
       include.empty() ? readable() : std::any_of(include.begin(), include.end(), matches_path);
   return included && std::none_of(exclude.begin(), exclude.end(), matches_path);
+}
+
+EntryFilter EntryFilter::inside(const std::string& archive) const {
+  EntryFilter filter = *this;
+  std::erase_if(filter.include,
+                [&](const std::string& pattern) { return matches(pattern, archive); });
+  return filter;
 }
 
 bool is_archive(const std::string& path) {

@@ -62,6 +62,10 @@ struct EntryFilter {
   /// Whether a file counts. Patterns are compared with the path below the folder and with the bare
   /// name; letter case does not matter.
   [[nodiscard]] bool accepts(const std::string& path_below) const;
+
+  /// Which entries count of an archive in a folder, which was named by some of the patterns: they go by
+  /// the others, or by their formats if there are none.
+  [[nodiscard]] EntryFilter inside(const std::string& archive) const;
 };
 
 /// How far an archive is trusted.

@@ -276,6 +276,15 @@ TEST_F(ObjAppearance, CountsLibrariesThatAreNotThere) {
   EXPECT_THAT(model.notes, Contains(HasSubstr("more material libraries were left out: 7")));
 }
 
+TEST_F(ObjAppearance, FindsWhatIsSpelledInOtherCapitals) {
+  std::filesystem::create_directory(folder_.file("Maps"));
+  write_file(folder_.file("Maps/Bark.PNG"), green_png());
+  const Model model = loaded("mtllib A.MTL\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n",
+                             "newmtl m\nmap_Kd maps\\bark.png\n");
+  EXPECT_EQ(model.appearance.textures.size(), 1U);
+  EXPECT_THAT(model.notes, IsEmpty());
+}
+
 TEST_F(ObjAppearance, DoesNotReadALibraryOutsideItsFolder) {
   const TemporaryFolder elsewhere;
   write_file(elsewhere.file("x.mtl"), "newmtl m\nKd 1 0 0\n");
