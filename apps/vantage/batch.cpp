@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 #include <thread>
-#include <unordered_set>
 #include <utility>
 
 #include "vantage/core/error.h"
@@ -226,7 +225,7 @@ struct BatchCommand {
       return;
     }
     auto listed = std::make_unique<batch::ListedEntries>(std::move(source));
-    const std::unordered_set<std::string>& keys = listed->keys();
+    const batch::ListedEntries& list = *listed;
     source = std::move(listed);
     std::unique_ptr<batch::ResultBook> book;
     if (part) {
@@ -246,10 +245,7 @@ struct BatchCommand {
     };
     const batch::RunnerCounts counts = batch::run_batch(*source, *book, runner, run.stop, report);
     if (auto* const store = dynamic_cast<batch::ResultsStore*>(book.get())) {
-      const std::size_t forgotten = forget ? batch::forget_others(*store, root, keys) : 0;
-      if (forgotten > 0) {
-        session.say("forgotten: " + plural(forgotten, "model") + " that are not among the inputs");
-      }
+      const std::size_t forgotten = forget ? forget_others(session, root, *store, list) : 0;
       const bool changed = forgotten > 0 || counts.done + counts.failed + counts.duplicates > 0;
       if (changed || (!no_overview && !root.exists("index.html"))) {
         batch::renew_overview(root, *store, !no_overview, run);
@@ -264,6 +260,22 @@ struct BatchCommand {
   }
 
  private:
+  /// \return how many models were forgotten. Nothing is where the list of inputs may not be whole.
+  static std::size_t forget_others(Session& session, const batch::ConfinedFolder& root,
+                                   batch::ResultsStore& store, const batch::ListedEntries& list) {
+    if (list.keys().empty() || !list.missing().empty()) {
+      session.say("warning: --forget removed nothing: " +
+                  (list.keys().empty() ? "no models were found"
+                                       : list.missing() + " could not be found or listed"));
+      return 0;
+    }
+    const std::size_t count = batch::forget_others(store, root, list.keys());
+    if (count > 0) {
+      session.say("forgotten: " + plural(count, "model") + " that are not among the inputs");
+    }
+    return count;
+  }
+
   void warn_of_nothing(Session& session, const batch::RunnerCounts& counts) const {
     if (counts.done + counts.failed + counts.skipped + counts.duplicates == 0) {
       session.say("warning: there was nothing to do: no models were found in " +

@@ -7,6 +7,7 @@
 #include "vantage/core/error.h"
 
 #include "io/files.h"
+#include "io/text_cursor.h"
 
 namespace vantage {
 
@@ -14,15 +15,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Entries of a folder that are looked through for a name. [ours]
+/// In folders of more entries no name is looked for. [ours]
 constexpr int kMostNames = 10'000;
-
-std::string in_small_letters(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : static_cast<char>(c);
-  });
-  return text;
-}
 
 /// The place below a folder whose name differs from the one wanted in capitals alone, as those differ whose
 /// author's disk makes no difference; the first by name. Empty if there is none.
@@ -30,21 +24,24 @@ fs::path spelled_otherwise(const fs::path& folder, const fs::path& relative) {
   fs::path place = folder;
   for (const fs::path& part : relative) {
     std::error_code error;
-    if (part == "." || part == ".." || fs::exists(place / part, error)) {
+    if (part == "..") {
+      return {};
+    }
+    if (fs::exists(place / part, error)) {
       place /= part;
       continue;
     }
-    const std::string wanted = in_small_letters(part.string());
+    const std::string wanted = lower_case(part.string());
     std::string found;
     int names = 0;
     for (fs::directory_iterator entry(place, error), end;
-         !error && entry != end && names < kMostNames; entry.increment(error), ++names) {
+         !error && entry != end && names <= kMostNames; entry.increment(error), ++names) {
       const std::string name = entry->path().filename().string();
-      if (in_small_letters(name) == wanted && (found.empty() || name < found)) {
+      if (equals_ignoring_case(name, wanted) && (found.empty() || name < found)) {
         found = name;
       }
     }
-    if (found.empty()) {
+    if (found.empty() || names > kMostNames) {
       return {};
     }
     place /= found;

@@ -45,6 +45,16 @@ class Forgetting(BatchTest):
         self.batch("m", out="out")
         self.assertEqual(len(list((self.dir / "out/models").iterdir())), 3)
 
+    def test_where_an_input_is_not_there_nothing_is_forgotten(self):
+        self.batch("m", out="out")
+        (self.dir / "m").rename(self.dir / "elsewhere")
+        done = self.vantage("batch", "m", "-o", "out", "--forget", *FAST, exit_code=4)
+        self.assertIn("warning: --forget removed nothing: m could not be found or listed", done.err)
+        (self.dir / "m").mkdir()
+        done = self.vantage("batch", "m", "-o", "out", "--forget", *FAST)
+        self.assertIn("warning: --forget removed nothing: no models were found", done.err)
+        self.assertEqual(len(list((self.dir / "out/models").iterdir())), 3)
+
     def test_shards_forget_nothing(self):
         done = self.vantage("batch", "m", "-o", "out", "--forget", "--shard", "0/2", exit_code=2)
         self.assertIn("--forget", done.err)

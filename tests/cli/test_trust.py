@@ -83,6 +83,9 @@ class Doubts(ProgramTest):
         rows = json.loads(self.vantage("results", "query", "out", "--where", "doubts>0", "--json",
                                        "--columns", "name,doubts,status").out)
         self.assertEqual([(row["name"], row["status"]) for row in rows], [("again", "done"), ("needle", "done")])
+        page = (self.dir / "out/index.html").read_text()
+        table = json.loads(page.split('id="data">')[1].split("</script>")[0])["rows"]
+        self.assertEqual({row[1]: bool(row[9] & 8) for row in table}, {"again": True, "needle": True, "sound": False})
         self.vantage("batch", "sound.ply", "-o", "other", *FAST, "--strict")
         self.write("bad.off", "OFF\n1 1 0\n")
         self.vantage(*command, "bad.off", "--strict", exit_code=4)

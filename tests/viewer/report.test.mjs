@@ -278,8 +278,15 @@ test('turned by hand or by keys the model stands upright, and keys stop at the p
   await page.mouse.up();
   assert.ok(await lean() < 1e-3, `leans by ${await lean()}`);
   await page.keyboard.press('r');
+  const before = await camera(page);
   await page.keyboard.press('ArrowRight'); // nothing has the focus
   assert.ok(await lean() < 1e-3);
+  await page.focus('#epsilon');
+  const turned = await camera(page);
+  assert.ok(distance(before.eye, turned.eye) > 0.01 * turned.radius);
+  await page.keyboard.press('ArrowRight'); // of the slider
+  assert.ok(distance(turned.eye, (await camera(page)).eye) < 1e-6 * turned.radius);
+  await page.focus('#theme');
   for (let i = 0; i < 50; ++i) {
     await page.keyboard.press('ArrowUp');
   }

@@ -87,6 +87,8 @@ test('a picture of the index leads to a report that works', async () => {
   await page.click('article a >> nth=0');
   await page.waitForSelector('html[data-ready=yes]', { state: 'attached', timeout: 60000 });
   assert.match(page.url(), /report\.html$/);
+  const [picture] = await Promise.all([page.waitForEvent('download'), page.click('#save-picture')]);
+  assert.match(picture.suggestedFilename(), /\.png$/);
   assert.deepEqual(refused, []);
   await page.close();
 });

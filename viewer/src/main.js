@@ -209,8 +209,8 @@ document.addEventListener('keydown', (event) => {
   if (typed || pressed || event.ctrlKey || event.metaKey || event.altKey) {
     return;
   }
-  const elsewhere = event.target !== document.body && event.target !== element('model');
-  if (!elsewhere && model.moveByKey(event.key)) {
+  const ownArrows = ['range', 'radio'].includes(event.target.type); // sliders and choices move by them, too
+  if (!ownArrows && model.moveByKey(event.key)) {
     event.preventDefault();
     return;
   }

@@ -83,8 +83,10 @@ Json number_or_null(const Json& object, const char* member) {
 }
 
 Json row_of(const Json& result, const fs::path& folder, const std::string& name) {
+  const auto doubts = result.find("doubts");
   const int has = (is_file(folder / "best.png") ? kHasThumbnail | kHasPicture : 0) |
-                  (is_file(folder / "report.html") ? kHasReport : 0);
+                  (is_file(folder / "report.html") ? kHasReport : 0) |
+                  (doubts != result.end() && !doubts->empty() ? kIsDoubted : 0);
   const Json& best = result["best"];
   const auto title = result["model"].find("name");
   const bool named = title != result["model"].end() && title->is_string();

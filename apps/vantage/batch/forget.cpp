@@ -2,6 +2,8 @@
 #include "batch/forget.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -40,6 +42,11 @@ std::optional<Entry> ListedEntries::next() {
   std::optional<Entry> entry = all_->next();
   if (entry) {
     keys_.insert(entry->key);
+    std::error_code error;
+    const bool is_there = entry->problem.empty() && std::filesystem::exists(entry->path, error);
+    if (!is_there && missing_.empty()) {
+      missing_ = entry->key;
+    }
   }
   return entry;
 }

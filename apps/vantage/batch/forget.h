@@ -14,7 +14,7 @@
 
 namespace vantage::batch {
 
-/// Passes entries on and remembers their keys.
+/// Passes entries on and remembers their keys, and whether the list may be incomplete.
 class ListedEntries : public EntrySource {
  public:
   explicit ListedEntries(std::unique_ptr<EntrySource> all) : all_(std::move(all)) {}
@@ -27,9 +27,14 @@ class ListedEntries : public EntrySource {
 
   [[nodiscard]] const std::unordered_set<std::string>& keys() const { return keys_; }
 
+  /// The first entry that cannot be listed or is not there, as an input that is not mounted; empty if there is
+  /// none.
+  [[nodiscard]] const std::string& missing() const { return missing_; }
+
  private:
   std::unique_ptr<EntrySource> all_;
   std::unordered_set<std::string> keys_{};
+  std::string missing_{};
 };
 
 /// Removes the records of models that are not `listed`, and results that are nobody's then. Where listed

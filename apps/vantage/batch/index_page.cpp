@@ -29,7 +29,8 @@ article a { display: block; }
 img { max-width: 100%; max-height: 128px; }
 .name { font-weight: 600; overflow-wrap: anywhere; max-height: 2.9em; overflow: hidden; margin-top: 6px; }
 .note { color: var(--dim); font-size: 12px; overflow-wrap: anywhere; max-height: 7em; overflow: auto; }
-.failed .note { color: var(--bad); }
+.failed .note, .doubt { color: var(--bad); }
+.doubt { font-size: 12px; }
 nav { margin-left: auto; display: flex; gap: 8px; align-items: center; }
 </style>
 </head>
@@ -39,7 +40,7 @@ nav { margin-left: auto; display: flex; gap: 8px; align-items: center; }
 <span id="counts"></span>
 <input id="search" type="search" placeholder="name, path or error" aria-label="search">
 <select id="status" aria-label="status"><option value="">all</option><option>done</option><option>failed</option>
-<option>duplicate</option></select>
+<option>duplicate</option><option value="doubted">doubted answers</option></select>
 <select id="sort" aria-label="order"><option value="key">by path</option><option value="name">by name</option>
 <option value="low">least seen first</option><option value="high">most seen first</option>
 <option value="size">largest first</option></select>
@@ -103,6 +104,7 @@ function card(row) {
     frame.append(image);
   }
   box.append(frame, text("div", "name", row.name), text("div", "note", note(row)));
+  if (row.has & 8) box.append(text("div", "doubt", "not to be trusted: its view.json says why"));
   return box;
 }
 
@@ -118,7 +120,7 @@ function draw() {
 function choose() {
   const words = by("search").value.toLowerCase();
   const status = by("status").value;
-  shown = rows.filter(r => (!status || r.status === status) &&
+  shown = rows.filter(r => (!status || r.status === status || (status === "doubted" && r.has & 8)) &&
     (!words || (r.name + "\n" + r.key + "\n" + r.error).toLowerCase().includes(words)));
   if (by("sort").value !== "key") shown.sort(order[by("sort").value]);
   at = 0;

@@ -13,6 +13,7 @@ namespace vantage::batch {
 inline constexpr int kHasThumbnail = 1;
 inline constexpr int kHasPicture = 2;
 inline constexpr int kHasReport = 4;
+inline constexpr int kIsDoubted = 8;  ///< Its answer should not be trusted.
 
 /// JSON text that may stand inside a script element: it cannot end it.
 std::string script_safe(const std::string& json);

@@ -166,8 +166,9 @@ class ContactSheets {
 
 Statement table_rows(ResultsStore& store) {
   return store.select(
-      "key, name, status, duplicate_of, error, folder, best_fraction, best_score, vertices", "",
-      "");
+      "key, name, status, duplicate_of, error, folder, best_fraction, best_score, vertices, "
+      "doubts",
+      "", "");
 }
 
 /// The end of a path without its extension: of "a/b/cup.ply" and 2 parts "b/cup".
@@ -222,7 +223,8 @@ std::string row_of(const Statement& row, const ConfinedFolder& root) {
       Json::array({row.text(0), row.text(1), row.text(2), row.text(3), row.text(4), folder,
                    number(6), number(7), row.is_null(8) ? Json(nullptr) : Json(row.integer(8)),
                    shown(kThumbnailFile, kHasThumbnail) | shown("best.png", kHasPicture) |
-                       shown("report.html", kHasReport)});
+                       shown("report.html", kHasReport) |
+                       (row.is_null(9) || row.integer(9) == 0 ? 0 : kIsDoubted)});
   return script_safe(json_text(cells));
 }
 
