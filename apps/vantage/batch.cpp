@@ -245,11 +245,7 @@ struct BatchCommand {
     };
     const batch::RunnerCounts counts = batch::run_batch(*source, *book, runner, run.stop, report);
     if (auto* const store = dynamic_cast<batch::ResultsStore*>(book.get())) {
-      const std::size_t forgotten = forget ? forget_others(session, root, *store, list) : 0;
-      const bool changed = forgotten > 0 || counts.done + counts.failed + counts.duplicates > 0;
-      if (changed || (!no_overview && !root.exists("index.html"))) {
-        batch::renew_overview(root, *store, !no_overview, run);
-      }
+      settle_store(session, root, *store, list, counts);
     }
     summarise(session, counts);
     if (!part) {
@@ -260,6 +256,16 @@ struct BatchCommand {
   }
 
  private:
+  /// Forgets what is to be forgotten, and leaves an overview of what is there then.
+  void settle_store(Session& session, const batch::ConfinedFolder& root, batch::ResultsStore& store,
+                    const batch::ListedEntries& list, const batch::RunnerCounts& counts) const {
+    const std::size_t forgotten = forget ? forget_others(session, root, store, list) : 0;
+    const bool changed = forgotten > 0 || counts.done + counts.failed + counts.duplicates > 0;
+    if (changed || (!no_overview && !root.exists("index.html"))) {
+      batch::renew_overview(root, store, !no_overview, session.run());
+    }
+  }
+
   /// \return how many models were forgotten. Nothing is where the list of inputs may not be whole.
   static std::size_t forget_others(Session& session, const batch::ConfinedFolder& root,
                                    batch::ResultsStore& store, const batch::ListedEntries& list) {

@@ -276,6 +276,15 @@ class ManifestSource : public EntrySource {
     return fields;
   }
 
+  static void write_axes_small(Fields& fields) {
+    for (const char* const axis : {"up", "front"}) {
+      std::string& name = fields[axis];
+      std::transform(name.begin(), name.end(), name.begin(), [](char c) {
+        return c >= 'X' && c <= 'Z' ? static_cast<char>(c - 'X' + 'x') : c;
+      });
+    }
+  }
+
   Entry entry_of(const std::string& line) {
     if (kind_ == ManifestForm::JsonLines) {
       if (std::optional<Entry> planned = planned_entry(line)) {
@@ -295,12 +304,7 @@ class ManifestSource : public EntrySource {
     if (problem.empty() && fields["path"].empty()) {
       problem = " names no path";
     }
-    for (const char* const axis : {"up", "front"}) {
-      std::string& name = fields[axis];
-      std::transform(name.begin(), name.end(), name.begin(), [](char c) {
-        return c >= 'X' && c <= 'Z' ? static_cast<char>(c - 'X' + 'x') : c;
-      });
-    }
+    write_axes_small(fields);
     const std::string& up = fields["up"];
     if (problem.empty() && !is_axis(up)) {
       problem = kNoAxis;
