@@ -22,9 +22,11 @@
 #include "batch/json_text.h"
 #include "batch/naming.h"
 #include "batch/overview.h"
+#include "batch/result_folders.h"
 #include "batch/results_store.h"
 #include "batch/runner.h"
 #include "batch/shard_log.h"
+#include "batch/shard_plan.h"
 #include "batch_progress.h"
 #include "batch_slurm.h"
 #include "commands.h"
@@ -49,31 +51,6 @@ constexpr double kLeastMemoryGb = 0.5;
 // On Slurm the share of a machine is what is asked for: for each worker, and for its parent.
 constexpr double kSlurmMemoryGb = 4.0;
 constexpr double kParentMemoryGb = 0.25;
-
-/// Only the models of one shard, at the places they have among all.
-class ShardSource : public batch::EntrySource {
- public:
-  ShardSource(std::unique_ptr<batch::EntrySource> all, const batch::Shard& shard)
-      : all_(std::move(all)), shard_(shard) {}
-
-  std::optional<batch::Entry> next() override {
-    while (true) {
-      std::optional<batch::Entry> entry = all_->next();
-      if (!entry || (entry->shard ? *entry->shard % shard_.count == shard_.index
-                                  : shard_.holds(entry->key))) {
-        return entry;
-      }
-    }
-  }
-
-  [[nodiscard]] bool has_more_now() const override { return all_->has_more_now(); }
-
-  void fetch(batch::Entry& entry, const std::string& file) override { all_->fetch(entry, file); }
-
- private:
-  std::unique_ptr<batch::EntrySource> all_;
-  batch::Shard shard_;
-};
 
 double machine_memory_gb() {
   return static_cast<double>(usable_memory_bytes()) / 1e9;
@@ -229,7 +206,7 @@ struct BatchCommand {
     source = std::move(listed);
     std::unique_ptr<batch::ResultBook> book;
     if (part) {
-      source = std::make_unique<ShardSource>(std::move(source), *part);
+      source = std::make_unique<batch::ShardEntries>(std::move(source), *part);
       book = std::make_unique<batch::ShardLog>(folder, *part);
     } else {
       book = std::make_unique<batch::ResultsStore>(folder, batch::Database::Mode::Create);
@@ -392,8 +369,11 @@ struct BatchCommand {
     const SlurmBatch plan{
         .attempts = runner.attempts,
         .verify = runner.verify,
-        .is_current = [this](const batch::Entry& entry, const batch::ModelRecord& record) {
-          return record.version == version() && record.stamp == batch::stamp_of(entry.path) &&
+        .is_current = [&](const batch::Entry& entry, const batch::ModelRecord& record) {
+          const bool has_results = record.status != "done" || !record.duplicate_of.empty() ||
+                                   root.is_folder(batch::model_folder(record.folder));
+          return has_results && record.version == version() &&
+                 record.stamp == batch::stamp_of(entry.path) &&
                  batch::are_as_they_were(record.beside, entry.path) &&
                  (record.options == runner.options_hash(entry) || record.options.empty()) &&
                  !(runner.retry_failed && record.status == "failed");
@@ -446,7 +426,7 @@ struct BatchCommand {
     }
     std::unique_ptr<batch::EntrySource> source = open_source(session);
     if (part) {
-      source = std::make_unique<ShardSource>(std::move(source), *part);
+      source = std::make_unique<batch::ShardEntries>(std::move(source), *part);
     }
     const RunContext run = session.run();
     std::int64_t count = 0;

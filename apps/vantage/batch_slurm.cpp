@@ -40,10 +40,6 @@ constexpr const char* kPlan = "slurm/plan.jsonl";
 constexpr const char* kJob = "slurm/job";
 constexpr const char* kScript = "slurm/shard.sh";
 
-std::uint32_t shard_of(const Entry& entry, std::uint32_t shards) {
-  return entry.shard ? *entry.shard % shards : batch::Shard::of_key(entry.key, shards);
-}
-
 /// One collection on its way through Slurm.
 class SlurmRun {
  public:
@@ -162,7 +158,7 @@ class SlurmRun {
     std::vector<bool> needed(flags_.request.shards, false);
     for_each_planned([&](const Entry& entry) {
       if (is_to_run(entry)) {
-        needed[shard_of(entry, flags_.request.shards)] = true;
+        needed[batch::shard_of(entry, flags_.request.shards)] = true;
       }
     });
     std::vector<std::uint32_t> shards;

@@ -163,7 +163,7 @@ struct RenderCommand {
           {"options", batch::parsed_json(options_json({.view = options, .look = look.look()}))},
           {"warnings", notes}};
       if (camera.projection == Projection::Orthographic) {
-        json["height"] = camera.height;
+        json["orthographic_height"] = camera.height;  // of what is seen, as in transforms.json
       }
       write_output("-", batch::json_text(json, 2) + "\n");
       return;

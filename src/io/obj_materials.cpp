@@ -78,8 +78,8 @@ Material ObjMaterials::material(const MtlMaterial& source) {
   result.alpha = source.opacity < 1.0 ? AlphaMode::Blend : AlphaMode::Opaque;
   if (!source.picture.empty() || !source.mask.empty()) {
     result.texture = texture(source);
-    if (!source.mask.empty() && result.texture) {
-      result.alpha = AlphaMode::Mask;
+    if (!source.mask.empty() && result.texture && result.alpha == AlphaMode::Opaque) {
+      result.alpha = AlphaMode::Mask;  // what is glass besides stays glass
     }
   }
   // Wavefront's coordinates begin at the bottom left, ours at the top left.

@@ -2,6 +2,7 @@
 
 import json
 import math
+import os
 import unittest
 
 from program import MODELS, ProgramTest, read_ply
@@ -105,6 +106,18 @@ class Skeleton(ProgramTest):
             return sum(math.hypot(v["y"], v["z"]) for v in vertices) / len(vertices)
         last = thickness(max((self.dir / "levels").iterdir()))
         self.assertLess(thickness(self.dir / "m.ply"), 0.1 * last)
+
+    def test_render_says_how_high_an_orthographic_picture_is(self):
+        command = ("render", MODELS / "fan.ply", "-o", "p.png", "--direction", "1,1,1", "--size", "24x16", "--json", "--force")
+        self.assertNotIn("orthographic_height", json.loads(self.vantage(*command).out))
+        flat = json.loads(self.vantage(*command, "--projection", "orthographic").out)
+        self.assertEqual((flat["width"], flat["height"]), (24, 16))
+        self.assertGreater(flat["orthographic_height"], 0)
+
+    def test_figures_name_their_files_where_a_folder_is_no_utf8(self):
+        folder = os.fsdecode(b"f\xff")
+        done = self.vantage("figures", MODELS / "cat_lowpoly.ply", "-o", folder, "--size", "32", "--contraction", "exact", "--json")
+        self.assertTrue(json.loads(done.out)["files"])
 
     def test_measure_says_how_much_is_outside(self):
         done = self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json", "--measure", "--json")

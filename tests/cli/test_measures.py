@@ -188,6 +188,8 @@ class Measures(ProgramTest):
         for flag, *words in (("--fov", "score", FAN, "--eyes", "eyes.csv", "--fov", 20), ("--up", "score", FAN, "--sphere", 0, "--up", "any"),
                              ("--up", "map", FAN, "-o", "m.ply", "--up", "any"), ("--focus", "compare", FAN, "--method", "kssm,vmi", "--focus", 0),
                              ("--fov", "view", FAN, "--projection", "orthographic", "--fov", 20),
+                             ("--starts", "view", FAN, "--starts", 8),  # the default value, too
+                             ("--forget", "batch", FAN, "-o", "b", "--forget", "--engine", "slurm"),
                              ("--partition", "batch", FAN, "-o", "b", "--partition", "p"), 
                              ("--meso", "skeleton", FAN, "-o", "s.json", "--meso", "m.obj"), ("--camera", "render", FAN, "-o", "a.png", "--camera", ""),
                              ("--focus", "view", FAN, "--focus", ""), ("--limit", "results", "query", "x", "--limit", -1), ("--seed", "view", FAN, "--seed", -1),

@@ -132,6 +132,17 @@ class ViewSets(ProgramTest):
                 self.assertEqual(file.read_bytes(), (self.dir / "out2" / file.name).read_bytes(), file.name)
         self.assertEqual((self.dir / "tour1.webp").read_bytes(), (self.dir / "tour2.webp").read_bytes())
 
+    def test_a_tour_without_other_pictures_has_the_files_colours_too(self):
+        corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 2)]
+        faces = ["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"]
+        self.write("box.mtl", "newmtl red\nKd 0.8 0 0\n")
+        self.write("box.obj", "mtllib box.mtl\nusemtl red\n" + "".join("v %d %d %d\n" % p for p in corners)
+                   + "".join(f"f {face}\n" for face in faces))
+        for flag in ("--no-images", "--no-report"):
+            self.vantage("view", "box.obj", "-o", "out", "--contraction", "exact", "--views", 2, flag, "--size", "32",
+                         "--tour", f"tour{flag}.webp", "--tour-size", "32", "--tour-seconds", 1, "--fps", 2)
+        self.assertEqual((self.dir / "tour--no-images.webp").read_bytes(), (self.dir / "tour--no-report.webp").read_bytes())
+
     def test_tour_has_as_many_pictures_as_its_time_takes(self):
         self.vantage("view", FAN, "-o", "out", "--views", 2, "--no-images", "--tour", "tour.png",
                      "--tour-size", "40x30", "--tour-seconds", 2, "--fps", 4)

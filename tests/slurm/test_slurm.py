@@ -240,6 +240,10 @@ class SlurmTest(unittest.TestCase):
         local()
         self.assertEqual(self.exported(self.out), self.exported(self.folder / "changing-local"))
         self.assertIn(b"failed", self.exported(self.out))
+        shutil.rmtree(next((self.out / "models").iterdir()))
+        _, errors = run().communicate(timeout=200)
+        self.assertEqual(errors.count("job "), 1, errors)  # what has lost its results is done again
+        self.assertEqual(len(list((self.out / "models").iterdir())), 3)
         _, errors = run("--verify").communicate(timeout=200)
         self.assertEqual(errors.count("job "), 1, errors)  # all are read again
         self.assertEqual(self.exported(self.out), self.exported(self.folder / "changing-local"))

@@ -84,6 +84,18 @@ std::uint64_t cost_of(const Entry& entry) {
 
 }  // namespace
 
+std::uint32_t shard_of(const Entry& entry, std::uint32_t shards) {
+  return entry.shard ? *entry.shard % shards : Shard::of_key(entry.key, shards);
+}
+
+std::optional<Entry> ShardEntries::next() {
+  std::optional<Entry> entry = all_->next();
+  while (entry && shard_of(*entry, shard_.count) != shard_.index) {
+    entry = all_->next();
+  }
+  return entry;
+}
+
 std::int64_t write_plan(EntrySource& entries, const ConfinedFolder& folder,
                         const std::string& name) {
   WholeFile file(folder, name);

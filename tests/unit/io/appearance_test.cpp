@@ -308,6 +308,12 @@ TEST_F(ObjAppearance, AMaskOfItsOwnMakesHolesWhereItIsDark) {
   }
 }
 
+TEST_F(ObjAppearance, AMaskedGlassIsNoHoleAllOver) {
+  const Model model = loaded("mtllib a.mtl\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n",
+                             "newmtl m\nd 0.4\nmap_Kd green.png\nmap_d green.png\n");
+  EXPECT_EQ(model.appearance.materials.at(0).alpha, AlphaMode::Blend);
+}
+
 TEST_F(ObjAppearance, AMaskOfTheSamePictureMakesHolesAndDissolvingMakesGlass) {
   const Model model =
       loaded("mtllib a.mtl\nvt 0 0\nusemtl leaf\nf 1/1 2/1 3/1\nusemtl glass\nf 1 3 4\n",
