@@ -11,6 +11,14 @@ CurveGraph square_with_tail_and_loner() {
           .edges = {{0, 1}, {0, 3}, {1, 2}, {1, 4}, {2, 3}}};
 }
 
+TEST(SmoothedAlongChains, MovesNodesInsideChainsAlone) {
+  const CurveGraph graph{{{0, 0, 0}, {1, 4, 0}, {2, 0, 0}, {2, 0, 8}, {2, 0, -8}},
+                         {{0, 1}, {1, 2}, {2, 3}, {2, 4}}};
+  std::vector<Vec3> expected = graph.nodes;
+  expected[1] = {1, 2, 0};  // ½ of its own, ¼ of both others; ends and the junction stay
+  EXPECT_EQ(smoothed_along_chains(graph.nodes, node_neighbours(graph)), expected);
+}
+
 TEST(CurveGraphCounts, AnIsolatedNodeIsAComponent) {
   EXPECT_EQ(component_count(square_with_tail_and_loner()), 2U);
 }
