@@ -120,7 +120,7 @@ struct FiguresCommand {
     const auto search = Clock::now();
     ViewReport report =
         session.computing([&] { return find_views(shape, choice, alone, run.part(0.4, 0.5)); });
-    times.seconds.search = seconds_since(search);
+    times.seconds.search += seconds_since(search);
     const VertexVisibility visibility(shape.surface, shape.sides, kEyesOfASet);
     const MapScorer by_map(shape, visibility, options);
     report.set = find_view_set(shape, visibility, by_map.scorer(), report.best.direction,

@@ -15,6 +15,7 @@
 #include "vantage/core/error.h"
 #include "vantage/io/write.h"
 
+#include "batch/results_store.h"
 #include "output_folder.h"
 
 namespace vantage::cli {
@@ -122,6 +123,10 @@ void require_distinct(const std::vector<NamedOutput>& outputs) {
 }
 
 void check_output(const std::string& path, OutputKind kind, const CommonFlags& flags) {
+  if (fs::path(path).filename() == batch::ResultsStore::kFileName &&
+      head_of(path).value_or("").starts_with("SQLite format 3")) {
+    throw IoError(path, "holds the results of a batch; choose another name");
+  }
   if (path == "-" || flags.force || is_only_written(path, kind)) {
     return;
   }

@@ -163,6 +163,10 @@ void write_levels(const std::string& folder, std::vector<std::string> levels) {
 }
 
 void OutputFolder::check(bool force) const {
+  if (path_ == "-") {
+    throw CLI::ValidationError("--output",
+                               "names a folder: standard output is none; for one named - say ./-");
+  }
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
   if (!fs::exists(status)) {

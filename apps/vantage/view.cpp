@@ -116,7 +116,7 @@ struct ViewCommand {
     const auto search_start = Clock::now();
     ViewReport report =
         session.computing([&] { return find_views(shape, choice, options, run.part(0.5, 0.9)); });
-    seconds.search = seconds_since(search_start);
+    seconds.search += seconds_since(search_start);
 
     const auto render_start = Clock::now();
     const PictureLook shown = look.of(loaded, up_vector(choice.frame.up));

@@ -282,8 +282,12 @@ ContractionHistory of_refined(const TriMesh& mesh, TriMesh refined,
   for (std::size_t c = 0; c < added.size(); ++c) {
     ComponentContraction& component = history.components[c];
     if (added[c] > 0) {
-      component.strategy.replace(0, component.strategy.find(','),
-                                 "refined " + std::to_string(component.vertices));
+      const std::string refined_to = "refined " + std::to_string(component.vertices);
+      if (component.strategy.starts_with("direct")) {
+        component.strategy.replace(0, component.strategy.find(','), refined_to);
+      } else {
+        component.strategy = refined_to + ", " + component.strategy;
+      }
       component.vertices -= added[c];
     }
   }

@@ -19,7 +19,7 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr double kMollified = 1e-5;
 /// Cotangents that add up to more than this are Delaunay: rounding must not flip for ever.
 constexpr double kTie = -1e-9;
-/// Flips at most, for each edge; on real surfaces it takes fewer than two.
+/// Flips at most, for each side of a face; on real surfaces it takes fewer than two.
 constexpr std::size_t kMostFlips = 20;
 
 /// A side of a triangle: that opposite corner `corner` of `face`.

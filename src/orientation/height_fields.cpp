@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -251,6 +252,9 @@ HeightFields::HeightFields(const TriMesh& surface) {
   for (std::size_t k = 0; k < 3; ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     extent[k] = box.size()[i] * unit;
+    if (extent[k] < static_cast<double>(std::numeric_limits<float>::min())) {
+      extent[k] = 0.0;  // depths are floats
+    }
     origin[k] = box.size()[i] > 0.0 ? -box.low[i] / box.size()[i] : 0.5;
     vertex_mean[k] = extent[k] > 0.0 ? mean[i] / extent[k] : 0.5;
     area_mean[k] = extent[k] > 0.0 ? centre[i] / extent[k] : 0.5;

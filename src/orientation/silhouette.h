@@ -34,7 +34,7 @@ struct Columns {
   double mass_v = 0.5;
   double outline_u = 0.5;  ///< Mean place of the filled cells.
   double outline_v = 0.5;
-  double high_u = 0.5;  ///< Of those cells that reach the upper half from the given side.
+  double high_u = 0.5;  ///< Of those cells that reach the upper two fifths from the given side.
   double high_v = 0.5;
   double filled = 0.0;  ///< Share of the cells.
 };

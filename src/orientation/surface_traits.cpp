@@ -150,7 +150,12 @@ class Measurement {
     const bool is_pair = end - first == 2;
     for (std::size_t i = first; i < end; ++i) {
       for (std::size_t k = i + 1; k < end; ++k) {
-        const double cosine = normals_[edges[i].face].dot(normals_[edges[k].face]);
+        const Vec3& one = normals_[edges[i].face];
+        const Vec3& other = normals_[edges[k].face];
+        if (one.isZero() || other.isZero()) {
+          continue;  // a face without area turns nowhere
+        }
+        const double cosine = one.dot(other);
         if (end - first > kMany || !((is_pair ? cosine : std::abs(cosine)) > kBent)) {
           return true;
         }

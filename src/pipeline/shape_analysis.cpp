@@ -125,7 +125,7 @@ ShapeAnalysis analyse_surface(ShapeAnalysis shape, const ViewOptions& options,
         }
       });
   shape.views = std::move(views);
-  took.skeleton += lap(mark);
+  took.search += lap(mark);  // what of the preparation the contraction did not cover
   add_map(shape, options, run.part(0.95, 1.0));
   took.map = lap(mark);
   return shape;

@@ -95,7 +95,8 @@ TriMesh without_doubles(TriMesh mesh) {
 
 void add_split(CurveGraph& graph, const Vec3& from, const Vec3& to, double longest_piece) {
   constexpr double kMostPieces = 1000.0;
-  const double wanted = std::ceil((to - from).norm() / longest_piece);
+  const double length = (to - from).norm();
+  const double wanted = length > 0.0 ? std::ceil(length / longest_piece) : 1.0;
   const auto pieces = static_cast<std::uint32_t>(std::clamp(wanted, 1.0, kMostPieces));
   const auto first = static_cast<std::uint32_t>(graph.nodes.size());
   for (std::uint32_t i = 0; i <= pieces; ++i) {
@@ -124,6 +125,11 @@ CurveGraph feature_edges(const TriMesh& mesh, double crease_rad, double least_le
   if (edges.size() > kMostFeatureEdges) {
     return graph;
   }
+  double length = 0.0;
+  for (const Edge& edge : edges) {
+    length += (joined.positions[edge[1]] - joined.positions[edge[0]]).norm();
+  }
+  longest_piece = std::max(longest_piece, length / static_cast<double>(kMostFeatureEdges));
   for (const Edge& edge : edges) {
     add_split(graph, joined.positions[edge[0]], joined.positions[edge[1]], longest_piece);
   }

@@ -45,6 +45,11 @@ class PictureRays {
   /// Where a point falls, pixels from the top left corner; nothing if it is not well before the eye.
   [[nodiscard]] std::optional<std::array<double, 2>> place_of(const Vec3& point) const;
 
+  /// Whether nothing of a ball is before the eye.
+  [[nodiscard]] bool is_behind(const Vec3& centre, double radius) const {
+    return perspective_ && (centre - eye_).dot(back_) >= radius;
+  }
+
   /// Pixels that a ball may touch; never too few, and the whole picture if it is beside the eye.
   [[nodiscard]] PixelBox ball_bounds(const Vec3& centre, double radius) const;
 

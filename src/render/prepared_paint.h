@@ -20,11 +20,6 @@ class PreparedPaint {
   PreparedPaint(const Paint& paint, const DrawnSurface& surface, const PictureRays& rays,
                 const RenderOptions& options);
 
-  /// Whether the whole surface has one colour.
-  [[nodiscard]] bool is_uniform() const {
-    return materials_ == nullptr && colour_of_vertex_.empty() && share_of_vertex_.empty();
-  }
-
   /// Whether any place of the surface may be seen through.
   [[nodiscard]] bool has_openings() const {
     return materials_ != nullptr && materials_->has_openings();

@@ -53,13 +53,15 @@ double drawn_reach(const DrawnSurface& surface, std::span<const Paint> paints) {
   return reach;
 }
 
-/// How far something at the scene's middle may move for its picture to move by a pixel.
+/// How far something at the scene's middle may move for its picture to move by a pixel; of an eye that is
+/// there something half a radius away.
 double pixel_size(const Camera& camera, const UnitFrame& frame, int height_px) {
   if (camera.projection == Projection::Orthographic) {
     return camera.height * frame.scale / height_px;
   }
-  return 2.0 * std::tan(0.5 * camera.fov_y_deg * kRadPerDeg) * frame.to_frame(camera.eye).norm() /
-         height_px;
+  constexpr double kLeastDistance = 0.5;
+  const double distance = std::max(kLeastDistance, frame.to_frame(camera.eye).norm());
+  return 2.0 * std::tan(0.5 * camera.fov_y_deg * kRadPerDeg) * distance / height_px;
 }
 
 }  // namespace

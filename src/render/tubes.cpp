@@ -37,6 +37,10 @@ Tubes::Tubes(const CurveGraph& graph, double radius, const PictureRays& rays, in
   const int tiles_down = (height + kTilePx - 1) / kTilePx;
   std::vector<std::array<std::uint32_t, 2>> tile_and_capsule;
   for (std::uint32_t c = 0; c < capsules_.size(); ++c) {
+    const double reach = capsules_[c].radius;
+    if (rays.is_behind(capsules_[c].begin, reach) && rays.is_behind(capsules_[c].end, reach)) {
+      continue;
+    }
     const PixelBox box = join(rays.ball_bounds(capsules_[c].begin, capsules_[c].radius),
                               rays.ball_bounds(capsules_[c].end, capsules_[c].radius));
     for (int y = box.y0 / kTilePx; y * kTilePx < box.y1; ++y) {

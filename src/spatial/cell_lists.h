@@ -17,7 +17,7 @@ namespace vantage {
 class CellLists {
  public:
   /// \param extents of the items. \param over_all over_all(each) calls each(item, cell) for all that is
-  ///                to be listed, twice over the same.
+  ///                to be listed, twice over the same. \pre That is less than 2^32.
   template <typename OverAll>
   void fill(std::size_t cells, const std::vector<PictureCells::Extent>& extents,
             const OverAll& over_all) {

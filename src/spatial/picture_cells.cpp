@@ -2,6 +2,7 @@
 #include "spatial/picture_cells.h"
 
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -10,16 +11,16 @@
 namespace vantage {
 namespace {
 
-// What is less ahead of the eye than this, in units of the frame, has no place on a plane: rounding
-// would move it by cells.
-constexpr double kAhead = 1e-9;
+// The nearest depth over the farthest from which on a picture is one plane: before a nearer eye most
+// of a plane would be empty, and almost all of the surface in a few cells around its middle. [ours]
+constexpr double kLeastRatio = 1.0 / 64.0;
 
 }  // namespace
 
 void PictureCells::begin(std::span<const Vec3> samples, const Viewpoint& eye, std::size_t cells) {
   samples_ = samples;
   eye_ = eye;
-  is_flat_ = project();
+  project();
   const double sides = is_flat_ ? 1.0 : static_cast<double>(kSides);
   const double side = std::ceil(std::sqrt(static_cast<double>(cells) / sides));
   side_ = static_cast<std::uint32_t>(std::clamp(side, 1.0, static_cast<double>(kMostSide)));
@@ -43,24 +44,35 @@ void PictureCells::begin(std::span<const Vec3> samples, const Viewpoint& eye, st
   }
 }
 
-/// \return false if something is not ahead of the eye.
-bool PictureCells::project() {
-  const bool is_perspective = eye_.projection == Projection::Perspective;
+/// Finds out whether the picture is one plane, and then where the samples are on it.
+void PictureCells::project() {
   distance_ = eye_.position.norm();
-  if (!(distance_ > 0.0)) {
-    return false;
+  is_ahead_ = distance_ > 0.0;
+  is_flat_ = is_ahead_;
+  if (!is_ahead_) {
+    return;
   }
   towards_ = eye_.position / distance_;
   right_ = towards_.unitOrthogonal();
   up_ = towards_.cross(right_);
+  if (eye_.projection == Projection::Perspective && !samples_.empty()) {
+    double nearest = std::numeric_limits<double>::infinity();
+    double farthest = -nearest;
+    for (const Vec3& place : samples_) {
+      const double depth = distance_ - place.dot(towards_);
+      nearest = std::min(nearest, depth);
+      farthest = std::max(farthest, depth);
+    }
+    is_ahead_ = nearest > 0.0;
+    is_flat_ = is_ahead_ && nearest >= kLeastRatio * farthest;
+    if (!is_flat_) {
+      return;
+    }
+  }
   exact_.resize(samples_.size());
   for (std::size_t sample = 0; sample < exact_.size(); ++sample) {
-    if (is_perspective && !(samples_[sample].dot(towards_) < distance_ - kAhead)) {
-      return false;
-    }
     exact_[sample] = on_plane(samples_[sample]);
   }
-  return true;
 }
 
 bool PictureCells::coarsen() {

@@ -24,8 +24,8 @@ inline Vec3 sight_line(const Vec3& place, const Viewpoint& eye) {
   return eye.projection == Projection::Perspective ? Vec3(eye.position - place) : eye.position;
 }
 
-/// Projects the vertices of a surface on one plane where all of them are ahead of the eye, else on
-/// the six sides of a cube around it. Made for reuse.
+/// Projects the vertices of a surface on one plane where all of them are well ahead of the eye, else
+/// on the six sides of a cube around it. Made for reuse.
 class PictureCells {
  public:
   /// Cells of one side, from first to last.
@@ -54,8 +54,11 @@ class PictureCells {
   /// \param eye in their frame. \param cells about how many there shall be.
   void begin(std::span<const Vec3> samples, const Viewpoint& eye, std::size_t cells);
 
-  /// Whether all of the surface is ahead of the eye: the picture is one plane.
+  /// Whether the picture is one plane.
   [[nodiscard]] bool is_flat() const { return is_flat_; }
+
+  /// Whether all of the surface is ahead of the eye.
+  [[nodiscard]] bool is_ahead() const { return is_ahead_; }
 
   /// Halves the number of rows and of columns. \return false if there is one of each.
   bool coarsen();
@@ -137,12 +140,19 @@ class PictureCells {
     std::array<Line, 3> lines_{};
   };
 
-  /// Calls each(cells) for the cells that an edge or a face touches: of one side, or of several.
+  /// Calls each(cells) for the cells that an edge or a face touches: of one side, or of several; row
+  /// by row where it lies across many, lest what is long and slanted be in all cells around it.
   template <std::size_t Count, typename Each>
   void over_sides(const std::array<std::uint32_t, Count>& samples, const Extent& extent,
                   const Each& each) const {
     if (is_flat_) {
-      each(extent.cells);
+      if (extent.cells.count() <= kFewCells || extent.cells.left == extent.cells.right) {
+        each(extent.cells);
+        return;
+      }
+      for (std::uint32_t row = extent.cells.bottom; row <= extent.cells.top; ++row) {
+        each(cells_in_row(places_, samples, extent.cells, static_cast<std::uint16_t>(row)));
+      }
       return;
     }
     std::array<Vec3, Count> from_eye;
@@ -185,12 +195,47 @@ class PictureCells {
   // Far more than rounding to float moves a place, in cells, and a depth, in units of the frame.
   static constexpr float kSlack = 1e-3F;
   static constexpr float kDepthSlack = 1e-5F;
+  static constexpr std::size_t kFewCells = 16;  // which are not told apart by rows
+
+  /// Those of a row that something convex with these corners touches, of the cells of its extent.
+  template <std::size_t Count>
+  [[nodiscard]] CellRange cells_in_row(const std::vector<Place>& places,
+                                       const std::array<std::uint32_t, Count>& samples,
+                                       const CellRange& all, std::uint16_t row) const {
+    // Beyond the first and the last row there are only places that rounding moved out of the picture.
+    constexpr float kAll = std::numeric_limits<float>::infinity();
+    const float low = row == 0 ? -kAll : static_cast<float>(row) - kSlack;
+    const float high = row + 1U == side_ ? kAll : static_cast<float>(row + 1) + kSlack;
+    float left = kAll;
+    float right = -kAll;
+    for (std::size_t k = 0; k < Count; ++k) {
+      const Place& from = places[samples[k]];
+      const Place& to = places[samples[(k + 1) % Count]];
+      const auto [lower, upper] = std::minmax(from.y, to.y);
+      if (upper < low || lower > high) {
+        continue;
+      }
+      // The side runs straight from where it enters the row to where it leaves it.
+      for (const float y : {std::max(low, lower), std::min(high, upper)}) {
+        const float share = to.y == from.y ? 0.0F : (y - from.y) / (to.y - from.y);
+        const float x = from.x + share * (to.x - from.x);
+        left = std::min(left, x);
+        right = std::max(right, x);
+      }
+      if (to.y == from.y) {
+        left = std::min(left, to.x);
+        right = std::max(right, to.x);
+      }
+    }
+    return {std::clamp(nearest_cell(left - kSlack), all.left, all.right),
+            std::clamp(nearest_cell(right + kSlack), all.left, all.right), row, row};
+  }
 
   [[nodiscard]] std::uint16_t nearest_cell(float place) const {
     return static_cast<std::uint16_t>(std::clamp(place, 0.0F, static_cast<float>(side_ - 1)));
   }
 
-  bool project();
+  void project();
 
   /// Where a place is on the plane of the picture, and its depth along the view axis.
   [[nodiscard]] Vec3 on_plane(const Vec3& place) const {
@@ -211,6 +256,7 @@ class PictureCells {
   std::span<const Vec3> samples_{};
   Viewpoint eye_{};
   bool is_flat_ = true;
+  bool is_ahead_ = true;
   double distance_ = 0.0;  // of the eye from the frame's origin
   Vec3 towards_ = Vec3::UnitZ(), right_ = Vec3::UnitX(), up_ = Vec3::UnitY();  // the picture's axes
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero();       // corner of the picture, on its plane

@@ -36,7 +36,7 @@ class Segment {
   }
 
   /// Whether the triangle abc crosses the segment strictly between its ends. A triangle that
-  /// only touches the start does not. \param twice_area |(b − a) × (c − a)|.
+  /// only touches the start or the eye does not. \param twice_area |(b − a) × (c − a)|.
   [[nodiscard]] bool crosses(const Vec3& a, const Vec3& b, const Vec3& c, double twice_area) const {
     const Flat A = flat(a);
     const Flat B = flat(b);
@@ -54,15 +54,16 @@ class Segment {
     // Depth of the crossing along the axis, times the area; also the volume spanned with the start,
     // that is twice_area times the start's distance from the triangle's plane.
     const double volume = u * A.z + v * B.z + w * C.z;
-    if (std::abs(volume) <= kContact * twice_area) {
+    const double contact = kContact * twice_area;
+    if (std::abs(volume) <= contact) {
       return false;
     }
     const double reach = area * length_;
     const bool ahead = (volume > 0.0) == (reach > 0.0);
-    return ahead && (!bounded_ || std::abs(volume) < std::abs(reach));
+    return ahead && (!bounded_ || std::abs(reach) - std::abs(volume) > contact);
   }
 
-  /// A start this close to a triangle's plane touches it. In units of a UnitFrame, whose
+  /// An end this close to a triangle's plane touches it. In units of a UnitFrame, whose
   /// coordinates are below 1 and carry rounding errors of 2^-53: some tens of them.
   static constexpr double kContact = 0x1p-47;
 

@@ -70,7 +70,7 @@ Shell::Shell(const TriMesh& mesh, std::span<const std::uint32_t> component_of_ve
   look_at_edges();
   sort_into_cells();
   if (mesh.triangles.size() > most_walked || faces_met() > kMostMet) {
-    frame_ = unit_frame(mesh.positions);
+    frame_ = unit_frame(referenced_points(mesh));
     rays_.emplace(in_frame(mesh, frame_));
   }
 }

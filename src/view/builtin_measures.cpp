@@ -44,7 +44,7 @@ double projected_area(const MeasuredModel& /*model*/, const SightTable& sight) {
 }
 
 double plemenos(const MeasuredModel& model, const SightTable& sight) {
-  return visible_triangles(model, sight) / static_cast<double>(model.face_areas.size()) +
+  return visible_triangles(model, sight) / static_cast<double>(model.face_count) +
          projected_area(model, sight) / kSquareOverDisc;
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/shannon.h"
 #include "mesh/curvature.h"
+#include "visibility/surface.h"
 
 namespace vantage {
 namespace {
@@ -23,9 +24,15 @@ void check(const MeasureSubject& subject, const MeasureNeeds& needs) {
   }
 }
 
-/// Areas of the faces, one by one and together. \throw InvalidInput
+/// Areas of the faces, one by one and together: what stands in one place counts once. \throw InvalidInput
 void take_areas(MeasuredModel& model) {
   model.face_areas = face_areas(*model.given.surface);
+  const std::vector<std::uint32_t> repeated =
+      repeated_faces(*model.given.surface, model.given.sides);
+  for (const std::uint32_t f : repeated) {
+    model.face_areas[f] = 0.0;
+  }
+  model.face_count = model.face_areas.size() - repeated.size();
   model.log_face_areas.reserve(model.face_areas.size());
   for (const double area : model.face_areas) {
     model.surface_area += area;

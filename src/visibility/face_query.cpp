@@ -20,9 +20,10 @@ constexpr double kCellsPerFace = 0.25;
 // Places in cells over faces: where faces are so long or so many in one place that more would be
 // needed, cells are larger.
 constexpr std::size_t kMostInCells = 16;
-// Steps of work for one eye, a second or less: a model of 86 000 faces takes about a twentieth. What
-// is not cut by then is judged by points. A step is to pass by an item of a cell. [ours]
-constexpr std::size_t kMostSteps = 60'000'000;
+// Steps of work for one eye, some seconds: a model of 86 000 faces takes about a two hundredth, ten
+// thousand long faces before each other about all. What is not cut by then is judged by points, which is
+// no faster and wrong where what is seen are strips narrower than the parts. A step is to pass by an item of a cell. [ours]
+constexpr std::size_t kMostSteps = 600'000'000;
 constexpr std::size_t kStepsPerShadow = 16;
 // Parts a side that such a face is divided into, each judged by its centroid. [ours]
 constexpr int kPartsASide = 4;
@@ -81,9 +82,11 @@ class FaceQuery {
     const double cells = kCellsPerFace * static_cast<double>(count);
     PictureCells& picture = memory_.picture;
     picture.begin(surface_.samples, local_, static_cast<std::size_t>(cells) + 1);
-    is_outside_ = picture.is_flat();
+    is_outside_ = picture.is_ahead();
     memory_.extents.resize(count);
-    while (set_extents() > kMostInCells * count && picture.coarsen()) {
+    find_contours();
+    while ((set_extents() > kMostInCells * count || count_contour_cells() > kMostInCells * count) &&
+           picture.coarsen()) {
     }
     memory_.hiding.fill(picture.cell_count(), memory_.extents, [&](const auto& each) {
       for (std::uint32_t f = 0; f < count; ++f) {
@@ -124,9 +127,7 @@ class FaceQuery {
     return one == 0 || other == 0 || (one == other) != (pair == EdgePair::Opposite);
   }
 
-  /// Lists the contours of which something may be in view. What hides all of one hides what lies behind
-  /// it.
-  void list_contours() {
+  void find_contours() {
     const std::vector<std::array<std::uint32_t, 2>>& all = scene_.edges.table.edges;
     memory_.on_contour = scene_.is_touched;
     memory_.edges.clear();
@@ -137,6 +138,21 @@ class FaceQuery {
         memory_.edges.push_back(e);
       }
     }
+  }
+
+  /// \return how many cells all contours touch: also those of faces seen edge on, which hide nothing.
+  [[nodiscard]] std::size_t count_contour_cells() const {
+    std::size_t sum = 0;
+    for (const std::uint32_t e : memory_.edges) {
+      const auto& edge = scene_.edges.table.edges[e];
+      sum += memory_.picture.count_cells(edge, memory_.picture.extent(edge));
+    }
+    return sum;
+  }
+
+  /// Lists the contours of which something may be in view. What hides all of one hides what lies behind
+  /// it.
+  void list_contours() {
     lay_out_contours();
     memory_.seen_edges.clear();
     for (std::uint32_t k = 0; k < memory_.edges.size(); ++k) {

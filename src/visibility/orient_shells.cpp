@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "vantage/mesh/measures.h"
 #include "vantage/mesh/mesh_check.h"
 #include "vantage/mesh/topology.h"
 #include "vantage/visibility/vertex_visibility.h"
@@ -98,7 +99,8 @@ DisjointSets join_faces(const std::vector<Triangle>& faces, const EdgeTable& edg
 
 Shells find_shells(const TriMesh& mesh, const WeldedMesh& welded, const RunContext& run) {
   Shells shells;
-  const UnitFrame frame = unit_frame(welded.mesh.positions);
+  const UnitFrame frame =
+      unit_frame(referenced_points(welded.mesh));  // a lone vertex may be anywhere
   for (const Vec3& p : welded.mesh.positions) {
     shells.positions.push_back(frame.to_frame(p));
   }
@@ -228,7 +230,7 @@ class Nesting {
     const auto& [a, b, c] = shells_.faces[members[pick]];
     const Vec3 start = (shells_.positions[a] + shells_.positions[b] + shells_.positions[c]) / 3.0;
     const Vec3 direction = odd_direction(turn);
-    std::vector<std::uint32_t> hit_shells;
+    bool is_inside = false;
     const bool doubtful = scene_->any(
         start, direction, std::numeric_limits<double>::infinity(), [&](std::uint32_t f) {
           const std::uint32_t other = shells_.shell_of[f];
@@ -239,15 +241,14 @@ class Nesting {
           const Crossing kind = crossing(start, direction, shells_.positions[i],
                                          shells_.positions[j], shells_.positions[k]);
           if (kind == Crossing::Clear) {
-            hit_shells.push_back(other);
+            is_inside = !is_inside;
           }
           return kind == Crossing::Doubtful;
         });
     if (doubtful) {
       return std::nullopt;
     }
-    // Each shell that is crossed an odd number of times holds the start.
-    return hit_shells.size() % 2 == 1;
+    return is_inside;
   }
 
   const Shells& shells_;

@@ -91,9 +91,9 @@ Triangle place_of(const LooseFace& face) {
   return corners;
 }
 
-/// The first of the faces that stand in one place: the others neither show nor hide anything more, and
+/// For each face 1 if an earlier one stands in its place: it neither shows nor hides anything more, and
 /// each would be held against all of them.
-std::vector<LooseFace> without_repeated(const std::vector<LooseFace>& faces) {
+std::vector<std::uint8_t> find_repeated(const std::vector<LooseFace>& faces) {
   std::vector<std::pair<Triangle, std::uint32_t>> places;
   places.reserve(faces.size());
   for (std::uint32_t f = 0; f < faces.size(); ++f) {
@@ -104,6 +104,11 @@ std::vector<LooseFace> without_repeated(const std::vector<LooseFace>& faces) {
   for (std::size_t i = 1; i < places.size(); ++i) {
     is_repeated[places[i].second] = places[i].first == places[i - 1].first ? 1 : 0;
   }
+  return is_repeated;
+}
+
+std::vector<LooseFace> without_repeated(const std::vector<LooseFace>& faces) {
+  const std::vector<std::uint8_t> is_repeated = find_repeated(faces);
   std::vector<LooseFace> first;
   first.reserve(faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -307,15 +312,39 @@ std::vector<std::uint32_t> morton_order(std::span<const Vec3> points) {
   return order;
 }
 
+namespace {
+
+std::vector<Vec3> in_frame(const UnitFrame& frame, const std::vector<Vec3>& points) {
+  std::vector<Vec3> framed;
+  framed.reserve(points.size());
+  for (const Vec3& p : points) {
+    framed.push_back(frame.to_frame(p));
+  }
+  return framed;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> repeated_faces(const TriMesh& mesh, std::span<const FaceSides> sides) {
+  const WeldedMesh welded = weld(mesh);
+  const UnitFrame frame = unit_frame(referenced_points(mesh));
+  const std::vector<LooseFace> faces =
+      faces_with_area(mesh, welded, in_frame(frame, welded.mesh.positions), sides);
+  const std::vector<std::uint8_t> is_repeated = find_repeated(faces);
+  std::vector<std::uint32_t> repeated;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (is_repeated[f] != 0) {
+      repeated.push_back(faces[f].of_mesh);
+    }
+  }
+  return repeated;
+}
+
 Surface visibility_surface(const TriMesh& mesh, std::span<const FaceSides> sides) {
   const WeldedMesh welded = weld(mesh);
   Surface surface;
   surface.frame = unit_frame(referenced_points(mesh));
-  std::vector<Vec3> positions;
-  positions.reserve(welded.mesh.positions.size());
-  for (const Vec3& p : welded.mesh.positions) {
-    positions.push_back(surface.frame.to_frame(p));
-  }
+  const std::vector<Vec3> positions = in_frame(surface.frame, welded.mesh.positions);
   const std::vector<LooseFace> faces =
       without_repeated(faces_with_area(mesh, welded, positions, sides));
   const std::vector<std::uint32_t> sample_of_welded = number_samples(positions, faces, surface);

@@ -74,6 +74,10 @@ Viewpoint eye_in_frame(const Viewpoint& eye, const UnitFrame& frame);
 /// \throw InvalidInput if there are neither.
 Surface visibility_surface(const TriMesh& mesh, std::span<const FaceSides> sides);
 
+/// The faces of the mesh that visibility_surface() leaves out because an earlier one stands in their
+/// place, ascending. \param sides as there. \throw InvalidInput as there
+std::vector<std::uint32_t> repeated_faces(const TriMesh& mesh, std::span<const FaceSides> sides);
+
 /// One value for each vertex of the mesh, that of its sample; 0 for vertices without a sample.
 /// \param of_sample at least one value a sample; more are not looked at.
 std::vector<std::uint8_t> vertices_of_samples(const Surface& surface,

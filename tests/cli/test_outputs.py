@@ -95,6 +95,15 @@ class Foreign(ProgramTest):
         self.assertTrue((self.dir / "link.csv").is_symlink())
         self.assertEqual((self.dir / "rows.csv").read_bytes(), (self.dir / "rows.jsonl").read_bytes())
 
+    def test_no_output_replaces_the_results_of_a_batch(self):
+        self.vantage("batch", "a.off", "-o", "r", "--search", "rapid", "--write", "json")
+        store = self.dir / "r/results.sqlite"
+        before = store.read_bytes()
+        for force in ([], ["--force"]):
+            done = self.vantage("results", "export", "r", "-o", "r/results.sqlite", *force, exit_code=1)
+            self.assertIn("holds the results of a batch", done.err)
+            self.assertEqual(store.read_bytes(), before)
+
     def test_a_folder_of_somebody_else_is_written_to_by_force_only(self):
         os.mkdir(self.dir / "theirs")
         self.assert_kept("theirs/view.json", '{"holiday": 1}', "view", "a.off", "-o", "theirs", "--no-images", *FAST)

@@ -5,10 +5,13 @@
 #include <cerrno>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <list>
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
+#include <unordered_set>
 #include <utility>
 
 #include "vantage/core/error.h"
@@ -138,7 +141,8 @@ class Runner {
     job.file = entry.path;
     job.entry = std::move(entry);
     job.before = book_.find(record.key);
-    if (is_settled(job)) {
+    const bool is_listed_twice = !listed_.insert(std::hash<std::string>{}(record.key)).second;
+    if (is_listed_twice || is_settled(job)) {
       ++counts_.skipped;
       counts_.skipped_failed += job.before && job.before->status == "failed" ? 1 : 0;
       counts_.doubted += job.before && is_doubted(*job.before) ? 1 : 0;
@@ -175,12 +179,8 @@ class Runner {
                   &job);
   }
 
-  /// Whether an earlier record still says how this model ends, or it is listed twice.
+  /// Whether an earlier record still says how this model ends.
   bool is_settled(const Job& job) {
-    const auto same_key = [&](const Job& other) { return other.record.key == job.record.key; };
-    if (std::any_of(jobs_.begin(), jobs_.end(), same_key)) {
-      return true;
-    }
     if (!job.before) {
       return false;
     }
@@ -456,9 +456,11 @@ class Runner {
   std::stop_token stop_;
   const Report& report_;
   const ConfinedFolder root_;
-  std::list<Job> jobs_{};                        // in the order of the input
-  std::deque<Job*> ready_{};                     // in that order, too
-  std::map<std::string, Job*> running_{};        // by content and options
+  std::list<Job> jobs_{};                  // in the order of the input
+  std::deque<Job*> ready_{};               // in that order, too
+  std::map<std::string, Job*> running_{};  // by content and options
+  std::unordered_set<std::size_t>
+      listed_{};  // hashes of the keys that came: of two equal ones the first counts
   std::map<std::string, std::string> claims_{};  // folder → key of the running model
   std::set<std::string> asked_{};                // options of all models so far
   std::size_t waiting_ = 0;

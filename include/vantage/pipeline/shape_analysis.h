@@ -27,13 +27,13 @@
 
 namespace vantage {
 
-/// Wall-clock seconds of each stage.
+/// Wall-clock seconds of each stage. Who fills in one adds to it: a stage may have several parts.
 struct StageSeconds {
   double load = 0.0;      ///< Reading the file, and repairs.
   double contract = 0.0;  ///< Contraction.
-  double skeleton = 0.0;  ///< Surgery, centring, pruning; and what views still wait for then.
+  double skeleton = 0.0;  ///< Surgery, centring, pruning.
   double map = 0.0;       ///< Distances and their sum.
-  double search = 0.0;    ///< Both views.
+  double search = 0.0;    ///< Both views, and what they wait for of a set of views.
   double render = 0.0;    ///< Pictures.
   double total = 0.0;     ///< Of everything.
 };

@@ -64,7 +64,7 @@ Image comparison_sheet(const ShapeAnalysis& shape, const Comparison& comparison,
 /// compare.json: without the seconds the same bytes for the same input.
 std::string comparison_json(const Model& model, const Comparison& comparison, UpAxis up,
                             const ViewOptions& options, bool with_seconds = false);
-/// compare.csv: method,best,dx,dy,dz,score,worst_dx,worst_dy,worst_dz,worst_score,evaluations.
+/// compare.csv: method,better,dx,dy,dz,score,worst_dx,worst_dy,worst_dz,worst_score,evaluations.
 std::string comparison_csv(const Comparison& comparison);
 /// agreement.csv: one row a pair of methods.
 std::string agreement_csv(const Comparison& comparison);

@@ -104,7 +104,7 @@ class EvaluationJournal {
 
 /// Evaluates records side by side, the largest first; rows are in the order of the records whatever the
 /// number of threads. Reads the models. Last of a model's rows of views is the best constant camera,
-/// fitted on the other models. \param done told how many of the records the journal had.
+/// fitted on the other models. \param known told how many of the records the journal had.
 /// \throw IoError, FormatError, InvalidInput, Cancelled
 std::vector<EvaluatedModel> evaluate_records(const std::vector<RecordedModel>& records,
                                              const ViewOptions& options,

@@ -179,8 +179,10 @@ struct MeasuredModel {
   std::vector<FacePlane> planes{};        ///< Of each face, if the skeleton is looked at.
   std::vector<double> areas_at_vertex{};  ///< Of the faces at each vertex, with the planes.
   double surface_area = 0.0;              ///< [A_t]
-  std::vector<double> saliency{};         ///< Mesh saliency of each vertex.
-  std::vector<double> angle_deficits{};   ///< Of each vertex, radians.
+  /// Of those that stand in one place only the first counts, and the others have no area.
+  std::size_t face_count = 0;
+  std::vector<double> saliency{};                      ///< Mesh saliency of each vertex.
+  std::vector<double> angle_deficits{};                ///< Of each vertex, radians.
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();    ///< Second moment of the surface over A_t.
   DirectionSet set{};                                  ///< The views that channel terms are of.
   ChannelTerms terms{};                                ///< Of that set.

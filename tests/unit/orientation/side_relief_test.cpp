@@ -26,6 +26,17 @@ TEST(SideRelief, OfABoxTouchesEverywhereAndShowsNoDepth) {
   EXPECT_NEAR(side_relief(fields, 2, false).margin, 0.5 / std::sqrt(2.0), 1e-9);
 }
 
+TEST(SideRelief, OfASheetThatIsThinnerThanFloatsTellIsThatOfAFlatOne) {
+  TriMesh sheet;
+  sheet.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1e-46}};
+  sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const HeightFields fields(sheet);
+  for (const bool from_high : {true, false}) {
+    EXPECT_EQ(side_relief(fields, 2, from_high).touch, 1.0);
+    EXPECT_EQ(side_relief(fields, 2, from_high).depth, 0.0);
+  }
+}
+
 TEST(SideRelief, OfATableFromBelowHasFourFeetAroundItsWholeOutline) {
   const HeightFields fields(table());
   const SideRelief base = side_relief(fields, 2, false);

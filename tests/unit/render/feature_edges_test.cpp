@@ -73,5 +73,16 @@ TEST(FeatureEdges, LongOnesAreSplitIntoEqualPieces) {
   }
 }
 
+TEST(FeatureEdges, AreSplitIntoABoundedNumberOfPieces) {
+  TriMesh boxes;
+  for (int i = 0; i < 50; ++i) {
+    boxes = test::together(boxes, test::box(1, 1, 1, 1), Vec3(2.0 * i, 0, 0));
+  }
+  // As from an eye in their middle, where a pixel has no size.
+  const CurveGraph edges = feature_edges(boxes, kCreaseRad, 0.0, 1e-300);
+  EXPECT_LE(edges.edges.size(), kMostFeatureEdges + 50U * 12U);
+  EXPECT_NEAR(total_length(edges) / (50.0 * 12.0), 1.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

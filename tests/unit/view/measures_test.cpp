@@ -83,6 +83,18 @@ TEST(Measures, OfACubeSeenStraightAreThoseOfOneSide) {
   EXPECT_NEAR(cube.value("plemenos", x), 2.0 / 12.0 + 1.0 / 3.0, 1e-6);
 }
 
+TEST(Measures, CountFacesThatStandInOnePlaceOnce) {
+  const TriMesh once = test::box(1.0, 2.0, 3.0, 2);
+  TriMesh twice = once;
+  twice.triangles.insert(twice.triangles.end(), once.triangles.begin(), once.triangles.end());
+  for (const char* const name : {"visibility-ratio", "kullback-leibler", "plemenos",
+                                 "viewpoint-entropy", "principal-axis"}) {
+    EXPECT_DOUBLE_EQ(Subject(twice).value(name, Vec3(1, 2, 3)),
+                     Subject(once).value(name, Vec3(1, 2, 3)))
+        << name;
+  }
+}
+
 TEST(Measures, TakeTheBackgroundAsAFaceInTheEntropyOf2001) {
   const Subject cube(test::box(1, 1, 1, 1));
   // The picture is the square around the disc, 3 square units: two halves of 1/6, background 2/3.

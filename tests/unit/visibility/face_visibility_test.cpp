@@ -182,10 +182,10 @@ TEST(FaceVisibility, SeesWhatASpikeHidesOverASide) {
 TEST(FaceVisibility, JudgesByPointsWhereThousandsOfFacesLieBeforeOthers) {
   // A staircase of triangles, each a little smaller than the one below.
   TriMesh stairs;
-  constexpr std::uint32_t kCount = 4000;
+  constexpr std::uint32_t kCount = 8000;
   for (std::uint32_t f = 0; f < kCount; ++f) {
-    const double size = f == 0 ? 2.0 : 1.0 - 1e-4 * f;
-    const double height = 1e-4 * f;
+    const double size = f == 0 ? 2.0 : 1.0 - 5e-5 * f;
+    const double height = 5e-5 * f;
     for (const Vec3& p :
          {Vec3(0.0, 0.0, height), Vec3(size, 0.0, height), Vec3(0.0, size, height)}) {
       stairs.positions.push_back(p);
@@ -313,6 +313,42 @@ TEST(FaceVisibility, SeesTheFaceThatAnEdgeIsSeenOfOnlyBetweenWhereItPassesThroug
     seen += face.face >= slab_faces ? 1 : 0;
   }
   EXPECT_EQ(seen, 4U);
+}
+
+/// Upright sheets side by side across a diagonal of the unit square.
+TriMesh grille(std::uint32_t sheets) {
+  TriMesh mesh;
+  for (std::uint32_t i = 0; i < sheets; ++i) {
+    const double x = (i + 0.5) / sheets;
+    const std::uint32_t first = 4 * i;
+    mesh.positions.insert(mesh.positions.end(), {Vec3(x, 0.0, 0.0), Vec3(x + 1.0, 1.0, 0.0),
+                                                 Vec3(x + 1.0, 1.0, 0.1), Vec3(x, 0.0, 0.1)});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+  }
+  return mesh;
+}
+
+TEST(FaceVisibility, SeesAsMuchOfAGrilleOfThinStripsHoweverManySheetsItHas) {
+  const Viewpoint eye{Projection::Orthographic, Vec3(0.1, 0.0, 1.0)};
+  const double few = projected_area(FaceVisibility(grille(200), {FaceSides::Both}).seen_faces(eye));
+  const double many =
+      projected_area(FaceVisibility(grille(1500), {FaceSides::Both}).seen_faces(eye));
+  EXPECT_NEAR(many, few, 0.01 * few);
+}
+
+TEST(FaceVisibility, ListsSheetsSeenEdgeOnWhereTheyAreAndNowhereElse) {
+  // In boxes around them these would be a thousand million places, more than 32 bits count.
+  const FaceVisibility sheets(grille(30'000), {FaceSides::Both});
+  EXPECT_TRUE(sheets.seen_faces(kEyeAbove).empty());
+}
+
+TEST(FaceVisibility, OfAFaceThatTheEyeStandsOnIsNotBlocked) {
+  TriMesh room = test::inside_out(test::box(1.0, 1.0, 1.0, 1));
+  const FaceVisibility walls(room, {FaceSides::Both});
+  for (const Vec3& eye : {Vec3(0.3, 0.4, 0.0), Vec3(1.0, 0.7, 0.2), Vec3(0.1, 1.0, 0.9)}) {
+    EXPECT_NEAR(visible_area(walls.seen_faces({Projection::Perspective, eye})), 5.0, 1e-9);
+  }
 }
 
 TEST(FaceVisibility, AnswersForVerticesAsVertexVisibilityDoes) {

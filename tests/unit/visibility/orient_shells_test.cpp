@@ -35,6 +35,12 @@ TEST(OrientShells, TurnsAShellThatIsInsideOut) {
   EXPECT_GT(signed_volume(oriented.mesh), 0.0);
 }
 
+TEST(OrientShells, TurnsItWhereverAVertexLiesThatNoFaceNames) {
+  TriMesh mesh = test::inside_out(test::torus(1.0, 0.3, 20, 10));
+  mesh.positions.emplace_back(1e17, 0.0, 0.0);
+  EXPECT_EQ(orient_shells(mesh).turned_shells, 1U);
+}
+
 TEST(OrientShells, KeepsACavity) {
   const TriMesh hollow = test::together(ball(1.0), test::inside_out(ball(0.5)), Vec3::Zero());
   EXPECT_EQ(orient_shells(hollow).turned_shells, 0U);
