@@ -213,6 +213,12 @@ Camera frame_perspective(std::span<const Vec3> points, const Vec3& eye, const Ve
   const double tangent = std::max(std::max(bounds.high_x, -bounds.low_x) / room.x,
                                   std::max(bounds.high_y, -bounds.low_y) / room.y);
   if (tangent > kMaxTangent) {
+    if (std::max({bounds.high_x, -bounds.low_x, bounds.high_y, -bounds.low_y}) < kMaxTangent) {
+      throw InvalidInput(
+          "the picture is so narrow that it would need a field of view beyond 170°; take a wider "
+          "one, or "
+          "an orthographic camera");
+    }
     throw_too_near();
   }
   const double depth = (centre - eye).dot(axes.forward);

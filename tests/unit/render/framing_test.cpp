@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -124,6 +125,21 @@ TEST(FramePoints, RefusesAnEyeInsideThePoints) {
   EXPECT_THROW(
       frame_points(mesh.positions, eye_at(Vec3(0.1, 0, 0)), Vec3::Zero(), Vec3::UnitY(), 1.0),
       InvalidInput);
+}
+
+TEST(FramePoints, TellsNarrowPicturesFromNearEyes) {
+  const TriMesh ball = test::sphere(2);
+  const auto reason = [&](const Vec3& eye, double aspect) -> std::string {
+    try {
+      frame_points(ball.positions, eye_at(eye), Vec3::Zero(), Vec3::UnitY(), aspect);
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(reason(Vec3(0, 0, 3), 1e-3).find("narrow"), std::string::npos);
+  EXPECT_NE(reason(Vec3(0, 0, 0.5), 1.0).find("too near"), std::string::npos);
+  EXPECT_EQ(reason(Vec3(0, 0, 3), 0.1), "");
 }
 
 TEST(FramePoints, RefusesAPointAtTheEye) {
