@@ -160,7 +160,8 @@ std::optional<Alternative> contract_finer_copy(const TriMesh& scaled,
     level.resize(scaled.positions.size());
   }
   const std::string size = std::to_string(finer.positions.size());
-  copy.summary.strategy = "refined " + size;
+  const std::string& former = before.summary.strategy;
+  copy.summary.strategy = (former == "direct" ? "" : former + ", ") + "refined " + size;
   return Alternative{std::move(copy),
                      "so a finer copy of the surface was contracted, of " + size + " vertices"};
 }
@@ -193,42 +194,49 @@ constexpr std::array<Fallback, 3> kFallbacks{{{is_unsound, contract_even_copy},
                                               {is_stuck, contract_carefully},
                                               {is_stuck_and_small, contract_finer_copy}}};
 
-}  // namespace
-
-ComponentHistory contract_surface(const TriMesh& scaled, const std::optional<Proxy>& proxy,
-                                  const ContractionOptions& options, const RunContext& run) {
-  if (proxy) {
-    ComponentHistory history = contract_by(proxy->mesh, options, run);
-    history.summary.vertices = scaled.positions.size();
-    history.summary.strategy = "proxy " + std::to_string(proxy->mesh.positions.size()) +
-                               (history.thinned.empty() ? "" : kThinned);
-    return history;
-  }
-  ComponentHistory history;
-  if (options.method == ContractionMethod::Exact) {
-    history = contract_exactly(scaled, options, run.part(0.0, 0.7));
-  } else {
-    history = contract_by(scaled, without_thinning(options), run.part(0.0, 0.7));
-    history.summary.strategy = "direct";
-  }
-  double done = 0.7;
-  for (const Fallback& fallback : kFallbacks) {
-    const RunContext part = run.part(done, done + 0.1);
-    done += 0.1;
-    if (!fallback.is_called_for(history, scaled, options)) {
+/// Contracts again, in the ways above, what did not become a curve or was not sound.
+void mend(ComponentHistory& history, const TriMesh& scaled, const ContractionOptions& options,
+          const RunContext& run) {
+  for (std::size_t k = 0; k < kFallbacks.size(); ++k) {
+    if (!kFallbacks[k].is_called_for(history, scaled, options)) {
       continue;
     }
+    const double share = 1.0 / static_cast<double>(kFallbacks.size());
+    const RunContext part =
+        run.part(static_cast<double>(k) * share, static_cast<double>(k + 1) * share);
     if (std::optional<Alternative> alternative =
-            fallback.contract(scaled, history, options, part)) {
+            kFallbacks[k].contract(scaled, history, options, part)) {
       std::vector<std::string> remedies = std::move(history.summary.remedies);
       remedies.push_back(std::move(alternative->remedy));
       history = std::move(alternative->history);
       history.thinned.clear();
-      history.summary.vertices = scaled.positions.size();
       std::vector<std::string>& own = history.summary.remedies;
       own.insert(own.begin(), remedies.begin(), remedies.end());
     }
   }
+}
+
+}  // namespace
+
+ComponentHistory contract_surface(const TriMesh& scaled, const std::optional<Proxy>& proxy,
+                                  const ContractionOptions& options, const RunContext& run) {
+  ComponentHistory history;
+  if (proxy) {
+    history = contract_by(proxy->mesh, options, run.part(0.0, 0.7));
+    history.summary.strategy = "proxy " + std::to_string(proxy->mesh.positions.size());
+    if (history.is_stuck) {
+      mend(history, proxy->mesh, options, run.part(0.7, 1.0));
+    }
+  } else {
+    if (options.method == ContractionMethod::Exact) {
+      history = contract_exactly(scaled, options, run.part(0.0, 0.7));
+    } else {
+      history = contract_by(scaled, without_thinning(options), run.part(0.0, 0.7));
+      history.summary.strategy = "direct";
+    }
+    mend(history, scaled, options, run.part(0.7, 1.0));
+  }
+  history.summary.vertices = scaled.positions.size();
   history.summary.strategy += history.thinned.empty() ? "" : kThinned;
   return history;
 }

@@ -86,6 +86,7 @@ TriMesh without_doubles(TriMesh mesh) {
   }
   std::sort(kept.begin(), kept.end());
   std::vector<Triangle> triangles;
+  triangles.reserve(kept.size());
   for (const std::uint32_t f : kept) {
     triangles.push_back(mesh.triangles[f]);
   }

@@ -118,7 +118,9 @@ TubeHit Tubes::meet(const Capsule& capsule, const PictureRay& ray) {
 }
 
 std::span<const std::uint32_t> Tubes::near(int x, int y) const {
-  return capsules_of_tile_[static_cast<std::size_t>((y / kTilePx) * tiles_across_ + x / kTilePx)];
+  const auto row = static_cast<std::size_t>(y / kTilePx);
+  const auto column = static_cast<std::size_t>(x / kTilePx);
+  return capsules_of_tile_[row * static_cast<std::size_t>(tiles_across_) + column];
 }
 
 TubeHit Tubes::closest_hit(const PictureRay& ray, int x, int y) const {
