@@ -216,8 +216,8 @@ Camera frame_perspective(std::span<const Vec3> points, const Vec3& eye, const Ve
     if (std::max({bounds.high_x, -bounds.low_x, bounds.high_y, -bounds.low_y}) < kMaxTangent) {
       throw InvalidInput(
           "the picture is so narrow that it would need a field of view beyond 170°; take a wider "
-          "one, or "
-          "an orthographic camera");
+          "one, "
+          "or an orthographic camera");
     }
     throw_too_near();
   }

@@ -21,8 +21,9 @@ constexpr double kCellsPerFace = 0.25;
 // needed, cells are larger.
 constexpr std::size_t kMostInCells = 16;
 // Steps of work for one eye, some seconds: a model of 86 000 faces takes about a two hundredth, ten
-// thousand long faces before each other about all. What is not cut by then is judged by points, which is
-// no faster and wrong where what is seen are strips narrower than the parts. A step is to pass by an item of a cell. [ours]
+// thousand long faces before each other about all. What is not cut by then is judged by points, which
+// is no faster, and wrong where strips are seen that are narrower than the parts. A step is to pass by an
+// item of a cell. [ours]
 constexpr std::size_t kMostSteps = 600'000'000;
 constexpr std::size_t kStepsPerShadow = 16;
 // Parts a side that such a face is divided into, each judged by its centroid. [ours]
@@ -127,6 +128,7 @@ class FaceQuery {
     return one == 0 || other == 0 || (one == other) != (pair == EdgePair::Opposite);
   }
 
+  /// Lists the contours, and what lies on them.
   void find_contours() {
     const std::vector<std::array<std::uint32_t, 2>>& all = scene_.edges.table.edges;
     memory_.on_contour = scene_.is_touched;

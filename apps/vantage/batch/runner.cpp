@@ -456,11 +456,10 @@ class Runner {
   std::stop_token stop_;
   const Report& report_;
   const ConfinedFolder root_;
-  std::list<Job> jobs_{};                  // in the order of the input
-  std::deque<Job*> ready_{};               // in that order, too
-  std::map<std::string, Job*> running_{};  // by content and options
-  std::unordered_set<std::size_t>
-      listed_{};  // hashes of the keys that came: of two equal ones the first counts
+  std::list<Job> jobs_{};                        // in the order of the input
+  std::deque<Job*> ready_{};                     // in that order, too
+  std::map<std::string, Job*> running_{};        // by content and options
+  std::unordered_set<std::size_t> listed_{};     // hashes of keys: of equal ones the first counts
   std::map<std::string, std::string> claims_{};  // folder → key of the running model
   std::set<std::string> asked_{};                // options of all models so far
   std::size_t waiting_ = 0;
