@@ -123,7 +123,8 @@ void require_distinct(const std::vector<NamedOutput>& outputs) {
 }
 
 void check_output(const std::string& path, OutputKind kind, const CommonFlags& flags) {
-  if (fs::path(path).filename() == batch::ResultsStore::kFileName &&
+  std::error_code error;  // a link counts as what it leads to
+  if (fs::weakly_canonical(path, error).filename() == batch::ResultsStore::kFileName &&
       head_of(path).value_or("").starts_with("SQLite format 3")) {
     throw IoError(path, "holds the results of a batch; choose another name");
   }

@@ -29,6 +29,13 @@ struct UnitFrame {
   double scale = 1.0;          ///< Power of two; > 0.
 
   [[nodiscard]] Vec3 to_frame(const Vec3& p) const { return (p - centre) * scale; }
+
+  [[nodiscard]] std::vector<Vec3> to_frame(std::vector<Vec3> points) const {
+    for (Vec3& p : points) {
+      p = to_frame(p);
+    }
+    return points;
+  }
 };
 
 /// The frame of the points' bounding box; the identity for no points or a single one.

@@ -41,11 +41,7 @@ constexpr std::array kFirstLooks{0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875};
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 TriMesh in_frame(const TriMesh& mesh, const UnitFrame& frame) {
-  TriMesh moved = mesh;
-  for (Vec3& p : moved.positions) {
-    p = frame.to_frame(p);
-  }
-  return moved;
+  return {frame.to_frame(mesh.positions), mesh.triangles};
 }
 
 std::vector<Vec3> vertex_normals(const TriMesh& mesh) {

@@ -86,7 +86,7 @@ class FaceQuery {
     is_outside_ = picture.is_ahead();
     memory_.extents.resize(count);
     find_contours();
-    while ((set_extents() > kMostInCells * count || count_contour_cells() > kMostInCells * count) &&
+    while (std::max(set_extents(), set_contour_extents()) > kMostInCells * count &&
            picture.coarsen()) {
     }
     memory_.hiding.fill(picture.cell_count(), memory_.extents, [&](const auto& each) {
@@ -143,11 +143,13 @@ class FaceQuery {
   }
 
   /// \return how many cells all contours touch: also those of faces seen edge on, which hide nothing.
-  [[nodiscard]] std::size_t count_contour_cells() const {
+  std::size_t set_contour_extents() {
     std::size_t sum = 0;
+    memory_.edge_extents.clear();
     for (const std::uint32_t e : memory_.edges) {
       const auto& edge = scene_.edges.table.edges[e];
-      sum += memory_.picture.count_cells(edge, memory_.picture.extent(edge));
+      memory_.edge_extents.push_back(memory_.picture.extent(edge));
+      sum += memory_.picture.count_cells(edge, memory_.edge_extents.back());
     }
     return sum;
   }
@@ -164,16 +166,13 @@ class FaceQuery {
     }
     if (memory_.seen_edges.size() < memory_.edges.size()) {
       std::swap(memory_.edges, memory_.seen_edges);
+      set_contour_extents();
       lay_out_contours();
     }
   }
 
   void lay_out_contours() {
     const auto& all = scene_.edges.table.edges;
-    memory_.edge_extents.clear();
-    for (const std::uint32_t e : memory_.edges) {
-      memory_.edge_extents.push_back(memory_.picture.extent(all[e]));
-    }
     memory_.contours.fill(
         memory_.picture.cell_count(), memory_.edge_extents, [&](const auto& each) {
           for (std::uint32_t k = 0; k < memory_.edges.size(); ++k) {

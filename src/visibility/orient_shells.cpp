@@ -101,9 +101,7 @@ Shells find_shells(const TriMesh& mesh, const WeldedMesh& welded, const RunConte
   Shells shells;
   const UnitFrame frame =
       unit_frame(referenced_points(welded.mesh));  // a lone vertex may be anywhere
-  for (const Vec3& p : welded.mesh.positions) {
-    shells.positions.push_back(frame.to_frame(p));
-  }
+  shells.positions = frame.to_frame(welded.mesh.positions);
   for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
     Triangle t = mesh.triangles[f];
     for (std::uint32_t& v : t) {

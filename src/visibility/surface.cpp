@@ -312,24 +312,11 @@ std::vector<std::uint32_t> morton_order(std::span<const Vec3> points) {
   return order;
 }
 
-namespace {
-
-std::vector<Vec3> in_frame(const UnitFrame& frame, const std::vector<Vec3>& points) {
-  std::vector<Vec3> framed;
-  framed.reserve(points.size());
-  for (const Vec3& p : points) {
-    framed.push_back(frame.to_frame(p));
-  }
-  return framed;
-}
-
-}  // namespace
-
 std::vector<std::uint32_t> repeated_faces(const TriMesh& mesh, std::span<const FaceSides> sides) {
   const WeldedMesh welded = weld(mesh);
   const UnitFrame frame = unit_frame(referenced_points(mesh));
   const std::vector<LooseFace> faces =
-      faces_with_area(mesh, welded, in_frame(frame, welded.mesh.positions), sides);
+      faces_with_area(mesh, welded, frame.to_frame(welded.mesh.positions), sides);
   const std::vector<std::uint8_t> is_repeated = find_repeated(faces);
   std::vector<std::uint32_t> repeated;
   for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -344,7 +331,7 @@ Surface visibility_surface(const TriMesh& mesh, std::span<const FaceSides> sides
   const WeldedMesh welded = weld(mesh);
   Surface surface;
   surface.frame = unit_frame(referenced_points(mesh));
-  const std::vector<Vec3> positions = in_frame(surface.frame, welded.mesh.positions);
+  const std::vector<Vec3> positions = surface.frame.to_frame(welded.mesh.positions);
   const std::vector<LooseFace> faces =
       without_repeated(faces_with_area(mesh, welded, positions, sides));
   const std::vector<std::uint32_t> sample_of_welded = number_samples(positions, faces, surface);

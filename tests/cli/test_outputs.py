@@ -99,10 +99,12 @@ class Foreign(ProgramTest):
         self.vantage("batch", "a.off", "-o", "r", "--search", "rapid", "--write", "json")
         store = self.dir / "r/results.sqlite"
         before = store.read_bytes()
-        for force in ([], ["--force"]):
-            done = self.vantage("results", "export", "r", "-o", "r/results.sqlite", *force, exit_code=1)
-            self.assertIn("holds the results of a batch", done.err)
-            self.assertEqual(store.read_bytes(), before)
+        os.symlink("r/results.sqlite", self.dir / "link.csv")
+        for name in ("r/results.sqlite", "link.csv"):
+            for force in ([], ["--force"]):
+                done = self.vantage("results", "export", "r", "-o", name, *force, exit_code=1)
+                self.assertIn("holds the results of a batch", done.err)
+                self.assertEqual(store.read_bytes(), before)
 
     def test_a_folder_of_somebody_else_is_written_to_by_force_only(self):
         os.mkdir(self.dir / "theirs")
