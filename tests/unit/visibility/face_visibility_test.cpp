@@ -333,7 +333,7 @@ TEST(FaceVisibility, SeesAsMuchOfAGrilleOfThinStripsHoweverManySheetsItHas) {
   const Viewpoint eye{Projection::Orthographic, Vec3(0.1, 0.0, 1.0)};
   const double few = projected_area(FaceVisibility(grille(200), {FaceSides::Both}).seen_faces(eye));
   const double many =
-      projected_area(FaceVisibility(grille(1500), {FaceSides::Both}).seen_faces(eye));
+      projected_area(FaceVisibility(grille(2500), {FaceSides::Both}).seen_faces(eye));
   EXPECT_NEAR(many, few, 0.01 * few);
 }
 
@@ -344,10 +344,15 @@ TEST(FaceVisibility, ListsSheetsSeenEdgeOnWhereTheyAreAndNowhereElse) {
 }
 
 TEST(FaceVisibility, OfAFaceThatTheEyeStandsOnIsNotBlocked) {
-  TriMesh room = test::inside_out(test::box(1.0, 1.0, 1.0, 1));
+  const TriMesh room =
+      test::moved(test::box(1.0, 1.0, 1.0, 1), 1.0, 0.7, Vec3(1, 2, 3).normalized(), Vec3::Zero());
   const FaceVisibility walls(room, {FaceSides::Both});
-  for (const Vec3& eye : {Vec3(0.3, 0.4, 0.0), Vec3(1.0, 0.7, 0.2), Vec3(0.1, 1.0, 0.9)}) {
-    EXPECT_NEAR(visible_area(walls.seen_faces({Projection::Perspective, eye})), 5.0, 1e-9);
+  for (const Triangle& wall : room.triangles) {
+    Vec3 eye = Vec3::Zero();
+    for (const std::uint32_t v : wall) {
+      eye += room.positions[v] / 3.0;
+    }
+    EXPECT_GE(visible_area(walls.seen_faces({Projection::Perspective, eye})), 5.0 - 1e-9);
   }
 }
 
