@@ -2,6 +2,7 @@
 #include "pipeline/prepare_points.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -38,11 +39,46 @@ std::vector<Triangle> join(const std::vector<Vec3>& points,
   return triangles;
 }
 
+/// Numbers the points outward from their mean, so that the order in the file decides nothing.
+void number_outward(WeldedMesh& cloud) {
+  std::vector<Vec3>& points = cloud.mesh.positions;
+  const auto is_less = [](const Vec3& a, const Vec3& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  };
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return is_less(points[a], points[b]); });
+  Vec3 mean = Vec3::Zero();
+  for (const std::uint32_t i : order) {  // rounded the same in any order of the file
+    mean += points[i] / static_cast<double>(points.size());
+  }
+  std::vector<double> distance;
+  distance.reserve(points.size());
+  for (const Vec3& p : points) {
+    distance.push_back((p - mean).norm());
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return distance[a] < distance[b]; });
+  std::vector<Vec3> ordered;
+  ordered.reserve(points.size());
+  std::vector<std::uint32_t> number(points.size());
+  for (const std::uint32_t i : order) {
+    number[i] = static_cast<std::uint32_t>(ordered.size());
+    ordered.push_back(points[i]);
+  }
+  points = std::move(ordered);
+  for (std::uint32_t& i : cloud.welded_of_vertex) {
+    i = number[i];
+  }
+}
+
 }  // namespace
 
 ShapeAnalysis prepare_points(const Model& model, const RunContext& run) {
   WeldedMesh welded = weld(model.mesh, run);
   check_extent(welded.mesh.positions, model.name);
+  number_outward(welded);
   ShapeAnalysis shape;
   shape.cloud.emplace();
   std::vector<std::uint8_t>& outlier = shape.cloud->outlier;

@@ -226,6 +226,24 @@ TEST(FindViews, SaysWhereTheBestViewIsFromBehind) {
   }
 }
 
+TEST(FindViews, ShowsALyingSignFromTheFrontThatWasGiven) {
+  TriMesh sign = box(40.0, 20.0, 2.0, 2);  // the letters L and F on it, read from -y
+  sign = together(sign, box(3.0, 14.0, 2.0, 1), Vec3(5.0, 3.0, 2.0));
+  sign = together(sign, box(7.0, 3.0, 2.0, 1), Vec3(8.0, 3.0, 2.0));
+  sign = together(sign, box(3.0, 14.0, 2.0, 1), Vec3(20.0, 3.0, 2.0));
+  sign = together(sign, box(9.0, 3.0, 2.0, 1), Vec3(23.0, 14.0, 2.0));
+  sign = together(sign, box(6.0, 3.0, 2.0, 1), Vec3(23.0, 8.5, 2.0));
+  const Model model = model_of(sign);
+  ViewOptions options;
+  options.up = UpAxis::Z;
+  const ShapeAnalysis shape = analyse_shape(model, options);
+  for (const auto& [front, side] : {std::pair(UpAxis::Y, 1.0), std::pair(UpAxis::MinusY, -1.0)}) {
+    options.front = front;
+    const ViewReport report = find_views(shape, choose_frame(model, shape, options), options);
+    EXPECT_GT(side * report.best.direction.y(), 0.2);
+  }
+}
+
 TEST(FindViews, OfAMapThatIsZeroGivesTheFirstDirectionAndAWarning) {
   const ViewOptions options = quick_search();
   const ViewReport report = find_views(without_significance(analysed_box()), UpAxis::Y, options);

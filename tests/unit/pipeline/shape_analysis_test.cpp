@@ -61,6 +61,22 @@ TEST(PrepareSurface, JoinsPointsWithoutFacesByTheirNeighbourhoods) {
   EXPECT_FALSE(shape.surface.triangles.empty());
 }
 
+TEST(AnalyseShape, IsTheSameForPointsInAnyOrder) {
+  TriMesh cloud = y_of_tubes(0.2, 24);
+  cloud.triangles.clear();
+  cloud.positions.push_back(cloud.positions.front());  // is welded
+  const ShapeAnalysis shape = analyse_shape(model_of(cloud), {});
+  std::vector<std::uint32_t> old_of_new;
+  const ShapeAnalysis other = analyse_shape(model_of(renumbered(cloud, 7, &old_of_new)), {});
+  const std::vector<double> values = on_input_vertices(shape, shape.significance);
+  const std::vector<double> other_values = on_input_vertices(other, other.significance);
+  ASSERT_EQ(values.size(), old_of_new.size());
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    EXPECT_EQ(other_values[v], values[old_of_new[v]]) << v;
+  }
+  EXPECT_EQ(other.skeleton.graph.nodes, shape.skeleton.graph.nodes);
+}
+
 TEST(PrepareSurface, RefusesPointsOnALine) {
   TriMesh points;
   for (int i = 0; i < 20; ++i) {
