@@ -42,7 +42,8 @@ struct RenderCommand {
     CLI::Option_group* from = app.add_option_group("From", "where to look from: one of");
     from->add_option("--direction", direction_text, "x,y,z: from the model's centre to the eye");
     from->add_option("--camera", camera_file,
-                     "a camera: glTF, transforms.json, or view.json (its best view)");
+                     "a camera: glTF, transforms.json, or view.json (its best view); the picture is "
+                     "of its aspect, unless --size says another");
     from->add_option("--view", view, "best or worst: search for it")
         ->check(CLI::IsMember({"best", "worst"}));
     from->require_option(1);
@@ -76,6 +77,7 @@ struct RenderCommand {
     }
     std::optional<PictureFrame> frame;
     if (!camera_file.empty()) {
+      options.fit_size |= !method.has("size");
       frame = session.read([&] { return given_camera(options); });
     }
     const Model loaded = load_posed(session, model, options, &look);

@@ -15,8 +15,8 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// Annotations of more bits than this in total are not kept: half a gigabyte.
 constexpr std::size_t kMostBits = std::size_t{1} << 32U;
 
-bool bit(const Bits& bits, std::size_t i) {
-  return ((bits[i / 64] >> (i % 64)) & 1U) != 0;
+bool bit(const std::uint64_t* words, std::size_t i) {
+  return ((words[i / 64] >> (i % 64)) & 1U) != 0;
 }
 
 void flip(std::uint64_t* words, std::size_t i) {
@@ -166,7 +166,7 @@ std::vector<Bits> inverse(std::vector<Bits> A, std::vector<std::size_t>& singula
   }
   for (std::size_t column = 0; column < n; ++column) {
     std::size_t pivot = column;
-    while (pivot < n && !bit(A[pivot], column)) {
+    while (pivot < n && !bit(A[pivot].data(), column)) {
       ++pivot;
     }
     if (pivot == n) {
@@ -176,7 +176,7 @@ std::vector<Bits> inverse(std::vector<Bits> A, std::vector<std::size_t>& singula
     std::swap(A[pivot], A[column]);
     std::swap(I[pivot], I[column]);
     for (std::size_t row = 0; row < n; ++row) {
-      if (row != column && bit(A[row], column)) {
+      if (row != column && bit(A[row].data(), column)) {
         add(A[row], A[column]);
         add(I[row], I[column]);
       }
@@ -250,14 +250,6 @@ HandleGuard::HandleGuard(const TriMesh& mesh, const EdgeTable& table) {
   words_ = words;
 }
 
-void HandleGuard::reduce(Bits& loop) const {
-  for (std::size_t k = 0; k < dead_.size(); ++k) {
-    if (bit(loop, leads_[k])) {
-      add(loop, dead_[k]);
-    }
-  }
-}
-
 Bits HandleGuard::crossed_by(const Bits& loop) const {
   Bits crossed(words_, 0);
   for (std::size_t i = 0; i < crossings_.size(); ++i) {
@@ -268,35 +260,29 @@ Bits HandleGuard::crossed_by(const Bits& loop) const {
   return crossed;
 }
 
-bool HandleGuard::may_kill(const std::vector<Bits>& loops) const {
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    const auto crosses = [&](const Bits& crossed) { return is_odd_in_common(loops[i], crossed); };
-    if (std::any_of(crossed_by_dead_.begin(), crossed_by_dead_.end(), crosses)) {
-      return false;
-    }
-    for (std::size_t j = 0; j < i; ++j) {
-      if (crosses(crossed_by(loops[j]))) {
-        return false;
-      }
-    }
-  }
-  return true;
+bool HandleGuard::may_kill(const Bits& loop, const std::vector<Bits>& crossed_by_others) const {
+  const auto crosses = [&](const Bits& crossed) { return is_odd_in_common(loop, crossed); };
+  return std::none_of(crossed_by_dead_.begin(), crossed_by_dead_.end(), crosses) &&
+         std::none_of(crossed_by_others.begin(), crossed_by_others.end(), crosses);
 }
 
-void HandleGuard::kill(Bits loop) {
-  reduce(loop);
-  if (std::all_of(loop.begin(), loop.end(), [](std::uint64_t word) { return word == 0; })) {
+void HandleGuard::kill(const Bits& loop, std::vector<std::uint64_t>& annotations) {
+  if (is_zero(loop)) {
     return;
   }
   const std::size_t lead = leading_bit(loop);
-  for (Bits& basis : dead_) {
-    if (bit(basis, lead)) {
-      add(basis, loop);
+  for (std::size_t first = 0; first < annotations.size(); first += words_) {
+    if (bit(annotations.data() + first, lead)) {
+      for (std::size_t w = 0; w < words_; ++w) {
+        annotations[first + w] ^= loop[w];
+      }
     }
   }
   crossed_by_dead_.push_back(crossed_by(loop));
-  leads_.push_back(lead);
-  dead_.push_back(std::move(loop));
+}
+
+bool is_zero(const Bits& bits) {
+  return std::all_of(bits.begin(), bits.end(), [](std::uint64_t word) { return word == 0; });
 }
 
 }  // namespace vantage

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "vantage/mesh/topology.h"
@@ -30,31 +31,32 @@ class HandleGuard {
   /// Words per annotation; 0 if there is no handle to guard.
   [[nodiscard]] std::size_t words() const { return words_; }
 
-  /// Annotation of each edge of the table, words() words each.
-  [[nodiscard]] const std::vector<std::uint64_t>& annotations() const { return annotation_; }
+  /// Annotation of each edge of the table, words() words each. \pre not taken before.
+  [[nodiscard]] std::vector<std::uint64_t> take_annotations() { return std::move(annotation_); }
 
-  /// Brings a class to its normal form modulo the dead ones; zero if it is dead.
-  void reduce(Bits& loop) const;
+  /// Whether a class may die together with the dead ones and with others.
+  /// \param crossed_by_others of each of the others: see crossed_by().
+  [[nodiscard]] bool may_kill(const Bits& loop, const std::vector<Bits>& crossed_by_others) const;
 
-  /// Whether all these classes, each in normal form, may die together with the dead ones.
-  [[nodiscard]] bool may_kill(const std::vector<Bits>& loops) const;
-
-  /// Independent classes that are dead.
-  [[nodiscard]] std::size_t dead_count() const { return dead_.size(); }
-
-  /// Marks a class as dead.
-  void kill(Bits loop);
-
- private:
   /// The coordinates of loops that cross this one an odd number of times.
   [[nodiscard]] Bits crossed_by(const Bits& loop) const;
 
+  /// Independent classes that are dead.
+  [[nodiscard]] std::size_t dead_count() const { return crossed_by_dead_.size(); }
+
+  /// Marks a class as dead, and brings annotations to their normal form modulo the dead ones: sums of them are
+  /// in normal form, too, and zero where they are dead. \pre `loop` and the annotations are in the normal form
+  /// of before.
+  void kill(const Bits& loop, std::vector<std::uint64_t>& annotations);
+
+ private:
   std::size_t words_ = 0;
   std::vector<std::uint64_t> annotation_{};
-  std::vector<Bits> crossings_{};     ///< Row i: bit j = parity of crossings of generators i and j.
-  std::vector<Bits> dead_{};          ///< Echelon basis of the dead classes.
-  std::vector<std::size_t> leads_{};  ///< The highest coordinate that is set, of each of them.
-  std::vector<Bits> crossed_by_dead_{};  ///< Of classes that span them: see crossed_by().
+  std::vector<Bits> crossings_{};  ///< Row i: bit j = parity of crossings of generators i and j.
+  std::vector<Bits> crossed_by_dead_{};  ///< Of classes that span the dead ones: see crossed_by().
 };
+
+/// Whether no coordinate is set.
+bool is_zero(const Bits& bits);
 
 }  // namespace vantage

@@ -48,7 +48,7 @@ ClusterComplex::ClusterComplex(const TriMesh& mesh, std::vector<Vec3> positions,
   std::iota(parent_.begin(), parent_.end(), 0U);
   const EdgeTable table = build_edge_table(mesh);
   guard_ = HandleGuard(mesh, table);
-  annotation_ = guard_.annotations();
+  annotation_ = guard_.take_annotations();
   ends_ = table.edges;
   edge_faces_.resize(table.edges.size());
   // Sorted edges: each cluster first meets its lower, then its higher neighbours.
@@ -138,7 +138,6 @@ Bits ClusterComplex::loop_class(std::uint32_t edge, std::uint32_t third) const {
       sum[w] ^= annotation_[e * words + w];
     }
   }
-  guard_.reduce(sum);
   return sum;
 }
 
@@ -146,11 +145,24 @@ bool ClusterComplex::keeps_handles(std::uint32_t edge) const {
   if (guard_.words() == 0) {
     return true;
   }
-  std::vector<Bits> loops;
+  std::vector<Bits> crossed;
   for (const std::uint32_t third : pinched_by(edge)) {
-    loops.push_back(loop_class(edge, third));
+    if (!may_pinch(loop_class(edge, third), crossed)) {
+      return false;
+    }
   }
-  return guard_.may_kill(loops);
+  return true;
+}
+
+bool ClusterComplex::may_pinch(const Bits& loop, std::vector<Bits>& crossed) const {
+  if (is_zero(loop)) {
+    return true;
+  }
+  if (!guard_.may_kill(loop, crossed)) {
+    return false;
+  }
+  crossed.push_back(guard_.crossed_by(loop));
+  return true;
 }
 
 void ClusterComplex::kill_pinched_loops(std::uint32_t edge) {
@@ -158,7 +170,7 @@ void ClusterComplex::kill_pinched_loops(std::uint32_t edge) {
     return;
   }
   for (const std::uint32_t third : pinched_by(edge)) {
-    guard_.kill(loop_class(edge, third));
+    guard_.kill(loop_class(edge, third), annotation_);
   }
 }
 
@@ -233,7 +245,7 @@ std::uint32_t ClusterComplex::sparser(std::uint32_t edge, std::uint32_t other) c
 }
 
 void ClusterComplex::make_room(std::uint32_t edge) {
-  std::vector<Bits> loops;
+  std::vector<Bits> crossed;
   std::vector<std::uint32_t> thirds = pinched_by(edge);
   const auto rank = [this](std::uint32_t c) {
     return std::pair(order_.place(position_[c], position_[c]), c);
@@ -241,9 +253,7 @@ void ClusterComplex::make_room(std::uint32_t edge) {
   std::sort(thirds.begin(), thirds.end(),
             [&](std::uint32_t c, std::uint32_t d) { return rank(c) < rank(d); });
   for (const std::uint32_t third : thirds) {
-    loops.push_back(loop_class(edge, third));
-    if (!guard_.may_kill(loops)) {
-      loops.pop_back();
+    if (!may_pinch(loop_class(edge, third), crossed)) {
       const auto [a, b] = ends_[edge];
       const std::uint32_t to_a = find(third, a)->edge;
       const std::uint32_t to_b = find(third, b)->edge;

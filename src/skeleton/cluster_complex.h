@@ -87,6 +87,9 @@ class ClusterComplex {
   [[nodiscard]] const Link* find(std::uint32_t cluster, std::uint32_t neighbour) const;
   /// Class of the loop over the ends of `edge` and their common neighbour `third`, in normal form.
   [[nodiscard]] Bits loop_class(std::uint32_t edge, std::uint32_t third) const;
+  /// Whether a loop may be pinched together with others, then one of them.
+  /// \param crossed of the others: HandleGuard::crossed_by().
+  bool may_pinch(const Bits& loop, std::vector<Bits>& crossed) const;
   void kill_pinched_loops(std::uint32_t edge);
   [[nodiscard]] std::uint32_t sparser(std::uint32_t edge, std::uint32_t other) const;
   void split(std::uint32_t edge);
@@ -108,7 +111,7 @@ class ClusterComplex {
   std::size_t vertex_count_ = 0;  ///< Clusters beyond were made by splits.
   std::size_t live_faces_ = 0;
   HandleGuard guard_;
-  std::vector<std::uint64_t> annotation_;  ///< Kept up to date as edges move.
+  std::vector<std::uint64_t> annotation_;  ///< In normal form; kept up to date as edges move.
 };
 
 }  // namespace vantage

@@ -80,6 +80,12 @@ class Sizes(ProgramTest):
                                        "auto:60", "--json").out)
         self.assertEqual((said["width"], said["height"]), self.size_of("d.png"))
 
+    def test_a_picture_from_the_camera_of_a_view_is_that_of_the_view(self):
+        self.vantage("view", MODELS / "fan.ply", "-o", "v", "--up", "z", *FAST)
+        for camera in ("view.json", "camera-best.gltf", "camera-best.transforms.json"):
+            self.vantage("render", MODELS / "fan.ply", "-o", f"{camera}.png", "--camera", f"v/{camera}")
+            self.assertEqual((self.dir / f"{camera}.png").read_bytes(), (self.dir / "v/best.png").read_bytes(), camera)
+
     def test_a_thumbnail_is_square_unless_auto_is_asked_for(self):
         self.write("tall.off", box(1.0, 6.0))
         self.vantage("thumb", "tall.off", "a.png", "-s", "40")
