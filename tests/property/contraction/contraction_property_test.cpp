@@ -198,5 +198,11 @@ TEST(ContractionOfAY, TakesFewerStepsTheMoreAStepMustTakeOff) {
   }
 }
 
+TEST(ContractByProxy, TriesOtherWaysWhereTheProxyIsStuck) {
+  const ContractionHistory history = contract(test::cylinder(1.0, 6.0, 11'000, 1));
+  EXPECT_NE(history.components.front().strategy.find(", proxy "), std::string::npos);
+  EXPECT_LT(history.shrinkage.back(), 0.1);  // 0.48 where it was left to be stuck
+}
+
 }  // namespace
 }  // namespace vantage

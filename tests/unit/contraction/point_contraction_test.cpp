@@ -96,7 +96,7 @@ std::pair<double, std::vector<std::size_t>> surroundings(const std::vector<Vec3>
       others.emplace_back((points[j] - points[i]).norm(), j);
     }
   }
-  std::sort(others.begin(), others.end());
+  std::partial_sort(others.begin(), others.begin() + 16, others.end());
   std::pair<double, std::vector<std::size_t>> result;
   for (std::size_t k = 0; k < 16; ++k) {
     result.first += others[k].first / 16.0;

@@ -155,12 +155,6 @@ TEST(ContractByProxy, BringsATorusFromWhereItIsToTheCircleOfItsCentroidsAndSaysS
   EXPECT_LE(mean, 0.1 * 0.3);
 }
 
-TEST(ContractByProxy, TriesOtherWaysWhereTheProxyIsStuck) {
-  const ContractionHistory history = contract(test::cylinder(1.0, 6.0, 11'000, 1));
-  EXPECT_NE(history.components.front().strategy.find(", proxy "), std::string::npos);
-  EXPECT_LT(history.shrinkage.back(), 0.1);  // 0.48 where it was left to be stuck
-}
-
 TEST(ContractByProxy, HasTheSameBytesForAnyNumberOfThreads) {
   const TriMesh torus = large_torus();
   constexpr ContractionOptions kTwoSteps{.max_steps = 2};
