@@ -86,20 +86,33 @@ void note_a_view_from_behind(const DirectionChoice& front, const ViewOptions& op
   }
 }
 
+/// Whether the best view, or a mirror image of it, is the best by the map of the moved copy, too.
+bool is_best_of_moved(const ShapeAnalysis& shape, const FrameChoice& choice,
+                      const ViewOptions& options, const MovedMap& moved, const ViewReport& report,
+                      const RunContext& run) {
+  constexpr double kAlike = 0.985;  // cosine of 10°: views nearer to each other look alike [ours]
+  ShapeAnalysis other = shape;
+  other.significance = moved.significance;
+  const Vec3 again = find_view(other, Goal::Best, choice, options, run.quiet()).direction;
+  return again.dot(report.best.direction) > kAlike ||
+         std::any_of(report.twins.begin(), report.twins.end(),
+                     [&](const TwinView& twin) { return again.dot(twin.direction) > kAlike; });
+}
+
 }  // namespace
 
 ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
                       const ViewOptions& options, const RunContext& run) {
   check_fields(options, kViewFields);
   ViewReport report;
-  double agreement = 1.0;
+  MovedMap moved;
   run_both(
       run,
       [&] {
         report = sums_a_map(options.method) ? find_views_by_map(shape, choice, options, run)
                                             : find_views_by_measure(shape, choice, options, run);
       },
-      [&] { agreement = checked_map_agreement(shape, options, run.quiet()); });
+      [&] { moved = checked_moved_map(shape, options, run.quiet()); });
   report.orientation = choice.orientation;
   if (options.best_view) {
     report.warnings.emplace_back("the best view is the one that the sidecar names, not one found");
@@ -109,7 +122,12 @@ ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
                                       upright_frame(choice.frame));
   report.warnings.insert(report.warnings.end(), choice.notes.begin(), choice.notes.end());
   note_a_view_from_behind(choice.orientation.front, options, report);
-  report.reliability_warnings = reliability_warnings(shape, report, options, agreement, run);
+  if (moved.is_unlike() && is_best_of_moved(shape, choice, options, moved, report, run)) {
+    report.warnings.push_back(unlike_map_text(moved) +
+                              "; the best view is the same there, the worst may be another");
+    moved = {};
+  }
+  report.reliability_warnings = reliability_warnings(shape, report, options, moved, run);
   return report;
 }
 

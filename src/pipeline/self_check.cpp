@@ -128,14 +128,11 @@ bool is_map_doubtful(const ShapeAnalysis& shape) {
          shape.check.non_manifold_edges + shape.check.inconsistent_edges > 0;
 }
 
-void look_at_map(double agreement, std::vector<std::string>& warnings) {
-  if (agreement < kLeastAgreement) {
+void look_at_map(const MovedMap& moved, std::vector<std::string>& warnings) {
+  if (moved.is_unlike()) {
     warnings.push_back(
-        "the significance map hangs on how the surface is cut into triangles: on a "
-        "copy moved by a ten-thousandth of its size the ranks of its values agree "
-        "to " +
-        percent(std::max(agreement, 0.0)) +
-        " only, so that other views may be as good: unless the shape is so even that all "
+        unlike_map_text(moved) +
+        ", so that other views may be as good: unless the shape is so even that all "
         "are, mend the mesh, cut it into small even triangles, or choose another --method");
   }
 }
@@ -206,8 +203,11 @@ void look_at_views(const ShapeAnalysis& shape, const ViewReport& report, const V
 
 }  // namespace
 
-double map_agreement_when_moved(const ShapeAnalysis& shape, const ViewOptions& options,
-                                const RunContext& run) {
+bool MovedMap::is_unlike() const {
+  return agreement < kLeastAgreement;
+}
+
+MovedMap moved_map(const ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
   const CoarseSurface& proxy = shape.views->proxy;
   const bool is_small = proxy.of_vertex.empty();
   ShapeAnalysis moved;
@@ -217,6 +217,7 @@ double map_agreement_when_moved(const ShapeAnalysis& shape, const ViewOptions& o
   add_history(moved, options, quiet);
   add_curve(moved, options, quiet);
   add_map(moved, options, quiet);
+  MovedMap map{.significance = std::vector<double>(shape.surface.positions.size(), 0.0)};
   std::vector<double> here;
   std::vector<double> there;
   for (std::size_t v = 0; v < shape.surface.positions.size(); ++v) {
@@ -224,18 +225,27 @@ double map_agreement_when_moved(const ShapeAnalysis& shape, const ViewOptions& o
     const bool is_focused = options.focus.empty() || shape.significance[v] > 0.0;
     if (shape.history.component_of_vertex[v] != ContractionHistory::kIsolated &&
         at != CoarseSurface::kNone && is_focused) {
+      map.significance[v] = moved.significance[at];
       here.push_back(shape.significance[v]);
       there.push_back(moved.significance[at]);
     }
   }
   const double agreement = spearman(here, there);
-  return std::isnan(agreement) ? 1.0 : agreement;  // where nothing varies
+  map.agreement = std::isnan(agreement) ? 1.0 : agreement;  // where nothing varies
+  return map;
 }
 
-double checked_map_agreement(const ShapeAnalysis& shape, const ViewOptions& options,
-                             const RunContext& run) {
+MovedMap checked_moved_map(const ShapeAnalysis& shape, const ViewOptions& options,
+                           const RunContext& run) {
   const bool has_map = !shape.cloud && shape.views && options.method == "kssm";
-  return has_map && is_map_doubtful(shape) ? map_agreement_when_moved(shape, options, run) : 1.0;
+  return has_map && is_map_doubtful(shape) ? moved_map(shape, options, run) : MovedMap{};
+}
+
+std::string unlike_map_text(const MovedMap& moved) {
+  return "the significance map hangs on how the surface is cut into triangles: on a copy moved by "
+         "a "
+         "ten-thousandth of its size the ranks of its values agree to " +
+         percent(std::max(moved.agreement, 0.0)) + " only";
 }
 
 std::vector<std::string> skeleton_warnings(const ShapeAnalysis& shape) {
@@ -246,13 +256,13 @@ std::vector<std::string> skeleton_warnings(const ShapeAnalysis& shape) {
 }
 
 std::vector<std::string> reliability_warnings(const ShapeAnalysis& shape, const ViewReport& report,
-                                              const ViewOptions& options, double agreement,
+                                              const ViewOptions& options, const MovedMap& moved,
                                               const RunContext& run) {
   std::vector<std::string> warnings;
   look_at_views(shape, report, options, run, warnings);
   if (sums_a_map(options.method)) {
     look_at_contraction(shape, warnings);
-    look_at_map(agreement, warnings);
+    look_at_map(moved, warnings);
   }
   look_at_skeleton(shape, warnings);
   return warnings;

@@ -13,22 +13,32 @@
 
 namespace vantage {
 
+/// The map of a copy of the surface whose vertices are moved by 1e-4 of its diameter, of the proxy
+/// where there is one.
+struct MovedMap {
+  std::vector<double> significance{};  ///< At the surface's vertices; empty if it was not made.
+  /// Of its ranks with those of the map (Spearman); 1 where the map is flat, or this was not made.
+  double agreement = 1.0;
+
+  /// Whether the two are so unlike that the map hangs on how the surface is cut into triangles.
+  [[nodiscard]] bool is_unlike() const;
+};
+
+/// \pre shape.views \throw Cancelled
+MovedMap moved_map(const ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run);
+
+/// The same where something happened on the way to the map that may be the mesh's doing: about the
+/// time of an analysis, or none. Needs nothing of the views. \throw Cancelled
+MovedMap checked_moved_map(const ShapeAnalysis& shape, const ViewOptions& options,
+                           const RunContext& run);
+
+/// What is_unlike() means to a user, a sentence without its end.
+std::string unlike_map_text(const MovedMap& moved);
+
 /// Why the answer should not be trusted, and what to do, one sentence each; empty almost always.
-/// \param report with both views described.
-/// \param agreement of checked_map_agreement(). \throw Cancelled
+/// \param report with both views described. \throw Cancelled
 std::vector<std::string> reliability_warnings(const ShapeAnalysis& shape, const ViewReport& report,
-                                              const ViewOptions& options, double agreement,
+                                              const ViewOptions& options, const MovedMap& moved,
                                               const RunContext& run);
-
-/// How well the ranks of the map's values agree with those on a copy of the surface whose vertices
-/// are moved by 1e-4 of its diameter (Spearman), of the proxy where there is one; 1 where the map is
-/// flat. \pre shape.views \throw Cancelled
-double map_agreement_when_moved(const ShapeAnalysis& shape, const ViewOptions& options,
-                                const RunContext& run);
-
-/// The same where something happened on the way to the map that may be the mesh's doing, else 1: about
-/// the time of an analysis, or none. Needs nothing of the views. \throw Cancelled
-double checked_map_agreement(const ShapeAnalysis& shape, const ViewOptions& options,
-                             const RunContext& run);
 
 }  // namespace vantage

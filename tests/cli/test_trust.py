@@ -8,7 +8,7 @@ import unittest
 from program import MODELS, ProgramTest
 
 FAST = ("--search", "rapid", "--size", "64")
-DOUBTED = "table.off"
+DOUBTED = "plates.off"
 
 
 def needle():
@@ -16,10 +16,10 @@ def needle():
     return "OFF\n4 4 0\n0 0 0\n1 0 0\n0.5 1e-7 0\n0.5 0 1e-7\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n"
 
 
-def table():
-    """A thin plate on four thin legs: what of its map counts is decided by how they are cut into triangles."""
+def boxes(*sizes):
+    """A file of boxes: of each the lowest corner and the sides."""
     corners, faces = [], []
-    for x, y, z, a, b, c in ((0, 0, 0, 1, 1, 0.02), *((x, y, -0.7, 0.05, 0.05, 0.7) for x in (0.05, 0.9) for y in (0.05, 0.9))):
+    for x, y, z, a, b, c in sizes:
         first = len(corners)
         corners += [(x + i * a, y + j * b, z + k * c) for i in (0, 1) for j in (0, 1) for k in (0, 1)]
         quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
@@ -27,6 +27,16 @@ def table():
     lines = [f"OFF\n{len(corners)} {len(faces)} 0", *(f"{x} {y} {z}" for x, y, z in corners),
              *("4 " + " ".join(map(str, face)) for face in faces)]
     return "\n".join(lines) + "\n"
+
+
+def plates():
+    """Three thin plates: what of their map counts is decided by how they are cut into triangles, and so is the view."""
+    return boxes(*((0, 0, z, 1, 1, 0.02) for z in (0, 0.5, 1)))
+
+
+def table():
+    """A thin plate on four thin legs: its map hangs on its triangles, too, but its best view does not."""
+    return boxes((0, 0, 0, 1, 1, 0.02), *((x, y, -0.7, 0.05, 0.05, 0.7) for x in (0.05, 0.9) for y in (0.05, 0.9)))
 
 
 class Doubts(ProgramTest):
@@ -51,17 +61,24 @@ class Doubts(ProgramTest):
         self.assertEqual(self.view("tube.xyz", "--no-images")[1]["doubts"], [])
 
     def test_a_map_that_hangs_on_the_mesh_is(self):
-        self.write(DOUBTED, table())
+        self.write(DOUBTED, plates())
         _, report = self.view(DOUBTED, "--no-images")
         self.assertRegex(report["doubts"][0], "hangs on how the surface is cut into triangles.* --method")
         files = {p.name: p.read_bytes() for p in (self.dir / "out").iterdir() if p.name != "timings.json"}
         done, _ = self.view(DOUBTED, "--no-images", "--strict", exit_code=1)
         self.assertEqual(done.err.strip().splitlines()[-1],
-                         f"vantage: table: {report['doubts'][0]} (--strict)")
+                         f"vantage: plates: {report['doubts'][0]} (--strict)")
         self.assertEqual(files, {p.name: p.read_bytes() for p in (self.dir / "out").iterdir() if p.name != "timings.json"})
 
+    def test_a_best_view_that_does_not_hang_on_the_map_is_not(self):
+        self.write("table.off", table())
+        done = self.vantage("view", "table.off", "-o", "out", "--no-images", "--strict")
+        report = json.loads((self.dir / "out/view.json").read_text())
+        self.assertEqual(report["doubts"], [])
+        self.assertRegex(done.err, "note: the significance map hangs on .* the best view is the same there")
+
     def test_other_methods_do_not_answer_for_the_map(self):
-        self.write(DOUBTED, table())
+        self.write(DOUBTED, plates())
         _, report = self.view(DOUBTED, "--no-images", "--method", "viewpoint-entropy", "--strict")
         self.assertEqual(report["doubts"], [])
 

@@ -40,8 +40,7 @@ TEST(DoubtsAbout, PartsThatDidNotBecomeCurvesHangOnHowLargeTheyAre) {
     other.views.reset();  // so that only the contraction is looked at
     const std::uint32_t component = other.history.component_of_vertex[vertex];
     other.history.components[component].shrinkage = shrinkage;
-    return reliability_warnings(other, report, options, checked_map_agreement(other, options, {}),
-                                {});
+    return reliability_warnings(other, report, options, checked_moved_map(other, options, {}), {});
   };
   const std::size_t of_the_small = shape.surface.positions.size() - 1;
   EXPECT_TRUE(doubts_where_left(0, 0.01).empty());
@@ -65,7 +64,7 @@ TEST(DoubtsAbout, TangledSkeletonsAreThoseOfCloudsWithManyCyclesForTheirNodes) {
   graph = {.nodes = {Vec3::Zero(), Vec3::UnitX()}, .edges = {{0, 1}}};
   const auto is_doubted = [&] {
     const std::vector<std::string> warnings =
-        reliability_warnings(shape, report, options, checked_map_agreement(shape, options, {}), {});
+        reliability_warnings(shape, report, options, checked_moved_map(shape, options, {}), {});
     return std::any_of(warnings.begin(), warnings.end(),
                        [](const std::string& d) { return d.find("tangle") != std::string::npos; });
   };
