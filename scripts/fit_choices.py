@@ -110,18 +110,14 @@ class Entry:
         scores = np.array(result["rows"])[:, 3]
         self.share = np.log(np.maximum(scores / max(result["total"], 1e-300), LEAST_SHARE))
         self.angles = self.angles_from(directions)
-        self.angles_in_front = self.angles_from(directions, in_front=True)
         near = np.exp((np.cos(self.angles) - 1) / KERNEL ** 2)
         self.near = near / near.mean()
 
-    def angles_from(self, directions, in_front=False):
-        """Angles in radians to the recorded view or its mirror images: left and right, front and back if alike; with
-        `in_front` of these two to the one in front."""
+    def angles_from(self, directions):
+        """Angles in radians to the recorded view or its mirror images: left and right, front and back if alike."""
         x, y, z = np.abs(directions[:, 0] * self.direction[0]), directions[:, 1] * self.direction[1], \
             directions[:, 2] * self.direction[2]
-        if self.shape[3]:
-            z = directions[:, 2] * abs(self.direction[2]) if in_front else np.abs(z)
-        return np.arccos(np.clip(x + y + z, -1, 1))
+        return np.arccos(np.clip(x + y + (np.abs(z) if self.shape[3] else z), -1, 1))
 
     def line(self):
         flags = "".join(str(int(f)) for f in self.shape[2:])
@@ -160,7 +156,7 @@ def read_entries(arguments, folder):
 def habits(entries, train, bandwidth, mirror):
     """Mean angle from each direction to the views recorded of like shapes, each entry itself left out."""
     shapes = np.stack([e.shape for e in entries])
-    angles = np.stack([entries[j].angles_in_front for j in train])
+    angles = np.stack([entries[j].angles for j in train])
     scale = np.array([1, 1, mirror, mirror, mirror])
     result = []
     for i, entry in enumerate(entries):

@@ -85,12 +85,14 @@ ViewHabit::ViewHabit(const ChoiceTable& table, const ShapeProportions& shape) {
   for (Eigen::ArrayXd* of_choice : {&side_, &up_, &front_, &weights_}) {
     of_choice->resize(count);
   }
+  mirrors_front_.resize(count);
   Eigen::ArrayXd unlike(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const RecordedChoice& choice = table.choices[static_cast<std::size_t>(i)];
     side_[i] = choice.direction.x();
     up_[i] = choice.direction.y();
-    front_[i] = choice.shape.mirrors_front ? std::abs(choice.direction.z()) : choice.direction.z();
+    front_[i] = choice.direction.z();
+    mirrors_front_[i] = choice.shape.mirrors_front;
     unlike[i] = squared_distance(choice.shape, shape, table.mirror_weight);
   }
   const double least = std::min(kLeastChoices, 0.5 * static_cast<double>(count));
@@ -108,8 +110,9 @@ ViewHabit::ViewHabit(const ChoiceTable& table, const ShapeProportions& shape) {
 }
 
 double ViewHabit::distance(const Vec3& direction) const {
-  const Eigen::ArrayXd cosine =
-      (direction.x() * side_).abs() + direction.y() * up_ + direction.z() * front_;
+  const Eigen::ArrayXd along = direction.z() * front_;
+  const Eigen::ArrayXd cosine = (direction.x() * side_).abs() + direction.y() * up_ +
+                                mirrors_front_.select(along.abs(), along);
   return (weights_ * arc_cosine(cosine)).sum();
 }
 

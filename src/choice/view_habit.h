@@ -24,8 +24,8 @@ class ViewHabit {
   ViewHabit(const ChoiceTable& table, const ShapeProportions& shape);
 
   /// Mean angle in radians from a direction to the views recorded, weighted by how like their
-  /// shapes are to this one. Left and right count as one; of what mirrors front and back, the view
-  /// in front counts. \param direction unit, along side, up and front.
+  /// shapes are to this one. Left and right count as one, and so do front and back of what mirrors
+  /// them. \param direction unit, along side, up and front.
   [[nodiscard]] double distance(const Vec3& direction) const;
 
  private:
@@ -33,6 +33,7 @@ class ViewHabit {
   Eigen::ArrayXd side_;
   Eigen::ArrayXd up_;
   Eigen::ArrayXd front_;
+  Eigen::Array<bool, Eigen::Dynamic, 1> mirrors_front_;
   Eigen::ArrayXd weights_;  // they add up to 1
 };
 

@@ -39,6 +39,7 @@ class Preference {
   const ViewOptions* options_;
   double total_;
   UprightFrame frame_;
+  bool is_front_given_;
   std::vector<Hypothesis> fronts_;  // none: not what people choose
 };
 
