@@ -41,9 +41,10 @@ struct RenderCommand {
         ->required();
     CLI::Option_group* from = app.add_option_group("From", "where to look from: one of");
     from->add_option("--direction", direction_text, "x,y,z: from the model's centre to the eye");
-    from->add_option("--camera", camera_file,
-                     "a camera: glTF, transforms.json, or view.json (its best view); the picture is "
-                     "of its aspect, unless --size says another");
+    from->add_option(
+        "--camera", camera_file,
+        "a camera: glTF, transforms.json, or view.json (its best view); the picture is "
+        "of its aspect, unless --size says another");
     from->add_option("--view", view, "best or worst: search for it")
         ->check(CLI::IsMember({"best", "worst"}));
     from->require_option(1);
@@ -90,16 +91,20 @@ struct RenderCommand {
       return needs_map ? analyse_shape(loaded, options, run.part(0.0, 0.5), nullptr, use)
                        : prepare_surface(loaded, run);
     });
+    std::optional<FrameChoice> choice;
+    if (!frame || look.look().ground) {
+      choice = session.computing([&] { return choose_frame(loaded, shape, options); });
+    }
     if (!frame) {
       frame = session.computing([&] {
         return !is_sought
-                   ? framed(shape, loaded,
-                            direction.value_or(options.best_view.value_or(Vec3::UnitZ())), options)
-                   : found(shape, loaded, options, run.part(0.5, 0.9));
+                   ? frame_picture(shape,
+                                   direction.value_or(options.best_view.value_or(Vec3::UnitZ())),
+                                   choice->frame.up, options)
+                   : found(shape, *choice, options, run.part(0.5, 0.9));
       });
     }
-    const Vec3 up = look.look().ground ? up_vector(choose_frame(loaded, shape, options).frame.up)
-                                       : RenderOptions{}.up;
+    const Vec3 up = look.look().ground ? up_vector(choice->frame.up) : RenderOptions{}.up;
     const std::map<std::string, Picture> pictures{
         {"plain", Picture::Plain}, {"kssm", Picture::Map}, {"skeleton", Picture::Skeleton}};
     const std::string warning = look.write(file, loaded, shape, frame->camera, pictures.at(show),
@@ -110,6 +115,9 @@ struct RenderCommand {
     }
     if (look.of_asset()) {
       say_notes(session, loaded.notes);
+    }
+    if (is_sought) {
+      say_notes(session, choice->notes);
     }
   }
 
@@ -135,16 +143,10 @@ struct RenderCommand {
     return frame;
   }
 
-  static PictureFrame framed(const ShapeAnalysis& shape, const Model& loaded, const Vec3& direction,
-                             const ViewOptions& options) {
-    return frame_picture(shape, direction, choose_frame(loaded, shape, options).frame.up, options);
-  }
-
-  [[nodiscard]] PictureFrame found(const ShapeAnalysis& shape, const Model& loaded,
+  [[nodiscard]] PictureFrame found(const ShapeAnalysis& shape, const FrameChoice& choice,
                                    const ViewOptions& options, const RunContext& run) const {
     const Goal goal = view == "best" ? Goal::Best : Goal::Worst;
-    const ReportedView of =
-        find_view(shape, goal, choose_frame(loaded, shape, options), options, run);
+    const ReportedView of = find_view(shape, goal, choice, options, run);
     return {of.picture, of.size};
   }
 
