@@ -193,11 +193,12 @@ void ModelBuilder::triangulate() {
       ++next_part;
     }
   };
+  PolygonWork work(run_);
   for (std::size_t p = 0; p < corner_counts_.size(); ++p) {
     mark_parts(p);
     const std::size_t first_triangle = triangles.size();
     triangulate_polygon({corners_.data() + first_corner, corner_counts_[p]}, model_.mesh.positions,
-                        triangles);
+                        work, triangles);
     triangulate_uvs(first_corner, corner_counts_[p], first_triangle);
     if (keeps_appearance_) {
       const bool next = next_material < material_starts_.size() &&
@@ -206,9 +207,6 @@ void ModelBuilder::triangulate() {
       model_.appearance.material_of_triangle.resize(triangles.size(), material);
     }
     first_corner += corner_counts_[p];
-    if (p % 4096 == 0) {
-      run_.check();
-    }
   }
   mark_parts(corner_counts_.size());
   finish_parts(triangle_of_part_start);

@@ -38,6 +38,17 @@ void fan(std::span<const std::uint32_t> corners, std::vector<Triangle>& triangle
   }
 }
 
+/// A convex polygon, cut into halves over and over, so that few triangles meet in a corner and few are thin.
+void halve(std::span<const std::uint32_t> corners, std::vector<Triangle>& triangles) {
+  if (corners.size() < 3) {
+    return;
+  }
+  const std::size_t middle = corners.size() / 2;
+  triangles.push_back({corners.front(), corners[middle], corners.back()});
+  halve(corners.first(middle + 1), triangles);
+  halve(corners.subspan(middle), triangles);
+}
+
 /// Four corners: cut from 0 to 2, unless corner 1 or 3 is straight or points inwards.
 void cut_quad(std::span<const std::uint32_t> corners, std::span<const Vec3> positions,
               std::vector<Triangle>& triangles) {
@@ -198,8 +209,8 @@ class CornerGrid {
 /// Cuts ears off a ring of corners until a triangle is left.
 class EarClipper {
  public:
-  EarClipper(std::span<const std::uint32_t> corners, std::vector<Vec2> points)
-      : corners_(corners), points_(std::move(points)) {
+  EarClipper(std::span<const std::uint32_t> corners, std::vector<Vec2> points, PolygonWork& work)
+      : corners_(corners), points_(std::move(points)), work_(work) {
     const auto n = static_cast<std::uint32_t>(points_.size());
     next_.resize(n);
     previous_.resize(n);
@@ -235,16 +246,11 @@ class EarClipper {
       }
     }
     const CornerGrid grid(points_, blockers);
-    // Enough for any real polygon; what is left of a hopeless one is fanned.
-    constexpr std::size_t kLeastWork = 20'000'000;
-    constexpr std::size_t kWorkPerCorner = 400;
-    budget_ = std::max(kLeastWork, kWorkPerCorner * points_.size());
-
     remaining_ = points_.size();
     waiting_.assign(points_.size(), true);
     gone_.assign(points_.size(), false);
     bool all_tried = true;  // the candidates are all corners of the ring
-    while (remaining_ > 3 && work_ < budget_) {
+    while (remaining_ > 3 && !work_.is_spent()) {
       const std::size_t before = remaining_;
       std::vector<std::uint32_t> changed = clip_round(candidates, grid, triangles);
       if (changed.empty() && all_tried && remaining_ == before) {
@@ -253,7 +259,7 @@ class EarClipper {
       all_tried = changed.empty();
       candidates = all_tried ? ring() : std::move(changed);
     }
-    fan_rest(triangles);
+    fan_rest(triangles);  // of a hopeless one
   }
 
  private:
@@ -268,7 +274,7 @@ class EarClipper {
     return in.x() * out.y() - in.y() * out.x() > kStraightSine * in.norm() * out.norm();
   }
 
-  [[nodiscard]] bool is_ear(std::uint32_t i, const CornerGrid& grid, std::size_t& work) const {
+  [[nodiscard]] bool is_ear(std::uint32_t i, const CornerGrid& grid) const {
     if (!points_outwards(i)) {
       return false;
     }
@@ -281,7 +287,10 @@ class EarClipper {
       return blocks_[other] && cross(a, b, p) >= 0.0 && cross(b, c, p) >= 0.0 &&
              cross(c, a, p) >= 0.0 && p != a && p != b && p != c;
     };
-    return !grid.any_near({a, b, c}, work, lies_inside);
+    std::size_t steps = 0;
+    const bool is_blocked = grid.any_near({a, b, c}, steps, lies_inside);
+    work_.spend(steps);
+    return !is_blocked;
   }
 
   void emit(std::uint32_t i, std::vector<Triangle>& triangles) const {
@@ -298,10 +307,9 @@ class EarClipper {
     }
     std::vector<std::uint32_t> changed;
     for (const std::uint32_t i : candidates) {
-      ++work_;
+      work_.spend(1);
       // A cell may hold all corners, where few places repeat: a round alone can be too much.
-      if (work_ < budget_ && remaining_ > 3 && !gone_[i] && !waiting_[i] &&
-          is_ear(i, grid, work_)) {
+      if (!work_.is_spent() && remaining_ > 3 && !gone_[i] && !waiting_[i] && is_ear(i, grid)) {
         cut_off(i, triangles, changed);
       }
     }
@@ -359,14 +367,13 @@ class EarClipper {
 
   std::span<const std::uint32_t> corners_;
   std::vector<Vec2> points_;
+  PolygonWork& work_;
   std::vector<std::uint32_t> next_{};
   std::vector<std::uint32_t> previous_{};
   std::vector<bool> blocks_{};   ///< Still in the ring, and not pointing outwards.
   std::vector<bool> waiting_{};  ///< To be tried in the next round.
   std::vector<bool> gone_{};     ///< No longer in the ring.
   std::size_t remaining_ = 0;    ///< Corners in the ring.
-  std::size_t work_ = 0;         ///< Cells, members and candidates looked at.
-  std::size_t budget_ = 0;       ///< Most work; what is left then is fanned.
 };
 
 /// The corners in the plane across `normal`, counter-clockwise, around the first one.
@@ -386,8 +393,22 @@ std::vector<Vec2> flattened(std::span<const std::uint32_t> corners, std::span<co
 
 }  // namespace
 
+void PolygonWork::spend(std::size_t steps) {
+  constexpr std::size_t kStepsPerCheck = 1 << 20;  // some hundredths of a second
+  const std::size_t own = std::min(steps, left_);
+  left_ -= own;
+  reserve_ -= std::min(steps - own, reserve_);
+  unchecked_ += steps;
+  if (unchecked_ >= kStepsPerCheck) {
+    unchecked_ = 0;
+    run_.check();
+  }
+}
+
 void triangulate_polygon(std::span<const std::uint32_t> corners, std::span<const Vec3> positions,
-                         std::vector<Triangle>& triangles) {
+                         PolygonWork& work, std::vector<Triangle>& triangles) {
+  work.begin(corners.size());
+  work.spend(corners.size());
   if (corners.size() <= 3) {
     fan(corners, triangles);
     return;
@@ -398,8 +419,8 @@ void triangulate_polygon(std::span<const std::uint32_t> corners, std::span<const
   } else if (corners.size() == 4) {
     cut_quad(corners, positions, triangles);
   } else {
-    EarClipper clipper(corners, flattened(corners, positions, normal.normalized()));
-    clipper.is_strictly_convex() ? fan(corners, triangles) : clipper.clip(triangles);
+    EarClipper clipper(corners, flattened(corners, positions, normal.normalized()), work);
+    clipper.is_strictly_convex() ? halve(corners, triangles) : clipper.clip(triangles);
   }
 }
 

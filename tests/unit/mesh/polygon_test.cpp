@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 
 #include "core/random.h"
@@ -23,11 +24,13 @@ using testing::ElementsAre;
 
 /// The polygon through all `points` in order, triangulated.
 TriMesh triangulated(std::vector<Vec3> points) {
+  const RunContext run;
+  PolygonWork work(run);
   TriMesh mesh;
   mesh.positions = std::move(points);
   std::vector<std::uint32_t> corners(mesh.positions.size());
   std::iota(corners.begin(), corners.end(), 0U);
-  triangulate_polygon(corners, mesh.positions, mesh.triangles);
+  triangulate_polygon(corners, mesh.positions, work, mesh.triangles);
   return mesh;
 }
 
@@ -176,6 +179,65 @@ TEST(TriangulatePolygon, CoversARaggedPolygonOfAHundredThousandCorners) {
   const std::vector<Vec3> points = ragged(100'000, 9);
   const TriMesh mesh = triangulated(points);
   EXPECT_NEAR(surface_area(mesh), shoelace(points), 1e-9);
+}
+
+TEST(TriangulatePolygon, FewTrianglesOfAConvexPolygonMeetInACorner) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 64; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / 64.0;
+    points.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+  }
+  const TriMesh mesh = triangulated(points);
+  std::vector<int> met(points.size(), 0);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t corner : t) {
+      ++met[corner];
+    }
+  }
+  EXPECT_EQ(mesh.triangles.size(), 62U);
+  EXPECT_GT(least_signed_area(mesh, Vec3::UnitZ()), 0.0);
+  EXPECT_NEAR(surface_area(mesh), shoelace(points), 1e-14);
+  EXPECT_LE(*std::max_element(met.begin(), met.end()), 12);  // 2 log2 64; 62 where all meet in one
+}
+
+/// Corners all over a square, whose sides cross each other.
+std::vector<Vec3> tangle(int corners) {
+  Pcg32 random(4);
+  std::vector<Vec3> points;
+  for (int i = 0; i < corners; ++i) {
+    points.emplace_back(random.uniform(), random.uniform(), 0.0);
+  }
+  return points;
+}
+
+TEST(TriangulatePolygon, SharesItsWorkAmongAllPolygonsOfAModel) {
+  const std::vector<Vec3> points = tangle(1000);
+  std::vector<std::uint32_t> corners(points.size());
+  std::iota(corners.begin(), corners.end(), 0U);
+  const RunContext run;
+  PolygonWork work(run);
+  std::vector<Triangle> triangles;
+  triangulate_polygon(corners, points, work, triangles);
+  EXPECT_FALSE(work.is_spent());  // one has enough
+  constexpr std::size_t kPolygons = 40;
+  for (std::size_t i = 1; i < kPolygons; ++i) {
+    triangulate_polygon(corners, points, work, triangles);
+  }
+  EXPECT_EQ(triangles.size(), kPolygons * (corners.size() - 2));
+  EXPECT_TRUE(work.is_spent());
+}
+
+TEST(TriangulatePolygon, StopsWithinAPolygon) {
+  const std::vector<Vec3> points = tangle(3000);
+  std::vector<std::uint32_t> corners(points.size());
+  std::iota(corners.begin(), corners.end(), 0U);
+  std::stop_source source;
+  source.request_stop();
+  RunContext run;
+  run.stop = source.get_token();
+  PolygonWork work(run);
+  std::vector<Triangle> triangles;
+  EXPECT_THROW(triangulate_polygon(corners, points, work, triangles), Cancelled);
 }
 
 TEST(TriangulatePolygon, EndsSoonWhereItsCornersStandInNinePlaces) {
