@@ -154,8 +154,9 @@ void FilesBeside::keep_libraries(std::string_view bytes) {
 }
 
 std::vector<FileBeside> FilesBeside::find() const {
-  const SideFileSource files = [this](const std::string& relative) {
-    return side_file(model_path_, relative);
+  FolderNames folders;
+  const SideFileSource files = [&](const std::string& relative) {
+    return side_file(model_path_, relative, folders);
   };
   std::vector<FileBeside> found;
   std::set<std::string> known;
@@ -166,7 +167,7 @@ std::vector<FileBeside> FilesBeside::find() const {
        : is_ply_ ? names_in_ply(text_, model_path_, files)
                  : std::vector<std::string>()) {
     std::error_code error;
-    const std::string path = place_beside(model_path_, name, error).string();
+    const std::string path = place_beside(model_path_, name, folders, error).string();
     if (!error && !path.empty() && known.insert(name).second) {
       found.push_back({name, path});
     }

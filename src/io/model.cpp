@@ -76,9 +76,9 @@ using KnownBuffers = std::map<fs::path, SharedBytes>;
 
 /// The buffer `relative` below the folder of `model_path`; a file is read once.
 SharedBytes read_beside(const std::string& model_path, const std::string& relative,
-                        KnownBuffers& known) {
+                        FolderNames& folders, KnownBuffers& known) {
   std::error_code error;
-  const fs::path wanted = place_beside(model_path, relative, error);
+  const fs::path wanted = place_beside(model_path, relative, folders, error);
   if (error) {
     throw IoError(model_path, "names the buffer " + relative + ", which cannot be opened",
                   error.value());
@@ -110,9 +110,10 @@ Model load_model(const std::string& path, const RunContext& run, const ReadOptio
       return model;
     }
     KnownBuffers known;
+    FolderNames folders;
     const Surroundings surroundings{
-        [&](const std::string& relative) { return read_beside(path, relative, known); },
-        [&path](const std::string& relative) { return side_file(path, relative); }, options};
+        [&](const std::string& relative) { return read_beside(path, relative, folders, known); },
+        [&](const std::string& relative) { return side_file(path, relative, folders); }, options};
     Model model = parse_with(bytes, path, run, surroundings);
     model.file_name = fs::path(path).filename().string();
     return model;

@@ -8,6 +8,7 @@
 #include "vantage/io/write.h"
 
 #include "io/byte_cursor.h"
+#include "io/side_files.h"
 #include "support/temporary_folder.h"
 
 namespace vantage::test {
@@ -61,6 +62,17 @@ TEST_F(FilesBesideAModel, ALineNamesOneLibraryWithSpacesOrSeveral) {
   EXPECT_THAT(found("m.obj", "mtllib a.mtl b.mtl\n"), ElementsAre("a.mtl", "b.mtl"));
   write("a.mtl b.mtl");
   EXPECT_THAT(found("m.obj", "mtllib a.mtl b.mtl\n"), ElementsAre("a.mtl b.mtl"));
+}
+
+TEST_F(FilesBesideAModel, TheirFolderIsListedOnce) {
+  write("B.mtl");
+  write("b.MTL");
+  FolderNames names;
+  EXPECT_EQ(names.spelled_otherwise(folder_.path(), "b.mtl"), "B.mtl");
+  EXPECT_EQ(names.spelled_otherwise(folder_.path(), "a.mtl"), "");
+  write("A.mtl");
+  EXPECT_EQ(names.spelled_otherwise(folder_.path(), "a.mtl"), "");
+  EXPECT_EQ(names.spelled_otherwise(folder_.path() / "none", "a.mtl"), "");
 }
 
 TEST_F(FilesBesideAModel, LibrariesAreFoundAnywhereInTheFile) {
