@@ -114,7 +114,11 @@ class SceneReader {
       if (static_cast<std::size_t>(scene) >= gltf_.scenes.size()) {
         builder_.fail("the default scene does not exist");
       }
-      return gltf_.scenes[static_cast<std::size_t>(scene)].nodes;
+      const std::vector<int>& nodes = gltf_.scenes[static_cast<std::size_t>(scene)].nodes;
+      if (nodes.empty() && !is_counting_) {
+        builder_.note("scene " + std::to_string(scene) + ", which is the one shown, has no nodes");
+      }
+      return nodes;
     }
     std::vector<bool> is_child(gltf_.nodes.size(), false);
     for (const tinygltf::Node& node : gltf_.nodes) {

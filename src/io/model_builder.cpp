@@ -295,7 +295,9 @@ void ModelBuilder::finish_notes() {
 Model ModelBuilder::finish() {
   check_indices();
   if (model_.mesh.positions.empty()) {
-    fail("holds neither faces nor points");
+    // What was passed over may be why.
+    fail("holds neither faces nor points" +
+         (model_.notes.empty() ? "" : "; " + model_.notes.front()));
   }
   check_extent();
   triangulate();

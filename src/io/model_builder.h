@@ -42,6 +42,12 @@ class ModelBuilder {
   /// What follows belongs to a part of this name; a part without faces disappears.
   void begin_part(std::string_view part_name);
 
+  /// Whether the next face begins a part that has a name.
+  [[nodiscard]] bool has_name_for_next_face() const {
+    return !part_starts_.empty() && part_starts_.back().first_polygon == corner_counts_.size() &&
+           !part_starts_.back().name.empty();
+  }
+
   /// From here on what faces look like is kept too. \param of_vertices the coordinates on textures
   /// are those of the vertices, one for each; else those of corners, see set_corner_uv().
   void keep_appearance(bool of_vertices);

@@ -107,6 +107,10 @@ DetectedFormat detect_format(std::string_view bytes, std::string_view name, bool
   }
   const std::string extension = extension_of(name);
   const std::optional<ModelFormat> said = format_of_extension(extension);
+  // A binary STL may start with any 80 bytes, also with those that start other formats.
+  if (said == ModelFormat::Stl && has_binary_stl_size(bytes)) {
+    return {*said, ""};
+  }
   if (const std::optional<ModelFormat> found = format_of_magic(bytes)) {
     const bool contradicts = found != said && !extension.empty();
     return {*found, contradicts ? "the name says ." + extension + ", but the bytes are " +
@@ -116,17 +120,14 @@ DetectedFormat detect_format(std::string_view bytes, std::string_view name, bool
   if (said == ModelFormat::Threemf && bytes.starts_with("PK")) {
     return {*said, ""};
   }
-  // A binary STL may start with any 80 bytes.
-  if (!(said == ModelFormat::Stl && has_binary_stl_size(bytes))) {
-    if (const ImportFormat* const found = check_foreign_bytes(bytes, extension, name, may_import)) {
-      const ImportFormat* const named = import_format(extension);
-      const bool contradicts = said || (named != nullptr && named->name != found->name);
-      return {ModelFormat::Imported,
-              contradicts ? "the name says ." + extension + ", but the bytes are " +
-                                std::string(found->title) + " and were read as such"
-                          : "",
-              found};
-    }
+  if (const ImportFormat* const found = check_foreign_bytes(bytes, extension, name, may_import)) {
+    const ImportFormat* const named = import_format(extension);
+    const bool contradicts = said || (named != nullptr && named->name != found->name);
+    return {ModelFormat::Imported,
+            contradicts ? "the name says ." + extension + ", but the bytes are " +
+                              std::string(found->title) + " and were read as such"
+                        : "",
+            found};
   }
   if (const std::optional<ModelFormat> found = format_of_content(bytes);
       found && found != said &&

@@ -59,7 +59,7 @@ class ObjReader {
     } else if (keyword == "f" || keyword == "fo") {
       read_face(rest);
     } else if (keyword == "g" || keyword == "o") {
-      builder_.begin_part(trimmed(rest));
+      begin_part(keyword, trimmed(rest));
     } else if (keyword == "vt") {
       read_uv(rest);
     } else if (builder_.keeps_appearance() && is_of_appearance(keyword)) {
@@ -73,6 +73,14 @@ class ObjReader {
       if (unknown_++ == 0) {
         first_unknown_ = in_quotes(keyword) + " in " + lines_.place().text();
       }
+    }
+  }
+
+  /// A group without a name of its own leaves that of an object or group that has no faces yet.
+  void begin_part(std::string_view keyword, std::string_view part_name) {
+    const bool is_nameless = keyword == "g" && (part_name.empty() || part_name == "default");
+    if (!is_nameless || !builder_.has_name_for_next_face()) {
+      builder_.begin_part(part_name);
     }
   }
 
@@ -110,7 +118,10 @@ class ObjReader {
     rest = rest.substr(0, rest.find('#'));
     for (std::string_view token = take_token(rest); !token.empty(); token = take_token(rest)) {
       if (count == values.size()) {
-        builder_.fail(lines_.place(), "a vertex has more than 7 numbers");
+        builder_.fail(
+            lines_.place(),
+            "a vertex has more than 7 numbers; expected 3 coordinates, and a weight (1 number) "
+            "or a colour (3 or 4), with normals in lines of their own (vn)");
       }
       values[count] = number(token, count >= 3);
       if (count < 3 && !builder_.double_precision() && needs_double(token, values[count])) {
@@ -167,8 +178,10 @@ class ObjReader {
     const std::size_t slash = std::min(token.find('/'), token.size());
     const std::optional<std::int64_t> index = integer_from(token.substr(0, slash));
     if (!index || token.find_first_not_of("+-0123456789/", slash) != std::string_view::npos) {
-      builder_.fail(lines_.place(),
-                    "expected a corner such as 7 or 7/2/5, found " + in_quotes(token));
+      builder_.fail(
+          lines_.place(),
+          "expected a corner such as 7 or 7/2/5, found " + in_quotes(token) +
+              (token.find(',') == std::string_view::npos ? "" : "; separate corners by spaces"));
     }
     if (*index == 0) {
       builder_.fail(lines_.place(), "face names vertex 0, but vertices are counted from 1");

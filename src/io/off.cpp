@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "vantage/core/error.h"
+
 #include "io/number_parsing.h"
 #include "io/readers.h"
 #include "io/text_cursor.h"
@@ -30,7 +32,8 @@ class OffReader {
   OffReader(std::string_view bytes, std::string_view name, const RunContext& run)
       : bytes_(without_bom(bytes)), cursor_(bytes_), builder_(ModelFormat::Off, name, run, 0) {}
 
-  Model read() {
+  /// \param may_be_by_line false: numbers stand on any lines.
+  Model read(bool may_be_by_line) {
     if (read_header()) {
       read_binary_off(bytes_, cursor_.offset(), layout_, builder_);
       return builder_.finish();
@@ -38,12 +41,19 @@ class OffReader {
     read_counts();
     // Numbers may stand on any lines. Where each vertex and face has one, there may be more of them than
     // the header word says.
-    by_line_ = content_lines(cursor_.rest()) >= points_ + faces_ && tokens_of_next_line() > 1;
+    by_line_ = may_be_by_line && content_lines(cursor_.rest()) >= points_ + faces_ &&
+               tokens_of_next_line() > 1;
     read_points();
     read_faces();
     finish_notes();
     return builder_.finish();
   }
+
+  /// Whether each vertex and face was taken to have a line of its own.
+  [[nodiscard]] bool is_by_line() const { return by_line_; }
+
+  /// Whether text follows the last face.
+  [[nodiscard]] bool has_rest() const { return has_rest_; }
 
  private:
   /// Reads the header word and what may stand beside it; true if the rest is binary.
@@ -240,7 +250,8 @@ class OffReader {
       builder_.note("vertices with more numbers than the header word says, left out: " +
                     std::to_string(lines_with_surplus_));
     }
-    if (!cursor_.next_token(kComment).empty()) {
+    has_rest_ = !cursor_.next_token(kComment).empty();
+    if (has_rest_) {
       builder_.note("text after the last face left out, from " + cursor_.place().text());
     }
   }
@@ -251,10 +262,24 @@ class OffReader {
   OffLayout layout_{};
   std::size_t points_ = 0;
   std::size_t faces_ = 0;
-  bool by_line_ = true;
+  bool by_line_ = false;
+  bool has_rest_ = false;
   std::size_t lines_with_surplus_ = 0;
   std::size_t coloured_faces_ = 0;
 };
+
+/// The model if its numbers, wherever they stand, are just as many as declared.
+std::optional<Model> read_in_free_form(std::string_view bytes, std::string_view name,
+                                       const RunContext& run) {
+  try {
+    const RunContext quiet = run.quiet();  // progress has been reported already
+    OffReader reader(bytes, name, quiet);
+    Model model = reader.read(/*may_be_by_line=*/false);
+    return reader.has_rest() ? std::nullopt : std::optional(std::move(model));
+  } catch (const FormatError&) {
+    return std::nullopt;
+  }
+}
 
 }  // namespace
 
@@ -308,7 +333,18 @@ void add_off_point(ModelBuilder& builder, const OffLayout& layout, const double*
 }
 
 Model parse_off(std::string_view bytes, std::string_view name, const RunContext& run) {
-  return OffReader(bytes, name, run).read();
+  OffReader reader(bytes, name, run);
+  try {
+    return reader.read(/*may_be_by_line=*/true);
+  } catch (const FormatError&) {
+    // A vertex may be broken over lines though there are enough of them for all.
+    std::optional<Model> model =
+        reader.is_by_line() ? read_in_free_form(bytes, name, run) : std::optional<Model>();
+    if (!model) {
+      throw;
+    }
+    return std::move(*model);
+  }
 }
 
 }  // namespace vantage

@@ -91,6 +91,15 @@ void read_ascii(std::string_view bytes, const PcdHeader& header, ModelBuilder& b
     }
     sink.add(point, cursor.place(), header.body + cursor.offset());
   }
+  if (!cursor.next_token().empty()) {
+    builder.note("text after the last point left out, from " + cursor.place().text());
+  }
+}
+
+void note_surplus(std::size_t bytes, ModelBuilder& builder) {
+  if (bytes > 0) {
+    builder.note("bytes after the last point left out: " + std::to_string(bytes));
+  }
 }
 
 /// \param by_column the values of a field follow one another over all points, as compressed files
@@ -138,6 +147,7 @@ Model parse_pcd(std::string_view bytes, std::string_view name, const RunContext&
     read_ascii(bytes, header, builder, sink);
   } else if (header.data == PcdData::Binary) {
     read_binary(body, header.body, false, header, builder, sink);
+    note_surplus(body.size() - header.points * header.point_bytes, builder);
   } else {
     constexpr std::size_t kSizes = 8;  // of the packed and of the unpacked bytes
     std::string unpacked;
@@ -152,6 +162,7 @@ Model parse_pcd(std::string_view bytes, std::string_view name, const RunContext&
                    "the compressed points cannot be unpacked; the file may be damaged");
     }
     read_binary(unpacked, header.body, true, header, builder, sink);
+    note_surplus(body.size() - kSizes - packed, builder);
   }
   sink.finish();
   return builder.finish();

@@ -59,10 +59,13 @@ class BodyReader {
       }
     }
     textures_.finish();
+    if (const std::string rest = source_.rest_left_out(); !rest.empty()) {
+      builder_.note(rest);
+    }
   }
 
-  /// Values that the header does not declare.
-  std::size_t surplus() { return source_.surplus(); }
+  /// Values that rows hold and the header does not declare.
+  [[nodiscard]] std::size_t surplus() const { return source_.surplus(); }
 
  private:
   void check_count(const PlyElement& element) {

@@ -71,7 +71,8 @@ PlyRole role_of(const PlyElement& element, const PlyProperty& property) {
                      [&](const RoleName& known) { return known.name == name; });
     role = entry == kVertexRoles.end() ? PlyRole::Other : entry->role;
   } else if ((element.kind == PlyElement::Kind::Face || element.kind == PlyElement::Kind::Strips) &&
-             property.is_list && (name == "vertex_indices" || name == "vertex_index")) {
+             property.is_list &&
+             (name == "vertex_indices" || name == "vertex_index" || name == "vertex_indexes")) {
     role = PlyRole::Indices;
   } else if (element.kind == PlyElement::Kind::Face) {
     role = property.is_list && name == "texcoord"     ? PlyRole::CornerPlaces
@@ -239,8 +240,20 @@ class PlyHeaderReader {
     const bool has_corners =
         element.kind == PlyElement::Kind::Face || element.kind == PlyElement::Kind::Strips;
     if (has_corners && element.count > 0 && !has(PlyRole::Indices)) {
-      builder_.fail("the element " + element.name + " lacks the list property vertex_indices");
+      builder_.fail("the element " + element.name + " lacks the list property vertex_indices" +
+                    other_lists(element));
     }
+  }
+
+  /// What to rename, for a message.
+  static std::string other_lists(const PlyElement& element) {
+    std::string names;
+    for (const PlyProperty& property : element.properties) {
+      if (property.is_list) {
+        names += (names.empty() ? "; if its corners are in " : " or ") + in_quotes(property.name);
+      }
+    }
+    return names + (names.empty() ? "" : ", rename it");
   }
 
   std::string_view bytes_;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "io/byte_cursor.h"
@@ -40,13 +41,17 @@ class PlyTextSource {
     }
   }
 
-  /// Values that were passed over, or that stand beyond the last row.
-  std::size_t surplus() {
-    while (rows_ == Rows::Counted && surplus_ == 0 && !cursor_.next_token().empty()) {
-      ++surplus_;
+  /// What stands beyond the last row, for a note; empty if there is nothing.
+  std::string rest_left_out() {
+    if (cursor_.next_token().empty()) {
+      return {};
     }
-    return surplus_;
+    surplus_ += rows_ == Rows::Counted ? 1 : 0;
+    return "text after the last element left out, from " + place().text();
   }
+
+  /// Values that were passed over, or that stand beyond the last row.
+  [[nodiscard]] std::size_t surplus() const { return surplus_; }
 
   double next(PlyScalar /*type*/) {
     token_ = take();
@@ -109,6 +114,12 @@ class PlyBinarySource {
   static void begin_row() {}
 
   static void end_row() {}
+
+  [[nodiscard]] std::string rest_left_out() const {
+    return remaining() == 0
+               ? ""
+               : "bytes after the last element left out: " + std::to_string(remaining());
+  }
 
   static std::size_t surplus() { return 0; }
 

@@ -104,17 +104,22 @@ class PointListReader {
                   const RunContext& run)
       : cursor_(without_bom(bytes)),
         size_(bytes.size()),
-        has_scans_(format == ModelFormat::Pts),
+        format_(format),
         builder_(format, name, run, 0) {}
 
   Model read() {
     for (auto text = cursor_.next_line(); text; text = cursor_.next_line()) {
+      if (has_normals_below_ && builder_.point_count() == scan_end_) {
+        builder_.note("normals that follow the points left out: " + std::to_string(scan_end_));
+        break;
+      }
       const std::string_view line = trimmed(*text);
       if (!is_comment(line) && !is_heading(line)) {
         read_point(line);
         builder_.advance(cursor_.offset(), size_);
       }
     }
+    compare_with_heading();
     if (is_flat_) {
       builder_.note("points of two coordinates were read with z = 0");
     }
@@ -128,20 +133,69 @@ class PointListReader {
   }
 
  private:
-  /// Whether a line stands above the points: a count, or names of columns. In a .pts each scan has one.
+  /// Whether a line stands above the points: a count, or names of columns. There is one of each at most,
+  /// but in a .pts each scan has a count.
   bool is_heading(std::string_view line) {
     Columns columns(line);
     const std::string_view first = columns.take();
     columns.take_separator();
     const std::optional<std::int64_t> count = columns.at_end() ? integer_from(first) : std::nullopt;
     const bool is_first = builder_.point_count() == 0;
-    const bool ends_scan = has_scans_ && builder_.point_count() == scan_end_;
-    if (count && *count >= 0 && (is_first || ends_scan)) {
-      scan_end_ = builder_.point_count() + static_cast<std::size_t>(*count);
+    const bool ends_scan = format_ == ModelFormat::Pts && builder_.point_count() == scan_end_;
+    if (count && *count >= 0 && ((is_first && scans_ == 0) || ends_scan)) {
+      scan_begin_ = builder_.point_count();
+      scan_end_ = scan_begin_ + static_cast<std::size_t>(*count);
+      has_normals_below_ = format_ == ModelFormat::Pwn && normals_follow(scan_end_);
       ++scans_;
       return true;
     }
-    return is_first && (!number_from(first) || columns.at_end());
+    if (!is_first || has_names_ || (number_from(first) && !columns.at_end())) {
+      return false;
+    }
+    has_names_ = true;
+    builder_.note(cursor_.place().text() + " left out as a heading: " + in_quotes(line));
+    return true;
+  }
+
+  /// Whether twice as many rows follow as are declared, of three numbers each: points, then their normals.
+  [[nodiscard]] bool normals_follow(std::size_t points) const {
+    std::size_t rows = 0;
+    TextCursor ahead = cursor_;
+    for (auto text = ahead.next_line(); text; text = ahead.next_line()) {
+      const std::string_view line = trimmed(*text);
+      if (is_comment(line)) {
+        continue;
+      }
+      Columns columns(line);
+      int found = 0;
+      for (; found <= 3 && !columns.at_end(); ++found) {
+        columns.take();
+        columns.take_separator();
+      }
+      if (found != 3) {
+        return false;
+      }
+      ++rows;
+    }
+    return rows > 0 && rows % 2 == 0 && rows / 2 == points;
+  }
+
+  /// Of the last scan. In a .xyz a lone number may be another than that of the points.
+  void compare_with_heading() {
+    if (scans_ == 0 || format_ == ModelFormat::Xyz) {
+      return;
+    }
+    const std::size_t points = builder_.point_count();
+    if (points < scan_end_) {
+      builder_.fail(cursor_.place(),
+                    "the heading declares " + std::to_string(scan_end_ - scan_begin_) +
+                        " points, the file ends after " + std::to_string(points - scan_begin_) +
+                        "; it may be cut short");
+    }
+    if (points > scan_end_) {
+      builder_.note("points beyond those that the heading declares, read too: " +
+                    std::to_string(points - scan_end_));
+    }
   }
 
   void read_point(std::string_view line) {
@@ -175,7 +229,10 @@ class PointListReader {
     for (std::size_t c = 0; c < column.size(); ++c) {
       const std::optional<double> value = number_from(column[c]);
       if (!value || !std::isfinite(*value)) {
-        builder_.fail(cursor_.place(), number_problem(column[c]));
+        builder_.fail(
+            cursor_.place(),
+            number_problem(column[c]) +
+                (value ? "" : "; a line holds the coordinates of a point, such as 0.5 1 2"));
       }
       point[static_cast<Eigen::Index>(c)] = *value;
       if (!builder_.double_precision() && needs_double(column[c], *value)) {
@@ -192,10 +249,13 @@ class PointListReader {
 
   TextCursor cursor_;
   std::size_t size_;
-  bool has_scans_;
+  ModelFormat format_;
   ModelBuilder builder_;
   bool is_flat_ = false;
   bool has_colours_ = false;  ///< Or normals: three columns and more behind a point's coordinates.
+  bool has_names_ = false;    ///< A heading other than a count was seen.
+  bool has_normals_below_ = false;
+  std::size_t scan_begin_ = 0;
   std::size_t scan_end_ = 0;  ///< How many points there are after the scan, as the file says.
   std::size_t scans_ = 0;
 };

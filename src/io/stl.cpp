@@ -35,6 +35,11 @@ class TextReader {
     if (in_facet_) {
       builder_.fail(cursor_.place(), "the file ends inside a facet");
     }
+    if (unended_ > 0) {
+      builder_.note(
+          "facets that do not end before the next statement begins: " + std::to_string(unended_) +
+          ", the first was ended in line " + std::to_string(first_unended_));
+    }
     if (left_out_ > 0) {
       builder_.note("lines before facets left out: " + std::to_string(left_out_) +
                     ", the first is line " + std::to_string(first_left_out_));
@@ -47,6 +52,7 @@ class TextReader {
     if (is("vertex")) {
       read_vertex();
     } else if (is("facet")) {
+      end_unended_polygon();
       in_facet_ = true;
       is_before_facets_ = false;
       skip_to("outer");  // over the normal, which the corners imply
@@ -55,11 +61,13 @@ class TextReader {
       end_open_polygon();
       line_of_end_ = cursor_.place().value;
     } else if (is("outer")) {
+      end_unended_polygon();
       skip_to("vertex");
     } else if (is("solid")) {
       read_solid_name();
       is_before_facets_ = true;
     } else if (is("endsolid")) {
+      in_facet_ = in_facet_ && !end_unended_polygon();
       cursor_.skip_line();
     } else if (is_before_facets_) {  // comments, colours and the like
       first_left_out_ = left_out_++ == 0 ? cursor_.place().value : first_left_out_;
@@ -90,13 +98,33 @@ class TextReader {
     }
   }
 
+  /// A polygon that a statement cuts off, for want of endloop. \return whether there was one.
+  bool end_unended_polygon() {
+    if (!has_open_polygon_) {
+      return false;
+    }
+    first_unended_ = unended_++ == 0 ? cursor_.place().value : first_unended_;
+    end_open_polygon();
+    return true;
+  }
+
+  /// The name ends with its line, or before a facet on the same line.
   void read_solid_name() {
     std::string part;
-    for (std::string_view token = cursor_.token_on_line(); !token.empty();
-         token = cursor_.token_on_line()) {
+    while (!is_facet_next()) {
+      const std::string_view token = cursor_.token_on_line();
+      if (token.empty()) {
+        break;
+      }
       part += (part.empty() ? "" : " ") + std::string(token);
     }
     builder_.begin_part(part);
+  }
+
+  [[nodiscard]] bool is_facet_next() const {
+    TextCursor ahead = cursor_;
+    return equals_ignoring_case(ahead.token_on_line(), "facet") &&
+           equals_ignoring_case(ahead.token_on_line(), "normal");
   }
 
   void read_vertex() {
@@ -129,6 +157,8 @@ class TextReader {
   bool in_facet_ = false;
   bool has_open_polygon_ = false;
   bool is_before_facets_ = true;
+  std::size_t unended_ = 0;  ///< Polygons.
+  std::size_t first_unended_ = 0;
   std::size_t left_out_ = 0;
   std::size_t first_left_out_ = 0;
   std::size_t line_of_end_ = 0;
@@ -140,18 +170,27 @@ void read_binary(std::string_view bytes, ModelBuilder& builder) {
         "is neither a text STL, which starts with the word solid, nor long enough for a "
         "binary one");
   }
+  const std::uint64_t held = held_stl_triangles(bytes);
   const std::uint64_t declared = stl_triangle_count(bytes);
-  const std::uint64_t held = (bytes.size() - kStlPreamble) / kStlTriangle;
+  const std::string counts = "the file declares " + std::to_string(declared) +
+                             " triangles but has room for " + std::to_string(held);
   if (declared > held) {
-    builder.fail({"byte", kStlHeader}, "the file declares " + std::to_string(declared) +
-                                           " triangles but has room for " + std::to_string(held) +
-                                           "; it may be cut short");
+    builder.fail({"byte", kStlHeader}, counts + "; it may be cut short");
   }
-  const std::size_t end = kStlPreamble + static_cast<std::size_t>(declared) * kStlTriangle;
+  if (held == 0) {
+    builder.fail(
+        {"byte", kStlHeader},
+        "holds neither faces nor points: the file declares 0 triangles and has room for 0");
+  }
+  const std::size_t triangles = stl_triangles_to_read(bytes);
+  if (triangles != declared) {
+    builder.note(counts + ", all of which were read");
+  }
+  const std::size_t end = kStlPreamble + triangles * kStlTriangle;
   if (end < bytes.size()) {
     builder.note("bytes after the last triangle left out: " + std::to_string(bytes.size() - end));
   }
-  builder.reserve_points(static_cast<std::size_t>(declared) * 3);
+  builder.reserve_points(triangles * 3);
   bool has_colours =
       bytes.substr(0, kStlHeader).find("COLOR=") != std::string_view::npos;  // Magics
   for (std::size_t at = kStlPreamble; at < end; at += kStlTriangle) {

@@ -29,6 +29,15 @@ std::uint64_t stl_triangle_count(std::string_view bytes) {
   return decode<std::uint32_t>(bytes.data() + kStlHeader, ByteOrder::Little);
 }
 
+std::size_t held_stl_triangles(std::string_view bytes) {
+  return (bytes.size() - kStlPreamble) / kStlTriangle;
+}
+
+std::size_t stl_triangles_to_read(std::string_view bytes) {
+  const std::uint64_t declared = stl_triangle_count(bytes);
+  return declared == 0 ? held_stl_triangles(bytes) : static_cast<std::size_t>(declared);
+}
+
 bool has_binary_stl_size(std::string_view bytes) {
   return bytes.size() >= kStlPreamble &&
          bytes.size() - kStlPreamble == stl_triangle_count(bytes) * kStlTriangle;

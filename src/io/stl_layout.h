@@ -17,6 +17,13 @@ inline constexpr std::size_t kStlTriangle = 50;  ///< bytes: normal, three corne
 /// The number of triangles that a binary STL says it has. \pre at least kStlPreamble bytes
 std::uint64_t stl_triangle_count(std::string_view bytes);
 
+/// The number of triangles that the bytes after the preamble have room for. \pre as above
+std::size_t held_stl_triangles(std::string_view bytes);
+
+/// The number of triangles to read: the declared one, or, if that is 0, as programs leave it that write
+/// triangles as they come, what there is room for. \pre as above
+std::size_t stl_triangles_to_read(std::string_view bytes);
+
 /// Whether the bytes are a binary STL by their size: 84 bytes and 50 for each declared triangle.
 bool has_binary_stl_size(std::string_view bytes);
 

@@ -140,13 +140,11 @@ std::string turned_ascii_stl(std::string_view bytes, std::string_view name, cons
 }
 
 std::string turned_binary_stl(std::string_view bytes, std::string_view name, const AxisTurn& turn) {
-  const std::size_t held =
-      bytes.size() < kStlPreamble ? 0 : (bytes.size() - kStlPreamble) / kStlTriangle;
-  if (bytes.size() < kStlPreamble || stl_triangle_count(bytes) > held) {
+  if (bytes.size() < kStlPreamble || stl_triangle_count(bytes) > held_stl_triangles(bytes)) {
     throw FormatError(std::string(name), "byte 80", "the file is cut short");
   }
   std::string result(bytes);
-  const std::size_t end = kStlPreamble + stl_triangle_count(bytes) * kStlTriangle;
+  const std::size_t end = kStlPreamble + stl_triangles_to_read(bytes) * kStlTriangle;
   for (std::size_t triangle = kStlPreamble; triangle < end; triangle += kStlTriangle) {
     for (std::size_t point = 0; point < 4; ++point) {
       const std::size_t at = triangle + point * 3 * sizeof(float);
@@ -188,7 +186,8 @@ std::string turned_gltf_text(std::string_view text, std::string_view name, const
   if (!root.is_object()) {
     fail("is not well formed");
   }
-  if (!root.contains("scenes") && root.contains("nodes") && root["nodes"].is_array()) {
+  const bool has_scenes = root.contains("scenes") && root["scenes"] != OrderedJson::array();
+  if (!has_scenes && root.contains("nodes") && root["nodes"].is_array()) {
     root["scene"] = 0;  // of a file without scenes readers show all nodes
     root["scenes"] = {{{"nodes", nodes_of_no_other(root["nodes"])}}};
   }
@@ -214,6 +213,9 @@ std::string turned_gltf_text(std::string_view text, std::string_view name, const
         node = known->second;
       }
     }
+  }
+  if (turned.empty()) {
+    fail("has no scene to turn");
   }
   return json_text(root, indent);
 }

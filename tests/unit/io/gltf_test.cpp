@@ -479,6 +479,11 @@ TEST(Gltf, RefusesWrongTypesInTheJson) {
   EXPECT_THAT(scene.error(), HasSubstr("is not valid glTF"));
 }
 
+TEST(Gltf, SaysThatTheSceneShownIsEmpty) {
+  EXPECT_THAT(error_text(R"({"asset":{"version":"2.0"},"scenes":[{}],"nodes":[{}]})", "a.gltf"),
+              HasSubstr("neither faces nor points; scene 0, which is the one shown, has no nodes"));
+}
+
 TEST(Gltf, RefusesABufferThatIsNotBase64) {
   Scene scene;
   scene.buffer = R"({"byteLength":52,"uri":"data:;base64,**"})";

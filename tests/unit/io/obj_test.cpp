@@ -99,6 +99,15 @@ TEST(Obj, GroupsAndObjectsBecomeParts) {
   EXPECT_EQ(model.parts[1].first_triangle, 2U);
 }
 
+TEST(Obj, AGroupWithoutANameOfItsOwnLeavesThatOfItsObject) {
+  const Model model = obj(std::string(kThreePoints) +
+                          "o body\ng\nf 1 2 3\ng arm\ng default\nf 1 3 2\ng default\nf 2 3 1\n");
+  ASSERT_EQ(model.parts.size(), 3U);
+  EXPECT_EQ(model.parts[0].name, "body");
+  EXPECT_EQ(model.parts[1].name, "arm");
+  EXPECT_EQ(model.parts[2].name, "default");  // a group that has faces already keeps them
+}
+
 TEST(Obj, ReadsColoursFromZeroToOne) {
   const Model model = obj("v 0 0 0 1 0.2 0\nv 1 0 0 0 0 1\nv 0 1 0 1 1 1\nf 1 2 3\n");
   EXPECT_THAT(model.vertex_colours,
@@ -169,6 +178,11 @@ TEST(Obj, RefusesACornerThatIsNoNumber) {
               HasSubstr("line 4: expected a corner such as 7 or 7/2/5, found '1;'"));
 }
 
+TEST(Obj, RefusesCommasBetweenCornersWithAHint) {
+  EXPECT_THAT(error_text(std::string(kThreePoints) + "f 1, 2, 3\n", "a.obj"),
+              HasSubstr("found '1,'; separate corners by spaces"));
+}
+
 TEST(Obj, RefusesDecimalCommasWithAHint) {
   EXPECT_THAT(error_text("v 1,5 0 0\n", "a.obj"),
               HasSubstr("line 1: expected a number, found '1,5'; write decimals with a point"));
@@ -184,7 +198,8 @@ TEST(Obj, RefusesCoordinatesThatAreNotFinite) {
 TEST(Obj, RefusesTooFewOrTooManyNumbersInAVertex) {
   EXPECT_THAT(error_text("v 0 0\n", "a.obj"), HasSubstr("line 1: expected 3 coordinates, found 2"));
   EXPECT_THAT(error_text("v 0 0 0 1 1\n", "a.obj"), HasSubstr("3 coordinates and 2 more"));
-  EXPECT_THAT(error_text("v 0 0 0 1 1 1 1 1\n", "a.obj"), HasSubstr("more than 7 numbers"));
+  EXPECT_THAT(error_text("v 0 0 0 1 1 1 1 1\n", "a.obj"),
+              HasSubstr("more than 7 numbers; expected 3 coordinates, and"));
 }
 
 TEST(Obj, RefusesCoordinatesWhoseSquaresLeaveTheDoubles) {
@@ -201,6 +216,8 @@ TEST(Obj, RefusesAModelOfAFewStepsOfItsCoordinates) {
 
 TEST(Obj, RefusesAFileWithNothingInIt) {
   EXPECT_THAT(error_text("# nothing\n", "a.obj"), HasSubstr("holds neither faces nor points"));
+  EXPECT_THAT(error_text("V 0 0 0\nV 1 0 0\n", "a.obj"),
+              HasSubstr("neither faces nor points; lines with an unknown keyword left out: 2"));
   EXPECT_THAT(error_text("", "a.obj"), HasSubstr("the file is empty"));
 }
 

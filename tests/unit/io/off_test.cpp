@@ -133,6 +133,15 @@ TEST(Off, ReadsCountsAndCoordinatesEachOnALineOfItsOwn) {
   }
 }
 
+TEST(Off, ReadsVerticesThatAreBrokenOverLines) {
+  const std::string text = "OFF\n4 2 0\n0 0\n0\n1 0\n0\n0 1\n0\n0 0\n1\n3 0 1 2\n3 0 1 3\n";
+  const Model model = off(text);
+  EXPECT_EQ(model.mesh.positions[3], Vec3(0, 0, 1));
+  EXPECT_THAT(model.mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 1, 3}));
+  // Only if all numbers are accounted for.
+  EXPECT_THAT(error_text(text + "7\n", "a.off"), HasSubstr("line 3: expected 3 coordinates"));
+}
+
 TEST(Off, ReadsBinaryWithTheHighestByteFirst) {
   const Model model = parse_model(binary_off(true), "a.off");
   EXPECT_EQ(model.mesh.positions[2], Vec3(0, 2.5, 0));

@@ -227,6 +227,34 @@ TEST(Ply, RefusesBrokenHeaders) {
               HasSubstr("declares no element vertex"));
 }
 
+TEST(Ply, NotesWhatFollowsTheLastElement) {
+  const std::string text = ascii(kVertices, kFourPoints);
+  EXPECT_THAT(ply(text + "\n").notes, testing::IsEmpty());
+  EXPECT_THAT(ply(text + "\n5 5 5\n").notes,
+              ElementsAre("text after the last element left out, from line 13"));
+  for (const ByteOrder order : {ByteOrder::Little, ByteOrder::Big}) {
+    EXPECT_THAT(ply(binary_ply(order)).notes, testing::IsEmpty());
+    EXPECT_THAT(ply(binary_ply(order) + "abc").notes,
+                ElementsAre("bytes after the last element left out: 3"));
+  }
+}
+
+TEST(Ply, ReadsCornersUnderEachOfTheirNames) {
+  for (const std::string name : {"vertex_indices", "vertex_index", "vertex_indexes"}) {
+    const std::string header =
+        kVertices + ("element face 1\nproperty list uchar int " + name + "\n");
+    EXPECT_EQ(ply(ascii(header, std::string(kFourPoints) + "3 0 1 2\n")).polygons, 1U) << name;
+  }
+}
+
+TEST(Ply, TellsWhichListMayHoldTheCorners) {
+  EXPECT_THAT(error_text(ascii(std::string(kVertices) + "element face 1\nproperty int q\n"
+                                                        "property list uchar int corners\n",
+                               std::string(kFourPoints) + "1 3 0 1 2\n"),
+                         "a.ply"),
+              HasSubstr("vertex_indices; if its corners are in 'corners', rename it"));
+}
+
 TEST(Ply, RefusesFacesWithoutCorners) {
   EXPECT_THAT(error_text(ascii(std::string(kVertices) + "element face 1\nproperty int q\n",
                                std::string(kFourPoints) + "1\n"),

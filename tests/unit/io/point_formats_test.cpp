@@ -77,6 +77,13 @@ TEST(Pcd, RefusesMorePointsThanTheFileHolds) {
               HasSubstr("more than the file holds"));
 }
 
+TEST(Pcd, NotesWhatFollowsTheLastPoint) {
+  EXPECT_THAT(parse_model(pcd("1", "ascii") + "1 2 3 9\n4 5 6 9\n", "a.pcd").notes,
+              ElementsAre("text after the last point left out, from line 13"));
+  EXPECT_THAT(parse_model(pcd("1", "binary") + std::string(13 + 4, '\1'), "a.pcd").notes,
+              ElementsAre("bytes after the last point left out: 4"));
+}
+
 TEST(Lzf, UnpacksAReferenceThatOverlapsItself) {
   std::string out;
   // One literal, then 5 bytes from 1 back: length 3 + 2, distance 0 + 1.
@@ -128,6 +135,45 @@ TEST(PointList, ReadsAllScansOfAPts) {
   EXPECT_THAT(error_text(text, "a.xyz"), HasSubstr("expected 3 coordinates, found 1"));
   // Not after the number of points that was said.
   EXPECT_THAT(error_text("2\n1 2 3\n4\n7 8 9\n", "a.pts"), HasSubstr("line 3"));
+}
+
+TEST(PointList, HoldsTheCountOfAHeadingAgainstThePoints) {
+  for (const std::string name : {"a.pts", "a.pwn"}) {
+    EXPECT_THAT(error_text("1000\n0 0 0\n1 0 0\n", name),
+                HasSubstr("line 3: the heading declares 1000 points, the file ends after 2"));
+    const Model model = parse_model("1\n0 0 0\n1 0 0\n0 1 0 \n", name);
+    EXPECT_EQ(model.mesh.positions.size(), 3U);
+    EXPECT_THAT(model.notes,
+                ElementsAre("points beyond those that the heading declares, read too: 2"));
+  }
+  EXPECT_THAT(error_text("1\n0 0 0\n3\n1 0 0\n", "a.pts"),
+              HasSubstr("the heading declares 3 points, the file ends after 1"));
+}
+
+TEST(PointList, TakesTheSecondHalfOfAPwnForNormals) {
+  const std::string points = "2\n1 2 3\n4 5 6\n";
+  const Model model = parse_model(points + "# normals\n0 0 1\n0 0.123456789012 1\n", "a.pwn");
+  EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(1, 2, 3), Vec3(4, 5, 6)));
+  EXPECT_FALSE(model.double_precision);
+  EXPECT_THAT(model.notes, ElementsAre("normals that follow the points left out: 2"));
+  for (const std::string rest : {"0 0 1\n", "0 0 1\n0 1 0\n1 0 0\n", "0 0 1 1\n0 1 0 1\n"}) {
+    EXPECT_GT(parse_model(points + rest, "a.pwn").mesh.positions.size(), 2U) << rest;
+  }
+}
+
+TEST(PointList, LeavesOutOneHeadingAndSaysSo) {
+  for (const std::string text : {"x y z\n1 2 3\n", "1\nx y z\n1 2 3\n", "x y z\n1\n1 2 3\n",
+                                 "# a\n// b\n\nx y z\n# c\n1 2 3\n"}) {
+    const Model model = parse_model(text, "a.xyz");
+    EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(1, 2, 3))) << text;
+    EXPECT_THAT(model.notes, ElementsAre(HasSubstr("left out as a heading: 'x y z'"))) << text;
+  }
+}
+
+TEST(PointList, RefusesFurtherLinesOfWords) {
+  EXPECT_THAT(error_text("3\nwater\nO 0 0 0\nH 1 0 0\n", "a.xyz"),
+              AllOf(HasSubstr("line 3: expected a number, found 'O'"), HasSubstr("such as 0.5")));
+  EXPECT_THAT(error_text("O.5 1 2\nO.5 1 3\n0 0 0\n", "a.xyz"), HasSubstr("line 2"));
 }
 
 TEST(PointList, NamesTheLineOfAWordThatIsNoNumber) {

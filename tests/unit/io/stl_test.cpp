@@ -92,6 +92,40 @@ TEST(Stl, PassesOverWordsBehindTheEndOfAFacet) {
   EXPECT_EQ(parse_model(text, "a.stl").polygons, 2U);
 }
 
+TEST(Stl, EndsAFacetWhereTheNextStatementCutsItOff) {
+  std::string text = std::string("solid a\n") + kFacet + kFacet + "endsolid\n";
+  text.erase(text.find("endloop"), std::string("endloop\nendfacet\n").size());
+  const Model model = parse_model(text, "a.stl");
+  EXPECT_THAT(model.mesh.triangles, ElementsAre(Triangle{0, 1, 2}, Triangle{0, 1, 2}));
+  EXPECT_THAT(model.notes, ElementsAre(HasSubstr("1, the first was ended in line 7")));
+  text.erase(text.rfind("endloop"), std::string("endloop\nendfacet\n").size());
+  EXPECT_EQ(parse_model(text, "a.stl").polygons, 2U);
+}
+
+TEST(Stl, ReadsASolidThatStandsOnItsFirstLine) {
+  std::string text = std::string("solid a facet b ") + kFacet + kFacet + "endsolid a\n";
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  const Model model = parse_model(text, "a.stl");
+  EXPECT_EQ(model.polygons, 2U);
+  EXPECT_EQ(model.parts.at(0).name, "a facet b");
+}
+
+TEST(Stl, ReadsWhatThereIsRoomForIfNoTrianglesAreDeclared) {
+  std::string bytes = binary_stl(box(1, 1, 1, 1), "");
+  bytes.replace(80, 4, 4, '\0');
+  const Model model = parse_model(bytes, "a.stl");
+  EXPECT_EQ(model.polygons, 12U);
+  EXPECT_THAT(model.notes, ElementsAre("the file declares 0 triangles but has room for 12, all of "
+                                       "which were read"));
+}
+
+TEST(Stl, MayBeginWithTheWordsOfOtherFormats) {
+  for (const std::string title : {"OFF exported by a tool", "ply\nexported", "# .PCD", "glTF"}) {
+    const std::string bytes = binary_stl(box(1, 1, 1, 1), title);
+    EXPECT_EQ(parse_model(bytes, "a.stl").polygons, 12U) << title;
+  }
+}
+
 TEST(Stl, NotesBytesAfterTheLastTriangle) {
   const Model model = parse_model(binary_stl(box(1, 1, 1, 1), "") + "xyz", "a.stl");
   EXPECT_THAT(model.notes, ElementsAre(HasSubstr("bytes after the last triangle left out: 3")));
@@ -155,8 +189,9 @@ TEST(Stl, RefusesBytesThatAreNeitherTextNorLongEnough) {
 }
 
 TEST(Stl, RefusesAFileWithoutTriangles) {
-  EXPECT_THAT(error_text(std::string(84, '\0'), "a.stl"),
-              HasSubstr("holds neither faces nor points"));
+  EXPECT_THAT(
+      error_text(std::string(84, '\0'), "a.stl"),
+      HasSubstr("neither faces nor points: the file declares 0 triangles and has room for 0"));
 }
 
 /// A binary STL of one triangle.

@@ -164,6 +164,22 @@ TEST(Threemf, LeavesSupportsOut) {
   EXPECT_THAT(model.notes, Contains(HasSubstr("support")));
 }
 
+TEST(Threemf, IgnoresTheTypeOfAnObjectWithComponents) {
+  for (const std::string type : {"support", "other"}) {
+    Plate plate;
+    plate.resources += R"(<object id="2" type=")" + type +
+                       R"("><components><component objectid="1"/></components></object>)";
+    plate.items += R"(<item objectid="2"/>)";
+    EXPECT_EQ(plate.parsed().mesh.triangles.size(), 8U) << type;
+  }
+}
+
+TEST(ThreemfError, SaysWhyNothingIsShown) {
+  Plate plate;
+  plate.resources = std::string(R"(<object id="1" type="support">)") + kTetrahedron + "</object>";
+  EXPECT_THAT(plate.error(), HasSubstr("neither faces nor points; objects that only support"));
+}
+
 TEST(Threemf, ShowsEveryObjectOfAFileThatBuildsNothing) {
   Plate plate;
   plate.items.clear();

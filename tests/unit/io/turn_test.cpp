@@ -105,20 +105,39 @@ TEST(TurnedBytes, OfABinaryStlAreTurnedAlsoIfItBeginsWithSolid) {
   }
 }
 
-TEST(TurnedBytes, OfAGltfWithoutScenesTurnTheNodesThatAreNobodysChild) {
-  const std::string text =
-      R"({"asset":{"version":"2.0"},"nodes":[{},{"children":[0]},{"children":[3]},{}]})";
-  const auto root = nlohmann::json::parse(turned(text, "a.gltf", ModelFormat::Gltf));
-  ASSERT_EQ(root["scenes"].size(), 1U);
-  EXPECT_EQ(root["scene"], 0);
-  std::set<std::size_t> shown;
-  for (const auto& node : root["scenes"][0]["nodes"]) {
-    EXPECT_TRUE(root["nodes"][node.get<std::size_t>()].contains("rotation"));
-    for (const auto& child : root["nodes"][node.get<std::size_t>()]["children"]) {
-      shown.insert(child.get<std::size_t>());
-    }
+TEST(TurnedBytes, OfABinaryStlThatDeclaresNoTrianglesAreThoseItHolds) {
+  std::string bytes(84, '\0');
+  for (const float value : {0.F, 0.F, 1.F, 1.F, 2.F, 3.F, 4.F, 5.F, 6.F, 7.F, 8.F, 10.F}) {
+    append_little_endian(bytes, value);
   }
-  EXPECT_EQ(shown, (std::set<std::size_t>{1, 2}));
+  bytes.append(2, '\0');
+  EXPECT_THAT(parse_model(turned(bytes, "a.stl", ModelFormat::Stl), "a.stl").mesh.positions,
+              testing::ElementsAre(Vec3(1, 3, -2), Vec3(4, 6, -5), Vec3(7, 10, -8)));
+}
+
+TEST(TurnedBytes, OfAGltfWithoutScenesTurnTheNodesThatAreNobodysChild) {
+  for (const std::string scenes : {"", R"("scenes":[],)"}) {
+    const std::string text = R"({"asset":{"version":"2.0"},)" + scenes +
+                             R"("nodes":[{},{"children":[0]},{"children":[3]},{}]})";
+    const auto root = nlohmann::json::parse(turned(text, "a.gltf", ModelFormat::Gltf));
+    ASSERT_EQ(root["scenes"].size(), 1U) << scenes;
+    EXPECT_EQ(root["scene"], 0);
+    std::set<std::size_t> shown;
+    for (const auto& node : root["scenes"][0]["nodes"]) {
+      EXPECT_TRUE(root["nodes"][node.get<std::size_t>()].contains("rotation"));
+      for (const auto& child : root["nodes"][node.get<std::size_t>()]["children"]) {
+        shown.insert(child.get<std::size_t>());
+      }
+    }
+    EXPECT_EQ(shown, (std::set<std::size_t>{1, 2})) << scenes;
+  }
+}
+
+TEST(TurnedBytes, OfAGltfInWhichNothingCanBeTurnedAreRefused) {
+  for (const std::string text : {R"({"asset":{"version":"2.0"},"nodes":[],"meshes":[{}]})",
+                                 R"({"asset":{"version":"2.0"},"nodes":[{}],"scenes":[{}]})"}) {
+    EXPECT_THROW((void)turned(text, "a.gltf", ModelFormat::Gltf), FormatError) << text;
+  }
 }
 
 TEST(TurnedBytes, OfAGltfTurnEachNodeOnceHoweverManyScenesShowIt) {
