@@ -239,8 +239,8 @@ VANTAGE_INLINE void EyeGrid::make_ready(const Surface& surface, FacePacket<Lanes
   const Many height = high_y - low_y;
   const Many error_bound = 16.0F * picture_.margin() * (width < height ? height : width);
   keep(error_bound, h.error_bound);
-  // A face whose sense is uncertain excludes nothing in its cells.
-  keep(sense * area > error_bound ? -error_bound : zero - kInfinity, h.least);
+  // A face whose sense is uncertain is within two errors of a line, and so is what it hides.
+  keep(sense * area > error_bound ? -error_bound : -4.0F * error_bound, h.least);
 }
 
 /// How far the sample is behind the face's plane as the eye sees it; 0 for faces seen edge on.
