@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -55,9 +56,10 @@ class Verification {
       return;
     }
     if (!record.duplicate_of.empty()) {
-      if (!store.find(record.duplicate_of)) {
+      const std::optional<batch::ModelRecord> first = store.find_content(record);
+      if (record.status == "done" && !(first && !first->folder.empty())) {
         complain(record.key + ": has the results of " + record.duplicate_of +
-                 ", which has no record");
+                 ", which has none of its content; run the batch again with " + record.key);
       }
       return;
     }

@@ -1,43 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "batch/forget.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "batch/result_folders.h"
+#include "batch/result_heirs.h"
 
 namespace vantage::batch {
-namespace {
-
-/// Gives the results of a model that is forgotten to the first of its equals that stay.
-void hand_over(ResultsStore& store, const ModelRecord& former,
-               const std::unordered_set<std::string>& listed) {
-  std::vector<ModelRecord> heirs;
-  for (ModelRecord& equal : store.find_equals(former)) {
-    if (equal.duplicate_of == former.key && listed.contains(equal.key)) {
-      heirs.push_back(std::move(equal));
-    }
-  }
-  std::stable_sort(heirs.begin(), heirs.end(), [](const ModelRecord& a, const ModelRecord& b) {
-    return a.position < b.position;
-  });
-  for (ModelRecord& heir : heirs) {
-    const bool is_first = &heir == &heirs.front();
-    heir.duplicate_of = is_first ? "" : heirs.front().key;
-    if (is_first) {
-      heir.folder = former.folder;
-      heir.result = former.result;
-      heir.timings = former.timings;
-    }
-    store.put(heir);
-  }
-}
-
-}  // namespace
-
 std::optional<Entry> ListedEntries::next() {
   std::optional<Entry> entry = all_->next();
   if (entry) {
@@ -62,8 +34,10 @@ std::size_t forget_others(ResultsStore& store, const ConfinedFolder& root,
   store.begin();
   for (const ModelRecord& other : others) {
     store.forget(other.key);
-    if (other.duplicate_of.empty()) {
-      hand_over(store, other, listed);
+  }
+  for (const ModelRecord& other : others) {
+    if (const std::optional<ModelRecord> heir = heir_of(store, root, other)) {
+      hand_over(store, root, *heir, other, other.folder);
     }
   }
   store.commit();

@@ -52,6 +52,14 @@ bool is_doubted(const ModelRecord& record) {
   return record.result.find("\"doubts\":[\"") != std::string::npos;
 }
 
+bool same_question(const ModelRecord& a, const ModelRecord& b) {
+  return a.options == b.options && a.version == b.version && a.name == b.name;
+}
+
+bool have_one_answer(const ModelRecord& a, const ModelRecord& b) {
+  return a.content == b.content && a.options == b.options && a.version == b.version;
+}
+
 Json to_json(const std::vector<StampBeside>& beside) {
   auto json = Json::array();
   for (const auto& [name, stamp] : beside) {
@@ -135,10 +143,9 @@ std::optional<ModelRecord> record_from_line(const std::string& line) {
 }
 
 bool supersedes(const ModelRecord& a, const ModelRecord& b) {
-  const bool same_question =
-      a.content == b.content && a.options == b.options && a.version == b.version;
+  const bool one_answer = have_one_answer(a, b);
   const auto rank = [&](const ModelRecord& r) {
-    return std::make_tuple(same_question && r.status == "done", r.timings.finished_ms,
+    return std::make_tuple(one_answer && r.status == "done", r.timings.finished_ms,
                            std::cref(r.version), std::cref(r.options), std::cref(r.folder),
                            std::cref(r.result));
   };

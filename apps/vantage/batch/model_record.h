@@ -62,6 +62,12 @@ bool may_pass_next_time(const std::string& reason);
 /// Whether its answer should not be trusted, for a reason that its view.json has.
 bool is_doubted(const ModelRecord& record);
 
+/// Whether two records answer, or ask, for the same thing of a model.
+bool same_question(const ModelRecord& a, const ModelRecord& b);
+
+/// Whether the results of one count for the other.
+bool have_one_answer(const ModelRecord& a, const ModelRecord& b);
+
 /// A record as one JSON object, keys in a fixed order.
 nlohmann::ordered_json to_json(const ModelRecord& record);
 

@@ -28,6 +28,10 @@ class ResultBook {
   /// All models of this content, these options and this version. \throw IoError
   virtual std::vector<ModelRecord> find_equals(const ModelRecord& like) = 0;
 
+  /// The first model by position of this content, these options and this version that is done and has
+  /// the results of another. \throw IoError
+  virtual std::optional<ModelRecord> find_duplicate(const ModelRecord& like) = 0;
+
   /// Key of the model whose results are in this folder; empty if there is none. \throw IoError
   virtual std::string owner_of(const std::string& folder) = 0;
 

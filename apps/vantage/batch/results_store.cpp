@@ -29,6 +29,11 @@ CREATE TABLE IF NOT EXISTS timings(
   attempts INTEGER NOT NULL, finished_ms INTEGER NOT NULL) WITHOUT ROWID;
 )sql";
 
+// Older stores get it, too: older programs pass over it.
+constexpr const char* kDuplicates =
+    "CREATE INDEX IF NOT EXISTS models_duplicates ON models(content, options, version, position) "
+    "WHERE duplicate_of <> '' AND status = 'done'";
+
 // Models with the same content stand for one: the first by position that was run. The view answers
 // for all of them with its results, so that it does not matter who ran them, or in how many shards.
 constexpr const char* kView = R"sql(VIEW results AS
@@ -101,7 +106,7 @@ ModelRecord record_of(const Statement& row) {
 // else what runs when a record is put, or is read in the place of one.
 constexpr const char* kForeign =
     "SELECT COUNT(*) FROM sqlite_schema WHERE name NOT IN ('models', 'timings', 'results', "
-    "'models_content', 'models_folder') AND name NOT LIKE 'sqlite%'";
+    "'models_content', 'models_folder', 'models_duplicates') AND name NOT LIKE 'sqlite%'";
 constexpr const char* kOdd =
     "SELECT COUNT(*) + (SELECT 2 - COUNT(*) FROM sqlite_schema WHERE type = 'table' AND "
     "name IN ('models', 'timings')) FROM sqlite_schema WHERE type = 'trigger' OR "
@@ -170,6 +175,9 @@ ResultsStore::ResultsStore(const std::string& folder, Database::Mode mode)
                   "DROP VIEW IF EXISTS results; CREATE " + kView +
                   "PRAGMA user_version = " + std::to_string(kSchema) + "; COMMIT;");
   }
+  if (mode == Database::Mode::Create) {
+    database_.run(kDuplicates);
+  }
   // Before the view of that name in the file, which may say anything.
   database_.run(std::string("CREATE TEMP ") + kView);
   const bool has_beside = !is_old || mode == Database::Mode::Create;
@@ -211,6 +219,15 @@ std::vector<ModelRecord> ResultsStore::find_equals(const ModelRecord& like) {
     records.push_back(record_of(equals));
   }
   return records;
+}
+
+std::optional<ModelRecord> ResultsStore::find_duplicate(const ModelRecord& like) {
+  Statement duplicate(database_,
+                      "SELECT " + columns_ +
+                          "WHERE m.duplicate_of <> '' AND m.status = 'done' AND m.content = ?1 AND "
+                          "m.options = ?2 AND m.version = ?3 ORDER BY m.position, m.key LIMIT 1");
+  duplicate.bind(1, like.content).bind(2, like.options).bind(3, like.version);
+  return duplicate.step() ? std::optional(record_of(duplicate)) : std::nullopt;
 }
 
 std::string ResultsStore::owner_of(const std::string& folder) {

@@ -35,6 +35,7 @@ class ResultsStore : public ResultBook {
   std::optional<ModelRecord> find(const std::string& key) override;
   std::optional<ModelRecord> find_content(const ModelRecord& like) override;
   std::vector<ModelRecord> find_equals(const ModelRecord& like) override;
+  std::optional<ModelRecord> find_duplicate(const ModelRecord& like) override;
   std::string owner_of(const std::string& folder) override;
   std::int64_t latest_ms() override;
   void put(const ModelRecord& record) override;

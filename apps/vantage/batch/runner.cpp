@@ -21,6 +21,7 @@
 #include "batch/file_stamp.h"
 #include "batch/naming.h"
 #include "batch/result_folders.h"
+#include "batch/result_heirs.h"
 
 namespace vantage::batch {
 namespace {
@@ -39,11 +40,6 @@ std::int64_t now_ms() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(
              std::chrono::system_clock::now().time_since_epoch())
       .count();
-}
-
-/// Whether two records answer, or ask, for the same thing of a model.
-bool same_question(const ModelRecord& a, const ModelRecord& b) {
-  return a.options == b.options && a.version == b.version && a.name == b.name;
 }
 
 std::string content_key(const ModelRecord& record) {
@@ -202,10 +198,8 @@ class Runner {
       return !before.folder.empty() && root_.is_folder(model_folder(before.folder)) &&
              (!options_.verify || holds_named_files(root_, before));
     }
-    const std::optional<ModelRecord> first = book_.find(before.duplicate_of);
-    return first && first->duplicate_of.empty() && first->content == before.content &&
-           first->options == before.options && first->version == before.version &&
-           still_answers(*first);
+    const std::optional<ModelRecord> first = book_.find_content(before);
+    return first && still_answers(*first);
   }
 
   /// Brings a model out of its archive, into a file of its own.
@@ -224,6 +218,10 @@ class Runner {
   void answer(const CrewEvent& event) {
     Job& job = *event.job;
     if (event.kind == CrewEvent::Kind::Result) {
+      const std::optional<ModelRecord> former = book_.find(job.record.key);
+      if (former && former->folder == job.record.folder && !have_one_answer(*former, job.record)) {
+        save_shared_results(*former, "");
+      }
       root_.move(event.staging, model_folder(job.record.folder));
       job.record.status = "done";
       ++counts_.done;
@@ -263,6 +261,7 @@ class Runner {
 
   void decide(Job& job) {
     ModelRecord& record = job.record;
+    job.before = book_.find(record.key);  // it may have been given results meanwhile
     if (job.before && job.before->content == record.content && same_question(*job.before, record) &&
         still_answers(*job.before)) {
       crew_.dismiss(job);
@@ -368,16 +367,24 @@ class Runner {
     if (!holder || holder->folder != job.record.folder) {
       return;
     }
-    for (ModelRecord& equal : book_.find_equals(*holder)) {
-      if (equal.key != job.record.key && equal.status == "done") {
-        equal.folder.clear();
-        equal.result.clear();
-        equal.options = job.record.options;
-        equal.version = job.record.version;
-        equal.duplicate_of = job.record.key;
-        book_.put(equal);
-      }
+    make_equal(book_, *holder, job.record);
+  }
+
+  /// Before results are replaced or removed that equal models share: the first of these has them from then
+  /// on, in a folder of its own. \param free folder that is nobody's then.
+  void save_shared_results(const ModelRecord& former, const std::string& free) {
+    const std::optional<ModelRecord> heir = heir_of(book_, root_, former);
+    if (!heir) {
+      return;
     }
+    const std::string path = path_of_key(heir->key);
+    const std::string own =
+        folder_name(options_.name_template,
+                    {.path = path, .name = heir->name, .key = heir->key, .content = heir->content});
+    const auto is_claimed = [&](const std::string& folder) {
+      return claims_.contains(folder) || !book_.owner_of(folder).empty();
+    };
+    hand_over(book_, root_, *heir, former, own == free ? own : free_folder(root_, own, is_claimed));
   }
 
   void release(const Job& job) {
@@ -433,10 +440,14 @@ class Runner {
   void write(Job& job) {
     job.record.timings.attempts = job.attempts;
     job.record.timings.finished_ms = now_after_start();
+    const std::optional<ModelRecord> former = book_.find(job.record.key);
+    const bool leaves = former && !former->folder.empty() && former->folder != job.record.folder;
+    if (leaves) {
+      save_shared_results(*former, former->folder);
+    }
     book_.put(job.record);
-    if (job.before && !job.before->folder.empty() && job.before->folder != job.record.folder &&
-        book_.owner_of(job.before->folder).empty() && holds_results(root_, job.before->folder)) {
-      root_.remove(model_folder(job.before->folder));  // results of what the file held before
+    if (leaves && book_.owner_of(former->folder).empty() && holds_results(root_, former->folder)) {
+      root_.remove(model_folder(former->folder));  // results of what the file held before
     }
     report_(counts_, &job.record);
   }

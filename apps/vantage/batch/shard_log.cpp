@@ -19,7 +19,8 @@
 namespace vantage::batch {
 namespace {
 
-// Records between two checkpoints: rewriting a shard of minutes costs less than a model.
+// Records between two checkpoints, at least: rewriting a shard of minutes costs less than a model. A larger
+// one is rewritten when its log has as many records as its file.
 constexpr std::size_t kCheckpoint = 256;
 
 // A record is a few kB; the rest of a longer line is no record and fills no memory.
@@ -143,7 +144,9 @@ void ShardLog::read(const std::string& name) {
 
 void ShardLog::remember(const ModelRecord& record) {
   if (const auto old = records_.find(record.key); old != records_.end()) {
-    runs_of_content_[versioned_content_key(old->second)].erase({old->second.position, record.key});
+    for (KeysOfContent* const keys : {&runs_of_content_, &duplicates_of_content_}) {
+      (*keys)[versioned_content_key(old->second)].erase({old->second.position, record.key});
+    }
     if (owner_of(old->second.folder) == record.key) {
       owner_of_folder_.erase(old->second.folder);
     }
@@ -151,6 +154,9 @@ void ShardLog::remember(const ModelRecord& record) {
   records_[record.key] = record;
   if (stands_for_its_content(record)) {
     runs_of_content_[versioned_content_key(record)].insert({record.position, record.key});
+  }
+  if (record.status == "done" && !record.duplicate_of.empty()) {
+    duplicates_of_content_[versioned_content_key(record)].insert({record.position, record.key});
   }
   if (!record.folder.empty()) {
     owner_of_folder_[record.folder] = record.key;
@@ -162,12 +168,21 @@ std::optional<ModelRecord> ShardLog::find(const std::string& key) {
   return found == records_.end() ? std::nullopt : std::optional(found->second);
 }
 
-std::optional<ModelRecord> ShardLog::find_content(const ModelRecord& like) {
-  const auto found = runs_of_content_.find(versioned_content_key(like));
-  if (found == runs_of_content_.end() || found->second.empty()) {
+std::optional<ModelRecord> ShardLog::first_of(const KeysOfContent& keys,
+                                              const ModelRecord& like) const {
+  const auto found = keys.find(versioned_content_key(like));
+  if (found == keys.end() || found->second.empty()) {
     return std::nullopt;
   }
   return records_.at(found->second.begin()->second);
+}
+
+std::optional<ModelRecord> ShardLog::find_content(const ModelRecord& like) {
+  return first_of(runs_of_content_, like);
+}
+
+std::optional<ModelRecord> ShardLog::find_duplicate(const ModelRecord& like) {
+  return first_of(duplicates_of_content_, like);
 }
 
 std::vector<ModelRecord> ShardLog::find_equals(const ModelRecord& like) {
@@ -211,7 +226,7 @@ void ShardLog::put(const ModelRecord& record) {
     throw IoError(folder_.path_of(log_name_), "cannot be written", errno);
   }
   remember(record);
-  if (++unsaved_ >= kCheckpoint) {
+  if (++unsaved_ >= std::max(kCheckpoint, saved_)) {
     finish();
   }
 }
@@ -229,6 +244,7 @@ void ShardLog::finish() {
   }
   folder_.remove(log_name_);
   unsaved_ = 0;
+  saved_ = records_.size();
 }
 
 }  // namespace vantage::batch

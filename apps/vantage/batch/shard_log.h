@@ -44,13 +44,18 @@ class ShardLog : public ResultBook {
   std::optional<ModelRecord> find(const std::string& key) override;
   std::optional<ModelRecord> find_content(const ModelRecord& like) override;
   std::vector<ModelRecord> find_equals(const ModelRecord& like) override;
+  std::optional<ModelRecord> find_duplicate(const ModelRecord& like) override;
   std::string owner_of(const std::string& folder) override;
   std::int64_t latest_ms() override;
   void put(const ModelRecord& record) override;
   void finish() override;
 
  private:
+  /// By content, options and version: positions and keys.
+  using KeysOfContent = std::map<std::string, std::set<std::pair<std::int64_t, std::string>>>;
+
   void read(const std::string& name);
+  std::optional<ModelRecord> first_of(const KeysOfContent& keys, const ModelRecord& like) const;
   void remember(const ModelRecord& record);
   void open_log();
 
@@ -59,8 +64,10 @@ class ShardLog : public ResultBook {
   std::string log_name_;
   std::FILE* log_ = nullptr;
   std::size_t unsaved_ = 0;
+  std::size_t saved_ = 0;  ///< Records in the file.
   std::map<std::string, ModelRecord> records_{};
-  std::map<std::string, std::set<std::pair<std::int64_t, std::string>>> runs_of_content_{};
+  KeysOfContent runs_of_content_{};
+  KeysOfContent duplicates_of_content_{};  ///< That are done.
   std::map<std::string, std::string> owner_of_folder_{};
 };
 

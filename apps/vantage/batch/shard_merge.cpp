@@ -8,6 +8,7 @@
 #include "vantage/core/error.h"
 
 #include "batch/result_folders.h"
+#include "batch/result_heirs.h"
 #include "batch/shard_log.h"
 
 namespace vantage::batch {
@@ -60,6 +61,9 @@ class Merge {
     }
     const std::optional<ModelRecord> former =
         brings_results ? store_.find(record.key) : std::nullopt;
+    if (former && supersedes(record, *former) && !have_one_answer(record, *former)) {
+      save_shared_results(*former, record.folder);
+    }
     if (store_.merge(record)) {
       ++counts_.taken;
       if (brings_results) {
@@ -84,6 +88,18 @@ class Merge {
   [[nodiscard]] MergeCounts& counts() { return counts_; }
 
  private:
+  /// Results that others will replace stay those of the models that share them.
+  void save_shared_results(const ModelRecord& former, const std::string& replaced) {
+    if (const std::optional<ModelRecord> heir = heir_of(store_, root_, former)) {
+      const auto is_claimed = [&](const std::string& folder) {
+        return !store_.owner_of(folder).empty();
+      };
+      hand_over(store_, root_, *heir, former,
+                former.folder == replaced ? free_folder(root_, former.folder, is_claimed)
+                                          : former.folder);
+    }
+  }
+
   /// Takes in a record whose folder is there, as another model's: of equal models, that one's results stand
   /// for both.
   void take_beside(const ModelRecord& record, const std::string& owner) {

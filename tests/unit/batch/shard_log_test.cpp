@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -72,6 +73,39 @@ TEST(ShardLog, FindsTheFirstOfEqualContentByPosition) {
   log.put(record("early", 2, "same"));
   EXPECT_EQ(log.find_content(record("new", 5, "same"))->key, "early");
   EXPECT_FALSE(log.find_content(record("new", 5, "other")));
+}
+
+TEST(ShardLog, FindsTheFirstThatHasTheResultsOfAnother) {
+  const test::TemporaryFolder scratch;
+  ShardLog book(scratch.file(), {0, 2});
+  ModelRecord twin = record("twin", 4, "same");
+  twin.folder.clear();
+  twin.duplicate_of = "first";
+  ModelRecord earlier = twin;
+  earlier.key = "earlier";
+  earlier.position = 3;
+  for (const ModelRecord& each : {record("first", 1, "same"), twin, earlier}) {
+    book.put(each);
+  }
+  EXPECT_EQ(book.find_duplicate(record("new", 9, "same"))->key, "earlier");
+  earlier.duplicate_of.clear();
+  book.put(earlier);
+  EXPECT_EQ(book.find_duplicate(record("new", 9, "same"))->key, "twin");
+  EXPECT_FALSE(book.find_duplicate(record("new", 9, "other")));
+}
+
+TEST(ShardLog, ALargeFileIsWrittenAnewWhenItsLogIsAsLong) {
+  const test::TemporaryFolder scratch;
+  ShardLog log(scratch.file(), {0, 1});
+  const std::string file = scratch.file() + "/shards/shard-00000-of-00001.jsonl";
+  int written = 0;
+  std::uintmax_t before = 0;
+  for (int i = 0; i < 2048; ++i) {
+    log.put(record("m" + std::to_string(i), i, "of-" + std::to_string(i)));
+    const std::uintmax_t size = std::filesystem::file_size(file);
+    written += size == std::exchange(before, size) ? 0 : 1;
+  }
+  EXPECT_EQ(written, 4);  // at 256, 512, 1024 and 2048 records
 }
 
 TEST(ShardLog, RecordsSurviveWithoutFinishAndATornLineIsPassedOver) {
