@@ -5,7 +5,10 @@
 #include <fstream>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <malloc.h>
@@ -23,6 +26,7 @@
 #include "batch/thumbnail.h"
 #include "commands.h"
 #include "import_program.h"
+#include "input_text.h"
 #include "look_flags.h"
 #include "method_flags.h"
 #include "output_folder.h"
@@ -94,6 +98,43 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
+/// Names the pictures of imported models, for which the importer has to read them; of exact solids none. What
+/// it sent is kept for the model's reader.
+class ImportedOnce {
+ public:
+  ImportedOnce(std::string path, ModelImporter importer, const RunContext& run)
+      : path_(std::move(path)), importer_(std::move(importer)), run_(run) {}
+
+  std::vector<std::string> pictures(const ImportFormat& format) {
+    if (!pictures_) {
+      pictures_.emplace();
+      try {
+        if (!format.solid) {
+          stream_ = importer_({format, read_text(path_), path_}, run_);
+          *pictures_ = pictures_beside(stream_);
+        }
+      } catch (const FormatError&) {  // the model's reader will say so
+      } catch (const IoError&) {
+      }
+    }
+    return *pictures_;
+  }
+
+  /// For the model's reader. \pre This outlives it.
+  ModelImporter importer() {
+    return [this](const ImportRequest& request, const RunContext& run) {
+      return stream_.empty() ? importer_(request, run) : std::exchange(stream_, {});
+    };
+  }
+
+ private:
+  std::string path_;
+  ModelImporter importer_;
+  const RunContext& run_;
+  std::string stream_{};
+  std::optional<std::vector<std::string>> pictures_{};
+};
+
 struct BatchWorkerCommand {
   std::string write{};
   MethodFlags method{};
@@ -141,7 +182,10 @@ struct BatchWorkerCommand {
           {"reason", reason}, {"error", replaced(error, path, key)}, {"peak_bytes", peak_bytes()}};
     };
     try {
-      const batch::Content content = batch::content_of(path);
+      const RunContext reading_run = session.run();
+      ImportedOnce imported(path, model_importer(session.flags.limits), reading_run);
+      const auto pictures = [&](const ImportFormat& format) { return imported.pictures(format); };
+      const batch::Content content = batch::content_of(path, pictures);
       say(answers, {{"content", content.hash}, {"beside", batch::to_json(content.beside)}});
       std::string word;
       if (!std::getline(std::cin, word) || word != "go") {
@@ -157,10 +201,10 @@ struct BatchWorkerCommand {
       if (kinds_.has_pictures()) {
         reading_options = own_look.reading(options_.width, options_.height);
       }
-      reading_options.importer = model_importer(session.flags.limits);
+      reading_options.importer = imported.importer();
       reading_options.max_faces = face_limit(session.flags.limits);
       Model model = load_model(path, run, reading_options);
-      if (batch::content_of(path).hash != content.hash) {
+      if (batch::content_of(path, pictures).hash != content.hash) {
         return failed("changed", path + ": was changed while it was read; --retry failed");
       }
       reading = false;

@@ -193,7 +193,7 @@ struct OrientCommand {
     beside.pass(read_text(model));
     std::vector<FileBeside> files = beside.find();
     std::erase_if(files, [&](const FileBeside& f) {
-      return fs::exists(fs::path(file).parent_path() / f.name);
+      return f.path.empty() || fs::exists(fs::path(file).parent_path() / f.name);
     });
     if (!files.empty()) {
       choice.notes.push_back(

@@ -30,7 +30,8 @@ constexpr std::size_t kMostText = 64U << 20U;  // [ours] of a glTF, and of all l
 // A GLB begins with 12 bytes of its own and 8 of the chunk that is its JSON, the first four its length.
 constexpr std::size_t kGlbHeaders = 20;
 constexpr std::size_t kGlbLength = 12;
-constexpr std::size_t kMostHeader = 1U << 20U;  // [ours] of a PLY
+constexpr std::size_t kMostHeader = 1U << 20U;     // [ours] of a PLY
+constexpr std::size_t kDetectedBytes = 1U << 20U;  // [ours] of a model, which say what it is
 constexpr std::string_view kLibrary = "mtllib";
 
 /// Whether a line may yet turn out to name a library.
@@ -59,8 +60,20 @@ std::vector<std::string> names_in_gltf(const std::string& text) {
   return names;
 }
 
-std::vector<std::string> names_in_obj(const std::string& text, const SideFileSource& files) {
-  ObjLibraries libraries(files);
+/// Adds the place where a picture is, after those where it would be read instead if it were there.
+void add_places(std::vector<std::string>& names, const std::string& picture,
+                const SideFileCheck& exists) {
+  for (std::string& place : places_of_picture(picture)) {
+    names.push_back(std::move(place));
+    if (exists(names.back())) {
+      return;
+    }
+  }
+}
+
+std::vector<std::string> names_in_obj(const std::string& text, const SideFileSource& files,
+                                      const SideFileCheck& exists) {
+  ObjLibraries libraries(files, exists);
   ObjLines lines(text);
   while (std::optional<std::string_view> line = lines.next()) {
     if (take_token(*line) == kLibrary) {
@@ -71,25 +84,24 @@ std::vector<std::string> names_in_obj(const std::string& text, const SideFileSou
   std::vector<std::string> names = libraries.paths();
   for (const auto& [material, look] : libraries.materials()) {
     for (const std::string& picture : {look.picture, look.mask}) {
-      const auto place = picture.empty() ? std::nullopt : libraries.place_of(picture);
-      if (place) {
-        names.push_back(*place);
+      if (!picture.empty()) {
+        add_places(names, picture, exists);
       }
     }
   }
+  const std::vector<std::string> unread = libraries.unread_paths();
+  names.insert(names.end(), unread.begin(), unread.end());
   return names;
 }
 
 std::vector<std::string> names_in_ply(const std::string& text, const std::string& model_path,
-                                      const SideFileSource& files) {
+                                      const SideFileCheck& exists) {
   std::vector<std::string> names;
   const RunContext run;
   try {
     const ModelBuilder builder(ModelFormat::Ply, model_path, run, 0);
     for (const std::string& texture : read_ply_header(without_bom(text), builder).textures) {
-      if (auto place = place_of_picture(with_slashes(texture), files)) {
-        names.push_back(std::move(*place));
-      }
+      add_places(names, with_slashes(texture), exists);
     }
   } catch (const FormatError&) {  // no model either
   }
@@ -98,24 +110,47 @@ std::vector<std::string> names_in_ply(const std::string& text, const std::string
 
 }  // namespace
 
-FilesBeside::FilesBeside(std::string model_path) : model_path_(std::move(model_path)) {
-  const std::string extension = extension_of(model_path_);
-  is_obj_ = extension == format_name(ModelFormat::Obj);
-  is_gltf_ = extension == format_name(ModelFormat::Gltf);
-  is_glb_ = extension == format_name(ModelFormat::Glb);
-  is_ply_ = extension == format_name(ModelFormat::Ply);
-}
+FilesBeside::FilesBeside(std::string model_path) : model_path_(std::move(model_path)) {}
 
 void FilesBeside::pass(std::string_view bytes) {
-  if (is_gltf_) {
+  if (is_told_) {
+    keep(bytes);
+    return;
+  }
+  begin_.append(bytes);
+  if (begin_.size() >= kDetectedBytes) {
+    tell_format();
+  }
+}
+
+void FilesBeside::tell_format() {
+  if (std::exchange(is_told_, true)) {
+    return;
+  }
+  try {
+    const DetectedFormat detected = detect_format(begin_, model_path_, /*may_import=*/true);
+    format_ = detected.format;
+    import_as_ = detected.import_as;
+  } catch (const FormatError&) {  // no model either
+  }
+  keep(std::exchange(begin_, {}));
+}
+
+void FilesBeside::keep(std::string_view bytes) {
+  if (format_ == ModelFormat::Gltf) {
     text_.append(bytes.substr(0, kMostText - std::min(text_.size(), kMostText)));
-  } else if (is_glb_) {
+  } else if (format_ == ModelFormat::Glb) {
     keep_json_of_glb(bytes);
-  } else if (is_ply_) {
+  } else if (format_ == ModelFormat::Ply) {
     text_.append(bytes.substr(0, kMostHeader - std::min(text_.size(), kMostHeader)));
-  } else if (is_obj_) {
+  } else if (format_ == ModelFormat::Obj) {
     keep_libraries(bytes);
   }
+}
+
+const ImportFormat* FilesBeside::import_as() {
+  tell_format();
+  return import_as_;
 }
 
 void FilesBeside::keep_json_of_glb(std::string_view bytes) {
@@ -153,23 +188,35 @@ void FilesBeside::keep_libraries(std::string_view bytes) {
   }
 }
 
-std::vector<FileBeside> FilesBeside::find() const {
+std::vector<FileBeside> FilesBeside::find() {
+  tell_format();
   FolderNames folders;
   const SideFileSource files = [&](const std::string& relative) {
     return side_file(model_path_, relative, folders);
   };
+  const SideFileCheck exists = side_file_check(model_path_, folders);
+  std::vector<std::string> names;
+  if (format_ == ModelFormat::Gltf || format_ == ModelFormat::Glb) {
+    const std::size_t begin = format_ == ModelFormat::Glb ? kGlbHeaders : 0;
+    names = names_in_gltf(text_.substr(std::min(begin, text_.size())));
+  } else if (format_ == ModelFormat::Obj) {
+    names = names_in_obj(text_ + line_, files, exists);
+  } else if (format_ == ModelFormat::Ply) {
+    names = names_in_ply(text_, model_path_, exists);
+  }
+  for (const std::string& picture : pictures_) {
+    add_places(names, picture, exists);
+  }
   std::vector<FileBeside> found;
   std::set<std::string> known;
-  for (const std::string& name :
-       is_gltf_  ? names_in_gltf(text_)
-       : is_glb_ ? names_in_gltf(text_.substr(std::min(kGlbHeaders, text_.size())))
-       : is_obj_ ? names_in_obj(text_ + line_, files)
-       : is_ply_ ? names_in_ply(text_, model_path_, files)
-                 : std::vector<std::string>()) {
+  for (const std::string& name : names) {
+    if (!known.insert(name).second) {
+      continue;
+    }
     std::error_code error;
     const std::string path = place_beside(model_path_, name, folders, error).string();
-    if (!error && !path.empty() && known.insert(name).second) {
-      found.push_back({name, path});
+    if (error || !path.empty()) {  // else it lies outside
+      found.push_back({name, error ? "" : path});
     }
   }
   return found;

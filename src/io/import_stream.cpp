@@ -69,6 +69,12 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
+/// A picture's path as the importer sends it.
+std::string named_picture(std::string_view path) {
+  const std::string named = with_slashes(path);
+  return named.starts_with("./") ? named.substr(2) : named;
+}
+
 double share(double value, double otherwise) {
   return std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : otherwise;
 }
@@ -201,9 +207,8 @@ class StreamReader {
     if (picture.inside) {
       return loader_.embedded(picture.content, "inside the file");
     }
-    const std::string named = with_slashes(picture.content);
-    const std::optional<std::string> path = place_of_picture(
-        named.starts_with("./") ? named.substr(2) : named, surroundings_.side_files);
+    const std::optional<std::string> path =
+        place_of_picture(named_picture(picture.content), surroundings_.has_side_file);
     return path ? loader_.beside(*path) : std::nullopt;
   }
 
@@ -336,6 +341,31 @@ class StreamReader {
 };
 
 }  // namespace
+
+std::vector<std::string> pictures_beside(std::string_view stream) {
+  constexpr std::size_t kSizeSize = sizeof(std::uint64_t);
+  constexpr std::size_t kKindSize = sizeof(std::uint32_t);
+  std::vector<std::string> pictures;
+  if (!stream.starts_with(kImportMagic)) {
+    return pictures;
+  }
+  stream.remove_prefix(kImportMagic.size());
+  while (stream.size() >= kImportTagSize + kSizeSize) {
+    const std::string_view tag = stream.substr(0, kImportTagSize);
+    const auto size = decode<std::uint64_t>(stream.data() + kImportTagSize, ByteOrder::Little);
+    stream.remove_prefix(kImportTagSize + kSizeSize);
+    if (size > stream.size()) {
+      break;
+    }
+    const std::string_view record = stream.substr(0, static_cast<std::size_t>(size));
+    stream.remove_prefix(record.size());
+    if (tag == "pict" && record.size() > kKindSize &&
+        decode<std::uint32_t>(record.data(), ByteOrder::Little) != 1) {
+      pictures.push_back(named_picture(record.substr(kKindSize)));
+    }
+  }
+  return pictures;
+}
 
 Model parse_import_stream(std::string_view stream, std::string_view title, std::string_view name,
                           const RunContext& run, const Surroundings& surroundings) {

@@ -113,7 +113,8 @@ Model load_model(const std::string& path, const RunContext& run, const ReadOptio
     FolderNames folders;
     const Surroundings surroundings{
         [&](const std::string& relative) { return read_beside(path, relative, folders, known); },
-        [&](const std::string& relative) { return side_file(path, relative, folders); }, options};
+        [&](const std::string& relative) { return side_file(path, relative, folders); }, options,
+        side_file_check(path, folders)};
     Model model = parse_with(bytes, path, run, surroundings);
     model.file_name = fs::path(path).filename().string();
     return model;

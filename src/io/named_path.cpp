@@ -2,6 +2,7 @@
 #include "io/named_path.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "io/gltf_uri.h"
 
@@ -22,12 +23,23 @@ std::optional<std::string> inside_folder(const std::string& path) {
   return relative_path_of_uri(escaped);
 }
 
-std::optional<std::string> place_of_picture(const std::string& named, const SideFileSource& files) {
-  // A path of the author's own disk: the picture has usually been put beside the model.
-  const std::optional<std::string> path = inside_folder(named);
-  return path && (!files || files(*path).bytes)
-             ? path
-             : inside_folder(named.substr(named.find_last_of('/') + 1));
+std::vector<std::string> places_of_picture(const std::string& named) {
+  std::vector<std::string> places;
+  for (const std::string& path : {named, named.substr(named.find_last_of('/') + 1)}) {
+    std::optional<std::string> place = inside_folder(path);
+    if (place && (places.empty() || places.front() != *place)) {
+      places.push_back(std::move(*place));
+    }
+  }
+  return places;
+}
+
+std::optional<std::string> place_of_picture(const std::string& named, const SideFileCheck& exists) {
+  const std::vector<std::string> places = places_of_picture(named);
+  if (places.empty()) {
+    return std::nullopt;
+  }
+  return !exists || exists(places.front()) ? places.front() : places.back();
 }
 
 }  // namespace vantage

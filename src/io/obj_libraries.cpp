@@ -33,6 +33,16 @@ void ObjLibraries::read() {
   }
 }
 
+std::vector<std::string> ObjLibraries::unread_paths() const {
+  std::vector<std::string> paths;
+  for (const auto& [path, is_read] : is_read_) {
+    if (!is_read) {
+      paths.push_back(path);
+    }
+  }
+  return paths;
+}
+
 bool ObjLibraries::read_library(std::string_view name) {
   const std::optional<std::string> path = inside_folder(with_slashes(name));
   if (!path || !files_) {

@@ -18,8 +18,9 @@ namespace vantage {
 /// The material libraries that an OBJ names, and where these and their pictures are.
 class ObjLibraries {
  public:
-  /// \param files must outlive this; empty: there are none.
-  explicit ObjLibraries(const SideFileSource& files) : files_(files) {}
+  /// \param files, exists must outlive this; empty: there are none.
+  ObjLibraries(const SideFileSource& files, const SideFileCheck& exists)
+      : files_(files), exists_(exists) {}
 
   /// The rest of a mtllib line: one name, which may hold spaces, or several without.
   void add(std::string_view names);
@@ -35,12 +36,15 @@ class ObjLibraries {
   /// Paths of the libraries that were read, in the order in which they are named.
   [[nodiscard]] const std::vector<std::string>& paths() const { return paths_; }
 
+  /// Paths of libraries that could not be read.
+  [[nodiscard]] std::vector<std::string> unread_paths() const;
+
   /// What mtllib lines say of which nothing could be read.
   [[nodiscard]] const std::vector<std::string>& missing() const { return missing_; }
 
   /// Where a material's picture is, relative to the model's folder; nothing if nowhere inside.
   [[nodiscard]] std::optional<std::string> place_of(const std::string& picture) const {
-    return place_of_picture(picture, files_);
+    return place_of_picture(picture, exists_);
   }
 
  private:
@@ -48,6 +52,7 @@ class ObjLibraries {
   [[nodiscard]] bool read_materials(const std::string& path);
 
   const SideFileSource& files_;
+  const SideFileCheck& exists_;
   std::vector<std::string> named_{};            ///< As named, each once, in order.
   std::set<std::string, std::less<>> known_{};  ///< The same.
   std::map<std::string, bool> is_read_{};       ///< Of each path that was tried.

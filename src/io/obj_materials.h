@@ -22,7 +22,9 @@ class ObjMaterials {
  public:
   /// Both must outlive this.
   ObjMaterials(const Surroundings& surroundings, ModelBuilder& builder)
-      : builder_(builder), loader_(surroundings, builder), libraries_(surroundings.side_files) {}
+      : builder_(builder),
+        loader_(surroundings, builder),
+        libraries_(surroundings.side_files, surroundings.has_side_file) {}
 
   /// The rest of a mtllib line: one name, which may hold spaces, or several without.
   void add_library(std::string_view names) { libraries_.add(names); }

@@ -34,7 +34,7 @@ void PlyTextures::read(const PlyHeader& header, const Surroundings& surroundings
   TextureLoader loader(surroundings, builder_);
   for (const std::string& name : header.textures) {
     const std::optional<std::string> path =
-        place_of_picture(with_slashes(name), surroundings.side_files);
+        place_of_picture(with_slashes(name), surroundings.has_side_file);
     std::optional<Image> image = path ? loader.beside(*path) : std::nullopt;
     material_of_picture_.push_back(image ? static_cast<std::uint32_t>(textures_.size())
                                          : Appearance::kNone);

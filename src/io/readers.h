@@ -31,11 +31,15 @@ struct SideFile {
 /// Gives a file named by a relative path; does not throw.
 using SideFileSource = std::function<SideFile(const std::string& relative_path)>;
 
+/// Says whether there is such a file, without reading it.
+using SideFileCheck = std::function<bool(const std::string& relative_path)>;
+
 /// What a reader may ask for besides the bytes of the model.
 struct Surroundings {
-  BufferSource buffers{};       ///< Empty: there are none.
-  SideFileSource side_files{};  ///< Material libraries and textures; empty: there are none.
-  ReadOptions options{};        ///< What is wanted.
+  BufferSource buffers{};         ///< Empty: there are none.
+  SideFileSource side_files{};    ///< Material libraries and textures; empty: there are none.
+  ReadOptions options{};          ///< What is wanted.
+  SideFileCheck has_side_file{};  ///< Empty: there are none.
 };
 
 /// Wavefront OBJ: v (with colours), f, g, o, and if materials are wanted vt, usemtl and mtllib; the

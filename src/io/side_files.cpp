@@ -2,6 +2,7 @@
 #include "io/side_files.h"
 
 #include <algorithm>
+#include <map>
 #include <string>
 
 #include "vantage/core/error.h"
@@ -77,6 +78,18 @@ fs::path place_beside(const std::string& model_path, const std::string& relative
   }
   const fs::path inside = wanted.lexically_relative(folder);
   return inside.empty() || *inside.begin() == ".." ? fs::path() : wanted;
+}
+
+SideFileCheck side_file_check(const std::string& model_path, FolderNames& names) {
+  return [&, known = std::map<std::string, bool>()](const std::string& relative) mutable {
+    const auto [place, is_new] = known.try_emplace(relative, false);
+    if (is_new) {
+      std::error_code error;
+      const fs::path path = place_beside(model_path, relative, names, error);
+      place->second = !error && !path.empty() && fs::is_regular_file(path, error);
+    }
+    return place->second;
+  };
 }
 
 SideFile side_file(const std::string& model_path, const std::string& relative, FolderNames& names) {

@@ -30,6 +30,9 @@ class FolderNames {
 std::filesystem::path place_beside(const std::string& model_path, const std::string& relative,
                                    FolderNames& names, std::error_code& error);
 
+/// Looks for each file beside a model once. \param model_path must outlive it, and so must `names`.
+SideFileCheck side_file_check(const std::string& model_path, FolderNames& names);
+
 /// A file beside a model, named by a relative path, that the model can do without. Does not throw.
 SideFile side_file(const std::string& model_path, const std::string& relative, FolderNames& names);
 

@@ -92,15 +92,22 @@ void feed_beside(crypto_hash_sha256_state& state, const FileBeside& file) {
 
 }  // namespace
 
-Content content_of(const std::string& path) {
+Content content_of(const std::string& path, const PicturesOfImport& pictures) {
   Content content;
   crypto_hash_sha256_state state;
   crypto_hash_sha256_init(&state);
   FilesBeside beside(path);
   feed(state, path, [&](std::string_view bytes) { beside.pass(bytes); });
+  if (const ImportFormat* const format = beside.import_as(); format != nullptr && pictures) {
+    beside.add_pictures(pictures(*format));
+  }
   const std::filesystem::path folder =
       std::filesystem::weakly_canonical(path).parent_path();  // links resolved, as below
   for (const FileBeside& file : beside.find()) {
+    if (file.path.empty()) {
+      content.beside.push_back({key_of_path(file.name), {}});
+      continue;
+    }
     const std::filesystem::path place = std::filesystem::path(file.path).lexically_relative(folder);
     content.beside.push_back({key_of_path(place.string()), stamp_of(file.path)});
     feed_beside(state, file);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "vantage/core/run_context.h"
 
@@ -119,5 +120,9 @@ struct ImportRequest {
 /// Gives the stream of a file. \throw FormatError, IoError, Cancelled
 using ModelImporter =
     std::function<std::string(const ImportRequest& request, const RunContext& run)>;
+
+/// Paths of the pictures that a stream says are beside the model, as its reader understands them; of a stream
+/// that is none of ours those up to where it is not.
+std::vector<std::string> pictures_beside(std::string_view stream);
 
 }  // namespace vantage

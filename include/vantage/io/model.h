@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "vantage/core/image.h"
@@ -100,33 +101,44 @@ Model load_model(const std::string& path, const RunContext& run = {},
 /// A file beside a model that the model's reader opens.
 struct FileBeside {
   std::string name{};  ///< Relative to the model's folder, as the reader understands the model.
-  std::string path{};  ///< Where it is, links resolved: in the model's folder, or below.
+  std::string
+      path{};  ///< Where it is, links resolved: in the model's folder, or below. Empty: nowhere.
 };
 
 /// Finds the files that a model consists of besides its own, while its bytes pass by: buffers and
-/// pictures of a glTF, material libraries of an OBJ and the pictures that these name. They are found
-/// as load_model() finds them.
+/// pictures of a glTF, material libraries of an OBJ and the pictures that these and a PLY name. They are
+/// found as load_model() finds them, which goes by the bytes first and by the name's extension else.
 class FilesBeside {
  public:
-  /// \param model_path of the model, whose extension says what it is.
   explicit FilesBeside(std::string model_path);
 
   /// The model's next bytes.
   void pass(std::string_view bytes);
 
-  /// Call once all bytes have passed. \return the files that are there, each once, in an order that
-  /// the files' contents say. Those of a glTF of more than 64 MB of JSON are not found.
-  [[nodiscard]] std::vector<FileBeside> find() const;
+  /// Call once all bytes have passed. \return the format that a ReadOptions::importer has to read the model
+  /// as; null if none has to.
+  const ImportFormat* import_as();
+
+  /// Names pictures of an imported model, see pictures_beside().
+  void add_pictures(std::vector<std::string> names) { pictures_ = std::move(names); }
+
+  /// Call once all bytes have passed. \return the files, each once, in an order that the files' contents
+  /// say, and those that would be read if they were there. Those of a glTF of more than 64 MB of JSON are
+  /// not found.
+  std::vector<FileBeside> find();
 
  private:
+  void tell_format();
+  void keep(std::string_view bytes);
   void keep_libraries(std::string_view bytes);
   void keep_json_of_glb(std::string_view bytes);
 
   std::string model_path_;
-  bool is_obj_ = false;
-  bool is_gltf_ = false;
-  bool is_glb_ = false;
-  bool is_ply_ = false;
+  std::string begin_{};  ///< What has passed while the format is not told.
+  bool is_told_ = false;
+  std::optional<ModelFormat> format_{};  ///< Nothing: none that is read.
+  const ImportFormat* import_as_ = nullptr;
+  std::vector<std::string> pictures_{};
   std::string text_{};    ///< A glTF's JSON, a PLY's start, an OBJ's lines that name libraries.
   std::string line_{};    ///< Of an OBJ: what has passed of the current line, as far as it matters.
   bool skips_ = false;    ///< The rest of the line does not matter.

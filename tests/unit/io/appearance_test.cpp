@@ -266,6 +266,26 @@ TEST(ObjLibraries, AreReadOnceHoweverOftenTheyAreNamed) {
   EXPECT_EQ(reads, 1);
 }
 
+TEST(ObjLibraries, APictureOfManyMaterialsIsReadOnce) {
+  std::string library;
+  std::string text = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\n";
+  for (int i = 0; i < 9; ++i) {
+    library += "newmtl m" + std::to_string(i) + "\nmap_Kd t.png\n";
+    text += "usemtl m" + std::to_string(i) + "\nf 1/1 2/1 3/1\n";
+  }
+  const std::string picture = png_bytes(Image{1, 1, std::vector<std::uint8_t>(4, 255)});
+  int reads = 0;
+  const Surroundings surroundings{{},
+                                  [&](const std::string& path) {
+                                    reads += path == "t.png" ? 1 : 0;
+                                    return SideFile{path == "t.png" ? picture : library, {}};
+                                  },
+                                  kAll,
+                                  [](const std::string& path) { return path == "t.png"; }};
+  EXPECT_EQ(parse_obj(text, "a.obj", {}, surroundings).appearance.textures.size(), 1U);
+  EXPECT_EQ(reads, 1);
+}
+
 TEST_F(ObjAppearance, CountsLibrariesThatAreNotThere) {
   std::string lines;
   for (int i = 0; i < 12; ++i) {

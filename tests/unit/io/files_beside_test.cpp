@@ -32,14 +32,16 @@ class FilesBesideAModel : public testing::Test {
       beside.pass(std::string_view(bytes).substr(at, piece));
     }
     std::vector<std::string> names;
+    missing_.clear();
     for (const FileBeside& file : beside.find()) {
-      EXPECT_TRUE(std::filesystem::is_regular_file(file.path)) << file.path;
-      names.push_back(file.name);
+      (file.path.empty() ? missing_ : names).push_back(file.name);
+      EXPECT_EQ(std::filesystem::is_regular_file(file.path), !file.path.empty()) << file.path;
     }
     return names;
   }
 
   const TemporaryFolder folder_{};
+  std::vector<std::string> missing_{};  // of the files that were looked for last
 };
 
 TEST_F(FilesBesideAModel, PicturesAreInTheFolderOfTheirLibrary) {
@@ -54,6 +56,42 @@ TEST_F(FilesBesideAModel, APictureOfTheAuthorsDiskIsBesideTheModel) {
   write("a.mtl", "newmtl m\nmap_Kd -clamp on C:\\work\\my wood.png\n");
   write("my wood.png");
   EXPECT_THAT(found("m.obj", "mtllib a.mtl\n"), ElementsAre("a.mtl", "my wood.png"));
+}
+
+TEST_F(FilesBesideAModel, TheBytesSayWhatItIsAsForItsReader) {
+  write("a.mtl");
+  write("t.png");
+  for (const char* const name : {"model", "m.stl", "m.txt", "m.bin"}) {
+    EXPECT_THAT(found(name, "mtllib a.mtl\nv 0 0 0\n"), ElementsAre("a.mtl")) << name;
+    EXPECT_THAT(found(name, R"({"images":[{"uri":"t.png"}]})"), ElementsAre("t.png")) << name;
+  }
+  EXPECT_THAT(found("m.obj", "solid a\nmtllib a.mtl\n"), IsEmpty());
+}
+
+TEST_F(FilesBesideAModel, FilesThatAreNotThereAreNamedWhereTheyWouldBeRead) {
+  write("a.mtl", "newmtl m\nmap_Kd maps/t.png\nnewmtl n\nmap_Kd maps/t.png\n");
+  EXPECT_THAT(found("m.obj", "mtllib a.mtl\nmtllib b.mtl\n"), ElementsAre("a.mtl"));
+  EXPECT_THAT(missing_, ElementsAre("maps/t.png", "t.png", "b.mtl"));
+  write("t.png");
+  EXPECT_THAT(found("m.obj", "mtllib a.mtl\n"), ElementsAre("a.mtl", "t.png"));
+  EXPECT_THAT(missing_, ElementsAre("maps/t.png"));
+  write("maps/t.png");
+  EXPECT_THAT(found("m.obj", "mtllib a.mtl\n"), ElementsAre("a.mtl", "maps/t.png"));
+  EXPECT_THAT(missing_, IsEmpty());
+}
+
+TEST_F(FilesBesideAModel, PicturesOfAnImportedModelAreThoseThatItsReaderNames) {
+  write("t.png");
+  FilesBeside beside(folder_.file("m.dae"));
+  beside.pass("<?xml version=\"1.0\"?><COLLADA/>");
+  ASSERT_NE(beside.import_as(), nullptr);
+  EXPECT_EQ(beside.import_as()->name, "dae");
+  beside.add_pictures({"/home/a/t.png", "gone.png", "../out.png"});
+  std::vector<std::string> names;
+  for (const FileBeside& file : beside.find()) {
+    names.push_back((file.path.empty() ? "no " : "") + file.name);
+  }
+  EXPECT_THAT(names, ElementsAre("t.png", "no gone.png", "no out.png"));
 }
 
 TEST_F(FilesBesideAModel, ALineNamesOneLibraryWithSpacesOrSeveral) {
@@ -110,7 +148,7 @@ TEST_F(FilesBesideAModel, BuffersAndPicturesOfAGltf) {
   const std::string text = R"({"images":[{"uri":"t.png"},{"uri":"data:,"},{"bufferView":0}],
       "buffers":[{"uri":"my%20buffer.bin"},{"uri":"http://a/t.png"},{"uri":"gone.bin"},{}]})";
   EXPECT_THAT(found("m.gltf", text, 10), ElementsAre("my buffer.bin", "t.png"));
-  EXPECT_THAT(found("m.stl", text), IsEmpty());
+  EXPECT_THAT(missing_, ElementsAre("gone.bin"));
 }
 
 TEST_F(FilesBesideAModel, PicturesOfAPly) {

@@ -210,5 +210,17 @@ TEST(ImportStream, IsAskedForByContentAndElseByName) {
   EXPECT_EQ(asked_for(line, "a.bin"), "iges");
 }
 
+TEST(PicturesBeside, AreThoseOfAStreamThatAreNotInsideIt) {
+  const std::string text = stream(
+      {head(1.0, 2, true), record("pict", bytes(0U) + ".\\maps\\a.png"),
+       record("pict", bytes(1U) + "PNG"), record("pict", bytes(0U) + "b.png"), Mesh().text()},
+      1);
+  EXPECT_THAT(pictures_beside(text), ElementsAre("maps/a.png", "b.png"));
+  for (std::size_t size = 0; size < text.size(); ++size) {
+    EXPECT_LE(pictures_beside(std::string_view(text).substr(0, size)).size(), 2U);
+  }
+  EXPECT_THAT(pictures_beside("no stream"), ElementsAre());
+}
+
 }  // namespace
 }  // namespace vantage::test
