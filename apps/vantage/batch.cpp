@@ -191,7 +191,7 @@ struct BatchCommand {
     }
     const std::optional<batch::Shard> part = checked_shard();
     prepare(session, part);
-    std::unique_ptr<batch::EntrySource> source = open_source(session);
+    std::unique_ptr<batch::EntrySource> source = open_source(session, /*warn=*/true);
     const batch::ConfinedFolder root(folder);
     if (!no_overview && !part) {
       batch::check_overview(root);
@@ -254,7 +254,8 @@ struct BatchCommand {
     }
     const std::size_t count = batch::forget_others(store, root, list.keys());
     if (count > 0) {
-      session.say("forgotten: " + plural(count, "model") + " that are not among the inputs");
+      session.say("forgotten: " + plural(count, "model") + (count == 1 ? " that is" : " that are") +
+                  " not among the inputs");
     }
     return count;
   }
@@ -370,8 +371,9 @@ struct BatchCommand {
         .attempts = runner.attempts,
         .verify = runner.verify,
         .is_current = [&](const batch::Entry& entry, const batch::ModelRecord& record) {
-          const bool has_results = record.status != "done" || !record.duplicate_of.empty() ||
-                                   root.is_folder(batch::model_folder(record.folder));
+          const auto first = record.duplicate_of.empty() ? record : store.find_content(record);
+          const bool has_results = record.status != "done" ||
+                                   (first && root.is_folder(batch::model_folder(first->folder)));
           return has_results && record.version == version() &&
                  record.stamp == batch::stamp_of(entry.path) &&
                  batch::are_as_they_were(record.beside, entry.path) &&
@@ -403,7 +405,13 @@ struct BatchCommand {
     }
   }
 
-  std::unique_ptr<batch::EntrySource> open_source(Session& session) const {
+  /// \param warn whether what is odd about a manifest is told.
+  std::unique_ptr<batch::EntrySource> open_source(Session& session, bool warn) const {
+    const auto tell = [&session, warn](const std::string& warning) {
+      if (warn) {
+        session.say("warning: " + warning);
+      }
+    };
     return session.reading([&] {
       batch::EntryFilter counted = filter;
       counted.imports = !import_program().empty();
@@ -412,7 +420,7 @@ struct BatchCommand {
                                                          .timeout_s = runner.timeout_s,
                                                          .attempts = runner.attempts,
                                                          .stop = session.run().stop})
-                              : batch::entries_of_manifest(manifest, session.run().stop);
+                              : batch::entries_of_manifest(manifest, session.run().stop, tell);
     });
   }
 
@@ -424,7 +432,7 @@ struct BatchCommand {
     if (!watched || !known) {
       return -1;
     }
-    std::unique_ptr<batch::EntrySource> source = open_source(session);
+    std::unique_ptr<batch::EntrySource> source = open_source(session, /*warn=*/false);
     if (part) {
       source = std::make_unique<batch::ShardEntries>(std::move(source), *part);
     }
@@ -438,26 +446,19 @@ struct BatchCommand {
   }
 
   void summarise(Session& session, const batch::RunnerCounts& counts) const {
-    const batch::Json json = {
-        {"done", counts.done},       {"failed", counts.failed + counts.skipped_failed},
-        {"skipped", counts.skipped}, {"duplicates", counts.duplicates},
-        {"doubted", counts.doubted}, {"folder", batch::key_of_path(folder)}};
+    const batch::Json json = {{"done", counts.done},
+                              {"failed", counts.failed + counts.skipped_failed},
+                              {"skipped", counts.skipped},
+                              {"duplicates", counts.duplicates},
+                              {"repeated", counts.repeated},
+                              {"doubted", counts.doubted},
+                              {"folder", batch::key_of_path(folder)}};
     session.end_progress();
     if (session.flags.json) {
       std::printf("%s\n", batch::json_text(json).c_str());
       return;
     }
-    const auto count = [](std::int64_t number) {
-      return grouped(static_cast<std::size_t>(number));
-    };
-    session.tell(count(counts.done) + " done, " + count(counts.failed) + " failed, " +
-                 count(counts.duplicates) + " with the content of another, " +
-                 count(counts.skipped) + " done before" +
-                 (counts.skipped_failed > 0
-                      ? " (" + count(counts.skipped_failed) + " of them failed; --retry failed)"
-                      : "") +
-                 (counts.doubted > 0 ? ", " + count(counts.doubted) + " not to be trusted" : "") +
-                 "; results in " + printable(folder) + "/");
+    session.tell(counts_text(counts) + "; results in " + printable(folder) + "/");
   }
 };
 

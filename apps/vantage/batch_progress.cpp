@@ -20,12 +20,30 @@ std::string duration_text(double seconds) {
                          : two(whole / 86400, " d ", whole % 86400 / 3600, " h");
 }
 
+std::string counts_text(const batch::RunnerCounts& counts) {
+  const auto count = [](std::int64_t number) { return grouped(static_cast<std::size_t>(number)); };
+  std::string text = count(counts.done) + " done, " + count(counts.failed) + " failed, " +
+                     count(counts.duplicates) + " with the content of another, " +
+                     count(counts.skipped) + " done before";
+  if (counts.skipped_failed > 0) {
+    text += " (" + count(counts.skipped_failed) + " of them failed; --retry failed)";
+  }
+  if (counts.repeated > 0) {
+    text += ", " + count(counts.repeated) + " left out with a key that came before (" +
+            printable(counts.first_repeated) + ")";
+  }
+  if (counts.doubted > 0) {
+    text += ", " + count(counts.doubted) + " not to be trusted";
+  }
+  return text;
+}
+
 void BatchProgress::show(const batch::RunnerCounts& counts) const {
   if (!run_.report) {
     return;
   }
   const std::int64_t worked = counts.done + counts.failed + counts.duplicates;
-  const std::int64_t ended = worked + counts.skipped;
+  const std::int64_t ended = worked + counts.skipped + counts.repeated;
   const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
   const double rate = seconds > 0.0 ? static_cast<double>(worked) / seconds : 0.0;
   std::string line = grouped(static_cast<std::size_t>(ended));

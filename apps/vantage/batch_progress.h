@@ -27,6 +27,9 @@ class BatchProgress {
   Clock::time_point start_ = Clock::now();
 };
 
+/// How a batch has ended, for people.
+std::string counts_text(const batch::RunnerCounts& counts);
+
 /// 75 → "1 min 15 s".
 std::string duration_text(double seconds);
 

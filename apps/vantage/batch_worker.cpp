@@ -135,6 +135,25 @@ class ImportedOnce {
   std::optional<std::vector<std::string>> pictures_{};
 };
 
+/// Why a file could not be read or written.
+const char* reason_of(int error_number, bool reading) {
+  const bool full = error_number == ENOSPC || error_number == EDQUOT;
+  return full                     ? "disk"
+         : error_number == EFBIG  ? "output"
+         : error_number == ENOMEM ? "memory"
+         : reading                ? "input"
+                                  : "work";
+}
+
+/// What to say of a model in an archive that names files beside it; empty of others.
+std::string archive_remark(const Json& order, const batch::Content& content) {
+  if (!order.at("in_archive").get<bool>() || content.beside.empty()) {
+    return "";
+  }
+  return "files beside models in archives, as " + content.beside.front().name +
+         ", are not read; unpack the archive";
+}
+
 struct BatchWorkerCommand {
   std::string write{};
   MethodFlags method{};
@@ -176,16 +195,23 @@ struct BatchWorkerCommand {
   [[nodiscard]] Json answer_to(const Json& order, Session& session, int answers) const {
     const std::string path = batch::path_of_key(order.at("path").get<std::string>());
     const auto key = order.at("key").get<std::string>();
+    const auto label = order.at("label").get<std::string>();
+    batch::Content content;
     bool reading = true;
     const auto failed = [&](const char* reason, const std::string& error) {
-      return Json{
-          {"reason", reason}, {"error", replaced(error, path, key)}, {"peak_bytes", peak_bytes()}};
+      return Json{{"reason", reason},
+                  {"error", replaced(error, path, label)},
+                  {"peak_bytes", peak_bytes()}};
+    };
+    const auto unreadable = [&](const std::string& error) {
+      const std::string remark = archive_remark(order, content);
+      return failed("input", error + (remark.empty() ? "" : "; " + remark));
     };
     try {
       const RunContext reading_run = session.run();
       ImportedOnce imported(path, model_importer(session.flags.limits), reading_run);
       const auto pictures = [&](const ImportFormat& format) { return imported.pictures(format); };
-      const batch::Content content = batch::content_of(path, pictures);
+      content = batch::content_of(path, pictures);
       say(answers, {{"content", content.hash}, {"beside", batch::to_json(content.beside)}});
       std::string word;
       if (!std::getline(std::cin, word) || word != "go") {
@@ -207,22 +233,19 @@ struct BatchWorkerCommand {
       if (batch::content_of(path, pictures).hash != content.hash) {
         return failed("changed", path + ": was changed while it was read; --retry failed");
       }
+      if (const std::string remark = archive_remark(order, content); !remark.empty()) {
+        model.notes.push_back(remark);
+      }
       reading = false;
       model.name = batch::path_of_key(order.at("name").get<std::string>());
       return result_of(order, model, sidecar, own_look, run);
     } catch (const Cancelled&) {
       throw;
     } catch (const IoError& error) {
-      const int number = error.error_number();
-      const bool full = number == ENOSPC || number == EDQUOT;
-      return failed(full               ? "disk"
-                    : number == EFBIG  ? "output"
-                    : number == ENOMEM ? "memory"
-                    : reading          ? "input"
-                                       : "work",
-                    error.what());
+      const std::string reason = reason_of(error.error_number(), reading);
+      return reason == "input" ? unreadable(error.what()) : failed(reason.c_str(), error.what());
     } catch (const FormatError& error) {
-      return failed("input", error.what());
+      return unreadable(error.what());
     } catch (const InvalidInput& error) {
       return failed("input", error.what());
     } catch (const std::bad_alloc&) {

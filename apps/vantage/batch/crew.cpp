@@ -66,6 +66,8 @@ void Crew::start(Job& job, bool last) {
   const int shared = last ? options_.spare_threads / busy : 0;
   const Json order = {{"path", key_of_path(job.file)},
                       {"key", job.record.key},
+                      {"label", job.entry.label()},
+                      {"in_archive", !job.entry.member.empty()},
                       {"file", key_of_path(fs::path(job.entry.shown_path()).filename().string())},
                       {"name", job.record.name},
                       {"up", job.entry.up},
@@ -138,7 +140,9 @@ void Crew::conclude(Seat& seat, const std::string& line, std::vector<CrewEvent>&
   Job& job = *seat.job;
   if (answer.contains("content")) {
     job.record.content = answer.at("content").get<std::string>();
-    job.record.beside = beside_of(answer.at("beside"));
+    // Of a model in an archive nothing beside it is read, and what is beside the archive is not asked for.
+    job.record.beside =
+        job.entry.member.empty() ? beside_of(answer.at("beside")) : std::vector<StampBeside>();
     job.stage = Stage::Hashed;
     events.push_back({.job = &job, .kind = CrewEvent::Kind::Content});
     return;

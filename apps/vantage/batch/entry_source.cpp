@@ -205,6 +205,18 @@ class PathSource : public EntrySource {
 
 }  // namespace
 
+std::string Entry::label() const {
+  const std::string shown = key_of_path(path);
+  const bool says_path =
+      path.empty() || !member.empty() || key == shown || shown.ends_with("/" + key);
+  return says_path ? key : key + " (" + shown + ")";
+}
+
+std::string Entry::labelled(const std::string& sentence) const {
+  const std::string shown = label();
+  return shown == key || sentence.starts_with(shown) ? sentence : shown + ": " + sentence;
+}
+
 bool EntryFilter::accepts(const std::string& path_below) const {
   const auto matches_path = [&](const std::string& pattern) {
     return matches(pattern, path_below);

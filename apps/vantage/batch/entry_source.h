@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -28,6 +29,12 @@ struct Entry {
 
   /// What naming templates call the path: the member's if there is one.
   [[nodiscard]] const std::string& shown_path() const { return member.empty() ? path : member; }
+
+  /// What messages call it: its key, and its path where the key says nothing of that.
+  [[nodiscard]] std::string label() const;
+
+  /// A sentence about it, with its label where this says more than its key.
+  [[nodiscard]] std::string labelled(const std::string& sentence) const;
 };
 
 /// Gives entries in an order that depends on names and nothing else.
@@ -87,9 +94,11 @@ std::unique_ptr<EntrySource> entries_of_paths(std::vector<std::string> inputs, E
 /// Entries of a manifest ("-": standard input): JSON lines with "path" and, if wanted, "key",
 /// "name", "up", "front"; or CSV with such columns in its header; or a path a line (or ended by a zero
 /// byte). What it is shows in its first line. Paths are relative to the manifest's folder.
-/// \param stop ends waiting for a pipe: next() throws Cancelled.
+/// \param stop ends waiting for a pipe: next() throws Cancelled. \param warn is told once of columns or
+/// members that are none of these.
 /// \throw IoError if it cannot be opened.
-std::unique_ptr<EntrySource> entries_of_manifest(const std::string& path,
-                                                 std::stop_token stop = {});
+std::unique_ptr<EntrySource> entries_of_manifest(
+    const std::string& path, std::stop_token stop = {},
+    std::function<void(const std::string& warning)> warn = {});
 
 }  // namespace vantage::batch

@@ -20,6 +20,9 @@ constexpr std::size_t kLongestLine = 1U << 20U;
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
+/// What a manifest may say of a model.
+constexpr std::array<std::string_view, 5> kManifestNames{"path", "key", "name", "up", "front"};
+
 constexpr const char* kNoAxis = " has an \"up\" that is none of x y z -x -y -z";
 constexpr const char* kNoFront = " has a \"front\" that is none of x y z -x -y -z";
 
@@ -32,10 +35,12 @@ using Fields = std::map<std::string, std::string>;
 
 class ManifestSource : public EntrySource {
  public:
-  ManifestSource(const std::string& path, std::stop_token stop)
+  ManifestSource(const std::string& path, std::stop_token stop,
+                 std::function<void(const std::string&)> warn)
       : manifest_(path),
         folder_(std::filesystem::path(path).parent_path()),
-        bytes_(path, std::move(stop)) {}
+        bytes_(path, std::move(stop)),
+        warn_(std::move(warn)) {}
 
   std::optional<Entry> next() override {
     while (true) {
@@ -46,7 +51,7 @@ class ManifestSource : public EntrySource {
       if (kind_ == ManifestForm::Unknown && take_first(*line)) {
         continue;
       }
-      if (line->empty() || (kind_ == ManifestForm::Paths && line->front() == '#' && !zero_ended_)) {
+      if (lists_nothing(*line)) {
         continue;
       }
       Entry entry = entry_of(*line);
@@ -58,6 +63,35 @@ class ManifestSource : public EntrySource {
   [[nodiscard]] bool has_more_now() const override { return bytes_.is_there(); }
 
  private:
+  /// Whether it is blank, as rows below a spreadsheet's last one are, or a comment.
+  [[nodiscard]] bool lists_nothing(const std::string& line) const {
+    if (zero_ended_ || line.empty()) {
+      return line.empty();
+    }
+    const std::vector<std::string> cells =
+        kind_ == ManifestForm::Csv ? cells_of(line) : std::vector<std::string>{line};
+    const bool has_text = std::any_of(cells.begin(), cells.end(), [](const std::string& cell) {
+      return cell.find_first_not_of(" \t") != std::string::npos;
+    });
+    return !has_text || (kind_ == ManifestForm::Paths && line.front() == '#');
+  }
+
+  /// Tells once of names that say nothing here, as misspelt ones do.
+  void warn_of_others(const std::vector<std::string>& names, const char* what) {
+    std::string others;
+    for (const std::string& name : names) {
+      if (!name.empty() &&
+          std::find(kManifestNames.begin(), kManifestNames.end(), name) == kManifestNames.end()) {
+        others += (others.empty() ? "" : ", ") + name;
+      }
+    }
+    if (!others.empty() && warn_) {
+      std::exchange(warn_, {})(manifest_ + ": line " + std::to_string(line_number_) + " has " +
+                               what + " that are not read: " + others +
+                               "; those that are: path, key, name, up, front");
+    }
+  }
+
   /// A line without its end; line ends in quoted cells of a table belong to it.
   std::optional<std::string> read_line() {
     std::string line;
@@ -121,6 +155,9 @@ class ManifestSource : public EntrySource {
                         "the models");
     }
     kind_ = is_table ? ManifestForm::Csv : ManifestForm::Paths;
+    if (is_table) {
+      warn_of_others(header_, "columns");
+    }
     return is_table;
   }
 
@@ -249,7 +286,7 @@ class ManifestSource : public EntrySource {
     return "line " + std::to_string(line_number_) + " of the manifest";
   }
 
-  Fields fields_of(const std::string& line, std::string& problem) const {
+  Fields fields_of(const std::string& line, std::string& problem) {
     Fields fields;
     if (kind_ == ManifestForm::Paths) {
       fields["path"] = line;
@@ -264,14 +301,17 @@ class ManifestSource : public EntrySource {
         problem = " is not a JSON object";
         return fields;
       }
+      std::vector<std::string> names;
       for (const auto& [key, value] : json.items()) {
+        names.push_back(key);
         if (value.is_string()) {
           fields[key] = value.get<std::string>();
-        } else if (key == "path" || key == "key" || key == "name" || key == "up" ||
-                   key == "front") {
+        } else if (std::find(kManifestNames.begin(), kManifestNames.end(), key) !=
+                   kManifestNames.end()) {
           problem = " has a \"" + key + "\" that is no text";
         }
       }
+      warn_of_others(names, "members");
     }
     return fields;
   }
@@ -285,17 +325,21 @@ class ManifestSource : public EntrySource {
     }
   }
 
+  void check_axes(Entry& planned) const {
+    if (!is_axis(planned.up)) {
+      planned.problem = place() + kNoAxis;
+      planned.up.clear();
+    }
+    if (!is_axis(planned.front)) {
+      planned.problem = place() + kNoFront;
+      planned.front.clear();
+    }
+  }
+
   Entry entry_of(const std::string& line) {
     if (kind_ == ManifestForm::JsonLines) {
       if (std::optional<Entry> planned = planned_entry(line)) {
-        if (!is_axis(planned->up)) {
-          planned->problem = place() + kNoAxis;
-          planned->up.clear();
-        }
-        if (!is_axis(planned->front)) {
-          planned->problem = place() + kNoFront;
-          planned->front.clear();
-        }
+        check_axes(*planned);
         return *planned;
       }
     }
@@ -315,8 +359,11 @@ class ManifestSource : public EntrySource {
     }
     Entry entry;
     if (!problem.empty()) {
-      entry.problem = place() + problem;
-      entry.key = fields["path"].empty() ? place() : key_of_path(fields["path"]);
+      const std::string shown = key_of_path(fields["path"]);
+      const std::string key = key_of_path(fields["key"]);
+      const bool names_both = !key.empty() && !shown.empty();
+      entry.problem = place() + (names_both ? " (" + shown + ")" : "") + problem;
+      entry.key = !key.empty() ? key : !shown.empty() ? shown : place();
       return entry;
     }
     const std::filesystem::path path(fields["path"]);
@@ -331,6 +378,7 @@ class ManifestSource : public EntrySource {
   std::string manifest_;
   std::filesystem::path folder_;
   StoppableBytes bytes_;
+  std::function<void(const std::string&)> warn_;  ///< Empty once it was told.
   ManifestForm kind_ = ManifestForm::Unknown;
   bool zero_ended_ = false;
   std::vector<std::string> header_{};  ///< In small letters.
@@ -342,8 +390,10 @@ class ManifestSource : public EntrySource {
 
 }  // namespace
 
-std::unique_ptr<EntrySource> entries_of_manifest(const std::string& path, std::stop_token stop) {
-  return std::make_unique<ManifestSource>(path, std::move(stop));
+std::unique_ptr<EntrySource> entries_of_manifest(
+    const std::string& path, std::stop_token stop,
+    std::function<void(const std::string& warning)> warn) {
+  return std::make_unique<ManifestSource>(path, std::move(stop), std::move(warn));
 }
 
 }  // namespace vantage::batch

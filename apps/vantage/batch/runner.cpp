@@ -137,8 +137,12 @@ class Runner {
     job.file = entry.path;
     job.entry = std::move(entry);
     job.before = book_.find(record.key);
-    const bool is_listed_twice = !listed_.insert(std::hash<std::string>{}(record.key)).second;
-    if (is_listed_twice || is_settled(job)) {
+    if (!listed_.insert(std::hash<std::string>{}(record.key)).second) {
+      counts_.first_repeated = counts_.repeated++ == 0 ? record.key : counts_.first_repeated;
+      report_(counts_, nullptr);
+      return;
+    }
+    if (is_settled(job)) {
       ++counts_.skipped;
       counts_.skipped_failed += job.before && job.before->status == "failed" ? 1 : 0;
       counts_.doubted += job.before && is_doubted(*job.before) ? 1 : 0;
@@ -402,7 +406,7 @@ class Runner {
     release(job);
     job.record.status = "failed";
     job.record.reason = reason;
-    job.record.error = error;
+    job.record.error = job.entry.labelled(error);
     job.record.folder.clear();
     job.record.result.clear();
     ++counts_.failed;

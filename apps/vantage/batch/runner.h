@@ -39,6 +39,8 @@ struct RunnerCounts {
   std::int64_t skipped = 0;         ///< Done before, unchanged.
   std::int64_t skipped_failed = 0;  ///< Of these, failed before.
   std::int64_t duplicates = 0;      ///< Same content as another model; not run.
+  std::int64_t repeated = 0;        ///< Entries passed over: one before has their key.
+  std::string first_repeated{};     ///< The first such key.
   std::int64_t doubted = 0;         ///< Answers, of this run or before, that should not be trusted.
 };
 

@@ -57,9 +57,9 @@ class WholeFile {
 };
 
 void write_entry(WholeFile& file, const Entry& entry, std::optional<std::uint32_t> shard) {
-  Json json = {{"planned", true},
-               {"path", key_of_path(fs::absolute(entry.path).string())},
-               {"key", entry.key}};
+  // What names no file has none, and fails by its problem.
+  const std::string path = entry.path.empty() ? "" : fs::absolute(entry.path).string();
+  Json json = {{"planned", true}, {"path", key_of_path(path)}, {"key", entry.key}};
   const std::pair<const char*, const std::string&> rest[] = {
       {"name", entry.name}, {"up", entry.up}, {"front", entry.front}, {"problem", entry.problem}};
   for (const auto& [name, value] : rest) {

@@ -139,6 +139,40 @@ TEST(EntriesOfManifest, BlankLinesAheadAreNoFirstLine) {
   }
 }
 
+TEST(EntriesOfManifest, RowsAndLinesOfBlanksListNothing) {
+  for (const char* const text : {"path,key\na.ply,a\n,\n , \"\"\n", "path;key\na.ply;a\n;\n",
+                                 "{\"path\": \"a.ply\"}\n  \n\t\r\n", "a.ply\n \t\n"}) {
+    EXPECT_EQ(listed(text).size(), 1U) << text;
+  }
+}
+
+TEST(EntriesOfManifest, NamesThatSayNothingAreToldOnce) {
+  const test::TemporaryFolder scratch;
+  std::vector<std::string> told;
+  const auto source = entries_of_manifest(
+      scratch.write("list", "{\"path\": \"a\"}\n{\"path\": \"b\", \"x\": 1}\n{\"y\": 2}\n"), {},
+      [&](const std::string& warning) { told.push_back(warning); });
+  EXPECT_EQ(all_of(*source).size(), 3U);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("line 2 has members that are not read: x; those that are: path, key"),
+            std::string::npos)
+      << told[0];
+}
+
+TEST(Entry, IsCalledByItsPathWhereItsKeySaysAnotherThing) {
+  const auto label = [](const char* key, const char* path, const char* member = "") {
+    return Entry{.key = key, .path = path, .member = member}.label();
+  };
+  EXPECT_EQ(label("a/b.ply", "a/b.ply"), "a/b.ply");
+  EXPECT_EQ(label("b.ply", "lists/b.ply"), "b.ply");
+  EXPECT_EQ(label("chair", "a/b.ply"), "chair (a/b.ply)");
+  EXPECT_EQ(label("a.zip//b.ply", "a.zip", "b.ply"), "a.zip//b.ply");
+  EXPECT_EQ(label("k", ""), "k");
+  const Entry entry{.key = "chair", .path = "a/b.ply"};
+  EXPECT_EQ(entry.labelled("crashed"), "chair (a/b.ply): crashed");
+  EXPECT_EQ(entry.labelled("chair (a/b.ply): crashed"), "chair (a/b.ply): crashed");
+}
+
 TEST(EntriesOfManifest, LinesAreCountedWithThoseInsideCells) {
   const std::vector<Entry> entries = listed("path,name\na.ply,\"x\ny\"\n,c\n");
   ASSERT_EQ(entries.size(), 2U);
