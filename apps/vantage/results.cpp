@@ -53,9 +53,7 @@ struct ExportCommand {
   }
 
   void run(Session& session) const {
-    const std::string kind = !format.empty()                 ? format
-                             : suffix_of(output) == ".jsonl" ? "jsonl"
-                                                             : "csv";
+    const std::string kind = !format.empty() ? format : format_by_name();
     std::vector<std::string> columns = batch::result_columns();
     if (timings) {
       columns.insert(columns.end(), batch::timing_columns().begin(), batch::timing_columns().end());
@@ -80,6 +78,18 @@ struct ExportCommand {
   }
 
  private:
+  /// \throw CLI::ValidationError if the file's ending is that of another format.
+  [[nodiscard]] std::string format_by_name() const {
+    const std::string ending = suffix_of(output);
+    if (!ending.empty() && ending != ".csv" && ending != ".jsonl") {
+      throw CLI::ValidationError("--output",
+                                 "'" + output +
+                                     "' is to be .csv or .jsonl, the formats that there "
+                                     "are, or say --format csv or --format jsonl");
+    }
+    return ending == ".jsonl" ? "jsonl" : "csv";
+  }
+
   static std::string csv_row(const batch::Statement& row, std::size_t count) {
     std::vector<std::string> cells;
     for (std::size_t i = 0; i < count; ++i) {

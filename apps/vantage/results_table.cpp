@@ -19,6 +19,16 @@ namespace {
 
 using batch::Json;
 
+// Longer signs first: "<=" is not "<" and a value that begins with "=".
+constexpr std::array<std::pair<const char*, const char*>, 7> kSigns{{{"!=", " <> ?"},
+                                                                     {"<=", " <= ?"},
+                                                                     {">=", " >= ?"},
+                                                                     {"=", " = ?"},
+                                                                     {"<", " < ?"},
+                                                                     {">", " > ?"},
+                                                                     {"~", ""}}};
+constexpr const char* kSignLetters = "!<>=~";
+
 bool is_column(const std::string& name) {
   const auto in = [&](const std::vector<std::string>& columns) {
     return std::find(columns.begin(), columns.end(), name) != columns.end();
@@ -42,6 +52,29 @@ std::optional<double> number_of(const std::string& text) {
   return parsed.ec == std::errc{} && parsed.ptr == end && std::isfinite(number)
              ? std::optional(number)
              : std::nullopt;
+}
+
+/// Refuses signs that are none of these, as ">>" is; what is to be contained may begin with any.
+void require_sign(const std::string& text, std::size_t at) {
+  const std::string signs = text.substr(at, text.find_first_not_of(kSignLetters, at) - at);
+  const bool is_known =
+      signs.front() == '~' || std::any_of(kSigns.begin(), kSigns.end(),
+                                          [&](const auto& sign) { return signs == sign.first; });
+  if (!is_known) {
+    throw CLI::ValidationError("--where",
+                               "'" + signs + "' in '" + text +
+                                   "' is none of = != < <= > >= ~ (contains); a value "
+                                   "that begins with such a sign needs a blank before it");
+  }
+}
+
+/// What equal models are asked for by, as the status of all of these is done.
+void refuse_duplicates(const Condition& condition) {
+  if (condition.column == "status" && condition.value.starts_with("duplicate")) {
+    throw CLI::ValidationError("--where",
+                               "status is done or failed; models with the content of another are "
+                               "found by --status duplicate, or --where 'duplicate_of!='");
+  }
 }
 
 /// What a column of numbers is compared with. \throw CLI::ValidationError
@@ -77,15 +110,10 @@ std::string trimmed_blanks(const std::string& text) {
 }  // namespace
 
 Condition parse_condition(const std::string& text) {
-  // Longer signs first: "<=" is not "<" and a value that begins with "=".
-  constexpr std::array<std::pair<const char*, const char*>, 7> kSigns{{{"!=", " <> ?"},
-                                                                       {"<=", " <= ?"},
-                                                                       {">=", " >= ?"},
-                                                                       {"=", " = ?"},
-                                                                       {"<", " < ?"},
-                                                                       {">", " > ?"},
-                                                                       {"~", ""}}};
-  const std::size_t at = text.find_first_of("!<>=~");
+  const std::size_t at = text.find_first_of(kSignLetters);
+  if (at != std::string::npos) {
+    require_sign(text, at);
+  }
   for (const auto& [sign, sql] : kSigns) {
     if (at == std::string::npos || text.compare(at, std::string_view(sign).size(), sign) != 0) {
       continue;
@@ -93,6 +121,7 @@ Condition parse_condition(const std::string& text) {
     Condition condition{.column = trimmed_blanks(text.substr(0, at)),
                         .value = trimmed_blanks(text.substr(at + std::string_view(sign).size()))};
     require_column(condition.column, "--where");
+    refuse_duplicates(condition);
     condition.comparison = *sql == '\0' ? "instr(lower(" + condition.column + "), lower(?)) > 0"
                                         : condition.column + sql;
     if (*sql != '\0' && !holds_text(condition.column)) {

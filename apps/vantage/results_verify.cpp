@@ -107,7 +107,8 @@ class Verification {
 
   void look_into(const batch::ModelRecord& record) {
     const std::string folder = batch::model_folder(record.folder);
-    const std::string remedy = "; remove " + folder + " and run the batch again";
+    const Json result = batch::parsed_json(record.result);
+    const Json files = result.is_object() ? result.value("files", Json::object()) : Json::object();
     const auto complain_of = [&](const std::string& file, const std::string& problem) {
       std::string text = record.key;
       complain(text.append(": ")
@@ -116,7 +117,9 @@ class Verification {
                    .append(file)
                    .append(" ")
                    .append(problem)
-                   .append(remedy));
+                   .append(is_missed(record, files, file)
+                               ? "; run the batch again with --verify"
+                               : "; remove " + folder + " and run the batch again"));
     };
     ++counts_.folders;
     if (!root_.is_folder(folder)) {
@@ -137,20 +140,27 @@ class Verification {
       complain_of("view.json", "is not there or damaged");
       return;
     }
-    const Json result = batch::parsed_json(record.result);
     for (const char* part : {"total", "best", "worst"}) {
       if (!result.is_object() || result.value(part, Json()) != view.value(part, Json())) {
         complain_of("view.json", "is not what its record says");
         return;
       }
     }
-    const Json files = result.value("files", Json::object());
     for (const auto& [file, size] : files.items()) {
       const std::string problem = problem_with(std::string(folder).append("/").append(file), size);
       if (file != "view.json" && !problem.empty()) {
         complain_of(file, problem);
       }
     }
+  }
+
+  /// Whether a batch with --verify sees that something is wrong with a file, and may make it anew.
+  [[nodiscard]] bool is_missed(const batch::ModelRecord& record, const Json& files,
+                               const std::string& file) const {
+    const std::string place = batch::model_folder(record.folder) + "/" + file;
+    std::error_code error;
+    return files.contains(file) && batch::holds_results(root_, record.folder) &&
+           (!root_.exists(place) || files[file] != fs::file_size(root_.path_of(place), error));
   }
 
   /// What is wrong with a file that its record names; empty if nothing is, or flaw_of() says it.
