@@ -133,7 +133,7 @@ by("sort").addEventListener("change", choose);
 by("back").addEventListener("click", () => { --at; draw(); scrollTo(0, 0); });
 by("next").addEventListener("click", () => { ++at; draw(); scrollTo(0, 0); });
 by("counts").textContent = page.done.toLocaleString("en") + " done, " + page.failed.toLocaleString("en") +
-  " failed, " + page.duplicates.toLocaleString("en") + " duplicates";
+  " failed, " + page.duplicates.toLocaleString("en") + (page.duplicates === 1 ? " duplicate" : " duplicates");
 if (page.pages.length > 1) {
   by("files").append("Further models: ");
   page.pages.forEach((name, i) => {

@@ -20,5 +20,11 @@ TEST(IndexPage, AsksForNothingFromOutside) {
   EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
 }
 
+TEST(IndexPage, OneDuplicateIsToldOfAsOne) {
+  const std::string page = index_page("", {"index.html"}, 0, {});
+  EXPECT_NE(page.find("page.duplicates === 1 ? \" duplicate\" : \" duplicates\""),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace vantage::batch
