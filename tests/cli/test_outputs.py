@@ -84,7 +84,7 @@ class Foreign(ProgramTest):
         self.vantage("batch", "a.off", "-o", "out", "--search", "rapid", "--write", "json")
         export = ("results", "export", "out", "-o")
         self.assert_kept("notes.csv", PEOPLE, *export, "notes.csv")
-        self.assert_kept("b.ply", THEIRS, *export, "b.ply")
+        self.assert_kept("b.ply", THEIRS, *export, "b.ply", "--format", "csv")
         for name, form in (("rows.csv", "csv"), ("rows.jsonl", "jsonl")):
             self.vantage(*export, name, "--format", form)
             before = (self.dir / name).read_bytes()
@@ -102,7 +102,7 @@ class Foreign(ProgramTest):
         os.symlink("r/results.sqlite", self.dir / "link.csv")
         for name in ("r/results.sqlite", "link.csv"):
             for force in ([], ["--force"]):
-                done = self.vantage("results", "export", "r", "-o", name, *force, exit_code=1)
+                done = self.vantage("results", "export", "r", "-o", name, "--format", "csv", *force, exit_code=1)
                 self.assertIn("holds the results of a batch", done.err)
                 self.assertEqual(store.read_bytes(), before)
 

@@ -46,7 +46,8 @@ class Verify(ProgramTest):
         self.assertIn("5 records, 3 folders of results: all sound", self.vantage("results", "verify", "out").out)
 
     def test_files_that_are_gone_cut_off_or_of_something_else(self):
-        remedy = "; remove models/m1 and run the batch again"
+        remedy = "; run the batch again with --verify"
+        remove = "; remove models/m1 and run the batch again"
         picture = (self.dir / "out/models/m1/best.png").read_bytes()
         self.assertEqual(self.damaged("best.png", picture[:-7]), [f"m1.off: models/m1/best.png is no whole picture{remedy}"])
         self.assertEqual(self.damaged("worst.png", None), [f"m1.off: models/m1/worst.png is not there{remedy}"])
@@ -55,8 +56,8 @@ class Verify(ProgramTest):
         self.assertEqual(self.damaged("camera-best.gltf", camera[:-7]),
                          [f"m1.off: models/m1/camera-best.gltf has {len(camera) - 7} bytes, not {len(camera)}{remedy}"])
         self.assertEqual(self.damaged("view.json", b'{"vantage": '),
-                         [f"m1.off: models/m1/view.json is no JSON{remedy}",
-                          f"m1.off: models/m1/view.json is not there or damaged{remedy}"])
+                         [f"m1.off: models/m1/view.json is no JSON{remove}",
+                          f"m1.off: models/m1/view.json is not there or damaged{remove}"])
         other = (self.dir / "out/models/m2/view.json").read_bytes()
         self.assertEqual(self.damaged("view.json", other), [f"m1.off: models/m1/view.json is not what its record says{remedy}"])
 
@@ -65,9 +66,9 @@ class Verify(ProgramTest):
         self.assertEqual(self.problems(), ["m2.off: its results, models/m2, are not there; run the batch again",
                                            "models/m3: results that no record names; remove the folder"])
         with sqlite3.connect(self.dir / "out/results.sqlite") as store:
-            store.execute("UPDATE models SET duplicate_of = 'gone.off' WHERE key = 'again.off'")
+            store.execute("UPDATE models SET duplicate_of = 'gone.off', content = 'none' WHERE key = 'again.off'")
         store.close()
-        self.assertIn("again.off: has the results of gone.off, which has no record", self.problems())
+        self.assertIn("again.off: has the results of gone.off, which has none of its content; run the batch again with again.off", self.problems())
 
     def test_a_model_that_is_done_without_results_is_done_again(self):
         with sqlite3.connect(self.dir / "out/results.sqlite") as store:
