@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vantage/core/error.h"
+
 #include "terminal.h"
 
 namespace vantage::cli {

@@ -63,13 +63,7 @@ struct RenderCommand {
     check_output(file, OutputKind::Picture, session.flags);
     ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
     look.check(file, options);
-    for (const char* const flag : {"projection", "distance", "fov", "margin", "up", "front"}) {
-      const bool is_of_ground = look.look().ground && std::string_view(flag) == "up";
-      if (!camera_file.empty() && (method.has(flag) || look.has(flag)) && !is_of_ground) {
-        throw CLI::ValidationError(std::string("--") + flag,
-                                   "says what the file of --camera says: leave one out");
-      }
-    }
+    check_beside_camera();
     options.margin_percent = look.margin_percent();
     const RunContext run = session.run();
     std::optional<Vec3> direction;
@@ -122,6 +116,17 @@ struct RenderCommand {
   }
 
  private:
+  /// Refuses what the file of a camera says, too.
+  void check_beside_camera() const {
+    for (const char* const flag : {"projection", "distance", "fov", "margin", "up", "front"}) {
+      const bool is_of_ground = look.look().ground && std::string_view(flag) == "up";
+      if (!camera_file.empty() && (method.has(flag) || look.has(flag)) && !is_of_ground) {
+        throw CLI::ValidationError(std::string("--") + flag,
+                                   "says what the file of --camera says: leave one out");
+      }
+    }
+  }
+
   static Vec3 unit(const Vec3& v) {
     const double length = v.stableNorm();
     if (!(length > 0.0) || !std::isfinite(length)) {

@@ -38,7 +38,8 @@ struct ScoreCommand {
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("MODEL", model, "file to read, or -")->required();
     CLI::Option_group* what = app.add_option_group("Views", "what to score: one of");
-    what->add_option("--directions", directions, "CSV file dx,dy,dz: directions to the eye");
+    what->add_option("--directions", directions,
+                     "CSV file dx,dy,dz: directions to the eye; - is standard input");
     what->add_option("--eyes", eyes, "CSV file x,y,z: positions of the eye, in model units");
     what->add_option("--sphere", sphere, "all directions of the icosahedron split this many times")
         ->check(within(0, 8));

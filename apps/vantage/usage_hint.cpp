@@ -82,6 +82,26 @@ class Flags {
   std::vector<const CLI::Option*> options_{};
 };
 
+/// Which commands know a flag: the end of a sentence about one that does not. Empty if none does.
+std::string who_knows(const CLI::App& command, const std::string& flag) {
+  const CLI::App* program = &command;
+  while (program->get_parent() != nullptr) {
+    program = program->get_parent();
+  }
+  std::vector<std::string> calls;
+  for (const CLI::App* other : commands_below(*program)) {
+    if (Flags(*other).find(flag) != nullptr) {
+      calls.push_back(call_of(*other));
+    }
+  }
+  if (calls.size() > 2) {
+    return "; vantage " + calls.front() + " and others have it";
+  }
+  return calls.empty()       ? ""
+         : calls.size() == 1 ? "; vantage " + calls.front() + " has it"
+                             : "; vantage " + calls.front() + " and " + calls.back() + " have it";
+}
+
 bool takes_value(const CLI::Option& option) {
   return option.get_type_size() != 0 && option.get_expected_max() != 0;
 }
@@ -131,10 +151,13 @@ class Reading {
       const std::string whole = word.substr(0, equals);
       const std::string flag = is_long ? whole : "-" + whole;  // "-size" for "--size"
       const std::string nearest = nearest_word(flag, flags_.names());
+      const std::string elsewhere = nearest.empty() ? who_knows(*command_, flag) : "";
       std::error_code error;
       const bool is_file = std::filesystem::is_regular_file(word, error);
       return "vantage " + call_of(*command_) + " knows no flag " + whole +
-             (is_file ? "; ./" + word + " is the file of this name" : meant(nearest));
+             (is_file             ? "; ./" + word + " is the file of this name"
+              : elsewhere.empty() ? meant(nearest)
+                                  : elsewhere);
     }
     const bool holds_value = is_long ? equals != std::string::npos : word.size() > 2;
     at_ += takes_value(*option) && !holds_value ? 1 : 0;

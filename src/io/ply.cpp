@@ -332,8 +332,9 @@ Model read_text(std::string_view bytes, std::string_view name, const RunContext&
 std::optional<Model> read_by_lines(std::string_view bytes, std::string_view name,
                                    const RunContext& run, const Surroundings& surroundings) {
   try {
+    const RunContext quiet = run.quiet();  // progress has been reported already
     std::size_t surplus = 0;
-    Model model = read_text(bytes, name, run, surroundings, PlyTextSource::Rows::Lines, surplus);
+    Model model = read_text(bytes, name, quiet, surroundings, PlyTextSource::Rows::Lines, surplus);
     if (surplus == 0) {
       return std::nullopt;
     }

@@ -68,7 +68,8 @@ void set_background(RenderOptions& options, std::string_view text) {
     }
     if (!top || (two && !bottom)) {
       throw InvalidInput(
-          "option background must be transparent, gradient, white, black, #rrggbb, or two of these "
+          "option background must be transparent, gradient, white, black, #rgb, #rrggbb, or two of "
+          "these "
           "colours as TOP:BOTTOM, not '" +
           std::string(text) + "'");
     }

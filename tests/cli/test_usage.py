@@ -47,6 +47,10 @@ class WhatWasMeant(ProgramTest):
         self.assertIn("knows no flag -a.off; ./-a.off is the file of this name", self.complaint("view", "-a.off"))
         self.assertIn("did you mean --direction?", self.complaint("render", FAN, "--directoin", "1,2,3", "-o", "b.png"))
 
+    def test_a_flag_of_another_command(self):
+        for command, flag, has_it in (("thumb", "--direction", "vantage render has it"), ("info", "--style", "vantage view and others have it")):
+            self.assertIn(f"vantage {command} knows no flag {flag}; {has_it}", self.complaint(command, FAN, flag, "1"))
+
     def test_numbers(self):
         for words, wanted in ((("view", FAN, "--fov", "400"), "--fov: must be a number from 1 to 170, not 400"),
                               (("view", FAN, "--views", "2.5"), "--views: must be a whole number from 1 to 1000, not 2.5"),

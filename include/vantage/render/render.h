@@ -82,7 +82,8 @@ inline constexpr auto kRenderFields = std::tuple{
     Field{"samples", &RenderOptions::samples, 1, 1024, kNoFlag},
     Field{"ambient-rays", &RenderOptions::ambient_rays, 0, 1024, kNoFlag},
     Text{"background", set_background, background_text,
-         "transparent, gradient, white, black, #rrggbb, or two of these colours as TOP:BOTTOM"},
+         "transparent, gradient, white, black, #rgb, #rrggbb, or two of these colours as "
+         "TOP:BOTTOM"},
     Choice{"style", &RenderOptions::style, "clay|asset|technical",
            "clay: matt and softly lit; asset: the same in the file's own colours and materials; "
            "technical: a drawing with outlines and sharp edges"},
