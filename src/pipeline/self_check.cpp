@@ -242,9 +242,8 @@ MovedMap checked_moved_map(const ShapeAnalysis& shape, const ViewOptions& option
 }
 
 std::string unlike_map_text(const MovedMap& moved) {
-  return "the significance map hangs on how the surface is cut into triangles: on a copy moved by "
-         "a "
-         "ten-thousandth of its size the ranks of its values agree to " +
+  return "the significance map hangs on how the surface is cut into triangles: on a copy moved "
+         "by a ten-thousandth of its size the ranks of its values agree to " +
          percent(std::max(moved.agreement, 0.0)) + " only";
 }
 
