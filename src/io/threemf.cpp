@@ -223,8 +223,8 @@ class PlateReader {
       builder_.fail("shows its objects so often that the model is out of proportion to the file");
     }
     builder_.run().check();
-    if (!object.is_model &&
-        object.components.empty()) {  // of one with components the type is ignored
+    // Of an object with components the type is ignored (3MF core, chapter 4).
+    if (!object.is_model && object.components.empty()) {
       ++left_out_;
       return;
     }

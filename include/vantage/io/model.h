@@ -101,8 +101,8 @@ Model load_model(const std::string& path, const RunContext& run = {},
 /// A file beside a model that the model's reader opens.
 struct FileBeside {
   std::string name{};  ///< Relative to the model's folder, as the reader understands the model.
-  std::string
-      path{};  ///< Where it is, links resolved: in the model's folder, or below. Empty: nowhere.
+  /// Where it is, links resolved: in the model's folder, or below. Empty: nowhere.
+  std::string path{};
 };
 
 /// Finds the files that a model consists of besides its own, while its bytes pass by: buffers and

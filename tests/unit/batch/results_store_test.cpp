@@ -8,6 +8,7 @@
 #include "vantage/core/error.h"
 
 #include "support/temporary_folder.h"
+#include "unit/batch/first_duplicate.h"
 
 namespace vantage::batch {
 namespace {
@@ -133,20 +134,7 @@ TEST(ResultsStore, FindsAllModelsOfOneContentOptionsAndVersion) {
 TEST(ResultsStore, FindsTheFirstThatHasTheResultsOfAnother) {
   const test::TemporaryFolder scratch;
   ResultsStore book(scratch.file(), Database::Mode::Create);
-  ModelRecord twin = record("twin", 4, "same");
-  twin.folder.clear();
-  twin.duplicate_of = "first";
-  ModelRecord earlier = twin;
-  earlier.key = "earlier";
-  earlier.position = 3;
-  for (const ModelRecord& each : {record("first", 1, "same"), twin, earlier}) {
-    book.put(each);
-  }
-  EXPECT_EQ(book.find_duplicate(record("new", 9, "same"))->key, "earlier");
-  earlier.duplicate_of.clear();
-  book.put(earlier);
-  EXPECT_EQ(book.find_duplicate(record("new", 9, "same"))->key, "twin");
-  EXPECT_FALSE(book.find_duplicate(record("new", 9, "other")));
+  test::expect_finds_first_duplicate(book);
 }
 
 TEST(ResultsStore, KeysMayHoldQuotesAndLineEnds) {

@@ -14,6 +14,7 @@
 
 #include "batch/content_hash.h"
 #include "support/temporary_folder.h"
+#include "unit/batch/first_duplicate.h"
 
 namespace vantage::batch {
 namespace {
@@ -78,20 +79,7 @@ TEST(ShardLog, FindsTheFirstOfEqualContentByPosition) {
 TEST(ShardLog, FindsTheFirstThatHasTheResultsOfAnother) {
   const test::TemporaryFolder scratch;
   ShardLog book(scratch.file(), {0, 2});
-  ModelRecord twin = record("twin", 4, "same");
-  twin.folder.clear();
-  twin.duplicate_of = "first";
-  ModelRecord earlier = twin;
-  earlier.key = "earlier";
-  earlier.position = 3;
-  for (const ModelRecord& each : {record("first", 1, "same"), twin, earlier}) {
-    book.put(each);
-  }
-  EXPECT_EQ(book.find_duplicate(record("new", 9, "same"))->key, "earlier");
-  earlier.duplicate_of.clear();
-  book.put(earlier);
-  EXPECT_EQ(book.find_duplicate(record("new", 9, "same"))->key, "twin");
-  EXPECT_FALSE(book.find_duplicate(record("new", 9, "other")));
+  test::expect_finds_first_duplicate(book);
 }
 
 TEST(ShardLog, ALargeFileIsWrittenAnewWhenItsLogIsAsLong) {
