@@ -21,6 +21,8 @@
 
 #include "batch/archive_reader.h"
 #include "batch/content_hash.h"
+#include "batch/file_stamp.h"
+#include "batch/file_watch.h"
 #include "batch/json_text.h"
 #include "batch/naming.h"
 #include "batch/thumbnail.h"
@@ -211,6 +213,7 @@ struct BatchWorkerCommand {
       const RunContext reading_run = session.run();
       ImportedOnce imported(path, model_importer(session.flags.limits), reading_run);
       const auto pictures = [&](const ImportFormat& format) { return imported.pictures(format); };
+      const batch::FileWatch watch(path);
       content = batch::content_of(path, pictures);
       say(answers, {{"content", content.hash}, {"beside", batch::to_json(content.beside)}});
       std::string word;
@@ -230,7 +233,8 @@ struct BatchWorkerCommand {
       reading_options.importer = imported.importer();
       reading_options.max_faces = face_limit(session.flags.limits);
       Model model = load_model(path, run, reading_options);
-      if (batch::content_of(path, pictures).hash != content.hash) {
+      if (!watch.is_unchanged() || !batch::are_as_they_were(content.beside, path) ||
+          batch::content_of(path, pictures).hash != content.hash) {
         return failed("changed", path + ": was changed while it was read; --retry failed");
       }
       if (const std::string remark = archive_remark(order, content); !remark.empty()) {

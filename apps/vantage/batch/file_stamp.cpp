@@ -9,6 +9,14 @@
 #include "batch/naming.h"
 
 namespace vantage::batch {
+namespace {
+
+FileStamp stamp_from(const struct stat& status) {
+  return {status.st_size, status.st_mtim.tv_sec * 1'000'000'000LL + status.st_mtim.tv_nsec,
+          status.st_ino};
+}
+
+}  // namespace
 
 std::uint64_t bytes_on_disk(const std::string& path) {
   constexpr std::uint64_t kBytesPerBlock = 512;
@@ -23,11 +31,13 @@ std::uint64_t bytes_on_disk(const std::string& path) {
 FileStamp stamp_of(const std::string& path) {
   struct stat status {};
 
-  if (path.empty() || ::stat(path.c_str(), &status) != 0) {
-    return {};
-  }
-  return {status.st_size, status.st_mtim.tv_sec * 1'000'000'000LL + status.st_mtim.tv_nsec,
-          status.st_ino};
+  return !path.empty() && ::stat(path.c_str(), &status) == 0 ? stamp_from(status) : FileStamp{};
+}
+
+FileStamp stamp_of(const Descriptor& file) {
+  struct stat status {};
+
+  return ::fstat(file.number(), &status) == 0 ? stamp_from(status) : FileStamp{};
 }
 
 bool are_as_they_were(const std::vector<StampBeside>& beside, const std::string& model_path) {
