@@ -59,14 +59,21 @@ def newest_symbol(binaries):
     return max(tuple(map(int, version)) for version in re.findall(r"GLIBC_(\d+)\.(\d+)", symbols))
 
 
-def licence_of(library):
-    """Name and copyright file of the Debian package that a library is from."""
-    for path in (library, library.resolve(), pathlib.Path("/usr" + str(library))):
-        done = subprocess.run(["dpkg", "-S", path], capture_output=True, text=True, check=False)
-        if done.returncode == 0:
-            package = re.split("[:,]", done.stdout)[0]
-            return package, pathlib.Path("/usr/share/doc", package, "copyright").read_bytes()
-    raise SystemExit(f"make_wheel.py: no package owns {library}, so its licence is not known")
+def licences_of(libraries):
+    """Name and copyright file of the Debian package that each library is from, by the library's path."""
+    places = {path: [str(p) for p in (path, path.resolve(), pathlib.Path("/usr" + str(path)))] for path in libraries}
+    # One question for all: each reads the file lists of all packages.
+    asked = ["dpkg", "-S", *sorted({place for some in places.values() for place in some})]
+    answers = subprocess.run(asked, capture_output=True, text=True, check=False).stdout
+    owners = {place: re.split("[:,]", owner)[0]
+              for owner, _, place in (line.rpartition(": ") for line in answers.splitlines())}
+    found = {}
+    for path, some in places.items():
+        package = next((owners[place] for place in some if place in owners), None)
+        if package is None:
+            raise SystemExit(f"make_wheel.py: no package owns {path}, so its licence is not known")
+        found[path] = package, pathlib.Path("/usr/share/doc", package, "copyright").read_bytes()
+    return found
 
 
 def named_in(licences):
@@ -99,6 +106,6 @@ def carry(module, scratch):
         raise SystemExit("make_wheel.py: a library needs a newer C library than this machine's")
     files = {f"vantage/{module.name}": copy.read_bytes()}
     files.update({f"{FOLDER}/{path.name}": path.read_bytes() for path in folder.iterdir()})
-    licences = dict(sorted(licence_of(path) for path in libraries.values()))
+    licences = dict(sorted(licences_of(libraries.values()).values()))
     licences.update(named_in(licences))
     return files, licences, f"manylinux_{here[0]}_{here[1]}_{os.uname().machine}"

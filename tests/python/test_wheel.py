@@ -56,8 +56,7 @@ def test_every_library_has_its_licence(wheel):
         names = archive.namelist()
         listed = archive.read(next(n for n in names if n.endswith("METADATA"))).decode()
     module = next(PACKAGE.glob("_core*.so"))
-    for library in carried_libraries.loaded_by(module).values():
-        package, text = carried_libraries.licence_of(library)
+    for package, text in carried_libraries.licences_of(carried_libraries.loaded_by(module).values()).values():
         assert any(n.endswith(f".dist-info/licences/{package}") for n in names) and text
         assert f"License-File: licences/{package}\n" in listed
         if b"common-licenses/LGPL-3" in text:
