@@ -4,6 +4,15 @@
 set(VANTAGE_SHARED_HEADERS <algorithm> <array> <cmath> <cstdint> <limits> <map> <memory> <numbers> <numeric> <optional>
     <span> <string> <string_view> <tuple> <utility> <vector> <Eigen/Geometry>)
 
+# There are sixty programs to link, each in half the time by GNU's gold.
+if(VANTAGE_QUICK_BUILD)
+  include(CheckLinkerFlag)
+  check_linker_flag(CXX -fuse-ld=gold VANTAGE_LINKS_BY_GOLD)
+  if(VANTAGE_LINKS_BY_GOLD)
+    add_link_options(-fuse-ld=gold)
+  endif()
+endif()
+
 # vantage_precompile(<target> more headers…)
 function(vantage_precompile target)
   if(VANTAGE_QUICK_BUILD)
