@@ -8,6 +8,7 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/measured_shape.h"
 #include "vantage/render/render.h"
+#include "vantage/spatial/mirror_symmetry.h"
 
 #include "core/parallel.h"
 #include "pipeline/coarse_surface.h"
@@ -74,11 +75,9 @@ void warn_of_coarse_epsilon(const SearchOptions& search, ViewReport& report) {
 /// Says so where the best view shows the back of what the shape says has a front.
 void note_a_view_from_behind(const DirectionChoice& front, const ViewOptions& options,
                              ViewReport& report) {
-  constexpr double kLikely = 0.5;
   constexpr double kBehind = -0.1;  // cosine
   if (objective_of(options) == Objective::People && !options.best_view && front.source != "given" &&
-      front.confidence > kLikely && !report.proportions.mirrors_front &&
-      report.best.direction.dot(front.direction) < kBehind) {
+      !report.proportions.mirrors_front && report.best.direction.dot(front.direction) < kBehind) {
     const std::string name(up_name(report.front));
     report.warnings.push_back("the best view is from behind, if the front is " + name + " (" +
                               percent(front.confidence) + " sure); --front " + name +
@@ -86,17 +85,28 @@ void note_a_view_from_behind(const DirectionChoice& front, const ViewOptions& op
   }
 }
 
+/// Says so where what tells most is hidden from everywhere.
+void note_what_none_sees(ViewReport& report) {
+  constexpr double kHidden = 0.2;
+  if (report.total > 0.0 && report.highest_score < kHidden * report.total) {
+    report.warnings.push_back("no view shows more than " +
+                              percent(report.highest_score / report.total) +
+                              " of the significance: the rest is inside, behind other parts");
+  }
+}
+
 /// Whether the best view, or a mirror image of it, is the best by the map of the moved copy, too.
 bool is_best_of_moved(const ShapeAnalysis& shape, const FrameChoice& choice,
                       const ViewOptions& options, const MovedMap& moved, const ViewReport& report,
                       const RunContext& run) {
+  constexpr double kSameRad = 0.02;
   constexpr double kAlike = 0.985;  // cosine of 10°: views nearer to each other look alike [ours]
   ShapeAnalysis other = shape;
   other.significance = moved.significance;
   const Vec3 again = find_view(other, Goal::Best, choice, options, run.quiet()).direction;
-  return again.dot(report.best.direction) > kAlike ||
-         std::any_of(report.twins.begin(), report.twins.end(),
-                     [&](const TwinView& twin) { return again.dot(twin.direction) > kAlike; });
+  const std::vector<Vec3> images = mirror_images(report.best.direction, planes_of(shape), kSameRad);
+  return std::any_of(images.begin(), images.end(),
+                     [&](const Vec3& image) { return again.dot(image) > kAlike; });
 }
 
 }  // namespace
@@ -122,6 +132,9 @@ ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
                                       upright_frame(choice.frame));
   report.warnings.insert(report.warnings.end(), choice.notes.begin(), choice.notes.end());
   note_a_view_from_behind(choice.orientation.front, options, report);
+  if (sums_a_map(options.method)) {
+    note_what_none_sees(report);
+  }
   if (moved.is_unlike() && is_best_of_moved(shape, choice, options, moved, report, run)) {
     report.warnings.push_back(unlike_map_text(moved) +
                               "; the best view is the same there, the worst may be another");

@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "vantage/spatial/directions.h"
+
 #include "pipeline/view_preparation.h"
 
 namespace vantage {
@@ -18,6 +20,10 @@ constexpr double kLeastShare = 1e-3;
 // What a view counts from behind a front that was given: of 268 things of the catalogue whose front
 // and back differ, people show 8 from there.
 constexpr double kFromBehind = 0.03;
+// The share of choices that follow no habit but what there is to see, from anywhere: the catalogue has
+// none in 404, so at most about one in as many. It decides where a habit shows next to nothing.
+constexpr double kLapses = 1.0 / 404.0;
+constexpr int kLapseSubdivisions = 2;  // 162 directions
 
 Vec3 along(const UprightFrame& frame, const Vec3& direction) {
   return {frame.side.dot(direction), frame.up.dot(direction), frame.front.dot(direction)};
@@ -45,6 +51,11 @@ Preference::Preference(const ShapeAnalysis& shape, const FrameChoice& choice,
     }
     front = frame_.up.cross(front);
   }
+  const std::vector<Vec3> sphere =
+      direction_set(ViewSphereBase::Icosahedron, kLapseSubdivisions).directions;
+  for (const Vec3& direction : sphere) {
+    lapse_ += kLapses * habit(direction) / static_cast<double>(sphere.size());
+  }
 }
 
 double Preference::finest_deg() const {
@@ -61,17 +72,21 @@ double Preference::operator()(const Vec3& direction, double score) const {
   if (fronts_.empty()) {
     return score * options_->prior.factor(frame_, direction);
   }
-  const ChoiceTable& table = choice_table();
-  double habit = 0.0;
-  for (const Hypothesis& front : fronts_) {
-    habit += front.probability *
-             std::exp(-table.habit_weight * front.habit.distance(along(front.frame, direction)));
-  }
+  double chosen = habit(direction) + lapse_;
   if (is_front_given_ && direction.dot(frame_.front) < 0.0) {
-    habit *= kFromBehind;
+    chosen *= kFromBehind;
   }
   const double share = total_ > 0.0 ? score / total_ : 0.0;
-  return habit * std::pow(std::max(share, kLeastShare), table.significance_weight);
+  return chosen * std::pow(std::max(share, kLeastShare), choice_table().significance_weight);
+}
+
+double Preference::habit(const Vec3& direction) const {
+  double sum = 0.0;
+  for (const Hypothesis& front : fronts_) {
+    sum += front.probability * std::exp(-choice_table().habit_weight *
+                                        front.habit.distance(along(front.frame, direction)));
+  }
+  return sum;
 }
 
 }  // namespace vantage

@@ -36,10 +36,14 @@ class Preference {
     ViewHabit habit;
   };
 
+  /// Where people show things of such proportions, relative.
+  [[nodiscard]] double habit(const Vec3& direction) const;
+
   const ViewOptions* options_;
   double total_;
   UprightFrame frame_;
   bool is_front_given_;
+  double lapse_ = 0.0;              // what any direction counts besides
   std::vector<Hypothesis> fronts_;  // none: not what people choose
 };
 

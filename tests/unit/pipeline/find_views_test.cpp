@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -205,6 +207,54 @@ TEST(FindViews, SaysWhereTheBestViewIsFromBehind) {
         });
     EXPECT_EQ(is_said, !is_front_right);
   }
+}
+
+/// A box with this share of its significance inside the bottom, the rest everywhere.
+ShapeAnalysis with_significance_below(double share) {
+  ShapeAnalysis shape = analysed_box();
+  const std::vector<Vec3>& at = shape.surface.positions;
+  const auto is_below = [](const Vec3& p) {
+    return p.y() == 0.0 && p.x() > 0.0 && p.x() < 1.0 && p.z() > 0.0 && p.z() < 3.0;
+  };
+  const auto below = static_cast<double>(std::count_if(at.begin(), at.end(), is_below));
+  for (std::size_t v = 0; v < at.size(); ++v) {
+    shape.significance[v] =
+        (1.0 - share) / static_cast<double>(at.size()) + (is_below(at[v]) ? share / below : 0.0);
+  }
+  return shape;
+}
+
+bool says(const std::vector<std::string>& warnings, std::string_view text) {
+  return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& warning) {
+    return warning.find(text) != std::string::npos;
+  });
+}
+
+TEST(FindViews, FollowsTheHabitUnlessItShowsNextToNothing) {
+  ViewOptions options = quick_search();
+  options.objective = Objective::People;
+  const ViewReport usual = find_views(with_significance_below(0.2), UpAxis::Y, options);
+  EXPECT_GT(usual.best.direction.y(), 0.2);
+  EXPECT_FALSE(says(usual.reliability_warnings, "of what another shows"));
+  const ViewReport little = find_views(with_significance_below(0.5), UpAxis::Y, options);
+  EXPECT_GT(little.best.direction.y(), 0.0);
+  EXPECT_TRUE(says(little.reliability_warnings, "of what another shows"));
+  const ViewReport hardly_any = find_views(with_significance_below(0.8), UpAxis::Y, options);
+  EXPECT_LT(hardly_any.best.direction.y(), 0.0);
+  EXPECT_GT(hardly_any.score_of_attainable.value_or(0.0), 0.9);
+}
+
+TEST(FindViews, SaysWhereMostIsHiddenFromEverywhere) {
+  const ViewReport open = find_views(analysed_box(), UpAxis::Y, quick_search());
+  EXPECT_FALSE(says(open.warnings, "no view shows more than"));
+  const TriMesh boxes = together(box(3.0, 3.0, 3.0, 2), box(1.0, 1.0, 1.0, 2), Vec3::Ones());
+  ShapeAnalysis nested = analyse_shape(model_of(boxes), quick_search());
+  for (std::size_t v = 0; v < nested.significance.size(); ++v) {
+    nested.significance[v] =
+        (nested.surface.positions[v].array() - 1.5).abs().maxCoeff() < 1.0 ? 1.0 : 0.01;
+  }
+  const ViewReport hidden = find_views(nested, UpAxis::Y, quick_search());
+  EXPECT_TRUE(says(hidden.warnings, "no view shows more than"));
 }
 
 TEST(FindViews, OfAMapThatIsZeroGivesTheFirstDirectionAndAWarning) {

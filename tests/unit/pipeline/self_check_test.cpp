@@ -17,9 +17,9 @@ namespace {
 
 /// A sphere of radius 1 and one of radius `small` beside it.
 TriMesh two_spheres(double small) {
-  TriMesh mesh = sphere(3);
+  TriMesh mesh = sphere(2);
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  const TriMesh other = sphere(3);
+  const TriMesh other = sphere(2);
   for (const Vec3& p : other.positions) {
     mesh.positions.emplace_back(small * p + Vec3(3.0, 0.0, 0.0));
   }
@@ -56,7 +56,7 @@ TEST(DoubtsAbout, PartsThatDidNotBecomeCurvesHangOnHowLargeTheyAre) {
 TEST(DoubtsAbout, TangledSkeletonsAreThoseOfCloudsWithManyCyclesForTheirNodes) {
   ViewOptions options;
   options.search = {.strategy = SearchStrategy::Exhaustive, .subdivisions = 1};
-  ShapeAnalysis shape = analyse_shape(model_of(sphere(3)), options);
+  ShapeAnalysis shape = analyse_shape(model_of(sphere(2)), options);
   shape.views.reset();
   const ViewReport report = find_views(shape, UpAxis::Y, options);
   // A chain of squares: each adds three edges and two nodes, and so a cycle.
