@@ -140,6 +140,7 @@ ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
                               "; the best view is the same there, the worst may be another");
     moved = {};
   }
+  note_a_skeleton_outside(shape, report.warnings);
   report.reliability_warnings = reliability_warnings(shape, report, options, moved, run);
   return report;
 }

@@ -140,12 +140,13 @@ void look_at_map(const MovedMap& moved, std::vector<std::string>& warnings) {
   }
 }
 
-void look_at_skeleton(const ShapeAnalysis& shape, std::vector<std::string>& warnings) {
-  if (shape.skeleton.outside_share > kMostOutside) {
-    warnings.push_back(percent(shape.skeleton.outside_share) +
-                       " of the skeleton's length is outside the surface, so do not measure by it: "
-                       "look at its picture, and close or separate walls that touch");
-  }
+std::string outside_text(const ShapeAnalysis& shape) {
+  return percent(shape.skeleton.outside_share) +
+         " of the skeleton's length is outside the surface, so do not measure by it: look at its "
+         "picture, and close or separate walls that touch";
+}
+
+void look_at_tangles(const ShapeAnalysis& shape, std::vector<std::string>& warnings) {
   const std::size_t nodes = shape.skeleton.graph.nodes.size();
   const std::size_t cycles = cycle_count(shape.skeleton.graph);
   if (shape.cloud && cycles > kMostCycles && kNodesOfACycle * cycles > nodes) {
@@ -257,10 +258,20 @@ std::string unlike_map_text(const MovedMap& moved) {
          percent(std::max(moved.agreement, 0.0)) + " only";
 }
 
+void note_a_skeleton_outside(const ShapeAnalysis& shape, std::vector<std::string>& notes) {
+  const double share = shape.skeleton.outside_share;
+  if (share > kMostOutside && share <= kMinorShare) {
+    notes.push_back(outside_text(shape));
+  }
+}
+
 std::vector<std::string> skeleton_warnings(const ShapeAnalysis& shape) {
   std::vector<std::string> warnings;
   look_at_contraction(shape, warnings);
-  look_at_skeleton(shape, warnings);
+  if (shape.skeleton.outside_share > kMostOutside) {
+    warnings.push_back(outside_text(shape));
+  }
+  look_at_tangles(shape, warnings);
   return warnings;
 }
 
@@ -273,7 +284,10 @@ std::vector<std::string> reliability_warnings(const ShapeAnalysis& shape, const 
     look_at_contraction(shape, warnings);
     look_at_map(moved, warnings);
   }
-  look_at_skeleton(shape, warnings);
+  if (shape.skeleton.outside_share > kMinorShare) {
+    warnings.push_back(outside_text(shape));
+  }
+  look_at_tangles(shape, warnings);
   return warnings;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -51,6 +52,26 @@ TEST(DoubtsAbout, PartsThatDidNotBecomeCurvesHangOnHowLargeTheyAre) {
   EXPECT_NE(warnings[0].find("(43 % of it is left, in parts that hold 86 % of it and "),
             std::string::npos)
       << warnings[0];
+}
+
+TEST(DoubtsAbout, ASkeletonPartlyOutsideIsTheSkeletonsUntilTheViewsHangOnIt) {
+  ViewOptions options;
+  options.search = {.strategy = SearchStrategy::Exhaustive, .subdivisions = 1};
+  ShapeAnalysis shape = analyse_shape(model_of(box(1.0, 2.0, 3.0, 2)), options);
+  const auto is_said = [](const std::vector<std::string>& warnings) {
+    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+      return warning.find("of the skeleton's length is outside") != std::string::npos;
+    });
+  };
+  for (const auto& [share, note, skeletons, views] : {std::tuple{0.01, false, false, false},
+                                                      {0.1, true, true, false},
+                                                      {0.3, false, true, true}}) {
+    shape.skeleton.outside_share = share;
+    const ViewReport report = find_views(shape, UpAxis::Y, options);
+    EXPECT_EQ(is_said(report.warnings), note) << share;
+    EXPECT_EQ(is_said(skeleton_warnings(shape)), skeletons) << share;
+    EXPECT_EQ(is_said(report.reliability_warnings), views) << share;
+  }
 }
 
 TEST(DoubtsAbout, TangledSkeletonsAreThoseOfCloudsWithManyCyclesForTheirNodes) {
