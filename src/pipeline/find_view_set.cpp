@@ -5,13 +5,13 @@
 
 #include <Eigen/Geometry>
 
-#include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 #include "vantage/pipeline/find_views.h"
 #include "vantage/spatial/directions.h"
 #include "vantage/view/channel.h"
 
 #include "pipeline/describe_view.h"
+#include "pipeline/drawn_points.h"
 #include "view/sphere_angles.h"
 
 namespace vantage {
@@ -206,7 +206,7 @@ std::vector<Camera> tour_cameras(const ShapeAnalysis& shape, const ReportedViewS
       stops.push_back(set.choice.views[i].direction);
     }
   }
-  const std::vector<Vec3> points = referenced_points(shape.surface);
+  const std::vector<Vec3> points = drawn_points(shape);
   const Vec3& centre = camera.sphere.centre;
   const double distance = camera.distance();
   const bool is_perspective = camera.projection == Projection::Perspective;

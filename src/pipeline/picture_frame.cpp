@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vantage/mesh/measures.h"
 #include "vantage/pipeline/find_views.h"
 #include "vantage/render/render.h"
 
 #include "core/degrees.h"
+#include "pipeline/drawn_points.h"
 
 namespace vantage {
 namespace {
@@ -28,7 +28,7 @@ double aspect_of(PictureSize size) {
 PictureFrame frame_picture(const ShapeAnalysis& shape, const Vec3& direction, UpAxis up,
                            const ViewOptions& options) {
   const ScoringCamera camera = scoring_camera(shape, options);
-  const std::vector<Vec3> points = referenced_points(shape.surface);
+  const std::vector<Vec3> points = drawn_points(shape);
   const Viewpoint eye = camera.viewpoint(direction);
   const Vec3 above = up_vector(up);
   const double margin = options.margin_percent / 100.0;

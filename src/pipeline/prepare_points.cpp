@@ -11,6 +11,7 @@
 #include "vantage/mesh/topology.h"
 
 #include "mesh/extent.h"
+#include "pipeline/drawn_points.h"
 #include "skeleton/point_skeleton.h"
 #include "spatial/point_rings.h"
 
@@ -19,6 +20,8 @@ namespace {
 
 /// Stars that must hold a triangle before it hides what is behind it (docs/visibility.md).
 constexpr int kVotes = 1;
+/// A note tells of points that no triangle joins where they are more of all than this. [ours]
+constexpr double kBare = 0.02;
 
 /// The triangles among the points that are not left out.
 std::vector<Triangle> join(const std::vector<Vec3>& points,
@@ -92,7 +95,8 @@ ShapeAnalysis prepare_points(const Model& model, const RunContext& run) {
                        ": the points lie on one line or are fewer than three, so there is no shape "
                        "to look at");
   }
-  shape.sphere = enclosing_sphere(referenced_points(shape.surface));
+  const std::vector<Vec3> drawn = drawn_points(shape);
+  shape.sphere = enclosing_sphere(drawn);
   shape.sides = {FaceSides::Both};
   shape.check.vertices = n;
   shape.check.components = connected_components(shape.surface).count;
@@ -107,6 +111,13 @@ ShapeAnalysis prepare_points(const Model& model, const RunContext& run) {
     shape.check.components -= outliers;
     shape.warnings.push_back(std::to_string(outliers) +
                              " outlier(s) of the cloud left out of the skeleton and the map");
+  }
+  const std::size_t bare = drawn.size() - referenced_points(shape.surface).size();
+  shape.check.components -= bare;
+  if (static_cast<double>(bare) > kBare * static_cast<double>(drawn.size())) {
+    shape.warnings.push_back(
+        "points on no surface, as those of a straight line, are drawn but not counted: " +
+        std::to_string(bare) + " of " + std::to_string(drawn.size()));
   }
   return shape;
 }

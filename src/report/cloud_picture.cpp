@@ -69,4 +69,16 @@ std::shared_ptr<const CloudPicture> cloud_picture(const ShapeAnalysis& shape) {
   return std::make_shared<const CloudPicture>(std::move(picture));
 }
 
+std::vector<Rgb8> colours_shown(const ShapeAnalysis& shape, const CloudPicture* picture,
+                                const std::vector<Rgb8>& of_input) {
+  if (of_input.empty()) {
+    return {};
+  }
+  std::vector<Rgb8> colours(shape.surface.positions.size());
+  for (std::size_t v = of_input.size(); v-- > 0;) {
+    colours[shape.surface_vertex[v]] = of_input[v];
+  }
+  return picture != nullptr ? picture->spread(std::span<const Rgb8>(colours)) : colours;
+}
+
 }  // namespace vantage

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "vantage/core/image.h"
 #include "vantage/mesh/tri_mesh.h"
 #include "vantage/pipeline/shape_analysis.h"
 
@@ -31,5 +32,10 @@ struct CloudPicture {
 
 /// Null if the surface shows everything. Outliers are not shown.
 std::shared_ptr<const CloudPicture> cloud_picture(const ShapeAnalysis& shape);
+
+/// The colours of the input's vertices on what a picture shows; none of none. Of points at one place the
+/// first counts. \param picture null: on the surface.
+std::vector<Rgb8> colours_shown(const ShapeAnalysis& shape, const CloudPicture* picture,
+                                const std::vector<Rgb8>& of_input);
 
 }  // namespace vantage

@@ -9,6 +9,7 @@
 #include "vantage/report/comparison.h"
 #include "vantage/report/view_report.h"
 
+#include "pipeline/drawn_points.h"
 #include "report/lettering.h"
 #include "report/line_drawing.h"
 #include "report/view_sphere_pictures.h"
@@ -81,7 +82,7 @@ Image comparison_sheet(const ShapeAnalysis& shape, const Comparison& comparison,
   small.width = kTileWidth;
   small.height = kTileHeight;
   const ScoringCamera camera = scoring_camera(shape, options);
-  const std::vector<Vec3> points = referenced_points(shape.surface);
+  const std::vector<Vec3> points = drawn_points(shape);
   ShapePictures pictures(shape, look.on(kWhite));
   const auto picture = [&](const MeasuredView& view) {
     const Camera framed =

@@ -21,6 +21,7 @@
 #include "vantage/report/view_report.h"
 
 #include "pipeline/view_preparation.h"
+#include "report/cloud_picture.h"
 #include "report/legend.h"
 #include "report/panels.h"
 #include "report/point_balls.h"
@@ -74,7 +75,8 @@ class Panels {
         run_(std::move(run)),
         normals_(vertex_normals(shape.surface)),
         look_(look.render),
-        asset_(look.asset) {
+        asset_(look.asset),
+        cloud_(cloud_picture(shape)) {
     run_.report = nullptr;
     look_.width = options.width;
     look_.height = options.height;
@@ -99,7 +101,8 @@ class Panels {
 
   /// The surface in the colours of a field.
   [[nodiscard]] Image field(std::span<const double> values) const {
-    return coloured(shape_->surface, values);
+    return cloud_ ? coloured(cloud_->mesh, cloud_->spread(values))
+                  : coloured(shape_->surface, values);
   }
 
  private:
@@ -127,6 +130,7 @@ class Panels {
   std::vector<Vec3> normals_;
   RenderOptions look_;
   const Model* asset_;
+  std::shared_ptr<const CloudPicture> cloud_;
 };
 
 /// The same shape with another map.

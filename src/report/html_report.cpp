@@ -19,6 +19,7 @@
 #include "pipeline/map_objective.h"
 #include "pipeline/preference.h"
 #include "report/asset_part.h"
+#include "report/cloud_picture.h"
 #include "report/display_mesh.h"
 #include "report/page_data.h"
 #include "report/report_page.h"
@@ -63,25 +64,68 @@ std::string packed_significance(const std::vector<double>& map,
   return base64_of(packed);
 }
 
-Json surface_part(const DisplayMesh& display, const ShapeAnalysis& shape) {
+Json surface_part(const DisplayMesh& display, const std::vector<double>& significance) {
   return {{"faces", display.triangles.size()},
           {"indices", base64_of(display.triangles)},
-          {"significance", packed_significance(shape.significance, display.vertex_of_row)}};
+          {"significance", packed_significance(significance, display.vertex_of_row)}};
 }
 
-/// The surface, and what of it is contracted.
-void add_surfaces(Json& data, const ShapeAnalysis& shape, const PageFrame& frame,
-                  const RunContext& run) {
-  const std::vector<DisplayMesh> displays = display_meshes(
+/// Adds the solids that show the points of a cloud.
+void add_points(DisplayMesh& display, const CloudPicture& cloud, const TriMesh& surface) {
+  const auto first = static_cast<std::uint32_t>(surface.positions.size());
+  const std::size_t rows = display.vertex_of_row.size();
+  for (std::uint32_t v = first; v < cloud.mesh.positions.size(); ++v) {
+    display.vertex_of_row.push_back(v);
+  }
+  for (std::size_t f = surface.triangles.size(); f < cloud.mesh.triangles.size(); ++f) {
+    Triangle t = cloud.mesh.triangles[f];
+    for (std::uint32_t& v : t) {
+      v = static_cast<std::uint32_t>(v - first + rows);
+    }
+    display.triangles.push_back(t);
+  }
+}
+
+/// What is displayed of a cloud, in the colours of its points.
+Model coloured_points(const DisplayMesh& display, const std::vector<Vec3>& positions,
+                      const std::vector<Rgb8>& colours) {
+  Model points;
+  points.mesh.triangles = display.triangles;
+  for (const std::uint32_t v : display.vertex_of_row) {
+    points.mesh.positions.push_back(positions[v]);
+    if (!colours.empty()) {
+      points.vertex_colours.push_back(colours[v]);
+    }
+  }
+  return points;
+}
+
+/// The surface with a cloud's points, what of it is contracted, and the model in its own colours.
+void add_surfaces(Json& data, const Model& model, const ShapeAnalysis& shape,
+                  const PageFrame& frame, const RunContext& run) {
+  std::vector<DisplayMesh> displays = display_meshes(
       shape.surface, shape.significance, shape.sides,
       {{{kDisplayFaces, 2 * kDisplayFaces}, {kDisplayFaces, kHistoryVertices}}}, run);
-  data["mesh"] = surface_part(displays[0], shape);
-  data["mesh"]["positions"] =
-      packed_positions(shape.surface.positions, displays[0].vertex_of_row, frame);
-  data["history"] = surface_part(displays[1], shape);
+  const std::shared_ptr<const CloudPicture> cloud = cloud_picture(shape);
+  if (cloud) {
+    add_points(displays[0], *cloud, shape.surface);
+  }
+  const std::vector<Vec3>& positions = cloud ? cloud->mesh.positions : shape.surface.positions;
+  const std::vector<double> spread =
+      cloud ? cloud->spread(std::span<const double>(shape.significance)) : shape.significance;
+  data["mesh"] = surface_part(displays[0], spread);
+  data["mesh"]["positions"] = packed_positions(positions, displays[0].vertex_of_row, frame);
+  data["history"] = surface_part(displays[1], shape.significance);
   data["history"]["levels"] = Json::array();
   for (const auto& level : shape.history.levels) {
     data["history"]["levels"].push_back(packed_positions(level, displays[1].vertex_of_row, frame));
+  }
+  if (shape.cloud) {
+    const std::vector<Rgb8> colours = colours_shown(shape, cloud.get(), model.vertex_colours);
+    data["asset"] = asset_part(coloured_points(displays[0], positions, colours),
+                               displays[0].triangles.size(), frame, run);
+  } else {
+    data["asset"] = asset_part(model, kDisplayFaces, frame, run);
   }
 }
 
@@ -292,8 +336,7 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, ShapePic
                {"lens", lens_part(report.camera, frame)},
                {"colours", colour_table()}};
   run.advance("report", 0.0);
-  add_surfaces(data, shape, frame, quiet);
-  data["asset"] = asset_part(model, kDisplayFaces, frame, quiet);
+  add_surfaces(data, model, shape, frame, quiet);
   data["skeleton"] = skeleton_part(shape.skeleton.graph, frame);
   run.advance("report", 0.2);
   const std::vector<double> scores = score(set.directions);

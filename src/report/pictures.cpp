@@ -33,19 +33,6 @@ bool has_aspect_of(const Image& image, int width, int height) {
   return 2 * std::abs(off) <= std::int64_t{image.width} + image.height;
 }
 
-/// The colours of a cloud's points on what shows them; none if it has none.
-std::vector<Rgb8> colours_of_points(const ShapeAnalysis& shape, const CloudPicture* picture,
-                                    const Model& cloud) {
-  if (cloud.vertex_colours.empty()) {
-    return {};
-  }
-  std::vector<Rgb8> colours(shape.surface.positions.size());
-  for (std::size_t v = cloud.vertex_colours.size(); v-- > 0;) {  // of points at one place the first
-    colours[shape.surface_vertex[v]] = cloud.vertex_colours[v];
-  }
-  return picture != nullptr ? picture->spread(std::span<const Rgb8>(colours)) : colours;
-}
-
 /// What a picture shows, and in which colours.
 class Canvas {
  public:
@@ -70,7 +57,7 @@ class Canvas {
       colours_ = asset->vertex_colours;
       appearance_ = &asset->appearance;
     } else if (asset != nullptr) {
-      colours_ = colours_of_points(shape, cloud, *asset);
+      colours_ = colours_shown(shape, cloud, asset->vertex_colours);
     }
   }
 
@@ -118,7 +105,7 @@ ShapePictures::ShapePictures(const ShapeAnalysis& shape, const PictureLook& look
                         (asset->vertex_colours.empty() && asset->appearance.materials.empty());
   look_.asset = is_plain ? nullptr : asset;
   if (asset != nullptr && asset->mesh.triangles.empty()) {
-    point_colours_ = colours_of_points(shape, cloud_.get(), *asset);
+    point_colours_ = colours_shown(shape, cloud_.get(), asset->vertex_colours);
   }
 }
 

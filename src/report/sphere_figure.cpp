@@ -16,6 +16,7 @@
 #include "vantage/spatial/directions.h"
 
 #include "pipeline/view_preparation.h"
+#include "report/cloud_picture.h"
 #include "report/legend.h"
 
 namespace vantage {
@@ -71,8 +72,9 @@ Image sphere_panel(const ShapeAnalysis& shape, std::span<const double> shown, co
     const double height = span > 0.0 ? (scores[i] - *low) / span : 0.0;
     nodes.push_back(shape.sphere.centre + radius * (kSphere + kRaise * height) * set.directions[i]);
   }
-  TriMesh mesh = shape.surface;
-  std::vector<Rgb8> colours = colour_map(shown);
+  const std::shared_ptr<const CloudPicture> cloud = cloud_picture(shape);
+  TriMesh mesh = cloud ? cloud->mesh : shape.surface;
+  std::vector<Rgb8> colours = cloud ? colour_map(cloud->spread(shown)) : colour_map(shown);
   const std::vector<Rgb8> of_node = colour_map(scores);
   for (const Triangle& t : set.triangles) {
     for (std::size_t c = 0; c < 3; ++c) {

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "vantage/render/render.h"
 
+#include "report/cloud_picture.h"
 #include "report/line_drawing.h"
 
 namespace vantage {
@@ -93,7 +95,8 @@ ViewSpherePictures::ViewSpherePictures(const ShapeAnalysis& shape, const Compari
   look.height = height;
   look.ambient_rays = 0;
   look.colour = kModelGrey;
-  model_ = render(shape.surface, camera, {}, {}, look, run);
+  const std::shared_ptr<const CloudPicture> cloud = cloud_picture(shape);
+  model_ = render(cloud ? cloud->mesh : shape.surface, camera, {}, {}, look, run);
 }
 
 Image ViewSpherePictures::of(const ComparedMethod& method) const {
