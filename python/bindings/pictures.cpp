@@ -78,15 +78,6 @@ PictureFrame frame_from(const Standpoint& from, const Analysis& analysis,
   return frame_picture(shape, *from.direction, choice.frame.up, options);
 }
 
-/// Colours of the input's vertices on those of the surface; of several at one place the first counts.
-std::vector<Rgb8> on_surface(const std::vector<Rgb8>& of_input, const ShapeAnalysis& shape) {
-  std::vector<Rgb8> of_surface(of_input.empty() ? 0 : shape.surface.positions.size());
-  for (std::size_t i = of_input.size(); i > 0; --i) {
-    of_surface[shape.surface_vertex[i - 1]] = of_input[i - 1];
-  }
-  return of_surface;
-}
-
 Image drawn(const Analysis& analysis, const Camera& camera, Picture picture,
             const Settings& settings, RenderOptions look, const std::vector<Rgb8>& colours,
             const RunContext& run) {
@@ -96,10 +87,8 @@ Image drawn(const Analysis& analysis, const Camera& camera, Picture picture,
                        std::to_string(analysis.shape.surface_vertex.size()) + " vertices");
   }
   if (!colours.empty() && picture == Picture::Plain) {
-    look.width = settings.view.width;
-    look.height = settings.view.height;
-    return render(analysis.shape.surface, camera, on_surface(colours, analysis.shape), {}, look,
-                  run);
+    const Model given{.vertex_colours = colours};  // no faces: of the shape's own vertices
+    return draw_picture(analysis.shape, camera, picture, settings.view, look, run, &given);
   }
   const Model* asset = settings.look.style == Style::Asset ? &*analysis.model : nullptr;
   return draw_picture(analysis.shape, camera, picture, settings.view, look, run, asset);
