@@ -1,9 +1,11 @@
 """`vantage view`: the main job."""
 
+import base64
 import json
 import math
 import os
 import shutil
+import struct
 import unittest
 
 from program import MODELS, ProgramTest, read_ply
@@ -170,6 +172,25 @@ class View(ProgramTest):
         self.assertLess(found["worst"]["score"], found["best"]["score"])
         # The tube has no caps: from an end all of its inner side is seen, from a side half of the outer one.
         self.assertGreater(abs(found["best"]["direction"][2]), abs(found["worst"]["direction"][2]))
+
+    def test_the_page_shows_a_cloud_as_its_pictures_do(self):
+        ball = []
+        for i in range(200):
+            y, angle = 1 - (i + 0.5) / 100, 2.4 * i
+            ball.append((math.sqrt(1 - y * y) * math.cos(angle), y, math.sqrt(1 - y * y) * math.sin(angle)))
+        pole = [(0, 1 + 0.1 * k, 0) for k in range(1, 31)]  # which no triangle joins
+        properties = "".join(f"property {kind}\n" for kind in ("float x", "float y", "float z", "uchar red", "uchar green", "uchar blue"))
+        self.write("pole.ply", f"ply\nformat ascii 1.0\nelement vertex 230\n{properties}end_header\n"
+                   + "".join(f"{x} {y} {z} 220 20 10\n" for x, y, z in ball + pole))
+        self.vantage("view", "pole.ply", "-o", "out", "--size", "32", "--search", "rapid")
+        page = (self.dir / "out" / "report.html").read_text()
+        data = json.loads(page.split('id="data">')[1].split("</script>")[0])
+        for part in ("mesh", "asset"):
+            places = struct.iter_unpack("<3H", base64.b64decode(data[part]["positions"]))
+            heights = [data["frame"]["centre"][1] + data["frame"]["radius"] * 1.25 * (2 * y / 65535 - 1) for _, y, _ in places]
+            self.assertEqual(sum(y > 3.55 for y in heights), 30, part)  # an octahedron each
+        self.assertEqual(set(struct.iter_unpack("<3B", base64.b64decode(data["asset"]["colours"]))), {(220, 20, 10)})
+        self.assertTrue(any("drawn but not counted" in w for w in data["warnings"]), data["warnings"])
 
     def test_map_keeps_the_order_and_the_digits_of_the_files_vertices(self):
         places = [(0.1, 0.2, 0.3), (4.000000001, 0, 0), (0, 3, 0), (0, 0, 2)]

@@ -370,6 +370,14 @@ TriMesh together(const TriMesh& first, const TriMesh& second, const Vec3& shift)
   return mesh;
 }
 
+TriMesh points_of_ball_and_pole() {
+  TriMesh points{.positions = sphere(2).positions, .triangles = {}};
+  for (int i = 1; i <= 30; ++i) {
+    points.positions.emplace_back(0.0, 1.0 + 0.1 * i, 0.0);
+  }
+  return points;
+}
+
 TriMesh inside_out(TriMesh mesh) {
   for (Triangle& t : mesh.triangles) {
     std::swap(t[1], t[2]);

@@ -42,6 +42,10 @@ TriMesh wall_with_window();
 /// Both meshes in one, the second moved by `shift`.
 TriMesh together(const TriMesh& first, const TriMesh& second, const Vec3& shift);
 
+/// Points alone: of a unit sphere, and of a straight row from it to (0, 4, 0), the last 20 of which are
+/// above y = 2. No triangle joins those of the row.
+TriMesh points_of_ball_and_pole();
+
 /// The same surface with faces reversed.
 TriMesh inside_out(TriMesh mesh);
 

@@ -61,6 +61,16 @@ TEST(PrepareSurface, JoinsPointsWithoutFacesByTheirNeighbourhoods) {
   EXPECT_FALSE(shape.surface.triangles.empty());
 }
 
+TEST(PrepareSurface, EnclosesThePointsThatNoTriangleJoinsAndNotesThem) {
+  const ShapeAnalysis shape = prepare_surface(model_of(points_of_ball_and_pole()));
+  EXPECT_NEAR(shape.sphere.diameter, 5.0, 1e-9);
+  EXPECT_NEAR(shape.sphere.centre.y(), 1.5, 1e-9);
+  EXPECT_EQ(shape.check.components, 1U);
+  EXPECT_THAT(shape.warnings, Contains(HasSubstr("drawn but not counted")));
+  const TriMesh ball{.positions = sphere(2).positions, .triangles = {}};
+  EXPECT_TRUE(prepare_surface(model_of(ball)).warnings.empty());
+}
+
 TEST(AnalyseShape, IsTheSameForPointsInAnyOrder) {
   TriMesh cloud = y_of_tubes(0.2, 24);
   cloud.triangles.clear();

@@ -55,7 +55,7 @@ TEST(PaperFigures, ShowEachLevelAndEndWithTheMap) {
   EXPECT_EQ(panels(figures[5].image), 2);
   EXPECT_EQ(panels(figures[6].image), 4);
   // The first panel of the contraction is the model as figure 5 shows it.
-  for (int y = 8; y < 8 + 36; ++y) {
+  for (int y = 8; y < 8 + rows; ++y) {
     EXPECT_TRUE(std::equal(figures[0].image.pixel(8, y), figures[0].image.pixel(8 + 48, y),
                            figures[4].image.pixel(8, y)));
   }
@@ -89,6 +89,22 @@ TEST(SpherePanel, IsRaisedByTheScoreThatTheWeightAsksFor) {
   EXPECT_NE(panel(Weight::Vertex).rgba, panel(Weight::Area).rgba);
 }
 
+TEST(SpherePanel, ColoursThePointsThatNoTriangleJoins) {
+  const ViewOptions options;
+  const ShapeAnalysis shape = analyse_shape(model_of(points_of_ball_and_pole()), options);
+  std::vector<double> shown(shape.surface.positions.size(), 0.0);
+  const auto panel = [&] {
+    return sphere_panel(shape, shown, Vec3::UnitX(), UpAxis::Y, options,
+                        {.width = 64, .height = 48}, {});
+  };
+  shown[0] = 1.0;
+  const Image before = panel();
+  for (std::size_t v = 0; v < shown.size(); ++v) {
+    shown[v] = shape.surface.positions[v].y() > 2.0 ? 1.0 : shown[v];
+  }
+  EXPECT_NE(before.rgba, panel().rgba);
+}
+
 TEST(TimesTable, HasOneRowAModelAndAddsUp) {
   StageTimes row{"a|b", 10, 16, {}};
   row.seconds.contract = 1.25;
@@ -100,8 +116,8 @@ TEST(TimesTable, HasOneRowAModelAndAddsUp) {
             std::string::npos);
 }
 
-/// Pixels of a panel of 48 × 36 that are not white.
-int ink(const Image& figure, int panel) {
+/// Pixels of a panel of 48 × 36 that are not white, in its upper rows.
+int ink(const Image& figure, int panel, int rows = 36) {
   int count = 0;
   for (int y = 8; y < 8 + 36; ++y) {
     for (int x = 8 + panel * 56; x < 8 + panel * 56 + 48; ++x) {
@@ -135,6 +151,19 @@ TEST(PaperFigures, OfACloudShowItsPointsAsTheyContractAndNoSaliency) {
   EXPECT_GT(ink(figures[0].image, 0), 100);
   EXPECT_GT(ink(figures[0].image, levels - 1), 5);
   EXPECT_LT(ink(figures[0].image, levels - 1), ink(figures[0].image, 0) * 7 / 10);
+}
+
+TEST(PaperFigures, OfACloudShowInFigure3ThePointsThatNoTriangleJoins) {
+  ViewOptions options;
+  options.width = 48;
+  options.height = 36;
+  options.search.strategy = SearchStrategy::Exhaustive;
+  options.search.subdivisions = 1;
+  ShapeAnalysis shape = analyse_shape(model_of(points_of_ball_and_pole()), options);
+  ViewReport report = find_views(shape, UpAxis::Y, options);
+  report.best.picture = frame_picture(shape, Vec3::UnitZ(), UpAxis::Y, options).camera;
+  const Image figure = paper_figures(shape, report, options)[2].image;
+  EXPECT_GT(ink(figure, 0, 18), 5);  // above the ball
 }
 
 TEST(PointBalls, StandAtTheirPointsAndAreAtMostSoMany) {

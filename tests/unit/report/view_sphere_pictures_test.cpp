@@ -44,6 +44,13 @@ double warmth(const Image& picture, int row) {
   return sum;
 }
 
+/// Makes outliers of the points that no triangle joins, which are not drawn.
+void leave_out_pole(ShapeAnalysis& shape) {
+  for (std::size_t v = 0; v < shape.surface.positions.size(); ++v) {
+    shape.cloud->outlier[v] = shape.surface.positions[v].y() > 1.5 ? 1 : 0;
+  }
+}
+
 TEST(ViewSpherePictures, DrawGoodViewsFarOutAndWarm) {
   const ShapeAnalysis shape = prepare_surface(model_of(sphere(2)));
   for (const Better better : {Better::More, Better::Less}) {
@@ -71,6 +78,36 @@ TEST(ViewSpherePictures, DrawGoodViewsFarOutAndWarm) {
     // The ball is seen between the wires.
     const std::uint8_t* const middle = picture.pixel(kSide / 2, kSide / 2);
     EXPECT_LT(std::min({middle[0], middle[1], middle[2]}), 250);
+  }
+}
+
+TEST(ViewSpherePictures, ShowThePointsThatNoTriangleJoins) {
+  ShapeAnalysis shape = prepare_surface(model_of(points_of_ball_and_pole()));
+  const Comparison comparison = by_height(Better::More);
+  const auto picture = [&] {
+    return ViewSpherePictures(shape, comparison, UpAxis::Y, kSide, kSide, {})
+        .of(comparison.methods[0]);
+  };
+  const Image with_pole = picture();
+  leave_out_pole(shape);
+  EXPECT_NE(with_pole.rgba, picture().rgba);
+}
+
+TEST(ComparisonSheet, FramesThePointsThatNoTriangleJoins) {
+  const ShapeAnalysis shape = prepare_surface(model_of(points_of_ball_and_pole()));
+  Comparison comparison = by_height(Better::More);
+  comparison.methods[0].views.best.direction = Vec3::UnitZ();
+  comparison.methods[0].views.worst.direction = Vec3::UnitX();
+  const Image sheet = comparison_sheet(shape, comparison, UpAxis::Y, {});
+  // Tiles of 240 x 180 from (16, 68) on; a margin of 4 % is 7 pixels.
+  for (int left : {16, 16 + 248}) {
+    int drawn = 0;
+    for (int x = left; x < left + 240; ++x) {
+      for (int y = 68; y < 68 + 5; ++y) {
+        drawn += sheet.pixel(x, y)[0] < 255 ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(drawn, 0) << left;
   }
 }
 
