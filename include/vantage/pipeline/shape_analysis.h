@@ -54,7 +54,7 @@ struct ShapeAnalysis {
   std::vector<std::uint32_t> surface_vertex{};  ///< For each input vertex its one in `surface`.
   MeshReport check{};                           ///< Of the welded surface.
   TextureFlow flow{};                           ///< How pictures lie on it.
-  Sphere sphere{};                              ///< Smallest around all referenced vertices.
+  Sphere sphere{};                              ///< Smallest around all that pictures show.
   ContractionHistory history{};                 ///< Filled by add_history().
   Skeleton skeleton{};                          ///< Filled by add_skeleton().
   KssmMap kssm{};                               ///< Filled by add_map().
