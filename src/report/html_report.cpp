@@ -242,7 +242,7 @@ void add_set(Json& data, const ViewReport& report, const ShapeAnalysis& shape,
                                            options.margin_percent)) {
     poses.push_back(camera_part(camera, 1.0, frame));
   }
-  data["tour"] = {{"degrees", degrees}, {"poses", poses}};
+  data["tour"] = {{"degrees", degrees}, {"views", views.size()}, {"poses", poses}};
 }
 
 /// The line for web pages beside the other cameras of a view.

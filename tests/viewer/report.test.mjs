@@ -5,6 +5,7 @@ import { execFileSync } from 'node:child_process';
 import * as fs from 'node:fs';
 import * as os from 'node:os';
 import * as path from 'node:path';
+import { pathToFileURL } from 'node:url';
 import { after, before, test } from 'node:test';
 import * as zlib from 'node:zlib';
 import { launch, open } from './browser.mjs';
@@ -300,6 +301,87 @@ test('turned by hand or by keys the model stands upright, and keys stop at the p
   assert.ok(away(await camera(page)) < 0.95 * away(higher));
 });
 
+test('a flight that is taken over stays as it is seen', async () => {
+  for (const [name, ...options] of [['taken'], ['flat', '--projection', 'orthographic']]) {
+    const [page] = await openWith(name, { reducedMotion: 'no-preference' }, ...options);
+    await page.focus('#model');
+    for (let i = 0; i < 8; ++i) {
+      await page.keyboard.press('+');
+    }
+    const seen = async () => [await camera(page), await page.evaluate(() => {
+      const { camera } = window.vantage.model;
+      return camera.isPerspectiveCamera ? camera.fov : camera.top / camera.zoom;
+    })];
+    const [, near] = await seen();
+    const box = await page.locator('#model').boundingBox();
+    await page.evaluate(() => { window.start = window.vantage.model.direction(); });
+    await page.click('.view[data-view=worst]');
+    await page.mouse.move(box.x + 300, box.y + 300);
+    await page.waitForFunction(() => window.vantage.model.direction().angleTo(window.start) > 0.5);
+    await page.mouse.down(); // which ends the flight
+    const [before, lens] = await seen();
+    const towards = await page.evaluate(() => {
+      const { camera, controls } = window.vantage.model;
+      return camera.position.clone().sub(controls.target).normalize().toArray();
+    });
+    assert.ok(distance(before.back, towards) < 1e-5, `${name}: ${before.back} ${towards}`); // about which the reader turns it
+    await page.mouse.up();
+    await page.setViewportSize({ width: 1199, height: 800 });
+    await page.waitForFunction((width) => document.getElementById('model').clientWidth < width, box.width);
+    await page.evaluate(() => new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(resolve)); }));
+    const [, resized] = await seen();
+    assert.ok(Math.abs(resized / lens - 1) < 0.005, `${name}: ${lens} ${resized}`);
+    if (name === 'flat') { // zooms by its lens, which goes on from where it is
+      const whole = await page.evaluate(() => window.vantage.data.views[1].height / 2);
+      assert.ok(lens > near && lens < whole, `${near} ${lens} ${whole}`);
+      assert.equal(await page.evaluate(() => window.vantage.model.camera.zoom), 1);
+    }
+    await page.context().close();
+  }
+});
+
+test('who comes back to the page finds its controls as what is shown', async () => {
+  const page = await open(browser, peoplesReport());
+  const controls = () => page.locator('input, select').evaluateAll((all) => all.map((one) => [one.id || one.value, one.checked, one.value]));
+  const first = await controls();
+  await page.click('#show-map');
+  await page.click('#show-skeleton');
+  await page.check('input[name=sphere][value=score]');
+  await page.check('input[name=goal][value=worst]');
+  await page.selectOption('#format', 'glTF');
+  await page.fill('#level', '1');
+  await page.fill('#epsilon', '2');
+  assert.notDeepEqual(await controls(), first);
+  fs.writeFileSync(path.join(folder, 'other.html'), '<!doctype html><title>other</title>');
+  await page.goto(pathToFileURL(path.join(folder, 'other.html')).href);
+  await page.goBack();
+  await page.waitForSelector('html[data-ready=yes]', { state: 'attached' });
+  assert.deepEqual(await controls(), first);
+  await page.context().close();
+});
+
+test('the tour tells of all its views, though the strip has but the first', async () => {
+  // Small walls in the sun, each of which hides others: many views are needed.
+  const walls = [];
+  const faces = [];
+  for (let i = 0; i < 400; ++i) {
+    const z = 1 - (2 * i + 1) / 400;
+    const [r, turn, away] = [Math.sqrt(1 - z * z), i * 2.399963, 0.3 + 0.7 * ((i * 0.618034) % 1)];
+    const middle = [away * r * Math.cos(turn), away * r * Math.sin(turn), away * z];
+    for (const corner of [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) {
+      walls.push(`v ${middle.map((x, k) => (x + 0.09 * corner[k]).toFixed(6)).join(' ')}`);
+    }
+    faces.push(...[[1, 2, 3], [1, 4, 2], [1, 3, 4], [2, 4, 3]].map((f) => `f ${f.map((v) => v + 4 * i).join(' ')}`));
+  }
+  fs.writeFileSync(path.join(folder, 'soup.obj'), [...walls, ...faces, ''].join('\n'));
+  vantage('view', 'soup.obj', '-o', 'soup', '--search', 'rapid', '--views', '40');
+  const { views } = JSON.parse(fs.readFileSync(path.join(folder, 'soup', 'view.json'), 'utf8'));
+  assert.ok(views.length > 24, String(views.length));
+  const page = await open(browser, path.join(folder, 'soup', 'report.html'));
+  assert.match(await page.textContent('#tour-text'), new RegExp(`° over ${views.length} views$`));
+  await page.context().close();
+});
+
 test('hiding the significance ends the contraction that is played', async () => {
   const page = await opened();
   await page.keyboard.press(' ');
@@ -310,11 +392,11 @@ test('hiding the significance ends the contraction that is played', async () => 
 });
 
 /** Of the report that view makes with these options: its page, and what its view.json says. */
-async function openWith(name, ...options) {
+async function openWith(name, context, ...options) {
   const result = path.join(folder, name);
   vantage('view', path.join(models, 'horse.ply'), '-o', result, '--search', 'rapid', ...options);
   const json = JSON.parse(fs.readFileSync(path.join(result, 'view.json'), 'utf8'));
-  return [await open(browser, path.join(result, 'report.html')), json];
+  return [await open(browser, path.join(result, 'report.html'), context), json];
 }
 
 /** Share of the window's height that is drawn on. */
@@ -333,7 +415,7 @@ const drawnHeight = (page) => page.evaluate(async () => {
 
 for (const [name, ...options] of [['far', '--distance', '60'], ['flat', '--projection', 'orthographic']]) {
   test(`stands at the view's eye and shows the whole model with ${options.join(' ')}`, async () => {
-    const [page, json] = await openWith(name, ...options);
+    const [page, json] = await openWith(name, {}, ...options);
     const seen = await camera(page);
     const line = json.best.eye.map((x, i) => x - json.best.frame.target[i]);
     const away = name === 'far' ? line : seen.eye.map((x, i) => x - json.best.frame.target[i]); // of parallel lines any is right

@@ -162,8 +162,8 @@ replay(false);
 // The round over all views, again and again until something else is asked for.
 const TOUR_DEG_PER_S = 36;
 if (data.tour) {
-  const { degrees, poses } = data.tour;
-  element('tour-text').textContent = `${Math.round(degrees)}° over ${data.views.length - 1} views`;
+  const { degrees, views, poses } = data.tour;
+  element('tour-text').textContent = `${Math.round(degrees)}° over ${views} views`;
   element('tour').addEventListener('click', () => {
     const button = element('tour');
     if (model.touring) {

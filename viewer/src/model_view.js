@@ -69,8 +69,7 @@ export class ModelView {
     this.addHistory(data);
     this.addSkeleton(data.skeleton);
     this.level = 0;
-    this.view = data.views[0];
-    this.look(this.view);
+    this.look(data.views[0]);
     this.showMap(false);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     this.resize();
@@ -242,7 +241,6 @@ export class ModelView {
   /** Stands at a view's camera at once. */
   look(view) {
     this.stop();
-    this.view = view;
     this.controls?.dispose();
     this.camera.position.set(...view.eye);
     this.camera.zoom = 1;
@@ -266,7 +264,7 @@ export class ModelView {
     this.camera.up.copy(this.up);
   }
 
-  /** Flies along the great circle to a view. */
+  /** Flies along the great circle to a view. The reader may take over at any moment: all stands as it is seen then. */
   fly(view, done) {
     this.stop();
     if (wantsNoMotion()) {
@@ -274,8 +272,12 @@ export class ModelView {
       done?.();
       return;
     }
-    const from = { eye: this.camera.position.clone(), up: this.camera.up.clone(), target: this.controls.target.clone(), half: halfHeight(this.view) };
-    const to = { eye: new THREE.Vector3(...view.eye), up: new THREE.Vector3(...view.up), target: new THREE.Vector3(...view.target), half: halfHeight(view) };
+    const from = { eye: this.camera.position.clone(), up: this.camera.up.clone(), target: this.controls.target.clone(),
+      half: this.half / this.camera.zoom, aspect: this.pictureAspect };
+    this.camera.zoom = 1;
+    const to = { eye: new THREE.Vector3(...view.eye), up: new THREE.Vector3(...view.up), target: new THREE.Vector3(...view.target),
+      half: halfHeight(view), aspect: view.aspect };
+    const mix = (a, b, share) => a * (1 - share) + b * share;
     const turn = new THREE.Quaternion().setFromUnitVectors(from.eye.clone().normalize(), to.eye.clone().normalize());
     const start = performance.now();
     const step = (now) => {
@@ -286,12 +288,13 @@ export class ModelView {
         return;
       }
       const share = t * t * (3 - 2 * t);
-      const distance = from.eye.length() * (1 - share) + to.eye.length() * share;
+      const distance = mix(from.eye.length(), to.eye.length(), share);
       const part = new THREE.Quaternion().slerp(turn, share);
       this.camera.position.copy(from.eye).applyQuaternion(part).setLength(distance);
       this.camera.up.copy(from.up).lerp(to.up, share).normalize();
-      this.setLens(from.half * (1 - share) + to.half * share, view.aspect);
-      this.camera.lookAt(from.target.clone().lerp(to.target, share));
+      this.setLens(mix(from.half, to.half, share), mix(from.aspect, to.aspect, share));
+      this.controls.target.copy(from.target).lerp(to.target, share);
+      this.camera.lookAt(this.controls.target);
       this.moved();
       this.flight = requestAnimationFrame(step);
     };
@@ -309,7 +312,6 @@ export class ModelView {
       const to = poses[(Math.floor(place) + 1) % poses.length];
       const share = place - Math.floor(place);
       const distance = new THREE.Vector3(...from.eye).length();
-      this.view = from;
       this.camera.position.copy(mix(from.eye, to.eye, share)).setLength(distance);
       this.camera.up.copy(mix(from.up, to.up, share)).normalize();
       this.controls.target.copy(mix(from.target, to.target, share));
@@ -329,8 +331,10 @@ export class ModelView {
   }
 
   /** The picture's lens, widened where the window is narrower than the picture. */
-  setLens(halfOfPicture, aspect) {
-    const half = halfOfPicture * Math.max(1, aspect / this.aspect);
+  setLens(halfOfPicture, pictureAspect) {
+    this.half = halfOfPicture;
+    this.pictureAspect = pictureAspect;
+    const half = halfOfPicture * Math.max(1, pictureAspect / this.aspect);
     if (this.camera.isPerspectiveCamera) {
       this.camera.aspect = this.aspect;
       this.camera.fov = (360 / Math.PI) * Math.atan(half);
@@ -389,7 +393,7 @@ export class ModelView {
     const { clientWidth, clientHeight } = this.canvas.parentElement;
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.aspect = clientWidth / Math.max(1, clientHeight);
-    this.setLens(halfHeight(this.view), this.view.aspect);
+    this.setLens(this.half, this.pictureAspect);
     this.draw();
   }
 
