@@ -76,6 +76,39 @@ class Serve(ProgramTest):
             self.assertEqual(self.ask(address, f"/models/{row[5]}/view.json")[2],
                              (folder / "view.json").read_bytes())
 
+    def test_every_row_leads_to_its_own_result(self):
+        whole = self.results() / "one" / "view.json"
+        inner = os.fsencode(self.dir / "site")
+        folders = [inner, inner + b"/site", inner + b"/caf\xe9 #%25?", inner + "/\u00fc/\u00fc".encode()]
+        for number, folder in enumerate(folders):
+            os.makedirs(folder)
+            result = json.loads(whole.read_text())
+            result["model"]["name"] = str(number)
+            with open(folder + b"/view.json", "w") as file:
+                json.dump(result, file)
+        with self.served(self.dir / "site") as address:
+            rows = self.rows(self.ask(address, "/")[2])
+            self.assertEqual(sorted(row[1] for row in rows), ["0", "1", "2", "3"])
+            for row in rows:
+                status, _, body = self.ask(address, f"/models/{row[5]}/view.json")
+                self.assertEqual((status, json.loads(body)["model"]["name"]), (200, row[1]), row)
+
+    def test_a_browser_opens_a_report_in_a_frame_that_cannot_lead_away(self):
+        folder = self.results()
+        (folder / "one" / "report.html").write_text("<p>mine")
+        with self.served(folder) as address:
+            answers = {}
+            for wanted in ("document", "iframe"):
+                answers[wanted] = self.send(address, f"GET /one/report.html HTTP/1.1\r\nHOST\r\nSec-Fetch-Dest: {wanted}"
+                                            "\r\nConnection: close\r\n\r\n".encode()).split(b"\r\n\r\n", 1)
+            head, body = answers["document"]
+            self.assertIn(b"frame-src 'self'", head)
+            self.assertIn(b'<iframe title="report" sandbox="allow-scripts allow-downloads"', body)
+            self.assertNotIn(b"mine", body)
+            head, body = answers["iframe"]
+            self.assertIn(b"; sandbox allow-scripts allow-downloads", head)
+            self.assertEqual(body, b"<p>mine")
+
     def test_a_batch_is_shown_as_it_is_now(self):
         self.write("a.off", box(1.0))
         self.write("bad.off", "OFF\n")

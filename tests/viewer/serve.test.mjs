@@ -42,6 +42,18 @@ before(async () => {
     frame.src = '/';
     frame.onload = () => { try { tell(frame.contentDocument.body.textContent.length); } catch { /* no origin */ } };
     document.documentElement.append(frame);`;
+  // A page can also go away itself, and take along what it knows.
+  const link = (attribute) => `const a = document.createElement('a'); a.href = '${to}?${attribute}'; a.${attribute} = 'x';
+    document.body.append(a); a.click();`;
+  for (const [name, way] of Object.entries({ href: `location.href = '${to}?href'`, top: `top.location.href = '${to}?top'`,
+    open: `open('${to}?open')`, download: link('download'), target: link('target') })) {
+    fs.mkdirSync(path.join(results, name));
+    fs.writeFileSync(path.join(results, name, 'report.html'), `<!doctype html><title>x</title><body><script>${way}</script>`);
+  }
+  fs.writeFileSync(path.join(results, 'refresh.html'),
+    `<!doctype html><title>x</title><meta http-equiv="refresh" content="0;url=${to}?refresh">`);
+  fs.mkdirSync(path.join(results, 'refresh'));
+  fs.copyFileSync(path.join(results, 'refresh.html'), path.join(results, 'refresh', 'report.html'));
   fs.writeFileSync(path.join(results, 'evil.html'), `<!doctype html><title>evil</title><script>${script}</script>`);
   fs.mkdirSync(path.join(results, 'evil'));
   fs.writeFileSync(path.join(results, 'evil', 'report.html'), `<!doctype html><title>evil</title><script>${script}</script>`);
@@ -79,18 +91,29 @@ test('the index shows all its small pictures, and none waits for a connection to
 });
 
 test('a picture of the index leads to a report that works', async () => {
-  const page = await browser.newPage();
+  const context = await browser.newContext({ permissions: ['clipboard-read'] });
+  const page = await context.newPage();
   const refused = [];
   page.on('console', (m) => m.type() === 'error' && refused.push(m.text()));
   page.on('pageerror', (e) => refused.push(e.message));
   await page.goto(address);
   await page.click('article a >> nth=0');
-  await page.waitForSelector('html[data-ready=yes]', { state: 'attached', timeout: 60000 });
+  const report = page.frameLocator('iframe');
+  await report.locator('html[data-ready=yes]').waitFor({ state: 'attached', timeout: 60000 });
   assert.match(page.url(), /report\.html$/);
-  const [picture] = await Promise.all([page.waitForEvent('download'), page.click('#save-picture')]);
+  assert.equal(await page.title(), `${decodeURIComponent(page.url()).split('/').at(-2)} · Vantage`);
+  await page.keyboard.press('k'); // no click is needed before
+  assert.equal(await report.locator('#show-map').isChecked(), true);
+  const [picture] = await Promise.all([page.waitForEvent('download'), report.locator('#save-picture').click()]);
   assert.match(picture.suggestedFilename(), /\.png$/);
+  const [camera] = await Promise.all([page.waitForEvent('download'), report.locator('#save-camera').click()]);
+  assert.match(camera.suggestedFilename(), /best/);
+  await report.locator('#copy').click();
+  await report.locator('#copy', { hasText: 'Copied' }).waitFor();
+  await page.evaluate(() => window.focus());
+  assert.equal(await page.evaluate(() => navigator.clipboard.readText()), await report.locator('#camera').inputValue());
   assert.deepEqual(refused, []);
-  await page.close();
+  await context.close();
 });
 
 test('the page of compare shows its contact sheet', async () => {
@@ -110,5 +133,20 @@ for (const name of ['evil.html', 'evil.svg', 'evil/report.html']) {
     assert.deepEqual(told, []);
     assert.notEqual(await page.title(), 'read');
     await page.close();
+  });
+}
+
+for (const name of ['href/report.html', 'top/report.html', 'open/report.html', 'download/report.html', 'target/report.html',
+  'refresh/report.html', 'refresh.html']) {
+  test(`a hostile ${name} leads nowhere`, async () => {
+    told.length = 0;
+    const context = await browser.newContext();
+    const page = await context.newPage();
+    await page.goto(address + name);
+    await page.waitForTimeout(500);
+    assert.deepEqual(told, []);
+    assert.equal(page.url(), address + name);
+    assert.equal(context.pages().length, 1);
+    await context.close();
   });
 }

@@ -82,7 +82,8 @@ Json number_or_null(const Json& object, const char* member) {
   return found != object.end() && found->is_number() ? *found : Json(nullptr);
 }
 
-Json row_of(const Json& result, const fs::path& folder, const std::string& name) {
+/// \param inside path of the folder in that which is shown, empty for itself.
+Json row_of(const Json& result, const fs::path& folder, const std::string& inside) {
   const auto doubts = result.find("doubts");
   const int has = (is_file(folder / "best.png") ? kHasThumbnail | kHasPicture : 0) |
                   (is_file(folder / "report.html") ? kHasReport : 0) |
@@ -90,7 +91,8 @@ Json row_of(const Json& result, const fs::path& folder, const std::string& name)
   const Json& best = result["best"];
   const auto title = result["model"].find("name");
   const bool named = title != result["model"].end() && title->is_string();
-  return Json::array({name, named ? *title : Json(name), "done", "", "", name,
+  const std::string name = inside.empty() ? folder.filename().string() : inside;
+  return Json::array({name, named ? *title : Json(name), "done", "", "", url_path(inside),
                       number_or_null(best, "score_fraction"), number_or_null(best, "score"),
                       number_or_null(result["model"], "vertices"), has});
 }
@@ -144,10 +146,8 @@ std::string FolderSite::results_index() const {
       continue;
     }
     ++counts.done;
-    // The folder itself goes by its own name.
-    const std::string name =
-        folder == root_ ? root_.filename().string() : folder.lexically_relative(root_).string();
-    const std::string row = json_text(row_of(*result, folder, name));
+    const std::string inside = folder == root_ ? "" : folder.lexically_relative(root_).string();
+    const std::string row = json_text(row_of(*result, folder, inside));
     rows += (rows.empty() ? "" : ",\n") + script_safe(row);
   }
   return index_page(rows, {"index.html"}, 0, counts);
@@ -188,12 +188,8 @@ std::optional<SitePage> FolderSite::find(std::string_view path) const {
   }
   fs::path file = path.substr(1);
   if (!is_batch_ && path.starts_with(kModels)) {  // where the index looks for results
-    const std::string_view below = path.substr(kModels.size());
-    const std::string own = root_.filename().string() + "/";
-    file = below;
-    if (!is_file(root_ / file) && below.starts_with(own)) {
-      file = below.substr(own.size());
-    }
+    file =
+        fs::path(path.substr(kModels.size())).relative_path();  // "models//" is the folder itself
     if (file.filename() == kThumbnailFile && !is_file(root_ / file)) {
       file.replace_filename("best.png");
     }

@@ -93,7 +93,7 @@ function note(row) {
 function card(row) {
   const box = text("article", row.status, "");
   box.title = row.key;
-  const path = "models/" + row.folder.split("/").map(encodeURIComponent).join("/") + "/";
+  const path = "models/" + row.folder + "/";
   const frame = text(row.has & 6 ? "a" : "div", "picture", row.has & 1 ? "" : row.status === "failed" ? "failed" : "no picture");
   if (row.has & 6) frame.href = path + (row.has & 4 ? "report.html" : "best.png");
   if (row.has & 1) {
@@ -154,6 +154,20 @@ std::string script_safe(const std::string& json) {
   std::string text;
   for (const char c : json) {
     text += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  }
+  return text;
+}
+
+std::string url_path(std::string_view path) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~/";
+  constexpr const char* kDigits = "0123456789ABCDEF";
+  std::string text;
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    text += kPlain.find(c) != std::string_view::npos
+                ? std::string(1, c)
+                : std::string{'%', kDigits[byte >> 4U], kDigits[byte & 15U]};
   }
   return text;
 }

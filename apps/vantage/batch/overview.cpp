@@ -219,12 +219,12 @@ std::string row_of(const Statement& row, const ConfinedFolder& root) {
   const auto number = [&](int column) {
     return row.is_null(column) ? Json(nullptr) : Json(row.number(column));
   };
-  const Json cells =
-      Json::array({row.text(0), row.text(1), row.text(2), row.text(3), row.text(4), folder,
-                   number(6), number(7), row.is_null(8) ? Json(nullptr) : Json(row.integer(8)),
-                   shown(kThumbnailFile, kHasThumbnail) | shown("best.png", kHasPicture) |
-                       shown("report.html", kHasReport) |
-                       (row.is_null(9) || row.integer(9) == 0 ? 0 : kIsDoubted)});
+  const Json cells = Json::array(
+      {row.text(0), row.text(1), row.text(2), row.text(3), row.text(4), url_path(folder), number(6),
+       number(7), row.is_null(8) ? Json(nullptr) : Json(row.integer(8)),
+       shown(kThumbnailFile, kHasThumbnail) | shown("best.png", kHasPicture) |
+           shown("report.html", kHasReport) |
+           (row.is_null(9) || row.integer(9) == 0 ? 0 : kIsDoubted)});
   return script_safe(json_text(cells));
 }
 

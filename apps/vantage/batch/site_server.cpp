@@ -25,16 +25,34 @@ constexpr int kRequestsPerConnection = 200;
 constexpr const char* kPolicy = "Content-Security-Policy";
 /// How every policy begins.
 const std::string kNothing =
-    "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; "
-    "style-src 'unsafe-inline'; ";
+    "default-src 'none'; base-uri 'none'; form-action 'none'; style-src 'unsafe-inline'; ";
+const std::string kUnframed = kNothing + "frame-ancestors 'none'; ";
 /// The pages made here have a script that only ever sets text.
-const std::string kOwnPage = kNothing + "img-src 'self'; script-src 'unsafe-inline'";
+const std::string kOwnPage = kUnframed + "img-src 'self'; script-src 'unsafe-inline'";
+/// No policy of a page keeps its script from going to another page. That of the page around it does.
+const std::string kAroundReport = kUnframed + "frame-src 'self'; script-src 'unsafe-inline'";
 /// Anybody may have written a file of these names: in a sandbox it has no origin, so that it can
-/// read nothing of this server, and it can ask nobody for anything. Reports hand out pictures and cameras.
-const std::string kReport =
-    kNothing +
-    "img-src data: blob:; script-src 'unsafe-inline'; sandbox allow-scripts allow-downloads";
-const std::string kFile = kNothing + "img-src 'self' data:; sandbox";
+/// read nothing of this server, and it can load nothing from anywhere. Reports hand out pictures and cameras.
+const std::string kReport = kNothing +
+                            "frame-ancestors 'self'; img-src data: blob:; script-src "
+                            "'unsafe-inline'; sandbox allow-scripts allow-downloads";
+const std::string kFile = kUnframed + "img-src 'self' data:; sandbox";
+
+/// What a browser opens in place of a report: the report in a frame, which has the keys at once.
+constexpr const char* kReportFrame = R"html(<!doctype html>
+<html lang="en">
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>Vantage: report</title>
+<style>iframe { position: fixed; inset: 0; width: 100%; height: 100%; border: 0; }</style>
+<iframe title="report" sandbox="allow-scripts allow-downloads" allow="clipboard-write" src="?framed"></iframe>
+<script>
+"use strict";
+const frame = document.querySelector("iframe");
+frame.addEventListener("load", () => frame.focus());
+document.title = decodeURIComponent(location.pathname.split("/").at(-2)) + " · Vantage";
+</script>
+)html";
 
 /// Whether the name by which the server was asked for is this machine's own. A page from elsewhere
 /// can make its own name lead here, but not change what the browser sends as Host.
@@ -72,7 +90,8 @@ void send_file(const std::shared_ptr<const ServedFile>& file, const std::string&
 }
 
 void send(const SitePage& page, const httplib::Request& request, httplib::Response& response) {
-  response.set_header(kPolicy, !page.file ? kOwnPage : page.is_report ? kReport : kFile);
+  const std::string& own = page.is_report ? kAroundReport : kOwnPage;
+  response.set_header(kPolicy, !page.file ? own : page.is_report ? kReport : kFile);
   const std::size_t size = page.file ? page.file->size() : page.body.size();
   if (is_beyond(request, size)) {
     response.status = 416;
@@ -101,6 +120,10 @@ void answer(const FolderSite& site, const httplib::Request& request, httplib::Re
     response.status = 500;
     response.set_content(std::string(error.what()) + "\n", "text/plain; charset=utf-8");
     return;
+  }
+  if (page && page->is_report && request.get_header_value("Sec-Fetch-Dest") == "document") {
+    page->file = nullptr;
+    page->body = kReportFrame;
   }
   if (page) {
     send(*page, request, response);

@@ -20,6 +20,10 @@ TEST(IndexPage, AsksForNothingFromOutside) {
   EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
 }
 
+TEST(IndexPage, AnAddressHoldsEveryByteOfAPath) {
+  EXPECT_EQ(url_path("a b/\xFF#?%25\xC3\xA9/~x-y_.z"), "a%20b/%FF%23%3F%2525%C3%A9/~x-y_.z");
+}
+
 TEST(IndexPage, OneDuplicateIsToldOfAsOne) {
   const std::string page = index_page("", {"index.html"}, 0, {});
   EXPECT_NE(page.find("page.duplicates === 1 ? \" duplicate\" : \" duplicates\""),
