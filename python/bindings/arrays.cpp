@@ -190,12 +190,20 @@ double number_of(const py::object& value, const char* name) {
   }
 }
 
-int whole_number_of(const py::object& value, const char* name) {
-  try {
-    return value.cast<int>();
-  } catch (const py::cast_error&) {
+std::int64_t whole_number_of(const py::object& value, const char* name, std::int64_t low,
+                             std::int64_t high) {
+  const auto number = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+  if (!number) {
+    PyErr_Clear();
     throw py::type_error(std::string(name) + " must be a whole number");
   }
+  int overflow = 0;
+  const long long whole = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
+  if (overflow != 0 || whole < low || whole > high) {
+    throw InvalidInput(name + (overflow == 0 ? " is " + std::to_string(whole) + " but" : "") +
+                       " must be between " + std::to_string(low) + " and " + std::to_string(high));
+  }
+  return whole;
 }
 
 }  // namespace vantage::python

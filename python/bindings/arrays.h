@@ -101,6 +101,8 @@ std::vector<std::array<std::uint8_t, 3>> colours_of(const py::object& value);
 
 /// \throw py::type_error that begins with `name`
 double number_of(const py::object& value, const char* name);
-int whole_number_of(const py::object& value, const char* name);
+/// \throw py::type_error, InvalidInput if it is less than `low` or more than `high`
+std::int64_t whole_number_of(const py::object& value, const char* name, std::int64_t low,
+                             std::int64_t high);
 
 }  // namespace vantage::python

@@ -97,7 +97,7 @@ py::dict report_dict(const Outcome& outcome) {
 }
 
 py::dict best_view(const py::object& model, const py::object& F, const std::string& method,
-                   const py::dict& options, const py::object& progress, int threads) {
+                   const py::dict& options, const py::object& progress, const py::object& threads) {
   const Subject subject(model, F);
   Settings settings = subject.settings(options);
   settings.view.method = find_measure(method).name;

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "errors.h"
 
+#include <algorithm>
 #include <exception>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <pybind11/pybind11.h>
 
 #include "vantage/core/error.h"
 
+#include "options.h"
 #include "text.h"
 
 namespace vantage::python {
@@ -14,9 +20,30 @@ namespace {
 
 namespace py = pybind11;
 
+/// A message of the library with its options as Python has them: "--max-faces" as max_faces.
+std::string without_flags(std::string text) {
+  std::vector<std::string> names{"max-faces"};
+  for (const Option& option : option_table()) {
+    names.push_back(option.name);
+  }
+  for (const std::string& name : names) {
+    std::string keyword = name;
+    std::replace(keyword.begin(), keyword.end(), '-', '_');
+    const std::string flag = " --" + name;
+    for (std::size_t at = text.find(flag); at != std::string::npos; at = text.find(flag, at + 1)) {
+      const std::size_t end = at + flag.size();
+      if (end == text.size() ||
+          std::string_view(" ,;.").find(text[end]) != std::string_view::npos) {
+        text.replace(at + 1, flag.size() - 1, keyword);
+      }
+    }
+  }
+  return text;
+}
+
 void raise(const char* name, const Error& error) {
   const py::object type = py::module_::import("vantage.errors").attr(name);
-  PyErr_SetObject(type.ptr(), text_of(error.what()).ptr());
+  PyErr_SetObject(type.ptr(), text_of(without_flags(error.what())).ptr());
 }
 
 void raise_io(const IoError& error) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <set>
 #include <string>
 #include <utility>
@@ -94,10 +95,31 @@ OptionValue whole_from(const Option& option, const py::object& given) {
     PyErr_Clear();
     throw py::cast_error();
   }
-  if (number < py::int_(0)) {
-    refuse_number(option.name, number.cast<double>(), option.low, option.high);
+  int overflow = 0;
+  const long long small = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
+  if (overflow == 0 && small < 0) {
+    refuse_number(option.name, static_cast<double>(small), option.low, option.high);
   }
-  return number.cast<std::uint64_t>();
+  const std::uint64_t whole = PyLong_AsUnsignedLongLong(number.ptr());
+  if (PyErr_Occurred() != nullptr) {
+    PyErr_Clear();
+    constexpr double kBeyond = 0x1p64;
+    throw InvalidInput("option " + option.name + " must be between " +
+                       std::to_string(static_cast<std::uint64_t>(option.low)) + " and " +
+                       std::to_string(option.high < kBeyond
+                                          ? static_cast<std::uint64_t>(option.high)
+                                          : std::numeric_limits<std::uint64_t>::max()));
+  }
+  return whole;
+}
+
+/// True or False, NumPy's too; numbers are none. \throw py::cast_error
+bool switch_from(const py::object& given) {
+  py::detail::make_caster<bool> caster;
+  if (!caster.load(given, /*convert=*/false)) {
+    throw py::cast_error();
+  }
+  return static_cast<bool>(caster);
 }
 
 /// \throw py::cast_error if it is of another type
@@ -108,10 +130,7 @@ OptionValue value_from(const Option& option, const py::object& given) {
     case OptionKind::Integer:
       return whole_from(option, given);
     case OptionKind::Switch:
-      if (!py::isinstance<py::bool_>(given)) {
-        throw py::cast_error();
-      }
-      return given.cast<bool>();
+      return switch_from(given);
     case OptionKind::Choice:
       return given.cast<std::string>();
     case OptionKind::Text:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "vantage/core/error.h"
@@ -79,15 +80,15 @@ PictureFrame frame_from(const Standpoint& from, const Analysis& analysis,
 }
 
 Image drawn(const Analysis& analysis, const Camera& camera, Picture picture,
-            const Settings& settings, RenderOptions look, const std::vector<Rgb8>& colours,
-            const RunContext& run) {
-  if (!colours.empty() && colours.size() != analysis.shape.surface_vertex.size()) {
-    throw InvalidInput("colours has " + std::to_string(colours.size()) +
+            const Settings& settings, RenderOptions look,
+            const std::optional<std::vector<Rgb8>>& colours, const RunContext& run) {
+  if (colours && colours->size() != analysis.shape.surface_vertex.size()) {
+    throw InvalidInput("colours has " + std::to_string(colours->size()) +
                        " rows, but the model has " +
                        std::to_string(analysis.shape.surface_vertex.size()) + " vertices");
   }
-  if (!colours.empty() && picture == Picture::Plain) {
-    const Model given{.vertex_colours = colours};  // no faces: of the shape's own vertices
+  if (colours && picture == Picture::Plain) {
+    const Model given{.vertex_colours = *colours};  // no faces: of the shape's own vertices
     return draw_picture(analysis.shape, camera, picture, settings.view, look, run, &given);
   }
   const Model* asset = settings.look.style == Style::Asset ? &*analysis.model : nullptr;
@@ -97,12 +98,15 @@ Image drawn(const Analysis& analysis, const Camera& camera, Picture picture,
 py::array render_picture(const py::object& model, const py::object& F, const py::object& direction,
                          const py::object& camera, const py::object& view, const std::string& show,
                          const py::object& colours, const py::dict& options,
-                         const py::object& progress, int threads) {
+                         const py::object& progress, const py::object& threads) {
   const Subject subject(model, F);
   Settings settings = subject.settings(options);
   const Standpoint from = standpoint_of(direction, camera, view);
   const Picture picture = picture_of(show);
-  const std::vector<Rgb8> given = colours.is_none() ? std::vector<Rgb8>{} : colours_of(colours);
+  std::optional<std::vector<Rgb8>> given;
+  if (!colours.is_none()) {
+    given = colours_of(colours);
+  }
   const bool needs_map = from.best || picture != Picture::Plain;
   Image image = released({progress, threads}, [&](const RunContext& run) {
     const auto analysis =

@@ -15,6 +15,8 @@
 
 #include "vantage/core/error.h"
 
+#include "arrays.h"
+
 namespace vantage::python {
 namespace {
 
@@ -179,15 +181,13 @@ class Worker {
 }  // namespace
 
 void run_released(const RunSettings& settings, const std::function<void(const RunContext&)>& work) {
-  if (settings.threads < 0 || settings.threads > kMostThreads) {
-    throw InvalidInput("threads is " + std::to_string(settings.threads) +
-                       " but must be between 0 (all cores) and " + std::to_string(kMostThreads));
-  }
+  const auto threads =
+      static_cast<int>(whole_number_of(settings.threads, "threads", 0, kMostThreads));
   const bool reports = !settings.progress.is_none();
   if (reports && PyCallable_Check(settings.progress.ptr()) == 0) {
     throw py::type_error("progress must be a function of (stage, fraction), or None");
   }
-  Worker worker(work, settings.threads, reports);
+  Worker worker(work, threads, reports);
   std::optional<Progress> last;
   bool ended = false;
   while (!ended) {

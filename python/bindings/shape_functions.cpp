@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include <pybind11/stl.h>
 
+#include "vantage/core/error.h"
 #include "vantage/mesh/curve_graph.h"
 #include "vantage/pipeline/measured_shape.h"
 #include "vantage/skeleton/skeleton.h"
@@ -77,7 +80,7 @@ py::dict quality_dict(const SkeletonQuality& quality, double diameter) {
 }
 
 py::dict skeleton(const py::object& model, const py::object& F, bool levels, bool measure,
-                  const py::dict& options, const py::object& progress, int threads) {
+                  const py::dict& options, const py::object& progress, const py::object& threads) {
   const Subject subject(model, F);
   const Settings settings = subject.settings(options);
   double diameter = 1.0;
@@ -122,7 +125,7 @@ struct MapParts {
 };
 
 py::dict kssm(const py::object& model, const py::object& F, bool levels, const py::dict& options,
-              const py::object& progress, int threads) {
+              const py::object& progress, const py::object& threads) {
   const Subject subject(model, F);
   const Settings settings = subject.settings(options);
   MapParts parts = released({progress, threads}, [&](const RunContext& run) {
@@ -150,9 +153,14 @@ py::dict kssm(const py::object& model, const py::object& F, bool levels, const p
 }
 
 py::array map_of(const py::object& model, const py::object& F, const std::string& method,
-                 const py::dict& options, const py::object& progress, int threads) {
+                 const py::dict& options, const py::object& progress, const py::object& threads) {
   const Subject subject(model, F);
   const Settings settings = subject.settings(options);
+  constexpr std::array kMaps{"kssm", "thickness", "mesh-saliency", "pmi-saliency"};
+  if (std::find(kMaps.begin(), kMaps.end(), method) == kMaps.end()) {
+    throw InvalidInput("there is no map '" + method +
+                       "'; there are kssm, thickness, mesh-saliency, pmi-saliency");
+  }
   const bool by_skeleton = method == "kssm" || method == "thickness";
   return owned_array(released({progress, threads}, [&](const RunContext& run) {
     const auto analysis = subject.analysed(settings, by_skeleton ? with_map : surface_only,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "subject.h"
 
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "vantage/core/error.h"
@@ -42,16 +44,19 @@ ReadOptions reading(bool appearance, std::size_t max_faces) {
           .max_faces = max_faces > 0 ? max_faces : faces_that_fit(usable_memory_bytes())};
 }
 
-ModelHandle load(const py::object& path, const py::object& progress, int threads,
-                 std::size_t max_faces) {
+ModelHandle load(const py::object& path, const py::object& progress, const py::object& threads,
+                 const py::object& max_faces) {
+  const std::int64_t most =
+      whole_number_of(max_faces, "max_faces", 0, std::numeric_limits<std::int64_t>::max());
   const std::string file = path_text(path);
   return {released({progress, threads}, [&](const RunContext& run) {
-    return std::make_shared<const Model>(load_model(file, run, reading(true, max_faces)));
+    return std::make_shared<const Model>(
+        load_model(file, run, reading(true, static_cast<std::size_t>(most))));
   })};
 }
 
 AnalysisHandle analyse(const py::object& model, const py::object& F, const py::dict& options,
-                       const py::object& progress, int threads) {
+                       const py::object& progress, const py::object& threads) {
   const Subject subject(model, F);
   const Settings settings = subject.settings(options);
   return {released({progress, threads}, [&](const RunContext& run) {

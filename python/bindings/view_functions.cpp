@@ -15,6 +15,9 @@
 namespace vantage::python {
 namespace {
 
+constexpr int kFinestLevel = 8;    // of directions to look from
+constexpr int kFinestViewSet = 6;  // of views that measures are defined over
+
 /// Views that were asked for: directions, or positions of eyes.
 struct Views {
   std::vector<Vec3> points{};
@@ -51,7 +54,7 @@ Views views_of(const py::object& directions, const py::object& eyes, const py::o
   if (!eyes.is_none()) {
     return {.points = points_of(eyes, "eyes"), .are_eyes = true};
   }
-  const int level = whole_number_of(sphere, "sphere");
+  const auto level = static_cast<int>(whole_number_of(sphere, "sphere", 0, kFinestLevel));
   return {.points = direction_set(ViewSphereBase::Icosahedron, level).directions, .sphere = level};
 }
 
@@ -62,7 +65,7 @@ bool is_single(const py::object& directions, const py::object& eyes) {
 
 py::array visible(const py::object& model, const py::object& F, const py::object& eyes,
                   const py::object& directions, const py::object& sphere, const py::dict& options,
-                  const py::object& progress, int threads) {
+                  const py::object& progress, const py::object& threads) {
   const Subject subject(model, F);
   const Settings settings = subject.settings(options);
   const Views views = views_of(directions, eyes, sphere);
@@ -145,12 +148,13 @@ std::vector<Measure> measures_of(const std::vector<std::string>& names) {
 
 py::array score(const py::object& model, const py::object& F, const py::object& directions,
                 const py::object& eyes, const py::object& sphere,
-                const std::vector<std::string>& method, int view_set, const py::dict& options,
-                const py::object& progress, int threads) {
+                const std::vector<std::string>& method, const py::object& view_set,
+                const py::dict& options, const py::object& progress, const py::object& threads) {
   const Subject subject(model, F);
   const Settings settings = subject.settings(options);
   const Views views = views_of(directions, eyes, sphere);
   const std::vector<Measure> measures = measures_of(method);
+  const auto set = static_cast<int>(whole_number_of(view_set, "view_set", 0, kFinestViewSet));
   const bool by_kssm = measures.size() == 1 && measures.front().name == "kssm";
   std::vector<double> table = released({progress, threads}, [&](const RunContext& run) {
     const auto analyse = [&](const Model& loaded, const ViewOptions& o, const RunContext& part) {
@@ -163,7 +167,7 @@ py::array score(const py::object& model, const py::object& F, const py::object& 
     }
     std::vector<double> rows;
     for (const std::vector<double>& row :
-         measured_scores(*analysis, settings.view, measures, views, view_set, rest)) {
+         measured_scores(*analysis, settings.view, measures, views, set, rest)) {
       rows.insert(rows.end(), row.begin(), row.end());
     }
     return rows;

@@ -54,12 +54,15 @@ def _arrays_of(model: Any) -> "Tuple[Any, Any] | None":
 
 
 def _triangles_of_cells(cells: Any) -> Any:
-    """Faces of meshio's cells; quads and polygons are cut as fans. Lines and vertices are none, nor are solids."""
+    """Faces of meshio's cells; quads and polygons are cut as fans. Of faces with nodes on their sides, "triangle6" or
+    "quad8", the corners come first and count. Lines and vertices are none, nor are solids."""
     fans = [np.empty((0, 3), np.int64)]
     for block in cells:
-        if block.type in ("triangle", "quad", "polygon"):
+        kind = block.type.rstrip("0123456789")
+        if kind in ("triangle", "quad", "polygon"):
             faces = np.asarray(block.data)
-            fans += [faces[:, [0, k, k + 1]] for k in range(1, faces.shape[1] - 1)]
+            corners = {"triangle": 3, "quad": 4}.get(kind, faces.shape[1])
+            fans += [faces[:, [0, k, k + 1]] for k in range(1, corners - 1)]
     return np.concatenate(fans)
 
 

@@ -140,7 +140,7 @@ def score(model: Any, F: Any = None, *, directions: Any = None, eyes: Any = None
     One of directions: (k, 3) from the centre to the scoring camera, of any length but zero; eyes:
     (k, 3) positions in model units; sphere: all directions of the icosahedron split this many
     times, 0 to 8, as directions() gives them. method: one measure or several, see measures().
-    view_set: the same split, 0 to 5, for measures that are defined over a set of views.
+    view_set: the same split, 0 to 6, for measures that are defined over a set of views.
     Returns float64: (k,) for one method, (methods, k) for a list of them, without the k for a
     single (3,) direction or eye. Raises InvalidInput, IoError, FormatError, TypeError.
     """

@@ -168,10 +168,16 @@ def test_length_of_a_direction_does_not_matter():
 
 @pytest.mark.parametrize("keywords", [
     {}, {"eyes": [0, 0, 9], "sphere": 0}, {"directions": [0, 0, 0]}, {"directions": [[0, 1]]},
-    {"eyes": [0, 0, np.nan]}, {"sphere": 9}, {"sphere": -1}])
+    {"eyes": [0, 0, np.nan]}, {"sphere": 9}, {"sphere": -1}, {"sphere": 2**40},
+    {"sphere": 0, "view_set": -1}, {"sphere": 0, "view_set": 7}])
 def test_views_that_make_no_sense_are_refused(keywords):
     with pytest.raises(vantage.InvalidInput):
         vantage.score(V, F, **keywords)
+
+
+def test_a_map_that_is_none_is_refused_with_all_there_are():
+    with pytest.raises(vantage.InvalidInput, match="there are kssm, thickness, mesh-saliency, pmi-saliency"):
+        vantage.vertex_map(V, F, method="foo")
 
 
 def test_colours_of_vertices_are_drawn():
@@ -181,6 +187,8 @@ def test_colours_of_vertices_are_drawn():
     assert len(solid) > 100 and (solid[:, 0] > solid[:, 1]).all()
     with pytest.raises(vantage.InvalidInput, match="96 vertices"):
         vantage.render(V, F, direction=(0, 0, 1), colours=red[1:], size=32)
+    with pytest.raises(vantage.InvalidInput, match="colours has 0 rows"):
+        vantage.render(V, F, direction=(0, 0, 1), colours=red[:0], size=32)
     with pytest.raises(TypeError, match="uint8"):
         vantage.render(V, F, direction=(0, 0, 1), colours=red.astype(float), size=32)
 

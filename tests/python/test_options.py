@@ -7,6 +7,7 @@ import json
 import math
 import re
 
+import numpy as np
 import pytest
 
 from conftest import torus
@@ -163,6 +164,10 @@ def test_all_defaults_of_the_paper_are_its_preset():
     ({"select": "feixas", "views": 2, "coverage": 0.5}, "goes with select"),
     ({"method": "beauty"}, "beauty"),
     ({"focus": "nothing"}, "nothing"),
+    ({"seed": 2**64}, "option seed must be between 0 and 18446744073709551615"),
+    ({"seed": -10**400}, "option seed must be between 0 and 18446744073709551615"),
+    ({"threads": 2**40}, "threads is 1099511627776 but must be between 0 and 1024"),
+    ({"method": "viewpoint-entropy", "views": 3}, "leave out views and coverage, or method viewpoint-entropy$"),
 ])
 def test_values_out_of_range_are_refused_with_a_sentence(keywords, message):
     with pytest.raises(vantage.InvalidInput, match=message):
@@ -197,6 +202,17 @@ def test_a_prior_may_be_a_file(tmp_path, cat):
 def test_options_that_contradict_each_other_are_refused_as_by_the_program(options, message):
     with pytest.raises(vantage.InvalidInput, match=message):
         vantage.best_view(V, F, **options)
+
+
+def test_a_model_of_more_faces_than_allowed_is_refused_by_the_keyword(models):
+    with pytest.raises(vantage.Error, match="the most that max_faces allows"):
+        vantage.load(models / "fan.ply", max_faces=3)
+    with pytest.raises(vantage.InvalidInput, match="max_faces is -1 but must be between 0"):
+        vantage.load(models / "fan.ply", max_faces=-1)
+
+
+def test_a_switch_takes_the_booleans_of_numpy():
+    assert result_with(certify=np.bool_(True)) == result_with(certify=True)
 
 
 def test_up_any_is_refused_of_an_analysis_too():

@@ -87,6 +87,18 @@ def test_quads_and_polygons_of_meshio_are_cut_as_fans():
     assert (vantage.kssm(mesh).of_vertex == vantage.kssm(points, faces).of_vertex).all()
 
 
+def test_of_faces_of_meshio_with_nodes_on_their_sides_the_corners_count():
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0.5, 1.0],
+                       [0.5, 0, 0], [1, 0.5, 0], [0.5, 1, 0], [0, 0.5, 0]])
+    around = [[0, 1, 4, 5, 5, 5], [1, 2, 4, 6, 6, 6], [2, 3, 4, 7, 7, 7], [3, 0, 4, 8, 8, 8]]
+    block = types.SimpleNamespace
+    mesh = types.SimpleNamespace(points=points, cells_dict={}, cells=[
+        block(type="quad8", data=np.array([[3, 2, 1, 0, 7, 6, 5, 8]])), block(type="triangle6", data=np.array(around))])
+    faces = np.array([[3, 2, 1], [3, 1, 0], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+    one_way, other = (vantage.visible_vertices(*model, directions=[0.0, 0.0, -1.0]) for model in ((mesh,), (points, faces)))
+    assert (one_way == other).all() and not one_way.all()
+
+
 def test_members_of_trimesh_tuples_and_scenes_are_taken():
     mesh = types.SimpleNamespace(vertices=V, faces=F)
     same_view(mesh)

@@ -46,7 +46,7 @@ def test_what_progress_raises_ends_the_call():
 
 @pytest.mark.parametrize("keywords, kind", [
     ({"progress": 3}, TypeError), ({"threads": -1}, ValueError), ({"threads": 1025}, ValueError),
-    ({"threads": "two"}, TypeError)])
+    ({"threads": "two"}, TypeError), ({"threads": 2**40}, ValueError), ({"threads": 10**400}, ValueError)])
 def test_how_to_run_is_checked(keywords, kind):
     with pytest.raises(kind):
         vantage.kssm(V, F, **keywords)
