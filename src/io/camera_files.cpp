@@ -40,11 +40,22 @@ std::string triple(const Vec3& v) {
   return number_text(v.x()) + "," + number_text(v.y()) + "," + number_text(v.z());
 }
 
-/// `text` in single quotes for a POSIX shell.
-std::string shell_quoted(std::string_view text) {
-  std::string result = "'";
+/// `text` in single quotes for a POSIX shell; as $'…', of ASCII, where it would drive a terminal.
+std::string shell_quoted(const std::string& text) {
+  const bool is_safe = printable(text) == text;
+  std::string result = is_safe ? "'" : "$'";
   for (const char c : text) {
-    result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    const auto byte = static_cast<unsigned char>(c);
+    if (is_safe) {
+      result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    } else if (byte < ' ' || byte > '~') {
+      const auto digit = [byte](unsigned shift) {
+        return static_cast<char>('0' + ((byte >> shift) & 7U));
+      };
+      result += {'\\', digit(6), digit(3), digit(0)};
+    } else {
+      result += c == '\'' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
+    }
   }
   return result + "'";
 }
@@ -116,8 +127,9 @@ std::string camera_transforms_json(const Camera& camera, PictureSize size,
 }
 
 std::string camera_f3d(const Camera& camera, PictureSize size, std::string_view model) {
+  const std::string file = (model.starts_with('-') ? "./" : "") + std::string(model);  // no option
   std::string line =
-      "f3d " + shell_quoted(model) + " --camera-position=" + triple(camera.eye) +
+      "f3d " + shell_quoted(file) + " --camera-position=" + triple(camera.eye) +
       " --camera-focal-point=" + triple(camera.target) + " --camera-view-up=" + triple(camera.up) +
       " --resolution=" + std::to_string(size.width) + "," + std::to_string(size.height);
   line += camera.projection == Projection::Perspective

@@ -153,6 +153,17 @@ TEST(CameraF3d, QuotesTheNameOfTheModel) {
   EXPECT_THAT(line, HasSubstr("--resolution=640,480"));
 }
 
+TEST(CameraF3d, NamesNoModelAsAnOption) {
+  EXPECT_THAT(camera_f3d(slanted(Projection::Perspective), {640, 480}, "-x.obj"),
+              HasSubstr("f3d './-x.obj' --camera-position"));
+}
+
+TEST(CameraF3d, HoldsNothingThatDrivesATerminal) {
+  const std::string line =
+      camera_f3d(slanted(Projection::Perspective), {640, 480}, "it's\x1B[31m\\\xC3\xA9\n.obj");
+  EXPECT_THAT(line, HasSubstr("f3d $'it\\'s\\033[31m\\\\\\303\\251\\012.obj' --camera-position"));
+}
+
 TEST(ParseCamera, ReadsThePictureOfTheBestViewFromAViewJson) {
   const Camera camera = parse_camera(
       R"({"camera":{"projection":"perspective","fov_y_deg":30,"target":[0,0,0],"distance":4},
