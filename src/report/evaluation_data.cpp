@@ -12,6 +12,7 @@
 #include "vantage/report/evaluation.h"
 
 #include "io/files.h"
+#include "io/text_cursor.h"
 #include "report/evaluation_manifest.h"
 
 namespace vantage {
@@ -34,14 +35,15 @@ double number_of(const std::string& text, const fs::path& file, std::size_t line
 class Table {
  public:
   explicit Table(const fs::path& file) : file_(file) {
-    std::istringstream lines(read_file(file.string()));
+    const std::string bytes = read_file(file.string());
+    std::istringstream lines{std::string(without_bom(bytes))};
     std::string line;
     for (std::size_t number = 1; std::getline(lines, line); ++number) {
       if (!line.empty() && line.back() == '\r') {
         line.pop_back();
       }
       std::vector<std::string> cells;
-      std::istringstream stream(line);
+      std::istringstream stream(line.empty() ? line : line + ',');  // the last cell may be empty
       for (std::string cell; std::getline(stream, cell, ',');) {
         cells.push_back(cell);
       }
@@ -112,9 +114,11 @@ void read_views(const fs::path& folder, std::vector<RecordedModel>& records) {
     }
     record.name = name;
     record.path = (folder / "models" / name).string();
-    if (fs::is_regular_file(record.path)) {
-      records.push_back(std::move(record));
+    if (!fs::is_regular_file(record.path)) {
+      throw IoError(record.path,
+                    "is not there, but " + (folder / "views.csv").string() + " names it");
     }
+    records.push_back(std::move(record));
   }
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <numeric>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -73,6 +74,16 @@ std::vector<Row> rows_from(const Json& list, std::string Row::*name, const Colum
     rows.push_back(std::move(row));
   }
   return rows;
+}
+
+/// The axis of a row, or any; nothing if it is neither.
+std::optional<UpAxis> up_from(const Json& json) {
+  for (int axis = 0; axis <= static_cast<int>(UpAxis::Any); ++axis) {
+    if (json == axis) {
+      return static_cast<UpAxis>(axis);
+    }
+  }
+  return std::nullopt;
 }
 
 /// Adds text, and where it ends.
@@ -170,11 +181,18 @@ EvaluationJournal::EvaluationJournal(std::string file) : state_(std::make_unique
   const std::string text = read_file(state_->file);
   std::istringstream lines(text);
   std::string whole;
+  const auto refuse = [&](std::size_t at) {
+    throw FormatError(state_->file, "after byte " + std::to_string(at),
+                      "is no row of vantage eval; move the file away, or name another folder");
+  };
   for (std::string line; std::getline(lines, line);) {
     try {
       const Json json = parsed_json(line);
-      EvaluatedModel rows{static_cast<UpAxis>(json.at("up").get<int>()),
-                          rows_from(json.at("views"), &ViewAgreement::method, kViewColumns),
+      const std::optional<UpAxis> up = up_from(json.at("up"));
+      if (!up) {
+        refuse(whole.size());
+      }
+      EvaluatedModel rows{*up, rows_from(json.at("views"), &ViewAgreement::method, kViewColumns),
                           rows_from(json.at("gaze"), &GazeAgreement::map, kGazeColumns)};
       state_->rows[json.at("key").get<std::string>()] = std::move(rows);
       whole += line + '\n';
@@ -183,8 +201,7 @@ EvaluationJournal::EvaluationJournal(std::string file) : state_(std::make_unique
       const Json found = parsed_json(line);
       const bool is_row = found.is_object() && found.contains("key") && found.contains("views");
       if (!is_row && !lines.eof()) {
-        throw FormatError(state_->file, "after byte " + std::to_string(whole.size()),
-                          "is no row of vantage eval; move the file away, or name another folder");
+        refuse(whole.size());
       }
     }
   }

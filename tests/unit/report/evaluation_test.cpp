@@ -334,9 +334,10 @@ class RecordedFolder {
   }
 
   void write_views(const std::string& z) const {
-    write_file(folder_.file("views.csv"),
-               "model,subject,status,vx,vy,vz\na.gltf,A,moved,0,0," + z + "\n");
+    write_table("model,subject,status,vx,vy,vz\na.gltf,A,moved,0,0," + z + "\n");
   }
+
+  void write_table(const std::string& rows) const { write_file(folder_.file("views.csv"), rows); }
 
   [[nodiscard]] std::vector<RecordedModel> records() const {
     return read_records(folder_.path().string());
@@ -368,6 +369,39 @@ TEST(ReadRecords, RefuseANumberThatGoesOnAsSomethingElse) {
   EXPECT_EQ(folder.records().size(), 1U);
   folder.write_views("1.0abc");
   EXPECT_THROW((void)folder.records(), FormatError);
+}
+
+TEST(ReadRecords, TakeEmptyCellsAtTheEndAndAByteOrderMark) {
+  const RecordedFolder folder;
+  folder.write_table("\xEF\xBB\xBFmodel,vx,vy,vz,status\na.gltf,0,0,1,\na.gltf,0,0,1,moved\n\n");
+  const std::vector<RecordedModel> records = folder.records();
+  ASSERT_EQ(records.size(), 1U);
+  ASSERT_EQ(records[0].views.size(), 2U);
+  EXPECT_FALSE(records[0].views[0].moved);
+  EXPECT_TRUE(records[0].views[1].moved);
+}
+
+TEST(ReadRecords, NameAModelThatIsNotThere) {
+  const RecordedFolder folder;
+  folder.write_table(
+      "model,subject,status,vx,vy,vz\na.gltf,A,moved,0,0,1\ngone.ply,A,moved,0,0,1\n");
+  try {
+    (void)folder.records();
+    FAIL() << "nothing was said";
+  } catch (const IoError& error) {
+    EXPECT_NE(std::string(error.what()).find("models/gone.ply"), std::string::npos);
+  }
+}
+
+TEST(EvaluationJournal, RefusesAnUpThatIsNoAxis) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.file("rows.jsonl");
+  for (const char* const up : {"-1", "7", "4294967296", "0.5"}) {
+    write_file(file, std::string(R"({"key":"a","up":)") + up + ",\"views\":[],\"gaze\":[]}\n");
+    EXPECT_THROW(EvaluationJournal{file}, FormatError) << up;
+  }
+  write_file(file, "{\"key\":\"a\",\"up\":6,\"views\":[],\"gaze\":[]}\n");
+  EXPECT_EQ(EvaluationJournal(file).find("a")->up, UpAxis::Any);
 }
 
 TEST(EvaluationJournal, KeepsNoPartOfARowThatDoesNotFit) {
