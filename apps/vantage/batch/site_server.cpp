@@ -50,7 +50,8 @@ constexpr const char* kReportFrame = R"html(<!doctype html>
 "use strict";
 const frame = document.querySelector("iframe");
 frame.addEventListener("load", () => frame.focus());
-document.title = decodeURIComponent(location.pathname.split("/").at(-2)) + " · Vantage";
+const folder = decodeURIComponent(location.pathname.split("/").at(-2));
+if (folder) document.title = folder + " · Vantage";
 </script>
 )html";
 
