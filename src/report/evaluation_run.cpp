@@ -86,6 +86,11 @@ std::optional<UpAxis> up_from(const Json& json) {
   return std::nullopt;
 }
 
+[[noreturn]] void refuse_journal(const std::string& file, std::size_t at) {
+  throw FormatError(file, "after byte " + std::to_string(at),
+                    "is no row of vantage eval; move the file away, or name another folder");
+}
+
 /// Adds text, and where it ends.
 void add_text(Fingerprint& to, std::string_view text) {
   to.add(text);
@@ -181,16 +186,12 @@ EvaluationJournal::EvaluationJournal(std::string file) : state_(std::make_unique
   const std::string text = read_file(state_->file);
   std::istringstream lines(text);
   std::string whole;
-  const auto refuse = [&](std::size_t at) {
-    throw FormatError(state_->file, "after byte " + std::to_string(at),
-                      "is no row of vantage eval; move the file away, or name another folder");
-  };
   for (std::string line; std::getline(lines, line);) {
     try {
       const Json json = parsed_json(line);
       const std::optional<UpAxis> up = up_from(json.at("up"));
       if (!up) {
-        refuse(whole.size());
+        refuse_journal(state_->file, whole.size());
       }
       EvaluatedModel rows{*up, rows_from(json.at("views"), &ViewAgreement::method, kViewColumns),
                           rows_from(json.at("gaze"), &GazeAgreement::map, kGazeColumns)};
@@ -201,7 +202,7 @@ EvaluationJournal::EvaluationJournal(std::string file) : state_(std::make_unique
       const Json found = parsed_json(line);
       const bool is_row = found.is_object() && found.contains("key") && found.contains("views");
       if (!is_row && !lines.eof()) {
-        refuse(whole.size());
+        refuse_journal(state_->file, whole.size());
       }
     }
   }
