@@ -114,11 +114,9 @@ void read_views(const fs::path& folder, std::vector<RecordedModel>& records) {
     }
     record.name = name;
     record.path = (folder / "models" / name).string();
-    if (!fs::is_regular_file(record.path)) {
-      throw IoError(record.path,
-                    "is not there, but " + (folder / "views.csv").string() + " names it");
+    if (fs::is_regular_file(record.path)) {
+      records.push_back(std::move(record));
     }
-    records.push_back(std::move(record));
   }
 }
 
