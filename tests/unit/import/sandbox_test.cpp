@@ -86,6 +86,19 @@ TEST(Sandbox, StartsAndStopsNoProcess) {
   expect_refused(Means::Seccomp, [] { return ::execl("/bin/true", "true", nullptr) == 0; });
 }
 
+/// Landlock does not answer for a process that is not there: so the filter is seen on kernels, too, whose
+/// Landlock forbids signals. It says EPERM, the kernel beyond it ESRCH.
+TEST(Sandbox, SignalsItselfAlone) {
+  constexpr pid_t kNobody = 0x7FFFFFFE;  // above any number that the kernel gives
+  const auto may_signal = [](pid_t process) {
+    return ::syscall(SYS_tgkill, process, process, 0) == 0 || errno != EPERM;
+  };
+  expect_refused(Means::Seccomp, [&] { return may_signal(::getppid()) || may_signal(kNobody); });
+  expect_refused(Means::Seccomp, [&] { return !may_signal(::getpid()); });
+  // A file that is written to would signal its owner.
+  expect_refused(Means::Seccomp, [] { return ::fcntl(STDOUT_FILENO, F_SETOWN, ::getpid()) == 0; });
+}
+
 TEST(Sandbox, StillComputesAndReadsWhatIsOpen) {
   const int file = ::memfd_create("open", 0);
   ASSERT_EQ(::write(file, "abc", 3), 3);
