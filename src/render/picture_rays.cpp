@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <Eigen/Geometry>
@@ -74,19 +75,22 @@ std::optional<std::array<double, 2>> PictureRays::place_of(const Vec3& point) co
                     0.5 * height_ * (1.0 - offset.dot(up_) / (depth * half_height_))};
 }
 
-PixelBox PictureRays::ball_bounds(const Vec3& centre, double radius) const {
-  const Vec3 offset = centre - eye_;
-  const double depth = -offset.dot(back_);
-  if (perspective_ && depth <= 2.0 * radius) {
-    return {0, 0, width_, height_};
+PixelBox PictureRays::bounds(const Vec3& begin, const Vec3& end, double radius) const {
+  // A box of space along the picture's axes, of which only what is before the eye counts.
+  Eigen::Matrix3d axes;
+  axes << right_.transpose(), up_.transpose(), -back_.transpose();
+  const Vec3 from = axes * (begin - eye_);
+  const Vec3 to = axes * (end - eye_);
+  const Vec3 low = from.cwiseMin(to) - Vec3::Constant(radius);
+  const Vec3 high = from.cwiseMax(to) + Vec3::Constant(radius);
+  if (perspective_ && high.z() <= 0.0) {
+    return {};
   }
-  const double x = offset.dot(right_);
-  const double y = offset.dot(up_);
-  // The ball lies in a cube along the picture's axes; the cube's near and far faces bound it.
-  const double near = perspective_ ? 1.0 / (depth - radius) : 1.0;
-  const double far = perspective_ ? 1.0 / (depth + radius) : 1.0;
-  const auto low = [&](double value) { return std::min(value * near, value * far); };
-  const auto high = [&](double value) { return std::max(value * near, value * far); };
+  const double beside = std::numeric_limits<double>::infinity();
+  const double near = !perspective_ ? 1.0 : low.z() > 0.0 ? 1.0 / low.z() : beside;
+  const double far = perspective_ ? 1.0 / high.z() : 1.0;
+  const auto least = [&](double value) { return value * (value < 0.0 ? near : far); };
+  const auto most = [&](double value) { return -least(-value); };
   const auto pixel = [](double fraction, int size) {
     return static_cast<int>(std::clamp(fraction, -1.0, 2.0) * size);
   };
@@ -94,8 +98,8 @@ PixelBox PictureRays::ball_bounds(const Vec3& centre, double radius) const {
   const double h = 2.0 * half_height_;
   // Two pixels to spare: one for rounding down, one for samples taken beside their pixel.
   PixelBox box{
-      pixel(0.5 + low(x - radius) / w, width_) - 2, pixel(0.5 - high(y + radius) / h, height_) - 2,
-      pixel(0.5 + high(x + radius) / w, width_) + 3, pixel(0.5 - low(y - radius) / h, height_) + 3};
+      pixel(0.5 + least(low.x()) / w, width_) - 2, pixel(0.5 - most(high.y()) / h, height_) - 2,
+      pixel(0.5 + most(high.x()) / w, width_) + 3, pixel(0.5 - least(low.y()) / h, height_) + 3};
   box.x0 = std::clamp(box.x0, 0, width_);
   box.x1 = std::clamp(box.x1, 0, width_);
   box.y0 = std::clamp(box.y0, 0, height_);

@@ -28,6 +28,8 @@ struct PixelBox {
   int y0 = 0;
   int x1 = 0;
   int y1 = 0;
+
+  [[nodiscard]] bool is_empty() const { return x0 >= x1 || y0 >= y1; }
 };
 
 /// Turns picture coordinates into rays and back, in the scene's unit frame.
@@ -45,13 +47,8 @@ class PictureRays {
   /// Where a point falls, pixels from the top left corner; nothing if it is not well before the eye.
   [[nodiscard]] std::optional<std::array<double, 2>> place_of(const Vec3& point) const;
 
-  /// Whether nothing of a ball is before the eye.
-  [[nodiscard]] bool is_behind(const Vec3& centre, double radius) const {
-    return perspective_ && (centre - eye_).dot(back_) >= radius;
-  }
-
-  /// Pixels that a ball may touch; never too few, and the whole picture if it is beside the eye.
-  [[nodiscard]] PixelBox ball_bounds(const Vec3& centre, double radius) const;
+  /// Pixels that what is nowhere farther than `radius` from a segment may touch; never too few.
+  [[nodiscard]] PixelBox bounds(const Vec3& begin, const Vec3& end, double radius) const;
 
   [[nodiscard]] const Vec3& right() const { return right_; }
 

@@ -12,11 +12,8 @@ namespace {
 /// Below this squared sine a ray runs along a tube and can meet only its round ends.
 constexpr double kParallel = 1e-12;
 
-/// Box around two balls and, since pictures of segments are segments, all between them. A box that
-/// is empty because it lies outside the picture still counts: it is clamped to the border.
-PixelBox join(const PixelBox& a, const PixelBox& b) {
-  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
-}
+/// Pieces of a tube are halved until each lies in so many tiles each way. [ours]
+constexpr int kTilesOfPiece = 2;
 
 }  // namespace
 
@@ -37,16 +34,8 @@ Tubes::Tubes(const CurveGraph& graph, double radius, const PictureRays& rays, in
   const int tiles_down = (height + kTilePx - 1) / kTilePx;
   std::vector<std::array<std::uint32_t, 2>> tile_and_capsule;
   for (std::uint32_t c = 0; c < capsules_.size(); ++c) {
-    const double reach = capsules_[c].radius;
-    if (rays.is_behind(capsules_[c].begin, reach) && rays.is_behind(capsules_[c].end, reach)) {
-      continue;
-    }
-    const PixelBox box = join(rays.ball_bounds(capsules_[c].begin, capsules_[c].radius),
-                              rays.ball_bounds(capsules_[c].end, capsules_[c].radius));
-    for (int y = box.y0 / kTilePx; y * kTilePx < box.y1; ++y) {
-      for (int x = box.x0 / kTilePx; x * kTilePx < box.x1; ++x) {
-        tile_and_capsule.push_back({static_cast<std::uint32_t>(y * tiles_across_ + x), c});
-      }
+    for (const std::uint32_t tile : tiles_of(capsules_[c], rays)) {
+      tile_and_capsule.push_back({tile, c});
     }
   }
   std::sort(tile_and_capsule.begin(), tile_and_capsule.end());
@@ -58,6 +47,35 @@ Tubes::Tubes(const CurveGraph& graph, double radius, const PictureRays& rays, in
   for (std::size_t tile = 0; tile < capsules_of_tile_.size(); ++tile) {
     capsules_of_tile_.offsets[tile + 1] += capsules_of_tile_.offsets[tile];
   }
+}
+
+std::vector<std::uint32_t> Tubes::tiles_of(const Capsule& capsule, const PictureRays& rays) const {
+  std::vector<std::uint32_t> tiles;
+  std::vector<std::array<Vec3, 2>> pieces{{capsule.begin, capsule.end}};
+  while (!pieces.empty()) {
+    const auto [begin, end] = pieces.back();
+    pieces.pop_back();
+    const PixelBox box = rays.bounds(begin, end, capsule.radius);
+    if (box.is_empty()) {
+      continue;
+    }
+    // The box around all of a slanted tube, or of one that passes the eye, would be much of the picture.
+    const int widest = std::max(box.x1 - box.x0, box.y1 - box.y0);
+    if (widest > kTilesOfPiece * kTilePx && (end - begin).norm() > 2.0 * capsule.radius) {
+      const Vec3 middle = 0.5 * (begin + end);
+      pieces.push_back({begin, middle});
+      pieces.push_back({middle, end});
+      continue;
+    }
+    for (int y = box.y0 / kTilePx; y * kTilePx < box.y1; ++y) {
+      for (int x = box.x0 / kTilePx; x * kTilePx < box.x1; ++x) {
+        tiles.push_back(static_cast<std::uint32_t>(y * tiles_across_ + x));
+      }
+    }
+  }
+  std::sort(tiles.begin(), tiles.end());
+  tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
+  return tiles;
 }
 
 void Tubes::meet_ball(const Vec3& centre, double radius, const PictureRay& ray, TubeHit& hit) {

@@ -49,6 +49,9 @@ class Tubes {
     double radius;
   };
 
+  /// Tiles that a capsule may show in, ascending.
+  [[nodiscard]] std::vector<std::uint32_t> tiles_of(const Capsule& capsule,
+                                                    const PictureRays& rays) const;
   [[nodiscard]] std::span<const std::uint32_t> near(int x, int y) const;
   static TubeHit meet(const Capsule& capsule, const PictureRay& ray);
   static void meet_ball(const Vec3& centre, double radius, const PictureRay& ray, TubeHit& hit);

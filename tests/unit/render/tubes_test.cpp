@@ -77,27 +77,84 @@ TEST(Tubes, TheTileListsMissNoTube) {
   }
 }
 
-TEST(Tubes, BallBoundsHoldEveryRayThatMeetsTheBall) {
+/// Looks along −z from inside or before the square [−1, 1]².
+PictureRays rays_from(double depth) {
   Camera camera;
-  camera.eye = Vec3(0.2, 0.1, 3.0);
+  camera.eye = Vec3(0.2, 0.1, depth);
+  camera.target = camera.eye - Vec3::UnitZ();
   camera.fov_y_deg = 60.0;
-  const PictureRays rays(camera, UnitFrame{}, 2.0, 80, 50);
+  return PictureRays(camera, UnitFrame{}, 2.0, 80, 50);
+}
+
+Vec3 random_point(Pcg32& random) {
+  const double x = 2.0 * random.uniform() - 1.0;
+  const double y = 2.0 * random.uniform() - 1.0;
+  return {x, y, 2.0 * random.uniform() - 1.0};
+}
+
+/// Distance of a point from what is before a ray's origin.
+double ray_distance(const Vec3& p, const PictureRay& ray) {
+  const Vec3 offset = p - ray.origin;
+  return (offset - std::max(offset.dot(ray.direction), 0.0) * ray.direction).norm();
+}
+
+TEST(Tubes, BoundsHoldEveryRayThatMeetsTheBall) {
   Pcg32 random(5);
   for (int trial = 0; trial < 50; ++trial) {
-    const Vec3 centre(2.0 * random.uniform() - 1.0, 2.0 * random.uniform() - 1.0,
-                      2.0 * random.uniform() - 1.0);
+    const PictureRays rays = rays_from(trial % 2 == 0 ? 3.0 : 0.0);
+    const Vec3 centre = random_point(random);
     const double radius = 0.02 + 0.3 * random.uniform();
-    const PixelBox box = rays.ball_bounds(centre, radius);
+    const PixelBox box = rays.bounds(centre, centre, radius);
     for (int y = 0; y < 50; ++y) {
       for (int x = 0; x < 80; ++x) {
-        const PictureRay ray = rays.ray(x + 0.5, y + 0.5);
-        const Vec3 offset = centre - ray.origin;
-        const double miss = (offset - offset.dot(ray.direction) * ray.direction).norm();
         const bool inside = x >= box.x0 && x < box.x1 && y >= box.y0 && y < box.y1;
-        EXPECT_TRUE(inside || miss > radius) << trial << ": " << x << " " << y;
+        EXPECT_TRUE(inside || ray_distance(centre, rays.ray(x + 0.5, y + 0.5)) > radius)
+            << trial << ": " << x << " " << y;
       }
     }
   }
+}
+
+TEST(Tubes, TheTileListsMissNoTubeThatPassesTheEye) {
+  Pcg32 random(6);
+  int met = 0;
+  for (int trial = 0; trial < 30; ++trial) {
+    const PictureRays rays = rays_from(0.0);
+    const CurveGraph graph{{random_point(random), random_point(random)}, {{0, 1}}};
+    const double radius = 0.02 + 0.1 * random.uniform();
+    const Tubes tubes(graph, radius, rays, 80, 50, 1.0);
+    for (int y = 0; y < 50; y += 3) {
+      for (int x = 0; x < 80; x += 3) {
+        const PictureRay ray = rays.ray(x + 0.5, y + 0.5);
+        double least = 1.0;
+        for (int k = 0; k <= 20; ++k) {
+          const Vec3 p = graph.nodes[0] + k / 20.0 * (graph.nodes[1] - graph.nodes[0]);
+          least = std::min(least, ray_distance(p, ray));
+        }
+        met += least < radius ? 1 : 0;
+        EXPECT_TRUE(tubes.may_show(x, y) || least > radius) << trial << ": " << x << " " << y;
+      }
+    }
+  }
+  EXPECT_GT(met, 100);
+}
+
+/// A model of many posts beside the eye took all posts for every pixel.
+TEST(Tubes, AreListedOnlyNearWhereTheyShow) {
+  const auto tiles_of = [](const Vec3& begin, const Vec3& end) {
+    const Tubes tubes({{begin, end}, {{0, 1}}}, 0.002, rays_from(0.0), 80, 50);
+    int tiles = 0;
+    for (int y = 0; y < 50; y += Tubes::kTilePx) {
+      for (int x = 0; x < 80; x += Tubes::kTilePx) {
+        tiles += tubes.may_show(x, y) ? 1 : 0;
+      }
+    }
+    return tiles;
+  };
+  EXPECT_EQ(tiles_of({0.7, -1.0, 0.0}, {0.7, 1.0, 0.0}), 0);  // across the eye's plane, beside it
+  EXPECT_EQ(tiles_of({0.7, 0.1, 1.0}, {0.7, 0.1, -0.1}), 0);  // ends before it comes into view
+  EXPECT_LE(tiles_of({0.4, 0.25, 1.0}, {0.4, 0.25, -1.0}),
+            12);  // along the line of sight, 70 tiles
 }
 
 }  // namespace
