@@ -153,10 +153,12 @@ void add_data(OutputFolder& output, const OutputKinds& kinds, const Model& loade
     output.add(stem + ".gltf", camera_gltf(view->picture, view->size, shape.sphere.diameter));
     output.add(stem + ".transforms.json",
                camera_transforms_json(view->picture, view->size, std::string(name) + ".png"));
-    output.add(stem + ".f3d.txt", camera_f3d(view->picture, view->size, file));
+    // These two name the file.
+    const Camera camera = camera_of_file(view->picture, loaded.turn);
+    output.add(stem + ".f3d.txt", camera_f3d(camera, view->size, file));
     if (view->picture.projection == Projection::Perspective) {
       output.add(stem + ".model-viewer.html",
-                 camera_model_viewer(view->picture, up_vector(report.up), file));
+                 camera_model_viewer(camera, loaded.turn.transpose() * up_vector(report.up), file));
     }
   }
 }

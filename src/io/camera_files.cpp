@@ -62,6 +62,16 @@ std::string shell_quoted(const std::string& text) {
 
 }  // namespace
 
+Camera camera_of_file(const Camera& camera, const Eigen::Matrix3d& turn) {
+  Camera result = camera;
+  if (!turn.isIdentity(0.0)) {
+    result.eye = turn.transpose() * camera.eye;
+    result.target = turn.transpose() * camera.target;
+    result.up = turn.transpose() * camera.up;
+  }
+  return result;
+}
+
 std::string camera_gltf(const Camera& camera, PictureSize size, double near_far_scale) {
   const Eigen::Matrix4d matrix = camera_to_world(camera);
   const double distance = (camera.target - camera.eye).norm();

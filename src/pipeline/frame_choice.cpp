@@ -70,6 +70,7 @@ Eigen::Matrix3d stand_along_axes(Model& model, const ViewOptions& options) {
   for (Vec3& p : model.mesh.positions) {
     p = rotation * p;
   }
+  model.turn = rotation * model.turn;
   const Eigen::Quaterniond q(rotation);
   std::string text;
   for (const double part : {q.x(), q.y(), q.z(), q.w()}) {

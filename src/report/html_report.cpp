@@ -210,10 +210,11 @@ Json view_part(const char* name, const ReportedView& view, const ShapeAnalysis& 
                {"score_fraction", view.score_fraction}};
   json.update(camera_part(view.picture, static_cast<double>(size.width) / size.height, frame));
   json["picture"] = "data:image/png;base64," + base64(png);
-  json["cameras"] = {{"glTF", camera_gltf(view.picture, size, shape.sphere.diameter)},
-                     {"NeRF transforms.json",
-                      camera_transforms_json(view.picture, size, std::string(name) + ".png")},
-                     {"f3d", camera_f3d(view.picture, size, file_of(model))}};
+  json["cameras"] = {
+      {"glTF", camera_gltf(view.picture, size, shape.sphere.diameter)},
+      {"NeRF transforms.json",
+       camera_transforms_json(view.picture, size, std::string(name) + ".png")},
+      {"f3d", camera_f3d(camera_of_file(view.picture, model.turn), size, file_of(model))}};
   return json;
 }
 
@@ -250,7 +251,8 @@ void add_web_camera(Json& view, const ReportedView& of, const ViewReport& report
                     const Model& model) {
   if (of.picture.projection == Projection::Perspective) {
     view["cameras"]["model-viewer"] =
-        camera_model_viewer(of.picture, up_vector(report.up), file_of(model));
+        camera_model_viewer(camera_of_file(of.picture, model.turn),
+                            model.turn.transpose() * up_vector(report.up), file_of(model));
   }
 }
 
@@ -333,6 +335,8 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, ShapePic
   Json data = {{"view", parsed_json(view_json(model, shape, report, options))},
                {"up", numbers(up_vector(report.up))},
                {"frame", {{"centre", numbers(frame.centre)}, {"radius", frame.radius}}},
+               {"turn", Json::array({numbers(model.turn.row(0)), numbers(model.turn.row(1)),
+                                     numbers(model.turn.row(2))})},
                {"lens", lens_part(report.camera, frame)},
                {"colours", colour_table()}};
   run.advance("report", 0.0);

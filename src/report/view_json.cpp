@@ -38,16 +38,23 @@ Json frame_of(const Camera& picture) {
   return frame;
 }
 
-/// Attributes of <model-viewer>; null for a camera that it does not have.
-Json model_viewer_of(const Camera& picture, UpAxis up) {
+/// How the file lies that the model is of.
+struct Pose {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< From there to the model.
+  Vec3 up = Vec3::UnitY();
+};
+
+/// Attributes of <model-viewer>, which shows the file; null for a camera that it does not have.
+Json model_viewer_of(const Camera& picture, const Pose& pose) {
   Json attributes;
-  for (const auto& [name, value] : model_viewer_attributes(picture, up_vector(up))) {
+  for (const auto& [name, value] :
+       model_viewer_attributes(camera_of_file(picture, pose.turn), pose.up)) {
     attributes[name] = value;
   }
   return attributes;
 }
 
-Json view_of(const ReportedView& view, const Json& image, UpAxis up) {
+Json view_of(const ReportedView& view, const Json& image, const Pose& pose) {
   return {{"direction", point(view.direction)},
           {"eye", point(view.eye)},
           {"up", point(view.up)},
@@ -58,7 +65,7 @@ Json view_of(const ReportedView& view, const Json& image, UpAxis up) {
           {"image", image},
           {"size", {view.size.width, view.size.height}},
           {"frame", frame_of(view.picture)},
-          {"model_viewer", model_viewer_of(view.picture, up)}};
+          {"model_viewer", model_viewer_of(view.picture, pose)}};
 }
 
 Json camera_of(const ScoringCamera& camera, const Json& projection) {
@@ -86,12 +93,12 @@ Json seconds_of(const StageSeconds& seconds) {
           {"total", seconds.total}};
 }
 
-Json views_of(const ReportedViewSet& set, bool pictures, UpAxis up) {
+Json views_of(const ReportedViewSet& set, bool pictures, const Pose& pose) {
   Json views = Json::array();
   for (std::size_t i = 0; i < set.views.size(); ++i) {
     const std::string number = (i < 9 ? "0" : "") + std::to_string(i + 1);
     Json view =
-        view_of(set.views[i], pictures ? Json("view-" + number + ".png") : Json(nullptr), up);
+        view_of(set.views[i], pictures ? Json("view-" + number + ".png") : Json(nullptr), pose);
     view["gain"] = set.choice.views[i].gain;
     view["coverage"] = set.choice.views[i].coverage;
     views.push_back(view);
@@ -153,13 +160,13 @@ void add_frame(Json& json, const ViewReport& report, const ViewOptions& options)
                          {"mirrors_up", box.mirrors_up}};
 }
 
-void add_best_and_worst(Json& json, const ViewReport& report, bool pictures) {
-  json["best"] = view_of(report.best, pictures ? Json("best.png") : Json(nullptr), report.up);
+void add_best_and_worst(Json& json, const ViewReport& report, bool pictures, const Pose& pose) {
+  json["best"] = view_of(report.best, pictures ? Json("best.png") : Json(nullptr), pose);
   json["best"]["score_of_attainable"] =
       report.score_of_attainable ? Json(*report.score_of_attainable) : Json(nullptr);
   json["highest_score"] = {{"direction", point(report.highest_direction)},
                            {"score", report.highest_score}};
-  json["worst"] = view_of(report.worst, pictures ? Json("worst.png") : Json(nullptr), report.up);
+  json["worst"] = view_of(report.worst, pictures ? Json("worst.png") : Json(nullptr), pose);
 }
 
 Json twins_of(const ViewReport& report) {
@@ -223,9 +230,10 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
   json["weight"] = echo["weight"];
   add_frame(json, report, options);
   json["camera"] = camera_of(report.camera, echo["projection"]);
-  add_best_and_worst(json, report, options.pictures);
+  const Pose pose{model.turn, model.turn.transpose() * up_vector(report.up)};
+  add_best_and_worst(json, report, options.pictures, pose);
   if (report.set && options.view_set) {
-    json["views"] = views_of(*report.set, options.pictures, report.up);
+    json["views"] = views_of(*report.set, options.pictures, pose);
     json["view_set"] = set_of(*report.set, options.view_set->selection);
   }
   json["twins"] = twins_of(report);

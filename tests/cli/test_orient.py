@@ -6,6 +6,7 @@ import math
 import struct
 import unittest
 
+from png import read_png
 from program import MODELS, ProgramTest
 from program import contract_quickly as setUpModule
 
@@ -212,6 +213,25 @@ class OffTheAxes(ProgramTest):
         self.write("vantage.json", '{"up": "any"}')
         self.vantage("thumb", "a.obj", "u.png", "-s", 32)
         self.assertEqual((self.dir / "t.png").read_bytes(), (self.dir / "u.png").read_bytes())
+
+    def test_cameras_that_name_the_file_fit_it_as_it_is(self):
+        self.write("a.obj", obj(leaning))
+        picture = ("--size", "64x48", "--style", "clay")
+        self.vantage("view", "a.obj", "-o", "r", "--up", "any", "--no-report", *picture)
+        found = json.loads((self.dir / "r/view.json").read_text())
+        line = (self.dir / "r/camera-best.f3d.txt").read_text()
+        eye, target, up = ([float(x) for x in line.split(f"--camera-{name}=")[1].split()[0].split(",")]
+                           for name in ("position", "focal-point", "view-up"))
+        found["best"] |= {"eye": eye, "up": up, "frame": found["best"]["frame"] | {"target": target}}
+        self.write("cam.json", json.dumps(found))
+        self.vantage("render", "a.obj", "-o", "again.png", "--camera", "cam.json", *picture)
+        best, again = ([p for row in read_png((self.dir / name).read_bytes())[2] for p in row[3::4]]
+                       for name in ("r/best.png", "again.png"))
+        self.assertGreater(sum(a > 127 for a in best), 300)
+        self.assertLess(max(abs(a - b) for a, b in zip(best, again)), 16)
+        # The element for web pages is told how to turn the file.
+        html = (self.dir / "r/camera-best.model-viewer.html").read_text()
+        self.assertIn(f'orientation="{found["best"]["model_viewer"]["orientation"]}"', html)
 
     def test_only_a_ply_takes_the_turned_points(self):
         self.write("a.obj", obj(leaning))

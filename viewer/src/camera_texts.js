@@ -12,15 +12,17 @@ const yUpToZUp = (v) => [v[0], -v[2], v[1]];
 /** Where Blender's own importers put a point of such a file. Others turn and scale by what the file says. */
 const IN_BLENDER = { glb: yUpToZUp, gltf: yUpToZUp, obj: yUpToZUp, ply: same, stl: same };
 
-/** @param frame the centre and the radius that the page's lengths are measured by. Empty where the camera's place
- *  in Blender is not known. */
-export function blenderScript(view, frame, format) {
+/** Empty where the camera's place in Blender is not known.
+ *  @param frame the centre and the radius that the page's lengths are measured by.
+ *  @param turn rows of the rotation from the file's points to the page's. */
+export function blenderScript(view, frame, format, turn) {
   const placed = IN_BLENDER[format.toLowerCase()];
   if (!placed) {
     return '';
   }
   const world = (p) => p.map((x, i) => frame.centre[i] + frame.radius * x);
-  const [eye, target, up] = [world(view.eye), world(view.target), view.up].map(placed);
+  const inFile = (v) => [0, 1, 2].map((i) => v.reduce((sum, x, row) => sum + turn[row][i] * x, 0));
+  const [eye, target, up] = [world(view.eye), world(view.target), view.up].map(inFile).map(placed);
   const back = unit(minus(eye, target));
   const right = unit(cross(up, back));
   const away = length(minus(eye, target));

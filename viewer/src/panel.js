@@ -105,9 +105,9 @@ const FORMATS = {
 };
 
 /** Fills the camera box; returns a function that shows another view's camera. */
-export function fillCameras({ views, frame, view: json }) {
+export function fillCameras({ views, frame, turn, view: json }) {
   const textOf = (view, format) =>
-    (format === 'Blender' ? blenderScript(view, frame, json.model.format) : view.cameras[format] ?? '');
+    (format === 'Blender' ? blenderScript(view, frame, json.model.format, turn) : view.cameras[format] ?? '');
   let current = views[0];
   for (const [value, { name }] of Object.entries(FORMATS)) {
     if (textOf(current, value) !== '') {

@@ -22,6 +22,9 @@ struct PictureSize {
   int height = 600;  ///< px
 };
 
+/// A camera of a turned model, for the file that the model was read from. \param turn Model::turn
+Camera camera_of_file(const Camera& camera, const Eigen::Matrix3d& turn);
+
 /// glTF 2.0 (JSON) with one camera node. \param near_far_scale size of the scene for znear, zfar.
 std::string camera_gltf(const Camera& camera, PictureSize size, double near_far_scale);
 
@@ -66,7 +69,7 @@ std::string camera_animation_gltf(std::span<const Camera> cameras, double second
 /// out. So a model whose up is another axis is turned by
 /// `orientation`, about x if up is z: leave that attribute out for a copy of the model that a
 /// converter has turned so. A camera that is rolled by 10° or more turns the model instead.
-/// \param up a unit axis of the model. \return empty for an orthographic camera, which the element
+/// \param up a unit vector. \return empty for an orthographic camera, which the element
 /// does not have. \throw InvalidInput if the camera looks nowhere, or along its own up.
 std::vector<std::pair<std::string, std::string>> model_viewer_attributes(const Camera& camera,
                                                                          const Vec3& up);
