@@ -594,6 +594,29 @@ test("cameras for Blender and model-viewer stand at the view's eye", async () =>
   assert.ok(distance(location, view.best.eye) < 1e-4 * size, location.join(' '));
 });
 
+test('cameras that name the file fit it where --up any has turned the model', async () => {
+  const [c, s] = [Math.cos(0.4), Math.sin(0.4)];
+  const corners = [...Array(8).keys()].map((i) => [i & 1, (i >> 1) & 1, i >> 2].map((bit, k) => 5 + (k + 1) * bit))
+    .map(([x, y, z]) => [c * x - s * y, s * x + c * y, z]).map(([x, y, z]) => [x, c * y - s * z, s * y + c * z]);
+  const sides = [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]];
+  fs.writeFileSync(path.join(folder, 'leaning.obj'),
+    `${corners.map((p) => `v ${p.join(' ')}`).join('\n')}\n${sides.map((f) => `f ${f.join(' ')}`).join('\n')}\n`);
+  vantage('view', 'leaning.obj', '-o', 'leaning', '--up', 'any', '--contraction', 'exact');
+  const page = await open(browser, path.join(folder, 'leaning/report.html'));
+  const text = async (format) => {
+    await page.selectOption('#format', format);
+    return page.inputValue('#camera');
+  };
+  const line = await text('f3d');
+  assert.equal(line, fs.readFileSync(path.join(folder, 'leaning/camera-best.f3d.txt'), 'utf8'));
+  const eye = line.match(/position=(\S+)/)[1].split(',').map(Number);
+  const turned = JSON.parse(fs.readFileSync(path.join(folder, 'leaning/view.json'), 'utf8')).best.eye;
+  assert.ok(distance(eye, turned) > 1, 'the model was turned');
+  const location = (await text('Blender')).match(/location = \(([^)]+)\)/)[1].split(', ').map(Number);
+  assert.ok(distance(location, [eye[0], -eye[2], eye[1]]) < 1e-4, location.join(' '));
+  await page.context().close();
+});
+
 test("shows a file's own texture", async () => {
   // A square in a texture that is red on the left and blue on the right.
   const page = await open(browser, texturedReport());
