@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// vantage-import EXTENSION: reads one file on standard input, which must be a regular file, by the libraries
-// of others, and writes what it holds to standard output (vantage/io/import_stream.h). `vantage` starts it;
-// --version says what it is made of and what confines it.
+// vantage-import EXTENSION [FACES]: reads one file on standard input, which must be a regular file, by the
+// libraries of others, and writes what it holds to standard output (vantage/io/import_stream.h), if that is no
+// more than so many faces. `vantage` starts it; --version says what it is made of and what confines it.
+#include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -45,12 +47,12 @@ int take_output() {
   return output;
 }
 
-int import(const vantage::ImportFormat& format) {
+int import(const vantage::ImportFormat& format, std::uint64_t most_faces) {
   using namespace vantage::importing;
   const int output = take_output();
   confine();
   try {
-    StreamWriter out(output);
+    StreamWriter out(output, most_faces);
     try {
       const std::string_view bytes = input_bytes();
       if (bytes.empty()) {
@@ -60,6 +62,8 @@ int import(const vantage::ImportFormat& format) {
                    : read_scene(format.extension, bytes, out);
       out.done();
       return kDone;
+    } catch (const TooMany& problem) {
+      out.fail(problem);
     } catch (const std::bad_alloc&) {
       out.fail("it needs more memory than is allowed; --max-memory allows more");
     } catch (const std::exception& error) {
@@ -74,7 +78,12 @@ int import(const vantage::ImportFormat& format) {
 }  // namespace
 
 int main(int count, char** words) {
-  const std::string_view word = count == 2 ? words[1] : "";
+  const std::string_view word = count >= 2 ? words[1] : "";
+  const std::string_view number = count == 3 ? words[2] : "0";
+  std::uint64_t most_faces = 0;
+  const auto [end, problem] =
+      std::from_chars(number.data(), number.data() + number.size(), most_faces);
+  const bool good = count <= 3 && problem == std::errc() && end == number.data() + number.size();
   if (word == "--version") {
     const std::string libraries =
         vantage::importing::scene_library() + ", " + vantage::importing::solid_library();
@@ -83,11 +92,11 @@ int main(int count, char** words) {
     return kDone;
   }
   const vantage::ImportFormat* const format = vantage::import_format(word);
-  if (format == nullptr) {
-    std::fputs("usage: vantage-import EXTENSION < FILE\n", stderr);
+  if (format == nullptr || !good) {
+    std::fputs("usage: vantage-import EXTENSION [FACES] < FILE\n", stderr);
     return kWrongUsage;
   }
-  const int code = import(*format);
+  const int code = import(*format, most_faces);
   // Not by way of the libraries' own endings: after a damaged file they are not to be trusted.
   ::_exit(code);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "stream_writer.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <stdexcept>
 
@@ -17,6 +18,14 @@ std::uint64_t bytes_of(const std::vector<T>& values) {
 }
 
 }  // namespace
+
+std::uint64_t StreamMesh::triangle_count() const {
+  std::uint64_t count = 0;
+  for (std::size_t at = 0; at < faces.size(); at += faces[at] + std::size_t{1}) {
+    count += std::max(faces[at], 2U) - 2U;
+  }
+  return count;
+}
 
 void StreamWriter::flush() {
   std::string_view rest = waiting_;
@@ -71,7 +80,16 @@ void StreamWriter::material(const StreamMaterial& material) {
   number(material.wrap_v);
 }
 
+void StreamWriter::count(const StreamMesh& mesh) {
+  faces_ += mesh.triangle_count();
+  points_ += mesh.positions.size() / 3;
+  if (most_faces_ > 0 && (faces_ > most_faces_ || points_ / 3 > most_faces_)) {
+    throw TooMany{faces_ <= most_faces_};
+  }
+}
+
 void StreamWriter::mesh(const StreamMesh& mesh) {
+  count(mesh);
   record("mesh", 3 * sizeof(std::uint32_t) + mesh.name.size() + 2 * sizeof(std::uint64_t) +
                      bytes_of(mesh.positions) + bytes_of(mesh.colours) + bytes_of(mesh.places) +
                      bytes_of(mesh.faces));
@@ -92,6 +110,12 @@ void StreamWriter::mesh(const StreamMesh& mesh) {
 void StreamWriter::fail(std::string_view text) {
   record("fail", text.size());
   put(text);
+  flush();
+}
+
+void StreamWriter::fail(TooMany problem) {
+  record("many", sizeof(std::uint32_t));
+  number(std::uint32_t{problem.points});
   flush();
 }
 

@@ -42,28 +42,42 @@ struct StreamMesh {
   std::vector<std::uint32_t> faces{};  ///< Corners of a face, then its vertices.
   std::uint64_t face_count = 0;
 
+  /// Faces once they are cut into triangles.
+  [[nodiscard]] std::uint64_t triangle_count() const;
+
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     faces.insert(faces.end(), {3, a, b, c});
     ++face_count;
   }
 };
 
+/// Thrown before a mesh is sent that would make more faces or points than are wanted.
+struct TooMany {
+  bool points = false;
+};
+
 /// Sends records to a descriptor. Throws std::runtime_error where nobody listens.
 class StreamWriter {
  public:
-  explicit StreamWriter(int descriptor) : descriptor_(descriptor) { put(kImportMagic); }
+  /// \param most_faces of all meshes together, of which none needs more than three points; 0: no limit.
+  StreamWriter(int descriptor, std::uint64_t most_faces)
+      : descriptor_(descriptor), most_faces_(most_faces) {
+    put(kImportMagic);
+  }
 
   void head(const StreamHead& head);
   void note(std::string_view text);
   void picture(bool inside, std::string_view content);
   void material(const StreamMaterial& material);
-  void mesh(const StreamMesh& mesh);
+  void mesh(const StreamMesh& mesh);  ///< \throw TooMany
 
   /// The last record, and everything out.
   void fail(std::string_view text);
+  void fail(TooMany problem);
   void done();
 
  private:
+  void count(const StreamMesh& mesh);
   void put(std::string_view bytes);
   void record(std::string_view tag, std::uint64_t size);
   void flush();
@@ -86,7 +100,10 @@ class StreamWriter {
 
   int descriptor_;
   std::string waiting_{};
+  std::uint64_t most_faces_;
   std::uint64_t meshes_ = 0;
+  std::uint64_t faces_ = 0;
+  std::uint64_t points_ = 0;
 };
 
 }  // namespace vantage::importing

@@ -49,6 +49,7 @@ constexpr int kCannotStart = 127;
 struct Limits {
   std::uint64_t memory_bytes = kUsualMemory;
   double seconds = kUsualSeconds;
+  std::string faces{};  ///< A number, for its command line.
 };
 
 void limit(int resource, rlim_t soft, rlim_t hard) {
@@ -85,8 +86,9 @@ void become_importer(const char* program, const char* extension, int input, int 
   sigset_t none;
   sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
-  std::array<char*, 3> words{const_cast<char*>(kProgramName),  // NOLINT(*-const-cast)
-                             const_cast<char*>(extension),     // NOLINT(*-const-cast)
+  std::array<char*, 4> words{const_cast<char*>(kProgramName),          // NOLINT(*-const-cast)
+                             const_cast<char*>(extension),             // NOLINT(*-const-cast)
+                             const_cast<char*>(limits.faces.c_str()),  // NOLINT(*-const-cast)
                              nullptr};
   char locale[] = "LC_ALL=C";
   std::array<char*, 2> environment{locale, nullptr};
@@ -213,9 +215,13 @@ class ImportProcess {
   }
 
   void check_end(int status) const {
+    constexpr int kWrongUsage = 2;
     constexpr int kUnreadable = 3;
     if (WIFEXITED(status) && (WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == kUnreadable)) {
       return;  // the stream itself says what came of it
+    }
+    if (WIFEXITED(status) && WEXITSTATUS(status) == kWrongUsage) {
+      fail("vantage-import is of another version than this program; install both anew");
     }
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
       fail_for_time();
@@ -291,6 +297,7 @@ std::string import_program_version() {
 ModelImporter model_importer(const RunLimits& limits) {
   Limits own;
   own.memory_bytes = limits.memory_bytes > 0 ? limits.memory_bytes : own.memory_bytes;
+  own.faces = std::to_string(face_limit(limits));
   own.seconds = limits.seconds > 0.0 ? limits.seconds : own.seconds;
   return [own](const ImportRequest& request, const RunContext& run) {
     const std::string program = import_program();

@@ -21,7 +21,7 @@ std::string import_program_version();
 
 /// Starts it for each file, holds it to its limits, and gives what it sent. Where it is not there, fails,
 /// crashes or takes too much, a FormatError says so.
-/// \param limits of this run; those of memory and time hold for it too, in place of its own.
+/// \param limits of this run; they hold for it too, those of memory and time in place of its own.
 ModelImporter model_importer(const RunLimits& limits);
 
 }  // namespace vantage::cli

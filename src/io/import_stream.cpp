@@ -130,6 +130,9 @@ class StreamReader {
       read_material(record);
     } else if (tag == "mesh") {
       read_mesh(record);
+    } else if (tag == "many") {
+      const bool of_points = record.number<std::uint32_t>() == 1;
+      builder_.fail(too_many_faces(surroundings_.options.max_faces, of_points));
     } else if (tag == "fail") {
       builder_.fail("cannot be read as " + std::string(title_) + ": " + one_line(record.rest()));
     } else if (tag == "done") {

@@ -138,12 +138,35 @@ class Broken(ProgramTest):
     def test_lies_of_the_reader_are_not_believed(self):
         copy = self.stand_in("printf 'VNTGIMP1mesh\\377\\377\\377\\377\\377\\377\\377\\377'")
         self.fails(DATA / "lamp.fbx", program_path=copy, says="vantage-import sent less than it announced")
+        copy = self.stand_in("exit 2")  # it knows no limit of faces
+        self.fails(DATA / "lamp.fbx", program_path=copy, says="another version")
         copy = self.stand_in("exit 0")
         self.fails(DATA / "lamp.fbx", program_path=copy, says="another version")
 
     def test_more_memory_than_allowed_is_one_sentence(self):
         copy = self.stand_in("exec head -c 200000000 /dev/zero")
         self.fails(DATA / "lamp.fbx", "--max-memory", "100MB", program_path=copy, says="--max-memory")
+
+    def test_faces_are_counted_before_they_are_sent(self):
+        says = "has more than 59 faces, the most that --max-faces allows; decimate it, or allow more if there is the memory\n"
+        self.vantage("info", DATA / "stool.dae", "--max-faces", "60")
+        self.assertEqual(self.vantage("info", DATA / "stool.dae", "--max-faces", "59", exit_code=3).err,
+                         f"vantage: {DATA / 'stool.dae'}: {says}")
+        # One mesh that a scene shows again and again: 100 kB, of which 130 MB would come.
+        triangles, nodes = 1000, 1500
+        self.write("many.dae", f"""<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+            <library_geometries><geometry id="g"><mesh>
+            <source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
+            <accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+            <param name="Z" type="float"/></accessor></technique_common></source>
+            <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+            <triangles count="{triangles}"><input semantic="VERTEX" source="#v" offset="0"/>
+            <p>{"0 1 2 " * triangles}</p></triangles></mesh></geometry></library_geometries>
+            <library_visual_scenes><visual_scene id="s">
+            {'<node><instance_geometry url="#g"/></node>' * nodes}
+            </visual_scene></library_visual_scenes>
+            <scene><instance_visual_scene url="#s"/></scene></COLLADA>""")
+        self.fails("many.dae", "--max-memory", "100MB", "--max-faces", "59", says=says[:-1])
 
     def test_a_reader_that_never_ends_is_ended(self):
         copy = self.stand_in("while :; do :; done")

@@ -29,6 +29,7 @@
 ///           u32 size of the name, the name; u64 vertices, u64 faces; 3 f64 a vertex; if flagged 3 f32 a vertex, its colour (sRGB, 0 to 1);
 ///           if flagged 2 f32 a vertex, its place on pictures from the bottom left corner; and for each face
 ///           u32 corners and as many u32, vertices of this mesh from 0
+///     many  u32: 0 faces, 1 points; there are more than were allowed; the last record
 ///     fail  text: why nothing can be read; the last record
 ///     done  u64 meshes that were sent; the last record
 ///
