@@ -63,7 +63,7 @@ struct CompareCommand {
     const Model loaded = load_posed(session, model, options, no_images ? nullptr : &look);
     OutputFolder output(folder.empty() ? folder_named(loaded.name, ".compare") : folder,
                         kCompareResults);
-    output.check(session.flags.force);
+    output.check(session.flags);
     const ShapeAnalysis shape = session.computing(
         [&] { return analyse_for(loaded, options, measures, run.part(0.0, 0.2)); });
     session.reading([&] { require_area(shape, model); });

@@ -100,13 +100,17 @@ struct EvalCommand {
   }
 
   /// People's choices are in files of such names too.
-  void check_outputs(const CommonFlags& flags) const {
+  void check_outputs(CommonFlags flags) const {
     std::vector<NamedOutput> outputs{
         {"--page", page}, {"--views-csv", views_file}, {"--gaze-csv", gaze_file}};
     for (const char* const name : {"/tables.md", "/views.csv", "/gaze.csv", "/rows.jsonl"}) {
       outputs.push_back({"-o", output.empty() ? "" : output + name});
     }
     require_distinct(outputs);
+    if (const std::string choices = folder + "/views.csv";
+        flags.force && std::filesystem::exists(choices)) {
+      flags.inputs.push_back(choices);
+    }
     for (const std::string* file : {&views_file, &gaze_file}) {
       check_output(*file, OutputKind::Table, flags);
     }

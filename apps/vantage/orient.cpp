@@ -105,7 +105,9 @@ struct OrientCommand {
     if (!file.empty()) {
       const std::string bytes = turned(session, loaded, turn, stood.isIdentity(0.0));
       if (!is_already(file, bytes)) {  // an OBJ does not say who wrote it
-        check_output(file, OutputKind::Shape, session.flags);
+        CommonFlags flags = session.flags;
+        flags.inputs.clear();  // a model may be turned where it is: --force says so
+        check_output(file, OutputKind::Shape, flags);
         write_output(file, bytes);
       }
       if (is_ply()) {

@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "vantage/core/error.h"
+#include "vantage/io/model.h"
 #include "vantage/io/write.h"
 
 #include "batch/results_store.h"
@@ -32,6 +33,40 @@ constexpr std::array<std::string_view, 9> kTableHeads{
     "| model | vertices | faces |", "Made by vantage ",     "key,name,status,"};
 /// In PLY and OBJ files, which are models too.
 constexpr std::string_view kMark = " written by vantage\n";
+
+/// Options and arguments that name files to read.
+constexpr std::array<std::string_view, 5> kInputs{"MODEL", "DATASET", "directions", "eyes",
+                                                  "camera"};
+
+/// Refuses to write where one of the inputs is, under whichever name.
+void refuse_inputs(const std::string& path, const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    std::error_code error;
+    if (fs::is_regular_file(path, error) && fs::equivalent(path, input, error)) {
+      throw CLI::ValidationError(path, "is the file that is read; give the output another name");
+    }
+  }
+}
+
+bool is_model_name(const std::string& path) {
+  const std::string suffix = suffix_of(path);
+  const auto endings = model_endings();
+  return std::any_of(endings.begin(), endings.end(),
+                     [&](std::string_view ending) { return suffix == "." + std::string(ending); });
+}
+
+/// Nothing is to be replaced for the sake of an input that is not there, or is no model.
+void blame_inputs(const std::string& path, const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    std::error_code error;
+    if (input != "-" && !fs::exists(input, error)) {
+      throw FormatError(input, "", "cannot be opened: there is no such file");
+    }
+    if (input != "-" && is_model_name(path) && !is_model_name(input)) {
+      throw IoError(path, "is a model, and " + input + " is none; are the arguments swapped?");
+    }
+  }
+}
 
 bool is_only_written(const fs::path& path, OutputKind kind) {
   const std::span<const std::string_view> extensions =
@@ -98,6 +133,22 @@ std::string suffix_of(const std::string& path) {
   return extension;
 }
 
+std::vector<std::string> named_inputs(CLI::App& command) {
+  std::vector<std::string> files;
+  for (const CLI::Option* option : command.get_options({})) {
+    const std::string name = option->get_single_name();
+    if (std::find(kInputs.begin(), kInputs.end(), name) != kInputs.end()) {
+      files.insert(files.end(), option->results().begin(), option->results().end());
+    }
+  }
+  for (CLI::App* group :
+       command.get_subcommands([](const CLI::App* below) { return below->get_name().empty(); })) {
+    const std::vector<std::string> more = named_inputs(*group);
+    files.insert(files.end(), more.begin(), more.end());
+  }
+  return files;
+}
+
 void add_force_flag(CLI::App& app, CommonFlags& flags) {
   app.add_flag("--force", flags.force, "replace files that were not written by vantage too")
       ->configurable(false)
@@ -128,11 +179,16 @@ void check_output(const std::string& path, OutputKind kind, const CommonFlags& f
       head_of(path).value_or("").starts_with("SQLite format 3")) {
     throw IoError(path, "holds the results of a batch; choose another name");
   }
-  if (path == "-" || flags.force || is_only_written(path, kind)) {
+  if (path == "-") {
+    return;
+  }
+  refuse_inputs(path, flags.inputs);
+  if (flags.force || is_only_written(path, kind)) {
     return;
   }
   const std::optional<std::string> head = head_of(path);
   if (head && !head->empty() && !is_ours(path, *head, kind)) {
+    blame_inputs(path, flags.inputs);
     throw IoError(path,
                   "is there already, and vantage did not write it; choose another name, or say "
                   "--force to replace it");
@@ -152,6 +208,7 @@ void check_levels(const std::string& folder, const std::vector<NamedOutput>& oth
     return;
   }
   const OutputFolder output(folder, kLevelResults);
+  output.refuse_inputs(flags.inputs);
   for (const auto& [option, path] : others) {
     output.refuse_own_name(path, std::string(option));
   }

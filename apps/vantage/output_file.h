@@ -17,6 +17,9 @@ namespace vantage::cli {
 /// Of a file's name, in small letters, with its point; empty if it has none.
 std::string suffix_of(const std::string& path);
 
+/// The files that a command line says to read.
+std::vector<std::string> named_inputs(CLI::App& command);
+
 /// What is written to a file.
 enum class OutputKind { Picture, Shape, Table };
 
@@ -35,8 +38,8 @@ void require_distinct(const std::vector<NamedOutput>& outputs);
 
 /// Refuses to replace a file that may be somebody's input, before any work. Replaced are files whose
 /// extension says that they only ever are output (pictures: .png, .webp; shapes: .swc, .graphml,
-/// .npy), empty ones, and what Vantage wrote of the same kind, which shows in its content; any file
-/// with --force. \throw IoError
+/// .npy), empty ones, and what Vantage wrote of the same kind, which shows in its content; with --force
+/// any file but the inputs. \throw IoError, CLI::ValidationError
 void check_output(const std::string& path, OutputKind kind, const CommonFlags& flags);
 
 /// The same for a file of a folder of results, where a link is replaced and not written through.

@@ -162,7 +162,7 @@ void write_levels(const std::string& folder, std::vector<std::string> levels) {
   output.write();
 }
 
-void OutputFolder::check(bool force) const {
+void OutputFolder::check(const CommonFlags& flags) const {
   if (path_ == "-") {
     throw CLI::ValidationError("--output",
                                "names a folder: standard output is none; for one named - say ./-");
@@ -175,7 +175,8 @@ void OutputFolder::check(bool force) const {
   if (!fs::is_directory(status)) {
     throw IoError(path_, "is a file where the results' folder should be; choose another with -o");
   }
-  if (!force && !holds_leftovers_only(path_) && !is_ours(path_)) {
+  refuse_inputs(flags.inputs);
+  if (!flags.force && !holds_leftovers_only(path_) && !is_ours(path_)) {
     throw IoError(path_,
                   "holds files that are not results of vantage; choose another folder with -o, or "
                   "say --force to write among them");
@@ -187,6 +188,17 @@ bool OutputFolder::is_in(const std::string& path) const {
   const fs::path folder = fs::path(path).parent_path();
   return path != "-" && fs::weakly_canonical(folder.empty() ? "." : folder, error) ==
                             fs::weakly_canonical(path_, error);
+}
+
+void OutputFolder::refuse_inputs(const std::vector<std::string>& inputs) const {
+  for (const std::string& input : inputs) {
+    std::error_code error;
+    const fs::path file = fs::weakly_canonical(input, error);
+    if (kind_.named(file.filename().string()) && is_in(file.string())) {
+      throw CLI::ValidationError(input, "is read, and the results in " + path_ +
+                                            " would replace it; choose another folder");
+    }
+  }
 }
 
 void OutputFolder::refuse_own_name(const std::string& path, const std::string& option) const {

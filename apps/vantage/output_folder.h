@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "result_names.h"
+#include "session.h"
 
 namespace vantage::cli {
 
@@ -37,9 +38,12 @@ class OutputFolder {
   /// that it is unfinished, which saves a wait for the disk.
   void keep_private() { is_private_ = true; }
 
-  /// \param force also takes a folder of somebody else's files.
-  /// \throw IoError if writing there would replace somebody else's files, or it is not a folder.
-  void check(bool force) const;
+  /// \throw IoError if writing there would replace somebody else's files and --force is not given, or
+  /// it is not a folder. \throw CLI::ValidationError if it would replace an input.
+  void check(const CommonFlags& flags) const;
+
+  /// \throw CLI::ValidationError if one of the files has the place of a result.
+  void refuse_inputs(const std::vector<std::string>& inputs) const;
 
   /// \throw CLI::ValidationError if a path that the user gave is that of one of the results.
   void refuse_own_name(const std::string& path, const std::string& option) const;

@@ -18,6 +18,7 @@
 #include "vantage/core/error.h"
 
 #include "import_program.h"
+#include "output_file.h"
 #include "settings.h"
 #include "standard_output.h"
 #include "terminal.h"
@@ -125,6 +126,7 @@ void Session::limit_threads() {
 void Session::configure(CLI::App& command) {
   const Abandonable abandonable;
   apply_settings(command);
+  flags.inputs = named_inputs(command);
 }
 
 Model Session::load(const std::string& path, const ReadOptions& options) {

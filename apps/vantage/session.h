@@ -5,6 +5,7 @@
 #include <stop_token>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include <oneapi/tbb/global_control.h>
 
@@ -37,6 +38,8 @@ struct CommonFlags {
   int threads = 0;
   std::uint64_t seed = 0;
   RunLimits limits{};
+  std::vector<std::string>
+      inputs{};  ///< Files that the command line says to read; no output may be one.
 };
 
 /// While one lives, nothing is being written, so a program that does not answer a signal in time may

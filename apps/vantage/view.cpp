@@ -183,7 +183,7 @@ struct ViewCommand {
   }
 
   void check_folder(const Session& session, const OutputFolder& output) const {
-    output.check(session.flags.force);
+    output.check(session.flags);
     output.refuse_own_name(trace, "--trace");
     several.check_names(output);
   }

@@ -74,6 +74,29 @@ class Foreign(ProgramTest):
         for name, begin in (("x.png", b"\x89PNG"), ("x.webp", b"RIFF"), ("empty.tmp", b"\x89PNG")):
             self.assertTrue((self.dir / name).read_bytes().startswith(begin), name)
 
+    def test_no_output_replaces_what_is_read_whatever_the_flags(self):
+        self.vantage("map", "a.off", "-o", "map.ply")
+        os.symlink("map.ply", self.dir / "link.ply")
+        os.link(self.dir / "map.ply", self.dir / "hard.ply")
+        self.write("d.csv", "dx,dy,dz\n0,0,1\n")
+        self.vantage("view", "a.off", "-o", "v", "--no-images", *FAST)
+        mapped = self.dir / "v/map.ply"
+        before = (self.dir / "map.ply").read_bytes(), (self.dir / "d.csv").read_bytes(), mapped.read_bytes()
+        for command in (("thumb", "map.ply", "link.ply", "--force"), ("map", "map.ply", "-o", "map.ply"),
+                        ("map", "link.ply", "-o", "hard.ply", "--force"),
+                        ("skeleton", "map.ply", "-o", "s.json", "--meso", "map.ply"),
+                        ("score", "a.off", "--directions", "d.csv", "-o", "d.csv", "--force"),
+                        ("view", "v/map.ply", "-o", "v", "--no-images", *FAST)):
+            with self.subTest(command=command):
+                self.assertRegex(self.vantage(*command, exit_code=2).err, "^vantage: [^ ]*: is .*read.*another")
+        self.assertEqual(before, ((self.dir / "map.ply").read_bytes(), (self.dir / "d.csv").read_bytes(), mapped.read_bytes()))
+
+    def test_arguments_in_the_wrong_order_are_no_reason_for_force(self):
+        self.assertRegex(self.vantage("thumb", "out.png", "a.off", exit_code=3).err, "^vantage: out.png: cannot be opened: ")
+        self.write("out.png", "theirs")
+        self.assertRegex(self.vantage("thumb", "out.png", "a.off", exit_code=1).err,
+                         "^vantage: a.off: is a model, and out.png is none; are the arguments swapped")
+
     def test_json_that_may_be_an_input_is_not_replaced_by_a_skeleton(self):
         for theirs in ('{"camera_angle_x": 1, "frames": []}\n', '{\n  "nodes": [\n    {"mesh": 0}\n  ],\n  "asset": {}\n}\n'):
             (self.dir / "x.json").unlink(missing_ok=True)
@@ -143,6 +166,7 @@ class Foreign(ProgramTest):
         for flags in (("-o", "people"), ("--views-csv", "people/views.csv"), ("--gaze-csv", "people/views.csv")):
             done = self.vantage("eval", "people", "--method", "silhouette-length", *flags, exit_code=1)
             self.assertIn("--force", done.err)
+            self.vantage("eval", "people", "--method", "silhouette-length", *flags, "--force", exit_code=2)
             self.assertEqual((self.dir / "people/views.csv").read_text(), people)
         os.mkdir(self.dir / "mine")
         for text in ("my notes\nmore of them\n", '{"key": 1}\n'):
