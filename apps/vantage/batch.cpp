@@ -212,19 +212,23 @@ struct BatchCommand {
       book = std::make_unique<batch::ResultsStore>(folder, batch::Database::Mode::Create);
     }
     const RunContext run = session.run();
-    const BatchProgress progress(run, count_entries(session, part));
+    BatchProgress progress(run, count_entries(session, part));
+    const bool is_logged = isatty(STDERR_FILENO) == 0;
     const auto report = [&](const batch::RunnerCounts& counts, const batch::ModelRecord* record) {
-      if (record != nullptr && record->status == "failed" && record->duplicate_of.empty()) {
+      if (record != nullptr && record->status == "failed") {
         const bool named = record->error.starts_with(record->key);
         session.say(named ? record->error : record->key + ": " + record->error);
       }
       progress.show(counts);
+      if (const auto line = is_logged ? progress.due(counts) : std::nullopt) {
+        session.say(*line);
+      }
     };
     const batch::RunnerCounts counts = batch::run_batch(*source, *book, runner, run.stop, report);
     if (auto* const store = dynamic_cast<batch::ResultsStore*>(book.get())) {
       settle_store(session, root, *store, list, counts);
     }
-    summarise(session, counts);
+    summarise(session, counts, part.has_value());
     if (!part) {
       warn_of_nothing(session, counts);
     }
@@ -445,7 +449,7 @@ struct BatchCommand {
     return count;
   }
 
-  void summarise(Session& session, const batch::RunnerCounts& counts) const {
+  void summarise(Session& session, const batch::RunnerCounts& counts, bool is_shard = false) const {
     const batch::Json json = {{"done", counts.done},
                               {"failed", counts.failed + counts.skipped_failed},
                               {"skipped", counts.skipped},
@@ -458,7 +462,20 @@ struct BatchCommand {
       std::printf("%s\n", batch::json_text(json).c_str());
       return;
     }
-    session.tell(counts_text(counts) + "; results in " + printable(folder) + "/");
+    session.tell(
+        counts_text(counts) + "; results in " + printable(folder) +
+        (is_shard ? "/shards/; once all shards are done: vantage results merge " + printable(folder)
+                  : "/"));
+    if (!counts.first_doubted.empty()) {
+      session.tell(doubted_text(counts) +
+                   (is_shard ? ""
+                             : "; vantage results query " + printable(folder) +
+                                   " --where 'doubts>0' --columns key,doubt says why"));
+    }
+    if (counts.renamed > 0) {
+      session.say("note: " + plural(static_cast<std::size_t>(counts.renamed), "model") +
+                  " stored under another name before; --forget removes names that are no inputs");
+    }
   }
 };
 
@@ -468,6 +485,8 @@ void add_batch_command(CLI::App& program, Session& session) {
   add_command<BatchCommand>(
       program, session, "batch", "best and worst views of a whole collection",
       "Stopped or killed, the same command goes on where it was. Exit code 4: some models failed.\n"
+      "A log on standard error gets a line of progress each half minute, later each tenth of the "
+      "time.\n"
       "\n"
       "Examples:\n"
       "  vantage batch models/ -o results\n"

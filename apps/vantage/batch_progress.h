@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "vantage/core/run_context.h"
@@ -15,20 +16,30 @@ namespace vantage::cli {
 class BatchProgress {
  public:
   /// \param total number of models; negative if nobody knows.
-  BatchProgress(const RunContext& run, std::int64_t total) : run_(run), total_(total) {}
+  BatchProgress(const RunContext& run, std::int64_t total);
 
-  void show(const batch::RunnerCounts& counts) const;
+  void show(const batch::RunnerCounts& counts);
+
+  /// The same for a log, now and then: after half a minute, then each half minute or tenth of the time,
+  /// whichever is longer. Nothing where nobody wants to see progress.
+  std::optional<std::string> due(const batch::RunnerCounts& counts);
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  [[nodiscard]] std::string line_of(const batch::RunnerCounts& counts) const;
+
   const RunContext& run_;
   std::int64_t total_;
+  double due_s_;
   Clock::time_point start_ = Clock::now();
 };
 
 /// How a batch has ended, for people.
 std::string counts_text(const batch::RunnerCounts& counts);
+
+/// Which answers should not be trusted: the first ones, and how many more.
+std::string doubted_text(const batch::RunnerCounts& counts);
 
 /// 75 → "1 min 15 s".
 std::string duration_text(double seconds);

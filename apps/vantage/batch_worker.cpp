@@ -201,9 +201,12 @@ struct BatchWorkerCommand {
     batch::Content content;
     bool reading = true;
     const auto failed = [&](const char* reason, const std::string& error) {
-      return Json{{"reason", reason},
-                  {"error", replaced(error, path, label)},
-                  {"peak_bytes", peak_bytes()}};
+      const std::string said = replaced(error, path, label);
+      const std::string name = order.at("name").get<std::string>() + ": ";  // as results call it
+      return Json{
+          {"reason", reason},
+          {"error", said.starts_with(name) ? label + ": " + said.substr(name.size()) : said},
+          {"peak_bytes", peak_bytes()}};
     };
     const auto unreadable = [&](const std::string& error) {
       const std::string remark = archive_remark(order, content);

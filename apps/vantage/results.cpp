@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "batch/json_text.h"
 #include "batch/overview.h"
 #include "batch/results_store.h"
+#include "batch/shard_log.h"
 #include "batch/shard_merge.h"
 #include "commands.h"
 #include "method_flags.h"
@@ -274,6 +276,7 @@ struct MergeCommand {
   }
 
   void run(Session& session) const {
+    require_something(session);
     batch::prepare_folder(folders.front());
     const batch::ConfinedFolder root(folders.front(), batch::kMergeCorner);
     if (!no_overview) {
@@ -289,6 +292,20 @@ struct MergeCommand {
   }
 
  private:
+  /// A folder alone is made by nobody: it has shards, or a store. \throw IoError
+  void require_something(Session& session) const {
+    const std::filesystem::path first = folders.front();
+    if (folders.size() > 1 || std::filesystem::exists(first / batch::kShardFolder)) {
+      return;
+    }
+    if (std::filesystem::exists(first)) {
+      batch::prepare_folder(first.string());  // says whose it is
+    }
+    if (!std::filesystem::exists(first / batch::ResultsStore::kFileName)) {
+      open_store(session, first.string());  // says that there is none
+    }
+  }
+
   static void summarise(Session& session, const batch::MergeCounts& merged,
                         const batch::StatusCounts& counts) {
     const auto count = [](std::int64_t number) {

@@ -29,11 +29,20 @@ constexpr std::array<std::pair<const char*, const char*>, 7> kSigns{{{"!=", " <>
                                                                      {"~", ""}}};
 constexpr const char* kSignLetters = "!<>=~";
 
+/// The texts of an answer's doubts, of queries only: exports have view.json.
+constexpr const char* kDoubt = "doubt";
+constexpr const char* kDoubtSql =
+    "(SELECT group_concat(value, '; ') FROM json_each(result, '$.doubts'))";
+
+std::string sql_of(const std::string& column) {
+  return column == kDoubt ? kDoubtSql : column;
+}
+
 bool is_column(const std::string& name) {
   const auto in = [&](const std::vector<std::string>& columns) {
     return std::find(columns.begin(), columns.end(), name) != columns.end();
   };
-  return in(batch::result_columns()) || in(batch::timing_columns());
+  return in(batch::result_columns()) || in(batch::timing_columns()) || name == kDoubt;
 }
 
 /// Columns of text come first in the list of columns, up to and with `format`; cameras for web pages
@@ -42,7 +51,7 @@ bool holds_text(const std::string& name) {
   const auto& columns = batch::result_columns();
   const auto last_text = std::find(columns.begin(), columns.end(), "format");
   return std::find(columns.begin(), last_text + 1, name) != last_text + 1 ||
-         name.starts_with("best_camera_") || name == "best_field_of_view";
+         name.starts_with("best_camera_") || name == "best_field_of_view" || name == kDoubt;
 }
 
 std::optional<double> number_of(const std::string& text) {
@@ -97,7 +106,7 @@ void require_column(const std::string& name, const std::string& flag) {
   if (!is_column(name)) {
     throw CLI::ValidationError(flag, "'" + name + "' is none of " +
                                          joined(batch::result_columns()) + ", " +
-                                         joined(batch::timing_columns()));
+                                         joined(batch::timing_columns()) + ", " + kDoubt);
   }
 }
 
@@ -122,8 +131,9 @@ Condition parse_condition(const std::string& text) {
                         .value = trimmed_blanks(text.substr(at + std::string_view(sign).size()))};
     require_column(condition.column, "--where");
     refuse_duplicates(condition);
-    condition.comparison = *sql == '\0' ? "instr(lower(" + condition.column + "), lower(?)) > 0"
-                                        : condition.column + sql;
+    const std::string column = sql_of(condition.column);
+    condition.comparison =
+        *sql == '\0' ? "instr(lower(" + column + "), lower(?)) > 0" : column + sql;
     if (*sql != '\0' && !holds_text(condition.column)) {
       condition.number = number_for(condition);
     }
@@ -186,8 +196,12 @@ batch::Statement select_rows(batch::ResultsStore& store, const std::vector<std::
     where += (where.empty() ? "" : " AND ") + condition.comparison;
   }
   const std::string order =
-      sort.column.empty() ? "" : sort.column + (sort.is_down ? " DESC NULLS LAST" : " NULLS LAST");
-  batch::Statement rows = store.select(joined(columns), where, order);
+      sort.column.empty()
+          ? ""
+          : sql_of(sort.column) + (sort.is_down ? " DESC NULLS LAST" : " NULLS LAST");
+  std::vector<std::string> selected;
+  std::transform(columns.begin(), columns.end(), std::back_inserter(selected), sql_of);
+  batch::Statement rows = store.select(joined(selected), where, order);
   int index = 0;
   for (const Condition& condition : conditions) {
     if (condition.number) {

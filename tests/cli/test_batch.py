@@ -3,9 +3,11 @@
 import csv
 import io
 import json
+import os
 import pathlib
 import tarfile
 import unittest
+import unittest.mock
 import zipfile
 
 from program import MODELS, ProgramTest
@@ -238,6 +240,14 @@ class Results(BatchTest):
         self.assertEqual([rows[f"{k}.off"]["duplicate_of"] for k in "abcd"], ["c.off", "c.off", "", ""])
         self.assertEqual(rows["a.off"]["folder"], rows["c.off"]["folder"])
         self.assertEqual(len(list((self.dir / "out/models").iterdir())), 2)
+
+    def test_a_log_gets_lines_of_progress_now_and_then(self):
+        self.write("a.off", box(1))
+        batch = ("batch", "a.off", "-o", "out", *FAST)
+        with unittest.mock.patch.dict(os.environ, VANTAGE_TEST_PROGRESS_S="0"):
+            self.assertRegex(self.vantage(*batch).err, r"^0 models\n(.*\n)*1 models, \d+")
+            self.assertEqual(self.vantage(*batch, "-q").err, "")
+        self.assertEqual(self.vantage(*batch).err, "")
 
     def test_a_gradient_search_takes_the_seed(self):
         self.write("a.off", box(1))

@@ -46,6 +46,26 @@ class SharedResults(BatchTest):
                 again = self.vantage("batch", "m", "-o", "out", *flags)
                 self.assertIn("0 done, 0 failed, 0 with the content of another, 2 done before", again.out + again.err)
 
+    def test_each_of_equal_models_that_fail_is_named_in_its_own_error(self):
+        for name in ("a", "b"):
+            self.write(f"m/{name}.off", "")
+            self.write(f"m/flat-{name}.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 1\n")
+        errors = [self.vantage("batch", "m", "-o", "out", *FAST, exit_code=4).err]
+        names = ("m/a.off", "m/b.off", "m/flat-a.off", "m/flat-b.off")
+        self.assertEqual(sorted(line.split(": ")[0] for line in errors[0].splitlines()), list(names))
+        rows = self.rows()
+        for key in names:
+            self.assertTrue(rows[key]["error"].startswith(key + ": "), rows[key])
+        self.assertEqual(rows["m/b.off"]["duplicate_of"], "m/a.off")
+        self.assertEqual(rows["m/a.off"]["error"].split(": ", 1)[1], rows["m/b.off"]["error"].split(": ", 1)[1])
+
+    def test_names_of_another_folder_are_told(self):
+        self.write("m/a.off", box(1))
+        self.vantage("batch", "m", "-o", "out", *FAST)
+        said = self.vantage("batch", self.dir / "m", "-o", "out", *FAST).err
+        self.assertIn("note: 1 model stored under another name before; --forget", said)
+        self.assertEqual(self.vantage("batch", self.dir / "m", "-o", "out", *FAST).err, "")
+
     def test_two_models_that_swap_their_names(self):
         for flags in ([], ["--name", "{stem}"]):
             self.write("m/a.off", box(1))

@@ -32,6 +32,21 @@ class Shards(BatchTest):
             self.assertEqual(self.export(out), self.export("one"))
             self.assertIn("0 new", self.vantage("results", "merge", out).out)
 
+    def test_a_shard_alone_says_what_is_to_be_done_with_it(self):
+        merge = "vantage results merge out"
+        self.assertIn(merge, self.vantage("batch", "00.off", "-o", "out", *FAST, "--shard", "0/1").out)
+        self.assertIn(merge, self.vantage("results", "query", "out", exit_code=3).err)
+        self.vantage("results", "merge", "out")
+        self.assertIn("00", self.vantage("results", "query", "out").out)
+
+    def test_nothing_is_merged_into_a_folder_that_has_nothing(self):
+        (self.dir / "empty").mkdir()
+        for folder in ("nosuch", "empty"):
+            wanted = self.vantage("results", "query", folder, exit_code=3).err
+            self.assertEqual(self.vantage("results", "merge", folder, exit_code=3).err, wanted)
+        self.assertFalse((self.dir / "nosuch").exists())
+        self.assertEqual(list((self.dir / "empty").iterdir()), [])
+
     def test_further_batches_bring_their_results(self):
         for folder in "pq":
             (self.dir / folder).mkdir()

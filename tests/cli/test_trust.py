@@ -94,6 +94,9 @@ class Doubts(ProgramTest):
         self.write("again.off", needle())
         command = ("batch", "sound.ply", "needle.off", "again.off", "-o", "out", *FAST)
         self.assertIn(", 1 not to be trusted;", self.vantage(*command).out)
+        self.assertIn("not to be trusted: needle.off; vantage results query out --where 'doubts>0'", self.vantage(*command).out)
+        texts = self.vantage("results", "query", "out", "--where", "doubt~shows nothing", "--columns", "key,doubt").out
+        self.assertRegex(texts, r"^key +doubt\nagain.off +\S.*\nneedle.off +\S.*\n$")
         for _ in range(2):  # also where nothing is left to do
             done = self.vantage(*command, "--strict", exit_code=1)
             self.assertRegex(done.err, "1 of the answers should not be trusted.* --where 'doubts>0'")

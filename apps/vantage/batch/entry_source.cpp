@@ -217,6 +217,14 @@ std::string Entry::labelled(const std::string& sentence) const {
   return shown == key || sentence.starts_with(shown) ? sentence : shown + ": " + sentence;
 }
 
+std::string Entry::retold(const std::string& sentence, const std::string& its_key) const {
+  const std::string rest = sentence.starts_with(its_key) ? sentence.substr(its_key.size()) : "";
+  if (!rest.starts_with(": ") && !rest.starts_with(" (")) {
+    return labelled(sentence);
+  }
+  return label() + rest.substr(std::min(rest.find(": "), rest.size()));
+}
+
 bool EntryFilter::accepts(const std::string& path_below) const {
   const auto matches_path = [&](const std::string& pattern) {
     return matches(pattern, path_below);

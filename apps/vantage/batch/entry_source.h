@@ -35,6 +35,9 @@ struct Entry {
 
   /// A sentence about it, with its label where this says more than its key.
   [[nodiscard]] std::string labelled(const std::string& sentence) const;
+
+  /// What was said of an equal model, said of this one.
+  [[nodiscard]] std::string retold(const std::string& sentence, const std::string& its_key) const;
 };
 
 /// Gives entries in an order that depends on names and nothing else.

@@ -52,6 +52,10 @@ bool is_doubted(const ModelRecord& record) {
   return record.result.find("\"doubts\":[\"") != std::string::npos;
 }
 
+std::string content_key(const ModelRecord& record) {
+  return record.content + ' ' + record.options;
+}
+
 bool same_question(const ModelRecord& a, const ModelRecord& b) {
   return a.options == b.options && a.version == b.version && a.name == b.name;
 }

@@ -68,6 +68,9 @@ bool same_question(const ModelRecord& a, const ModelRecord& b);
 /// Whether the results of one count for the other.
 bool have_one_answer(const ModelRecord& a, const ModelRecord& b);
 
+/// What equal models have in common.
+std::string content_key(const ModelRecord& record);
+
 /// A record as one JSON object, keys in a fixed order.
 nlohmann::ordered_json to_json(const ModelRecord& record);
 

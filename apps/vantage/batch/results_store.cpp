@@ -6,6 +6,7 @@
 #include "vantage/core/error.h"
 
 #include "batch/json_text.h"
+#include "batch/shard_log.h"
 
 namespace vantage::batch {
 namespace {
@@ -39,7 +40,9 @@ constexpr const char* kDuplicates =
 constexpr const char* kView = R"sql(VIEW results AS
 SELECT m.key AS key, m.name AS name, c.status AS status,
   CASE WHEN c.key = m.key THEN '' ELSE c.key END AS duplicate_of,
-  c.reason AS reason, c.error AS error, m.content AS content, m.options AS options,
+  c.reason AS reason,
+  CASE WHEN m.reason = c.reason AND m.error <> '' THEN m.error ELSE c.error END AS error,
+  m.content AS content, m.options AS options,
   m.version AS version, c.folder AS folder,
   json_extract(c.result, '$.format') AS format, json_extract(c.result, '$.vertices') AS vertices,
   json_extract(c.result, '$.faces') AS faces, json_extract(c.result, '$.components') AS components,
@@ -126,8 +129,12 @@ std::string store_path(const std::string& folder, Database::Mode mode) {
     throw IoError(path.string(), "is not a regular file but a link or a folder; move it away");
   }
   if (mode == Database::Mode::Read && !std::filesystem::exists(status)) {
-    throw IoError(folder, "holds no results of a batch: " + std::string(ResultsStore::kFileName) +
-                              " is not there");
+    const bool has_shards = std::filesystem::exists(path.parent_path() / kShardFolder, error);
+    throw IoError(folder, has_shards
+                              ? "holds shards that are not merged yet; vantage results merge " +
+                                    folder + " does that"
+                              : "holds no results of a batch: " +
+                                    std::string(ResultsStore::kFileName) + " is not there");
   }
   return path.string();
 }

@@ -42,10 +42,6 @@ std::int64_t now_ms() {
       .count();
 }
 
-std::string content_key(const ModelRecord& record) {
-  return record.content + ' ' + record.options;
-}
-
 class Runner {
  public:
   using Report = std::function<void(const RunnerCounts&, const ModelRecord*)>;
@@ -145,7 +141,7 @@ class Runner {
     if (is_settled(job)) {
       ++counts_.skipped;
       counts_.skipped_failed += job.before && job.before->status == "failed" ? 1 : 0;
-      counts_.doubted += job.before && is_doubted(*job.before) ? 1 : 0;
+      counts_.note_doubt(job.before);
       report_(counts_, nullptr);
       return;
     }
@@ -229,7 +225,7 @@ class Runner {
       root_.move(event.staging, model_folder(job.record.folder));
       job.record.status = "done";
       ++counts_.done;
-      counts_.doubted += is_doubted(job.record) ? 1 : 0;
+      counts_.note_doubt(job.record);
       take_over(job);
       settle(job);
       return;
@@ -309,7 +305,7 @@ class Runner {
     unchanged.timings.finished_ms = now_after_start();  // so that a merge takes the new stamp
     ++counts_.skipped;
     counts_.skipped_failed += unchanged.status == "failed" ? 1 : 0;
-    counts_.doubted += is_doubted(unchanged) ? 1 : 0;
+    counts_.note_doubt(unchanged);
     book_.put(unchanged);
     remove(job);
   }
@@ -427,12 +423,15 @@ class Runner {
   void settle_as_equal(Job& job, const ModelRecord& first) {
     job.record.status = first.status;
     job.record.reason = first.reason;
-    job.record.error = first.error;
+    job.record.error = job.entry.retold(first.error, first.key);
     job.record.duplicate_of = first.key;
     job.record.folder.clear();  // that an earlier attempt, at other content, had claimed
     job.record.result.clear();
     job.record.timings = {};
     ++(first.status == "done" ? counts_.duplicates : counts_.failed);
+    if (first.stamp == job.record.stamp && !listed_.contains(std::hash<std::string>{}(first.key))) {
+      ++counts_.renamed;  // one file, which the command line has another name for now
+    }
     job.attempts = 0;
     write(job);
     remove(job);

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
 
 #include "batch/entry_source.h"
+#include "batch/model_record.h"
 #include "batch/result_book.h"
 #include "batch/worker_process.h"
 
@@ -39,9 +41,17 @@ struct RunnerCounts {
   std::int64_t skipped = 0;         ///< Done before, unchanged.
   std::int64_t skipped_failed = 0;  ///< Of these, failed before.
   std::int64_t duplicates = 0;      ///< Same content as another model; not run.
+  std::int64_t renamed = 0;         ///< Files that an earlier run stored under another name.
   std::int64_t repeated = 0;        ///< Entries passed over: one before has their key.
   std::string first_repeated{};     ///< The first such key.
   std::int64_t doubted = 0;         ///< Answers, of this run or before, that should not be trusted.
+  std::vector<std::string> first_doubted{};  ///< Keys of the first three.
+
+  void note_doubt(const std::optional<ModelRecord>& record) {
+    if (record && is_doubted(*record) && ++doubted <= 3) {
+      first_doubted.push_back(record->key);
+    }
+  }
 };
 
 /// Runs every model of `source` that `book` does not hold as done, each in a worker process under
