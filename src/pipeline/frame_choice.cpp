@@ -25,14 +25,16 @@ std::string by(const DirectionChoice& choice) {
 
 /// What a user should know of a choice that is no plain case; empty if it is one.
 /// \param word "up" or "front". \param usual the convention's direction.
-/// \param is_weighed whether the best view weighs what else it may be.
+/// \param is_weighed whether the best view weighs what else it may be. \param up flag that the usual
+/// direction goes with, where up is not its format's.
 std::string note_on(const DirectionChoice& choice, const std::string& word, const Vec3& usual,
-                    bool is_weighed) {
+                    bool is_weighed, const std::string& up = "") {
   const std::string chosen = name_of(choice.direction);
   if (choice.source == "shape") {
     return word + " is taken to be " + chosen + " (" + percent(choice.confidence) + " sure" +
-           by(choice) + "), not " + name_of(usual) + ", the usual one of its format; --" + word +
-           " " + name_of(usual) + " overrules this";
+           by(choice) + "), not " + name_of(usual) + ", the usual one " +
+           (up.empty() ? "of its format" : "for this up") + "; " + up + "--" + word + " " +
+           name_of(usual) + " overrules this";
   }
   if (choice.source == "format" && choice.confidence < kUnsure) {
     const bool favours_other = choice.likeliest.dot(choice.direction) < 0.5;
@@ -99,9 +101,11 @@ FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,
   const DirectionChoice& up = choice.orientation.up;
   const DirectionChoice& front = choice.orientation.front;
   choice.frame = {axis_nearest(up.direction), axis_nearest(front.direction)};
-  for (const std::string& note : {note_on(up, "up", usual_up, false),
-                                  note_on(front, "front", up_vector(default_front(choice.frame.up)),
-                                          objective_of(options) == Objective::People)}) {
+  for (const std::string& note :
+       {note_on(up, "up", usual_up, false),
+        note_on(front, "front", up_vector(default_front(choice.frame.up)),
+                objective_of(options) == Objective::People,
+                up.source == "shape" ? "--up " + name_of(up.direction) + " " : "")}) {
     if (!note.empty()) {
       choice.notes.push_back(note);
     }

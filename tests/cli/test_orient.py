@@ -3,6 +3,7 @@
 import base64
 import json
 import math
+import re
 import struct
 import unittest
 
@@ -123,6 +124,20 @@ class Orient(ProgramTest):
         self.assertTrue((self.dir / "up.ply").read_bytes().startswith(b"ply"))
         done = self.vantage("orient", MODELS / "fan.ply", "-o", "up.obj", exit_code=2)
         self.assertIn(".ply", done.err)
+
+    def test_the_flags_that_overrule_a_note_work(self):
+        boxes = [(x, y, 0, .1, .1, 1) for x in (0, .9) for y in (0, .9)] + [(0, 0, 1, 1, 1, .1), (0, 0, 1.1, .1, 1, 1)]
+        self.write("chair.obj", "".join(
+            f"v {x + i * a} {y + j * b} {z + k * c}\n"
+            for x, y, z, a, b, c in boxes for i in (0, 1) for j in (0, 1) for k in (0, 1)) + "".join(
+            "f " + " ".join(str(8 * n + i + 1) for i in quad) + "\n" for n in range(len(boxes))
+            for quad in ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))))
+        notes = self.vantage("orient", "chair.obj").err
+        advised = re.findall("; (--.*) overrules this", notes)
+        self.assertEqual(advised, ["--up y", "--up z --front -y"])
+        self.assertIn("not -y, the usual one for this up;", notes)
+        for flags in advised:
+            self.vantage("orient", "chair.obj", *flags.split())
 
     def test_features_are_json_of_six_ups_and_twenty_four_fronts(self):
         self.write("a.obj", obj())
