@@ -34,7 +34,8 @@ double number_of(const std::string& text, const fs::path& file, std::size_t line
 /// Rows of a CSV file without quotes, by the names of its header.
 class Table {
  public:
-  explicit Table(const fs::path& file) : file_(file) {
+  /// \param needed names of the columns that will be asked for.
+  Table(const fs::path& file, std::string needed) : file_(file), needed_(std::move(needed)) {
     const std::string bytes = read_file(file.string());
     std::istringstream lines{std::string(without_bom(bytes))};
     std::string line;
@@ -60,9 +61,13 @@ class Table {
   [[nodiscard]] const std::string& text(std::size_t row, const std::string& column) const {
     const auto at = std::find(header_.begin(), header_.end(), column);
     const auto index = static_cast<std::size_t>(at - header_.begin());
-    if (at == header_.end() || index >= rows_[row].cells.size()) {
+    if (at == header_.end()) {
+      throw FormatError(file_.string(), "line 1",
+                        "has no column '" + column + "'; needed are " + needed_);
+    }
+    if (index >= rows_[row].cells.size()) {
       throw FormatError(file_.string(), "line " + std::to_string(rows_[row].line),
-                        "has no column '" + column + "'");
+                        "has no value for column '" + column + "'");
     }
     return rows_[row].cells[index];
   }
@@ -87,19 +92,20 @@ class Table {
   };
 
   fs::path file_;
+  std::string needed_;
   std::vector<std::string> header_{};
   std::vector<Row> rows_{};
 };
 
 void read_views(const fs::path& folder, std::vector<RecordedModel>& records) {
   std::map<std::string, RecordedModel> by_name;
-  const Table views(folder / "views.csv");
+  const Table views(folder / "views.csv", "model,vx,vy,vz,status");
   for (std::size_t i = 0; i < views.size(); ++i) {
     by_name[views.text(i, "model")].views.push_back(
         {views.direction(i, {"vx", "vy", "vz"}), views.text(i, "status") == "moved"});
   }
   if (fs::exists(folder / "mirror_planes.csv")) {
-    const Table planes(folder / "mirror_planes.csv");
+    const Table planes(folder / "mirror_planes.csv", "model,nx,ny,nz");
     for (std::size_t i = 0; i < planes.size(); ++i) {
       const auto found = by_name.find(planes.text(i, "model"));
       if (found != by_name.end()) {

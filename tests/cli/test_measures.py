@@ -156,6 +156,12 @@ class Measures(ProgramTest):
             self.assertLessEqual(report["best"]["score"], 1.001 * best)
             self.assertGreater(report["best"]["score"], report["worst"]["score"])
 
+    def test_eval_tells_which_columns_a_table_needs(self):
+        (self.dir / "people/models").mkdir(parents=True)
+        self.write("people/views.csv", "model,dx,dy,dz\na.off,0,0,1\n")
+        self.assertIn("views.csv, line 1: has no column 'vx'; needed are model,vx,vy,vz,status",
+                      self.vantage("eval", "people", exit_code=3).err)
+
     def test_compare_by_gradient_counts_its_own_views(self):
         report = json.loads(self.vantage("compare", FAN, "-o", "out", "--method", "mesh-saliency,vmi", "--search",
                                          "gradient", "--starts", 1, "--no-images", "--json").out)
