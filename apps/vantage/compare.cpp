@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 
 #include "vantage/io/write.h"
 #include "vantage/report/comparison.h"
@@ -117,30 +118,49 @@ struct CompareCommand {
     return measures;
   }
 
+  /// Whether values differ by rounding alone.
+  static bool are_alike(const std::vector<double>& values) {
+    constexpr double kRounding = 1e-9;
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return low == values.end() ||
+           !(*high - *low > kRounding * std::max(std::abs(*low), std::abs(*high)));
+  }
+
+  static std::string cell(double value, int digits, bool is_known) {
+    constexpr double kNothing = 1e-9;  // of a unit vector, or a degree
+    return !is_known || std::isnan(value)
+               ? "–"
+               : rounded(std::abs(value) < kNothing ? 0.0 : value, digits);
+  }
+
   /// One value a column; how far best and worst views are from the first method's, folded.
   static void summarise(Session& session, const Comparison& comparison, const std::string& path) {
     std::vector<std::vector<std::string>> rows{{"method", "best x", "y", "z", "worst x", "y", "z",
                                                 "best °", "worst °", "rank", "views", "s"}};
+    bool any_flat = false;
     for (std::size_t m = 0; m < comparison.methods.size(); ++m) {
       const ComparedMethod& method = comparison.methods[m];
       const Agreement& with = comparison.agreement.front()[m];
       std::vector<std::string> row{method.measure.name};
+      const bool is_flat = are_alike(method.values);
+      const bool has_angles = !is_flat && !are_alike(comparison.methods.front().values);
+      any_flat = any_flat || is_flat;
       for (const Vec3& d : {method.views.best.direction, method.views.worst.direction}) {
         for (int axis = 0; axis < 3; ++axis) {
-          row.push_back(rounded(d[axis], 3));
+          row.push_back(cell(d[axis], 3, !is_flat));
         }
       }
-      for (const double value : {with.best_folded_deg, with.worst_folded_deg}) {
-        row.push_back(rounded(value, 3));
-      }
-      row.push_back(rounded(with.rank_correlation, 2));
+      row.push_back(cell(with.best_folded_deg, 3, has_angles));
+      row.push_back(cell(with.worst_folded_deg, 3, has_angles));
+      row.push_back(cell(with.rank_correlation, 2, has_angles));
       row.push_back(std::to_string(method.views.evaluations));
       row.push_back(rounded(method.seconds, 2));
       rows.push_back(std::move(row));
     }
     session.tell(aligned(rows, Alignment::FirstLeft));
     session.tell("best °, worst °, rank: angles and rank correlation with " +
-                 comparison.methods.front().measure.name + ", mirror images folded");
+                 comparison.methods.front().measure.name + ", mirror images folded" +
+                 (any_flat ? "; –: all views alike" : ""));
     session.tell("all views of the set: " + rounded(comparison.survey_seconds, 3) +
                  " s; results in " + printable(path) + "/");
   }
