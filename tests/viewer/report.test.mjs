@@ -227,6 +227,7 @@ test('the replayed search takes fewer views for a larger ε, and all of them for
   };
   const counts = [await views(-3), await views(0), await views(3)];
   assert.ok(counts[0] >= counts[1] && counts[1] > counts[2] && counts[2] >= 8, counts.join(' '));
+  assert.match(await page.textContent('#replay-text'), / views in 1 ring; /);
 });
 
 test('keys turn the model, pick views and toggle what is shown', async () => {

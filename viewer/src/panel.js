@@ -85,7 +85,7 @@ export function showDirection(direction, score, total, objective) {
 export function showReplay({ path, evaluations, levels }, dense) {
   const last = path[path.length - 1];
   element('replay-text').textContent =
-    `${evaluations} views in ${levels} rings; ends at about ${short(last.score)}, the view found: ${short(dense)}`;
+    `${evaluations} views in ${levels} ring${levels === 1 ? '' : 's'}; ends at about ${short(last.score)}, the view found: ${short(dense)}`;
 }
 
 /** Hands a file to the reader. */
