@@ -17,7 +17,10 @@ std::string read_text(const std::string& path) {
   }
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
-    throw IoError(path, "cannot be read: no such file, or not a plain file", error.value());
+    throw IoError(path,
+                  std::string("cannot be read: no such file, or not a plain file") +
+                      (error ? "" : "; - reads standard input"),
+                  error.value());
   }
   std::ifstream stream(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), {}};

@@ -45,7 +45,8 @@ constexpr const char* kFooter =
 int report_usage(const CLI::App& program, const std::vector<std::string>& words,
                  const CLI::ParseError& error) {
   std::string problem = error.what();
-  problem = vantage::cli::unknown_word(program, words, problem).value_or(problem);
+  problem = vantage::cli::unknown_word(program, words, problem)
+                .value_or(vantage::cli::plain_mismatch(program, problem));
   while (!problem.empty() && (problem.back() == '\n' || problem.back() == '.')) {
     problem.pop_back();
   }

@@ -125,7 +125,9 @@ void Session::limit_threads() {
 
 void Session::configure(CLI::App& command) {
   const Abandonable abandonable;
-  apply_settings(command);
+  for (const std::string& warning : apply_settings(command)) {
+    say("warning: " + warning);
+  }
   flags.inputs = named_inputs(command);
 }
 

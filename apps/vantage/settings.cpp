@@ -8,8 +8,11 @@
 #include <optional>
 #include <vector>
 
+#include <unistd.h>
+
 #include "batch/json_text.h"
 #include "option_text.h"
+#include "usage_hint.h"
 
 namespace vantage::cli {
 namespace {
@@ -138,13 +141,57 @@ std::optional<Setting> from_file(const Json& settings, const CLI::App& command,
   return found;
 }
 
+/// What an option is called in the environment; of a command alone if its words come first.
+std::string variable_of(const std::string& words) {
+  std::string name = "VANTAGE_" + words;
+  for (char& c : name) {
+    c = c == ' ' || c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  }
+  return name;
+}
+
+/// Adds the variables of a command's options, and of those below it, to a list.
+void list_variables(CLI::App& app, const std::string& before, std::vector<std::string>& names) {
+  for (const CLI::Option* option : app.get_options({})) {
+    for (const std::string& name : option->get_lnames()) {
+      names.push_back(variable_of(before + name));
+    }
+  }
+  for (CLI::App* below : app.get_subcommands({})) {
+    list_variables(*below, before, names);
+  }
+}
+
+/// What to say of variables that begin as those of the command do, and are none.
+std::vector<std::string> unknown_variables(CLI::App& command) {
+  const std::string before = variable_of(call_of(command)) + "_";
+  std::vector<std::string> own;
+  list_variables(command, call_of(command) + " ", own);
+  CLI::App* program = &command;
+  while (program->get_parent() != nullptr) {
+    program = program->get_parent();
+  }
+  std::vector<std::string> common;  // VANTAGE_VIEW_SET is of --view-set, not of `view`
+  list_variables(*program, "", common);
+  std::vector<std::string> warnings;
+  for (char* const* entry = environ; *entry != nullptr; ++entry) {
+    const std::string text = *entry;
+    const std::string name = text.substr(0, text.find('='));
+    const auto is_in = [&](const std::vector<std::string>& names) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    if (name.starts_with(before) && !is_in(own) && !is_in(common)) {
+      const std::string nearest = nearest_word(name, own);
+      warnings.push_back(name + " is the name of no option of vantage " + call_of(command) +
+                         (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+    }
+  }
+  return warnings;
+}
+
 std::optional<Setting> from_environment(const CLI::App& command, const std::string& option) {
   for (const std::string& words : {call_of(command) + " " + option, option}) {
-    std::string name = "VANTAGE_" + words;
-    for (char& c : name) {
-      c = c == ' ' || c == '-' ? '_'
-                               : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    }
+    const std::string name = variable_of(words);
     const char* value = std::getenv(name.c_str());
     if (value != nullptr && *value != '\0') {
       return Setting{{value}, name};
@@ -193,16 +240,16 @@ void add_config_flag(CLI::App& command) {
       ->group("Common");
 }
 
-void apply_settings(CLI::App& command) {
+std::vector<std::string> apply_settings(CLI::App& command) {
   const CLI::Option* config = command.get_option_no_throw(std::string("--") + kConfig);
   if (config == nullptr) {
-    return;  // a worker: its parent passes on what is set
+    return {};  // a worker: its parent passes on what is set
   }
   const char* named = std::getenv("VANTAGE_CONFIG");
   const std::string file =
       config->count() > 0 ? config->as<std::string>() : (named == nullptr ? "" : named);
   if (file == "none") {
-    return;
+    return {};
   }
   const Json settings = file.empty() ? Json::object() : read_settings(file, program_of(command));
   for (CLI::Option* option : command.get_options({})) {
@@ -218,6 +265,7 @@ void apply_settings(CLI::App& command) {
       set(*option, *setting);
     }
   }
+  return unknown_variables(command);
 }
 
 }  // namespace vantage::cli

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -17,7 +18,8 @@ void add_config_flag(CLI::App& command);
 /// (VANTAGE_VIEW_SIZE, else VANTAGE_SIZE, for `--size` of `view`) or else the file of --config or
 /// VANTAGE_CONFIG has a value for. The file holds a JSON object, comments allowed: keys are the
 /// options' long names, and an object named like a command holds what is for that command alone.
+/// \return a sentence each about variables that are named as the command's, and are none of them.
 /// \throw CLI::ValidationError names the variable or the file and what is wrong with it.
-void apply_settings(CLI::App& command);
+std::vector<std::string> apply_settings(CLI::App& command);
 
 }  // namespace vantage::cli

@@ -129,7 +129,7 @@ class Reading {
       } else if (only_arguments || !looks_like_flag(word)) {
         if (++arguments > most) {
           return "'" + word + "' is one argument too many for vantage " + call_of(*command_) +
-                 "; see --help";
+                 (may_be_output(word) ? "; did you mean -o " + word + "?" : "; see --help");
         }
       } else if (auto problem = flag_complaint(word)) {
         return problem;
@@ -141,6 +141,15 @@ class Reading {
   [[nodiscard]] std::size_t at() const { return at_; }
 
  private:
+  /// Whether -o would take the word: it is not given, and there is no such file to be read.
+  [[nodiscard]] bool may_be_output(const std::string& word) const {
+    std::error_code error;
+    return flags_.find("-o") != nullptr && !std::filesystem::exists(word, error) &&
+           std::none_of(words_->begin(), words_->end(), [](const std::string& other) {
+             return other.starts_with("-o") || other.starts_with("--output");
+           });
+  }
+
   /// Reads a flag, with its value if that is a word of its own.
   std::optional<std::string> flag_complaint(const std::string& word) {
     const std::size_t equals = word.find('=');
@@ -180,7 +189,33 @@ std::size_t place_of_complaint(const std::vector<std::string>& words,
   return static_cast<std::size_t>(at - words.begin());
 }
 
+/// The option of the command that was called; null if it has none of this name.
+const CLI::Option* option_called(const CLI::App& program, const std::string& name) {
+  const CLI::App* command = &program;
+  for (auto called = program.get_subcommands();
+       !called.empty() && !called.front()->get_name().empty();
+       called = command->get_subcommands()) {
+    command = called.front();
+  }
+  return Flags(*command).find(name);
+}
+
 }  // namespace
+
+std::string plain_mismatch(const CLI::App& program, const std::string& complaint) {
+  const std::string name = complaint.substr(0, complaint.find(':'));
+  const CLI::Option* option = name.starts_with("--") ? option_called(program, name) : nullptr;
+  if (option == nullptr) {
+    return complaint;
+  }
+  if (complaint.find(": At Most 1 required") != std::string::npos) {
+    return name + " is given more than once";
+  }
+  if (complaint.find(" required ") != std::string::npos && complaint.ends_with(" missing")) {
+    return name + " needs a value: " + describe(*option).meaning;
+  }
+  return complaint;
+}
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known) {
   std::vector<std::string> begin_so;

@@ -21,6 +21,10 @@ std::optional<std::string> unknown_word(const CLI::App& program,
                                         const std::vector<std::string>& words,
                                         const std::string& complaint);
 
+/// The parser's complaint about an option that is given too often, or without its value, in plain words; others
+/// as they are.
+std::string plain_mismatch(const CLI::App& program, const std::string& complaint);
+
 /// The known word that was probably meant: one that differs by few letters, or the only one that
 /// begins so. Empty if there is none.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known);

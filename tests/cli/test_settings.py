@@ -62,6 +62,18 @@ class Settings(ProgramTest):
         self.vantage("thumb", MODEL, "t.png", "--size", "32")
         self.assertEqual({path.name for path in self.dir.iterdir()}, {"t.png"})
 
+    def test_a_variable_of_a_commands_that_sets_nothing_is_told(self):
+        os.environ.update({"VANTAGE_THUMB_SIZEE": "64", "VANTAGE_VIEW_SIZEE": "64", "VANTAGE_DATA": "x"})
+        thumb = ("thumb", MODEL, "t.png", "--size", "32")
+        self.assertEqual(self.vantage(*thumb).err, "warning: VANTAGE_THUMB_SIZEE is the name of no option of vantage thumb; "
+                                                   "did you mean VANTAGE_THUMB_SIZE?\n")
+        for flag in (("-q",), ("--config", "none")):
+            self.assertEqual(self.vantage(*thumb, *flag).err, "")
+        os.environ["VANTAGE_VIEW_SET"] = "1"  # of --view-set
+        told = self.vantage("view", "absent.ply", exit_code=3).err
+        self.assertIn("VANTAGE_VIEW_SIZEE", told)
+        self.assertNotIn("VIEW_SET", told)
+
     def test_what_is_wrong_is_said_in_one_sentence_that_names_where(self):
         cases = (('{"sise": 3}', "c.json: 'sise' is not an option of any command"),
                  ('{"thumb": {"directions": "a.csv"}}', "c.json: 'directions' is not an option of thumb"),

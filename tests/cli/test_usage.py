@@ -89,6 +89,20 @@ class WhatWasMeant(ProgramTest):
         self.assertIn("'abc'", self.complaint("view", FAN, "--size", "abc", "--foo"))
         self.assertIn("--foo", self.complaint("view", FAN, "--foo", "--size", "abc"))
 
+    def test_values_too_many_or_too_few_are_told_in_plain_words(self):
+        self.assertIn("--size is given more than once", self.complaint("thumb", FAN, "t.png", "-s", "64", "-s", "128"))
+        self.assertIn("--size needs a value: width and height, pixels", self.complaint("thumb", FAN, "t.png", "--size"))
+
+    def test_a_second_name_is_taken_for_the_output(self):
+        for command, name in (("skeleton", "out.json"), ("map", "out.ply"), ("render", "out.png")):
+            self.assertIn(f"'{name}' is one argument too many for vantage {command}; did you mean -o {name}?",
+                          self.complaint(command, FAN, name))
+        self.assertIn("; see --help", self.complaint("map", FAN, FAN))  # is there, to be read
+
+    def test_standard_input_has_a_name(self):
+        self.assertIn("/dev/stdin: cannot be read: no such file, or not a plain file; - reads standard input",
+                      self.vantage("score", FAN, "--directions", "/dev/stdin", exit_code=3, stdin=b"0,0,1\n").err)
+
     def test_flags_that_contradict_each_other_are_refused(self):
         self.write("a.off", box(1))
         for flags, named in ((("--search", "rapid", "--objective", "people"), "--objective"),
@@ -197,6 +211,14 @@ class Tables(ProgramTest):
         for row in out[1:3]:
             self.assertEqual(len(row.split()), 12, row)
             self.assertEqual(len(row), len(out[0]), row)
+
+    def test_compare_names_no_best_view_where_all_are_alike(self):
+        self.write("a.off", box(1.0))
+        out = self.vantage("compare", "a.off", "--method", "kssm,mesh-saliency", "--no-images").out
+        self.assertEqual(out.splitlines()[2].split()[1:10], 9 * ["–"])
+        self.assertNotIn("nan", out)
+        self.assertNotIn("-0 ", out)
+        self.assertIn("–: all views alike", out)
 
     def test_models_of_one_name_are_told_apart(self):
         for folder in ("one", "two"):
