@@ -20,9 +20,10 @@ constexpr double kLeastShare = 1e-3;
 // What a view counts from behind a front that was given: of 268 things of the catalogue whose front
 // and back differ, people show 8 from there.
 constexpr double kFromBehind = 0.03;
-// The share of choices that follow no habit but what there is to see, from anywhere: the catalogue has
-// none in 404, so at most about one in as many. It decides where a habit shows next to nothing.
-constexpr double kLapses = 1.0 / 404.0;
+// The share of choices that follow no habit but what there is to see, from anywhere: of the catalogue's
+// 404 one is shown from well below, where no habit leads, and below is half of the sphere. It decides
+// where a habit shows next to nothing.
+constexpr double kLapses = 2.0 / 404.0;
 constexpr int kLapseSubdivisions = 2;  // 162 directions
 
 Vec3 along(const UprightFrame& frame, const Vec3& direction) {
