@@ -31,7 +31,7 @@ def boxes(*sizes):
 
 def plates():
     """Three thin plates: what of their map counts is decided by how they are cut into triangles, and so is the view."""
-    return boxes(*((0, 0, z, 1, 1, 0.02) for z in (0, 0.5, 1)))
+    return boxes((0, 0, 0, 1, 1, 0.02), (0.2, 0.1, 0.5, 0.7, 0.5, 0.02), (0, 0.4, 1, 0.6, 0.6, 0.02))
 
 
 def table():
