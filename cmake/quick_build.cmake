@@ -4,8 +4,8 @@
 set(VANTAGE_SHARED_HEADERS <algorithm> <array> <cmath> <cstdint> <limits> <map> <memory> <numbers> <numeric> <optional>
     <span> <string> <string_view> <tuple> <utility> <vector> <Eigen/Geometry>)
 
-# There are sixty programs to link, each in half the time by GNU's gold.
-if(VANTAGE_QUICK_BUILD)
+# There are sixty programs to link, each in half the time by GNU's gold. It warns of a symbol of the sanitizers.
+if(VANTAGE_QUICK_BUILD AND NOT VANTAGE_SANITIZE)
   include(CheckLinkerFlag)
   check_linker_flag(CXX -fuse-ld=gold VANTAGE_LINKS_BY_GOLD)
   if(VANTAGE_LINKS_BY_GOLD)
