@@ -80,7 +80,7 @@ PictureFrame frame_from(const Standpoint& from, const Analysis& analysis,
 }
 
 Image drawn(const Analysis& analysis, const Camera& camera, Picture picture,
-            const Settings& settings, RenderOptions look,
+            const Settings& settings, const RenderOptions& look,
             const std::optional<std::vector<Rgb8>>& colours, const RunContext& run) {
   if (colours && colours->size() != analysis.shape.surface_vertex.size()) {
     throw InvalidInput("colours has " + std::to_string(colours->size()) +
