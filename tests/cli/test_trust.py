@@ -88,6 +88,11 @@ class Doubts(ProgramTest):
         self.assertRegex(report["doubts"][-1], "the picture shows nothing")
         self.assertTrue((self.dir / "out/best.png").exists(), done.err)
 
+    def test_a_picture_of_specks_is_told(self):
+        self.write("far.off", boxes((0, 0, 0, 1, 1, 1), (50, 0, 0, 1, 1, 1)))
+        done = self.vantage("render", "far.off", "-o", "far.png", "--direction", "0,0,1", "--size", "400x300")
+        self.assertRegex(done.err, "the picture shows hardly anything: the model is in [0-9]+ of 120000 pixels")
+
     def test_a_batch_stores_counts_and_lists_what_is_doubted(self):
         shutil.copy(MODELS / "cat_lowpoly.ply", self.dir / "sound.ply")
         self.write("needle.off", needle())
