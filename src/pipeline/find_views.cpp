@@ -87,7 +87,8 @@ void note_a_view_from_behind(const DirectionChoice& front, const ViewOptions& op
 
 /// Says so where what tells most is hidden from everywhere.
 void note_what_none_sees(ViewReport& report) {
-  constexpr double kHidden = 0.2;
+  constexpr double kHidden =
+      0.2;  // of 110 models one shows less than 0.32: spheres in a box [ours]
   if (report.total > 0.0 && report.highest_score < kHidden * report.total) {
     report.warnings.push_back("no view shows more than " +
                               percent(report.highest_score / report.total) +
@@ -99,8 +100,8 @@ void note_what_none_sees(ViewReport& report) {
 bool is_best_of_moved(const ShapeAnalysis& shape, const FrameChoice& choice,
                       const ViewOptions& options, const MovedMap& moved, const ViewReport& report,
                       const RunContext& run) {
-  constexpr double kSameRad = 0.02;
-  constexpr double kAlike = 0.985;  // cosine of 10°: views nearer to each other look alike [ours]
+  constexpr double kSameRad = 0.02;  // mirror images nearer to each other are one [ours]
+  constexpr double kAlike = 0.985;   // cosine of 10°: views nearer to each other look alike [ours]
   ShapeAnalysis other = shape;
   other.significance = moved.significance;
   const Vec3 again = find_view(other, Goal::Best, choice, options, run.quiet()).direction;

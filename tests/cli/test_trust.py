@@ -77,6 +77,12 @@ class Doubts(ProgramTest):
         self.assertEqual(report["doubts"], [])
         self.assertRegex(done.err, "note: the significance map hangs on .* the best view is the same there")
 
+    def test_nor_is_one_whose_mirror_image_is_the_best_of_the_moved_map(self):
+        self.write("even.off", boxes(*((0, 0, z, 1, 1, 0.02) for z in (0, 0.5, 1))))
+        done, report = self.view("even.off", "--no-images", "--strict")
+        self.assertEqual(report["doubts"], [])
+        self.assertRegex(done.err, "note: the significance map hangs on .* the best view is the same there")
+
     def test_other_methods_do_not_answer_for_the_map(self):
         self.write(DOUBTED, plates())
         _, report = self.view(DOUBTED, "--no-images", "--method", "viewpoint-entropy", "--strict")

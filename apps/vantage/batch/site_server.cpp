@@ -50,8 +50,10 @@ constexpr const char* kReportFrame = R"html(<!doctype html>
 "use strict";
 const frame = document.querySelector("iframe");
 frame.addEventListener("load", () => frame.focus());
-const folder = decodeURIComponent(location.pathname.split("/").at(-2));
-if (folder) document.title = folder + " · Vantage";
+const folder = location.pathname.split("/").at(-2);
+try {
+  if (folder) document.title = decodeURIComponent(folder) + " · Vantage";
+} catch {}  // a name that is no UTF-8
 </script>
 )html";
 

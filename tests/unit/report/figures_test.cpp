@@ -21,6 +21,16 @@ Image of_colour(std::uint8_t value, int width, int height) {
           std::vector<std::uint8_t>(4 * static_cast<std::size_t>(width * height), value)};
 }
 
+/// Pictures of 48 × 36 pixels, of the views that an icosahedron once divided has.
+ViewOptions small_and_quick() {
+  ViewOptions options;
+  options.width = 48;
+  options.height = 36;
+  options.search.strategy = SearchStrategy::Exhaustive;
+  options.search.subdivisions = 1;
+  return options;
+}
+
 TEST(SideBySide, PutsPanelsInOrderOnWhite) {
   const Image figure = side_by_side({of_colour(10, 5, 3), of_colour(20, 5, 3)});
   EXPECT_EQ(figure.width, 2 * 5 + 3 * 8);
@@ -38,11 +48,7 @@ TEST(SideBySide, RefusesPanelsOfDifferentSizesAndNone) {
 }
 
 TEST(PaperFigures, ShowEachLevelAndEndWithTheMap) {
-  ViewOptions options;
-  options.width = 48;
-  options.height = 36;
-  options.search.strategy = SearchStrategy::Exhaustive;
-  options.search.subdivisions = 1;
+  const ViewOptions options = small_and_quick();
   const ShapeAnalysis shape = analyse_shape(model_of(y_of_tubes(0.2, 24)), options);
   const ViewReport report = find_views(shape, UpAxis::Y, options);
   const std::vector<Figure> figures = paper_figures(shape, report, options);
@@ -128,11 +134,7 @@ int ink(const Image& figure, int panel) {
 }
 
 TEST(PaperFigures, OfACloudShowItsPointsAsTheyContractAndNoSaliency) {
-  ViewOptions options;
-  options.width = 48;
-  options.height = 36;
-  options.search.strategy = SearchStrategy::Exhaustive;
-  options.search.subdivisions = 1;
+  const ViewOptions options = small_and_quick();
   Model model = model_of(y_of_tubes(0.25, 24));
   model.mesh.triangles.clear();
   const ShapeAnalysis shape = analyse_shape(model, options);
@@ -154,11 +156,7 @@ TEST(PaperFigures, OfACloudShowItsPointsAsTheyContractAndNoSaliency) {
 }
 
 TEST(PaperFigures, OfACloudShowInFigure3ThePointsThatNoTriangleJoins) {
-  ViewOptions options;
-  options.width = 48;
-  options.height = 36;
-  options.search.strategy = SearchStrategy::Exhaustive;
-  options.search.subdivisions = 1;
+  const ViewOptions options = small_and_quick();
   const ShapeAnalysis shape = analyse_shape(model_of(points_of_ball_and_pole()), options);
   ViewReport report = find_views(shape, UpAxis::Y, options);
   // From y = 2.25 to 3.75, where there is nothing else.
