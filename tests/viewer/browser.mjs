@@ -18,27 +18,28 @@ export async function launch() {
     headless: true,
     args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking',
       '--disable-component-update', '--disable-sync', '--disable-dev-shm-usage',
-      '--use-gl=angle', '--use-angle=swiftshader',
-      '--enable-unsafe-swiftshader'],
+      '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+      '--disable-gpu-compositing'], // software draws 3D only: the rest of a page is not drawn by shaders that it compiles
   });
 }
 
-/** Opens a report from disk and waits for its first frame; collects what must not happen. Flights take no time,
- *  unless reducedMotion is 'no-preference'. */
+/** What must not happen, of all reports that were opened. */
+export const complaints = [];
+
+/** Opens a report from disk and waits for its first frame. Flights take no time, unless reducedMotion is 'no-preference'. */
 export async function open(browser, file, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1200, height: 800 }, reducedMotion: 'reduce', ...options });
+  const context = await browser.newContext({ reducedMotion: 'reduce', ...options });
   context.setDefaultTimeout(kPatienceMs);
   const page = await context.newPage();
-  page.complaints = [];
   page.on('console', (m) => {
     if (['error', 'warning'].includes(m.type()) && !/GPU stall|swiftshader/i.test(m.text())) {
-      page.complaints.push(`console: ${m.text()}`);
+      complaints.push(`console: ${m.text()}`);
     }
   });
-  page.on('pageerror', (e) => page.complaints.push(`error: ${e.message}`));
+  page.on('pageerror', (e) => complaints.push(`error: ${e.message}`));
   page.on('request', (r) => {
     if (!/^(file|data|blob):/.test(r.url())) {
-      page.complaints.push(`request: ${r.url()}`);
+      complaints.push(`request: ${r.url()}`);
     }
   });
   const start = Date.now();

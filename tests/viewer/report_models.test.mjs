@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+// report.html in real Chromium, of models and options that change what it shows.
+import assert from 'node:assert/strict';
+import * as fs from 'node:fs';
+import * as path from 'node:path';
+import { before, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+import * as zlib from 'node:zlib';
+import { blenderLocation, camera, cameraText, clickSphere, desktop, distance, drawn, folder, models, pageOf, pixels, unit,
+  vantage, viewOf } from './report.mjs';
+
+const horse = path.join(models, 'horse.ply');
+const markup = '<img src=x onerror=document.title=1>&<!--<script>';
+// Small pictures: no test looks at them.
+const rapid = ['--search', 'rapid', '--size', '160x120'];
+const reports = {
+  far: [horse, ...rapid, '--distance', '60'],
+  flat: [horse, ...rapid, '--projection', 'orthographic'],
+  // Maximises what people choose; a rapid search maximises the score.
+  people: [`${markup}.ply`, '--size', '160x120'],
+  soup: ['soup.obj', ...rapid, '--views', '40', '--contraction', 'exact'],
+  box: ['box.obj', '--up', 'any', '--size', '160x120', '--contraction', 'exact'],
+  large: [path.join(process.env.VANTAGE_DATA ?? '', 'paper', 'armadillo_172966_loop.ply'), ...rapid],
+};
+
+/** The page of a report, and what its view.json says. */
+async function opened(name) {
+  if (!fs.existsSync(path.join(folder, name))) {
+    vantage('view', ...reports[name], '-o', name);
+  }
+  return [await pageOf(name), viewOf(name)];
+}
+
+/** A PNG of one row: red, blue. */
+function redAndBlue() {
+  const chunk = (type, data) => {
+    const body = Buffer.concat([Buffer.from(type), data]);
+    const [size, sum] = [Buffer.alloc(4), Buffer.alloc(4)];
+    size.writeUInt32BE(data.length);
+    let crc = 0xffffffff;
+    for (const byte of body) {
+      crc ^= byte;
+      for (let k = 0; k < 8; ++k) {
+        crc = crc & 1 ? (crc >>> 1) ^ 0xedb88320 : crc >>> 1;
+      }
+    }
+    sum.writeUInt32BE((crc ^ 0xffffffff) >>> 0);
+    return Buffer.concat([size, body, sum]);
+  };
+  return Buffer.concat([Buffer.from('89504e470d0a1a0a', 'hex'),
+    chunk('IHDR', Buffer.from([0, 0, 0, 2, 0, 0, 0, 1, 8, 2, 0, 0, 0])),
+    chunk('IDAT', zlib.deflateSync(Buffer.from([0, 255, 0, 0, 0, 0, 255]))), chunk('IEND', Buffer.alloc(0))]);
+}
+
+/** A box that leans, and whose sides show redAndBlue(). */
+function writeBox() {
+  const [c, s] = [Math.cos(0.4), Math.sin(0.4)];
+  const corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]]
+    .map((corner) => corner.map((bit, k) => 5 + (k + 1) * bit))
+    .map(([x, y, z]) => [c * x - s * y, s * x + c * y, z]).map(([x, y, z]) => [x, c * y - s * z, s * y + c * z]);
+  const sides = [[4, 3, 2, 1], [5, 6, 7, 8], [1, 2, 6, 5], [2, 3, 7, 6], [3, 4, 8, 7], [4, 1, 5, 8]];
+  fs.writeFileSync(path.join(folder, 'box.png'), redAndBlue());
+  fs.writeFileSync(path.join(folder, 'box.mtl'), 'newmtl two\nKd 1 1 1\nmap_Kd box.png\n');
+  fs.writeFileSync(path.join(folder, 'box.obj'), ['mtllib box.mtl', ...corners.map((p) => `v ${p.join(' ')}`),
+    'vt 0 0', 'vt 1 0', 'vt 1 1', 'vt 0 1', 'usemtl two',
+    ...sides.map((side) => `f ${side.map((v, k) => `${v}/${k + 1}`).join(' ')}`), ''].join('\n'));
+}
+
+/** Small walls in the sun, each of which hides others: many views are needed. */
+function writeSoup(count) {
+  const walls = [];
+  const faces = [];
+  for (let i = 0; i < count; ++i) {
+    const z = 1 - (2 * i + 1) / count;
+    const [r, turn, away] = [Math.sqrt(1 - z * z), i * 2.399963, 0.3 + 0.7 * ((i * 0.618034) % 1)];
+    const middle = [away * r * Math.cos(turn), away * r * Math.sin(turn), away * z];
+    for (const corner of [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) {
+      walls.push(`v ${middle.map((x, k) => (x + 0.09 * corner[k]).toFixed(6)).join(' ')}`);
+    }
+    faces.push(...[[1, 2, 3], [1, 4, 2], [1, 3, 4], [2, 4, 3]].map((f) => `f ${f.map((v) => v + 4 * i).join(' ')}`));
+  }
+  fs.writeFileSync(path.join(folder, 'soup.obj'), [...walls, ...faces, ''].join('\n'));
+}
+
+before(() => {
+  fs.copyFileSync(horse, path.join(folder, `${markup}.ply`));
+  writeSoup(340);
+  writeBox();
+});
+
+/** Share of the window's height that is drawn on. */
+const drawnHeight = (page) => pixels(page, ({ data, width, height }) => {
+  let rows = 0;
+  for (let y = 0; y < height; ++y) {
+    rows += data.subarray(4 * width * y, 4 * width * (y + 1)).some((a, i) => i % 4 === 3 && a > 0) ? 1 : 0;
+  }
+  return rows / height;
+});
+
+for (const name of ['far', 'flat']) {
+  test(`stands at the view's eye and shows the whole model with ${reports[name].slice(-2).join(' ')}`, async () => {
+    const [page, json] = await opened(name);
+    const seen = await camera(page);
+    const line = json.best.eye.map((x, i) => x - json.best.frame.target[i]);
+    const away = name === 'far' ? line : seen.eye.map((x, i) => x - json.best.frame.target[i]); // of parallel lines any is right
+    const eye = json.best.frame.target.map((x, i) => x + away[i]);
+    assert.ok(distance(seen.eye, eye) < 1e-4 * Math.hypot(...away), seen.eye.join(' '));
+    assert.ok(distance(seen.back, name === 'far' ? unit(line) : json.best.direction) < 1e-4, seen.back.join(' '));
+    const narrow = Math.max(1, (json.best.size[0] / json.best.size[1]) / await page.evaluate(() => window.vantage.model.aspect));
+    const share = narrow * await drawnHeight(page); // of the picture's height; the rest is margin
+    assert.ok(share > 0.6 && share <= 1, `${share} of the height`);
+    const location = blenderLocation(await cameraText(page, 'Blender'));
+    assert.ok(distance(location, seen.eye) < 1e-4 * Math.hypot(...away), location.join(' '));
+    const scale = (await cameraText(page, 'Blender')).match(/ortho_scale = (.+)/)?.[1];
+    assert.equal(scale === undefined, name === 'far');
+    assert.ok(scale === undefined || Math.abs(Number(scale) - json.best.frame.height) < 1e-5 * json.best.frame.height, scale);
+    const formats = await page.locator('#format option').evaluateAll((all) => all.map((o) => o.value));
+    assert.equal(formats.includes('model-viewer'), name === 'far'); // it knows no parallel lines of sight
+    await clickSphere(page);
+    assert.ok(await drawnHeight(page) > 0.3);
+  });
+}
+
+test('a name with markup is shown as text', async () => {
+  const [page] = await opened('people');
+  assert.equal(await page.textContent('#name'), markup);
+});
+
+test('who comes back to the page finds its controls as what is shown', async () => {
+  const [page] = await opened('people');
+  const controls = () => page.locator('input, select').evaluateAll((all) => all.map((one) => [one.id || one.value, one.checked, one.value]));
+  const first = await controls();
+  await page.click('#show-map');
+  await page.click('#show-skeleton');
+  await page.check('input[name=sphere][value=score]');
+  await page.check('input[name=goal][value=worst]');
+  await page.selectOption('#format', 'glTF');
+  await page.fill('#level', '1');
+  await page.fill('#epsilon', '2');
+  assert.notDeepEqual(await controls(), first);
+  fs.writeFileSync(path.join(folder, 'other.html'), '<!doctype html><title>other</title>');
+  await page.goto(pathToFileURL(path.join(folder, 'other.html')).href);
+  await page.goBack();
+  await page.waitForSelector('html[data-ready=yes]', { state: 'attached' });
+  assert.deepEqual(await controls(), first);
+});
+
+test('the sphere shows what best maximises until it is switched to the score', async () => {
+  const [page, { best, twins }] = await opened('people');
+  const highest = () => page.evaluate(() => {
+    const { sphere, data } = window.vantage;
+    return data.sphere.directions[sphere.heights.indexOf(1)];
+  });
+  const angle = (a, b) => (Math.acos(a.reduce((s, x, i) => s + x * b[i], 0)) * 180) / Math.PI;
+  const peak = await highest();
+  const asGood = [best, ...twins].map((view) => angle(peak, view.direction));
+  assert.ok(Math.min(...asGood) < 15, 'the objective peaks at the best view or its mirror image');
+  // It opens at the best view.
+  const [, share] = (await page.textContent('#direction')).match(/objective about ([\d.]+) % of the best view's/);
+  assert.ok(Number(share) > 99 && Number(share) < 101, share);
+  await page.check('input[name=sphere][value=score]');
+  assert.deepEqual(await highest(), await page.evaluate(() => {
+    const { directions, scores } = window.vantage.data.sphere;
+    return directions[scores.indexOf(Math.max(...scores))];
+  }));
+});
+
+for (const name of ['people', 'flat']) {
+  test(`a flight that is taken over stays as it is seen: ${name}`, async () => {
+    const [page] = await opened(name);
+    await page.click('#reset');
+    await page.emulateMedia({ reducedMotion: 'no-preference' });
+    await page.evaluate(() => { // slow motion: a busy machine draws few frames of a flight
+      const [zero, clock, request] = [performance.now(), performance.now.bind(performance), requestAnimationFrame.bind(window)];
+      const slow = (now) => zero + (now - zero) / 10;
+      performance.now = () => slow(clock());
+      window.requestAnimationFrame = (step) => request((now) => step(slow(now)));
+    });
+    await page.focus('#model');
+    for (let i = 0; i < 8; ++i) {
+      await page.keyboard.press('+');
+    }
+    const seen = async () => [await camera(page), await page.evaluate(() => {
+      const { camera } = window.vantage.model;
+      return camera.isPerspectiveCamera ? camera.fov : camera.top / camera.zoom;
+    })];
+    const [, near] = await seen();
+    const box = await page.locator('#model').boundingBox();
+    await page.evaluate(() => { window.start = window.vantage.model.direction(); });
+    await page.click('.view[data-view=worst]');
+    await page.mouse.move(box.x + 300, box.y + 300);
+    await page.waitForFunction(() => window.vantage.model.direction().angleTo(window.start) > 0.5);
+    await page.mouse.down(); // which ends the flight
+    const [before, lens] = await seen();
+    const towards = await page.evaluate(() => {
+      const { camera, controls } = window.vantage.model;
+      return camera.position.clone().sub(controls.target).normalize().toArray();
+    });
+    assert.ok(distance(before.back, towards) < 1e-5, `${name}: ${before.back} ${towards}`); // about which the reader turns it
+    await page.mouse.up();
+    await page.setViewportSize({ ...desktop, width: desktop.width - 1 });
+    await page.waitForFunction((width) => document.getElementById('model').clientWidth < width, box.width);
+    await drawn(page);
+    const [, resized] = await seen();
+    assert.ok(Math.abs(resized / lens - 1) < 0.005, `${name}: ${lens} ${resized}`);
+    if (name === 'flat') { // zooms by its lens, which goes on from where it is
+      const whole = await page.evaluate(() => window.vantage.data.views[1].height / 2);
+      assert.ok(lens > near && lens < whole, `${near} ${lens} ${whole}`);
+      assert.equal(await page.evaluate(() => window.vantage.model.camera.zoom), 1);
+    }
+  });
+}
+
+test('the tour tells of all its views, though the strip has but the first', async () => {
+  const [page, { views }] = await opened('soup');
+  assert.ok(views.length > 24, String(views.length));
+  assert.match(await page.textContent('#tour-text'), new RegExp(`° over ${views.length} views$`));
+});
+
+test("shows a file's own texture", async () => {
+  const [page] = await opened('box');
+  await page.waitForFunction(() => window.vantage.model.loading === 0);
+  const sides = () => pixels(page, ({ data }) => {
+    const counts = { red: 0, blue: 0 };
+    for (let i = 0; i < data.length; i += 4) {
+      counts.red += data[i] > 2 * data[i + 2] + 40 ? 1 : 0;
+      counts.blue += data[i + 2] > 2 * data[i] + 40 ? 1 : 0;
+    }
+    return counts;
+  });
+  const asItIs = await sides();
+  assert.ok(asItIs.red > 5000 && asItIs.blue > 5000, JSON.stringify(asItIs));
+  await page.click('#show-map');
+  assert.equal(await page.evaluate(() => window.vantage.model.asset.visible), false);
+});
+
+test('cameras that name the file fit it where --up any has turned the model', async () => {
+  const [page, json] = await opened('box');
+  const line = await cameraText(page, 'f3d');
+  assert.equal(line, fs.readFileSync(path.join(folder, 'box/camera-best.f3d.txt'), 'utf8'));
+  const eye = line.match(/position=(\S+)/)[1].split(',').map(Number);
+  assert.ok(distance(eye, json.best.eye) > 1, 'the model was turned');
+  const location = blenderLocation(await cameraText(page, 'Blender'));
+  assert.ok(distance(location, [eye[0], -eye[2], eye[1]]) < 1e-4, location.join(' '));
+});
+
+test('shows a large model within seconds', { skip: process.env.VANTAGE_DATA ? false : 'VANTAGE_DATA is not set' }, async () => {
+  const [page] = await opened('large');
+  assert.match(await page.textContent('#numbers'), /shown here/);
+  assert.match(await page.textContent('#numbers'), /more where significance is high/);
+  assert.ok(fs.statSync(path.join(folder, 'large', 'report.html')).size < 40e6);
+  console.log(`# 173 000 vertices loaded in ${page.loadSeconds} s`);
+});
