@@ -6,12 +6,15 @@ import os
 import unittest
 
 from program import MODELS, ProgramTest, read_ply
+from program import contract_quickly as setUpModule
+
+REFINED = ("--contraction", "auto")  # for what a refined surface might have otherwise
 
 
 class Skeleton(ProgramTest):
 
     def test_json_maps_every_vertex_to_a_node(self):
-        self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json")
+        self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json", *REFINED)
         skeleton = json.loads((self.dir / "s.json").read_text())
         self.assertEqual(set(skeleton), {"nodes", "edges", "radius", "vertex_node", "degree", "branches",
                                          "length"})
@@ -23,12 +26,13 @@ class Skeleton(ProgramTest):
         self.assertTrue(all(radius > 0 for radius in skeleton["radius"]))
 
     def test_skeleton_and_map_say_what_view_doubts_of_the_skeleton(self):
+        fan = MODELS / "fan.ply"
         for command, file in (("skeleton", "s.json"), ("map", "m.ply")):
-            done = self.vantage(command, MODELS / "dustbin.ply", "-o", file)
+            done = self.vantage(command, fan, "-o", file, "--no-centre")
             self.assertRegex(done.err, r"warning: \d+ % of the skeleton's length is outside the surface")
-            report = json.loads(self.vantage(command, MODELS / "dustbin.ply", "-o", file, "--json").out)
+            report = json.loads(self.vantage(command, fan, "-o", file, "--no-centre", "--json").out)
             self.assertEqual(len(report["doubts"]), 1)
-            report = json.loads(self.vantage(command, MODELS / "fan.ply", "-o", file, "--json").out)
+            report = json.loads(self.vantage(command, fan, "-o", file, "--json", *REFINED).out)
             self.assertEqual(report["doubts"], [])
 
     def test_steps_of_the_contraction_are_told_one_by_one_with_v_only(self):
@@ -120,13 +124,13 @@ class Skeleton(ProgramTest):
         self.assertTrue(json.loads(done.out)["files"])
 
     def test_measure_says_how_much_is_outside(self):
-        done = self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json", "--measure", "--json")
+        done = self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json", "--measure", "--json", *REFINED)
         quality = json.loads(done.out)["quality"]
         self.assertEqual(quality["outside_fraction"], 0)
         self.assertGreater(quality["seen_fraction"], 0.5)
 
     def test_levels_start_with_the_model_itself(self):
-        self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json", "--levels", "levels")
+        self.vantage("skeleton", MODELS / "fan.ply", "-o", "s.json", "--levels", "levels", *REFINED)
         levels = sorted(p.name for p in (self.dir / "levels").iterdir())
         self.assertEqual(levels, [f"level-{j:02}.ply" for j in range(len(levels))])
         self.assertGreater(len(levels), 1)
@@ -144,8 +148,8 @@ class Skeleton(ProgramTest):
 class Map(ProgramTest):
 
     def test_thickness_is_the_displacement_of_level_zero(self):
-        self.vantage("map", MODELS / "fan.ply", "-o", "t.ply", "--method", "thickness")
-        self.vantage("map", MODELS / "fan.ply", "-o", "k.ply", "--levels", "levels")
+        self.vantage("map", MODELS / "fan.ply", "-o", "t.ply", "--method", "thickness", *REFINED)
+        self.vantage("map", MODELS / "fan.ply", "-o", "k.ply", "--levels", "levels", *REFINED)
         _, thickness, _ = read_ply(self.dir / "t.ply")
         _, level, _ = read_ply(self.dir / "levels" / "level-00.ply")
         self.assertEqual([v["quality"] for v in thickness], [v["quality"] for v in level])
@@ -168,7 +172,7 @@ class Map(ProgramTest):
         choices = ((), ("--suppression", "local-maxima"), ("--kinematics", "velocity"), ("--graph", "finished"),
                    ("--no-fit",), ("--flat-level", "0.06"))
         for flags in choices:
-            self.vantage("map", MODELS / "deer.ply", "-o", "map.ply", *flags)
+            self.vantage("map", MODELS / "deer.ply", "-o", "map.ply", *flags, *REFINED)
             maps.add((self.dir / "map.ply").read_bytes())
         self.assertEqual(len(maps), len(choices))
 

@@ -5,11 +5,12 @@ import os
 import pathlib
 import signal
 import subprocess
+import time
 import unittest
 
 from program import MODELS, PROGRAM, ProgramTest
 from program import contract_quickly as setUpModule
-from shapes import box
+from shapes import angle_bar, box
 
 FAST = ("--search", "rapid")
 THEIRS = "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
@@ -21,7 +22,7 @@ class Foreign(ProgramTest):
 
     def setUp(self):
         super().setUp()
-        self.write("a.off", box(1.0))
+        self.write("a.off", angle_bar())  # of which a thumbnail takes less than of a box
 
     def assert_kept(self, file, content, *command):
         path = self.write(file, content)
@@ -270,9 +271,9 @@ class Leftovers(ProgramTest):
             os.close(os.open(self.dir, os.O_TMPFILE | os.O_WRONLY))
         except OSError as error:
             self.skipTest(f"LOUD: no files without a name in {self.dir}: {error}")
-        self.write("a.off", box(1.0))
+        self.write("a.off", angle_bar())
         command = [PROGRAM, "thumb", "a.off", "t.png", "-s", "1024", "--quality", "draft"]
-        for _ in range(8):
+        for _ in range(4):
             process = subprocess.Popen(command, cwd=self.dir)
             fds = pathlib.Path(f"/proc/{process.pid}/fd")
             while process.poll() is None:  # until the picture is being written
@@ -282,6 +283,7 @@ class Leftovers(ProgramTest):
                     continue
                 if any(str(self.dir) in name for name in open_files):
                     break
+                time.sleep(0.002)  # writing takes longer
             process.send_signal(signal.SIGKILL)
             process.wait()
             self.assertEqual({p.name for p in self.dir.iterdir()} - {"t.png"}, {"a.off"})
@@ -300,7 +302,7 @@ class Leftovers(ProgramTest):
 class LongNames(ProgramTest):
 
     def test_any_name_that_the_file_system_takes_can_be_written(self):
-        self.write("a.off", box(1.0))
+        self.write("a.off", angle_bar())
         for name in ("n" * 255, "n" * 240, "ä" * 127, "two\nlines", " ", "-x"):
             with self.subTest(name=name):
                 self.vantage("thumb", "a.off", f"--output={name}", "-s", "16")

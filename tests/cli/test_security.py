@@ -41,7 +41,7 @@ class Limits(ProgramTest):
 
     def test_a_run_that_needs_more_memory_than_allowed_ends_in_one_sentence_and_leaves_nothing(self):
         for limit in ("64MB", "100MB"):
-            done = self.vantage("view", MODELS / "mannequin.ply", "-o", "out", "--max-memory", limit, exit_code=None)
+            done = self.vantage("view", MODELS / "mannequin.ply", "-o", "out", "--max-memory", limit, *FAST, exit_code=None)
             self.assertIn(done.returncode, (1, 3), (limit, done.err))
             self.assertEqual(len(done.err.strip().splitlines()), 1, (limit, done.err))
             self.assertRegex(done.err, "memory", limit)
@@ -50,7 +50,7 @@ class Limits(ProgramTest):
     def test_a_batch_that_needs_more_memory_says_so_and_does_not_wait_for_its_time_limit(self):
         for limit in ("64MB", "100MB"):  # the library for rays could wait for itself for ever
             done = self.vantage("batch", MODELS / "mannequin.ply", "-o", f"out{limit}", "--max-memory", limit, "--timeout", "60",
-                                "--attempts", "1", exit_code=None)
+                                "--attempts", "1", *FAST, exit_code=None)
             self.assertEqual(done.returncode, 4, (limit, done.err))
             self.assertIn("memory", done.err, limit)
             self.assertNotIn("time limit", done.err, limit)

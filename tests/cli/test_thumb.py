@@ -9,7 +9,7 @@ import unittest
 
 from png import read_png
 from program import MODELS, PROGRAM, ProgramTest
-from shapes import box
+from shapes import angle_bar, box
 
 FAN = MODELS / "fan.ply"
 
@@ -23,6 +23,10 @@ def alpha_box(rows):
 
 
 class Thumb(ProgramTest):
+
+    def bar(self):
+        """A model that is quick to draw, for tests of names, formats and words."""
+        return self.write("bar.off", angle_bar())
 
     def test_it_writes_a_square_png_of_256_pixels_with_a_transparent_ground(self):
         done = self.vantage("thumb", FAN, "fan.png")
@@ -43,17 +47,17 @@ class Thumb(ProgramTest):
         self.assertLessEqual(abs(top - (199 - bottom)), 2)
 
     def test_the_same_bytes_for_any_number_of_threads(self):
-        for threads in (1, 2, 3):
+        for threads in (1, 3):
             self.vantage("thumb", FAN, "-o", f"{threads}.png", "--threads", threads)
-        pictures = {(self.dir / f"{threads}.png").read_bytes() for threads in (1, 2, 3)}
+        pictures = {(self.dir / f"{threads}.png").read_bytes() for threads in (1, 3)}
         self.assertEqual(len(pictures), 1)
 
     def test_a_name_of_any_kind_becomes_a_png_as_file_managers_need(self):
-        self.vantage("thumb", FAN, "-o", ".thumbnail.A1B2C3", "-s", 64)
+        self.vantage("thumb", self.bar(), "-o", ".thumbnail.A1B2C3", "-s", 64)
         self.assertEqual(read_png((self.dir / ".thumbnail.A1B2C3").read_bytes())[:2], (64, 64))
 
     def test_webp_is_written_by_its_name(self):
-        self.vantage("thumb", FAN, "-o", "fan.WebP", "-s", 64)
+        self.vantage("thumb", self.bar(), "-o", "fan.WebP", "-s", 64)
         data = (self.dir / "fan.WebP").read_bytes()
         self.assertEqual((data[:4], data[8:12]), (b"RIFF", b"WEBP"))
 
@@ -118,7 +122,7 @@ class Thumb(ProgramTest):
             self.assertEqual(red > 0.9 * len(opaque), coloured, style)
 
     def test_json_says_from_where(self):
-        done = self.vantage("thumb", FAN, "fan.png", "--json", "--up", "z")
+        done = self.vantage("thumb", self.bar(), "bar.png", "--json", "--up", "z")
         said = json.loads(done.out)
         self.assertAlmostEqual(sum(x * x for x in said["direction"]), 1.0, 9)
         self.assertEqual((said["size"], said["up"]), (256, "z"))
@@ -140,7 +144,7 @@ class Thumb(ProgramTest):
     def test_from_standard_input_to_standard_output(self):
         import os
         import subprocess
-        with open(FAN, "rb") as model:
+        with open(self.bar(), "rb") as model:
             done = subprocess.run([os.environ["VANTAGE"], "thumb", "-", "-o", "-", "-s", "32"],
                                   stdin=model, capture_output=True, timeout=300, check=True)
         self.assertEqual(read_png(done.stdout)[:2], (32, 32))
@@ -159,7 +163,7 @@ class FileManagers(ProgramTest):
 
     def test_its_command_makes_a_thumbnail(self):
         file = self.write("made-beforehand", "")
-        self.vantage(*self.command(FAN, file, 128))
+        self.vantage(*self.command(self.write("bar.off", angle_bar()), file, 128))
         self.assertEqual(read_png(file.read_bytes())[:2], (128, 128))
 
     def test_its_command_takes_no_more_than_a_minute_and_4_gb(self):
@@ -182,7 +186,8 @@ class Preview(ProgramTest):
         import os
         import subprocess
         clean = {k: v for k, v in os.environ.items() if k not in ("NO_COLOR", "COLORTERM")}
-        done = subprocess.run([os.environ["VANTAGE"], "thumb", FAN, "t.png", *flags], cwd=self.dir,
+        model = self.write("bar.off", angle_bar())
+        done = subprocess.run([os.environ["VANTAGE"], "thumb", model, "t.png", *flags], cwd=self.dir,
                               env={**clean, **environment}, capture_output=True, timeout=300, check=True)
         return done.stdout.decode()
 
