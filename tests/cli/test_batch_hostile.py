@@ -272,7 +272,9 @@ class StoresOfStrangers(HostileTest):
         rows = 60_001
         with sqlite3.connect(self.dir / "evil/results.sqlite") as store:
             columns = [row[1] for row in store.execute("PRAGMA table_info(models)")]
-            copied = ", ".join("'k' || n" if c == "key" else "'c' || n" if c == "content" else c for c in columns)
+            # Failures, whose rows are short.
+            other = {"key": "'k' || n", "content": "'c' || n", "status": "'failed'", "reason": "'input'", "folder": "''", "result": "'{}'"}
+            copied = ", ".join(other.get(column, column) for column in columns)
             store.execute(f"""INSERT INTO models WITH RECURSIVE i(n) AS (SELECT 1 UNION ALL SELECT n + 1 FROM i WHERE n < {rows - 2})
                               SELECT {copied} FROM models, i WHERE key = 'a.off'""")
         store.close()
