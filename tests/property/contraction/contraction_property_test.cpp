@@ -13,6 +13,7 @@
 #include "vantage/mesh/measures.h"
 
 #include "support/named_mesh.h"
+#include "support/once.h"
 #include "support/shapes.h"
 #include "support/worst.h"
 
@@ -39,6 +40,11 @@ std::vector<Shape> shapes() {
           {"InsideOutBox", test::inside_out(test::box(1.0, 1.0, 4.0, 6))}};
 }
 
+/// The contraction of a shape as it is, computed once a process.
+const ContractionHistory& contraction_as_is(const Shape& shape) {
+  return test::once(shape.name, [&] { return contract(shape.mesh); });
+}
+
 class ContractionOf : public ::testing::TestWithParam<Shape> {};
 
 /// Largest distance between corresponding points, over the diameter of the model.
@@ -52,7 +58,7 @@ double deviation(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double 
 
 TEST_P(ContractionOf, ShrinksStepByStepToASmallFractionOfItsArea) {
   const TriMesh& mesh = GetParam().mesh;
-  const ContractionHistory history = contract(mesh);
+  const ContractionHistory& history = contraction_as_is(GetParam());
   for (const ComponentContraction& component : history.components) {
     EXPECT_GE(component.steps, 1);
   }
@@ -73,10 +79,10 @@ TEST_P(ContractionOf, ShrinksStepByStepToASmallFractionOfItsArea) {
 TEST_P(ContractionOf, CommutesWithSimilarities) {
   const TriMesh& mesh = GetParam().mesh;
   const double diameter = enclosing_sphere(mesh.positions).diameter;
-  const ContractionHistory plain = contract(mesh);
+  const ContractionHistory& plain = contraction_as_is(GetParam());
   const Vec3 axis(1, 2, 3);
   double worst = 0.0;
-  for (const double scale : {1e-8, 1e-6, 1.0, 1e6, 1e8}) {
+  for (const double scale : {1e-8, 1.0, 1e8}) {
     const Vec3 shift = scale * Vec3(3, -2, 1);
     const ContractionHistory other = contract(test::moved(mesh, scale, 0.7, axis, shift));
     ASSERT_EQ(other.levels.size(), plain.levels.size()) << scale;
@@ -93,7 +99,7 @@ TEST_P(ContractionOf, CommutesWithSimilarities) {
 TEST_P(ContractionOf, DoesNotDependOnTheNumberingOfVertices) {
   const TriMesh& mesh = GetParam().mesh;
   const double diameter = enclosing_sphere(mesh.positions).diameter;
-  const ContractionHistory plain = contract(mesh);
+  const ContractionHistory& plain = contraction_as_is(GetParam());
   std::vector<std::uint32_t> old_of_new;
   const ContractionHistory other = contract(test::renumbered(mesh, 11, &old_of_new));
   ASSERT_EQ(other.levels.size(), plain.levels.size());
@@ -109,7 +115,7 @@ TEST_P(ContractionOf, DoesNotDependOnTheNumberingOfVertices) {
 
 TEST_P(ContractionOf, DoesNotDependOnWhatElseIsInTheFile) {
   const TriMesh& mesh = GetParam().mesh;
-  const ContractionHistory alone = contract(mesh);
+  const ContractionHistory& alone = contraction_as_is(GetParam());
   const ContractionHistory joined =
       contract(test::together(mesh, test::torus(2.0, 0.1, 20, 10), Vec3(9, 9, 9)));
   const std::size_t common = std::min(alone.levels.size(), joined.levels.size());
@@ -124,7 +130,8 @@ TEST_P(ContractionOf, DoesNotDependOnWhatElseIsInTheFile) {
 TEST_P(ContractionOf, HasTheSameBytesForAnyNumberOfThreads) {
   const tbb::global_control raised(tbb::global_control::max_allowed_parallelism, 8);
   const ContractionHistory one = contract(GetParam().mesh, {}, {.max_threads = 1});
-  for (const int threads : {2, 3, 8}) {
+  EXPECT_EQ(contraction_as_is(GetParam()).levels, one.levels);  // by as many as there are cores
+  for (const int threads : {3, 8}) {
     const ContractionHistory other = contract(GetParam().mesh, {}, {.max_threads = threads});
     EXPECT_EQ(one.levels, other.levels) << threads;
     EXPECT_EQ(one.shrinkage, other.shrinkage) << threads;

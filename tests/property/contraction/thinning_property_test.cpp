@@ -5,6 +5,7 @@
 #include <random>
 #include <stop_token>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -14,6 +15,7 @@
 #include "vantage/skeleton/skeleton.h"
 
 #include "contraction/component_contraction.h"
+#include "support/once.h"
 #include "support/shapes.h"
 
 /// \file
@@ -47,6 +49,12 @@ ContractionHistory contract_to(const TriMesh& mesh, double limit, double sheet_l
       {.contraction_limit = limit, .sheet_limit = sheet_limit, .shrinkage_tolerance = kTolerance});
 }
 
+/// Contractions of the egg, each computed once a process.
+const ContractionHistory& egg_to(double limit, double sheet_limit) {
+  return test::once(std::pair(limit, sheet_limit),
+                    [&] { return contract_to(egg(), limit, sheet_limit); });
+}
+
 /// Flattened, and each vertex moved by up to 10^-4 along each axis.
 TriMesh rough_lens(double height, unsigned seed) {
   TriMesh mesh = test::sphere(5);
@@ -61,8 +69,8 @@ TriMesh rough_lens(double height, unsigned seed) {
 }
 
 TEST(Thinning, IsWhatTheHigherLimitContractsTo) {
-  const ContractionHistory low = contract_to(egg(), kLow, kHigh);
-  const ContractionHistory high = contract_to(egg(), kHigh, kHigh);
+  const ContractionHistory& low = egg_to(kLow, kHigh);
+  const ContractionHistory& high = egg_to(kHigh, kHigh);
   ASSERT_GT(low.shrinkage.back(), kThin);
   ASSERT_LE(high.shrinkage.back(), kThin);
   EXPECT_EQ(low.thinned, high.levels.back());
@@ -70,8 +78,8 @@ TEST(Thinning, IsWhatTheHigherLimitContractsTo) {
 }
 
 TEST(Thinning, ChangesNoLevel) {
-  const ContractionHistory with = contract_to(egg(), kLow, kHigh);
-  const ContractionHistory without = contract_to(egg(), kLow, kLow);
+  const ContractionHistory& with = egg_to(kLow, kHigh);
+  const ContractionHistory& without = egg_to(kLow, kLow);
   EXPECT_EQ(with.levels, without.levels);
   EXPECT_EQ(with.shrinkage, without.shrinkage);
   EXPECT_THAT(without.thinned, IsEmpty());
@@ -79,15 +87,15 @@ TEST(Thinning, ChangesNoLevel) {
 }
 
 TEST(Thinning, LeavesCurvesAlone) {
-  const ContractionHistory history = contract_to(egg(), kHigh, 4.0 * kHigh);
+  const ContractionHistory& history = egg_to(kHigh, 4.0 * kHigh);
   EXPECT_LE(history.shrinkage.back(), kThin);
   EXPECT_THAT(history.thinned, IsEmpty());
 }
 
 TEST(Thinning, IsForgottenWhereTheSheetStaysASheet) {
   constexpr double kLittle = 1.5 * kLow;
-  const ContractionHistory history = contract_to(egg(), kLow, kLittle);
-  const double thinnest = contract_to(egg(), kLittle, kLittle).shrinkage.back();
+  const ContractionHistory& history = egg_to(kLow, kLittle);
+  const double thinnest = egg_to(kLittle, kLittle).shrinkage.back();
   EXPECT_LT(thinnest, history.shrinkage.back());
   EXPECT_GT(thinnest, kThin);
   EXPECT_THAT(history.thinned, IsEmpty());
@@ -118,12 +126,11 @@ TEST(Thinning, LeavesSmallComponentsAlone) {
 }
 
 TEST(Thinning, IsTheSameByBothMethods) {
-  const TriMesh mesh = egg();
-  const ContractionHistory fast = contract_to(mesh, kLow, kHigh);
-  const ContractionHistory exact = contract(mesh, {.method = ContractionMethod::Exact,
-                                                   .contraction_limit = kLow,
-                                                   .sheet_limit = kHigh,
-                                                   .shrinkage_tolerance = kTolerance});
+  const ContractionHistory& fast = egg_to(kLow, kHigh);
+  const ContractionHistory exact = contract(egg(), {.method = ContractionMethod::Exact,
+                                                    .contraction_limit = kLow,
+                                                    .sheet_limit = kHigh,
+                                                    .shrinkage_tolerance = kTolerance});
   EXPECT_THAT(exact.components.front().strategy, testing::StrEq("exact, thinned"));
   EXPECT_EQ(exact.thinned, fast.thinned);
   EXPECT_NE(exact.levels.back(), fast.levels.back());
@@ -188,9 +195,9 @@ TEST(Thinning, StandsBesideRefinedComponents) {
 }
 
 TEST(Thinning, GivesTheSkeletonOfTheHigherLimit) {
-  const Skeleton low = extract_skeleton(egg(), contract_to(egg(), kLow, kHigh));
-  const Skeleton high = extract_skeleton(egg(), contract_to(egg(), kHigh, kHigh));
-  const Skeleton sheet = extract_skeleton(egg(), contract_to(egg(), kLow, kLow));
+  const Skeleton low = extract_skeleton(egg(), egg_to(kLow, kHigh));
+  const Skeleton high = extract_skeleton(egg(), egg_to(kHigh, kHigh));
+  const Skeleton sheet = extract_skeleton(egg(), egg_to(kLow, kLow));
   EXPECT_NE(low.raw.nodes, sheet.raw.nodes);
   EXPECT_EQ(low.raw.nodes, high.raw.nodes);
   EXPECT_EQ(low.raw.edges, high.raw.edges);
@@ -214,7 +221,7 @@ TEST(Thinning, KeepsTheCurveFromBeforeTheSlivers) {
 }
 
 TEST(Thinning, OfAnotherMeshIsRefused) {
-  ContractionHistory history = contract_to(egg(), kLow, kHigh);
+  ContractionHistory history = egg_to(kLow, kHigh);
   history.thinned.pop_back();
   EXPECT_THROW(extract_skeleton(egg(), history), InvalidInput);
 }
