@@ -2,15 +2,12 @@
 #include "vantage/contraction/contraction.h"
 
 #include <algorithm>
-#include <atomic>
 #include <optional>
 #include <span>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "vantage/mesh/measures.h"
-#include "vantage/mesh/topology.h"
 
 #include "contraction/component_contraction.h"
 #include "contraction/component_scaling.h"
@@ -20,45 +17,10 @@
 #include "contraction/second_mesh.h"
 #include "contraction/surface_contraction.h"
 #include "core/parallel.h"
-#include "mesh/triangle_corners.h"
+#include "mesh/pieces.h"
 
 namespace vantage {
 namespace {
-
-/// One component cut out of the mesh, and where its vertices came from.
-struct Piece {
-  std::vector<std::uint32_t> vertices{};
-  std::vector<Triangle> triangles{};  // in indices of `vertices`
-};
-
-std::vector<Piece> cut_into_pieces(const TriMesh& mesh, std::vector<std::uint32_t>& of_vertex) {
-  const Components components = connected_components(mesh);
-  const std::vector<bool> has_faces = vertices_with_faces(mesh);
-  std::vector<std::uint32_t> piece_of_component(components.count, ContractionHistory::kIsolated);
-  std::vector<Piece> pieces;
-  std::vector<std::uint32_t> local(mesh.positions.size(), 0);
-  of_vertex.assign(mesh.positions.size(), ContractionHistory::kIsolated);
-  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
-    const std::uint32_t component = components.of_vertex[v];
-    if (!has_faces[v]) {
-      continue;
-    }
-    if (piece_of_component[component] == ContractionHistory::kIsolated) {
-      piece_of_component[component] = static_cast<std::uint32_t>(pieces.size());
-      pieces.emplace_back();
-    }
-    Piece& piece = pieces[piece_of_component[component]];
-    of_vertex[v] = piece_of_component[component];
-    local[v] = static_cast<std::uint32_t>(piece.vertices.size());
-    piece.vertices.push_back(v);
-  }
-  for (const Triangle& t : mesh.triangles) {
-    if (!names_a_vertex_twice(t)) {
-      pieces[of_vertex[t[0]]].triangles.push_back({local[t[0]], local[t[1]], local[t[2]]});
-    }
-  }
-  return pieces;
-}
 
 /// Vertices of pieces that are contracted side by side: bounds the memory; as many as kMostOfAll of
 /// refinement.cpp. [ours]
@@ -198,22 +160,12 @@ std::vector<PieceResult> contract_together(const TriMesh& mesh, std::span<const 
                                            const ContractionOptions& options,
                                            const RunContext& run) {
   std::vector<PieceResult> results(pieces.size());
-  if (pieces.size() == 1) {
-    results[0] = contract_piece(mesh, pieces[0], options, run);
-    return results;
-  }
-  std::size_t total = 0;
+  std::vector<std::size_t> sizes;
   for (const Piece& piece : pieces) {
-    total += piece.vertices.size();
+    sizes.push_back(piece.vertices.size());
   }
-  std::atomic<std::size_t> done = 0;
-  const std::thread::id caller = std::this_thread::get_id();
-  parallel_items(run, pieces.size(), [&](std::size_t i, const RunContext& own) {
+  parallel_items(run, "contracting", sizes, [&](std::size_t i, const RunContext& own) {
     results[i] = contract_piece(mesh, pieces[i], options, own);
-    done += pieces[i].vertices.size();
-    if (std::this_thread::get_id() == caller) {  // who alone may report
-      run.advance("contracting", static_cast<double>(done) / static_cast<double>(total));
-    }
   });
   return results;
 }
@@ -221,7 +173,9 @@ std::vector<PieceResult> contract_together(const TriMesh& mesh, std::span<const 
 ContractionHistory contract_pieces(const TriMesh& mesh, const ContractionOptions& options,
                                    const RunContext& run) {
   ContractionHistory history;
-  const std::vector<Piece> pieces = cut_into_pieces(mesh, history.component_of_vertex);
+  Pieces cut = cut_into_pieces(mesh);
+  const std::vector<Piece> pieces = std::move(cut.all);
+  history.component_of_vertex = std::move(cut.of_vertex);
   history.levels.push_back(mesh.positions);
   std::vector<PieceResult> results;
   results.reserve(pieces.size());

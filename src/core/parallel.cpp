@@ -2,9 +2,11 @@
 #include "core/parallel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <exception>
 #include <future>
+#include <numeric>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -77,6 +79,26 @@ void parallel_items(const RunContext& run, std::size_t count,
   };
   do_all(0, rounds, alone);
   do_all(rounds, count, together);
+}
+
+void parallel_items(const RunContext& run, std::string_view stage,
+                    std::span<const std::size_t> sizes,
+                    const std::function<void(std::size_t, const RunContext&)>& body) {
+  if (sizes.size() == 1) {
+    body(0, run);
+    return;
+  }
+  const auto total =
+      static_cast<double>(std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}));
+  std::atomic<std::size_t> done = 0;
+  const std::thread::id caller = std::this_thread::get_id();
+  parallel_items(run, sizes.size(), [&](std::size_t i, const RunContext& own) {
+    body(i, own);
+    done += sizes[i];
+    if (std::this_thread::get_id() == caller) {  // who alone may report
+      run.advance(stage, static_cast<double>(done) / total);
+    }
+  });
 }
 
 void run_both(const RunContext& run, const std::function<void()>& first,

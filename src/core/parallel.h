@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "vantage/core/run_context.h"
@@ -28,6 +30,11 @@ void parallel_for(const RunContext& run, std::size_t count, std::size_t grain,
 /// left. `own` says how many the body may take. Bodies must write to disjoint places.
 /// \throw Cancelled, and whatever `body` throws.
 void parallel_items(const RunContext& run, std::size_t count,
+                    const std::function<void(std::size_t i, const RunContext& own)>& body);
+
+/// The same with progress of `stage`, by the sizes of the items; a single one reports its own.
+void parallel_items(const RunContext& run, std::string_view stage,
+                    std::span<const std::size_t> sizes,
                     const std::function<void(std::size_t i, const RunContext& own)>& body);
 
 /// Runs both, the second beside the first where there is a thread to spare; both have ended when

@@ -11,166 +11,19 @@
 
 #include "core/parallel.h"
 #include "mesh/close_nodes.h"
-#include "mesh/decimation.h"
-#include "skeleton/cluster_complex.h"
 #include "skeleton/collapsed.h"
 #include "skeleton/curve_fitting.h"
 #include "skeleton/embedding.h"
 #include "skeleton/routing.h"
+#include "skeleton/surface_collapse.h"
 #include "skeleton/surgery.h"
 #include "spatial/shell.h"
 
 namespace vantage {
 namespace {
 
-/// Surfaces of this many vertices lose short edges in passes before the ordered collapse [ours].
-constexpr std::size_t kMergeFrom = 10'000;
-/// Longest edge that goes in passes, relative to the spacing [ours: well below what resampling
-/// keeps].
-constexpr double kMergedLength = 0.125;
 /// Pieces of the curve that the map measures to, relative to the spacing [ours: trials in docs/lab].
 constexpr double kPiece = 0.5;
-
-/// Share of each vertex in its cluster: its area, or the mean area where it has none.
-std::vector<double> cluster_weights(const TriMesh& mesh) {
-  std::vector<double> weights = vertex_areas(mesh);
-  double mean = 0.0;
-  for (const double w : weights) {
-    mean += w / static_cast<double>(weights.size());
-  }
-  for (double& w : weights) {
-    w = w > 0.0 ? w : std::max(mean, 1e-300);
-  }
-  return weights;
-}
-
-/// Moves each node to the weighted mean of its vertices; one that only refinement made, and that
-/// stands for no vertex, to the mean of its neighbours.
-void place_nodes(CurveGraph& graph, const std::vector<Vec3>& positions,
-                 const std::vector<double>& weights,
-                 const std::vector<std::uint32_t>& node_of_vertex) {
-  std::vector<Vec3> sum(graph.nodes.size(), Vec3::Zero());
-  std::vector<double> total(graph.nodes.size(), 0.0);
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    sum[node_of_vertex[v]] += weights[v] * positions[v];
-    total[node_of_vertex[v]] += weights[v];
-  }
-  std::vector<Vec3> around(graph.nodes.size(), Vec3::Zero());
-  std::vector<double> neighbours(graph.nodes.size(), 0.0);
-  for (const auto& [a, b] : graph.edges) {
-    for (const auto& [from, to] : {std::array{a, b}, std::array{b, a}}) {
-      if (total[from] > 0.0) {
-        around[to] += sum[from] / total[from];
-        neighbours[to] += 1.0;
-      }
-    }
-  }
-  for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
-    if (total[i] > 0.0) {
-      graph.nodes[i] = sum[i] / total[i];
-    } else if (neighbours[i] > 0.0) {
-      graph.nodes[i] = around[i] / neighbours[i];
-    }
-  }
-}
-
-/// Sums of the weights of the vertices that are part of each of `count` nodes, or merged vertices.
-std::vector<double> sums_of_parts(const std::vector<double>& weights,
-                                  const std::vector<std::uint32_t>& part_of, std::size_t count) {
-  std::vector<double> sums(count, 0.0);
-  for (std::size_t v = 0; v < weights.size(); ++v) {
-    if (part_of[v] != Skeleton::kNone) {
-      sums[part_of[v]] += weights[v];
-    }
-  }
-  return sums;
-}
-
-/// Nodes of the vertices that were merged, from those of what they were merged in.
-std::vector<std::uint32_t> nodes_of_merged(const std::vector<std::uint32_t>& of_vertex,
-                                           const std::vector<std::uint32_t>& node_of_merged) {
-  std::vector<std::uint32_t> nodes;
-  nodes.reserve(of_vertex.size());
-  for (const std::uint32_t v : of_vertex) {
-    nodes.push_back(node_of_merged[v]);
-  }
-  return nodes;
-}
-
-/// Collapses the edges of a contracted surface until a graph is left.
-class SurfaceCollapse {
- public:
-  SurfaceCollapse(const TriMesh& mesh, const ContractionHistory& history, double spacing)
-      : mesh_(mesh),
-        history_(history),
-        merged_length_(kMergedLength * spacing),
-        weights_(cluster_weights(mesh)) {}
-
-  /// Where the surface is thinnest. Where several handles have shrunk into one another there, the
-  /// order of collapses is taken from the last level at which no handle is lost; nodes stand at the
-  /// mean of their vertices' thinnest positions all the same.
-  Collapsed thinnest(const RunContext& run) const {
-    Collapsed best = at(history_.thinnest(), run.part(0.0, 0.5));
-    double share = 0.5;
-    const std::size_t before = history_.levels.size() - (history_.thinned.empty() ? 1 : 0);
-    for (std::size_t level = before; level-- > 0 && best.lost_handles > 0;) {
-      Collapsed trial = at(history_.levels[level], run.part(share, 0.5 * (1.0 + share)));
-      share = 0.5 * (1.0 + share);
-      if (trial.lost_handles < best.lost_handles) {
-        best = std::move(trial);
-      }
-    }
-    place_nodes(best.graph, history_.thinnest(), weights_, best.node_of_vertex);
-    return best;
-  }
-
- private:
-  /// With the vertices at `positions`; each merged one at the mean of what was merged in it.
-  [[nodiscard]] Collapsed at(const std::vector<Vec3>& positions, const RunContext& run) const {
-    if (!history_.merged) {
-      return collapse(mesh_.triangles, positions, weights_, run);
-    }
-    const MergedSurface& merged = *history_.merged;
-    const std::vector<double> sums = sums_of_parts(weights_, merged.of_vertex, merged.vertex_count);
-    std::vector<Vec3> means(merged.vertex_count, Vec3::Zero());
-    for (std::size_t v = 0; v < positions.size(); ++v) {
-      const std::uint32_t to = merged.of_vertex[v];
-      means[to] += (weights_[v] / sums[to]) * positions[v];
-    }
-    Collapsed collapsed = collapse(merged.triangles, means, sums, run);
-    collapsed.node_of_vertex = nodes_of_merged(merged.of_vertex, collapsed.node_of_vertex);
-    return collapsed;
-  }
-
-  /// Large surfaces lose their shortest edges first, in passes; the graph is as fine as before,
-  /// because spacing is much longer than they are.
-  [[nodiscard]] Collapsed collapse(const std::vector<Triangle>& triangles,
-                                   const std::vector<Vec3>& positions,
-                                   const std::vector<double>& weights,
-                                   const RunContext& run) const {
-    const TriMesh mesh{positions, triangles};
-    Collapsed collapsed;
-    if (positions.size() < kMergeFrom) {
-      ClusterComplex complex(mesh, positions, weights);
-      collapsed.lost_handles = collapse_to_graph(complex, run);
-      collapsed.graph = complex.graph(collapsed.node_of_vertex);
-      return collapsed;
-    }
-    const Decimation merged = merge_short_edges(mesh, weights, merged_length_, run);
-    ClusterComplex complex(merged.mesh, merged.mesh.positions,
-                           sums_of_parts(weights, merged.of_vertex, merged.mesh.positions.size()));
-    collapsed.lost_handles = collapse_to_graph(complex, run);
-    std::vector<std::uint32_t> node_of_merged;
-    collapsed.graph = complex.graph(node_of_merged);
-    collapsed.node_of_vertex = nodes_of_merged(merged.of_vertex, node_of_merged);
-    return collapsed;
-  }
-
-  const TriMesh& mesh_;
-  const ContractionHistory& history_;
-  double merged_length_;
-  std::vector<double> weights_;
-};
 
 /// Whether every level, and the table of components, has an entry for each vertex.
 bool belongs_to(const ContractionHistory& history, const TriMesh& mesh) {
@@ -290,7 +143,7 @@ CurveGraph curve_of(const SecondMesh& second, const SkeletonOptions& options,
   history.levels = second.levels;
   history.component_of_vertex = second.component_of_vertex;
   const double spacing = sample_spacing(second.mesh, options);
-  Collapsed collapsed = SurfaceCollapse(second.mesh, history, spacing).thinnest(run);
+  Collapsed collapsed = collapse_thinnest(second.mesh, history, spacing, run);
   const CurveGraph raw = resampled(collapsed.graph, second.mesh, spacing, collapsed.node_of_vertex);
   return fitted(raw, second.mesh, history, collapsed.node_of_vertex, options);
 }
@@ -329,7 +182,7 @@ Skeleton skeleton_of(const TriMesh& mesh, const ContractionHistory& history,
   const double spacing = sample_spacing(mesh, options);
   Collapsed collapsed;
   const auto collapse = [&] {
-    collapsed = SurfaceCollapse(mesh, history, spacing).thinnest(run.part(0.0, 0.9));
+    collapsed = collapse_thinnest(mesh, history, spacing, run.part(0.0, 0.9));
   };
   Skeleton skeleton;
   if (extent == Extent::OfTheMap) {
