@@ -87,9 +87,9 @@ class Time(ProgramTest):
 
     def setUp(self):
         super().setUp()
-        for i in range(4):
+        for i in range(8):
             self.write(f"m{i}.off", box(1 + i / 10))
-        self.names = [f"m{i}.off" for i in range(4)]
+        self.names = [f"m{i}.off" for i in range(8)]
         # Long enough for something to happen meanwhile.
         self.run_words = ("--search", "rapid", "--size", "48", "--jobs", "2", "--contraction", "auto", "-q")
 
