@@ -271,13 +271,24 @@ void ModelBuilder::finish_colours() {
          " vertices have a colour, so that colours were left out");
     return;
   }
-  float largest = 0.0F;
-  for (const ColourValue& c : colours_) {
-    largest = std::max({largest, c.red, c.green, c.blue});
-  }
-  // HDR colours may pass 1 a little; bytes whose largest is 2 are black anyway.
+bool ModelBuilder::colours_are_bytes() const {
+  // HDR colours may pass 1: few of these values are above 2. Bytes are whole, and where a scanner writes
+  // fractions of them, most are above 2. Bytes whose largest is 2 are black anyway.
   constexpr float kLargestOfUnitRange = 2.0F;
-  const double scale = largest > kLargestOfUnitRange ? 1.0 / 255.0 : 1.0;
+  bool are_whole = true;
+  std::size_t above = 0;
+  std::size_t below = 0;
+  for (const ColourValue& c : colours_) {
+    for (const float value : {c.red, c.green, c.blue}) {
+      are_whole = are_whole && !(value - std::floor(value) > 0.0F);  // NaN is 0
+      above += value > kLargestOfUnitRange ? 1 : 0;
+      below += value > 0.0F && value <= kLargestOfUnitRange ? 1 : 0;
+    }
+  }
+  return above > 0 && (are_whole || above > below);
+}
+
+  const double scale = colours_are_bytes() ? 1.0 / 255.0 : 1.0;
   model_.vertex_colours.reserve(colours_.size());
   for (const ColourValue& c : colours_) {
     model_.vertex_colours.push_back({colour_byte(scale * static_cast<double>(c.red)),

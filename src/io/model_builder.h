@@ -36,7 +36,7 @@ class ModelBuilder {
   /// left out: they only join strips).
   void add_strip(const std::vector<std::uint64_t>& strip, Place place);
 
-  /// Adds a colour, 0..1 or 0..255 for each channel: which, is settled by the largest seen.
+  /// Adds a colour, 0..1 or 0..255 for each channel: which, is settled by all of them.
   void add_colour(double red, double green, double blue);
 
   /// What follows belongs to a part of this name; a part without faces disappears.
@@ -122,6 +122,7 @@ class ModelBuilder {
   std::string name_;
   const RunContext& run_;
   std::uint64_t first_index_;
+  [[nodiscard]] bool colours_are_bytes() const;
   Model model_{};
   std::vector<std::uint32_t> corners_{};        ///< Of all polygons, one after the other.
   std::vector<std::uint32_t> corner_counts_{};  ///< Of each polygon.

@@ -119,6 +119,16 @@ TEST(Obj, ReadsColoursFromZeroTo255) {
   EXPECT_THAT(model.vertex_colours, ElementsAre(Rgb8{255, 51, 0}, Rgb8{0, 0, 1}));
 }
 
+TEST(Obj, ReadsBytesWithFractions) {
+  const Model model = obj("v 0 0 0 127.25 51.3 0\nv 1 0 0 0 0 1.4\n");
+  EXPECT_THAT(model.vertex_colours, ElementsAre(Rgb8{127, 51, 0}, Rgb8{0, 0, 1}));
+}
+
+TEST(Obj, AFewBrightColoursAreNoBytes) {
+  const Model model = obj("v 0 0 0 0.2 0.4 0.6\nv 1 0 0 3 0.4 nan\n");
+  EXPECT_THAT(model.vertex_colours, ElementsAre(Rgb8{51, 102, 153}, Rgb8{255, 102, 0}));
+}
+
 TEST(Obj, ReadsNoOpacityAndSaysSo) {
   EXPECT_THAT(obj("v 0 0 0 1 0.2 0 0.5\nv 1 0 0 0 0 1 1\n").notes,
               ElementsAre(HasSubstr("the opacity of vertices was left out")));

@@ -161,6 +161,14 @@ TEST(Ply, ReadsByteAndFloatColours) {
               ElementsAre(Rgb8{255, 51, 0}));
 }
 
+TEST(Ply, AFewBrightColoursAreNoBytes) {
+  EXPECT_THAT(ply(ascii("element vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+                        "property float red\nproperty float green\nproperty float blue\n",
+                        "0 0 0 0.2 0.4 0.6\n1 0 0 3 0.4 0.6\n"))
+                  .vertex_colours,
+              ElementsAre(Rgb8{51, 102, 153}, Rgb8{255, 102, 153}));
+}
+
 TEST(Ply, ReadsAHeaderWithReturnsAlone) {
   const Model model = ply(
       "ply\rformat binary_little_endian 1.0\relement vertex 1\rproperty uchar x\rproperty uchar y\r"
