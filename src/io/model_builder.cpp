@@ -53,6 +53,15 @@ void ModelBuilder::add_point(const Vec3& point, Place place) {
   model_.mesh.positions.push_back(point);
 }
 
+bool ModelBuilder::add_point_unless_missing(const Vec3& point, Place place) {
+  if (point.hasNaN()) {
+    ++missing_points_;
+    return false;
+  }
+  add_point(point, place);
+  return true;
+}
+
 void ModelBuilder::add_corner(std::uint64_t vertex, Place place) {
   if (vertex >= kMostVertices) {
     fail(place,
@@ -262,15 +271,6 @@ void ModelBuilder::finish_parts(const std::vector<std::size_t>& triangle_of_part
   }
 }
 
-void ModelBuilder::finish_colours() {
-  if (colours_.empty()) {
-    return;
-  }
-  if (colours_.size() != point_count()) {
-    note("only " + std::to_string(colours_.size()) + " of " + std::to_string(point_count()) +
-         " vertices have a colour, so that colours were left out");
-    return;
-  }
 bool ModelBuilder::colours_are_bytes() const {
   // HDR colours may pass 1: few of these values are above 2. Bytes are whole, and where a scanner writes
   // fractions of them, most are above 2. Bytes whose largest is 2 are black anyway.
@@ -288,6 +288,15 @@ bool ModelBuilder::colours_are_bytes() const {
   return above > 0 && (are_whole || above > below);
 }
 
+void ModelBuilder::finish_colours() {
+  if (colours_.empty()) {
+    return;
+  }
+  if (colours_.size() != point_count()) {
+    note("only " + std::to_string(colours_.size()) + " of " + std::to_string(point_count()) +
+         " vertices have a colour, so that colours were left out");
+    return;
+  }
   const double scale = colours_are_bytes() ? 1.0 / 255.0 : 1.0;
   model_.vertex_colours.reserve(colours_.size());
   for (const ColourValue& c : colours_) {
@@ -304,6 +313,9 @@ void ModelBuilder::finish_notes() {
 }
 
 Model ModelBuilder::finish() {
+  if (missing_points_ > 0) {
+    note("points without a position (NaN) left out: " + std::to_string(missing_points_));
+  }
   check_indices();
   if (model_.mesh.positions.empty()) {
     // What was passed over may be why.

@@ -24,6 +24,10 @@ class ModelBuilder {
   /// Adds a vertex. \throw FormatError if it is not finite or beyond kLargestCoordinate.
   void add_point(const Vec3& point, Place place);
 
+  /// The same of a point of a cloud; one that a sensor marked as missing with NaN is counted instead.
+  /// \return whether it was added
+  bool add_point_unless_missing(const Vec3& point, Place place);
+
   /// Adds a corner (vertex counted from 0) to the polygon being built.
   void add_corner(std::uint64_t vertex, Place place);
 
@@ -76,6 +80,8 @@ class ModelBuilder {
 
   [[nodiscard]] std::size_t point_count() const { return model_.mesh.positions.size(); }
 
+  [[nodiscard]] std::size_t missing_points() const { return missing_points_; }
+
   [[nodiscard]] std::size_t colour_count() const { return colours_.size(); }
 
   [[nodiscard]] std::string_view name() const { return name_; }
@@ -116,19 +122,20 @@ class ModelBuilder {
   void finish_parts(const std::vector<std::size_t>& triangle_of_part_start);
   void triangulate_uvs(std::size_t first_corner, std::size_t count, std::size_t first_triangle);
   void finish_appearance();
+  [[nodiscard]] bool colours_are_bytes() const;
   void finish_colours();
   void finish_notes();
 
   std::string name_;
   const RunContext& run_;
   std::uint64_t first_index_;
-  [[nodiscard]] bool colours_are_bytes() const;
   Model model_{};
   std::vector<std::uint32_t> corners_{};        ///< Of all polygons, one after the other.
   std::vector<std::uint32_t> corner_counts_{};  ///< Of each polygon.
   std::uint32_t open_corners_ = 0;              ///< Of the polygon being built.
   NamedVertex highest_{};                       ///< The highest vertex of all polygons.
   NamedVertex open_highest_{};                  ///< Of the polygon being built.
+  std::size_t missing_points_ = 0;
   std::vector<ColourValue> colours_{};
   std::vector<PartStart> part_starts_{};
 

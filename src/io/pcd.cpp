@@ -32,31 +32,20 @@ double decode_field(const char* bytes, const PcdField& field) {
   }
 }
 
-/// Adds points; those that a sensor marked as missing with NaN are left out and counted.
+/// Adds points and reports progress.
 class PointSink {
  public:
   PointSink(ModelBuilder& builder, std::size_t all_bytes)
       : builder_(builder), all_bytes_(all_bytes) {}
 
   void add(const Vec3& point, Place place, std::size_t offset) {
-    if (point.hasNaN()) {
-      ++missing_;
-    } else {
-      builder_.add_point(point, place);
-    }
+    builder_.add_point_unless_missing(point, place);
     builder_.advance(offset, all_bytes_);
-  }
-
-  void finish() {
-    if (missing_ > 0) {
-      builder_.note("points without a position (NaN) left out: " + std::to_string(missing_));
-    }
   }
 
  private:
   ModelBuilder& builder_;
   std::size_t all_bytes_;
-  std::size_t missing_ = 0;
 };
 
 double coordinate_from(std::string_view token, Place place, ModelBuilder& builder) {
@@ -164,7 +153,6 @@ Model parse_pcd(std::string_view bytes, std::string_view name, const RunContext&
     read_binary(unpacked, header.body, true, header, builder, sink);
     note_surplus(body.size() - kSizes - packed, builder);
   }
-  sink.finish();
   return builder.finish();
 }
 

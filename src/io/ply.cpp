@@ -43,6 +43,11 @@ class BodyReader {
       : source_(source), builder_(builder), textures_(textures), all_bytes_(all_bytes) {}
 
   void read(const PlyHeader& header) {
+    has_faces_ =
+        std::any_of(header.elements.begin(), header.elements.end(), [](const auto& element) {
+          return element.kind != PlyElement::Kind::Vertex &&
+                 element.kind != PlyElement::Kind::Other && element.count > 0;
+        });
     for (const PlyElement& element : header.elements) {
       check_count(element);
       switch (element.properties.empty() ? PlyElement::Kind::Other : element.kind) {
@@ -156,7 +161,12 @@ class BodyReader {
       }
     }
     source_.end_row();
-    builder_.add_point(point, binary_place.unit[0] == 'b' ? binary_place : source_.place());
+    const Place place = binary_place.unit[0] == 'b' ? binary_place : source_.place();
+    if (has_faces_) {
+      builder_.add_point(point, place);
+    } else if (!builder_.add_point_unless_missing(point, place)) {
+      return;
+    }
     if (coloured) {
       colours_.push_back(colour);
     }
@@ -310,6 +320,7 @@ class BodyReader {
   ModelBuilder& builder_;
   PlyTextures& textures_;
   std::size_t all_bytes_;
+  bool has_faces_ = false;
   bool has_clear_ = false;                                  ///< A vertex is not opaque.
   std::vector<std::array<float, 3>> colours_{};             ///< As they stand there.
   std::vector<std::pair<std::uint64_t, Place>> corners_{};  ///< Of a textured face.

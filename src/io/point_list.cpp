@@ -109,7 +109,7 @@ class PointListReader {
 
   Model read() {
     for (auto text = cursor_.next_line(); text; text = cursor_.next_line()) {
-      if (has_normals_below_ && builder_.point_count() == scan_end_) {
+      if (has_normals_below_ && rows() == scan_end_) {
         builder_.note("normals that follow the points left out: " + std::to_string(scan_end_));
         break;
       }
@@ -133,6 +133,11 @@ class PointListReader {
   }
 
  private:
+  /// Points that were read, also those without a position.
+  [[nodiscard]] std::size_t rows() const {
+    return builder_.point_count() + builder_.missing_points();
+  }
+
   /// Whether a line stands above the points: a count, or names of columns. There is one of each at most,
   /// but in a .pts each scan has a count.
   bool is_heading(std::string_view line) {
@@ -140,10 +145,10 @@ class PointListReader {
     const std::string_view first = columns.take();
     columns.take_separator();
     const std::optional<std::int64_t> count = columns.at_end() ? integer_from(first) : std::nullopt;
-    const bool is_first = builder_.point_count() == 0;
-    const bool ends_scan = format_ == ModelFormat::Pts && builder_.point_count() == scan_end_;
+    const bool is_first = rows() == 0;
+    const bool ends_scan = format_ == ModelFormat::Pts && rows() == scan_end_;
     if (count && *count >= 0 && ((is_first && scans_ == 0) || ends_scan)) {
-      scan_begin_ = builder_.point_count();
+      scan_begin_ = rows();
       scan_end_ = scan_begin_ + static_cast<std::size_t>(*count);
       has_normals_below_ = format_ == ModelFormat::Pwn && normals_follow(scan_end_);
       ++scans_;
@@ -185,7 +190,7 @@ class PointListReader {
     if (scans_ == 0 || format_ == ModelFormat::Xyz) {
       return;
     }
-    const std::size_t points = builder_.point_count();
+    const std::size_t points = rows();
     if (points < scan_end_) {
       builder_.fail(cursor_.place(),
                     "the heading declares " + std::to_string(scan_end_ - scan_begin_) +
@@ -228,7 +233,7 @@ class PointListReader {
     Vec3 point = Vec3::Zero();
     for (std::size_t c = 0; c < column.size(); ++c) {
       const std::optional<double> value = number_from(column[c]);
-      if (!value || !std::isfinite(*value)) {
+      if (!value || std::isinf(*value)) {
         builder_.fail(
             cursor_.place(),
             number_problem(column[c]) +
@@ -239,12 +244,12 @@ class PointListReader {
         builder_.coordinates_need_double();
       }
     }
-    if (column.size() < 2 || (column.size() == 2 && builder_.point_count() > 0 && !is_flat_)) {
+    if (column.size() < 2 || (column.size() == 2 && rows() > 0 && !is_flat_)) {
       builder_.fail(cursor_.place(),
                     "expected 3 coordinates, found " + std::to_string(column.size()));
     }
     is_flat_ = is_flat_ || column.size() == 2;
-    builder_.add_point(point, cursor_.place());
+    builder_.add_point_unless_missing(point, cursor_.place());
   }
 
   TextCursor cursor_;

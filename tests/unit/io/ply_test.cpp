@@ -205,8 +205,23 @@ TEST(Ply, RefusesIndicesThatAreNotThere) {
 }
 
 TEST(Ply, RefusesCoordinatesThatAreNotFiniteEvenOfIsolatedVertices) {
-  EXPECT_THAT(error_text(ascii(kVertices, "0 0 0\n1 0 0\nnan 1 0\n1 1 0\n"), "a.ply"),
+  const std::string header =
+      std::string(kVertices) + "element face 1\nproperty list uchar int vertex_indices\n";
+  EXPECT_THAT(error_text(ascii(header, "0 0 0\n1 0 0\nnan 1 0\n1 1 0\n3 0 1 3\n"), "a.ply"),
+              HasSubstr("line 12: a coordinate is not a finite number"));
+  EXPECT_THAT(error_text(ascii(kVertices, "0 0 0\n1 0 0\ninf 1 0\n1 1 0\n"), "a.ply"),
               HasSubstr("line 10: a coordinate is not a finite number"));
+}
+
+TEST(Ply, LeavesOutPointsWithoutAPositionWhereThereAreNoFaces) {
+  const Model model =
+      ply(ascii("element vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+                "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                "element face 0\nproperty list uchar int vertex_indices\n",
+                "nan nan nan 1 2 3\n4 5 6 7 8 9\n"));
+  EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(4, 5, 6)));
+  EXPECT_THAT(model.vertex_colours, ElementsAre(Rgb8{7, 8, 9}));
+  EXPECT_THAT(model.notes, ElementsAre("points without a position (NaN) left out: 1"));
 }
 
 TEST(Ply, RefusesATruncatedFile) {

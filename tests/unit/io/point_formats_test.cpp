@@ -102,6 +102,18 @@ TEST(Lzf, RefusesAReferenceBeforeTheBeginning) {
                           6, out));
 }
 
+TEST(PointList, LeavesOutPointsWithoutAPosition) {
+  for (const std::string name : {"a.xyz", "a.pts", "a.pwn"}) {
+    const Model model = parse_model("2\nnan nan nan\n4 5 6\n", name);
+    EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(4, 5, 6))) << name;
+    EXPECT_THAT(model.notes, ElementsAre("points without a position (NaN) left out: 1")) << name;
+  }
+  EXPECT_EQ(parse_model("1\nnan 0 0\n1\n7 8 9\n", "a.pts").mesh.positions.size(), 1U);
+  EXPECT_THAT(error_text("nan nan nan\n", "a.xyz"),
+              HasSubstr("neither faces nor points; points without a position (NaN) left out: 1"));
+  EXPECT_THAT(error_text("1 2 3\ninf 2 3\n", "a.xyz"), HasSubstr("line 2: 'inf' is infinite"));
+}
+
 TEST(PointList, PassesOverHeadingAndFurtherColumns) {
   const Model model = parse_model("2\n1 2 3 0 0 1\n4,5,6\n", "a.pwn");
   EXPECT_THAT(model.mesh.positions, ElementsAre(Vec3(1, 2, 3), Vec3(4, 5, 6)));
