@@ -13,6 +13,8 @@
 
 #include <Eigen/Geometry>
 
+#include "vantage/core/error.h"
+
 #include "io/model_builder.h"
 #include "io/number_parsing.h"
 #include "io/readers.h"
@@ -62,11 +64,27 @@ std::string root_of(std::string_view bytes, const ModelBuilder& builder) {
   return root;
 }
 
-Parts read_parts(std::string_view bytes, const std::string& root, ModelBuilder& builder) {
-  Parts parts;
+/// The parts that are models; those that cannot be read matter only if they are named.
+struct PartsOfPackage {
+  Parts parts{};
+  std::map<std::string, FormatError, std::less<>> broken{};
+};
+
+PartsOfPackage read_parts(std::string_view bytes, const std::string& root, ModelBuilder& builder) {
+  PartsOfPackage package;
   std::string name;
   std::optional<ThreemfPartReader> reader;
   std::size_t records_left = kMostRecordsOfSmallFile + bytes.size();
+  const auto attempt = [&](const auto& step) {
+    try {
+      if (reader) {
+        step();
+      }
+    } catch (const FormatError& error) {
+      package.broken.try_emplace(name, error);
+      reader.reset();  // the rest of it is passed over
+    }
+  };
   const PartSink sink{[&](const std::string& part) {
                         name = part;
                         const bool is_wanted = part == root || part.ends_with(".model");
@@ -76,12 +94,43 @@ Parts read_parts(std::string_view bytes, const std::string& root, ModelBuilder& 
                         return is_wanted;
                       },
                       [&](std::string_view piece) {
-                        reader->add(piece);
                         builder.advance(0, 1);
+                        attempt([&] { reader->add(piece); });
                       },
-                      [&] { parts[name] = reader->finish(); }};
+                      [&] { attempt([&] { package.parts[name] = reader->finish(); }); }};
   read_package(bytes, sink, builder);
-  return parts;
+  return package;
+}
+
+/// The root and the parts that it names, and so on: others, such as what a Mac adds to archives, change nothing.
+/// \throw FormatError of one of these that is broken
+Parts named_parts(PartsOfPackage package, const std::string& root) {
+  Parts named;
+  std::vector<std::string> waiting{root};
+  const auto ask_for = [&](const std::vector<ThreemfUse>& uses) {
+    for (const ThreemfUse& use : uses) {
+      if (!use.part.empty()) {
+        waiting.push_back(use.part);
+      }
+    }
+  };
+  while (!waiting.empty()) {
+    const std::string name = std::move(waiting.back());
+    waiting.pop_back();
+    if (const auto broken = package.broken.find(name); broken != package.broken.end()) {
+      throw FormatError(broken->second);
+    }
+    auto part = package.parts.extract(name);
+    if (part.empty()) {
+      continue;  // known, or complained of where it is shown
+    }
+    ask_for(part.mapped().items);
+    for (const auto& [id, object] : part.mapped().objects) {
+      ask_for(object.components);
+    }
+    named.insert(std::move(part));
+  }
+  return named;
 }
 
 /// Each object of a part that is no component of another there; all of them where none is left, so that
@@ -296,7 +345,7 @@ Model parse_threemf(std::string_view bytes, std::string_view name, const RunCont
     builder.keep_appearance(/*of_vertices=*/false);
   }
   const std::string root = root_of(bytes, builder);
-  const Parts parts = read_parts(bytes, root, builder);
+  const Parts parts = named_parts(read_parts(bytes, root, builder), root);
   if (parts.find(root) == parts.end()) {
     builder.fail("names the part " + in_quotes(root) + ", which is not in the archive");
   }

@@ -132,6 +132,28 @@ TEST(Threemf, ReadsObjectsOfOtherParts) {
   EXPECT_EQ(plate.parsed().mesh.positions.size(), 4U);
 }
 
+TEST(Threemf, PartsThatNothingNamesChangeNothing) {
+  Plate unused;
+  unused.attributes =
+      R"(requiredextensions="b" xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02")";
+  Plate plate;
+  plate.more = {{"__MACOSX/3D/._3dmodel.model", "no XML"}, {"3D/unused.model", unused.model()}};
+  EXPECT_EQ(plate.parsed().mesh.positions.size(), 4U);
+  EXPECT_THAT(plate.parsed().notes, IsEmpty());
+}
+
+TEST(ThreemfError, SaysWhatIsWrongWithAPartThatAnotherNames) {
+  Plate plate;
+  plate.more = {{"3D/broken.model", "no XML"}, {"3D/between.model", Plate().model()}};
+  std::string& between = plate.more[1].second;
+  between.replace(
+      between.find("<mesh>"), between.find("</object>") - between.find("<mesh>"),
+      R"(<components><component p:path="/3D/broken.model" objectid="1"/></components>)");
+  plate.items += R"(<item objectid="1" p:path="/3D/between.model"/>)";
+  EXPECT_THAT(plate.error(), AllOf(HasSubstr("part '3d/broken.model', line 1"),
+                                   HasSubstr("is not well-formed XML")));
+}
+
 TEST(Threemf, ReadsARootPartWhoseNameIsNotAscii) {
   std::string relationships = kRelationships;
   const std::string root = "3D/модель-é.model";
