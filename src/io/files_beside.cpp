@@ -63,7 +63,7 @@ std::vector<std::string> names_in_gltf(const std::string& text) {
 /// Adds the place where a picture is, after those where it would be read instead if it were there.
 void add_places(std::vector<std::string>& names, const std::string& picture,
                 const SideFileCheck& exists) {
-  for (std::string& place : places_of_picture(picture)) {
+  for (std::string& place : places_of_file(picture)) {
     names.push_back(std::move(place));
     if (exists(names.back())) {
       return;

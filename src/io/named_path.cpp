@@ -23,7 +23,7 @@ std::optional<std::string> inside_folder(const std::string& path) {
   return relative_path_of_uri(escaped);
 }
 
-std::vector<std::string> places_of_picture(const std::string& named) {
+std::vector<std::string> places_of_file(const std::string& named) {
   std::vector<std::string> places;
   for (const std::string& path : {named, named.substr(named.find_last_of('/') + 1)}) {
     std::optional<std::string> place = inside_folder(path);
@@ -35,7 +35,7 @@ std::vector<std::string> places_of_picture(const std::string& named) {
 }
 
 std::optional<std::string> place_of_picture(const std::string& named, const SideFileCheck& exists) {
-  const std::vector<std::string> places = places_of_picture(named);
+  const std::vector<std::string> places = places_of_file(named);
   if (places.empty()) {
     return std::nullopt;
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/obj_libraries.h"
 
+#include <algorithm>
+
 #include "io/named_path.h"
 #include "io/text_cursor.h"
 
@@ -22,12 +24,14 @@ void ObjLibraries::add(std::string_view names) {
 
 void ObjLibraries::read() {
   for (const std::string& names : named_) {
-    bool found = read_library(names);  // one whose name has spaces, or else several
+    // One whose name has spaces, or else several, or else one beside the model whose name has spaces.
+    const std::optional<std::string> whole = inside_folder(with_slashes(names));
+    bool found = whole && read_once(*whole);
     std::string_view rest = found ? std::string_view() : std::string_view(names);
     for (std::string_view name = take_token(rest); !name.empty(); name = take_token(rest)) {
       found = read_library(name) || found;
     }
-    if (!found) {
+    if (!found && !read_library(names)) {
       missing_.push_back(names);
     }
   }
@@ -44,21 +48,21 @@ std::vector<std::string> ObjLibraries::unread_paths() const {
 }
 
 bool ObjLibraries::read_library(std::string_view name) {
-  const std::optional<std::string> path = inside_folder(with_slashes(name));
-  if (!path || !files_) {
-    return false;
+  const std::vector<std::string> places = places_of_file(with_slashes(name));
+  return std::any_of(places.begin(), places.end(),
+                     [this](const std::string& path) { return read_once(path); });
+}
+
+bool ObjLibraries::read_once(const std::string& path) {
+  const auto [known, is_new] = is_read_.try_emplace(path, false);
+  if (is_new) {
+    known->second = read_materials(path);
   }
-  const auto known = is_read_.find(*path);
-  if (known != is_read_.end()) {
-    return known->second;
-  }
-  const bool is_read = read_materials(*path);
-  is_read_[*path] = is_read;
-  return is_read;
+  return known->second;
 }
 
 bool ObjLibraries::read_materials(const std::string& path) {
-  const SideFile file = files_(path);
+  const SideFile file = files_ ? files_(path) : SideFile{};
   if (!file.bytes) {
     return false;
   }

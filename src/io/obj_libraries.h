@@ -49,6 +49,7 @@ class ObjLibraries {
 
  private:
   [[nodiscard]] bool read_library(std::string_view name);
+  [[nodiscard]] bool read_once(const std::string& path);
   [[nodiscard]] bool read_materials(const std::string& path);
 
   const SideFileSource& files_;

@@ -81,6 +81,16 @@ class Materials(ProgramTest):
         for name in ("v/best-kssm.png", "v/best-skeleton.png"):
             self.assertLess(redness(self.dir / name), 0.6, name)
 
+    def test_a_library_of_the_authors_disk_or_one_bright_vertex_leaves_it_red(self):
+        self.write("disk.obj", obj_box("red").replace("mtllib ", "mtllib C:\\models\\"))
+        bright = obj_box("red").replace("mtllib m.mtl\n", "")
+        for i, row in enumerate(box(1.0, 1.2, 0.8).splitlines()[2:10]):
+            bright = bright.replace(f"v {row}\n", f"v {row} {0.9 if i else 3} 0.05 0.05\n")
+        self.write("bright.obj", bright)
+        for name in ("disk", "bright"):
+            self.vantage("render", f"{name}.obj", "-o", f"{name}.png", "--direction", "1,1,1", *SMALL)
+            self.assertGreater(redness(self.dir / f"{name}.png"), 0.8, name)
+
     def test_every_command_that_draws_knows_the_flags_of_pictures(self):
         flags = ("--style", "clay", "--quality", "draft", "--background", "#0000ff", "--crease", "30", "--margin", "9")
         self.vantage("view", "red.obj", "-o", "v", *FAST, *flags, "--views", 3, "--weight", "area", "--tour",

@@ -250,6 +250,21 @@ TEST_F(ObjAppearance, WithoutItsLibraryIsANote) {
 }
 
 TEST(ObjLibraries, AreReadOnceHoweverOftenTheyAreNamed) {
+TEST_F(ObjAppearance, FindsLibrariesThatAreNamedAsOnTheAuthorsDisk) {
+  write_file(folder_.file("b.mtl"), "newmtl blue\nKd 0 0 1\n");
+  write_file(folder_.file("my own.mtl"), "newmtl blue\nKd 0 0 1\n");
+  const auto blue = [&](const std::string& line) {
+    const Model model =
+        loaded(line + "\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 3 4\n", "newmtl red\nKd 1 0 0\n");
+    const std::vector<Material>& materials = model.appearance.materials;
+    return materials.empty() ? Material{}.colour : materials.back().colour;
+  };
+  for (const char* name : {"/home/me/b.mtl", "C:\\art work\\b.mtl", "../b.mtl", "maps/b.mtl",
+                           "C:\\art\\my own.mtl", "C:\\art\\a.mtl C:\\art\\b.mtl"}) {
+    EXPECT_THAT(blue(std::string("mtllib ") + name), ElementsAre(0.0, 0.0, 1.0)) << name;
+  }
+}
+
   int reads = 0;
   const Surroundings surroundings{{},
                                   [&](const std::string& path) {

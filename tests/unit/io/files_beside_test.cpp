@@ -58,6 +58,16 @@ TEST_F(FilesBesideAModel, APictureOfTheAuthorsDiskIsBesideTheModel) {
   EXPECT_THAT(found("m.obj", "mtllib a.mtl\n"), ElementsAre("a.mtl", "my wood.png"));
 }
 
+TEST_F(FilesBesideAModel, ALibraryOfTheAuthorsDiskIsBesideTheModel) {
+  EXPECT_THAT(found("m.obj", "mtllib maps/a.mtl\n"), IsEmpty());
+  EXPECT_THAT(missing_, ElementsAre("a.mtl", "maps/a.mtl"));
+  write("a.mtl");
+  EXPECT_THAT(found("m.obj", "mtllib maps/a.mtl\n"), ElementsAre("a.mtl"));
+  EXPECT_THAT(missing_, ElementsAre("maps/a.mtl"));
+  EXPECT_THAT(found("m.obj", "mtllib /home/me/a.mtl\n"), ElementsAre("a.mtl"));
+  EXPECT_THAT(missing_, IsEmpty());
+}
+
 TEST_F(FilesBesideAModel, TheBytesSayWhatItIsAsForItsReader) {
   write("a.mtl");
   write("t.png");
