@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "io/model_builder.h"
@@ -16,12 +17,20 @@ namespace vantage {
 namespace {
 
 /// Keywords of the format that do not shape the polygons.
-constexpr std::array<std::string_view, 40> kSilentKeywords = {
-    "vn",    "vp",       "s",        "usemtl", "mtllib",     "usemap",    "maplib", "mg",
-    "bevel", "c_interp", "d_interp", "lod",    "shadow_obj", "trace_obj", "cstype", "deg",
-    "bmat",  "step",     "parm",     "trim",   "hole",       "scrv",      "sp",     "end",
-    "con",   "ctech",    "stech",    "call",   "csh",        "bsp",       "bzp",    "cdc",
-    "cdp",   "res",      "newmtl",   "Ka",     "Kd",         "Ks",        "illum",  "usemtllib"};
+constexpr std::array<std::string_view, 35> kSilentKeywords = {
+    "vn",     "vp",     "s",        "usemtl",   "mtllib", "usemap",     "maplib",
+    "mg",     "bevel",  "c_interp", "d_interp", "lod",    "shadow_obj", "trace_obj",
+    "cstype", "deg",    "bmat",     "step",     "parm",   "trim",       "hole",
+    "scrv",   "sp",     "end",      "con",      "ctech",  "stech",      "csh",
+    "res",    "newmtl", "Ka",       "Kd",       "Ks",     "illum",      "usemtllib"};
+
+/// Free-form curves and surfaces; the last four are patches as the first version of the format wrote them.
+constexpr std::array<std::string_view, 7> kCurveKeywords = {"curv", "curv2", "surf", "bsp",
+                                                            "bzp",  "cdc",   "cdp"};
+
+bool is_one_of(std::span<const std::string_view> keywords, std::string_view keyword) {
+  return std::find(keywords.begin(), keywords.end(), keyword) != keywords.end();
+}
 
 class ObjReader {
  public:
@@ -66,10 +75,11 @@ class ObjReader {
       read_appearance(keyword, rest);
     } else if (keyword == "l" || keyword == "p") {
       ++lines_and_points_;
-    } else if (keyword.substr(0, 4) == "curv" || keyword == "surf") {
+    } else if (is_one_of(kCurveKeywords, keyword)) {
       ++curves_;
-    } else if (std::find(kSilentKeywords.begin(), kSilentKeywords.end(), keyword) ==
-               kSilentKeywords.end()) {
+    } else if (keyword == "call") {
+      ++calls_;
+    } else if (!is_one_of(kSilentKeywords, keyword)) {
       if (unknown_++ == 0) {
         first_unknown_ = in_quotes(keyword) + " in " + lines_.place().text();
       }
@@ -211,6 +221,9 @@ class ObjReader {
     if (curves_ > 0) {
       builder_.note("free-form curves and surfaces left out: " + std::to_string(curves_));
     }
+    if (calls_ > 0) {
+      builder_.note("files whose content belongs here (call) left out: " + std::to_string(calls_));
+    }
     if (unknown_ > 0) {
       builder_.note("lines with an unknown keyword left out: " + std::to_string(unknown_) +
                     ", the first is " + first_unknown_);
@@ -225,6 +238,7 @@ class ObjReader {
   bool has_clear_ = false;  // a vertex is not opaque
   std::size_t lines_and_points_ = 0;
   std::size_t curves_ = 0;
+  std::size_t calls_ = 0;
   std::size_t unknown_ = 0;
   std::string first_unknown_{};
 };

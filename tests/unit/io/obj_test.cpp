@@ -154,6 +154,12 @@ TEST(Obj, NotesUnknownKeywords) {
   EXPECT_THAT(model.notes, ElementsAre(HasSubstr("'wobble' in line 4")));
 }
 
+TEST(Obj, NotesFilesThatItCallsAndSurfacesOfOldKeywords) {
+  const Model model = obj(std::string(kThreePoints) + "call b.obj\nbzp 1 2 3\nf 1 2 3\n");
+  EXPECT_THAT(model.notes, ElementsAre("free-form curves and surfaces left out: 1",
+                                       "files whose content belongs here (call) left out: 1"));
+}
+
 TEST(Obj, KnowsWhetherCoordinatesNeedDouble) {
   EXPECT_FALSE(obj("v 0.1 0.25 1234.5").double_precision);
   EXPECT_TRUE(obj("v 0.1234567890123 0 0").double_precision);
