@@ -39,15 +39,7 @@ class SceneReader {
         gltf_(document.structure),
         builder_(builder),
         most_faces_(most_faces),
-        of_mesh_(document.structure.meshes.size()) {
-    for (const tinygltf::Mesh& mesh : gltf_.meshes) {
-      for (const tinygltf::Primitive& primitive : mesh.primitives) {
-        has_triangles_ = has_triangles_ || primitive.mode >= TINYGLTF_MODE_TRIANGLES;
-        has_colours_ = has_colours_ || primitive.attributes.count("COLOR_0") > 0 ||
-                       base_colour(primitive) != std::array{1.0, 1.0, 1.0};
-      }
-    }
-  }
+        of_mesh_(document.structure.meshes.size()) {}
 
   void read() {
     is_counting_ = true;  // before anything is made
@@ -235,27 +227,36 @@ class SceneReader {
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
       const auto position = primitive.attributes.find("POSITION");
       const bool is_surface = primitive.mode >= TINYGLTF_MODE_TRIANGLES;
-      const bool is_cloud = primitive.mode == TINYGLTF_MODE_POINTS && !has_triangles_;
-      if (position == primitive.attributes.end() || (!is_surface && !is_cloud)) {
+      if (position == primitive.attributes.end() ||
+          (!is_surface && primitive.mode != TINYGLTF_MODE_POINTS)) {
         continue;
       }
-      const std::size_t points = elements(position->second);
-      amount.spent += points;
-      if (is_surface) {
-        const std::size_t corners = primitive.indices < 0 ? points : elements(primitive.indices);
-        const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
-        amount.spent += corners;
-        amount.faces += is_list ? corners / 3 : corners - std::min<std::size_t>(corners, 2);
+      (is_surface ? surfaces_have_colours_ : points_have_colours_) |= has_colours(primitive);
+      if (!is_surface) {
+        continue;  // whether points are shown is not known yet
       }
+      const std::size_t points = elements(position->second);
+      const std::size_t corners = primitive.indices < 0 ? points : elements(primitive.indices);
+      const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
+      amount.spent += points + corners;
+      amount.faces += is_list ? corners / 3 : corners - std::min<std::size_t>(corners, 2);
     }
     return amount;
   }
+
+  [[nodiscard]] bool has_colours(const tinygltf::Primitive& primitive) const {
+    return primitive.attributes.count("COLOR_0") > 0 ||
+           base_colour(primitive) != std::array{1.0, 1.0, 1.0};
+  }
+
+  /// Points count only without faces, once what is shown has been counted.
+  [[nodiscard]] bool shows_points() const { return faces_ == 0; }
 
   void read_mesh(const tinygltf::Mesh& mesh, const Transform& world, const GltfSkin* skin) {
     spend(mesh.primitives.size());
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
       const bool is_surface = primitive.mode >= TINYGLTF_MODE_TRIANGLES;
-      const bool is_cloud = primitive.mode == TINYGLTF_MODE_POINTS && !has_triangles_;
+      const bool is_cloud = primitive.mode == TINYGLTF_MODE_POINTS && shows_points();
       if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
         builder_.fail("a primitive has the unknown mode " + std::to_string(primitive.mode));
       }
@@ -317,7 +318,7 @@ class SceneReader {
   }
 
   void read_colours(const tinygltf::Primitive& primitive, std::size_t count) {
-    if (!has_colours_) {
+    if (!surfaces_have_colours_ && !(shows_points() && points_have_colours_)) {
       return;
     }
     // What a vertex looks like is the product of both, in linear light; textures are the material's.
@@ -457,9 +458,9 @@ class SceneReader {
   std::size_t faces_ = 0;  // counted
   std::size_t budget_ = 0;
   std::size_t visits_left_ = 0;
-  bool has_triangles_ = false;
-  bool has_clear_ = false;  // a vertex is not opaque
-  bool has_colours_ = false;
+  bool has_clear_ = false;              // a vertex is not opaque
+  bool surfaces_have_colours_ = false;  // of what is shown
+  bool points_have_colours_ = false;
   std::size_t hidden_nodes_ = 0;
   std::size_t skipped_primitives_ = 0;
   std::size_t shapeless_primitives_ = 0;

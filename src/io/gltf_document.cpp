@@ -215,7 +215,7 @@ void check_version(const Json& root, const ModelBuilder& builder) {
     builder.fail("the JSON has no asset.version, which every glTF has");
   }
   const auto& text = version->get_ref<const std::string&>();
-  if (text.substr(0, 2) != "2.") {
+  if (text != "2" && !text.starts_with("2.")) {
     builder.fail("is glTF version " + in_quotes(text) +
                  ", only 2 is read; convert it with gltf-pipeline");
   }
@@ -242,7 +242,7 @@ SharedBytes read_buffer(const Json& buffer, std::size_t index, const Chunks& chu
   if (uri.substr(0, 5) == "data:") {
     std::optional<std::string> data = decode_data_uri(uri);
     if (!data) {
-      builder.fail("the data URI of " + label + " is not well formed base64");
+      builder.fail("the data URI of " + label + " is not well formed base64 or percent-encoding");
     }
     return shared(std::move(*data));
   }

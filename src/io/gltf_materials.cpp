@@ -187,7 +187,7 @@ class MaterialReader {
     if (text.substr(0, 5) == "data:") {
       const std::optional<std::string> data = decode_data_uri(text);
       if (!data) {
-        loader_.complain(label, "is not well formed base64");
+        loader_.complain(label, "is not well formed base64 or percent-encoding");
         return std::nullopt;
       }
       return loader_.embedded(*data, label);

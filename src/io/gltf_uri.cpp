@@ -60,12 +60,12 @@ bool climbs(std::string_view path) {
 }  // namespace
 
 std::optional<std::string> decode_data_uri(std::string_view uri) {
-  constexpr std::string_view kMarker = ";base64,";
-  const std::size_t marker = uri.find(kMarker);
-  if (uri.substr(0, 5) != "data:" || marker == std::string_view::npos || uri.find(',') < marker) {
+  const std::size_t comma = uri.find(',');
+  if (!uri.starts_with("data:") || comma == std::string_view::npos) {
     return std::nullopt;
   }
-  return decode_base64(uri.substr(marker + kMarker.size()));
+  const std::string_view data = uri.substr(comma + 1);
+  return uri.substr(0, comma).ends_with(";base64") ? decode_base64(data) : decode_percent(data);
 }
 
 std::optional<std::string> decode_percent(std::string_view text) {

@@ -7,7 +7,7 @@
 
 namespace vantage {
 
-/// The bytes of a "data:…;base64,…" URI; nothing if it is not well formed.
+/// The bytes of a "data:…,…" URI, in base64 or percent-encoded; nothing if it is not well formed.
 std::optional<std::string> decode_data_uri(std::string_view uri);
 
 /// The text with each %XX as a byte; nothing if a percent sign stands before anything else.

@@ -125,6 +125,19 @@ TEST(GltfAppearance, ATextureThatCannotBeHadIsANoteAndNoError) {
   }
 }
 
+TEST(GltfAppearance, ReadsATextureThatIsPercentEncoded) {
+  std::string data;
+  for (const char c : green_png()) {
+    constexpr std::string_view kDigits = "0123456789ABCDEF";
+    const auto byte = static_cast<unsigned char>(c);
+    data += std::string{'%', kDigits[byte / 16U], kDigits[byte % 16U]};
+  }
+  const Model model = parse_model(
+      gltf(kTextured, image_part(R"("uri":"data:image/png,)" + data + '"')), "a.gltf", {}, kAll);
+  EXPECT_EQ(model.appearance.textures.size(), 1U);
+  EXPECT_THAT(model.notes, IsEmpty());
+}
+
 TEST(GltfAppearance, CoordinatesThatLeaveTheFileAreANote) {
   std::string text = gltf(kTextured, green_part());
   text.replace(text.find(R"("byteOffset":48,"byteLength":32)"), 31,
@@ -237,19 +250,6 @@ TEST_F(ObjAppearance, HasTheMaterialsOfAllLibrariesOfALine) {
   EXPECT_THAT(model.notes, IsEmpty());
 }
 
-TEST_F(ObjAppearance, NotesMaterialsThatNoLibraryHas) {
-  const Model model = loaded("mtllib a.mtl\nusemtl red\nf 1 2 3\nusemtl glass\nf 1 3 4\n",
-                             "newmtl red\nKd 1 0 0\n");
-  EXPECT_THAT(model.notes, ElementsAre("materials of faces that no material library has: 1"));
-}
-
-TEST_F(ObjAppearance, WithoutItsLibraryIsANote) {
-  const Model model = loaded("mtllib b.mtl\nusemtl m\nf 1 2 3\n", "");
-  EXPECT_THAT(model.appearance.materials, IsEmpty());
-  EXPECT_THAT(model.notes, Contains(HasSubstr("the material library 'b.mtl' was left out")));
-}
-
-TEST(ObjLibraries, AreReadOnceHoweverOftenTheyAreNamed) {
 TEST_F(ObjAppearance, FindsLibrariesThatAreNamedAsOnTheAuthorsDisk) {
   write_file(folder_.file("b.mtl"), "newmtl blue\nKd 0 0 1\n");
   write_file(folder_.file("my own.mtl"), "newmtl blue\nKd 0 0 1\n");
@@ -265,6 +265,19 @@ TEST_F(ObjAppearance, FindsLibrariesThatAreNamedAsOnTheAuthorsDisk) {
   }
 }
 
+TEST_F(ObjAppearance, NotesMaterialsThatNoLibraryHas) {
+  const Model model = loaded("mtllib a.mtl\nusemtl red\nf 1 2 3\nusemtl glass\nf 1 3 4\n",
+                             "newmtl red\nKd 1 0 0\n");
+  EXPECT_THAT(model.notes, ElementsAre("materials of faces that no material library has: 1"));
+}
+
+TEST_F(ObjAppearance, WithoutItsLibraryIsANote) {
+  const Model model = loaded("mtllib b.mtl\nusemtl m\nf 1 2 3\n", "");
+  EXPECT_THAT(model.appearance.materials, IsEmpty());
+  EXPECT_THAT(model.notes, Contains(HasSubstr("the material library 'b.mtl' was left out")));
+}
+
+TEST(ObjLibraries, AreReadOnceHoweverOftenTheyAreNamed) {
   int reads = 0;
   const Surroundings surroundings{{},
                                   [&](const std::string& path) {
