@@ -37,7 +37,8 @@ std::span<const std::string_view> model_endings();
 /// Lower-case name as used in results, e.g. "obj".
 std::string_view format_name(ModelFormat format);
 
-/// A named run of triangles: an OBJ group or object, a glTF node.
+/// A named run of triangles: an OBJ group or object, a solid of a text STL, a glTF node, a 3MF object, a part of
+/// an imported model.
 struct ModelPart {
   std::string name{};              ///< As in the file.
   std::size_t first_triangle = 0;  ///< Index into the mesh's triangles.
@@ -72,8 +73,8 @@ std::string_view format_name(const Model& model);
 
 /// What is wanted of a file besides its shape.
 struct ReadOptions {
-  /// Also the materials of glTF, OBJ and PLY with their textures, which may be large. What cannot be had
-  /// of them is left out, with a note: it is no reason to refuse the shape.
+  /// Also materials and textures, which may be large. What cannot be had of them is left out, with a
+  /// note: it is no reason to refuse the shape.
   bool appearance = false;
   /// Textures are looked at no closer than that many pixels on their longer side, so that large JPEGs
   /// may be read at a half, a quarter or an eighth; 0: always whole.
