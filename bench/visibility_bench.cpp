@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -166,19 +167,20 @@ class PlainRays {
     const Vec3f at = eye.position.cast<float>();
     const bool bounded = eye.projection == Projection::Perspective;
     const float reach = bounded ? 1.0F : std::numeric_limits<float>::infinity();
-    return static_cast<std::size_t>(
-        parallel_sum(run, points_.size(), 2048, [&](std::size_t begin, std::size_t end) {
-          std::size_t sum = 0;
-          for (std::size_t v = begin; v < end; ++v) {
-            const Vec3f to_eye = bounded ? Vec3f(at - points_[v]) : at;
-            bool turned = false;
-            for (const std::uint32_t f : faces_[v]) {
-              turned = turned || normals_[f].dot(to_eye) > 0.0F;
-            }
-            sum += turned && !scene_.occluded(points_[v], to_eye, lift, reach) ? 1U : 0U;
-          }
-          return static_cast<double>(sum);
-        }));
+    std::atomic<std::size_t> total{0};
+    parallel_for(run, points_.size(), 2048, [&](std::size_t begin, std::size_t end) {
+      std::size_t sum = 0;
+      for (std::size_t v = begin; v < end; ++v) {
+        const Vec3f to_eye = bounded ? Vec3f(at - points_[v]) : at;
+        bool turned = false;
+        for (const std::uint32_t f : faces_[v]) {
+          turned = turned || normals_[f].dot(to_eye) > 0.0F;
+        }
+        sum += turned && !scene_.occluded(points_[v], to_eye, lift, reach) ? 1U : 0U;
+      }
+      total += sum;
+    });
+    return total;
   }
 
  private:

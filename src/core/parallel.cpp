@@ -9,7 +9,6 @@
 #include <numeric>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -156,18 +155,6 @@ void interruptible(const RunContext& run, std::function<void()> work) {
   }
   thread.join();
   done.get();
-}
-
-double parallel_sum(const RunContext& run, std::size_t count, std::size_t grain,
-                    const std::function<double(std::size_t, std::size_t)>& body) {
-  std::vector<double> sums((count + grain - 1) / grain, 0.0);
-  parallel_for(run, count, grain,
-               [&](std::size_t begin, std::size_t end) { sums[begin / grain] = body(begin, end); });
-  double total = 0.0;
-  for (const double sum : sums) {
-    total += sum;
-  }
-  return total;
 }
 
 }  // namespace vantage

@@ -48,10 +48,6 @@ void run_both(const RunContext& run, const std::function<void()>& first,
 /// \throw Cancelled within a tenth of a second, and whatever `work` throws.
 void interruptible(const RunContext& run, std::function<void()> work);
 
-/// Sum over chunks of body(begin, end), added in chunk order: the same bits for any thread count.
-double parallel_sum(const RunContext& run, std::size_t count, std::size_t grain,
-                    const std::function<double(std::size_t begin, std::size_t end)>& body);
-
 /// Sorts in chunks that are then merged pair by pair. \pre less leaves no two items equal, so that
 /// there is one answer.
 template <typename T, typename Less>
