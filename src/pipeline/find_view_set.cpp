@@ -139,7 +139,7 @@ void warn_of(const ViewSet& set, const ViewSetRequest& request,
                        std::to_string(*request.set.views) +
                        " views found: a further one would show nothing new" +
                        (request.set.min_separation_deg > 0.0 ? " or stand too near" : ""));
-  } else if (set.stop == ViewSetStop::Exhausted) {
+  } else if (request.set.coverage && set.stop == ViewSetStop::Exhausted) {
     warnings.emplace_back(
         request.selection == ViewSelection::Kssm
             ? "the coverage asked for is out of reach with views so far apart"

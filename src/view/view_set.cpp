@@ -137,7 +137,9 @@ class Selection {
       return true;
     }
     if (is_covered()) {
-      result_.stop = ViewSetStop::Coverage;
+      // Who asked for a number alone asked for no coverage.
+      const bool is_by_count = options_.views && !options_.coverage;
+      result_.stop = is_by_count ? ViewSetStop::Exhausted : ViewSetStop::Coverage;
       return true;
     }
     return false;

@@ -53,7 +53,7 @@ struct ChosenView {
 /// Why no further view was added. None of these is an error.
 enum class ViewSetStop {
   Count,        ///< There are as many as were asked for.
-  Coverage,     ///< What was to be seen is seen.
+  Coverage,     ///< What was to be seen is seen, and not a number alone was asked for.
   Exhausted,    ///< No candidate far enough from the others sees anything new.
   Information,  ///< The views merged hold no more of the information than was asked for.
 };

@@ -61,6 +61,14 @@ TEST(SelectViews, StopsAtTheNumberAskedFor) {
   EXPECT_DOUBLE_EQ(set.views[0].coverage, 7.0 / 8.0);
 }
 
+TEST(SelectViews, WhereNothingMoreIsToBeSeenANumberIsNotReached) {
+  const ViewSet set = cube().select(Vec3(1, 1, 1), {.views = 4, .level = 2});
+  EXPECT_EQ(set.views.size(), 2U);
+  EXPECT_EQ(set.stop, ViewSetStop::Exhausted);
+  const ViewSetOptions both{.views = 4, .coverage = 1.0, .level = 2};
+  EXPECT_EQ(cube().select(Vec3(1, 1, 1), both).stop, ViewSetStop::Coverage);
+}
+
 TEST(SelectViews, StopsAtTheCoverageAskedFor) {
   const ViewSet set = cube().select(Vec3(1, 1, 1), {.coverage = 0.875, .level = 2});
   EXPECT_EQ(set.views.size(), 1U);
