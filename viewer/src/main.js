@@ -10,6 +10,7 @@ import { ScoreSphere } from './score_sphere.js';
 const element = (id) => document.getElementById(id);
 const PLAY_LEVELS_PER_S = 1.5;
 const SPACING_RAD = 0.14; // of the directions of the sphere
+const SAME_RAD = 1e-4; // an eye in 32-bit floats is a view's own
 
 const data = readData();
 const { view } = data;
@@ -26,9 +27,14 @@ const sphere = new ScoreSphere(element('sphere'), data, (direction) => {
     up: data.up, target: [0, 0, 0] });
 });
 /** The value there, from those of the sphere; near a view that is known, towards its own. */
-const valueNear = (direction, values, known, at) => {
-  const share = Math.min(1, direction.angleTo(at) / SPACING_RAD);
-  return (1 - share) * known + share * sphere.valueAt(direction, values);
+const valueNear = (direction, values, { angle, value }) => {
+  const share = Math.min(1, angle / SPACING_RAD);
+  return (1 - share) * value + share * sphere.valueAt(direction, values);
+};
+/** Of the views that are shown, the nearest. */
+const nearestView = (direction) => {
+  const views = data.views.map((of) => ({ angle: direction.angleTo(new Vector3(...of.direction)), value: of.score }));
+  return views.reduce((a, b) => (b.angle < a.angle ? b : a));
 };
 const bestEye = new Vector3(...view.best.direction);
 
@@ -36,9 +42,11 @@ let model; // the first report of a direction comes from its constructor
 model = new ModelView(element('model'), data, (direction, up) => {
   sphere.turn(direction, up);
   const { scores, objective } = data.sphere;
-  panel.showDirection(direction, valueNear(direction, scores, view.best.score, bestEye), view.total,
-    sphere.hasObjective && view.best.objective > 0
-      ? valueNear(direction, objective, view.best.objective, bestEye) / view.best.objective : undefined);
+  const near = nearestView(direction);
+  const score = near.angle < SAME_RAD ? { value: near.value, isExact: true } : { value: valueNear(direction, scores, near) };
+  const best = { angle: direction.angleTo(bestEye), value: view.best.objective };
+  panel.showDirection(direction, score, view.total,
+    sphere.hasObjective && best.value > 0 ? valueNear(direction, objective, best) / best.value : undefined);
 });
 const press = panel.fillViews(data.views, (picked) => {
   press(picked.name);
@@ -138,7 +146,8 @@ function replay(flying) {
   element('epsilon-text').textContent = Number(epsilon.toPrecision(2)).toString();
   const result = replayRapid(data.rapid[goal], goal, epsilon);
   sphere.showPath(result.path.map((step) => step.direction));
-  panel.showReplay(result, view[goal].score);
+  // The search replayed looks for scores alone, whatever the best view maximises.
+  panel.showReplay(result, ...(goal === 'best' ? ['highest', view.highest_score.score] : ['least', view.worst.score]));
   if (!flying) {
     return;
   }

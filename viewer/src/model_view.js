@@ -345,8 +345,10 @@ export class ModelView {
     this.camera.updateProjectionMatrix();
   }
 
+  /** Towards the eye: from the centre, or against parallel rays. */
   direction() {
-    return this.camera.position.clone().normalize();
+    const eye = this.camera.position.clone();
+    return (this.camera.isPerspectiveCamera ? eye : eye.sub(this.controls.target)).normalize();
   }
 
   /** Turns or zooms, if the key is for that. */

@@ -74,18 +74,18 @@ export function fillWarnings(warnings) {
   warnings.forEach((text) => make('li', text, element('warnings')));
 }
 
-/** Where the eye is now, what that view scores and, as a share of the best view's, the objective. */
+/** Where the eye is now, what that view scores ({value, isExact}) and, as a share of the best view's, the objective. */
 export function showDirection(direction, score, total, objective) {
   const numbers = direction.toArray().map((x) => x.toFixed(3)).join(', ');
-  const share = total > 0 ? ` (${percent(score / total)})` : '';
-  element('direction').textContent = `direction ${numbers}\nscore about ${short(score)}${share}`
+  const share = total > 0 ? ` (${percent(score.value / total)})` : '';
+  element('direction').textContent = `direction ${numbers}\nscore ${score.isExact ? '' : 'about '}${short(score.value)}${share}`
     + (objective === undefined ? '' : `\nobjective about ${percent(objective)} of the best view's`);
 }
 
-export function showReplay({ path, evaluations, levels }, dense) {
+export function showReplay({ path, evaluations, levels }, name, found) {
   const last = path[path.length - 1];
   element('replay-text').textContent =
-    `${evaluations} views in ${levels} ring${levels === 1 ? '' : 's'}; ends at about ${short(last.score)}, the view found: ${short(dense)}`;
+    `${evaluations} views in ${levels} ring${levels === 1 ? '' : 's'}; ends at about ${short(last.score)}, the ${name} found: ${short(found)}`;
 }
 
 /** Hands a file to the reader. */
