@@ -145,9 +145,6 @@ std::shared_ptr<const Analysis> with_other_map(const Analysis& analysis, const S
   auto other = std::make_shared<Analysis>(analysis);
   other->settings = settings;
   add_map(other->shape, settings.view, run);
-  if (const std::string& focus = settings.view.focus; !focus.empty()) {
-    focus_on(other->shape, find_object(list_objects(*other->model, other->shape), focus));
-  }
   return other;
 }
 
@@ -205,9 +202,8 @@ std::shared_ptr<const Analysis> Subject::analysed(const Settings& settings, cons
   return made;
 }
 
-ShapeAnalysis surface_only(const Model& model, const ViewOptions& /*options*/,
-                           const RunContext& run) {
-  return prepare_surface(model, run);
+ShapeAnalysis surface_only(const Model& model, const ViewOptions& options, const RunContext& run) {
+  return prepare_surface(model, options, run);
 }
 
 ShapeAnalysis with_skeleton(const Model& model, const ViewOptions& options, const RunContext& run) {

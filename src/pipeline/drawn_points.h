@@ -11,4 +11,13 @@ namespace vantage {
 /// cloud all points but outliers, whether triangles join them or not.
 std::vector<Vec3> drawn_points(const ShapeAnalysis& shape);
 
+/// What pictures are framed by: the focus of the shape, or all that they show.
+struct FramedPoints {
+  std::vector<Vec3> points{};
+  double margin = 0.0;  ///< Of the shorter side; wider around a focus.
+};
+
+/// \param margin_percent of options.
+FramedPoints framed_points(const ShapeAnalysis& shape, double margin_percent);
+
 }  // namespace vantage

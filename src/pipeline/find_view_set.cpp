@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 #include "vantage/pipeline/find_views.h"
 #include "vantage/spatial/directions.h"
@@ -148,6 +149,26 @@ void warn_of(const ViewSet& set, const ViewSetRequest& request,
   }
 }
 
+/// Where a camera on its way looks.
+struct Aim {
+  Vec3 target;
+  Vec3 back;  ///< Unit, from there to the eye.
+  Vec3 up;
+  double distance;
+};
+
+/// At a focus, from where the camera would look at the whole.
+Aim aim_at(const Vec3& focus, const TourPose& pose, const ScoringCamera& camera) {
+  if (camera.projection == Projection::Orthographic) {
+    // So far that nothing of the whole is behind the eye.
+    return {focus, pose.direction, pose.up, camera.distance() + camera.sphere.diameter};
+  }
+  const Vec3 way = camera.eye(pose.direction) - focus;
+  const Vec3 back = way.normalized();
+  const Vec3 right = pose.up.cross(back).normalized();
+  return {focus, back, back.cross(right), way.norm()};
+}
+
 }  // namespace
 
 ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility& visibility,
@@ -206,27 +227,29 @@ std::vector<Camera> tour_cameras(const ShapeAnalysis& shape, const ReportedViewS
       stops.push_back(set.choice.views[i].direction);
     }
   }
-  const std::vector<Vec3> points = drawn_points(shape);
+  const auto [points, margin] = framed_points(shape, margin_percent);
   const Vec3& centre = camera.sphere.centre;
-  const double distance = camera.distance();
+  const Vec3 middle = shape.focus.empty() ? centre : enclosing_sphere(points).centre;
   const bool is_perspective = camera.projection == Projection::Perspective;
   double extent = 0.0;  // half the picture's height; perspective: over the distance
   // The margins of both sides, parts of the shorter side, in picture heights.
-  const double border = 2.0 * margin_percent / 100.0 * std::min(aspect, 1.0);
+  const double border = 2.0 * margin * std::min(aspect, 1.0);
   std::vector<Camera> cameras;
   for (const TourPose& pose : tour_path(stops, up_vector(up), count)) {
-    const Vec3 right = pose.up.cross(pose.direction);
+    const Aim aim = shape.focus.empty() ? Aim{centre, pose.direction, pose.up, camera.distance()}
+                                        : aim_at(middle, pose, camera);
+    const Vec3 right = aim.up.cross(aim.back);
     for (const Vec3& p : points) {
-      const Vec3 offset = p - centre;
-      const double depth = is_perspective ? distance - offset.dot(pose.direction) : 1.0;
+      const Vec3 offset = p - aim.target;
+      const double depth = is_perspective ? aim.distance - offset.dot(aim.back) : 1.0;
       const double reach = std::max(std::abs(offset.dot(right)) / (aspect - border),
-                                    std::abs(offset.dot(pose.up)) / (1.0 - border));
+                                    std::abs(offset.dot(aim.up)) / (1.0 - border));
       extent = std::max(extent, reach / depth);
     }
     cameras.push_back({.projection = camera.projection,
-                       .eye = centre + distance * pose.direction,
-                       .target = centre,
-                       .up = pose.up});
+                       .eye = aim.target + aim.distance * aim.back,
+                       .target = aim.target,
+                       .up = aim.up});
   }
   for (Camera& c : cameras) {
     c.fov_y_deg = 2.0 * std::atan(extent) * 180.0 / std::numbers::pi;

@@ -109,12 +109,13 @@ const SceneObject& find_object(const std::vector<SceneObject>& objects, std::str
                      names + " (vantage info lists them)");
 }
 
-void focus_on(ShapeAnalysis& shape, const SceneObject& object) {
-  std::vector<double> kept(shape.significance.size(), 0.0);
-  for (const std::uint32_t v : object.vertices) {
-    kept[v] = shape.significance[v];
+ShapeAnalysis prepare_surface(const Model& model, const ViewOptions& options,
+                              const RunContext& run) {
+  ShapeAnalysis shape = prepare_surface(model, run);
+  if (!options.focus.empty()) {
+    shape.focus = find_object(list_objects(model, shape), options.focus).vertices;
   }
-  shape.significance = std::move(kept);
+  return shape;
 }
 
 }  // namespace vantage

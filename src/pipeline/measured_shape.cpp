@@ -50,7 +50,7 @@ ShapeAnalysis analyse_for(const Model& model, const ViewOptions& options,
                                 [](const Measure& m) { return m.needs.kssm || m.needs.skeleton; });
   return deep || !options.focus.empty()
              ? analyse_shape(model, options, run, nullptr, AnalysisUse::Map)
-             : prepare_surface(model, run);
+             : prepare_surface(model, options, run);
 }
 
 void require_area(const ShapeAnalysis& shape, const std::string& name) {

@@ -2,7 +2,9 @@
 // Camera and size of a picture of the whole surface.
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "vantage/mesh/measures.h"
 #include "vantage/pipeline/find_views.h"
 #include "vantage/render/render.h"
 
@@ -19,6 +21,17 @@ int side(double pixels) {
   return static_cast<int>(std::clamp(std::round(pixels), 1.0, static_cast<double>(kLargestSide)));
 }
 
+/// Brings the target to the depth of the focus, and a parallel camera's eye to where nothing of the shape
+/// is behind it: what hides the focus is drawn.
+void settle_on_focus(Camera& camera, std::span<const Vec3> focus, const ShapeAnalysis& shape) {
+  const Vec3 back = (camera.eye - camera.target).normalized();
+  camera.target += (enclosing_sphere(focus).centre - camera.target).dot(back) * back;
+  if (camera.projection == Projection::Orthographic) {
+    const double nearest = (shape.sphere.centre - camera.target).dot(back);
+    camera.eye = camera.target + (nearest + shape.sphere.diameter) * back;
+  }
+}
+
 double aspect_of(PictureSize size) {
   return static_cast<double>(size.width) / size.height;
 }
@@ -28,16 +41,20 @@ double aspect_of(PictureSize size) {
 PictureFrame frame_picture(const ShapeAnalysis& shape, const Vec3& direction, UpAxis up,
                            const ViewOptions& options) {
   const ScoringCamera camera = scoring_camera(shape, options);
-  const std::vector<Vec3> points = drawn_points(shape);
+  const auto [points, margin] = framed_points(shape, options.margin_percent);
   const Viewpoint eye = camera.viewpoint(direction);
   const Vec3 above = up_vector(up);
-  const double margin = options.margin_percent / 100.0;
   PictureSize size{options.width, options.height};
   if (options.fit_size) {
     const double aspect = fitting_aspect(points, eye, camera.sphere.centre, above, margin);
     size = size_with_aspect(options, std::clamp(aspect, 1.0 / kWidest, kWidest));
   }
-  return {frame_points(points, eye, camera.sphere.centre, above, aspect_of(size), margin), size};
+  PictureFrame frame{
+      frame_points(points, eye, camera.sphere.centre, above, aspect_of(size), margin), size};
+  if (!shape.focus.empty()) {
+    settle_on_focus(frame.camera, points, shape);
+  }
+  return frame;
 }
 
 PictureSize size_with_aspect(const ViewOptions& options, double aspect) {

@@ -28,6 +28,18 @@ double lap(std::chrono::steady_clock::time_point& mark) {
   return seconds;
 }
 
+/// Sets to 0 what is not in the shape's focus, if it has one.
+void keep_focus(const ShapeAnalysis& shape, std::vector<double>& significance) {
+  if (shape.focus.empty()) {
+    return;
+  }
+  std::vector<double> kept(significance.size(), 0.0);
+  for (const std::uint32_t v : shape.focus) {
+    kept[v] = significance[v];
+  }
+  significance = std::move(kept);
+}
+
 /// Carries the skeleton's warnings to those of the analysis.
 void note_skeleton(ShapeAnalysis& shape) {
   shape.warnings.insert(shape.warnings.end(), shape.skeleton.warnings.begin(),
@@ -81,6 +93,7 @@ void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext&
   } else if (options.method == "pmi-saliency" && surface_area(shape.surface) > 0.0) {
     shape.significance = vertex_map(shape, options, options.method, run);
   }
+  keep_focus(shape, shape.significance);
 }
 
 namespace {
@@ -134,18 +147,11 @@ ShapeAnalysis analyse_surface(ShapeAnalysis shape, const ViewOptions& options,
 ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options, const RunContext& run,
                             StageSeconds* seconds, AnalysisUse use) {
   auto mark = std::chrono::steady_clock::now();
-  ShapeAnalysis prepared = prepare_surface(model, run);
-  std::optional<SceneObject> focus;  // found before the work, lest a wrong name costs minutes
-  if (!options.focus.empty()) {
-    focus = find_object(list_objects(model, prepared), options.focus);
-  }
+  ShapeAnalysis prepared = prepare_surface(model, options, run);
   if (seconds != nullptr) {
     seconds->load += lap(mark);
   }
   ShapeAnalysis shape = analyse_surface(std::move(prepared), options, run, seconds, use);
-  if (focus) {
-    focus_on(shape, *focus);
-  }
   run.advance("map", 1.0);
   return shape;
 }

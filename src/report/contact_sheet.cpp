@@ -9,7 +9,6 @@
 #include "vantage/report/comparison.h"
 #include "vantage/report/view_report.h"
 
-#include "pipeline/drawn_points.h"
 #include "report/lettering.h"
 #include "report/line_drawing.h"
 #include "report/view_sphere_pictures.h"
@@ -78,16 +77,10 @@ Image comparison_sheet(const ShapeAnalysis& shape, const Comparison& comparison,
   Sheet sheet(columns * block_width, header + rows * block_height + kGapPx);
   constexpr std::array<std::string_view, kTiles> kTitles{"best view", "worst view", "all views"};
   const RunContext quiet = run.quiet();
-  ViewOptions small = options;
-  small.width = kTileWidth;
-  small.height = kTileHeight;
-  const ScoringCamera camera = scoring_camera(shape, options);
-  const std::vector<Vec3> points = drawn_points(shape);
+  const ViewOptions small = with_size(options, {kTileWidth, kTileHeight});
   ShapePictures pictures(shape, look.on(kWhite));
   const auto picture = [&](const MeasuredView& view) {
-    const Camera framed =
-        frame_points(points, camera.viewpoint(view.direction), camera.sphere.centre, up_vector(up),
-                     static_cast<double>(kTileWidth) / kTileHeight, options.margin_percent / 100.0);
+    const Camera framed = frame_picture(shape, view.direction, up, small).camera;
     constexpr std::array kPlain{Picture::Plain};
     return std::move(pictures.take(framed, kPlain, small, {}, quiet).front());
   };

@@ -60,6 +60,8 @@ struct ShapeAnalysis {
   KssmMap kssm{};                               ///< Filled by add_map().
   /// |V| values ≥ 0 that scores add up, filled by add_map(): KSSM, or another map by options.method.
   std::vector<double> significance{};
+  /// Vertices of the object that alone counts, and on which pictures are framed; empty: all.
+  std::vector<std::uint32_t> focus{};
   std::vector<std::string> warnings{};   ///< Every repair and uncertainty, one sentence each.
   std::optional<CloudAnalysis> cloud{};  ///< Set if the model has no faces.
   /// Of `surface`, filled by analyse_shape() for views. Where it is missing, what looks for views
@@ -73,6 +75,11 @@ struct ShapeAnalysis {
 /// \throw InvalidInput if the model has no extent; Cancelled
 ShapeAnalysis prepare_surface(const Model& model, const RunContext& run = {});
 
+/// The same with the object that options.focus names as its focus. A vertex that two objects share
+/// belongs to both. \throw InvalidInput if there is no such object
+ShapeAnalysis prepare_surface(const Model& model, const ViewOptions& options,
+                              const RunContext& run = {});
+
 /// Adds the contraction history to a prepared surface. \throw Cancelled
 void add_history(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
 /// Adds the skeleton. \pre history is there. \throw Cancelled
@@ -81,7 +88,8 @@ void add_skeleton(ShapeAnalysis& shape, const ViewOptions& options, const RunCon
 /// measure to that, or a measure may look at it. \pre history is there. \throw Cancelled
 void add_curve(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
 /// Adds KSSM, and as significance the map that options.method sums: KSSM itself, unless it is
-/// mesh-saliency or pmi-saliency. \pre skeleton or curve is there. \throw Cancelled
+/// mesh-saliency or pmi-saliency; what shape.focus leaves out gets 0 there, not in KSSM.
+/// \pre skeleton or curve is there. \throw Cancelled
 void add_map(ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
 
 /// What an analysis is made for.
@@ -96,7 +104,7 @@ ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options,
                             const RunContext& run = {}, StageSeconds* seconds = nullptr,
                             AnalysisUse use = AnalysisUse::Views);
 
-/// The same from what prepare_surface() gave. options.focus is not looked at: focus_on() does that.
+/// The same from what prepare_surface() gave. options.focus is not looked at: shape.focus is.
 ShapeAnalysis analyse_surface(ShapeAnalysis shape, const ViewOptions& options,
                               const RunContext& run = {}, StageSeconds* seconds = nullptr,
                               AnalysisUse use = AnalysisUse::Views);
@@ -128,9 +136,5 @@ std::vector<SceneObject> list_objects(const Model& model, const ShapeAnalysis& s
 /// The object of this name, or else of this number.
 /// \throw InvalidInput that says what there is if there is none such.
 const SceneObject& find_object(const std::vector<SceneObject>& objects, std::string_view focus);
-
-/// Sets the significance of everything but the object to 0, and thereby what `total` refers to; KSSM
-/// stays. A vertex that two objects share belongs to both. \pre the map is there.
-void focus_on(ShapeAnalysis& shape, const SceneObject& object);
 
 }  // namespace vantage

@@ -141,7 +141,8 @@ struct ViewOptions {
   std::optional<Vec3> best_view{};
   /// Several views besides best and worst.
   std::optional<ViewSetRequest> view_set{};
-  /// Object whose significance alone counts, see find_object(); empty: all.
+  /// Object whose significance alone counts and on which pictures are framed, see find_object();
+  /// empty: all.
   std::string focus{};
 };
 
@@ -170,8 +171,8 @@ inline constexpr auto kViewFields = std::tuple{
     Part{&ViewOptions::skeleton, kSkeletonFields},
     Group{"map", "Method"},
     Word{"focus", &ViewOptions::focus,
-         "only this object's significance counts, the others still hide it: name or number as "
-         "listed by info",
+         "only this object's significance counts, and pictures are framed on it; the others still "
+         "hide it: name or number as listed by info",
          TextForm::Name},
     Choice{"weight", &ViewOptions::weight, "vertex|area",
            "what counts: vertices, or the surface they stand for, however it is cut into faces"},
