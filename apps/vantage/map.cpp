@@ -110,9 +110,7 @@ struct MapCommand {
         (shape.history.levels.empty() ? "" : ", " + plural(shape.history.level_count(), "level")) +
         " → " + printable(file));
     say_notes(session, shape);
-    for (const std::string& doubt : skeleton_warnings(shape)) {
-      session.say("warning: " + doubt);
-    }
+    say_warnings(session, skeleton_warnings(shape));
   }
 };
 

@@ -9,6 +9,12 @@ void say_notes(Session& session, const std::vector<std::string>& notes) {
   }
 }
 
+void say_warnings(Session& session, const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) {
+    session.say("warning: " + warning);
+  }
+}
+
 void say_notes(Session& session, const ShapeAnalysis& shape) {
   if (session.flags.verbose) {
     say_notes(session, shape.warnings);

@@ -83,30 +83,35 @@ struct RenderCommand {
                               : show == "skeleton" ? AnalysisUse::Views
                                                    : AnalysisUse::Picture;
       return needs_map ? analyse_shape(loaded, options, run.part(0.0, 0.5), nullptr, use)
-                       : prepare_surface(loaded, run);
+                       : prepare_surface(loaded, options, run);
     });
     std::optional<FrameChoice> choice;
     if (!frame || look.look().ground) {
       choice = session.computing([&] { return choose_frame(loaded, shape, options); });
     }
+    std::vector<std::string> warnings;
     if (!frame) {
       frame = session.computing([&] {
         return !is_sought
                    ? frame_picture(shape,
                                    direction.value_or(options.best_view.value_or(Vec3::UnitZ())),
                                    choice->frame.up, options)
-                   : found(shape, *choice, options, run.part(0.5, 0.9));
+                   : found(shape, *choice, options, warnings, run.part(0.5, 0.9));
       });
     }
     const Vec3 up = look.look().ground ? up_vector(choice->frame.up) : RenderOptions{}.up;
     const std::map<std::string, Picture> pictures{
         {"plain", Picture::Plain}, {"kssm", Picture::Map}, {"skeleton", Picture::Skeleton}};
-    const std::string warning = look.write(file, loaded, shape, frame->camera, pictures.at(show),
-                                           with_size(options, frame->size), up, run.part(0.9, 1.0));
-    report(session, *frame, options, loaded.notes);
-    if (!warning.empty()) {
-      session.say("warning: " + warning);
+    warnings.push_back(look.write(file, loaded, shape, frame->camera, pictures.at(show),
+                                  with_size(options, frame->size), up, run.part(0.9, 1.0)));
+    std::erase(warnings, "");
+    std::vector<std::string> all = warnings;
+    all.insert(all.end(), loaded.notes.begin(), loaded.notes.end());
+    if (is_sought) {
+      all.insert(all.end(), choice->notes.begin(), choice->notes.end());
     }
+    report(session, *frame, options, all);
+    say_warnings(session, warnings);
     if (look.of_asset()) {
       say_notes(session, loaded.notes);
     }
@@ -149,14 +154,18 @@ struct RenderCommand {
   }
 
   [[nodiscard]] PictureFrame found(const ShapeAnalysis& shape, const FrameChoice& choice,
-                                   const ViewOptions& options, const RunContext& run) const {
+                                   const ViewOptions& options, std::vector<std::string>& warnings,
+                                   const RunContext& run) const {
     const Goal goal = view == "best" ? Goal::Best : Goal::Worst;
     const ReportedView of = find_view(shape, goal, choice, options, run);
+    if (goal == Goal::Best) {
+      warnings.push_back(blank_view_warning(shape, of, options));
+    }
     return {of.picture, of.size};
   }
 
   void report(Session& session, const PictureFrame& frame, const ViewOptions& options,
-              const std::vector<std::string>& notes) const {
+              const std::vector<std::string>& warnings) const {
     const auto& [camera, size] = frame;
     const auto point = [](const Vec3& p) { return batch::Json::array({p.x(), p.y(), p.z()}); };
     if (session.flags.json) {
@@ -170,7 +179,7 @@ struct RenderCommand {
           {"up", point(camera.up)},
           {"fov_y_deg", camera.fov_y_deg},
           {"options", batch::parsed_json(options_json({.view = options, .look = look.look()}))},
-          {"warnings", notes}};
+          {"warnings", warnings}};
       if (camera.projection == Projection::Orthographic) {
         json["orthographic_height"] = camera.height;  // of what is seen, as in transforms.json
       }

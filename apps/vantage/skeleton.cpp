@@ -190,9 +190,7 @@ struct SkeletonCommand {
       session.tell(measured_text());
     }
     say_notes(session, shape);
-    for (const std::string& doubt : skeleton_warnings(shape)) {
-      session.say("warning: " + doubt);
-    }
+    say_warnings(session, skeleton_warnings(shape));
   }
 };
 

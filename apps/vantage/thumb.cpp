@@ -13,6 +13,7 @@
 #include "load_posed.h"
 #include "look_flags.h"
 #include "method_flags.h"
+#include "notes.h"
 #include "output_file.h"
 #include "picture_file.h"
 #include "preview_flag.h"
@@ -92,17 +93,19 @@ struct ThumbCommand {
     const Camera& camera = found.view.picture;
     const Vec3 above = up_vector(found.choice.frame.up);
     options = with_size(options, found.view.size);
-    const std::string warning =
-        look.write(file, loaded, shape, camera, Picture::Plain, options, above, run.part(0.7, 1.0));
+    std::vector<std::string> warnings{
+        found.warning, look.write(file, loaded, shape, camera, Picture::Plain, options, above,
+                                  run.part(0.7, 1.0))};
+    std::erase(warnings, "");
     if (file != "-") {
       preview.show(session, shape, camera, options, look.of(loaded, above), run);
     }
     std::vector<std::string> notes = loaded.notes;
     notes.insert(notes.end(), found.choice.notes.begin(), found.choice.notes.end());
-    report(session, found, notes);
-    if (!warning.empty()) {
-      session.say("warning: " + warning);
-    }
+    std::vector<std::string> all = warnings;
+    all.insert(all.end(), notes.begin(), notes.end());
+    report(session, found, all);
+    say_warnings(session, warnings);
     for (const std::string& note : notes) {
       if (session.flags.verbose || note == kMadeOpaque) {
         session.say("note: " + note);
@@ -112,7 +115,7 @@ struct ThumbCommand {
 
  private:
   void report(Session& session, const PictureView& found,
-              const std::vector<std::string>& notes) const {
+              const std::vector<std::string>& warnings) const {
     session.end_progress();
     if (session.flags.json) {
       const Vec3& d = found.view.direction;
@@ -125,7 +128,7 @@ struct ThumbCommand {
                                 {"up", up_name(found.choice.frame.up)},
                                 {"front", up_name(found.choice.frame.front)},
                                 {"vertices", found.vertices},
-                                {"warnings", notes}};
+                                {"warnings", warnings}};
       write_output("-", batch::json_text(json, 2) + "\n");
     }
   }

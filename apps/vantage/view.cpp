@@ -262,9 +262,7 @@ struct ViewCommand {
     say_notes(session, loaded.notes);
     say_notes(session, shape);
     say_notes(session, report.warnings);
-    for (const std::string& warning : report.reliability_warnings) {
-      session.say("warning: " + warning);
-    }
+    say_warnings(session, report.reliability_warnings);
   }
 };
 

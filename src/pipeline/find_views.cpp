@@ -89,7 +89,7 @@ void note_a_view_from_behind(const DirectionChoice& front, const ViewOptions& op
 void note_what_none_sees(ViewReport& report) {
   constexpr double kHidden =
       0.2;  // of 110 models one shows less than 0.32: spheres in a box [ours]
-  if (report.total > 0.0 && report.highest_score < kHidden * report.total) {
+  if (report.highest_score > 0.0 && report.highest_score < kHidden * report.total) {
     report.warnings.push_back("no view shows more than " +
                               percent(report.highest_score / report.total) +
                               " of the significance: the rest is inside, behind other parts");
@@ -154,6 +154,19 @@ ViewReport find_views(const ShapeAnalysis& shape, const ModelFrame& frame,
   return find_views(shape, given, options, run);
 }
 
+std::string blank_view_warning(const ShapeAnalysis& shape, const ReportedView& best,
+                               const ViewOptions& options) {
+  const bool counts = std::any_of(shape.significance.begin(), shape.significance.end(),
+                                  [](double value) { return value > 0.0; });
+  if (!sums_a_map(options.method) || !counts || best.score > 0.0) {
+    return {};
+  }
+  return "nothing significant is seen from the best view, as other parts hide it: take out what "
+         "hides "
+         "it" +
+         std::string(options.focus.empty() ? "" : ", or choose another --focus");
+}
+
 ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const FrameChoice& choice,
                        const ViewOptions& options, const RunContext& run) {
   check_fields(options, kViewFields);
@@ -196,6 +209,7 @@ PictureView find_picture_view(const Model& model, const ShapeAnalysis& prepared,
         coarse_surface(prepared.surface, prepared.sides, kLarge / 2, run.part(0.0, 0.3));
     surface.surface = std::move(coarse.mesh);
     surface.sides = std::move(coarse.sides);
+    surface.focus.clear();
   }
   const ShapeAnalysis shape = analyse_surface(std::move(surface), options, run.part(0.3, 0.8),
                                               nullptr, AnalysisUse::Picture);
@@ -204,6 +218,7 @@ PictureView find_picture_view(const Model& model, const ShapeAnalysis& prepared,
   found.choice = choose_frame(model, is_large ? prepared : shape, options);
   found.view = find_view(shape, Goal::Best, found.choice, options, run.part(0.8, 1.0));
   found.vertices = shape.surface.positions.size();
+  found.warning = blank_view_warning(shape, found.view, options);
   if (is_large) {
     frame_view(found.view, prepared, found.choice.frame.up, options);
   }

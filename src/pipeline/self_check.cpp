@@ -101,6 +101,9 @@ void look_at_contraction(const ShapeAnalysis& shape, std::vector<std::string>& w
   double left = 0.0;
   for (std::size_t c = 0; c < shape.history.components.size(); ++c) {
     const ComponentContraction& component = shape.history.components[c];
+    if (!shape.focus.empty() && !(significance[c] > 0.0)) {
+      continue;  // it only hides
+    }
     const bool has_failed = component.stop == ContractionStop::SolverFailed;
     // Of clouds a_t is no area, and stays large where they have become curves.
     if ((!shape.cloud && is_plate(component.shrinkage)) || has_failed) {
@@ -110,11 +113,12 @@ void look_at_contraction(const ShapeAnalysis& shape, std::vector<std::string>& w
     }
   }
   if (std::max(thick, significant) > kMinorShare) {
+    const std::string whole = shape.cloud ? " of its points" : " of its area";
     warnings.push_back(
-        "the surface could not be contracted to a curve (" + percent(left) +
-        " of it is left, in parts that hold " + percent(thick) + " of it" +
+        "the surface could not be contracted to a curve (" + percent(left) + whole +
+        " is left, in parts that hold " + percent(thick) + " of that" +
         (shape.significance.empty() ? ""
-                                    : " and " + percent(significant) + " of its significance") +
+                                    : " and " + percent(significant) + " of the significance") +
         "), so that map, skeleton and views are hardly more than a guess: mend the mesh, cut it "
         "into small even triangles, or choose another --method");
   }
@@ -186,6 +190,8 @@ void look_at_views(const ShapeAnalysis& shape, const ViewReport& report, const V
   }
   if (!(report.best.visible_area_fraction > 0.0)) {
     warnings.emplace_back("nothing of the surface is seen from the best view: look at its picture");
+  } else if (std::string blank = blank_view_warning(shape, report.best, options); !blank.empty()) {
+    warnings.push_back(std::move(blank));
   }
   if (objective_of(options) == Objective::People && !options.best_view &&
       report.score_of_attainable.value_or(1.0) < kLeastAttained) {

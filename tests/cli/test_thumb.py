@@ -102,8 +102,9 @@ class Thumb(ProgramTest):
 
     def test_what_shows_next_to_nothing_says_so(self):
         self.write("needle.off", box(2e-5, 2e-5))
-        done = self.vantage("thumb", "needle.off", "needle.png")
+        done = self.vantage("thumb", "needle.off", "needle.png", "--json")
         self.assertRegex(done.err, "warning: the picture shows .*--size")
+        self.assertIn("warning: " + json.loads(done.out)["warnings"][0], done.err)
         done = self.vantage("view", "needle.off", "-o", "v", "--size", "64x64", "--no-report")
         self.assertTrue(any("the picture shows" in d for d in
                             json.loads((self.dir / "v/view.json").read_text())["doubts"]), done.err)

@@ -5,6 +5,7 @@ import math
 import shutil
 import unittest
 
+from png import read_png
 from program import MODELS, ProgramTest
 
 FAST = ("--search", "rapid", "--size", "64")
@@ -96,8 +97,22 @@ class Doubts(ProgramTest):
 
     def test_a_picture_of_specks_is_told(self):
         self.write("far.off", boxes((0, 0, 0, 1, 1, 1), (50, 0, 0, 1, 1, 1)))
-        done = self.vantage("render", "far.off", "-o", "far.png", "--direction", "0,0,1", "--size", "400x300")
+        done = self.vantage("render", "far.off", "-o", "far.png", "--direction", "0,0,1", "--size", "400x300", "--json")
         self.assertRegex(done.err, "the picture shows hardly anything: the model is in [0-9]+ of 120000 pixels")
+        self.assertIn("warning: " + json.loads(done.out)["warnings"][0], done.err)
+        # As it says, --focus helps.
+        done = self.vantage("render", "far.off", "-o", "one.png", "--direction", "0,0,1", "--size", "400x300", "--focus", 1)
+        self.assertEqual(done.err, "")
+        rows = read_png((self.dir / "one.png").read_bytes())[2]
+        self.assertGreater(sum(a > 128 for row in rows for a in row[3::4]), 0.2 * 400 * 300)
+
+    def test_a_focus_that_nothing_shows_is(self):
+        self.write("inside.off", boxes((0, 0, 0, 5, 5, 5), (2, 2, 2, 1, 1, 1)))
+        done, report = self.view("inside.off", "--focus", 1, "--no-images", "--strict", exit_code=1)
+        self.assertRegex(report["doubts"][0], "^nothing significant is seen from the best view")
+        self.assertNotIn("no view shows more than", done.err)
+        drawn = self.vantage("render", "inside.off", "-o", "r.png", "--view", "best", "--focus", 1, "--size", 32, "--json")
+        self.assertIn(report["doubts"][0], json.loads(drawn.out)["warnings"])
 
     def test_a_batch_stores_counts_and_lists_what_is_doubted(self):
         shutil.copy(MODELS / "cat_lowpoly.ply", self.dir / "sound.ply")

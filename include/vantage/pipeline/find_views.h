@@ -152,11 +152,17 @@ ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
 ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const FrameChoice& choice,
                        const ViewOptions& options, const RunContext& run = {});
 
+/// Why a best view should not be trusted that shows none of what counts, a sentence; empty where it shows
+/// some of it, or nothing counts. \pre the map is there.
+std::string blank_view_warning(const ShapeAnalysis& shape, const ReportedView& best,
+                               const ViewOptions& options);
+
 /// A view that is found for its picture.
 struct PictureView {
-  ReportedView view{};       ///< Framed on the whole surface.
+  ReportedView view{};       ///< Framed on the whole surface, or its focus.
   FrameChoice choice{};      ///< As used.
   std::size_t vertices = 0;  ///< Of the surface that was analysed.
+  std::string warning{};     ///< blank_view_warning().
 };
 
 /// The best view of a prepared surface, for a picture of it. A surface of more than 200 000 vertices
@@ -180,7 +186,7 @@ ReportedViewSet find_view_set(const ShapeAnalysis& shape, const VertexVisibility
                               const RunContext& run = {});
 
 /// Cameras along the tour of a set, or its way, `count` at equal distances, all with the field of view that
-/// shows the whole surface from every one of them. \pre at least two different views.
+/// shows the whole surface, or its focus, from every one of them. \pre at least two different views.
 /// \param aspect width over height. \param margin_percent empty border, of the shorter side.
 std::vector<Camera> tour_cameras(const ShapeAnalysis& shape, const ReportedViewSet& set,
                                  const ScoringCamera& camera, UpAxis up, double aspect,
@@ -188,7 +194,7 @@ std::vector<Camera> tour_cameras(const ShapeAnalysis& shape, const ReportedViewS
 
 /// What a picture shows, and its size.
 struct PictureFrame {
-  Camera camera{};     ///< Framed on the whole surface.
+  Camera camera{};     ///< Framed on the whole surface, or its focus.
   PictureSize size{};  ///< Of the picture that it is framed for.
 };
 

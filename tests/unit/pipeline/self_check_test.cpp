@@ -49,9 +49,25 @@ TEST(DoubtsAbout, PartsThatDidNotBecomeCurvesHangOnHowLargeTheyAre) {
   const std::vector<std::string> warnings = doubts_where_left(0, 0.5);
   ASSERT_EQ(warnings.size(), 1U);
   // The large one holds 1 / (1 + 0.4²) of the area.
-  EXPECT_NE(warnings[0].find("(43 % of it is left, in parts that hold 86 % of it and "),
+  EXPECT_NE(warnings[0].find("(43 % of its area is left, in parts that hold 86 % of that and "),
             std::string::npos)
       << warnings[0];
+}
+
+TEST(DoubtsAbout, PartsThatDidNotBecomeCurvesAreNoneWhereTheyOnlyHideTheFocus) {
+  ViewOptions options;
+  options.search = {.strategy = SearchStrategy::Exhaustive, .subdivisions = 1};
+  options.focus = "1";
+  ShapeAnalysis shape = analyse_shape(model_of(two_spheres(0.4)), options);
+  shape.views.reset();
+  const ViewReport report = find_views(shape, UpAxis::Y, options);
+  const auto is_doubted = [&](std::size_t vertex) {
+    ShapeAnalysis other = shape;
+    other.history.components[other.history.component_of_vertex[vertex]].shrinkage = 0.5;
+    return !reliability_warnings(other, report, options, {}, {}).empty();
+  };
+  EXPECT_FALSE(is_doubted(0));
+  EXPECT_TRUE(is_doubted(shape.surface.positions.size() - 1));
 }
 
 TEST(DoubtsAbout, ASkeletonPartlyOutsideIsTheSkeletonsUntilTheViewsHangOnIt) {
