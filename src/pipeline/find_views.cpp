@@ -16,6 +16,7 @@
 #include "pipeline/map_objective.h"
 #include "pipeline/percent.h"
 #include "pipeline/preference.h"
+#include "pipeline/scene_notes.h"
 #include "pipeline/self_check.h"
 #include "pipeline/settled_search.h"
 #include "pipeline/view_preparation.h"
@@ -135,6 +136,7 @@ ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
   note_a_view_from_behind(choice.orientation.front, options, report);
   if (sums_a_map(options.method)) {
     note_what_none_sees(report);
+    note_parts_hardly_shown(shape, report.camera, report.warnings, run);
   }
   if (moved.is_unlike() && is_best_of_moved(shape, choice, options, moved, report, run)) {
     report.warnings.push_back(unlike_map_text(moved) +

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "pipeline/scene_notes.h"
 #include "support/model_of.h"
 #include "support/shapes.h"
 
@@ -88,6 +89,31 @@ TEST(DoubtsAbout, ASkeletonPartlyOutsideIsTheSkeletonsUntilTheViewsHangOnIt) {
     EXPECT_EQ(is_said(skeleton_warnings(shape)), skeletons) << share;
     EXPECT_EQ(is_said(report.reliability_warnings), views) << share;
   }
+}
+
+TEST(NotesOn, PartsThatAreHiddenOrSpecksAreGiven) {
+  const auto notes_on = [](const TriMesh& mesh) {
+    ShapeAnalysis shape = prepare_surface(model_of(mesh));
+    shape.significance.assign(shape.surface.positions.size(), 1.0);
+    std::vector<std::string> notes;
+    note_parts_hardly_shown(shape, scoring_camera(shape, {}), notes, {});
+    return notes;
+  };
+  const TriMesh hall = box(5.0, 5.0, 5.0, 1);
+  const TriMesh plate = box(300.0, 300.0, 1.0, 1);
+  const TriMesh ball = sphere(2);
+  const std::vector<std::string> inside = notes_on(together(hall, ball, Vec3(2.5, 2.5, 2.5)));
+  ASSERT_EQ(inside.size(), 1U);
+  EXPECT_TRUE(inside[0].starts_with("1 of 2 separate parts show no vertex from any of 162"));
+  EXPECT_EQ(notes_on(together(hall, ball, Vec3(8.0, 0.0, 0.0))).size(), 0U);
+  const std::vector<std::string> speck = notes_on(together(plate, ball, Vec3(50.0, 50.0, 2.0)));
+  ASSERT_EQ(speck.size(), 1U);
+  // The ball has 162 vertices of 170.
+  EXPECT_TRUE(
+      speck[0].starts_with("95 % of the significance is in a place that spans less than 2 %"));
+  // Leaves of a tree are specks, but not in one place.
+  const TriMesh two = together(plate, ball, Vec3(50.0, 50.0, 2.0));
+  EXPECT_EQ(notes_on(together(two, ball, Vec3(250.0, 250.0, 2.0))).size(), 0U);
 }
 
 TEST(DoubtsAbout, TangledSkeletonsAreThoseOfCloudsWithManyCyclesForTheirNodes) {
