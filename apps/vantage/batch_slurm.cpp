@@ -12,6 +12,7 @@
 #include "vantage/core/version.h"
 
 #include "batch/file_stamp.h"
+#include "batch/result_heirs.h"
 #include "batch/shard_log.h"
 #include "batch/shard_merge.h"
 #include "batch/shard_plan.h"
@@ -178,18 +179,20 @@ class SlurmRun {
         lost.push_back(entry);
       }
     });
+    batch::ResultHeirs heirs(store_, folder_);
     for (const Entry& entry : lost) {
       batch::ModelRecord record;
       record.key = entry.key;
       record.position = entry.position;
       record.stamp = batch::stamp_of(entry.path);
       record.version = version();
+      record.name = entry.model_name();
       record.status = "failed";
       record.reason = "crash";
       record.error = "its shard ended before it " + std::to_string(batch_.attempts) +
                      " times; see the logs in slurm/, then --retry failed";
       record.timings.attempts = batch_.attempts;
-      store_.put(record);
+      heirs.remove_unowned(heirs.replace(record));
     }
   }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Preloaded into the program by test_folders.py: kills it before its call number KILL_AT that makes,
-// names or removes a file, as a power cut or an impatient user would.
+// Preloaded into the program by test_folders.py and test_batch_kill.py: kills it before its call number KILL_AT
+// that makes, names or removes a file, or after its call number KILL_AFTER_EXCHANGE that exchanges two, as a power
+// cut or an impatient user would.
 #include <csignal>
 #include <cstdarg>
+#include <cstdio>
 #include <cstdlib>
 
 #include <dlfcn.h>
@@ -43,8 +45,15 @@ int rename(const char* from, const char* to) noexcept {
 int renameat2(int from_folder, const char* from, int to_folder, const char* to,
               unsigned flags) noexcept {
   count_one();
-  return real<int(int, const char*, int, const char*, unsigned)>("renameat2")(from_folder, from,
-                                                                              to_folder, to, flags);
+  const int result = real<int(int, const char*, int, const char*, unsigned)>("renameat2")(
+      from_folder, from, to_folder, to, flags);
+  static long exchanges = 0;
+  const char* after = std::getenv("KILL_AFTER_EXCHANGE");
+  if (after != nullptr && result == 0 && (flags & RENAME_EXCHANGE) != 0 &&
+      ++exchanges == std::atol(after)) {
+    ::kill(::getpid(), SIGKILL);
+  }
+  return result;
 }
 
 int unlink(const char* path) noexcept {

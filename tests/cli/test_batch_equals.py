@@ -132,6 +132,50 @@ class SharedResults(BatchTest):
         self.assertEqual(len({row["content"] for row in self.rows().values()}), 2)
         self.states()
 
+    def test_a_shard_that_replaces_a_model_leaves_its_results_to_its_equals(self):
+        self.write("m/a.off", box(1))
+        self.write("m/b.off", box(1))
+        self.vantage("batch", "m", "-o", "out", *FAST)
+        self.write("m/a.off", box(2))
+        self.vantage("batch", "m/a.off", "-o", "out", *FAST, "--shard", "0/1")
+        self.vantage("results", "merge", "out")
+        self.assertEqual(self.states(), {"m/a.off": (8, ""), "m/b.off": (8, "")})
+        self.assertIn("0 new", self.vantage("results", "merge", "out").out)
+        self.write("m/b.off", box(2))  # and what nobody has any more goes
+        self.vantage("batch", "m/b.off", "-o", "out", *FAST, "--shard", "0/1")
+        self.vantage("results", "merge", "out")
+        self.assertIn("1 folder of results: all sound", self.vantage("results", "verify", "out").out)
+
+    def test_a_further_batch_in_which_a_model_is_broken_leaves_its_results_to_its_equals(self):
+        self.write("m/a.off", box(1))
+        self.write("m/b.off", box(1))
+        self.vantage("batch", "m", "-o", "out", *FAST)
+        self.write("m/a.off", "")
+        self.vantage("batch", "m/a.off", "-o", "part", *FAST, exit_code=4)
+        self.assertIn("1 done, 1 failed", self.vantage("results", "merge", "out", "part").out)
+        self.assertIn("all sound", self.vantage("results", "verify", "out").out)
+        self.assertEqual(self.rows()["m/b.off"]["vertices"], 8)
+
+    def test_a_further_batch_in_which_a_model_equals_another_leaves_no_results_behind(self):
+        for folder, size in (("x", 1), ("y", 2)):
+            (self.dir / folder).mkdir()
+            self.write(f"{folder}/m.off", box(size))
+        self.vantage("batch", "x", "y", "-o", "out", *FAST)
+        self.write("x/m.off", box(2))
+        self.vantage("batch", "x", "-o", "part", *FAST)
+        self.vantage("results", "merge", "out", "part")
+        self.assertEqual(self.states(), {"x/m.off": (8, "y/m.off"), "y/m.off": (8, "")})
+
+    def test_a_model_that_another_order_makes_a_copy_hands_its_results_over(self):
+        self.write("m/a.off", box(1))
+        (self.dir / "z").mkdir()
+        self.write("z/a.off", box(1))
+        self.vantage("batch", "z", "-o", "out", *FAST)
+        self.vantage("batch", "m", "z", "-o", "part", *FAST)
+        self.vantage("results", "merge", "out", "part")
+        self.assertIn("1 folder of results", self.vantage("results", "verify", "out").out)
+        self.assertEqual(len(self.states()), 2)
+
     def test_a_row_that_is_done_without_results_is_no_sound_one(self):
         self.write("m/a.off", box(1))
         self.write("m/b.off", box(1))

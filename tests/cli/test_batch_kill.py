@@ -18,6 +18,7 @@ from program import contract_quickly as setUpModule
 from shapes import box
 
 KILLS = int(os.environ.get("VANTAGE_KILLS", "16"))
+SHIM = os.environ.get("VANTAGE_KILL_SHIM", "")
 MODELS = 20
 RUN = ["--write", "camera", "--search", "rapid", "--jobs", "2", "-q"]
 
@@ -129,6 +130,57 @@ class Kill(ProgramTest):
             self.assertIn(self.start(folder.name, "--shard", f"{shard}/2").wait(), (0, 4))
         self.vantage("results", "merge", folder.name)
         self.assertEqual(self.vantage("results", "export", folder.name, "--format", "jsonl").out, expected)
+
+
+@unittest.skipUnless(SHIM, "LOUD: VANTAGE_KILL_SHIM is not set: run this by ctest")
+class KilledAsResultsAreExchanged(ProgramTest):
+    """A folder that has others' results already, and its record is still the former one's."""
+
+    def setUp(self):
+        super().setUp()
+        self.names = ("a.off", "b.off")
+        for i, name in enumerate(self.names):
+            self.write(name, box(1.5 + i))
+        self.flags = ("--search", "rapid", "--write", "json", "--jobs", "1", "--no-overview")
+
+    def killed(self, exchange, *arguments):
+        done = subprocess.run([PROGRAM, *arguments], cwd=self.dir, capture_output=True, timeout=300, check=False,
+                              env={**os.environ, "LD_PRELOAD": SHIM, "KILL_AFTER_EXCHANGE": str(exchange)})
+        self.assertEqual(done.returncode, -signal.SIGKILL, done.stderr)
+
+    def ups(self):
+        """The axis that each folder's view has as up, and that each record has that names a folder."""
+        views = {view.parent.name: json.loads(view.read_text())["up"]
+                 for view in (self.dir / "out/models").glob("*/view.json")}
+        store = sqlite3.connect(self.dir / "out/results.sqlite")
+        records = {folder: json.loads(result)["up"]
+                   for folder, result in store.execute("SELECT folder, result FROM models WHERE folder <> ''")}
+        store.close()
+        return views, records
+
+    def test_a_batch_with_the_former_options_does_them_again(self):
+        batch = ("batch", *self.names, "-o", "out", *self.flags)
+        self.vantage(*batch)
+        before = self.ups()
+        self.killed(1, *batch, "--up", "x")
+        views, records = self.ups()
+        self.assertNotEqual(views, before[0])
+        self.assertEqual({**views, **records}, views)
+        self.vantage(*batch)
+        self.assertEqual(self.ups(), before)
+
+    def test_a_merge_goes_on_where_it_was(self):
+        self.vantage("batch", *self.names, "-o", "out", *self.flags)
+        self.vantage("batch", *self.names, "-o", "part", *self.flags, "--up", "x")
+        merge = ("results", "merge", "out", "part", "--no-overview")
+        self.killed(1, *merge)
+        views, records = self.ups()
+        self.assertEqual(len(set(views.values())), 2)
+        self.assertEqual({**views, **records}, views)
+        self.vantage(*merge)
+        views, records = self.ups()
+        self.assertEqual((len(set(views.values())), views), (1, records))
+        self.assertIn("2 folders of results: all sound", self.vantage("results", "verify", "out").out)
 
 
 if __name__ == "__main__":

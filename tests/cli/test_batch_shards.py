@@ -2,7 +2,9 @@
 
 import json
 import os
+import shutil
 import unittest
+import unittest.mock
 
 from program import contract_quickly as setUpModule
 from shapes import box
@@ -71,6 +73,28 @@ class Shards(BatchTest):
         self.batch("p", out="part")
         self.vantage("results", "merge", "all", "part")
         self.assertIn("1 folder of results: all sound", self.vantage("results", "verify", "all").out)
+
+    def test_a_merge_that_cannot_read_something_changes_nothing(self):
+        words = ("00.off", "02.off")
+        self.batch(*words, out="all")
+        self.batch(*words, "--objective", "significance", out="part")
+        os.truncate(next((self.dir / "part/models").glob("02-*/view.json")), 1 << 32)  # more than is ever read
+        before = {path: path.read_bytes() for path in (self.dir / "all/models").rglob("*.json")}
+        self.assertIn("02-", self.vantage("results", "merge", "all", "part", exit_code=3).err)
+        self.assertEqual({path: path.read_bytes() for path in (self.dir / "all/models").rglob("*.json")}, before)
+        self.assertFalse((self.dir / "all/.work/merge").exists())
+        self.assertEqual(self.batch(*words, out="all")["skipped"], 2)
+
+    def test_a_further_batch_without_its_folders_brings_no_others(self):
+        self.batch("00.off", out="all")
+        self.batch("00.off", "--objective", "significance", out="part")
+        shutil.rmtree(self.dir / "part/models")
+        for _ in range(2):
+            self.assertIn("1 record came without results", self.vantage("results", "merge", "all", "part").err)
+            self.assertIn("has no results; run the batch again",
+                          self.vantage("results", "verify", "all", exit_code=1).out)
+        self.assertEqual(self.batch("00.off", "--objective", "significance", out="all")["done"], 1)
+        self.assertIn("all sound", self.vantage("results", "verify", "all").out)
 
     def test_a_merge_leaves_an_overview_of_what_it_stored_or_none(self):
         self.batch("01.off", out="all")

@@ -137,6 +137,13 @@ class SlurmTest(unittest.TestCase):
         self.assertEqual(self.exported(self.out), self.exported(self.run_local("waves", *SLOW)))
         return errors
 
+    def shard_processes(self):
+        return [p for p in processes("--shard", f"--output={self.out}")
+                if pathlib.Path(f"/proc/{p}/exe").resolve() == pathlib.Path(VANTAGE).resolve()]
+
+    def kill_shard(self):
+        os.kill(self.shard_processes()[0], signal.SIGKILL)
+
     def test_an_array_of_64_tasks_gives_the_same_bytes_as_a_run_on_this_machine(self):
         process = self.start("boxes", "--shards", "64", *FAST)
         output, errors = process.communicate(timeout=400)
@@ -157,14 +164,29 @@ class SlurmTest(unittest.TestCase):
 
     def test_a_shard_that_is_killed_is_submitted_again_and_goes_on(self):
         process = self.start("waves", "--shards", "2", *SLOW)
-        shard = ("--shard", f"--output={self.out}")
-        wait_until(lambda: processes(*shard) and list(self.out.glob("models/*/view.json")),
+        wait_until(lambda: self.shard_processes() and list(self.out.glob("models/*/view.json")),
                    "a shard has done a model")
-        victims = [p for p in processes(*shard)
-                   if pathlib.Path(f"/proc/{p}/exe").resolve() == pathlib.Path(VANTAGE).resolve()]
-        os.kill(victims[0], signal.SIGKILL)
+        self.kill_shard()
         errors = self.check_waves(process)
         self.assertEqual(errors.count("job "), 2, errors)
+
+    def test_a_model_that_is_given_up_leaves_its_results_to_its_equal(self):
+        write_waves(self.folder / "twins", 2)
+        first, second = sorted((self.folder / "twins").iterdir())
+        other = second.read_bytes()
+        second.write_bytes(first.read_bytes())
+        subprocess.run(self.command("twins", self.out, *SLOW), cwd=self.folder, check=True, stdout=subprocess.PIPE)
+        first.write_bytes(other)
+        process = self.start("twins", "--shards", "1", "--attempts", "1", *SLOW)
+        wait_until(self.shard_processes, "the shard runs")
+        self.kill_shard()
+        output, errors = process.communicate(timeout=100)
+        self.assertEqual(process.returncode, 4, output + errors)
+        rows = {row["name"]: row for row in map(json.loads, self.exported(self.out).splitlines())}
+        self.assertEqual((rows["wave-000"]["status"], rows["wave-000"]["reason"]), ("failed", "crash"))
+        self.assertEqual((rows["wave-001"]["status"], rows["wave-001"]["duplicate_of"]), ("done", ""))
+        verified = subprocess.run([VANTAGE, "results", "verify", str(self.out)], stdout=subprocess.PIPE, text=True, check=False)
+        self.assertIn("1 folder of results: all sound", verified.stdout)
 
     def test_a_lost_node_hands_its_shard_to_the_other_one(self):
         process = self.start("waves", "--shards", "2", *SLOW)

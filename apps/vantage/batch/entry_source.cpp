@@ -211,6 +211,10 @@ std::string Entry::label() const {
       path.empty() || !member.empty() || key == shown || shown.ends_with("/" + key);
   return says_path ? key : key + " (" + shown + ")";
 }
+std::string Entry::model_name() const {
+  return key_of_path(name.empty() ? fs::path(shown_path()).stem().string() : name);
+}
+
 
 std::string Entry::labelled(const std::string& sentence) const {
   const std::string shown = label();

@@ -30,6 +30,9 @@ struct Entry {
   /// What naming templates call the path: the member's if there is one.
   [[nodiscard]] const std::string& shown_path() const { return member.empty() ? path : member; }
 
+  /// What its record calls it: the manifest's name, or the stem; UTF-8.
+  [[nodiscard]] std::string model_name() const;
+
   /// What messages call it: its key, and its path where the key says nothing of that.
   [[nodiscard]] std::string label() const;
 

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "batch/result_folders.h"
 #include "batch/result_heirs.h"
 
 namespace vantage::batch {
@@ -31,21 +30,17 @@ std::size_t forget_others(ResultsStore& store, const ConfinedFolder& root,
       others.push_back(record);
     }
   });
+  ResultHeirs heirs(store, root);
   store.begin();
   for (const ModelRecord& other : others) {
     store.forget(other.key);
   }
   for (const ModelRecord& other : others) {
-    if (const std::optional<ModelRecord> heir = heir_of(store, root, other)) {
-      hand_over(store, root, *heir, other, other.folder);
-    }
+    heirs.pass_on(other);
   }
   store.commit();
   for (const ModelRecord& other : others) {
-    if (!other.folder.empty() && store.owner_of(other.folder).empty() &&
-        holds_results(root, other.folder)) {
-      root.remove(model_folder(other.folder));
-    }
+    heirs.remove_unowned(other.folder);
   }
   return others.size();
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <deque>
-#include <filesystem>
 #include <functional>
 #include <list>
 #include <map>
@@ -25,8 +24,6 @@
 
 namespace vantage::batch {
 namespace {
-
-namespace fs = std::filesystem;
 
 // Models that wait for an equal one to be finished; beyond this nothing new is taken up.
 constexpr std::size_t kMostWaiting = 1024;
@@ -54,6 +51,10 @@ class Runner {
         stop_(stop),
         report_(report),
         root_(options.folder, options.work_name),
+        heirs_(
+            book, root_,
+            {.own_folder = [this](const ModelRecord& heir) { return own_folder(heir); },
+             .is_claimed = [this](const std::string& folder) { return claims_.contains(folder); }}),
         started_ms_(std::max(now_ms(), book.latest_ms())),
         crew_(options, root_, stop) {}
 
@@ -128,8 +129,7 @@ class Runner {
     record.options = options_.options_hash(entry);
     asked_.insert(record.options);
     record.version = version();
-    record.name =
-        key_of_path(entry.name.empty() ? fs::path(entry.shown_path()).stem().string() : entry.name);
+    record.name = entry.model_name();
     job.file = entry.path;
     job.entry = std::move(entry);
     job.before = book_.find(record.key);
@@ -218,15 +218,11 @@ class Runner {
   void answer(const CrewEvent& event) {
     Job& job = *event.job;
     if (event.kind == CrewEvent::Kind::Result) {
-      const std::optional<ModelRecord> former = book_.find(job.record.key);
-      if (former && former->folder == job.record.folder && !have_one_answer(*former, job.record)) {
-        save_shared_results(*former, "");
-      }
-      root_.move(event.staging, model_folder(job.record.folder));
       job.record.status = "done";
+      take_over(job);
+      heirs_.bring(event.staging, job.record);
       ++counts_.done;
       counts_.note_doubt(job.record);
-      take_over(job);
       settle(job);
       return;
     }
@@ -360,31 +356,21 @@ class Runner {
            (holder->version != record.version || asked_.count(holder->options) == 0);
   }
 
-  /// Where a model's results have replaced those of equal models, these have its results from now on.
+  /// Where a model's results are to replace those of equal models, these have its results from now on.
   void take_over(const Job& job) {
     const std::optional<ModelRecord> holder =
         job.replaces.empty() ? std::nullopt : book_.find(job.replaces);
-    if (!holder || holder->folder != job.record.folder) {
-      return;
+    if (holder && holder->folder == job.record.folder) {
+      heirs_.make_equal(*holder, job.record);
     }
-    make_equal(book_, *holder, job.record);
   }
 
-  /// Before results are replaced or removed that equal models share: the first of these has them from then
-  /// on, in a folder of its own. \param free folder that is nobody's then.
-  void save_shared_results(const ModelRecord& former, const std::string& free) {
-    const std::optional<ModelRecord> heir = heir_of(book_, root_, former);
-    if (!heir) {
-      return;
-    }
-    const std::string path = path_of_key(heir->key);
-    const std::string own =
-        folder_name(options_.name_template,
-                    {.path = path, .name = heir->name, .key = heir->key, .content = heir->content});
-    const auto is_claimed = [&](const std::string& folder) {
-      return claims_.contains(folder) || !book_.owner_of(folder).empty();
-    };
-    hand_over(book_, root_, *heir, former, own == free ? own : free_folder(root_, own, is_claimed));
+  /// The folder that a model's results would have, had it been run.
+  [[nodiscard]] std::string own_folder(const ModelRecord& record) const {
+    const std::string path = path_of_key(record.key);
+    return folder_name(
+        options_.name_template,
+        {.path = path, .name = record.name, .key = record.key, .content = record.content});
   }
 
   void release(const Job& job) {
@@ -443,15 +429,7 @@ class Runner {
   void write(Job& job) {
     job.record.timings.attempts = job.attempts;
     job.record.timings.finished_ms = now_after_start();
-    const std::optional<ModelRecord> former = book_.find(job.record.key);
-    const bool leaves = former && !former->folder.empty() && former->folder != job.record.folder;
-    if (leaves) {
-      save_shared_results(*former, former->folder);
-    }
-    book_.put(job.record);
-    if (leaves && book_.owner_of(former->folder).empty() && holds_results(root_, former->folder)) {
-      root_.remove(model_folder(former->folder));  // results of what the file held before
-    }
+    heirs_.remove_unowned(heirs_.replace(job.record));  // results of what the file held before
     report_(counts_, &job.record);
   }
 
@@ -470,6 +448,7 @@ class Runner {
   std::stop_token stop_;
   const Report& report_;
   const ConfinedFolder root_;
+  ResultHeirs heirs_;
   std::list<Job> jobs_{};                        // in the order of the input
   std::deque<Job*> ready_{};                     // in that order, too
   std::map<std::string, Job*> running_{};        // by content and options

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "vantage/core/error.h"
 
@@ -39,11 +41,24 @@ std::vector<std::string> shard_files(const std::string& folder) {
   return files;
 }
 
-/// Takes records in, and from other folders the results that they stand for.
+/// Takes records in, and from other folders the results that they stand for. No folder of results is touched
+/// before finish(): a merge that ends before has changed nothing.
 class Merge {
  public:
   Merge(ResultsStore& store, const ConfinedFolder& root, const RunContext& run)
-      : store_(store), root_(root), run_(run) {}
+      : store_(store),
+        root_(root),
+        run_(run),
+        heirs_(store, root,
+               {.is_there =
+                    [this](const std::string& folder) {
+                      return coming_.contains(folder) || root_.is_folder(model_folder(folder));
+                    },
+                .move =
+                    [this](const std::string& from, const std::string& folder) {
+                      moves_.emplace_back(from, folder);
+                      coming_.insert(folder);
+                    }}) {}
 
   /// \param origin folder that the record comes from; null: the one that receives them.
   void take(const ModelRecord& record, const ConfinedFolder* origin) {
@@ -57,55 +72,75 @@ class Merge {
     const std::string owner = brings_results ? store_.owner_of(record.folder) : std::string();
     if (!owner.empty() && owner != record.key) {
       take_beside(record, owner);
-      return;
-    }
-    const std::optional<ModelRecord> former =
-        brings_results ? store_.find(record.key) : std::nullopt;
-    if (former && supersedes(record, *former) && !have_one_answer(record, *former)) {
-      save_shared_results(*former, record.folder);
-    }
-    if (store_.merge(record)) {
-      ++counts_.taken;
-      if (brings_results) {
-        copy_results(record, *origin);
-        if (former && !former->folder.empty() && former->folder != record.folder) {
-          former_.push_back(former->folder);
-        }
-      }
+    } else if (brings_results) {
+      take_with_results(record, *origin);
+    } else {
+      put(record);
     }
   }
 
-  /// Removes the results of records that others have replaced, where they are nobody's now. \pre What was
-  /// taken in is stored: a merge that ends before leaves no record without its results.
-  void remove_former() const {
-    for (const std::string& folder : former_) {
-      if (store_.owner_of(folder).empty() && holds_results(root_, folder)) {
-        root_.remove(model_folder(folder));
+  /// Stores what was taken in, and puts results in place. Between the two no record names a folder that others
+  /// come into: who is killed there leaves models without results, which the next merge or batch brings.
+  void finish() {
+    std::vector<std::pair<std::string, std::string>> owners;
+    for (const std::string& folder : coming_) {
+      if (const std::string key = store_.owner_of(folder); !key.empty()) {
+        owners.emplace_back(key, folder);
+        set_folder(key, "");
       }
+    }
+    store_.commit();
+    for (const auto& [from, folder] : moves_) {
+      root_.move(from, model_folder(folder));
+    }
+    store_.begin();
+    for (const auto& [key, folder] : owners) {
+      set_folder(key, folder);
+    }
+    store_.commit();
+    for (const std::string& folder : left_) {
+      heirs_.remove_unowned(folder);
     }
   }
 
   [[nodiscard]] MergeCounts& counts() { return counts_; }
 
  private:
-  /// Results that others will replace stay those of the models that share them.
-  void save_shared_results(const ModelRecord& former, const std::string& replaced) {
-    if (const std::optional<ModelRecord> heir = heir_of(store_, root_, former)) {
-      const auto is_claimed = [&](const std::string& folder) {
-        return !store_.owner_of(folder).empty();
-      };
-      hand_over(store_, root_, *heir, former,
-                former.folder == replaced ? free_folder(root_, former.folder, is_claimed)
-                                          : former.folder);
+  [[nodiscard]] bool is_wanted(const ModelRecord& record) {
+    const std::optional<ModelRecord> held = store_.find(record.key);
+    return !held || supersedes(record, *held);
+  }
+
+  void put(const ModelRecord& record) {
+    if (is_wanted(record)) {
+      ++counts_.taken;
+      if (std::string left = heirs_.replace(record); !left.empty()) {
+        left_.push_back(std::move(left));
+      }
     }
+  }
+
+  void take_with_results(const ModelRecord& record, const ConfinedFolder& origin) {
+    if (!is_wanted(record)) {
+      return;
+    }
+    if (origin.is_folder(model_folder(record.folder))) {
+      heirs_.bring(copied_results(record, origin), record);
+      put(record);
+      return;
+    }
+    ++counts_.missing;
+    const std::optional<ModelRecord> held = store_.find(record.key);
+    ModelRecord bare = record;  // what is in that folder here may be the answer to something else
+    bare.folder = held && have_one_answer(*held, record) ? held->folder : "";
+    put(bare);
   }
 
   /// Takes in a record whose folder is there, as another model's: of equal models, that one's results stand
   /// for both.
   void take_beside(const ModelRecord& record, const std::string& owner) {
     const std::optional<ModelRecord> holder = store_.find(owner);
-    if (!holder || holder->content != record.content || holder->options != record.options ||
-        holder->version != record.version) {
+    if (!holder || !have_one_answer(*holder, record)) {
       ++counts_.clashes;
       return;
     }
@@ -113,17 +148,13 @@ class Merge {
     equal.folder.clear();
     equal.result.clear();
     equal.duplicate_of = owner;
-    counts_.taken += store_.merge(equal) ? 1 : 0;
+    put(equal);
   }
 
-  void copy_results(const ModelRecord& record, const ConfinedFolder& origin) {
+  /// \return name of the folder that holds the copy.
+  std::string copied_results(const ModelRecord& record, const ConfinedFolder& origin) {
     const std::string place = model_folder(record.folder);
-    if (!origin.is_folder(place)) {
-      ++counts_.missing;
-      return;
-    }
-    const std::string staging = work_folder(kMergeCorner) + "/in";
-    root_.remove(staging);
+    std::string staging = work_folder(kMergeCorner) + "/in-" + std::to_string(moves_.size());
     root_.make_folders(staging);
     for (const fs::directory_entry& file : fs::directory_iterator(origin.path_of(place))) {
       if (file.symlink_status().type() != fs::file_type::regular) {
@@ -136,27 +167,26 @@ class Merge {
       }
       root_.write(staging + name, *bytes);
     }
-    root_.move(staging, place);
+    return staging;
+  }
+
+  void set_folder(const std::string& key, const std::string& folder) {
+    ModelRecord record = *store_.find(key);
+    record.folder = folder;
+    store_.put(record);
   }
 
   ResultsStore& store_;
   const ConfinedFolder& root_;
   const RunContext& run_;
-  std::vector<std::string> former_{};  // folders of records that were replaced
+  ResultHeirs heirs_;
+  std::vector<std::pair<std::string, std::string>> moves_{};  // of results to folders, in order
+  std::set<std::string> coming_{};                            // those folders
+  std::vector<std::string> left_{};  // folders of records that were replaced
   MergeCounts counts_{};
 };
 
-}  // namespace
-
-MergeCounts merge_shards(const std::vector<std::string>& folders, ResultsStore& store,
-                         const ConfinedFolder& root, const RunContext& run) {
-  for (const std::string& folder : folders) {
-    if (!fs::is_directory(folder)) {
-      throw IoError(folder, "is not a folder of a batch");
-    }
-  }
-  Merge merge(store, root, run);
-  store.begin();
+void take_all(const std::vector<std::string>& folders, Merge& merge) {
   for (const std::string& folder : folders) {
     std::optional<ConfinedFolder> other;
     if (!fs::equivalent(folder, folders.front())) {
@@ -172,11 +202,28 @@ MergeCounts merge_shards(const std::vector<std::string>& folders, ResultsStore& 
       ResultsStore(folder, Database::Mode::Read).for_each_record(take);
     }
   }
-  store.commit();
-  merge.remove_former();
-  if (folders.size() > 1) {
-    root.remove(work_folder(kMergeCorner));
+}
+
+}  // namespace
+
+MergeCounts merge_shards(const std::vector<std::string>& folders, ResultsStore& store,
+                         const ConfinedFolder& root, const RunContext& run) {
+  for (const std::string& folder : folders) {
+    if (!fs::is_directory(folder)) {
+      throw IoError(folder, "is not a folder of a batch");
+    }
   }
+  root.remove(work_folder(kMergeCorner));  // a killed merge's
+  Merge merge(store, root, run);
+  store.begin();
+  try {
+    take_all(folders, merge);
+    merge.finish();
+  } catch (...) {
+    root.remove(work_folder(kMergeCorner));
+    throw;
+  }
+  root.remove(work_folder(kMergeCorner));
   return merge.counts();
 }
 

@@ -25,8 +25,9 @@ struct MergeCounts {
 inline constexpr const char* kMergeCorner = "merge";
 
 /// Folds the shard files of the folders, and the stores of all but the first, into the first one's
-/// store, in one transaction; as often as wanted, also while shards run. Results of all but the first are
-/// copied into it. \param root the first folder. \throw IoError, Cancelled
+/// store; as often as wanted, also while shards run. Results of all but the first are copied into it. Nothing
+/// is changed where something cannot be read, or the run is stopped.
+/// \param root the first folder. \throw IoError, Cancelled
 MergeCounts merge_shards(const std::vector<std::string>& folders, ResultsStore& store,
                          const ConfinedFolder& root, const RunContext& run = {});
 
