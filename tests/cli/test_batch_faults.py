@@ -216,6 +216,17 @@ class WholeBatch(FaultTest):
         self.assertEqual({key: row["status"] for key, row in rows.items() if row["status"] != "done"}, {})
         self.assertEqual((rows["m2.off"]["duplicate_of"], rows["twin.off"]["duplicate_of"]), ("m0.off", ""))
 
+    def test_a_model_that_is_written_to_costs_no_equal_one(self):
+        self.write("twin.off", box(3))  # as m2
+        process = self.start("m2.off", "twin.off", "--attempts", "1")
+        while process.poll() is None:
+            os.utime(self.dir / "m2.off", ns=(1, time.monotonic_ns()))
+        process.communicate()
+        self.assertEqual(process.returncode, 4)
+        rows = self.rows()
+        self.assert_only_failure(rows, "m2.off", "changed", "was changed while it was read")
+        self.assertEqual(rows["twin.off"]["duplicate_of"], "")
+
     def test_a_second_batch_into_the_same_folder_is_refused(self):
         process = self.start(*self.names, fault="hang:m4")
         self.wait_for_results(5)

@@ -96,6 +96,19 @@ class Shards(BatchTest):
         self.assertEqual(self.batch("00.off", "--objective", "significance", out="all")["done"], 1)
         self.assertIn("all sound", self.vantage("results", "verify", "all").out)
 
+    def test_a_model_that_crashed_in_one_shard_has_the_results_of_its_equal_in_another(self):
+        pair = ("00.off", "01.off")
+        shards = [("batch", *pair, "-o", "out", *FAST, "--shard", f"{i}/2") for i in range(2)]
+        with unittest.mock.patch.dict(os.environ, VANTAGE_TEST_FAULT="crash:00.off"):
+            for shard in shards:
+                self.vantage(*shard, exit_code=None)
+        self.assertIn("1 done, 0 failed, 1 with the content of another", self.vantage("results", "merge", "out").out)
+        twins = {key: (row["status"], row["duplicate_of"], row["error"]) for key, row in self.rows().items()}
+        self.assertEqual(twins, {"00.off": ("done", "01.off", ""), "01.off": ("done", "", "")})
+        self.assertIn("all sound", self.vantage("results", "verify", "out").out)
+        self.assertEqual(self.batch(*pair)["duplicates"], 1)  # and its record says so, too
+        self.assertEqual(self.batch(*pair)["skipped"], 2)
+
     def test_a_merge_leaves_an_overview_of_what_it_stored_or_none(self):
         self.batch("01.off", out="all")
         self.batch("04.off", out="part")

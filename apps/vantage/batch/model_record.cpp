@@ -47,6 +47,10 @@ bool may_pass_next_time(const std::string& reason) {
          reason == "changed";
 }
 
+bool is_of_content(const std::string& reason) {
+  return reason != "name" && reason != "changed";
+}
+
 bool is_doubted(const ModelRecord& record) {
   // Results are compact JSON, and none of their texts holds a quotation mark.
   return record.result.find("\"doubts\":[\"") != std::string::npos;

@@ -59,6 +59,10 @@ struct ModelRecord {
 /// Reasons that may vanish when tried again; the others are the model's or the user's.
 bool may_pass_next_time(const std::string& reason);
 
+/// Whether a reason, or none, is that of a model's content; else it is one of its file or its name, and says
+/// nothing of equal models.
+bool is_of_content(const std::string& reason);
+
 /// Whether its answer should not be trusted, for a reason that its view.json has.
 bool is_doubted(const ModelRecord& record);
 

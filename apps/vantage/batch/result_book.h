@@ -22,7 +22,7 @@ class ResultBook {
   virtual std::optional<ModelRecord> find(const std::string& key) = 0;
 
   /// The first model by position that was really run on this content with these options and
-  /// version. \throw IoError
+  /// version, and is done; if none is, the first that failed by its content. \throw IoError
   virtual std::optional<ModelRecord> find_content(const ModelRecord& like) = 0;
 
   /// All models of this content, these options and this version. \throw IoError

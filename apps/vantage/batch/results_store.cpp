@@ -35,7 +35,7 @@ constexpr const char* kDuplicates =
     "CREATE INDEX IF NOT EXISTS models_duplicates ON models(content, options, version, position) "
     "WHERE duplicate_of <> '' AND status = 'done'";
 
-// Models with the same content stand for one: the first by position that was run. The view answers
+// Models with the same content stand for one: the first by position that was run, done before failed. The view answers
 // for all of them with its results, so that it does not matter who ran them, or in how many shards.
 constexpr const char* kView = R"sql(VIEW results AS
 SELECT m.key AS key, m.name AS name, c.status AS status,
@@ -66,11 +66,12 @@ SELECT m.key AS key, m.name AS name, c.status AS status,
   t.seconds AS seconds, t.peak_bytes AS peak_bytes, t.attempts AS attempts,
   t.finished_ms AS finished_ms
 FROM models m
-JOIN models c ON c.key = CASE WHEN m.content = '' OR m.reason = 'name' THEN m.key ELSE COALESCE(
+JOIN models c ON c.key = CASE WHEN m.content = '' OR m.reason IN ('name', 'changed')
+  THEN m.key ELSE COALESCE(
   (SELECT f.key FROM models f
-   WHERE f.content <> '' AND f.duplicate_of = '' AND f.reason <> 'name' AND f.content = m.content
-     AND f.options = m.options AND f.version = m.version
-   ORDER BY f.position, f.key LIMIT 1), m.key) END
+   WHERE f.content <> '' AND f.duplicate_of = '' AND f.reason <> 'name' AND f.reason <> 'changed'
+     AND f.content = m.content AND f.options = m.options AND f.version = m.version
+   ORDER BY f.status <> 'done', f.position, f.key LIMIT 1), m.key) END
 LEFT JOIN timings t ON t.key = m.key;
 )sql";
 
@@ -147,8 +148,8 @@ struct ResultsStore::Statements {
         find_content(database,
                      "SELECT " + columns +
                          "WHERE m.content <> '' AND m.duplicate_of = '' AND m.reason <> 'name' AND "
-                         "m.content = ?1 AND m.options = ?2 AND m.version = ?3 "
-                         "ORDER BY m.position, m.key LIMIT 1"),
+                         "m.reason <> 'changed' AND m.content = ?1 AND m.options = ?2 AND "
+                         "m.version = ?3 ORDER BY m.status <> 'done', m.position, m.key LIMIT 1"),
         owner(database, "SELECT key FROM models WHERE folder <> '' AND folder = ?1 LIMIT 1"),
         put(database,
             "INSERT OR REPLACE INTO models "

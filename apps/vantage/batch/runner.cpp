@@ -192,7 +192,7 @@ class Runner {
   /// Whether an earlier record's results are there.
   bool still_answers(const ModelRecord& before) {
     if (before.status == "failed") {
-      return !options_.retry_failed;
+      return !options_.retry_failed && !is_done_elsewhere(before);
     }
     if (before.duplicate_of.empty()) {
       return !before.folder.empty() && root_.is_folder(model_folder(before.folder)) &&
@@ -200,6 +200,14 @@ class Runner {
     }
     const std::optional<ModelRecord> first = book_.find_content(before);
     return first && still_answers(*first);
+  }
+
+  /// Whether a model that could not be done, or not read, has an equal one that could, in another shard say.
+  bool is_done_elsewhere(const ModelRecord& failed) {
+    const std::optional<ModelRecord> first = failed.content.empty() || failed.reason == "name"
+                                                 ? std::nullopt
+                                                 : book_.find_content(failed);
+    return first && first->status == "done" && still_answers(*first);
   }
 
   /// Brings a model out of its archive, into a file of its own.
@@ -283,7 +291,8 @@ class Runner {
     }
   }
 
-  /// Before another attempt: the file may be another one by then. Those that waited are read again.
+  /// Before another attempt, when the file may be another one, and where what ended the model says nothing of
+  /// its content. Those that waited are read again.
   void part_from_equals(Job& job) {
     for (Job* other : std::exchange(job.equals, {})) {
       other->attempts = 0;
@@ -386,6 +395,9 @@ class Runner {
 
   void fail(Job& job, const std::string& reason, const std::string& error) {
     release(job);
+    if (!is_of_content(reason)) {
+      part_from_equals(job);
+    }
     job.record.status = "failed";
     job.record.reason = reason;
     job.record.error = job.entry.labelled(error);

@@ -55,7 +55,12 @@ std::string versioned_content_key(const ModelRecord& record) {
 }
 
 bool stands_for_its_content(const ModelRecord& record) {
-  return !record.content.empty() && record.duplicate_of.empty() && record.reason != "name";
+  return !record.content.empty() && record.duplicate_of.empty() && is_of_content(record.reason);
+}
+
+/// Those that are done come first.
+std::tuple<bool, std::int64_t, std::string> place_among_equals(const ModelRecord& record) {
+  return {record.status != "done", record.position, record.key};
 }
 
 }  // namespace
@@ -145,7 +150,7 @@ void ShardLog::read(const std::string& name) {
 void ShardLog::remember(const ModelRecord& record) {
   if (const auto old = records_.find(record.key); old != records_.end()) {
     for (KeysOfContent* const keys : {&runs_of_content_, &duplicates_of_content_}) {
-      (*keys)[versioned_content_key(old->second)].erase({old->second.position, record.key});
+      (*keys)[versioned_content_key(old->second)].erase(place_among_equals(old->second));
     }
     if (owner_of(old->second.folder) == record.key) {
       owner_of_folder_.erase(old->second.folder);
@@ -153,10 +158,10 @@ void ShardLog::remember(const ModelRecord& record) {
   }
   records_[record.key] = record;
   if (stands_for_its_content(record)) {
-    runs_of_content_[versioned_content_key(record)].insert({record.position, record.key});
+    runs_of_content_[versioned_content_key(record)].insert(place_among_equals(record));
   }
   if (record.status == "done" && !record.duplicate_of.empty()) {
-    duplicates_of_content_[versioned_content_key(record)].insert({record.position, record.key});
+    duplicates_of_content_[versioned_content_key(record)].insert(place_among_equals(record));
   }
   if (!record.folder.empty()) {
     owner_of_folder_[record.folder] = record.key;
@@ -174,7 +179,7 @@ std::optional<ModelRecord> ShardLog::first_of(const KeysOfContent& keys,
   if (found == keys.end() || found->second.empty()) {
     return std::nullopt;
   }
-  return records_.at(found->second.begin()->second);
+  return records_.at(std::get<std::string>(*found->second.begin()));
 }
 
 std::optional<ModelRecord> ShardLog::find_content(const ModelRecord& like) {

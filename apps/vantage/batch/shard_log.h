@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <utility>
+#include <tuple>
 
 #include "batch/confined_folder.h"
 #include "batch/result_book.h"
@@ -51,8 +51,9 @@ class ShardLog : public ResultBook {
   void finish() override;
 
  private:
-  /// By content, options and version: positions and keys.
-  using KeysOfContent = std::map<std::string, std::set<std::pair<std::int64_t, std::string>>>;
+  /// By content, options and version: whether they failed, positions and keys.
+  using KeysOfContent =
+      std::map<std::string, std::set<std::tuple<bool, std::int64_t, std::string>>>;
 
   void read(const std::string& name);
   std::optional<ModelRecord> first_of(const KeysOfContent& keys, const ModelRecord& like) const;

@@ -8,7 +8,7 @@
 #include "vantage/core/error.h"
 
 #include "support/temporary_folder.h"
-#include "unit/batch/first_duplicate.h"
+#include "unit/batch/first_of_equals.h"
 
 namespace vantage::batch {
 namespace {
@@ -86,6 +86,20 @@ TEST(ResultsStore, EqualModelsStandForOneHoweverManyOfThemWereRun) {
   EXPECT_EQ(store.counts().duplicates, 1);
 }
 
+TEST(ResultsStore, AModelThatIsDoneStandsForOneThatFailedAndAChangedOneForNone) {
+  const test::TemporaryFolder scratch;
+  ResultsStore store(scratch.file(), Database::Mode::Create);
+  ModelRecord crashed = record("a", 0, "same", "failed");
+  crashed.reason = "crash";
+  ModelRecord changed = record("b", 1, "same", "failed");
+  changed.reason = "changed";
+  store.put(crashed);
+  store.put(changed);
+  store.put(record("c", 2, "same"));
+  EXPECT_EQ(column(store, "status"), "done;failed;done;");
+  EXPECT_EQ(column(store, "duplicate_of"), "c;;;");
+}
+
 TEST(ResultsStore, ModelsThatCouldNotBeReadAreNotEqual) {
   const test::TemporaryFolder scratch;
   ResultsStore store(scratch.file(), Database::Mode::Create);
@@ -129,6 +143,12 @@ TEST(ResultsStore, FindsAllModelsOfOneContentOptionsAndVersion) {
     keys += equal.key;
   }
   EXPECT_EQ(keys, "ab");
+}
+
+TEST(ResultsStore, FindsTheFirstOfEqualModelsThatIsDone) {
+  const test::TemporaryFolder scratch;
+  ResultsStore book(scratch.file(), Database::Mode::Create);
+  test::expect_finds_what_stands_for_a_content(book);
 }
 
 TEST(ResultsStore, FindsTheFirstThatHasTheResultsOfAnother) {

@@ -14,7 +14,7 @@
 
 #include "batch/content_hash.h"
 #include "support/temporary_folder.h"
-#include "unit/batch/first_duplicate.h"
+#include "unit/batch/first_of_equals.h"
 
 namespace vantage::batch {
 namespace {
@@ -74,6 +74,12 @@ TEST(ShardLog, FindsTheFirstOfEqualContentByPosition) {
   log.put(record("early", 2, "same"));
   EXPECT_EQ(log.find_content(record("new", 5, "same"))->key, "early");
   EXPECT_FALSE(log.find_content(record("new", 5, "other")));
+}
+
+TEST(ShardLog, FindsTheFirstOfEqualModelsThatIsDone) {
+  const test::TemporaryFolder scratch;
+  ShardLog book(scratch.file(), {0, 2});
+  test::expect_finds_what_stands_for_a_content(book);
 }
 
 TEST(ShardLog, FindsTheFirstThatHasTheResultsOfAnother) {

@@ -38,4 +38,30 @@ inline void expect_finds_first_duplicate(batch::ResultBook& book) {
   EXPECT_FALSE(book.find_duplicate(like));
 }
 
+/// Expects of an empty book that of equal models it finds the first that is done, or the first that failed by their
+/// content.
+inline void expect_finds_what_stands_for_a_content(batch::ResultBook& book) {
+  const auto put = [&](const std::string& key, std::int64_t position, const std::string& reason) {
+    batch::ModelRecord made;
+    made.key = key;
+    made.position = position;
+    made.content = "same";
+    made.status = reason.empty() ? "done" : "failed";
+    made.reason = reason;
+    book.put(made);
+  };
+  batch::ModelRecord like;
+  like.content = "same";
+  put("touched", 0, "changed");
+  put("unnamed", 1, "name");
+  EXPECT_FALSE(book.find_content(like));
+  put("crashed", 2, "crash");
+  EXPECT_EQ(book.find_content(like)->key, "crashed");
+  put("late", 5, "");
+  put("done", 4, "");
+  EXPECT_EQ(book.find_content(like)->key, "done");
+  put("crashed", 2, "");
+  EXPECT_EQ(book.find_content(like)->key, "crashed");
+}
+
 }  // namespace vantage::test
