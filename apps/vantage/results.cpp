@@ -61,6 +61,9 @@ struct ExportCommand {
       columns.insert(columns.end(), batch::timing_columns().begin(), batch::timing_columns().end());
     }
     check_output(output, OutputKind::Table, session.flags);
+    for (const std::string& folder : folders) {
+      open_store(session, folder);  // says what is missing before anything is written
+    }
     RowFile file(output);
     if (kind == "csv") {
       file.add(csv_line(columns));
@@ -257,6 +260,12 @@ struct DiffCommand {
     session.tell(plural(counts.equal, "model") + " alike, " + grouped(counts.changed) +
                  " changed, " + grouped(counts.removed) + " only in A, " + grouped(counts.added) +
                  " only in B");
+    if (counts.equal + counts.changed == 0 && share_content(*a, *b)) {
+      session.say(
+          "note: no key is in both, though contents are: keys are paths as they were given; run "
+          "both "
+          "batches from one folder, or by manifests that have keys");
+    }
     finish_standard_output();
   }
 };

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <unordered_set>
 
 #include "vantage/core/error.h"
 
@@ -69,6 +71,21 @@ DiffCounts diff_results(batch::ResultsStore& a, batch::ResultsStore& b, double t
     in_b = order >= 0 ? right.step() : in_b;
   }
   return counts;
+}
+
+bool share_content(batch::ResultsStore& a, batch::ResultsStore& b) {
+  std::unordered_set<std::string> contents;
+  batch::Statement left = a.select("content", "content <> ''", "");
+  while (left.step()) {
+    contents.insert(left.text(0));
+  }
+  batch::Statement right = b.select("content", "content <> ''", "");
+  while (right.step()) {
+    if (contents.contains(right.text(0))) {
+      return true;
+    }
+  }
+  return false;
 }
 
 std::string difference_line(const Difference& difference) {

@@ -37,6 +37,9 @@ struct DiffCounts {
 DiffCounts diff_results(batch::ResultsStore& a, batch::ResultsStore& b, double tolerance,
                         const std::function<void(const Difference&)>& take);
 
+/// Whether a model of one store has the content of one of the other.
+bool share_content(batch::ResultsStore& a, batch::ResultsStore& b);
+
 std::string difference_line(const Difference& difference);     ///< For people.
 nlohmann::ordered_json to_json(const Difference& difference);  ///< For programs.
 

@@ -424,6 +424,23 @@ class Results(BatchTest):
         self.assertEqual([diff[k] for k in ("equal", "changed", "only_in_a", "only_in_b")], [0, 1, 1, 1])
         self.assertEqual(json.loads(self.vantage("results", "diff", "a", "a", "--json").out)["differences"], [])
 
+    def test_a_diff_of_batches_from_two_folders_tells_why_no_key_is_in_both(self):
+        (self.dir / "m").mkdir()
+        self.write("m/a.off", box(1))
+        self.batch("m", out="one")
+        self.batch(self.dir / "m", out="two")
+        done = self.vantage("results", "diff", "one", "two")
+        self.assertIn("0 models alike, 0 changed, 1 only in A, 1 only in B", done.out)
+        self.assertIn("note: no key is in both, though contents are", done.err)
+        self.write("b.off", box(2))
+        self.batch("b.off", out="three")
+        self.assertEqual(self.vantage("results", "diff", "one", "three").err, "")
+
+    def test_an_export_of_a_folder_that_is_not_there_prints_nothing(self):
+        self.write("a.off", box(1))
+        self.batch("a.off")
+        self.assertEqual(self.vantage("results", "export", "out", "nosuch", exit_code=3).out, "")
+
     def test_the_index_page_holds_no_markup_from_names(self):
         self.write("<b>&\"' é.off", box(1))
         self.vantage("batch", ".", "-o", "out", "--search", "rapid", "--write", "best", "--size", "64")

@@ -35,6 +35,17 @@ class ArchivesOfStrangers(HostileTest):
             self.assertEqual(sorted(self.rows(locale)), sorted("m.zip//" + name for name in names))
         self.assertEqual(self.vantage("results", "export", "C").out, self.vantage("results", "export", "C.UTF-8").out)
 
+    def test_what_macos_adds_to_archives_and_folders_is_no_model(self):
+        (self.dir / "in").mkdir()
+        with zipfile.ZipFile(self.dir / "in/m.zip", "w") as archive:
+            archive.writestr("m.off", box(1))
+            archive.writestr("__MACOSX/._m.off", b"\0\5\x16\7")
+            archive.writestr("__MACOSX/m.off", b"")
+        self.write("in/n.off", box(2))
+        self.write("in/._n.off", b"\0\5\x16\7")
+        self.vantage("batch", "in", "-o", "out", *FAST, "--include", "*.zip", "--include", "*.off")
+        self.assertEqual(list(self.rows()), ["in/m.zip//m.off", "in/n.off"])
+
     def test_an_archive_in_a_folder_is_read_where_a_pattern_names_it(self):
         (self.dir / "all/deep").mkdir(parents=True)
         with zipfile.ZipFile(self.dir / "all/deep/m.zip", "w") as archive:

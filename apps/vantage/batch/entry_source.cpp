@@ -44,6 +44,12 @@ bool is_viewed(const std::string& folder) {
   return file && beginning == cli::kViewBegins;
 }
 
+/// Whether a file holds what macOS knows of another one, whose name and ending it has.
+bool is_of_macos(const std::string& path) {
+  return path.substr(path.find_last_of('/') + 1).starts_with("._") ||
+         path.starts_with("__MACOSX/") || path.find("/__MACOSX/") != std::string::npos;
+}
+
 constexpr const char* kArchives[] = {"*.zip",     "*.tar",    "*.tar.gz", "*.tgz",
                                      "*.tar.bz2", "*.tar.xz", "*.tar.zst"};
 
@@ -205,16 +211,16 @@ class PathSource : public EntrySource {
 
 }  // namespace
 
+std::string Entry::model_name() const {
+  return key_of_path(name.empty() ? fs::path(shown_path()).stem().string() : name);
+}
+
 std::string Entry::label() const {
   const std::string shown = key_of_path(path);
   const bool says_path =
       path.empty() || !member.empty() || key == shown || shown.ends_with("/" + key);
   return says_path ? key : key + " (" + shown + ")";
 }
-std::string Entry::model_name() const {
-  return key_of_path(name.empty() ? fs::path(shown_path()).stem().string() : name);
-}
-
 
 std::string Entry::labelled(const std::string& sentence) const {
   const std::string shown = label();
@@ -243,6 +249,9 @@ bool EntryFilter::accepts(const std::string& path_below) const {
             std::any_of(kImportFormats.begin(), kImportFormats.end(),
                         [&](const ImportFormat& format) { return ends_so(format.extension); }));
   };
+  if (is_of_macos(path_below)) {
+    return false;
+  }
   const bool included =
       include.empty() ? readable() : std::any_of(include.begin(), include.end(), matches_path);
   return included && std::none_of(exclude.begin(), exclude.end(), matches_path);

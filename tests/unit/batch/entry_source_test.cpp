@@ -36,6 +36,9 @@ TEST(EntryFilter, TakesReadableFormatsInAnyCaseUnlessToldOtherwise) {
   EXPECT_TRUE(EntryFilter{.imports = true}.accepts("d/A.STEP"));
   EXPECT_TRUE((EntryFilter{.include = {"*.txt"}}.accepts("d/a.txt")));
   EXPECT_FALSE((EntryFilter{.include = {}, .exclude = {"d/*"}}.accepts("d/a.ply")));
+  EXPECT_FALSE((EntryFilter{.include = {"*.ply"}}.accepts("d/._a.ply")));  // of macOS
+  EXPECT_FALSE(EntryFilter{}.accepts("__MACOSX/a.ply"));
+  EXPECT_TRUE(EntryFilter{}.accepts("d/a__MACOSX/a._.ply"));
 }
 
 TEST(EntriesOfPaths, WalkFoldersByTheBytesOfNames) {
