@@ -99,14 +99,8 @@ void become_importer(const char* program, const char* extension, int input, int 
 /// A file without a name that holds the bytes.
 batch::Descriptor file_of(std::string_view bytes, std::string_view name) {
   batch::Descriptor file(::memfd_create("model", MFD_CLOEXEC));
-  while (file.number() >= 0 && !bytes.empty()) {
-    const ssize_t done = ::write(file.number(), bytes.data(), bytes.size());
-    if (done < 0 && errno != EINTR) {
-      throw IoError(name, "cannot be handed to vantage-import", errno);
-    }
-    bytes.remove_prefix(done > 0 ? static_cast<std::size_t>(done) : 0);
-  }
-  if (file.number() < 0 || ::lseek(file.number(), 0, SEEK_SET) != 0) {
+  if (file.number() < 0 || batch::write_all(file.number(), bytes) != 0 ||
+      ::lseek(file.number(), 0, SEEK_SET) != 0) {
     throw IoError(name, "cannot be handed to vantage-import", errno);
   }
   return file;

@@ -253,12 +253,7 @@ void ConfinedFolder::finish_part(const std::string& name) const {
 
 void ConfinedFolder::write(const std::string& name, std::string_view bytes) const {
   const Descriptor file(create_part());
-  int error = 0;
-  while (!bytes.empty() && error == 0) {
-    const ssize_t done = ::write(file.number(), bytes.data(), bytes.size());
-    error = done < 0 && errno != EINTR ? errno : 0;
-    bytes.remove_prefix(done > 0 ? static_cast<std::size_t>(done) : 0);
-  }
+  int error = write_all(file.number(), bytes);
   // Some file systems cannot flush and say so; that is no failure.
   if (error == 0 && ::fsync(file.number()) != 0 && errno != EINVAL && errno != ENOTSUP) {
     error = errno;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cerrno>
+#include <cstddef>
+#include <string_view>
 #include <utility>
 
 #include <unistd.h>
@@ -36,5 +39,17 @@ class Descriptor {
  private:
   int number_;
 };
+
+/// Writes all bytes, however many calls that takes. \return 0 or errno.
+inline int write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t done = ::write(descriptor, bytes.data(), bytes.size());
+    if (done < 0 && errno != EINTR) {
+      return errno;
+    }
+    bytes.remove_prefix(done > 0 ? static_cast<std::size_t>(done) : 0);
+  }
+  return 0;
+}
 
 }  // namespace vantage::batch

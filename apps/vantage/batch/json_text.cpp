@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "batch/json_text.h"
 
-#include <cerrno>
-#include <cstddef>
-
-#include <unistd.h>
+#include "batch/descriptor.h"
 
 namespace vantage::batch {
 
@@ -17,15 +14,7 @@ Json parsed_json(std::string_view text) {
 }
 
 bool write_json_line(int descriptor, const Json& json) {
-  const std::string text = json_text(json) + "\n";
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t count = ::write(descriptor, text.data() + done, text.size() - done);
-    if (count < 0 && errno != EINTR) {
-      return false;
-    }
-    done += count > 0 ? static_cast<std::size_t>(count) : 0;
-  }
-  return true;
+  return write_all(descriptor, json_text(json) + "\n") == 0;
 }
 
 }  // namespace vantage::batch

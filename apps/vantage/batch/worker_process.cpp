@@ -15,6 +15,8 @@
 
 #include "vantage/core/error.h"
 
+#include "batch/descriptor.h"
+
 namespace vantage::batch {
 namespace {
 
@@ -97,15 +99,7 @@ WorkerProcess::~WorkerProcess() {
 }
 
 void WorkerProcess::send(const std::string& line) const {
-  const std::string text = line + "\n";
-  std::string_view rest = text;
-  while (!rest.empty()) {
-    const ssize_t done = ::write(to_worker_, rest.data(), rest.size());
-    if (done < 0 && errno != EINTR) {
-      return;
-    }
-    rest.remove_prefix(done > 0 ? static_cast<std::size_t>(done) : 0);
-  }
+  write_all(to_worker_, line + "\n");
 }
 
 bool WorkerProcess::receive() {
