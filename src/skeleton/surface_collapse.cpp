@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "vantage/mesh/measures.h"
@@ -96,10 +97,11 @@ class SurfaceCollapse {
         merged_length_(kMergedLength * spacing),
         weights_(cluster_weights(mesh)),
         of_vertex_(mesh.positions.size()) {
-    TriMesh surface = mesh;
-    if (history.merged) {
-      of_vertex_ = history.merged->of_vertex;
-      surface = {std::vector<Vec3>(history.merged->vertex_count), history.merged->triangles};
+    const auto& merged = history.merged;
+    const TriMesh surface =
+        merged ? TriMesh{std::vector<Vec3>(merged->vertex_count), merged->triangles} : mesh;
+    if (merged) {
+      of_vertex_ = merged->of_vertex;
     } else {
       std::iota(of_vertex_.begin(), of_vertex_.end(), 0U);
     }

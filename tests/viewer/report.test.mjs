@@ -372,26 +372,3 @@ test('a view that is shown has one score, and elsewhere an estimate', async () =
   await page.keyboard.press('ArrowRight');
   assert.match(await page.textContent('#direction'), /score about [\d.]+ \(/);
 });
-
-test('the replayed search is compared with the score that it looks for', async () => {
-  const page = await open(browser, peoplesReport());
-  const { highest_score: highest, best, worst } = JSON.parse(fs.readFileSync(path.join(folder, 'people', 'view.json'), 'utf8'));
-  assert.ok(highest.score > 1.01 * best.score, 'people take another view than the one of the highest score');
-  const found = async () => Number((await page.textContent('#replay-text')).match(/ found: ([\d.]+)$/)[1]);
-  assert.ok(Math.abs((await found()) - highest.score) < 1e-3 * highest.score);
-  await page.check('input[name=goal][value=worst]');
-  assert.ok(Math.abs((await found()) - worst.score) < 1e-3 * worst.score);
-  await page.context().close();
-});
-
-test('an orthographic view of an object beside the middle tells its own direction', async () => {
-  const box = (x, n) => ['o b' + n, ...[0, 1, 2, 3, 4, 5, 6, 7].map((i) => `v ${x + (i & 1)} ${(i >> 1) & 1} ${i >> 2}`),
-    ...['1 3 4 2', '5 6 8 7', '1 2 6 5', '3 7 8 4', '1 5 7 3', '2 4 8 6'].map((f) => 'f ' + f.split(' ').map((k) => Number(k) + 8 * n).join(' '))];
-  fs.writeFileSync(path.join(folder, 'row.obj'), [...box(0, 0), ...box(9, 1), ''].join('\n'));
-  vantage('view', 'row.obj', '-o', 'row', '--focus', 'b1', '--projection', 'orthographic', '--search', 'rapid');
-  const { best } = JSON.parse(fs.readFileSync(path.join(folder, 'row', 'view.json'), 'utf8'));
-  const page = await open(browser, path.join(folder, 'row', 'report.html'));
-  const told = (await page.textContent('#direction')).match(/direction (.+)\n/)[1].split(', ').map(Number);
-  assert.ok(distance(told, best.direction) < 2e-3, `${told} ${best.direction}`);
-  await page.context().close();
-});

@@ -19,6 +19,7 @@ const reports = {
   // Maximises what people choose; a rapid search maximises the score.
   people: [`${markup}.ply`, '--size', '160x120'],
   soup: ['soup.obj', ...rapid, '--views', '40', '--contraction', 'exact'],
+  row: ['row.obj', ...rapid, '--focus', 'b1', '--projection', 'orthographic'],
   box: ['box.obj', '--up', 'any', '--size', '160x120', '--contraction', 'exact'],
   large: [path.join(process.env.VANTAGE_DATA ?? '', 'paper', 'armadillo_172966_loop.ply'), ...rapid],
 };
@@ -250,4 +251,22 @@ test('shows a large model within seconds', { skip: process.env.VANTAGE_DATA ? fa
   assert.match(await page.textContent('#numbers'), /more where significance is high/);
   assert.ok(fs.statSync(path.join(folder, 'large', 'report.html')).size < 40e6);
   console.log(`# 173 000 vertices loaded in ${page.loadSeconds} s`);
+});
+
+test('the replayed search is compared with the score that it looks for', async () => {
+  const [page, { highest_score: highest, best, worst }] = await opened('people');
+  assert.ok(highest.score > 1.01 * best.score, 'people take another view than the one of the highest score');
+  const found = async () => Number((await page.textContent('#replay-text')).match(/ found: ([\d.]+)$/)[1]);
+  assert.ok(Math.abs((await found()) - highest.score) < 1e-3 * highest.score);
+  await page.check('input[name=goal][value=worst]');
+  assert.ok(Math.abs((await found()) - worst.score) < 1e-3 * worst.score);
+});
+
+test('an orthographic view of an object beside the middle tells its own direction', async () => {
+  const box = (x, n) => ['o b' + n, ...[0, 1, 2, 3, 4, 5, 6, 7].map((i) => `v ${x + (i & 1)} ${(i >> 1) & 1} ${i >> 2}`),
+    ...['1 3 4 2', '5 6 8 7', '1 2 6 5', '3 7 8 4', '1 5 7 3', '2 4 8 6'].map((f) => 'f ' + f.split(' ').map((k) => Number(k) + 8 * n).join(' '))];
+  fs.writeFileSync(path.join(folder, 'row.obj'), [...box(0, 0), ...box(9, 1), ''].join('\n'));
+  const [page, { best }] = await opened('row');
+  const told = (await page.textContent('#direction')).match(/direction (.+)\n/)[1].split(', ').map(Number);
+  assert.ok(distance(told, best.direction) < 2e-3, `${told} ${best.direction}`);
 });
