@@ -262,9 +262,8 @@ struct DiffCommand {
                  " only in B");
     if (counts.equal + counts.changed == 0 && share_content(*a, *b)) {
       session.say(
-          "note: no key is in both, though contents are: keys are paths as they were given; run "
-          "both "
-          "batches from one folder, or by manifests that have keys");
+          "note: no key is in both, though contents are: keys are paths as they were given; "
+          "run both batches from one folder, or by manifests that have keys");
     }
     finish_standard_output();
   }

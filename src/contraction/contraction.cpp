@@ -175,6 +175,7 @@ ContractionHistory contract_pieces(const TriMesh& mesh, const ContractionOptions
   ContractionHistory history;
   Pieces cut = cut_into_pieces(mesh);
   const std::vector<Piece> pieces = std::move(cut.all);
+  static_assert(Pieces::kIsolated == ContractionHistory::kIsolated);
   history.component_of_vertex = std::move(cut.of_vertex);
   history.levels.push_back(mesh.positions);
   std::vector<PieceResult> results;

@@ -163,10 +163,9 @@ std::string blank_view_warning(const ShapeAnalysis& shape, const ReportedView& b
   if (!sums_a_map(options.method) || !counts || best.score > 0.0) {
     return {};
   }
-  return "nothing significant is seen from the best view, as other parts hide it: take out what "
-         "hides "
-         "it" +
-         std::string(options.focus.empty() ? "" : ", or choose another --focus");
+  const std::string text =
+      "nothing significant is seen from the best view, as other parts hide it: take them out";
+  return options.focus.empty() ? text : text + ", or choose another --focus";
 }
 
 ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const FrameChoice& choice,

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <span>
 #include <utility>
 
 #include "vantage/mesh/measures.h"
+#include "vantage/mesh/topology.h"
 
 #include "core/parallel.h"
 #include "mesh/decimation.h"
@@ -66,28 +66,19 @@ std::vector<std::uint32_t> nodes_of_merged(const std::vector<std::uint32_t>& of_
 }
 
 /// The vertices that each merged one stands for, ascending.
-class Merged {
- public:
-  Merged(const std::vector<std::uint32_t>& of_vertex, std::size_t count)
-      : offsets_(count + 1, 0), vertices_(of_vertex.size()) {
-    for (const std::uint32_t to : of_vertex) {
-      ++offsets_[to + 1];
-    }
-    std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
-    std::vector<std::uint32_t> cursor(offsets_.begin(), offsets_.end() - 1);
-    for (std::uint32_t v = 0; v < of_vertex.size(); ++v) {
-      vertices_[cursor[of_vertex[v]]++] = v;
-    }
+IndexLists vertices_of_merged(const std::vector<std::uint32_t>& of_vertex, std::size_t count) {
+  IndexLists lists{.offsets = std::vector<std::uint32_t>(count + 1, 0),
+                   .values = std::vector<std::uint32_t>(of_vertex.size())};
+  for (const std::uint32_t to : of_vertex) {
+    ++lists.offsets[to + 1];
   }
-
-  [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t merged) const {
-    return std::span(vertices_).subspan(offsets_[merged], offsets_[merged + 1] - offsets_[merged]);
+  std::partial_sum(lists.offsets.begin(), lists.offsets.end(), lists.offsets.begin());
+  std::vector<std::uint32_t> cursor(lists.offsets.begin(), lists.offsets.end() - 1);
+  for (std::uint32_t v = 0; v < of_vertex.size(); ++v) {
+    lists.values[cursor[of_vertex[v]]++] = v;
   }
-
- private:
-  std::vector<std::uint32_t> offsets_;
-  std::vector<std::uint32_t> vertices_;
-};
+  return lists;
+}
 
 /// What is collapsed: the surface, or what contraction merged it to.
 class SurfaceCollapse {
@@ -106,7 +97,7 @@ class SurfaceCollapse {
       std::iota(of_vertex_.begin(), of_vertex_.end(), 0U);
     }
     count_ = surface.positions.size();
-    stands_for_ = Merged(of_vertex_, count_);
+    stands_for_ = vertices_of_merged(of_vertex_, count_);
     sums_ = sums_of_parts(weights_, of_vertex_, count_);
     pieces_ = cut_into_pieces(surface);
   }
@@ -153,13 +144,8 @@ class SurfaceCollapse {
     std::vector<Vec3> means;
     means.reserve(piece.vertices.size());
     for (const std::uint32_t to : piece.vertices) {
-      const auto vertices = stands_for_[to];
-      if (vertices.size() == 1) {
-        means.push_back(level[vertices[0]]);
-        continue;
-      }
       Vec3 mean = Vec3::Zero();
-      for (const std::uint32_t v : vertices) {
+      for (const std::uint32_t v : stands_for_[to]) {
         mean += (weights_[v] / sums_[to]) * level[v];
       }
       means.push_back(mean);
@@ -238,9 +224,9 @@ class SurfaceCollapse {
   std::vector<double> weights_;           ///< Of each vertex of the mesh.
   std::vector<std::uint32_t> of_vertex_;  ///< What each vertex of the mesh is merged in.
   std::size_t count_ = 0;                 ///< Of merged vertices.
-  Merged stands_for_{{}, 0};
-  std::vector<double> sums_{};  ///< Weights of merged vertices.
-  Pieces pieces_{};             ///< Of merged vertices.
+  IndexLists stands_for_{};               ///< What each merged vertex stands for.
+  std::vector<double> sums_{};            ///< Weights of merged vertices.
+  Pieces pieces_{};                       ///< Of merged vertices.
 };
 
 }  // namespace
