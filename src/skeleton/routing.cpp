@@ -12,6 +12,7 @@
 
 #include "mesh/disjoint_sets.h"
 #include "mesh/place_order.h"
+#include "skeleton/wall_middles.h"
 #include "spatial/interior_path.h"
 
 namespace vantage {
@@ -31,34 +32,6 @@ std::vector<std::vector<std::uint32_t>> vertices_of_nodes(
   }
   return lists;
 }
-
-/// The middle of a wall, of those at the given vertices, that is nearest to a place.
-class NearestMiddle {
- public:
-  NearestMiddle(const Shell& shell, const Vec3& place) : shell_(shell), place_(place) {}
-
-  void look_at(std::span<const std::uint32_t> vertices) {
-    for (const std::uint32_t v : vertices) {
-      Vec3 middle = Vec3::Zero();
-      if (shell_.middle_at(v, middle) && (middle - place_).squaredNorm() < distance_squared_) {
-        distance_squared_ = (middle - place_).squaredNorm();
-        nearest_ = middle;
-        found_ = true;
-      }
-    }
-  }
-
-  [[nodiscard]] bool found() const { return found_; }
-
-  [[nodiscard]] const Vec3& nearest() const { return nearest_; }
-
- private:
-  const Shell& shell_;
-  Vec3 place_;
-  double distance_squared_ = std::numeric_limits<double>::infinity();
-  Vec3 nearest_ = Vec3::Zero();
-  bool found_ = false;
-};
 
 class EdgeRouter {
  public:
@@ -223,9 +196,9 @@ CurveGraph move_nodes_inside(const CurveGraph& centred, const CurveGraph& raw,
                              std::span<const std::uint32_t> node_of_vertex) {
   CurveGraph graph = centred;
   const auto vertices = vertices_of_nodes(graph.nodes.size(), node_of_vertex);
-  const auto neighbours = node_neighbours(graph);
   const auto components = components_of_nodes(graph, node_of_vertex, routing.component_of_vertex);
-  for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
+  std::vector<std::uint32_t> outside;
+  for (std::uint32_t i = 0; i < graph.nodes.size(); ++i) {
     routing.run.check();
     const std::uint32_t component = components[i];
     if (component == Skeleton::kNone) {
@@ -238,18 +211,21 @@ CurveGraph move_nodes_inside(const CurveGraph& centred, const CurveGraph& raw,
     });
     if (place != places.end()) {
       graph.nodes[i] = *place;
-      continue;
+    } else {
+      outside.push_back(i);
     }
-    NearestMiddle middle(routing.shell, centred.nodes[i]);
-    middle.look_at(vertices[i]);
-    if (!middle.found()) {
+  }
+  const auto neighbours = node_neighbours(graph);
+  WallMiddles walls(std::move(graph), routing.shell);
+  for (const std::uint32_t i : outside) {
+    routing.run.check();
+    if (!walls.add(i, vertices[i])) {
       for (const std::uint32_t c : neighbours[i]) {
-        middle.look_at(vertices[c]);
+        walls.add(i, vertices[c]);
       }
     }
-    graph.nodes[i] = middle.found() ? middle.nearest() : centred.nodes[i];
   }
-  return graph;
+  return walls.move();
 }
 
 CurveGraph route_edges_inside(CurveGraph graph, const Routing& routing,

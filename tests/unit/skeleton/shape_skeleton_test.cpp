@@ -47,6 +47,31 @@ TEST(ExtractSkeleton, OfATorusHasTheRadiusOfItsTube) {
   }
 }
 
+/// A cylinder of radius 1 and height 8 with a bore of radius 0.4 along its axis.
+TriMesh bored_cylinder() {
+  constexpr int kAlong = 20;
+  constexpr int kSection = 2 * (kAlong + 1);  // up outside, down inside
+  TriMesh mesh = test::torus(1.0, 0.25, 24, kSection);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    Vec3& p = mesh.positions[v];
+    const int place = static_cast<int>(v % kSection);
+    const bool is_outside = place <= kAlong;
+    const double z = 8.0 * (is_outside ? place : kSection - 1 - place) / kAlong;
+    const double angle = std::atan2(p.y(), p.x());
+    const double radius = is_outside ? 1.0 : 0.4;
+    p = Vec3(radius * std::cos(angle), radius * std::sin(angle), z);
+  }
+  return mesh;
+}
+
+TEST(ExtractSkeleton, OfABoredCylinderFollowsOneSideOfItsWall) {
+  const Skeleton skeleton = skeleton_of(bored_cylinder());
+  EXPECT_EQ(cycle_count(skeleton.graph), 1U);
+  EXPECT_EQ(skeleton.outside_share, 0.0);
+  RecordProperty("length", std::to_string(total_length(skeleton.graph)));
+  EXPECT_LT(total_length(skeleton.graph), 2.0 * 8.0);  // a loop goes there and back
+}
+
 TEST(ExtractSkeleton, OfASphereHasNoCycleAndIsShort) {
   const Skeleton skeleton = skeleton_of(test::sphere(3));
   EXPECT_EQ(cycle_count(skeleton.graph), 0U);
