@@ -34,17 +34,34 @@ struct PieceResult {
   bool is_thinned = false;       ///< Whether it was, once `history` is placed and forgotten.
 };
 
-/// Whether the piece is to be contracted by a proxy, if it can be made coarse enough.
-bool wants_proxy(const Piece& piece, const ContractionOptions& options) {
-  return options.method == ContractionMethod::Auto && piece.vertices.size() > kProxyFrom;
-}
+/// A surface in pieces.
+struct CutSurface {
+  const TriMesh& mesh;
+  std::vector<Piece> pieces{};
+  /// Of the input's vertices, which come first: how many an even mesh of their component needs that
+  /// splitting made too many of; 0 of other components. Empty: nothing was split.
+  std::span<const std::size_t> even_size{};
 
-PieceResult contract_piece(const TriMesh& mesh, const Piece& piece,
+  /// How large a proxy of the piece should be; 0 if it needs none.
+  [[nodiscard]] std::size_t proxy_size(const Piece& piece,
+                                       const ContractionOptions& options) const {
+    if (options.method != ContractionMethod::Auto) {
+      return 0;
+    }
+    const std::uint32_t first = piece.vertices.front();
+    if (first < even_size.size() && even_size[first] > 0) {
+      return even_size[first];
+    }
+    return piece.vertices.size() > kProxyFrom ? kProxySize : 0;
+  }
+};
+
+PieceResult contract_piece(const CutSurface& cut, const Piece& piece,
                            const ContractionOptions& options, const RunContext& run) {
   TriMesh scaled{.positions = {}, .triangles = piece.triangles};
   scaled.positions.reserve(piece.vertices.size());
   for (const std::uint32_t v : piece.vertices) {
-    scaled.positions.push_back(mesh.positions[v]);
+    scaled.positions.push_back(cut.mesh.positions[v]);
   }
   const ComponentScaling scaling(scaled.positions, options.scaling);
   for (Vec3& p : scaled.positions) {
@@ -57,8 +74,8 @@ PieceResult contract_piece(const TriMesh& mesh, const Piece& piece,
   }
   PieceResult result;
   const std::size_t n = piece.vertices.size();
-  if (wants_proxy(piece, options)) {
-    Proxy proxy = make_proxy(scaled, kMergedSize, kProxySize, run);
+  if (const std::size_t size = cut.proxy_size(piece, options); size > 0) {
+    Proxy proxy = make_proxy(scaled, std::min(kMergedSize, n), size, run);
     if (static_cast<double>(proxy.mesh.positions.size()) < kProxyShare * static_cast<double>(n)) {
       result.proxy = std::move(proxy);
     }
@@ -156,7 +173,7 @@ std::span<const Piece> next_together(std::span<const Piece> pieces) {
 }
 
 /// Contracts pieces side by side; a single one with all threads and with its own progress.
-std::vector<PieceResult> contract_together(const TriMesh& mesh, std::span<const Piece> pieces,
+std::vector<PieceResult> contract_together(const CutSurface& cut, std::span<const Piece> pieces,
                                            const ContractionOptions& options,
                                            const RunContext& run) {
   std::vector<PieceResult> results(pieces.size());
@@ -165,23 +182,24 @@ std::vector<PieceResult> contract_together(const TriMesh& mesh, std::span<const 
     sizes.push_back(piece.vertices.size());
   }
   parallel_items(run, "contracting", sizes, [&](std::size_t i, const RunContext& own) {
-    results[i] = contract_piece(mesh, pieces[i], options, own);
+    results[i] = contract_piece(cut, pieces[i], options, own);
   });
   return results;
 }
 
-ContractionHistory contract_pieces(const TriMesh& mesh, const ContractionOptions& options,
-                                   const RunContext& run) {
+ContractionHistory contract_pieces(const TriMesh& mesh, std::span<const std::size_t> even_size,
+                                   const ContractionOptions& options, const RunContext& run) {
   ContractionHistory history;
-  Pieces cut = cut_into_pieces(mesh);
-  const std::vector<Piece> pieces = std::move(cut.all);
+  Pieces all = cut_into_pieces(mesh);
+  const CutSurface cut{.mesh = mesh, .pieces = std::move(all.all), .even_size = even_size};
+  const std::vector<Piece>& pieces = cut.pieces;
   static_assert(Pieces::kIsolated == ContractionHistory::kIsolated);
-  history.component_of_vertex = std::move(cut.of_vertex);
+  history.component_of_vertex = std::move(all.of_vertex);
   history.levels.push_back(mesh.positions);
   std::vector<PieceResult> results;
   results.reserve(pieces.size());
   if (std::any_of(pieces.begin(), pieces.end(),
-                  [&](const Piece& piece) { return wants_proxy(piece, options); })) {
+                  [&](const Piece& piece) { return cut.proxy_size(piece, options) > 0; })) {
     history.merged.emplace();
     history.merged->of_vertex.resize(mesh.positions.size());
     add_isolated(history.component_of_vertex, *history.merged);
@@ -208,7 +226,7 @@ ContractionHistory contract_pieces(const TriMesh& mesh, const ContractionOptions
       after += piece.vertices.size();
     }
     for (PieceResult& result : contract_together(
-             mesh, together, options,
+             cut, together, options,
              run.part(static_cast<double>(done) / total, static_cast<double>(after) / total))) {
       add(pieces[first++], std::move(result));
     }
@@ -226,9 +244,10 @@ ContractionHistory contract_pieces(const TriMesh& mesh, const ContractionOptions
 }
 
 /// The history of the vertices of `mesh`, which come first in the refined surface.
-ContractionHistory of_refined(const TriMesh& mesh, TriMesh refined,
+ContractionHistory of_refined(const TriMesh& mesh, RefinedSurface surface,
                               const ContractionOptions& options, const RunContext& run) {
-  ContractionHistory history = contract_pieces(refined, options, run);
+  ContractionHistory history = contract_pieces(surface.mesh, surface.even_size, options, run);
+  TriMesh& refined = surface.mesh;
   const std::size_t n = mesh.positions.size();
   std::vector<std::size_t> added(history.components.size(), 0);
   for (std::size_t v = n; v < refined.positions.size(); ++v) {
@@ -268,11 +287,11 @@ ContractionHistory contract(const TriMesh& mesh, const ContractionOptions& optio
                                                                   : ContractionWeights::Area;
   }
   if (resolved.weights == ContractionWeights::Area) {
-    if (std::optional<TriMesh> refined = refine_coarse_components(mesh, run)) {
+    if (std::optional<RefinedSurface> refined = refine_coarse_components(mesh, run)) {
       return of_refined(mesh, std::move(*refined), resolved, run);
     }
   }
-  return contract_pieces(mesh, resolved, run);
+  return contract_pieces(mesh, {}, resolved, run);
 }
 
 }  // namespace vantage

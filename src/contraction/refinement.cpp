@@ -27,6 +27,11 @@ constexpr double kFineEdge = 0.03;
 /// Vertices that refinement may make of a component, about [ours]; its edges stay longer where that
 /// is not enough.
 constexpr double kMostVertices = 20'000.0;
+/// Splitting made far too many vertices of a component from this multiple of the expected on; an even
+/// mesh needs this share of the expected, at least so many [ours: trials in docs/lab].
+constexpr double kFarMore = 1.5;
+constexpr double kEvenShare = 0.5;
+constexpr double kFewestExpected = 500.0;
 constexpr double kCoarser = 1.25;  // factor on the edge length while that is exceeded
 /// Vertices that it may make of all components, about. Where more are expected, components whose
 /// diameter is below kSmallPart of the largest get edges of kLongEdge; the edges of all others grow by
@@ -187,6 +192,30 @@ TriMesh split_parts(const TriMesh& mesh, const std::vector<const CoarsePart*>& p
   }
 }
 
+/// RefinedSurface::even_size of `mesh` split to `fine`.
+std::vector<std::size_t> even_sizes(const TriMesh& mesh,
+                                    const std::vector<const CoarsePart*>& parts,
+                                    const TriMesh& fine) {
+  const Components components = connected_components(fine);
+  std::vector<double> made(components.count, 0.0);
+  for (const std::uint32_t c : components.of_vertex) {
+    made[c] += 1.0;
+  }
+  std::vector<std::size_t> sizes(mesh.positions.size(), 0);
+  for (const CoarsePart* part : parts) {
+    const double expected = estimated_vertices(*part, part->edge);
+    const std::uint32_t c = components.of_vertex[mesh.triangles[part->faces.front()][0]];
+    if (made[c] > kFarMore * std::max(expected, kFewestExpected)) {
+      for (const std::uint32_t f : part->faces) {
+        for (const std::uint32_t v : mesh.triangles[f]) {
+          sizes[v] = static_cast<std::size_t>(std::max(kFewestExpected, kEvenShare * expected));
+        }
+      }
+    }
+  }
+  return sizes;
+}
+
 /// The mesh around the origin, of diameter 1: areas of very large or small models have no double.
 TriMesh unit_size(const TriMesh& mesh, const Sphere& sphere) {
   TriMesh unit = mesh;
@@ -198,7 +227,7 @@ TriMesh unit_size(const TriMesh& mesh, const Sphere& sphere) {
 
 }  // namespace
 
-std::optional<TriMesh> refine_coarse_components(const TriMesh& mesh, const RunContext& run) {
+std::optional<RefinedSurface> refine_coarse_components(const TriMesh& mesh, const RunContext& run) {
   const Sphere sphere = enclosing_sphere(referenced_points(mesh));
   if (mesh.triangles.empty() || !(sphere.diameter > 0.0)) {
     return std::nullopt;
@@ -225,7 +254,9 @@ std::optional<TriMesh> refine_coarse_components(const TriMesh& mesh, const RunCo
       chosen.push_back(&parts[p]);
     }
   }
-  return split_parts(mesh, chosen, sphere.diameter, run);
+  TriMesh fine = split_parts(mesh, chosen, sphere.diameter, run);
+  std::vector<std::size_t> sizes = even_sizes(mesh, chosen, fine);
+  return RefinedSurface{std::move(fine), std::move(sizes)};
 }
 
 TriMesh refine_whole(const TriMesh& scaled, const RunContext& run) {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "contraction/refinement.h"
 
+#include <string>
+
 #include <gtest/gtest.h>
+
+#include "vantage/contraction/contraction.h"
 
 #include "support/shapes.h"
 
@@ -24,20 +28,38 @@ TEST(RefineCoarseComponents, RefinesTheLargestFirstAndNotTooMany) {
   const auto all = refine_coarse_components(cube_after_many(), {});
   ASSERT_TRUE(alone && all);
   std::size_t of_large = 0;
-  for (const Vec3& p : all->positions) {
+  for (const Vec3& p : all->mesh.positions) {
     of_large += p.y() > 3.0 ? 1 : 0;
   }
-  EXPECT_EQ(of_large, alone->positions.size());
-  EXPECT_LT(all->positions.size(), 60'000U);
+  EXPECT_EQ(of_large, alone->mesh.positions.size());
+  EXPECT_LT(all->mesh.positions.size(), 60'000U);
 }
 
 TEST(RefineCoarseComponents, MakesNoMoreOfSliversSideBySide) {
   const TriMesh cylinder = test::cylinder(0.3, 2.0, 2000, 1);  // as many edges from end to end
   const auto fine = refine_coarse_components(cylinder, {});
   ASSERT_TRUE(fine.has_value());
-  EXPECT_GT(fine->positions.size(), cylinder.positions.size());
-  EXPECT_LE(fine->positions.size(), cylinder.positions.size() + 150'000U);
+  EXPECT_GT(fine->mesh.positions.size(), cylinder.positions.size());
+  EXPECT_LE(fine->mesh.positions.size(), cylinder.positions.size() + 150'000U);
   EXPECT_LE(refine_whole(cylinder, {}).positions.size(), cylinder.positions.size() + 150'000U);
+}
+
+TEST(RefineCoarseComponents, TellsHowManyAnEvenMeshOfSliversNeeds) {
+  const TriMesh cylinder = test::cylinder(0.3, 2.0, 400, 1);
+  const TriMesh mesh = test::together(cylinder, test::box(1.0, 1.0, 1.0, 1), Vec3(0.0, 5.0, 0.0));
+  const auto fine = refine_coarse_components(mesh, {});
+  ASSERT_TRUE(fine.has_value());
+  ASSERT_EQ(fine->even_size.size(), mesh.positions.size());
+  EXPECT_GE(fine->even_size.front(), 500U);
+  EXPECT_LT(fine->even_size.front(), fine->mesh.positions.size() / 8);
+  EXPECT_EQ(fine->even_size.back(), 0U);  // a cube's faces are not thin
+}
+
+TEST(RefineCoarseComponents, SliversAreContractedByAnEvenMesh) {
+  const auto components = contract(test::cylinder(0.3, 2.0, 400, 1)).components;
+  ASSERT_EQ(components.size(), 1U);
+  EXPECT_TRUE(components[0].strategy.starts_with("refined ")) << components[0].strategy;
+  EXPECT_NE(components[0].strategy.find(", proxy "), std::string::npos) << components[0].strategy;
 }
 
 /// Eight cubes, which alone would be given twice as many vertices as they may have together.
@@ -54,8 +76,8 @@ TEST(RefineCoarseComponents, SharesVerticesByTheSurfaceNotByItsTriangles) {
   const auto coarse = refine_coarse_components(eight_cubes(1), {});
   const auto finer = refine_coarse_components(eight_cubes(8), {});
   ASSERT_TRUE(alone && coarse && finer);
-  EXPECT_LT(coarse->positions.size(), 8 * alone->positions.size());
-  EXPECT_EQ(coarse->positions.size(), finer->positions.size());
+  EXPECT_LT(coarse->mesh.positions.size(), 8 * alone->mesh.positions.size());
+  EXPECT_EQ(coarse->mesh.positions.size(), finer->mesh.positions.size());
 }
 
 TEST(RefineCoarseComponents, VerticesWithoutAFaceChangeNothing) {
@@ -65,7 +87,7 @@ TEST(RefineCoarseComponents, VerticesWithoutAFaceChangeNothing) {
   mesh.positions.emplace_back(1.0, 0.5, 0.5);
   const auto after = refine_coarse_components(mesh, {});
   ASSERT_TRUE(before && after);
-  EXPECT_EQ(after->positions.size(), before->positions.size() + 1);
+  EXPECT_EQ(after->mesh.positions.size(), before->mesh.positions.size() + 1);
 }
 
 }  // namespace
