@@ -125,7 +125,7 @@ CurveGraph centre_nodes(const CurveGraph& graph, const TriMesh& mesh,
   return centred;
 }
 
-CurveGraph prune_ends(const CurveGraph& graph, double ratio, std::vector<double>& radius,
+CurveGraph prune_ends(const CurveGraph& graph, double ratio, const std::vector<double>& radius,
                       std::vector<std::uint32_t>& node_of_vertex) {
   Adjacency lists = node_neighbours(graph);
   std::vector<std::uint32_t> stands_for(graph.nodes.size());
@@ -145,13 +145,11 @@ CurveGraph prune_ends(const CurveGraph& graph, double ratio, std::vector<double>
   }
 
   CurveGraph pruned;
-  std::vector<double> kept_radius;
   std::vector<std::uint32_t> new_of_old(graph.nodes.size(), Skeleton::kNone);
   for (std::uint32_t i = 0; i < graph.nodes.size(); ++i) {
     if (stands_for[i] == i) {
       new_of_old[i] = static_cast<std::uint32_t>(pruned.nodes.size());
       pruned.nodes.push_back(graph.nodes[i]);
-      kept_radius.push_back(radius[i]);
     }
   }
   for (const auto& [a, b] : graph.edges) {
@@ -168,7 +166,6 @@ CurveGraph prune_ends(const CurveGraph& graph, double ratio, std::vector<double>
       node = new_of_old[node];
     }
   }
-  radius = std::move(kept_radius);
   return pruned;
 }
 

@@ -22,9 +22,9 @@ CurveGraph centre_nodes(const CurveGraph& graph, const TriMesh& mesh,
 
 /// Cuts ends whose length is below `ratio` times the radius at the junction they hang from,
 /// shortest first; their vertices go to the junction. Cycles and components stay.
-/// \param radius         |N| radii; cut along with the nodes.
+/// \param radius         |N| radii.
 /// \param node_of_vertex mapped to the remaining nodes.
-CurveGraph prune_ends(const CurveGraph& graph, double ratio, std::vector<double>& radius,
+CurveGraph prune_ends(const CurveGraph& graph, double ratio, const std::vector<double>& radius,
                       std::vector<std::uint32_t>& node_of_vertex);
 
 }  // namespace vantage

@@ -186,7 +186,7 @@ Skeleton extract_point_skeleton(const TriMesh& samples, const ContractionHistory
   skeleton.curve = skeleton.raw;
   close_short_loops(skeleton.graph, samples, skeleton.node_of_vertex, run);
   if (options.prune) {  // folding leaves stubs
-    std::vector<double> radius = node_radii(skeleton.graph, samples, skeleton.node_of_vertex);
+    const std::vector<double> radius = node_radii(skeleton.graph, samples, skeleton.node_of_vertex);
     skeleton.graph =
         prune_ends(skeleton.graph, options.prune_ratio, radius, skeleton.node_of_vertex);
   }

@@ -91,7 +91,7 @@ void finish(const TriMesh& mesh, const ContractionHistory& history, const Shell*
         move_nodes_inside(skeleton.graph, skeleton.raw, *routing, skeleton.node_of_vertex);
   }
   if (options.prune) {
-    std::vector<double> radius = node_radii(skeleton.graph, mesh, skeleton.node_of_vertex);
+    const std::vector<double> radius = node_radii(skeleton.graph, mesh, skeleton.node_of_vertex);
     skeleton.graph =
         prune_ends(skeleton.graph, options.prune_ratio, radius, skeleton.node_of_vertex);
   }

@@ -23,26 +23,25 @@ CurveGraph path_with_branch() {
 
 struct Pruned {
   CurveGraph graph{};
-  std::vector<double> radius{};
   std::vector<std::uint32_t> node_of_vertex{};
 };
 
 /// One vertex a node, and a last one that belongs to none.
 Pruned prune(const CurveGraph& graph, double ratio, double thickness) {
   Pruned result;
-  result.radius.assign(graph.nodes.size(), thickness);
+  const std::vector<double> radius(graph.nodes.size(), thickness);
   for (std::uint32_t i = 0; i < graph.nodes.size(); ++i) {
     result.node_of_vertex.push_back(i);
   }
   result.node_of_vertex.push_back(Skeleton::kNone);
-  result.graph = prune_ends(graph, ratio, result.radius, result.node_of_vertex);
+  result.graph = prune_ends(graph, ratio, radius, result.node_of_vertex);
   return result;
 }
 
 TEST(PruneEnds, CutsABranchShorterThanItsRootIsThick) {
   const Pruned pruned = prune(path_with_branch(), 1.0, 0.61);
   EXPECT_EQ(pruned.graph.edges, (Edges{{0, 1}, {1, 2}, {2, 3}, {3, 4}}));
-  EXPECT_EQ(pruned.radius.size(), 5U);
+  EXPECT_EQ(pruned.graph.nodes.size(), 5U);
 }
 
 TEST(PruneEnds, KeepsABranchLongerThanItsRootIsThick) {
