@@ -36,8 +36,6 @@ class ClusterComplex {
 
   [[nodiscard]] std::size_t face_count() const { return live_faces_; }  ///< Triangles left.
 
-  [[nodiscard]] bool is_live(std::uint32_t cluster) const { return parent_[cluster] == cluster; }
-
   [[nodiscard]] const Vec3& position(std::uint32_t cluster) const { return position_[cluster]; }
 
   /// By what edges of equal length are told apart: the vertices' places at the start.

@@ -110,7 +110,6 @@ TEST(ClusterComplex, TheClusterWithMoreNeighboursStays) {
   ClusterComplex complex = complex_of(fan);
   EXPECT_EQ(complex.collapse(edge_between(complex, 0, 5).value()), 0U);
   EXPECT_EQ(complex.cluster_of(5), 0U);
-  EXPECT_FALSE(complex.is_live(5));
 }
 
 TEST(ClusterComplex, OfEqualClustersTheLowerStays) {
