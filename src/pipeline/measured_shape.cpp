@@ -69,7 +69,10 @@ MeasureSubject measure_subject(const ShapeAnalysis& shape, const ViewOptions& op
   subject.weight = options.weight;
   subject.kssm = shape.significance;
   subject.saliency_options = options.saliency;
-  subject.seen_by_set = seen_by_set(shape, subject.camera);
+  if (const SeenBySet* seen = seen_by_set(shape, subject.camera)) {
+    subject.seen_by_set = &seen->channel;
+    subject.terms_of_set = seen->terms ? &*seen->terms : nullptr;
+  }
   if (!shape.skeleton.graph.nodes.empty()) {
     subject.skeleton = &shape.skeleton.graph;
     subject.node_of_vertex = shape.skeleton.node_of_vertex;
@@ -89,8 +92,11 @@ std::vector<double> vertex_map(const ShapeAnalysis& shape, const ViewOptions& op
     throw InvalidInput("there is no map '" + std::string(name) +
                        "'; there are kssm, mesh-saliency, pmi-saliency");
   }
-  const ViewMeasurer measurer(measure_subject(shape, options), {find_measure("pmi-saliency")},
-                              kMeasureSetLevel, run);
+  const MeasureSubject subject = measure_subject(shape, options);
+  if (subject.terms_of_set != nullptr) {
+    return saliency_on_vertices(shape.surface, subject.terms_of_set->saliency_of_face);
+  }
+  const ViewMeasurer measurer(subject, {find_measure("pmi-saliency")}, kMeasureSetLevel, run);
   return saliency_on_vertices(shape.surface, measurer.model().terms.saliency_of_face);
 }
 

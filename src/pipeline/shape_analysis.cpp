@@ -105,8 +105,10 @@ PreparedFor use_of(const ShapeAnalysis& shape, const ViewOptions& options) {
     if (options.search.strategy == SearchStrategy::Global) {
       use.survey = scoring_camera(shape, options);
     }
-  } else if (find_measure(options.method).is_of_set() && surface_area(shape.surface) > 0.0) {
+  } else if (const Measure& measure = find_measure(options.method);
+             measure.is_of_set() && surface_area(shape.surface) > 0.0) {
     use.measures = scoring_camera(shape, options);
+    use.channel = measure.needs.channel;
   }
   return use;
 }

@@ -45,12 +45,16 @@ CoarseSurface coarse_of(const ShapeAnalysis& shape, const CoarseSurface& proxy,
   return coarse;
 }
 
-SeenBySet look_through(const ScoringCamera& camera, const ShapeAnalysis& shape,
+SeenBySet look_through(const ScoringCamera& camera, const ShapeAnalysis& shape, bool needs_terms,
                        const RunContext& run) {
   const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, kMeasureSetLevel);
   const FaceVisibility faces(shape.surface, shape.sides);
-  return {camera, channel_table(faces, shape.surface.triangles.size(),
-                                camera.viewpoints(set.directions), run)};
+  SeenBySet seen{camera, channel_table(faces, shape.surface.triangles.size(),
+                                       camera.viewpoints(set.directions), run)};
+  if (needs_terms) {
+    seen.terms = channel_terms(seen.channel, shape.surface, run.quiet());
+  }
+  return seen;
 }
 
 bool is_worthwhile(const CoarseSurface& copy) {
@@ -95,7 +99,7 @@ ViewPreparation::ViewPreparation(const ShapeAnalysis& shape, const RunContext& r
     survey.emplace(coarse_visibility, *use.survey, run);
   }
   if (use.measures) {
-    set = look_through(*use.measures, shape, run);
+    set = look_through(*use.measures, shape, use.channel, run);
   }
 }
 
@@ -124,10 +128,10 @@ std::vector<MirrorPlane> planes_of(const ShapeAnalysis& shape) {
   return shape.views ? shape.views->planes : mirror_planes(shape.surface);
 }
 
-const ViewChannel* seen_by_set(const ShapeAnalysis& shape, const ScoringCamera& camera) {
+const SeenBySet* seen_by_set(const ShapeAnalysis& shape, const ScoringCamera& camera) {
   const bool is_known =
       shape.views && shape.views->set && is_same(shape.views->set->camera, camera);
-  return is_known ? &shape.views->set->channel : nullptr;
+  return is_known ? &*shape.views->set : nullptr;
 }
 
 OrientationEvidence evidence_of(const ShapeAnalysis& shape) {

@@ -29,12 +29,14 @@ namespace vantage {
 struct PreparedFor {
   std::optional<ScoringCamera> survey{};    ///< The camera of a survey of the coarse copy.
   std::optional<ScoringCamera> measures{};  ///< That of measures of a set of views.
+  bool channel = false;                     ///< Whether these need terms of the channel.
 };
 
 /// What a set of views sees through a camera.
 struct SeenBySet {
   ScoringCamera camera{};
   ViewChannel channel{};
+  std::optional<ChannelTerms> terms{};  ///< If a measure needs them.
 };
 
 /// \throw InvalidInput if one of the measures looks at a set of views, and what that sees of so many
@@ -85,7 +87,7 @@ std::shared_ptr<const VertexVisibility> visibility_of(const ShapeAnalysis& shape
 std::vector<MirrorPlane> planes_of(const ShapeAnalysis& shape);
 
 /// What the set of views sees through this camera, if the shape's knows it; else null.
-const ViewChannel* seen_by_set(const ShapeAnalysis& shape, const ScoringCamera& camera);
+const SeenBySet* seen_by_set(const ShapeAnalysis& shape, const ScoringCamera& camera);
 
 /// The evidence of the shape's, or gathered now.
 OrientationEvidence evidence_of(const ShapeAnalysis& shape);

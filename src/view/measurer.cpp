@@ -349,8 +349,10 @@ void ViewMeasurer::State::survey(const RunContext& run) {
   }
   run.advance("views", 0.8);
   if (needs.channel) {
-    model.terms = channel_terms(is_seen ? *model.given.seen_by_set : channel, *model.given.surface,
-                                run.quiet());
+    model.terms = is_seen && model.given.terms_of_set != nullptr
+                      ? *model.given.terms_of_set
+                      : channel_terms(is_seen ? *model.given.seen_by_set : channel,
+                                      *model.given.surface, run.quiet());
   }
   run.advance("views", 0.9);
   if (needs.neighbours) {

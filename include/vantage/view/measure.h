@@ -143,6 +143,7 @@ struct MeasureSubject {
   std::span<const std::uint32_t> node_of_vertex{};  ///< Node of `skeleton`; ~0 where none.
   /// What the set of views sees through `camera`, by FaceVisibility, if that was looked at before.
   const ViewChannel* seen_by_set = nullptr;
+  const ChannelTerms* terms_of_set = nullptr;  ///< channel_terms() of that, if they are known too.
 };
 
 /// The set of views that measures are defined over, unless told otherwise: the icosahedron split this

@@ -109,6 +109,19 @@ TEST(RequireMemory, CountsTheViewsThatMeasuresOfASetCompare) {
   EXPECT_THROW(require_memory(of_set, kFaces, 5 * kGigabyte), InvalidInput);
 }
 
+TEST(AnalyseShape, KeepsTheTermsOfASetForTheMapAndTheSearch) {
+  const Model model = model_of(box(1.0, 2.0, 3.0, 2));
+  const ViewOptions options{.method = "pmi-saliency"};
+  const ShapeAnalysis shape = analyse_shape(model, options);
+  const MeasureSubject subject = measure_subject(shape, options);
+  ASSERT_NE(subject.terms_of_set, nullptr);
+  ShapeAnalysis bare = shape;
+  bare.views.reset();
+  EXPECT_EQ(shape.significance, vertex_map(bare, options, "pmi-saliency"));
+  const ViewOptions beside{.method = "instability"};
+  EXPECT_EQ(measure_subject(analyse_shape(model, beside), beside).terms_of_set, nullptr);
+}
+
 TEST(FindViewsByAMeasure, RefusesAnObjectThatItCannotLookAtAlone) {
   Model model = model_of(together(box(1.0, 1.0, 1.0, 2), box(0.5, 1.0, 1.0, 2), {3.0, 0.0, 0.0}));
   model.parts = {{"left", 0, 48}, {"right", 48, 48}};

@@ -327,7 +327,14 @@ TEST(Measures, OfTheSetDoNotLookWhereTheSubjectBringsWhatTheSetSees) {
   ASSERT_GE(measures.size(), 3U);
   EXPECT_EQ(ViewMeasurer(given, measures, 2).set_values(),
             ViewMeasurer(ring.given, measures, 2).set_values());
+  ChannelTerms terms = channel_terms(seen, ring.mesh);
+  given.terms_of_set = &terms;
+  EXPECT_EQ(ViewMeasurer(given, measures, 2).set_values(),
+            ViewMeasurer(ring.given, measures, 2).set_values());
   // It is what is brought that is measured.
+  terms.entropy_of_faces = 10.0;
+  EXPECT_EQ(ViewMeasurer(given, measures, 2).model().terms.entropy_of_faces, 10.0);
+  given.terms_of_set = nullptr;
   seen.views[5] = seen.views[6];
   ViewMeasurer changed(given, measures, 2);
   EXPECT_EQ(changed.set_values()[0][5], changed.set_values()[0][6]);
