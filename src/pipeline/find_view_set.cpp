@@ -13,13 +13,13 @@
 
 #include "pipeline/describe_view.h"
 #include "pipeline/drawn_points.h"
+#include "pipeline/view_preparation.h"
 #include "view/sphere_angles.h"
 
 namespace vantage {
 namespace {
 
-// The view set of measures built on the channel, and what its table may take. [ours]
-constexpr int kChannelLevel = 3;
+// What the table of the channel may take: on every machine alike, as what is found hangs on it. [ours]
 constexpr double kMostChannelBytes = 1024.0 * 1024.0 * 1024.0;
 // What an exploration sees if nothing is asked for: the last slivers take most of the way. [ours]
 constexpr double kExploredShare = 0.95;
@@ -34,7 +34,7 @@ struct SeenSphere {
 
 SeenSphere seen_sphere(const ShapeAnalysis& shape, const ScoringCamera& camera,
                        std::vector<std::string>& warnings, const RunContext& run) {
-  int level = kChannelLevel;
+  int level = kMeasureSetLevel;
   // About half of the faces are seen, eight bytes each.
   while (level > 0 && 10.0 * std::ldexp(1.0, 2 * level) * 4.0 *
                               static_cast<double>(shape.surface.triangles.size()) >
@@ -43,13 +43,11 @@ SeenSphere seen_sphere(const ShapeAnalysis& shape, const ScoringCamera& camera,
   }
   SeenSphere sphere{direction_set(ViewSphereBase::Icosahedron, level), {}};
   const std::vector<Vec3>& directions = sphere.set.directions;
-  if (level < kChannelLevel) {
+  if (level < kMeasureSetLevel) {
     warnings.push_back("the views were chosen from " + std::to_string(directions.size()) +
                        " directions instead of 642 to save memory");
   }
-  const FaceVisibility faces(shape.surface, shape.sides);
-  sphere.channel =
-      channel_table(faces, shape.surface.triangles.size(), camera.viewpoints(directions), run);
+  sphere.channel = channel_of(shape, camera, directions, run);
   return sphere;
 }
 

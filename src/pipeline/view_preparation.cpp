@@ -48,9 +48,7 @@ CoarseSurface coarse_of(const ShapeAnalysis& shape, const CoarseSurface& proxy,
 SeenBySet look_through(const ScoringCamera& camera, const ShapeAnalysis& shape, bool needs_terms,
                        const RunContext& run) {
   const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, kMeasureSetLevel);
-  const FaceVisibility faces(shape.surface, shape.sides);
-  SeenBySet seen{camera, channel_table(faces, shape.surface.triangles.size(),
-                                       camera.viewpoints(set.directions), run)};
+  SeenBySet seen{camera, channel_of(shape, camera, set.directions, run)};
   if (needs_terms) {
     seen.terms = channel_terms(seen.channel, shape.surface, run.quiet());
   }
@@ -67,6 +65,12 @@ bool is_worthwhile(const CoarseSurface& copy) {
 constexpr std::uint64_t kBytesPerSeenFace = 16;
 
 }  // namespace
+
+ViewChannel channel_of(const ShapeAnalysis& shape, const ScoringCamera& camera,
+                       std::span<const Vec3> directions, const RunContext& run) {
+  const FaceVisibility faces(shape.surface, shape.sides);
+  return channel_table(faces, shape.surface.triangles.size(), camera.viewpoints(directions), run);
+}
 
 void require_memory(std::span<const Measure> measures, std::size_t faces,
                     std::uint64_t memory_bytes) {

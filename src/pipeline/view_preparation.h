@@ -39,6 +39,10 @@ struct SeenBySet {
   std::optional<ChannelTerms> terms{};  ///< If a measure needs them.
 };
 
+/// What is seen of the shape's faces from such directions. \throw Cancelled
+ViewChannel channel_of(const ShapeAnalysis& shape, const ScoringCamera& camera,
+                       std::span<const Vec3> directions, const RunContext& run);
+
 /// \throw InvalidInput if one of the measures looks at a set of views, and what that sees of so many
 /// faces takes more memory than there is.
 void require_memory(std::span<const Measure> measures, std::size_t faces,
