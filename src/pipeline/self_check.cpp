@@ -225,7 +225,7 @@ bool MovedMap::is_unlike() const {
 }
 
 MovedMap moved_map(const ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run) {
-  const CoarseSurface& proxy = shape.views->proxy;
+  const CoarseSurface proxy = proxy_of(shape, run.quiet());
   const bool is_small = proxy.of_vertex.empty();
   ShapeAnalysis moved;
   moved.surface = is_small ? shape.surface : proxy.mesh;

@@ -24,7 +24,7 @@ struct MovedMap {
   [[nodiscard]] bool is_unlike() const;
 };
 
-/// \pre shape.views \throw Cancelled
+/// \throw Cancelled
 MovedMap moved_map(const ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run);
 
 /// The same where something happened on the way to the map that may be the mesh's doing: about the

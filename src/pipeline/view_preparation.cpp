@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
 #include "vantage/core/error.h"
 #include "vantage/io/model.h"
@@ -14,37 +13,6 @@
 namespace vantage {
 namespace {
 
-// Eyes that a search asks the surface and its coarse copy about, more or less.
-constexpr std::size_t kEyes = 300;
-constexpr std::size_t kCoarseEyes = 2562;
-// A surface that cannot be decimated to this share of its vertices gains nothing by a copy. [ours]
-constexpr std::size_t kWorthwhile = 2;
-
-CoarseSurface proxy_of(const ShapeAnalysis& shape, const RunContext& run) {
-  if (shape.surface.positions.size() <= ViewPreparation::kLargeSurface) {
-    return {};
-  }
-  return coarse_surface(shape.surface, shape.sides, ViewPreparation::kProxyVertices, run.quiet());
-}
-
-/// The coarse copy, made from the proxy if there is one.
-CoarseSurface coarse_of(const ShapeAnalysis& shape, const CoarseSurface& proxy,
-                        const RunContext& run) {
-  if (proxy.of_vertex.empty()) {
-    return coarse_surface(shape.surface, shape.sides, ViewPreparation::kCoarseVertices,
-                          run.quiet());
-  }
-  CoarseSurface coarse =
-      coarse_surface(proxy.mesh, proxy.sides, ViewPreparation::kCoarseVertices, run.quiet());
-  std::vector<std::uint32_t> of_vertex;
-  of_vertex.reserve(proxy.of_vertex.size());
-  for (const std::uint32_t v : proxy.of_vertex) {
-    of_vertex.push_back(v == CoarseSurface::kNone ? v : coarse.of_vertex[v]);
-  }
-  coarse.of_vertex = std::move(of_vertex);
-  return coarse;
-}
-
 SeenBySet look_through(const ScoringCamera& camera, const ShapeAnalysis& shape, bool needs_terms,
                        const RunContext& run) {
   const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, kMeasureSetLevel);
@@ -53,11 +21,6 @@ SeenBySet look_through(const ScoringCamera& camera, const ShapeAnalysis& shape, 
     seen.terms = channel_terms(seen.channel, shape.surface, run.quiet());
   }
   return seen;
-}
-
-bool is_worthwhile(const CoarseSurface& copy) {
-  const std::size_t vertices = copy.of_vertex.size();
-  return vertices > 0 && kWorthwhile * copy.mesh.positions.size() <= vertices;
 }
 
 /// Of a face that a view of the set sees: a FaceArea of 8 bytes in the list of the view, another in that of the
@@ -94,30 +57,23 @@ ViewPreparation::ViewPreparation(const ShapeAnalysis& shape, const RunContext& r
     : visibility(shape.surface, shape.sides, kEyes),
       planes((run.check(), mirror_planes(shape.surface))),
       evidence((run.check(), shape.surface), shape.flow),
-      vertex_areas(vantage::vertex_areas(shape.surface)),
-      proxy((run.check(), proxy_of(shape, run))),
-      proxy_visibility(proxy.mesh, proxy.sides, kEyes),
-      coarse((run.check(), coarse_of(shape, proxy, run))),
-      coarse_visibility(coarse.mesh, coarse.sides, kCoarseEyes) {
-  if (use.survey && is_coarse()) {
-    survey.emplace(coarse_visibility, *use.survey, run);
+      vertex_areas(vantage::vertex_areas(shape.surface)) {
+  if (use.survey) {
+    copies = std::make_shared<CoarseCopies>(shape, run, use.survey);
   }
   if (use.measures) {
     set = look_through(*use.measures, shape, use.channel, run);
   }
 }
 
-bool ViewPreparation::is_coarse() const {
-  return is_worthwhile(coarse);
+std::shared_ptr<const CoarseCopies> copies_of(const ShapeAnalysis& shape, const RunContext& run) {
+  return shape.views && shape.views->copies ? shape.views->copies
+                                            : std::make_shared<CoarseCopies>(shape, run);
 }
 
-bool ViewPreparation::has_proxy() const {
-  return is_worthwhile(proxy);
-}
-
-std::shared_ptr<const ViewPreparation> preparation_of(const ShapeAnalysis& shape,
-                                                      const RunContext& run) {
-  return shape.views ? shape.views : std::make_shared<ViewPreparation>(shape, run);
+CoarseSurface proxy_of(const ShapeAnalysis& shape, const RunContext& run) {
+  return shape.views && shape.views->copies ? shape.views->copies->proxy
+                                            : proxy_of_large(shape, run);
 }
 
 std::shared_ptr<const VertexVisibility> visibility_of(const ShapeAnalysis& shape,

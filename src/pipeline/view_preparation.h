@@ -17,8 +17,7 @@
 #include "vantage/view/scoring.h"
 #include "vantage/visibility/vertex_visibility.h"
 
-#include "pipeline/coarse_surface.h"
-#include "pipeline/survey_sight.h"
+#include "pipeline/coarse_copies.h"
 
 /// \file
 /// What views of a surface are looked for with, whatever its map: made beside the contraction.
@@ -27,7 +26,7 @@ namespace vantage {
 
 /// What views will be looked for by, if that is known.
 struct PreparedFor {
-  std::optional<ScoringCamera> survey{};    ///< The camera of a survey of the coarse copy.
+  std::optional<ScoringCamera> survey{};    ///< The camera of a search that estimates scores.
   std::optional<ScoringCamera> measures{};  ///< That of measures of a set of views.
   bool channel = false;                     ///< Whether these need terms of the channel.
 };
@@ -50,11 +49,8 @@ void require_memory(std::span<const Measure> measures, std::size_t faces,
 
 /// Immutable; copies of an analysis share it.
 struct ViewPreparation {
-  /// Vertices of the coarse copy; fewer lose fingers and tails. [ours; docs/lab]
-  static constexpr std::size_t kCoarseVertices = 1000;
-  /// Vertices of the proxy, and above which a surface has one. [ours; docs/lab]
-  static constexpr std::size_t kProxyVertices = 8000;
-  static constexpr std::size_t kLargeSurface = 2 * kProxyVertices;
+  /// Eyes that a search asks the surface about, more or less.
+  static constexpr std::size_t kEyes = 300;
 
   /// Of the shape's surface; its history, skeleton and map are not looked at.
   /// \throw Cancelled
@@ -62,27 +58,18 @@ struct ViewPreparation {
                            const PreparedFor& use = {});
 
   VertexVisibility visibility;
-  std::vector<MirrorPlane> planes;   ///< mirror_planes().
-  OrientationEvidence evidence;      ///< For up and front.
-  std::vector<double> vertex_areas;  ///< vertex_areas().
-  /// What a search climbs on where the surface is large; empty where it is not.
-  CoarseSurface proxy;
-  VertexVisibility proxy_visibility;   ///< Of its mesh.
-  CoarseSurface coarse;                ///< What estimates of scores look at.
-  VertexVisibility coarse_visibility;  ///< Of its mesh.
-  std::optional<SurveySight> survey;   ///< Of the coarse copy.
-  std::optional<SeenBySet> set;        ///< Of the surface, by kMeasureSetLevel.
-
-  /// Whether the coarse copy is so much smaller than the surface that estimates on it gain.
-  [[nodiscard]] bool is_coarse() const;
-
-  /// Whether there is a proxy, and it is so much smaller too.
-  [[nodiscard]] bool has_proxy() const;
+  std::vector<MirrorPlane> planes;               ///< mirror_planes().
+  OrientationEvidence evidence;                  ///< For up and front.
+  std::vector<double> vertex_areas;              ///< vertex_areas().
+  std::shared_ptr<const CoarseCopies> copies{};  ///< Null unless a search will estimate scores.
+  std::optional<SeenBySet> set{};                ///< Of the surface, by kMeasureSetLevel.
 };
 
-/// That of the shape, or one made now.
-std::shared_ptr<const ViewPreparation> preparation_of(const ShapeAnalysis& shape,
-                                                      const RunContext& run);
+/// The copies of the shape's, or made now. \throw Cancelled
+std::shared_ptr<const CoarseCopies> copies_of(const ShapeAnalysis& shape, const RunContext& run);
+
+/// The proxy alone.
+CoarseSurface proxy_of(const ShapeAnalysis& shape, const RunContext& run);
 
 /// The visibility of the shape's, or one made now for about so many eyes.
 std::shared_ptr<const VertexVisibility> visibility_of(const ShapeAnalysis& shape, std::size_t eyes);

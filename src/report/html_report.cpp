@@ -16,7 +16,7 @@
 
 #include "core/json_text.h"
 #include "core/parallel.h"
-#include "pipeline/map_objective.h"
+#include "pipeline/map_estimates.h"
 #include "pipeline/preference.h"
 #include "report/asset_part.h"
 #include "report/cloud_picture.h"
@@ -278,16 +278,16 @@ std::string script_safe(const Json& json) {
 /// least. Exact ones of a large model would take most of the time of a result.
 ScoreBatch estimated_scores(const ShapeAnalysis& shape, const ViewReport& report,
                             const ViewOptions& options, const RunContext& run) {
-  const auto map = std::make_shared<const MapObjective>(shape, options, run);
+  const auto map = std::make_shared<const MapEstimates>(shape, shape.significance, options, run);
   const std::vector<Vec3> ends{report.worst.direction, report.highest_direction};
-  const std::vector<double> known = map->estimates(ends);
+  const std::vector<double> known = map->scores(ends);
   const double range = known[1] - known[0];
   const double exact = report.highest_score - report.worst.score;
   constexpr double kLeastRange = 1e-3;  // of all: less is the estimates' own error
   const double stretch = std::min(range, exact) > kLeastRange * report.total ? exact / range : 1.0;
   const double shift = report.worst.score - stretch * known[0];
   return [map, stretch, shift, total = report.total](const std::vector<Vec3>& directions) {
-    std::vector<double> scores = map->estimates(directions);
+    std::vector<double> scores = map->scores(directions);
     for (double& score : scores) {
       score = std::clamp(stretch * score + shift, 0.0, total);
     }

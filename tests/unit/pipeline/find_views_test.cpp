@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "vantage/report/view_report.h"
 
 #include "pipeline/preference.h"
+#include "pipeline/view_preparation.h"
 #include "support/model_of.h"
 #include "support/shapes.h"
 #include "support/worst.h"
@@ -296,12 +298,22 @@ TEST(FindViews, FindsTheSameWhereNothingWasPrepared) {
   const auto& [options, model, shape, frame, report] = FoundY::once();
   ASSERT_NE(shape.views, nullptr);
   ShapeAnalysis bare = shape;
-  bare.views.reset();
-  const FrameChoice again = choose_frame(model, bare, options);
-  EXPECT_EQ(again.frame.up, frame.frame.up);
-  EXPECT_EQ(again.frame.front, frame.frame.front);
-  EXPECT_EQ(view_json(model, bare, find_views(bare, frame, options), options),
-            view_json(model, shape, report, options));
+  for (const auto& prepared :
+       {std::shared_ptr<const ViewPreparation>(), std::make_shared<const ViewPreparation>(shape)}) {
+    bare.views = prepared;
+    const FrameChoice again = choose_frame(model, bare, options);
+    EXPECT_EQ(again.frame.up, frame.frame.up);
+    EXPECT_EQ(again.frame.front, frame.frame.front);
+    EXPECT_EQ(view_json(model, bare, find_views(bare, frame, options), options),
+              view_json(model, shape, report, options));
+  }
+}
+
+TEST(AnalyseShape, MakesCoarseCopiesForSearchesThatEstimateAlone) {
+  EXPECT_NE(FoundY::once().shape.views->copies, nullptr);
+  EXPECT_EQ(analysed_box().views->copies, nullptr);
+  const ViewOptions by_area{.method = "projected-area"};
+  EXPECT_EQ(analyse_shape(model_of(box(1.0, 2.0, 3.0, 4)), by_area).views->copies, nullptr);
 }
 
 TEST(FindView, IsTheOneThatBothAreFoundWith) {
