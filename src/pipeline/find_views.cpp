@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/measured_shape.h"
 #include "vantage/render/render.h"
@@ -31,7 +32,7 @@ ViewReport find_views_by_map(const ShapeAnalysis& shape, const FrameChoice& choi
   report.camera = scoring_camera(shape, options);
   report.up = choice.frame.up;
   report.front = choice.frame.front;
-  const MapObjective map(shape, options, run);
+  const MapObjective map(shape, shape.significance, options, run);
   const ViewScorer& scorer = map.scorer();
   report.total = scorer.total();
   const Preference preference(shape, choice, options, report.total);
@@ -97,15 +98,34 @@ void note_what_none_sees(ViewReport& report) {
   }
 }
 
+/// The best or the worst view by a map, as a search finds it.
+FoundView one_view(const MapObjective& map, const Preference& preference, Goal goal,
+                   const ShapeAnalysis& shape, const ModelFrame& frame, const ViewOptions& options,
+                   const RunContext& run) {
+  FoundView found;
+  if (goal == Goal::Best && options.best_view) {
+    found.direction = *options.best_view;
+    return found;
+  }
+  const ViewObjective objective = map.objective(preference);
+  found = search_view(objective, goal, options.search, run);
+  if (goal == Goal::Best && !preference.is_score()) {
+    settle_on_the_front(found, objective, preference, shape, frame);
+  }
+  return found;
+}
+
 /// Whether the best view, or a mirror image of it, is the best by the map of the moved copy, too.
 bool is_best_of_moved(const ShapeAnalysis& shape, const FrameChoice& choice,
                       const ViewOptions& options, const MovedMap& moved, const ViewReport& report,
                       const RunContext& run) {
   constexpr double kSameRad = 0.02;  // mirror images nearer to each other are one [ours]
   constexpr double kAlike = 0.985;   // cosine of 10°: views nearer to each other look alike [ours]
-  ShapeAnalysis other = shape;
-  other.significance = moved.significance;
-  const Vec3 again = find_view(other, Goal::Best, choice, options, run.quiet()).direction;
+  const RunContext quiet = run.quiet();
+  const MapObjective map(shape, moved.significance, options, quiet);
+  const Preference preference(shape, choice, options, map.scorer().total());
+  const Vec3 again =
+      one_view(map, preference, Goal::Best, shape, choice.frame, options, quiet).direction;
   const std::vector<Vec3> images = mirror_images(report.best.direction, planes_of(shape), kSameRad);
   return std::any_of(images.begin(), images.end(),
                      [&](const Vec3& image) { return again.dot(image) > kAlike; });
@@ -172,21 +192,12 @@ ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const FrameChoice&
                        const ViewOptions& options, const RunContext& run) {
   check_fields(options, kViewFields);
   if (!sums_a_map(options.method)) {
-    const ViewReport both = find_views_by_measure(shape, choice, options, run);
-    return goal == Goal::Best ? both.best : both.worst;
+    throw InvalidInput("one view alone is looked for by a map that is summed; " + options.method +
+                       " sums none: best_view() finds its best");
   }
-  const MapObjective map(shape, options, run);
+  const MapObjective map(shape, shape.significance, options, run);
   const Preference preference(shape, choice, options, map.scorer().total());
-  const ViewObjective objective = map.objective(preference);
-  FoundView found;
-  if (goal == Goal::Best && options.best_view) {
-    found.direction = *options.best_view;
-  } else {
-    found = search_view(objective, goal, options.search, run);
-    if (goal == Goal::Best && !preference.is_score()) {
-      settle_on_the_front(found, objective, preference, shape, choice.frame);
-    }
-  }
+  const FoundView found = one_view(map, preference, goal, shape, choice.frame, options, run);
   ReportedView view = describe_scored_view(shape, map.visibility(), map.scorer(), found.direction,
                                            choice.frame, options, run);
   view.objective = goal == Goal::Best ? preference(view.direction, view.score) : view.score;
@@ -203,14 +214,18 @@ PictureView find_picture_view(const Model& model, const ShapeAnalysis& prepared,
     frame_view(given.view, prepared, given.choice.frame.up, options);
     return given;
   }
-  ShapeAnalysis surface = prepared;
   const bool is_large = !prepared.cloud && prepared.surface.positions.size() > kLarge;
+  ShapeAnalysis surface;
   if (is_large) {
+    surface.check = prepared.check;
+    surface.flow = prepared.flow;
+    surface.sphere = prepared.sphere;
     CoarseSurface coarse =
         coarse_surface(prepared.surface, prepared.sides, kLarge / 2, run.part(0.0, 0.3));
     surface.surface = std::move(coarse.mesh);
     surface.sides = std::move(coarse.sides);
-    surface.focus.clear();
+  } else {
+    surface = prepared;
   }
   const ShapeAnalysis shape = analyse_surface(std::move(surface), options, run.part(0.3, 0.8),
                                               nullptr, AnalysisUse::Picture);

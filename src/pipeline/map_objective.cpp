@@ -17,23 +17,22 @@ constexpr std::size_t kManyStarts = 16;
 
 }  // namespace
 
-MapScorer::MapScorer(const ShapeAnalysis& shape, const VertexVisibility& visibility,
-                     const ViewOptions& options)
+MapScorer::MapScorer(const ShapeAnalysis& shape, std::span<const double> map,
+                     const VertexVisibility& visibility, const ViewOptions& options)
     : faces_(options.weight == Weight::Area
                  ? std::optional<FaceVisibility>(std::in_place, shape.surface, shape.sides)
                  : std::nullopt),
-      scorer_(faces_ ? ViewScorer(*faces_, shape.significance, scoring_camera(shape, options))
-                     : ViewScorer(visibility, shape.significance, scoring_camera(shape, options))) {
-}
+      scorer_(faces_ ? ViewScorer(*faces_, map, scoring_camera(shape, options))
+                     : ViewScorer(visibility, map, scoring_camera(shape, options))) {}
 
-MapObjective::MapObjective(const ShapeAnalysis& shape, const ViewOptions& options,
-                           const RunContext& run)
+MapObjective::MapObjective(const ShapeAnalysis& shape, std::span<const double> map,
+                           const ViewOptions& options, const RunContext& run)
     : visibility_(visibility_of(shape, ViewPreparation::kEyes)),
       quiet_(run.quiet()),
-      by_map_(shape, *visibility_, options),
+      by_map_(shape, map, *visibility_, options),
       is_small_(shape.surface.positions.size() <= kFewVertices) {
   if (options.search.strategy == SearchStrategy::Global) {
-    estimates_.emplace(shape, shape.significance, options, quiet_);
+    estimates_.emplace(shape, map, options, quiet_);
   }
 }
 

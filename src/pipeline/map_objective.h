@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "vantage/pipeline/find_views.h"
 #include "vantage/pipeline/shape_analysis.h"
@@ -13,12 +14,13 @@
 
 namespace vantage {
 
-/// The score of a view by the shape's map, KSSM or saliency, as a search takes it: exact on the
+/// The score of a view by a map, KSSM or saliency, as a search takes it: exact on the
 /// surface, and estimated for the global search.
 class MapObjective {
  public:
-  /// \param shape must outlive this. \pre its map is there.
-  MapObjective(const ShapeAnalysis& shape, const ViewOptions& options, const RunContext& run = {});
+  /// \param shape must outlive this. \param map of its surface, a value a vertex; likewise.
+  MapObjective(const ShapeAnalysis& shape, std::span<const double> map, const ViewOptions& options,
+               const RunContext& run = {});
   MapObjective(const MapObjective&) = delete;
   MapObjective& operator=(const MapObjective&) = delete;
 

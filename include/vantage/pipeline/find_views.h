@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -128,7 +129,12 @@ class MapScorer {
  public:
   /// \param visibility of the shape's surface. Both must outlive this. \pre the map is there.
   MapScorer(const ShapeAnalysis& shape, const VertexVisibility& visibility,
-            const ViewOptions& options);
+            const ViewOptions& options)
+      : MapScorer(shape, shape.significance, visibility, options) {}
+
+  /// By another map of its surface, which must outlive this.
+  MapScorer(const ShapeAnalysis& shape, std::span<const double> map,
+            const VertexVisibility& visibility, const ViewOptions& options);
   MapScorer(const MapScorer&) = delete;
   MapScorer& operator=(const MapScorer&) = delete;
 
@@ -148,7 +154,8 @@ ViewReport find_views(const ShapeAnalysis& shape, const ModelFrame& frame,
 ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
                       const ViewOptions& options, const RunContext& run = {});
 
-/// One of these two alone, for less work. \throw Cancelled
+/// One of these two alone, for less work. \throw InvalidInput if options.method sums no map: best_view() in
+/// measured_shape.h finds the best by a measure; Cancelled
 ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const FrameChoice& choice,
                        const ViewOptions& options, const RunContext& run = {});
 

@@ -328,6 +328,13 @@ TEST(FindView, IsTheOneThatBothAreFoundWith) {
   }
 }
 
+TEST(FindView, RefusesWhatSumsNoMap) {
+  ViewOptions by_area = quick_search();
+  by_area.method = "projected-area";
+  EXPECT_THROW((void)find_view(analysed_box(), Goal::Best, FoundY::once().frame, by_area),
+               InvalidInput);
+}
+
 TEST(FindPictureView, IsTheBestView) {
   const FoundY& found = FoundY::once();
   const PictureView view =
