@@ -17,6 +17,7 @@
 #include "pipeline/map_objective.h"
 #include "pipeline/percent.h"
 #include "pipeline/preference.h"
+#include "pipeline/required_steps.h"
 #include "pipeline/scene_notes.h"
 #include "pipeline/self_check.h"
 #include "pipeline/settled_search.h"
@@ -136,6 +137,9 @@ bool is_best_of_moved(const ShapeAnalysis& shape, const FrameChoice& choice,
 ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
                       const ViewOptions& options, const RunContext& run) {
   check_fields(options, kViewFields);
+  if (sums_a_map(options.method)) {
+    require_map(shape);
+  }
   ViewReport report;
   MovedMap moved;
   run_both(
@@ -195,6 +199,7 @@ ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const FrameChoice&
     throw InvalidInput("one view alone is looked for by a map that is summed; " + options.method +
                        " sums none: best_view() finds its best");
   }
+  require_map(shape);
   const MapObjective map(shape, shape.significance, options, run);
   const Preference preference(shape, choice, options, map.scorer().total());
   const FoundView found = one_view(map, preference, goal, shape, choice.frame, options, run);

@@ -18,6 +18,19 @@ void make_ascending(std::vector<std::uint32_t>& vertices) {
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 }
 
+/// \throw InvalidInput if a part has triangles that the model has not.
+void check_parts(const Model& model) {
+  const std::size_t triangles = model.mesh.triangles.size();
+  for (const ModelPart& part : model.parts) {
+    if (part.first_triangle > triangles || part.triangle_count > triangles - part.first_triangle) {
+      throw InvalidInput("part '" + part.name + "' has " + std::to_string(part.triangle_count) +
+                         " triangles from number " + std::to_string(part.first_triangle) +
+                         " on, but the model has only " + std::to_string(triangles) +
+                         ": empty its parts, or make them fit");
+    }
+  }
+}
+
 std::vector<SceneObject> named_objects(const Model& model, const ShapeAnalysis& shape) {
   std::vector<SceneObject> objects;
   std::map<std::string, std::size_t> number_of_name;
@@ -37,6 +50,7 @@ std::vector<SceneObject> named_objects(const Model& model, const ShapeAnalysis& 
       }
     }
   };
+  check_parts(model);
   std::size_t named = 0;  // faces up to here belong to an object
   for (const ModelPart& part : model.parts) {
     add("", named, part.first_triangle);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "vantage/core/error.h"
@@ -33,6 +34,15 @@ void require_focus_tells(const ViewOptions& options, std::span<const Measure> me
                                              [](const Measure& m) { return m.needs.kssm; })) {
     throw InvalidInput("only what sums a map can look at one object alone; leave out --focus " +
                        options.focus + ", or take --method kssm");
+  }
+}
+
+/// \throw InvalidInput if there is no such measure.
+void require_measure(const ViewMeasurer& measurer, std::size_t m) {
+  const std::size_t count = measurer.measures().size();
+  if (m >= count) {
+    throw InvalidInput("there is no measure " + std::to_string(m) + ": the measurer has " +
+                       std::to_string(count) + ", counted from 0");
   }
 }
 
@@ -102,6 +112,7 @@ std::vector<double> vertex_map(const ShapeAnalysis& shape, const ViewOptions& op
 
 MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m, const SearchOptions& options,
                             const RunContext& run) {
+  require_measure(measurer, m);
   if (options.strategy == SearchStrategy::Gradient) {
     require_gradient(measurer.measures()[m]);
   }
@@ -113,6 +124,7 @@ MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m, const SearchO
 }
 
 MeasuredView best_view(ViewMeasurer& measurer, std::size_t m, const RunContext& run) {
+  require_measure(measurer, m);
   const RunContext quiet = run.quiet();
   const MeasureObjective by(measurer, m, quiet);
   return measured(search_view(by.objective(), Goal::Best, {}, quiet), by);

@@ -11,6 +11,7 @@
 #include "vantage/report/view_report.h"
 
 #include "core/parallel.h"
+#include "pipeline/required_steps.h"
 #include "report/cloud_picture.h"
 #include "report/legend.h"
 
@@ -43,12 +44,14 @@ class Canvas {
     look.width = options.width;
     look.height = options.height;
     if (picture == Picture::Map) {
+      require_map(shape);
       values_ = shape.significance;
       if (cloud != nullptr) {
         spread_ = cloud->spread(values_);
         values_ = spread_;
       }
     } else if (picture == Picture::Skeleton) {
+      require_skeleton(shape);
       overlay_.graph = &shape.skeleton.graph;
       overlay_.radius = kTubeRadius * shape.sphere.diameter;
     } else if (asset != nullptr && !asset->mesh.triangles.empty()) {

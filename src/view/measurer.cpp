@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "vantage/core/error.h"
@@ -186,7 +187,11 @@ double ViewMeasurer::State::value(std::size_t m, const SightTable& sight, FaceDe
   }
   const bool is_estimate = detail != FaceDetail::Exact && measures[m].estimate;
   const double value = (is_estimate ? measures[m].estimate : measures[m].value)(model, sight);
-  return std::isnan(value) ? measures[m].worst() : value;
+  if (std::isnan(value)) {
+    throw InvalidInput("the measure " + measures[m].name +
+                       " returned a value that is not a number");
+  }
+  return value;
 }
 
 MeasureNeeds ViewMeasurer::State::needs_of(std::size_t m) const {
@@ -386,6 +391,11 @@ ViewMeasurer::ViewMeasurer(const MeasureSubject& subject, std::vector<Measure> m
     : state_(std::make_unique<State>()) {
   if (subject.surface == nullptr || level < 0 || level > 6) {
     throw InvalidInput("measuring needs a surface and a set of views of level 0 to 6");
+  }
+  for (const Measure& measure : measures) {
+    if (!measure.value) {
+      throw InvalidInput("the measure " + measure.name + " has no function for its value");
+    }
   }
   state_->needs = needs_of_all(measures);
   state_->measures = std::move(measures);

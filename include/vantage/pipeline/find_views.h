@@ -146,7 +146,7 @@ class MapScorer {
 };
 
 /// Finds the best and the worst view, and a set of views if options.view_set asks for one.
-/// \pre the map is there. \throw Cancelled
+/// \throw InvalidInput if the method's map is not there. \throw Cancelled
 ViewReport find_views(const ShapeAnalysis& shape, const ModelFrame& frame,
                       const ViewOptions& options, const RunContext& run = {});
 
@@ -154,8 +154,8 @@ ViewReport find_views(const ShapeAnalysis& shape, const ModelFrame& frame,
 ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
                       const ViewOptions& options, const RunContext& run = {});
 
-/// One of these two alone, for less work. \throw InvalidInput if options.method sums no map: best_view() in
-/// measured_shape.h finds the best by a measure; Cancelled
+/// One of these two alone, for less work. \throw InvalidInput likewise, and if options.method sums no map:
+/// best_view() in measured_shape.h finds the best by a measure; Cancelled
 ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const FrameChoice& choice,
                        const ViewOptions& options, const RunContext& run = {});
 

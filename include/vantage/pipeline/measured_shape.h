@@ -46,7 +46,8 @@ struct MeasuredViews {
 };
 
 /// Best and worst view by one measure. \param m index into measurer.measures().
-/// \throw InvalidInput as require_gradient() for a search along the gradient. \throw Cancelled
+/// \throw InvalidInput if there is no such measure, or a value is no number, and as require_gradient() for
+/// a search along the gradient. \throw Cancelled
 MeasuredViews extreme_views(ViewMeasurer& measurer, std::size_t m,
                             const SearchOptions& options = {}, const RunContext& run = {});
 

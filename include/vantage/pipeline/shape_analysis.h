@@ -130,7 +130,7 @@ struct SceneObject {
 /// The objects of a scene, numbered from 0: where the file names at least two (OBJ groups and
 /// objects, glTF nodes, solids of STL) these, those of one name together and faces before the first
 /// name as an object without one; else the components of the surface, by lowest vertex.
-/// \pre shape is prepare_surface(model) or more.
+/// \pre shape is prepare_surface(model) or more. \throw InvalidInput if a part goes beyond the faces
 std::vector<SceneObject> list_objects(const Model& model, const ShapeAnalysis& shape);
 
 /// The object of this name, or else of this number.

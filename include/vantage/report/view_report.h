@@ -26,13 +26,14 @@ namespace vantage {
 /// What a picture of a view shows.
 enum class Picture { Plain, Map, Skeleton };
 
-/// Takes a picture with `camera`. \throw Cancelled
+/// Takes a picture with `camera`. \throw InvalidInput if the map or skeleton to show is not there
+/// \throw Cancelled
 /// \param background unset: transparent.
 Image take_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,
                    const ViewOptions& options, const std::optional<Rgb8>& background = {},
                    const RunContext& run = {});
 
-/// Takes a picture with any look; its size is that of `options`. \throw Cancelled
+/// Takes a picture with any look; its size is that of `options`. \throw InvalidInput likewise, Cancelled
 /// \param asset what the shape was made from: a plain picture shows it in its own colours and
 /// materials; null for clay.
 Image draw_picture(const ShapeAnalysis& shape, const Camera& camera, Picture picture,

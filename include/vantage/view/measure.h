@@ -246,11 +246,12 @@ using MeasureValues = std::vector<std::vector<double>>;
 
 /// Measures views of one model by several measures, looking once for all of them. Holds references:
 /// what the subject refers to must outlive it. Results do not depend on the number of threads.
+/// All that asks for values throws InvalidInput for one that is no number.
 class ViewMeasurer {
  public:
   /// \param level the set of views: the icosahedron split this often, 0–6. It is part of the
   ///              definition of measures that need the channel; these look at all of it here.
-  /// \throw InvalidInput if a measure needs what the subject lacks. \throw Cancelled
+  /// \throw InvalidInput if a measure has no value, or needs what the subject lacks. \throw Cancelled
   ViewMeasurer(const MeasureSubject& subject, std::vector<Measure> measures,
                int level = kMeasureSetLevel, const RunContext& run = {});
   ~ViewMeasurer();

@@ -163,6 +163,50 @@ TEST_F(ReportOfAY, APictureShowsTheModelOnTransparentGround) {
   EXPECT_LT(covered, 64U * 48U);
 }
 
+/// What is said of a call that a step is missing for; empty if nothing is.
+template <class Call>
+std::string refusal_of(const Call& call) {
+  try {
+    call();
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(FindViews, NamesTheStepThatIsMissing) {
+  ShapeAnalysis shape = prepare_surface(model_of(box(1.0, 2.0, 3.0, 1)));
+  const FrameChoice choice{};
+  const std::string words = "the shape has no significance map: call add_map() or ";
+  const auto both = [&] { find_views(shape, choice, quick_search()); };
+  const auto one = [&] { find_view(shape, Goal::Best, choice, quick_search()); };
+  EXPECT_EQ(refusal_of(both).find(words), 0U);
+  EXPECT_EQ(refusal_of(one).find(words), 0U);
+  add_history(shape, quick_search());
+  EXPECT_EQ(refusal_of(both).find(words), 0U);
+}
+
+TEST(FindViews, ByAreasNeedNoMap) {
+  ViewOptions options = quick_search();
+  options.method = "projected-area";
+  const ShapeAnalysis shape = prepare_surface(model_of(box(1.0, 2.0, 3.0, 1)));
+  EXPECT_GT(find_views(shape, UpAxis::Y, options).best.score, 0.0);
+}
+
+TEST(DrawPicture, NamesTheStepThatIsMissing) {
+  const ShapeAnalysis shape = prepare_surface(model_of(box(1.0, 2.0, 3.0, 1)));
+  ViewOptions options;
+  options.width = options.height = 16;
+  Camera camera;
+  camera.eye = Vec3(0.0, 0.0, 9.0);
+  const auto draw = [&](Picture picture) {
+    return refusal_of([&] { draw_picture(shape, camera, picture, options, {}); });
+  };
+  EXPECT_EQ(draw(Picture::Plain), "");
+  EXPECT_EQ(draw(Picture::Map).find("the shape has no significance map: call add_map() "), 0U);
+  EXPECT_EQ(draw(Picture::Skeleton).find("the shape has no skeleton: call add_skeleton() "), 0U);
+}
+
 TEST(FindViews, CertifiesTheViewThatIsReportedWhereTiesWereSettled) {
   // Mirror images see as much; the prior is larger at the back by less than a tie, so that the front
   // is shown, and what is certified must be the front's objective.

@@ -61,6 +61,18 @@ TEST(ListObjects, AreThePartsThatTheFileNames) {
   EXPECT_EQ(objects[1].name, "right");
 }
 
+TEST(ListObjects, RefusesPartsBeyondTheFaces) {
+  Model model = named_boxes();
+  model.mesh.triangles.resize(12);  // as somebody leaves it who forgets the parts
+  const ShapeAnalysis shape = prepare_surface(model);
+  EXPECT_THROW(list_objects(model, shape), InvalidInput);
+  EXPECT_THROW(prepare_surface(model, focus_on("left")), InvalidInput);
+  model.parts[1] = {"right", 3, ~std::size_t{0}};
+  EXPECT_THROW(list_objects(model, shape), InvalidInput);
+  model.parts[1] = {"right", 12, 0};
+  EXPECT_EQ(list_objects(model, shape).size(), 1U);
+}
+
 TEST(ListObjects, PutsPartsOfOneNameTogether) {
   Model model = two_boxes();
   model.parts = {{"wall", 0, 6}, {"door", 6, 6}, {"wall", 12, 12}};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -63,6 +64,20 @@ TEST(FindViews, SayWhatShareOfTheBestScoreTheViewHasWhereLessIsBetterToo) {
     EXPECT_LE(*report.score_of_attainable, 1.0) << name;
     EXPECT_NEAR(*report.score_of_attainable, is_less ? best / own : own / best, 1e-12) << name;
   }
+}
+
+TEST(ExtremeViews, AreOfAMeasureThatIsThere) {
+  const Model model = model_of(box(1.0, 2.0, 3.0, 1));
+  const std::vector<Measure> measures{moved_area(Better::More, 0.0)};
+  const ShapeAnalysis shape = analyse_for(model, {}, measures);
+  ViewMeasurer measurer(measure_subject(shape, {}), measures, 0);
+  EXPECT_THROW(extreme_views(measurer, 5), InvalidInput);
+  EXPECT_THROW(best_view(measurer, 1), InvalidInput);
+}
+
+TEST(ExtremeViews, AreNotOfWhatIsNoNumber) {
+  EXPECT_THROW(extremes(moved_area(Better::More, std::numeric_limits<double>::quiet_NaN()), 0),
+               InvalidInput);
 }
 
 TEST(ExtremeViews, AreFoundFromACoarserSetToo) {

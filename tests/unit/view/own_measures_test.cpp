@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Measures of one's own, and several that share their looks.
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "vantage/core/error.h"
 #include "vantage/view/measure.h"
 
 #include "support/shapes.h"
@@ -25,6 +27,27 @@ TEST(Measures, OfOnesOwnTakePart) {
                     }};
   const ViewMeasurer measurer(cube.given, {own});
   EXPECT_EQ(measurer.values(std::vector<Vec3>{Vec3::UnitX()})[0][0], 10.0);
+}
+
+TEST(Measures, OfOnesOwnNeedAFunction) {
+  const Subject cube(test::box(1, 1, 1, 1));
+  EXPECT_THROW(ViewMeasurer(cube.given, {Measure{.name = "own"}}), InvalidInput);
+}
+
+TEST(Measures, ThatAreNoNumberAreRefused) {
+  const Subject cube(test::box(1, 1, 1, 1));
+  const Measure own{.name = "own",
+                    .needs = {.faces = true},
+                    .value = [](const MeasuredModel& /*model*/, const SightTable& /*sight*/) {
+                      return std::numeric_limits<double>::quiet_NaN();
+                    }};
+  ViewMeasurer measurer(cube.given, {own}, 0);
+  const std::vector<Vec3> one{Vec3::UnitX()};
+  EXPECT_THROW(static_cast<void>(measurer.values(one)), InvalidInput);
+  EXPECT_THROW(static_cast<void>(measurer.values_of(0, one)), InvalidInput);
+  EXPECT_THROW(measurer.kept_values_of(0, one), InvalidInput);
+  EXPECT_THROW(measurer.survey_of(0), InvalidInput);
+  EXPECT_THROW(measurer.set_values(), InvalidInput);
 }
 
 TEST(Measures, OfOnesOwnSeeInTheSetWhatTheySeeElsewhere) {
