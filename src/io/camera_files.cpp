@@ -60,6 +60,20 @@ std::string shell_quoted(const std::string& text) {
   return result + "'";
 }
 
+/// An orthographic camera as one so far away that what lies half a picture's height nearer than the
+/// target is shown 0.05 % larger. f3d 1.3 has no other, and later ones cannot be told the height.
+Camera with_view_angle(const Camera& camera) {
+  constexpr double kFar = 1000.0;  // picture heights [ours]
+  Camera result = camera;
+  if (camera.projection == Projection::Orthographic) {
+    const Vec3 back = (camera.eye - camera.target).normalized();
+    result.projection = Projection::Perspective;
+    result.eye = camera.target + kFar * camera.height * back;
+    result.fov_y_deg = 2.0 * std::atan(0.5 / kFar) / kRadPerDeg;
+  }
+  return result;
+}
+
 }  // namespace
 
 Camera camera_of_file(const Camera& camera, const Eigen::Matrix3d& turn) {
@@ -138,14 +152,11 @@ std::string camera_transforms_json(const Camera& camera, PictureSize size,
 
 std::string camera_f3d(const Camera& camera, PictureSize size, std::string_view model) {
   const std::string file = (model.starts_with('-') ? "./" : "") + std::string(model);  // no option
-  std::string line =
-      "f3d " + shell_quoted(file) + " --camera-position=" + triple(camera.eye) +
-      " --camera-focal-point=" + triple(camera.target) + " --camera-view-up=" + triple(camera.up) +
-      " --resolution=" + std::to_string(size.width) + "," + std::to_string(size.height);
-  line += camera.projection == Projection::Perspective
-              ? " --camera-view-angle=" + number_text(camera.fov_y_deg)
-              : " --camera-orthographic";
-  return line + "\n";
+  const Camera lens = with_view_angle(camera);
+  return "f3d " + shell_quoted(file) + " --camera-position=" + triple(lens.eye) +
+         " --camera-focal-point=" + triple(lens.target) + " --camera-view-up=" + triple(lens.up) +
+         " --camera-view-angle=" + number_text(lens.fov_y_deg) +
+         " --resolution=" + std::to_string(size.width) + "," + std::to_string(size.height) + "\n";
 }
 
 }  // namespace vantage

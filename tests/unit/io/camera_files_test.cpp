@@ -13,10 +13,13 @@
 
 #include "vantage/core/error.h"
 
+#include "core/degrees.h"
+
 namespace vantage::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 /// An eye at (3, 4, 5) that looks at (1, 1, 1).
 Camera slanted(Projection projection) {
@@ -151,6 +154,21 @@ TEST(CameraF3d, QuotesTheNameOfTheModel) {
                               "--camera-focal-point=1,1,1 "));
   EXPECT_THAT(line, HasSubstr("--camera-view-angle=24"));
   EXPECT_THAT(line, HasSubstr("--resolution=640,480"));
+}
+
+TEST(CameraF3d, ShowsAnOrthographicPictureFromFarAway) {
+  Camera camera = slanted(Projection::Orthographic);
+  camera.eye = Vec3(0, 0, 7);
+  camera.target = Vec3(0, 0, 2);
+  camera.up = Vec3::UnitY();
+  camera.height = 3.0;
+  const std::string line = camera_f3d(camera, {640, 480}, "a.obj");
+  EXPECT_THAT(line, HasSubstr(" --camera-position=0,0,3002 --camera-focal-point=0,0,2 "));
+  const std::string angle = " --camera-view-angle=";
+  ASSERT_THAT(line, HasSubstr(angle));
+  const double degrees = std::stod(line.substr(line.find(angle) + angle.size()));
+  EXPECT_NEAR(2.0 * 3000.0 * std::tan(0.5 * degrees * kRadPerDeg), 3.0, 1e-9);
+  EXPECT_THAT(line, Not(HasSubstr("orthographic")));  // f3d 1.3 ends at an option that it has not
 }
 
 TEST(CameraF3d, NamesNoModelAsAnOption) {
