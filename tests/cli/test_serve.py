@@ -245,6 +245,19 @@ class Serve(ProgramTest):
             self.assertEqual(self.ask(address, "/")[0], 200)
             self.assertLess(time.monotonic() - started, 4.0)  # connections are kept for 5
 
+    def test_connections_that_send_nothing_keep_nobody_waiting(self):
+        with self.served(self.results()) as address:
+            port = int(address.rstrip("/").rsplit(":", 1)[1])
+            idle = [socket.create_connection(("127.0.0.1", port)) for _ in range(128)]
+            for connection in idle:
+                self.addCleanup(connection.close)
+            started = time.monotonic()
+            self.assertEqual(self.ask(address, "/")[0], 200)
+            self.assertLess(time.monotonic() - started, 1.5)
+            idle[0].settimeout(10)
+            self.assertEqual(idle[0].recv(1), b"")  # closed: it has sent nothing for a second
+            self.assertLess(time.monotonic() - started, 4)
+
     def test_a_request_that_drips_is_cut_off(self):
         with self.served(self.results()) as address:
             port = int(address.rstrip("/").rsplit(":", 1)[1])

@@ -13,12 +13,16 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kLargestRequest = 1U << 16U;  ///< Bytes; requests carry no body.
+constexpr auto kFirstRequest = 1s;  ///< Begins within that time; browsers open some for later.
 constexpr auto kBetweenRequests = 5s;
 constexpr auto kOneRequest = 5s;
 constexpr auto kOneWrite = 10s;  ///< Until the other side takes more.
 constexpr int kPulse = 20;       ///< ms between two looks whether the server is to stop.
 
 }  // namespace
+
+HttpConnection::HttpConnection(int socket, const std::atomic<bool>& ended)
+    : socket_(socket), ended_(ended), patience_(kFirstRequest) {}
 
 HttpConnection::~HttpConnection() {
   ::shutdown(socket_, SHUT_RDWR);
@@ -45,7 +49,8 @@ bool HttpConnection::fill() {
 
 bool HttpConnection::wait_for_request() {
   taken_ = 0;
-  const bool comes = is_readable() || (wait(POLLIN, Clock::now() + kBetweenRequests) && fill());
+  const bool comes = is_readable() || (wait(POLLIN, Clock::now() + patience_) && fill());
+  patience_ = kBetweenRequests;
   end_ = Clock::now() + kOneRequest;
   return comes;
 }

@@ -16,7 +16,7 @@ namespace vantage::batch {
 class HttpConnection final : public httplib::Stream {
  public:
   /// \param ended set when the server ends; outlives this. The socket is closed with this.
-  HttpConnection(int socket, const std::atomic<bool>& ended) : socket_(socket), ended_(ended) {}
+  HttpConnection(int socket, const std::atomic<bool>& ended);
 
   HttpConnection(const HttpConnection&) = delete;
   HttpConnection& operator=(const HttpConnection&) = delete;
@@ -52,6 +52,7 @@ class HttpConnection final : public httplib::Stream {
   std::size_t held_ = 0;
   std::size_t taken_ = 0;  ///< Bytes of this request.
   Clock::time_point end_{};
+  std::chrono::seconds patience_;  ///< Until the next request begins.
 };
 
 }  // namespace vantage::batch

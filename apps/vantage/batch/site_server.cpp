@@ -18,8 +18,8 @@ namespace vantage::batch {
 namespace {
 
 constexpr const char* kLoopback = "127.0.0.1";
-/// A browser opens six connections and keeps them.
-constexpr std::size_t kThreads = 16;
+/// One for each connection that is open, most of which only wait: a browser opens six and keeps them.
+constexpr std::size_t kThreads = 256;
 constexpr int kRequestsPerConnection = 200;
 
 constexpr const char* kPolicy = "Content-Security-Policy";
