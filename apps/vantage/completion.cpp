@@ -44,8 +44,13 @@ std::string shell_word(const std::string& text) {
 std::string bash_rules(const CLI::App& command) {
   std::string flags;
   std::string values;
+  std::string words;
   for (const OptionText& option : describe_options(command)) {
     if (option.positional) {
+      words += option.choices.empty()
+                   ? ""
+                   : "      [[ $current == -* ]] || words=" +
+                         shell_word(CLI::detail::join(option.choices, " ")) + "\n";
       continue;
     }
     for (const std::string& name : option.names) {
@@ -58,6 +63,7 @@ std::string bash_rules(const CLI::App& command) {
   }
   std::string rules = "    " + shell_word(call_of(command)) + ")\n";
   rules += "      flags=" + shell_word(flags) + "\n";
+  rules += words;
   rules += values.empty() ? "" : "      case $previous in\n" + values + "      esac\n";
   return rules + "      ;;\n";
 }
@@ -120,7 +126,7 @@ std::string zsh_rules(const CLI::App& command) {
         option.choices.empty() ? "_files" : "(" + CLI::detail::join(option.choices, " ") + ")";
     if (option.positional) {
       rules += " \\\n        " +
-               shell_word((option.repeats ? "*:" : ":") + zsh_text(option.names[0]) + ":_files");
+               shell_word((option.repeats ? "*:" : ":") + zsh_text(option.names[0]) + ":" + what);
       continue;
     }
     for (const std::string& name : option.names) {
@@ -192,6 +198,10 @@ std::string fish_script(const CLI::App& program) {
     const std::string when = " -n '__fish_seen_subcommand_from " + command->get_name() + "'";
     for (const OptionText& option : describe_options(*command)) {
       if (option.positional) {
+        script += option.choices.empty()
+                      ? ""
+                      : complete + when + " -f -a " +
+                            shell_word(CLI::detail::join(option.choices, " ")) + "\n";
         continue;
       }
       script += complete + when;

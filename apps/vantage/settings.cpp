@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <fstream>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include <unistd.h>
@@ -67,6 +69,23 @@ void check_keys(const Json& settings, const CLI::App& app, const std::string& fi
   }
 }
 
+/// JSON in which no object names a key twice.
+Json parsed_once(const std::string& text, const std::string& file) {
+  std::vector<std::set<std::string>> keys;  // of the objects around the place
+  const auto look = [&](int /*depth*/, Json::parse_event_t event, Json& value) {
+    if (event == Json::parse_event_t::object_start) {
+      keys.emplace_back();
+    } else if (event == Json::parse_event_t::object_end) {
+      keys.pop_back();
+    } else if (event == Json::parse_event_t::key &&
+               !keys.back().insert(value.get<std::string>()).second) {
+      throw CLI::ValidationError(file, "names '" + value.get<std::string>() + "' twice; keep one");
+    }
+    return true;
+  };
+  return Json::parse(text, look, true, true);
+}
+
 Json read_settings(const std::string& file, const CLI::App& program) {
   std::ifstream stream(file);
   std::string text(kLargest, '\0');
@@ -77,7 +96,7 @@ Json read_settings(const std::string& file, const CLI::App& program) {
   text.resize(static_cast<std::size_t>(stream.gcount()));
   Json settings;
   try {
-    settings = Json::parse(text, nullptr, true, true);
+    settings = parsed_once(text, file);
   } catch (const Json::parse_error& error) {
     throw CLI::ValidationError(file, "not JSON at byte " + std::to_string(error.byte) +
                                          "; write {\"threads\": 2, \"view\": {\"size\": 600}}");

@@ -84,6 +84,8 @@ class Settings(ProgramTest):
                  ('{"size": 1e999}', "c.json: has a number that is too large"),
                  ('{"size": -1e999}', "c.json: has a number that is too large"),
                  ('{"margin": "nan"}', "c.json: margin: --margin: must be a finite number"),
+                 ('{"size": 41, "up": "y", "size": 42}', "c.json: names 'size' twice"),
+                 ('{"thumb": {"up": "x", "up": "x"}}', "c.json: names 'up' twice"),
                  ("[1]", "c.json: holds no JSON object"))
         for text, message in cases:
             self.write("c.json", text)
@@ -132,6 +134,8 @@ class Words(ProgramTest):
         self.assertEqual(self.complete("view", "--weight", ""), ["vertex", "area"])
         self.write("horse.ply", "")
         self.assertEqual(self.complete("view", "hor"), ["horse.ply"])
+        self.assertEqual(self.complete("completion", ""), ["bash", "zsh", "fish"])
+        self.assertIn("--help", self.complete("completion", "--"))
 
     def test_bash_offers_every_option_that_help_lists(self):
         for call in self.commands():
@@ -154,11 +158,13 @@ class Words(ProgramTest):
             self.skipTest("fish is not installed")
         script = self.write("vantage.fish", self.vantage("completion", "fish").out)
         for line, offered in (("vantage thumb --crea", "--crease"), ("vantage view --weight ar", "area"),
-                              ("vantage comp", "compare")):
+                              ("vantage comp", "compare"), ("vantage completion ", "zsh")):
             done = subprocess.run(["fish", "--no-config", "-c", f"source {script}; complete -C '{line}'"],
                                   cwd=self.dir, capture_output=True, check=True, text=True,
                                   env={**os.environ, "HOME": str(self.dir)})
-            self.assertIn(offered, [row.split("\t")[0] for row in done.stdout.splitlines()], done.stderr)
+            rows = [row.split("\t")[0] for row in done.stdout.splitlines()]
+            self.assertIn(offered, rows, done.stderr)
+            self.assertNotIn("vantage.fish", rows)
 
     def test_every_command_has_a_manual_page_with_every_option(self):
         (self.dir / "man").mkdir()
