@@ -7,6 +7,7 @@
 
 #include "errors.h"
 #include "options.h"
+#include "released_run.h"
 #include "subject.h"
 
 PYBIND11_MODULE(_core, module) {
@@ -19,6 +20,7 @@ PYBIND11_MODULE(_core, module) {
   define_view_functions(module);
   define_best_view(module);
   define_pictures(module);
+  py::module_::import("atexit").attr("register")(py::cpp_function(&stop_all_work));
   module.def("defaults", &default_values, py::arg("preset"));
   module.def("options", &option_rows);
   module.def("library_versions", [] { return vantage::library_versions(); });

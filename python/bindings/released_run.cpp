@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "released_run.h"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -10,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include <cxxabi.h>
 #include <oneapi/tbb/global_control.h>
 #include <unistd.h>
 
@@ -63,6 +65,111 @@ class Lane {
   std::function<void()> job_{};
 };
 
+/// What runs now, so that it can be stopped before the process ends. Never destroyed.
+class RunningWork {
+ public:
+  static RunningWork& instance() {
+    static auto* const kRunning = new RunningWork;
+    return *kRunning;
+  }
+
+  /// \return whether work may start here: once the interpreter ends, on the thread that ends it only.
+  bool add(std::stop_source& work) {
+    const std::scoped_lock lock(mutex_);
+    if (process_ != getpid()) {  // a forked child has none of its parent's threads
+      works_.clear();
+      process_ = getpid();
+    }
+    if (is_closed_here()) {
+      return false;
+    }
+    works_.push_back(&work);
+    return true;
+  }
+
+  void remove(const std::stop_source& work) {
+    const std::scoped_lock lock(mutex_);
+    works_.erase(std::find(works_.begin(), works_.end(), &work));
+    removed_.notify_all();
+  }
+
+  /// Whether this thread's work is to end as the interpreter does.
+  bool is_closed() {
+    const std::scoped_lock lock(mutex_);
+    return is_closed_here();
+  }
+
+  /// Stops all work and waits for its end.
+  void close() {
+    std::unique_lock lock(mutex_);
+    closed_by_ = std::this_thread::get_id();
+    if (process_ != getpid()) {
+      return;
+    }
+    for (std::stop_source* work : works_) {
+      work->request_stop();
+    }
+    removed_.wait(lock, [this] { return works_.empty(); });
+  }
+
+ private:
+  bool is_closed_here() const {
+    return closed_by_ != std::thread::id{} && closed_by_ != std::this_thread::get_id();
+  }
+
+  std::mutex mutex_{};
+  std::condition_variable removed_{};
+  std::vector<std::stop_source*> works_{};
+  std::thread::id closed_by_{};
+  pid_t process_ = getpid();
+};
+
+/// Calls what takes the interpreter's lock. Python before 3.14 ends a daemon thread that asks for the
+/// lock too late by unwinding its stack, which destructors do not let pass: such a thread waits here
+/// until the process ends, as later ones do.
+template <class Call>
+auto with_lock(const Call& call) {
+  try {
+    return call();
+  } catch (const abi::__forced_unwind&) {
+    for (;;) {
+      pause();
+    }
+  }
+}
+
+/// Gives the interpreter's lock away while it lives.
+class Unlocked {
+ public:
+  Unlocked() = default;
+  Unlocked(const Unlocked&) = delete;
+  Unlocked& operator=(const Unlocked&) = delete;
+
+  ~Unlocked() {
+    with_lock([this] { PyEval_RestoreThread(thread_); });
+  }
+
+ private:
+  PyThreadState* thread_ = PyEval_SaveThread();
+};
+
+/// Calls progress(stage, fraction).
+void tell(const py::object& progress, const std::string& stage, double fraction) {
+  const py::tuple arguments = py::make_tuple(stage, fraction);
+  PyObject* result =
+      with_lock([&] { return PyObject_CallObject(progress.ptr(), arguments.ptr()); });
+  if (result == nullptr) {
+    throw py::error_already_set();
+  }
+  Py_DECREF(result);
+}
+
+/// Ends the calling thread as sys.exit() does: without a word.
+[[noreturn]] void end_thread() {
+  PyErr_SetNone(PyExc_SystemExit);
+  throw py::error_already_set();
+}
+
 /// Lanes that wait for a job; as many as there ever were calls at once. Never destroyed, as its
 /// threads are not: they end with the process.
 class LanePool {
@@ -102,6 +209,10 @@ class Worker {
  public:
   Worker(const std::function<void(const RunContext&)>& work, int threads, bool reports)
       : lane_(LanePool::instance().take()) {
+    if (!RunningWork::instance().add(stop_)) {
+      LanePool::instance().give_back(lane_);
+      end_thread();
+    }
     RunContext run;
     run.max_threads = threads;
     run.stop = stop_.get_token();
@@ -116,7 +227,7 @@ class Worker {
 
   // NOLINTNEXTLINE(bugprone-exception-escape): a mutex that fails, or no room for a pointer, may end it
   ~Worker() {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     stop_.request_stop();
     {
       std::unique_lock lock(mutex_);
@@ -127,7 +238,7 @@ class Worker {
 
   /// Waits for the end or for the next time to look up. \return whether the work has ended.
   bool wait() {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     std::unique_lock lock(mutex_);
     return ended_.wait_for(lock, kPoll, [this] { return is_done_; });
   }
@@ -163,6 +274,7 @@ class Worker {
     } catch (...) {
       failure = std::current_exception();
     }
+    RunningWork::instance().remove(stop_);
     const std::scoped_lock lock(mutex_);
     failure_ = failure;
     is_done_ = true;
@@ -197,15 +309,23 @@ void run_released(const RunSettings& settings, const std::function<void(const Ru
     }
     if (auto news = worker.news()) {
       last = std::move(news);
-      settings.progress(last->stage, last->fraction);
+      tell(settings.progress, last->stage, last->fraction);
     }
+  }
+  if (RunningWork::instance().is_closed()) {
+    end_thread();
   }
   if (const std::exception_ptr failure = worker.failure()) {
     std::rethrow_exception(failure);
   }
   if (reports && !(last && last->fraction >= 1.0)) {
-    settings.progress(last ? last->stage : "done", 1.0);
+    tell(settings.progress, last ? last->stage : "done", 1.0);
   }
+}
+
+void stop_all_work() {
+  const Unlocked unlocked;
+  RunningWork::instance().close();
 }
 
 }  // namespace vantage::python

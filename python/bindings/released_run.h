@@ -28,7 +28,11 @@ struct RunSettings {
 /// whatever `work` throws.
 void run_released(const RunSettings& settings, const std::function<void(const RunContext&)>& work);
 
-/// The same with a result.
+/// Stops what other threads run and waits for its end; they start nothing any more. For the
+/// interpreter's exit, which daemon threads do not keep from coming. \pre the calling thread holds the lock.
+void stop_all_work();
+
+/// run_released() with a result.
 template <class Work>
 auto released(const RunSettings& settings, const Work& work) {
   std::optional<decltype(work(RunContext{}))> result;

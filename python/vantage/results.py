@@ -81,6 +81,17 @@ class Camera(_Record):
     height: float = 2.0
     """Orthographic: height of the picture in model units, above 0."""
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Camera):
+            return NotImplemented
+        return self._numbers() == other._numbers()
+
+    def __hash__(self) -> int:
+        return hash(self._numbers())
+
+    def _numbers(self) -> Tuple[Any, ...]:
+        return (self.projection, self.camera_position, self.fov_y_deg, self.height)
+
     def world_from_camera(self) -> Floats:
         """(4, 4) camera to world, columns x right, y up, z back, eye: OpenGL, Blender, NeRF."""
         back = self.eye - self.target

@@ -81,6 +81,44 @@ def test_ctrl_c_is_a_keyboard_interrupt_and_the_package_goes_on():
     assert child.returncode == 0
 
 
+DAEMON = """
+import sys, threading
+sys.path.insert(0, sys.argv[1])
+from conftest import torus
+import vantage
+started = threading.Event()
+def progress(stage, fraction):
+    started.set()
+def work():
+    while True:
+        vantage.score(*torus(200, 100, bump=0.1), sphere=5, contraction="exact", progress=progress)
+for _ in range(2):
+    threading.Thread(target=work, daemon=True).start()
+started.wait()
+"""
+
+
+def test_daemon_threads_do_not_disturb_the_end_of_the_interpreter():
+    child = subprocess.run([sys.executable, "-c", DAEMON, os.path.dirname(__file__)],
+                           capture_output=True, text=True, timeout=60, check=False)
+    assert (child.returncode, child.stderr) == (0, "")
+
+
+AT_EXIT = """
+import atexit, sys
+sys.path.insert(0, sys.argv[1])
+from conftest import torus
+atexit.register(lambda: print(len(vantage.score(*torus(8, 6), sphere=0))))  # runs after the package's own
+import vantage
+"""
+
+
+def test_what_ends_the_interpreter_may_still_ask():
+    child = subprocess.run([sys.executable, "-c", AT_EXIT, os.path.dirname(__file__)],
+                           capture_output=True, text=True, timeout=60, check=False)
+    assert (child.returncode, child.stdout, child.stderr) == (0, "12\n", "")
+
+
 def test_other_threads_run_while_one_works():
     done, turns = threading.Event(), []
 
@@ -212,6 +250,8 @@ def test_names_that_are_no_utf8_are_read(tmp_path):
 def test_results_can_be_pickled(cat):
     result = vantage.best_view(cat, search="rapid")
     again = pickle.loads(pickle.dumps(result))
+    assert again.best.camera == result.best.camera and hash(again.best.camera) == hash(result.best.camera)
+    assert again.best.camera != result.worst.camera and again.best.camera != "camera"
     assert again.json == result.json and np.array_equal(again.best.eye, result.best.eye)
 
 
