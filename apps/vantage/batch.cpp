@@ -31,6 +31,7 @@
 #include "batch_slurm.h"
 #include "commands.h"
 #include "import_program.h"
+#include "load_posed.h"
 #include "look_flags.h"
 #include "method_flags.h"
 #include "output_file.h"
@@ -42,8 +43,6 @@
 
 namespace vantage::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 // Share of the machine's memory that all workers together may take; the rest is for caches.
 constexpr double kMemoryShare = 0.8;
@@ -307,16 +306,16 @@ struct BatchCommand {
           "shard-" + std::to_string(part->index) + "-of-" + std::to_string(part->count);
     }
     const ViewOptions options = view_options_of(method, several, look, kinds, session.flags.seed);
-    runner.options_hash = [options, kinds, its_look = look](const batch::Entry& entry) {
+    runner.options_hash = [this, options, kinds](const batch::Entry& entry) {
       ViewOptions own = options;
-      LookFlags own_look = its_look;
+      LookFlags own_look = look;
       std::string trouble;
       own.up = entry.up.empty() ? options.up : up_axis(entry.up);
       own.front = entry.front.empty() ? options.front : up_axis(entry.front);
       if (entry.member.empty() && entry.problem.empty()) {
         try {
           const Sidecar sidecar = sidecar_of(entry.path);
-          sidecar.apply(own);
+          apply_below(method.flags(), sidecar, own);
           own_look.suggest(sidecar.style);
         } catch (const Error& error) {  // the worker says what is wrong, until that is mended
           trouble = error.what();
@@ -329,8 +328,8 @@ struct BatchCommand {
           .substr(0, 16);
     };
     runner.worker_arguments = {"batch-worker",
-                               "--write=" + (kinds.text().empty() ? "json" : kinds.text())};
-    runner.worker_arguments.push_back("--seed=" + std::to_string(session.flags.seed));
+                               "--write=" + (kinds.text().empty() ? "json" : kinds.text()),
+                               "--seed=" + std::to_string(session.flags.seed)};
     append_flags(runner.worker_arguments, method_options);
     batch::prepare_folder(folder);
   }
@@ -351,11 +350,11 @@ struct BatchCommand {
 
   void run_shards(Session& session, batch::EntrySource& source, const batch::ConfinedFolder& root) {
     batch::SlurmRequest& request = slurm.request;
-    request.folder = fs::absolute(folder).lexically_normal().string();
+    request.folder = std::filesystem::absolute(folder).lexically_normal().string();
     request.cpus = std::int64_t{std::max(1, jobs)} * runner.threads;
     const double task_gb = std::max(1, jobs) * (memory_gb > 0.0 ? memory_gb : kSlurmMemoryGb);
     request.memory_mb = static_cast<std::int64_t>((task_gb + kParentMemoryGb) * 1e3);
-    request.command = {fs::read_symlink("/proc/self/exe").string(),
+    request.command = {std::filesystem::read_symlink("/proc/self/exe").string(),
                        "batch",
                        "--manifest=" + request.folder + "/slurm/plan.jsonl",
                        "--output=" + request.folder,

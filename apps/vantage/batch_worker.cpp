@@ -29,6 +29,7 @@
 #include "commands.h"
 #include "import_program.h"
 #include "input_text.h"
+#include "load_posed.h"
 #include "look_flags.h"
 #include "method_flags.h"
 #include "output_folder.h"
@@ -273,7 +274,7 @@ struct BatchWorkerCommand {
     if (!own_front.empty()) {
       own.front = up_axis(own_front);
     }
-    sidecar.apply(own);
+    apply_below(method.flags(), sidecar, own);
     stand_along_axes(model, own);
     const ShapeAnalysis shape = analyse_shape(model, own, run);
     const FrameChoice choice = choose_frame(model, shape, own);

@@ -61,7 +61,8 @@ struct CompareCommand {
       }
     }
     const RunContext run = session.run();
-    const Model loaded = load_posed(session, model, options, no_images ? nullptr : &look);
+    const Model loaded =
+        load_posed(session, model, method.flags(), options, no_images ? nullptr : &look);
     OutputFolder output(folder.empty() ? folder_named(loaded.name, ".compare") : folder,
                         kCompareResults);
     output.check(session.flags);

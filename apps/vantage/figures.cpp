@@ -108,7 +108,7 @@ struct FiguresCommand {
     const auto start = Clock::now();
     StageTimes times;
     LookFlags own_look = look;
-    const Model loaded = load_posed(session, model, options, &own_look);
+    const Model loaded = load_posed(session, model, method.flags(), options, &own_look);
     options.best_view.reset();  // figures show what was found
     times.seconds.load = seconds_since(start);
     const ShapeAnalysis shape = session.computing(

@@ -5,13 +5,25 @@
 #include "vantage/pipeline/sidecar.h"
 
 #include "look_flags.h"
+#include "option_flags.h"
 #include "session.h"
 
 namespace vantage::cli {
 
-Model load_posed(Session& session, const std::string& path, ViewOptions& options, LookFlags* look) {
-  const Sidecar sidecar = session.read([&] { return sidecar_of(path); });
+void apply_below(const OptionFlags& flags, Sidecar sidecar, ViewOptions& options) {
+  if (flags.has("up")) {
+    sidecar.up.reset();
+  }
+  if (flags.has("front")) {
+    sidecar.front.reset();
+  }
   sidecar.apply(options);
+}
+
+Model load_posed(Session& session, const std::string& path, const OptionFlags& flags,
+                 ViewOptions& options, LookFlags* look) {
+  const Sidecar sidecar = session.read([&] { return sidecar_of(path); });
+  apply_below(flags, sidecar, options);
   if (look != nullptr) {
     look->suggest(sidecar.style);
   }

@@ -35,6 +35,9 @@ class MethodFlags {
   /// Whether the option of that name was given.
   [[nodiscard]] bool has(const std::string& name) const { return flags_.has(name); }
 
+  /// What was given.
+  [[nodiscard]] const OptionFlags& flags() const { return flags_; }
+
   /// Refuses flags of a group that nothing uses. \throw CLI::ValidationError
   void require_use(bool is_used, std::string_view group, const std::string& methods) const;
 

@@ -13,6 +13,7 @@
 #include "batch/json_text.h"
 #include "commands.h"
 #include "input_text.h"
+#include "load_posed.h"
 #include "method_flags.h"
 #include "notes.h"
 #include "output_file.h"
@@ -89,7 +90,7 @@ struct OrientCommand {
     AllOptions given;
     known.apply(given);
     Model loaded = session.load(model);
-    session.read([&] { return sidecar_of(model); }).apply(given.view);
+    apply_below(known, session.read([&] { return sidecar_of(model); }), given.view);
     const Eigen::Matrix3d stood =
         session.computing([&] { return stand_along_axes(loaded, given.view); });
     const ShapeAnalysis shape =

@@ -75,7 +75,7 @@ struct RenderCommand {
       options.fit_size |= !method.has("size");
       frame = session.read([&] { return given_camera(options); });
     }
-    const Model loaded = load_posed(session, model, options, &look);
+    const Model loaded = load_posed(session, model, method.flags(), options, &look);
     const bool is_sought = !view.empty() && !(view == "best" && options.best_view);
     const bool needs_map = is_sought || show != "plain";
     const ShapeAnalysis shape = session.computing([&] {

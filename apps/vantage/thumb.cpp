@@ -86,7 +86,7 @@ struct ThumbCommand {
     look.check(file, options);
     options.margin_percent = look.margin_percent();
     const RunContext run = session.run();
-    const Model loaded = load_posed(session, model, options, &look);
+    const Model loaded = load_posed(session, model, frame, options, &look);
     const ShapeAnalysis shape = session.computing([&] { return prepare_surface(loaded, run); });
     const PictureView found = session.computing(
         [&] { return find_picture_view(loaded, shape, options, run.part(0.1, 0.7)); });

@@ -100,7 +100,8 @@ struct ViewCommand {
     StageSeconds seconds;
     check_files(session);
     const bool is_drawn = !no_images || preview.is_given() || several.has_tour();
-    const Model loaded = load_posed(session, model, options, is_drawn ? &look : nullptr);
+    const Model loaded =
+        load_posed(session, model, method.flags(), options, is_drawn ? &look : nullptr);
     seconds.load = seconds_since(start);
     OutputFolder output(folder.empty() ? folder_named(loaded.name, ".vantage") : folder,
                         kViewResults);

@@ -171,16 +171,25 @@ Settings Subject::settings(const py::dict& keywords) const {
   Settings settings =
       analysis_ ? settings_over(analysis_->settings, keywords) : settings_of(keywords);
   if (!path_.empty()) {
-    const Sidecar sidecar = sidecar_of(path_);
+    Sidecar sidecar = sidecar_of(path_);
+    const auto is_given = [&](const char* name) {
+      return keywords.contains(name) && !keywords[name].is_none();
+    };
+    if (is_given("up")) {  // "auto" too
+      sidecar.up.reset();
+    }
+    if (is_given("front")) {
+      sidecar.front.reset();
+    }
     sidecar.apply(settings.view);
-    const bool has_style = keywords.contains("style") && !keywords["style"].is_none();
+    const bool has_style = is_given("style");
     settings.look.style =
         has_style ? settings.look.style : sidecar.style.value_or(settings.look.style);
   }
   if (settings.view.up == UpAxis::Any) {
     throw InvalidInput(
         "option up: any turns the model, which would no longer be where its arrays are; write it "
-        "with vantage orient MODEL --up any -o OUT, and take what that writes");
+        "with vantage orient MODEL --up=any -o OUT, and take what that writes");
   }
   return settings;
 }

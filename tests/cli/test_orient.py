@@ -276,6 +276,21 @@ class Sidecars(ProgramTest):
         self.assertEqual(self.up_and_front("--up", "x"), ("x", "y"))
         self.assertEqual(self.up_and_front("--front=-z"), ("y", "-z"))
 
+    def test_a_flag_that_says_auto_is_a_flag(self):
+        self.write("a.obj", obj())
+        self.assertEqual(self.up_and_front(), ("y", "z"))
+        self.write("vantage.json", '{"up": "-x", "front": "-z"}')
+        self.assertEqual(self.up_and_front("--up", "auto"), ("y", "-z"))
+        self.assertEqual(self.up_and_front("--front", "auto")[0], "-x")
+        both = ("--up", "auto", "--front", "auto")
+        self.assertEqual(self.up_and_front(*both), ("y", "z"))
+        said = json.loads(self.vantage("thumb", "a.obj", "t.png", "-s", 32, "--json", *both).out)
+        self.assertEqual((said["up"], said["front"]), ("y", "z"))
+        for flags, up in (((), "-x"), (("--up", "auto"), "y")):  # the second is no repetition of the first
+            self.vantage("batch", "a.obj", "-o", "out", "--write", "json", *flags)
+            found = json.loads(next((self.dir / "out").rglob("view.json")).read_text())
+            self.assertEqual(found["up"], up)
+
     def test_view_thumb_render_and_batch_obey_it(self):
         self.write("a.obj", obj())
         self.write("vantage.json", '{"up": "-x", "front": "y", "view": [0, 0, -2]}')

@@ -47,10 +47,13 @@ def test_a_sidecar_beside_a_path_is_obeyed_and_keywords_come_first(program, tmp_
     assert json.loads(written)["up"] == "z"
     assert vantage.best_view(model, contraction="exact").json == written
     assert json.loads(vantage.best_view(model, up="-y", contraction="exact").json)["up"] == "-y"
+    quick = {"contraction": "exact", "search": "rapid"}
+    assert json.loads(vantage.best_view(model, up="auto", front="auto", **quick).json)["up"] == "y"
+    assert json.loads(vantage.best_view(model, up=None, **quick).json)["up"] == "z"
 
 
 def test_up_any_is_refused_for_arrays_stay_where_they_are(models):
-    with pytest.raises(vantage.InvalidInput, match="vantage orient"):
+    with pytest.raises(vantage.InvalidInput, match="vantage orient MODEL --up=any -o OUT"):
         vantage.best_view(models / "cat_lowpoly.ply", up="any")
 
 
