@@ -172,17 +172,17 @@ Settings Subject::settings(const py::dict& keywords) const {
       analysis_ ? settings_over(analysis_->settings, keywords) : settings_of(keywords);
   if (!path_.empty()) {
     Sidecar sidecar = sidecar_of(path_);
-    const auto is_given = [&](const char* name) {
+    const auto is_said = [&](const char* name) {
       return keywords.contains(name) && !keywords[name].is_none();
     };
-    if (is_given("up")) {  // "auto" too
+    if (is_said("up")) {  // "auto" too
       sidecar.up.reset();
     }
-    if (is_given("front")) {
+    if (is_said("front")) {
       sidecar.front.reset();
     }
     sidecar.apply(settings.view);
-    const bool has_style = is_given("style");
+    const bool has_style = is_said("style");
     settings.look.style =
         has_style ? settings.look.style : sidecar.style.value_or(settings.look.style);
   }
