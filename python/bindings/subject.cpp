@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include <pybind11/stl.h>
+
 #include "vantage/core/error.h"
 #include "vantage/io/model.h"
 #include "vantage/pipeline/measured_shape.h"
