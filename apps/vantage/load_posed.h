@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "vantage/io/model.h"
@@ -15,6 +16,11 @@ namespace vantage::cli {
 class LookFlags;
 class OptionFlags;
 class Session;
+
+/// \param front that `--front` gave, before a sidecar completed the options.
+/// \throw CLI::ValidationError if it is along the axis that is up.
+void refuse_front_along_up(const std::optional<UpAxis>& front, const Model& model,
+                           const ViewOptions& options);
 
 /// Completes options by a sidecar. Flags that were given come first, `auto` too.
 void apply_below(const OptionFlags& flags, Sidecar sidecar, ViewOptions& options);

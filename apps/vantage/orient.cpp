@@ -34,7 +34,9 @@ Json choice_json(const DirectionChoice& choice) {
           {"confidence", choice.confidence},
           {"likeliest", axis_name(choice.likeliest)},
           {"likeliest_confidence", choice.likeliest_confidence},
-          {"reasons", choice.reasons}};
+          {"reasons", choice.reasons},
+          {"by_shape", choice.by_shape ? Json(axis_name(*choice.by_shape)) : Json(nullptr)},
+          {"by_shape_confidence", choice.by_shape_confidence}};
 }
 
 /// Every candidate's features: what scripts/fit_orientation.py reads.
@@ -90,7 +92,9 @@ struct OrientCommand {
     AllOptions given;
     known.apply(given);
     Model loaded = session.load(model);
+    const std::optional<UpAxis> front = given.view.front;
     apply_below(known, session.read([&] { return sidecar_of(model); }), given.view);
+    refuse_front_along_up(front, loaded, given.view);
     const Eigen::Matrix3d stood =
         session.computing([&] { return stand_along_axes(loaded, given.view); });
     const ShapeAnalysis shape =
@@ -100,6 +104,9 @@ struct OrientCommand {
       return;
     }
     FrameChoice choice = session.computing([&] { return choose_frame(loaded, shape, given.view); });
+    if (given.view.up == UpAxis::Any) {
+      choice.notes.insert(choice.notes.begin(), loaded.notes.back());  // of stand_along_axes()
+    }
     const UpAxis new_up = default_up(loaded);
     const AxisTurn turn(up_vector(choice.frame.up), up_vector(choice.frame.front),
                         up_vector(new_up), up_vector(default_front(new_up)));
@@ -230,9 +237,6 @@ struct OrientCommand {
     } else {
       session.tell(printable(loaded.name) + ": " + frame_summary(choice) +
                    (is_none ? "; nothing to turn" : ""));
-    }
-    if (!stood.isIdentity(0.0)) {
-      session.say("note: " + loaded.notes.back());
     }
     say_notes(session, choice.notes);
   }

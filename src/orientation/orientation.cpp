@@ -75,34 +75,76 @@ std::vector<double> odds_of(std::vector<double> scores) {
 // of it (docs/orientation.md), and there are shapes unlike all of its.
 constexpr double kMostSure = 0.98;
 
-/// Chooses among candidates.
-/// \param odds of each. \param usual index of the convention's.
-/// \param threshold probability from which another one is taken. \param alike whether two of them
-/// cannot be told apart.
+/// What is added to the usual candidate's log odds.
+struct Habit {
+  std::size_t usual = 0;  ///< Its index; it wins ties.
+  double log_odds = 0.0;
+  double threshold = 0.0;  ///< Probability from which another one is taken.
+};
+
+/// Probabilities that a candidate is right, or looks just like what is right.
+struct Confidence {
+  std::vector<double> of{};    ///< Each candidate.
+  std::vector<double> most{};  ///< That may be said of it: 1 if all look like it.
+
+  /// \param first wins ties.
+  [[nodiscard]] std::size_t best(std::size_t first) const {
+    for (std::size_t c = 0; c < of.size(); ++c) {
+      first = of[c] > of[first] + 1e-9 ? c : first;
+    }
+    return first;
+  }
+
+  [[nodiscard]] double said(std::size_t c) const { return std::min(of[c], most[c]); }
+};
+
+/// \param alike whether two candidates cannot be told apart.
 template <class Alike>
-DirectionChoice choose(const std::vector<AxisDirection>& candidates,
-                       const std::vector<double>& odds, std::size_t usual, double threshold,
-                       Alike&& alike) {
-  std::vector<double> confidence(odds.size(), 0.0);  // of the candidate or one that looks like it
-  std::vector<double> most(odds.size(), 1.0);        // that it may be called: 1 if all look like it
+Confidence confidence_of(const std::vector<AxisDirection>& candidates,
+                         const std::vector<double>& odds, Alike&& alike) {
+  Confidence confidence{std::vector<double>(odds.size(), 0.0),
+                        std::vector<double>(odds.size(), 1.0)};
   for (std::size_t a = 0; a < odds.size(); ++a) {
     for (std::size_t b = 0; b < odds.size(); ++b) {
       const bool is_like = a == b || alike(candidates[a], candidates[b]);
-      confidence[a] += is_like ? odds[b] : 0.0;
-      most[a] = is_like ? most[a] : kMostSure;
+      confidence.of[a] += is_like ? odds[b] : 0.0;
+      confidence.most[a] = is_like ? confidence.most[a] : kMostSure;
     }
-    confidence[a] = std::min(confidence[a], 1.0);
+    confidence.of[a] = std::min(confidence.of[a], 1.0);
   }
-  std::size_t best = usual;  // wins ties
-  for (std::size_t c = 0; c < odds.size(); ++c) {
-    best = confidence[c] > confidence[best] + 1e-9 ? c : best;
+  return confidence;
+}
+
+/// Chooses among candidates.
+/// \param scores log odds of each by the shape alone. \param reasons what of the shape speaks for a candidate.
+template <class Alike, class Reasons>
+DirectionChoice choose(const std::vector<AxisDirection>& candidates, std::vector<double> scores,
+                       const Habit& habit, Alike&& alike, Reasons&& reasons) {
+  const Confidence by_shape = confidence_of(candidates, odds_of(scores), alike);
+  scores[habit.usual] += habit.log_odds;
+  const Confidence confidence = confidence_of(candidates, odds_of(std::move(scores)), alike);
+  const std::size_t best = confidence.best(habit.usual);
+  const std::size_t chosen = confidence.of[best] >= habit.threshold ? best : habit.usual;
+  DirectionChoice choice{.direction = candidates[chosen].vector(),
+                         .source = chosen == habit.usual ? "format" : "shape",
+                         .confidence = confidence.said(chosen),
+                         .likeliest = candidates[best].vector(),
+                         .likeliest_confidence = confidence.said(best)};
+  // Where the convention makes it likely, it is no reason of the shape's.
+  if (by_shape.best(best) == best &&
+      by_shape.of[best] >= std::min(kTellsNothing, confidence.of[best])) {
+    choice.reasons = reasons(candidates[best]);
   }
-  const std::size_t chosen = confidence[best] >= threshold ? best : usual;
-  return {.direction = candidates[chosen].vector(),
-          .source = chosen == usual ? "format" : "shape",
-          .confidence = std::min(confidence[chosen], most[chosen]),
-          .likeliest = candidates[best].vector(),
-          .likeliest_confidence = std::min(confidence[best], most[best])};
+  if (const std::size_t favoured = by_shape.best(chosen); favoured != chosen) {
+    choice.by_shape = candidates[favoured].vector();
+    choice.by_shape_confidence = by_shape.said(favoured);
+  }
+  for (const AxisDirection other : candidates) {
+    if (!(other == candidates[chosen]) && alike(candidates[chosen], other)) {
+      choice.alike.push_back(other.vector());
+    }
+  }
+  return choice;
 }
 
 DirectionChoice known(const Vec3& direction, const char* source) {
@@ -147,6 +189,11 @@ DirectionChoice find_up(const MeasuredSides& sides, const OrientationRequest& re
     return known(*request.up, "given");
   }
   const AxisDirection usual = axis_of(request.usual_up);
+  if (request.front && axis_of(*request.front).axis == usual.axis) {
+    throw InvalidInput(
+        "the front is along the up axis, which the format gives: give another front, or the up "
+        "axis, too");
+  }
   if (request.usual_up_is_certain) {
     return known(request.usual_up, "format");
   }
@@ -160,22 +207,17 @@ DirectionChoice find_up(const MeasuredSides& sides, const OrientationRequest& re
       evidence.push_back(upright_evidence(sides, up));
     }
   }
-  const auto found = std::find(candidates.begin(), candidates.end(), usual);
-  if (found == candidates.end()) {  // the front given is the convention's up
-    throw InvalidInput("the front is along the up axis: give the up axis, too");
-  }
-  const auto usual_index = static_cast<std::size_t>(found - candidates.begin());
-  std::vector<double> scores = up_model().scores(evidence);
-  scores[usual_index] +=
-      up_model().convention_log_odds + (front ? 0.0 : facing_log_odds(sides, request.usual_up));
-  DirectionChoice choice = choose(
-      candidates, odds_of(std::move(scores)), usual_index, up_model().threshold,
+  const Habit habit{.usual = place_of(usual, candidates),
+                    .log_odds = up_model().convention_log_odds +
+                                (front ? 0.0 : facing_log_odds(sides, request.usual_up)),
+                    .threshold = up_model().threshold};
+  return choose(
+      candidates, up_model().scores(evidence), habit,
       [&](AxisDirection a, AxisDirection b) {
         const AxisDirection about{a.axis == b.axis ? (a.axis + 1) % 3 : 3 - a.axis - b.axis, true};
         return sides.difference(about, a, b) < kAlike;
-      });
-  choice.reasons = reasons_for_up(upright_evidence(sides, axis_of(choice.likeliest)));
-  return choice;
+      },
+      [&](AxisDirection up) { return reasons_for_up(upright_evidence(sides, up)); });
 }
 
 /// Whether files with this up have a usual front: those with y or z up do, whatever their format.
@@ -236,16 +278,18 @@ void find_front(const MeasuredSides& sides, const OrientationRequest& request,
   const std::vector<AxisDirection> candidates = around(up);
   const std::size_t usual_index = place_of(usual, candidates);
   const bool is_formats = up == axis_of(request.usual_up);
+  const Habit habit{.usual = usual_index,
+                    .log_odds = usual_front_log_odds(up, is_formats),
+                    .threshold = is_formats ? front_model().threshold : 0.0};
   std::vector<double> scores = front_scores(sides, up);
-  scores[usual_index] += usual_front_log_odds(up, is_formats);
-  std::vector<double> odds = odds_of(std::move(scores));
   const auto alike = [&](AxisDirection a, AxisDirection b) {
     return sides.difference(up, a, b) < kAlike;
   };
-  result.front =
-      choose(candidates, odds, usual_index, is_formats ? front_model().threshold : 0.0, alike);
-  result.front.reasons =
-      reasons_for_front(front_evidence(sides, up, axis_of(result.front.likeliest)));
+  result.front = choose(candidates, scores, habit, alike, [&](AxisDirection front) {
+    return reasons_for_front(front_evidence(sides, up, front));
+  });
+  scores[usual_index] += habit.log_odds;
+  std::vector<double> odds = odds_of(std::move(scores));
   if (has_usual_front(up) && result.front.likeliest_confidence < kTellsNothing) {
     odds = odds_by_convention(std::move(odds), usual_index);
   }
@@ -263,11 +307,6 @@ Orientation OrientationEvidence::find(const OrientationRequest& request) const {
   }
   Orientation result;
   result.up = find_up(*sides_, request);
-  if (request.front && axis_of(*request.front).axis == axis_of(result.up.direction).axis) {
-    throw InvalidInput(
-        "the front is along the up axis, which the format gives: give another front, or the up "
-        "axis, too");
-  }
   find_front(*sides_, request, result);
   return result;
 }

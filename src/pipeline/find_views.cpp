@@ -14,6 +14,7 @@
 #include "core/parallel.h"
 #include "pipeline/coarse_surface.h"
 #include "pipeline/describe_view.h"
+#include "pipeline/frame_choice.h"
 #include "pipeline/map_objective.h"
 #include "pipeline/percent.h"
 #include "pipeline/preference.h"
@@ -75,17 +76,27 @@ void warn_of_coarse_epsilon(const SearchOptions& search, ViewReport& report) {
   }
 }
 
-/// Says so where the best view shows the back of what the shape says has a front.
-void note_a_view_from_behind(const DirectionChoice& front, const ViewOptions& options,
-                             ViewReport& report) {
+/// Whether the best view shows the back of what has another front.
+bool is_from_behind(const Orientation& orientation, const ViewOptions& options,
+                    const ReportedView& best) {
   constexpr double kBehind = -0.1;  // cosine
-  if (objective_of(options) == Objective::People && !options.best_view && front.source != "given" &&
-      !report.proportions.mirrors_front && report.best.direction.dot(front.direction) < kBehind) {
-    const std::string name(up_name(report.front));
-    report.warnings.push_back("the best view is from behind, if the front is " + name + " (" +
-                              percent(front.confidence) + " sure); --front " + name +
-                              " shows that side");
+  const DirectionChoice& front = orientation.front;
+  const bool looks_alike =
+      std::any_of(front.alike.begin(), front.alike.end(),
+                  [&](const Vec3& other) { return other.dot(front.direction) < -0.5; });
+  return objective_of(options) == Objective::People && !options.best_view && !looks_alike &&
+         best.direction.dot(front.direction) < kBehind;
+}
+
+/// The notes on the frame, where one on the front speaks of the best view, too.
+std::vector<std::string> frame_notes(const FrameChoice& choice, const ViewOptions& options,
+                                     const ReportedView& best) {
+  std::vector<std::string> notes = choice.notes;
+  if (is_from_behind(choice.orientation, options, best)) {
+    std::erase(notes, note_on_front(choice, options));
+    notes.push_back(note_on_front(choice, options, true));
   }
+  return notes;
 }
 
 /// Says so where what tells most is hidden from everywhere.
@@ -156,8 +167,6 @@ ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
   warn_of_coarse_epsilon(options.search, report);
   report.proportions = proportions_of(shape.surface, shape.sphere.diameter / 2.0, planes_of(shape),
                                       upright_frame(choice.frame));
-  report.warnings.insert(report.warnings.end(), choice.notes.begin(), choice.notes.end());
-  note_a_view_from_behind(choice.orientation.front, options, report);
   if (sums_a_map(options.method)) {
     note_what_none_sees(report);
     note_parts_hardly_shown(shape, report.camera, report.warnings, run);
@@ -168,6 +177,10 @@ ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
     moved = {};
   }
   note_a_skeleton_outside(shape, report.warnings);
+  note_cycles_beyond_genus(shape, report.warnings);
+  // Last is what a flag may set right.
+  const std::vector<std::string> notes = frame_notes(choice, options, report.best);
+  report.warnings.insert(report.warnings.end(), notes.begin(), notes.end());
   report.reliability_warnings = reliability_warnings(shape, report, options, moved, run);
   return report;
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "pipeline/frame_choice.h"
+
 #include <string>
 
 #include <Eigen/Geometry>
 
 #include "vantage/io/write.h"
-#include "vantage/pipeline/find_views.h"
 
 #include "pipeline/percent.h"
 #include "pipeline/view_preparation.h"
@@ -14,6 +15,10 @@ namespace {
 
 // A choice that is less sure than this gets a note. [ours]
 constexpr double kUnsure = 0.5;
+// A choice by habit gets one where the shape alone is surer of another direction. [ours]
+constexpr double kSpeaksAgainst = 0.8;
+// Only where all candidates look alike a choice is surer than 98 %.
+constexpr double kAllAlike = 0.99;
 
 std::string name_of(const Vec3& direction) {
   return std::string(up_name(axis_nearest(direction)));
@@ -23,29 +28,53 @@ std::string by(const DirectionChoice& choice) {
   return choice.reasons.empty() ? "" : ", by " + choice.reasons;
 }
 
+std::string sure(double confidence) {
+  return percent(confidence) + " sure";
+}
+
 /// What a user should know of a choice that is no plain case; empty if it is one.
-/// \param word "up" or "front". \param usual the convention's direction.
-/// \param is_weighed whether the best view weighs what else it may be. \param up flag that the usual
-/// direction goes with, where up is not its format's.
+/// \param word "up" or "front". \param usual the convention's direction. \param of "of its format".
+/// \param best what there is to say of the best view. \param flag that sets it.
 std::string note_on(const DirectionChoice& choice, const std::string& word, const Vec3& usual,
-                    bool is_weighed, const std::string& up = "") {
+                    const std::string& of, const std::string& best, const std::string& flag) {
   const std::string chosen = name_of(choice.direction);
   if (choice.source == "shape") {
-    return word + " is taken to be " + chosen + " (" + percent(choice.confidence) + " sure" +
-           by(choice) + "), not " + name_of(usual) + ", the usual one " +
-           (up.empty() ? "of its format" : "for this up") + "; " + up + "--" + word + " " +
-           name_of(usual) + " overrules this";
+    return word +
+           (best.empty() ? " is taken to be " + chosen : " is unsure: " + chosen + " is taken") +
+           " (" + sure(choice.confidence) + by(choice) + "), not " + name_of(usual) +
+           ", the usual one " + of + best + "; " + flag + " " + name_of(usual) + " overrules this";
   }
-  if (choice.source == "format" && choice.confidence < kUnsure) {
+  if (choice.source != "format") {
+    return {};
+  }
+  const std::string taken =
+      chosen + " is taken, the usual one " + of + " (" + sure(choice.confidence) + ")";
+  if (choice.confidence < kUnsure) {
     const bool favours_other = choice.likeliest.dot(choice.direction) < 0.5;
-    return word + " is unsure: " + chosen + " is taken, the usual one of its format (" +
-           percent(choice.confidence) + " sure)" +
+    return word + " is unsure: " + taken +
            (favours_other ? ", the shape suggests " + name_of(choice.likeliest) + " (" +
                                 percent(choice.likeliest_confidence) + ")"
                           : "") +
-           (is_weighed ? "; the best view weighs all sides" : "") + "; --" + word + " sets it";
+           best + "; " + flag + " sets it";
+  }
+  if (choice.by_shape && choice.by_shape_confidence > kSpeaksAgainst) {
+    return word + ": " + taken + ", but the shape alone suggests " + name_of(*choice.by_shape) +
+           best + "; " + flag + " " + name_of(*choice.by_shape) + " takes it";
   }
   return {};
+}
+
+/// " (-z looks the same)"
+std::string alike_text(const std::vector<Vec3>& alike) {
+  std::string names;
+  for (const Vec3& direction : alike) {
+    names += (names.empty()                 ? ""
+              : &direction == &alike.back() ? " and "
+                                            : ", ") +
+             name_of(direction);
+  }
+  return alike.empty() ? ""
+                       : " (" + names + (alike.size() == 1 ? " looks" : " look") + " the same)";
 }
 
 std::string summary_of(const DirectionChoice& choice, const std::string& word) {
@@ -53,10 +82,14 @@ std::string summary_of(const DirectionChoice& choice, const std::string& word) {
   if (choice.source == "given") {
     return text + ", as given";
   }
+  if (choice.confidence > kAllAlike) {
+    return text + ", its format's" + (choice.alike.empty() ? "" : ": all sides look the same");
+  }
   const bool is_likeliest = choice.likeliest.dot(choice.direction) > 0.5;
-  const bool is_formats = choice.source == "format";
-  return text + ", " + percent(choice.confidence) + " sure" +
-         (!is_likeliest || (is_formats && choice.reasons.empty()) ? ", its format's" : by(choice));
+  const bool is_by_habit = !is_likeliest || (choice.source == "format" && choice.reasons.empty());
+  return text + alike_text(choice.alike) + ", " + sure(choice.confidence) +
+         (is_by_habit ? ", its format's" : by(choice)) +
+         (choice.by_shape ? " (the shape alone: " + name_of(*choice.by_shape) + ")" : "");
 }
 
 }  // namespace
@@ -67,6 +100,9 @@ Eigen::Matrix3d stand_along_axes(Model& model, const ViewOptions& options) {
   }
   Eigen::Matrix3d rotation = standing_rotation(model.mesh);
   if (rotation.isIdentity(0.0)) {
+    model.notes.emplace_back(
+        "--up any turned nothing: no box suits the faces and mirror planes clearly better than the "
+        "axes do; --up with one of them says which is up");
     return rotation;
   }
   for (Vec3& p : model.mesh.positions) {
@@ -99,18 +135,37 @@ FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,
   FrameChoice choice;
   choice.orientation = evidence_of(shape).find(request);
   const DirectionChoice& up = choice.orientation.up;
-  const DirectionChoice& front = choice.orientation.front;
-  choice.frame = {axis_nearest(up.direction), axis_nearest(front.direction)};
+  choice.frame = {axis_nearest(up.direction), axis_nearest(choice.orientation.front.direction)};
   for (const std::string& note :
-       {note_on(up, "up", usual_up, false),
-        note_on(front, "front", up_vector(default_front(choice.frame.up)),
-                objective_of(options) == Objective::People,
-                up.source == "shape" ? "--up " + name_of(up.direction) + " " : "")}) {
+       {note_on(up, "up", usual_up, "of its format", "", "--up"), note_on_front(choice, options)}) {
     if (!note.empty()) {
       choice.notes.push_back(note);
     }
   }
   return choice;
+}
+
+std::string note_on_front(const FrameChoice& choice, const ViewOptions& options, bool is_behind) {
+  const DirectionChoice& up = choice.orientation.up;
+  const DirectionChoice& front = choice.orientation.front;
+  const std::string name = name_of(front.direction);
+  const bool is_weighed = objective_of(options) == Objective::People && front.source == "format" &&
+                          front.confidence < kUnsure;
+  const std::string best = is_weighed ? std::string("; the best view weighs all sides") +
+                                            (is_behind ? ", and is from behind" : "")
+                           : is_behind ? "; the best view is from behind"
+                                       : "";
+  const std::string note =
+      note_on(front, "front", up_vector(default_front(choice.frame.up)),
+              up.source == "format" ? "of its format" : "for this up", best,
+              up.source == "shape" ? "--up " + name_of(up.direction) + " --front" : "--front");
+  if (!note.empty() || !is_behind) {
+    return note;
+  }
+  return front.source == "given"
+             ? "the best view is from behind the front given: more is to be seen there"
+             : "the best view is from behind, if the front is " + name + " (" +
+                   sure(front.confidence) + "); --front " + name + " shows that side";
 }
 
 std::string frame_summary(const FrameChoice& choice) {

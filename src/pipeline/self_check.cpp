@@ -271,6 +271,18 @@ void note_a_skeleton_outside(const ShapeAnalysis& shape, std::vector<std::string
   }
 }
 
+void note_cycles_beyond_genus(const ShapeAnalysis& shape, std::vector<std::string>& notes) {
+  const MeshReport& check = shape.check;
+  const std::size_t cycles = cycle_count(shape.skeleton.graph);
+  if (check.genus && cycles > *check.genus && check.non_manifold_vertices > 0) {
+    notes.push_back("the skeleton has more cycles (" + std::to_string(cycles) +
+                    ") than the genus says: sheets touch at " +
+                    std::to_string(check.non_manifold_vertices) +
+                    (check.non_manifold_vertices == 1 ? " vertex" : " vertices") +
+                    ", where the skeleton goes on and the genus has them apart");
+  }
+}
+
 std::vector<std::string> skeleton_warnings(const ShapeAnalysis& shape) {
   std::vector<std::string> warnings;
   look_at_contraction(shape, warnings);

@@ -38,6 +38,9 @@ std::string unlike_map_text(const MovedMap& moved);
 /// Adds what there is to say of a skeleton that is partly outside, where that hardly touches the views.
 void note_a_skeleton_outside(const ShapeAnalysis& shape, std::vector<std::string>& notes);
 
+/// Adds why a skeleton has more cycles than the surface has handles, where sheets that touch explain it.
+void note_cycles_beyond_genus(const ShapeAnalysis& shape, std::vector<std::string>& notes);
+
 /// Why the answer should not be trusted, and what to do, one sentence each; empty almost always.
 /// \param report with both views described. \throw Cancelled
 std::vector<std::string> reliability_warnings(const ShapeAnalysis& shape, const ViewReport& report,

@@ -254,6 +254,18 @@ class OffTheAxes(ProgramTest):
         self.assertIn("must end in .ply", done.err)
 
 
+class FrontAlongUp(ProgramTest):
+    def test_is_wrong_usage_and_says_what_is_up(self):
+        self.write("a.obj", obj())
+        for command in (("orient", "a.obj"), ("view", "a.obj", "-o", "r")):
+            said = self.vantage(*command, "--front=-y", exit_code=2).err
+            self.assertIn("-y is along the up axis, y, which the format gives; --up", said)
+            self.assertIn("along the", self.vantage(*command, "--front", "z", "--up=-z", exit_code=2).err)
+        # A sidecar is no command line.
+        self.write("vantage.json", '{"front": "y"}')
+        self.assertIn("along the up axis", self.vantage("orient", "a.obj", exit_code=1).err)
+
+
 class Sidecars(ProgramTest):
     def up_and_front(self, *arguments):
         found = json.loads(self.vantage("orient", "a.obj", "--json", *arguments).out)

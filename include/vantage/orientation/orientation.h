@@ -38,7 +38,14 @@ struct DirectionChoice {
   double confidence = 1.0;
   Vec3 likeliest = Vec3::UnitY();     ///< What the shape and the convention together favour.
   double likeliest_confidence = 1.0;  ///< Its probability, in [0, 1].
-  std::string reasons{};  ///< "its flat base and a mirror plane": what speaks for it; may be empty.
+  /// "its flat base and a mirror plane": what of the shape speaks for the likeliest; empty where that
+  /// is likeliest by the convention, not by the shape alone.
+  std::string reasons{};
+  /// What the shape alone favours, if that is another than `direction`.
+  std::optional<Vec3> by_shape{};
+  double by_shape_confidence = 0.0;  ///< Its probability if there were no convention.
+  /// Other candidates that look just like `direction`: their probabilities are in `confidence`.
+  std::vector<Vec3> alike{};
 };
 
 /// A model's own frame.

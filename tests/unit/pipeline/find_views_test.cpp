@@ -13,6 +13,7 @@
 #include "vantage/mesh/measures.h"
 #include "vantage/report/view_report.h"
 
+#include "pipeline/frame_choice.h"
 #include "pipeline/preference.h"
 #include "pipeline/view_preparation.h"
 #include "support/model_of.h"
@@ -231,28 +232,83 @@ TEST(FindViews, CertifiesTheViewThatIsReportedWhereTiesWereSettled) {
   }));
 }
 
-TEST(FindViews, SaysWhereTheBestViewIsFromBehind) {
-  TriMesh skew = box(1.0, 2.0, 3.0, 4);  // so that front and back differ
-  for (Vec3& p : skew.positions) {
-    p.x() += 0.4 * p.z() * p.z() * p.y();
-  }
+/// The notes of a box whose front, z, and back are said to differ.
+std::vector<std::string> notes_seen_from(bool is_front, const DirectionChoice& front) {
   ViewOptions options = quick_search();
   options.objective = Objective::People;
-  const ShapeAnalysis shape = analyse_shape(model_of(skew), options);
   FrameChoice choice;
   choice.orientation.up.direction = Vec3::UnitY();
-  choice.orientation.front = {.direction = Vec3::UnitZ(), .source = "format", .confidence = 0.3};
-  for (const bool is_front_right : {true, false}) {
-    choice.orientation.front_odds = {is_front_right ? 1.0 : 0.0, 0.0, is_front_right ? 0.0 : 1.0,
-                                     0.0};
-    const ViewReport report = find_views(shape, choice, options);
-    ASSERT_FALSE(report.proportions.mirrors_front);
-    const bool is_said =
-        std::any_of(report.warnings.begin(), report.warnings.end(), [](const auto& warning) {
-          return warning.starts_with("the best view is from behind, if the front is z (30 % sure)");
-        });
-    EXPECT_EQ(is_said, !is_front_right);
+  choice.orientation.front = front;
+  choice.orientation.front_odds = {is_front ? 1.0 : 0.0, 0.0, is_front ? 0.0 : 1.0, 0.0};
+  choice.notes = {"a note on up"};
+  if (const std::string note = note_on_front(choice, options); !note.empty()) {
+    choice.notes.push_back(note);
   }
+  const ViewReport report = find_views(analysed_box(), choice, options);
+  EXPECT_TRUE(report.proportions.mirrors_front);
+  return report.warnings;
+}
+
+std::size_t count_of(std::string_view part, const std::vector<std::string>& notes) {
+  return static_cast<std::size_t>(
+      std::count_if(notes.begin(), notes.end(),
+                    [&](const std::string& note) { return note.find(part) != std::string::npos; }));
+}
+
+TEST(FindViews, SaysWhereTheBestViewIsFromBehind) {
+  DirectionChoice front{.direction = Vec3::UnitZ(),
+                        .source = "format",
+                        .confidence = 0.62,
+                        .likeliest = Vec3::UnitZ()};
+  EXPECT_EQ(notes_seen_from(true, front), std::vector<std::string>{"a note on up"});
+  const std::vector<std::string> behind = notes_seen_from(false, front);
+  ASSERT_EQ(behind.size(), 2U);
+  EXPECT_TRUE(
+      behind.back().starts_with("the best view is from behind, if the front is z (62 % sure)"));
+  front.alike = {-Vec3::UnitZ()};
+  EXPECT_EQ(count_of("behind", notes_seen_from(false, front)), 0U);
+}
+
+TEST(FindViews, SaysOneThingOfAFrontThatIsUnsureAndSeenFromBehind) {
+  DirectionChoice front{.direction = Vec3::UnitZ(),
+                        .source = "format",
+                        .confidence = 0.3,
+                        .likeliest = Vec3::UnitX(),
+                        .likeliest_confidence = 0.4};
+  for (const char* source : {"format", "shape"}) {
+    front.source = source;
+    EXPECT_EQ(count_of("front", notes_seen_from(true, front)), 1U);
+    const std::vector<std::string> behind = notes_seen_from(false, front);
+    EXPECT_EQ(count_of("front", behind), 1U);
+    EXPECT_TRUE(behind.back().starts_with("front is unsure: z is taken")) << behind.back();
+    EXPECT_EQ(count_of("from behind", behind), 1U) << behind.back();
+  }
+}
+
+/// Four octahedra around an opening: each touches the next in one vertex.
+TriMesh ring_of_octahedra() {
+  TriMesh one;
+  for (const double end : {1.0, -1.0}) {
+    for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ())}) {
+      one.positions.push_back(end * axis);
+    }
+  }
+  one.triangles = {{0, 1, 2}, {1, 3, 2}, {3, 4, 2}, {4, 0, 2},
+                   {1, 0, 5}, {3, 1, 5}, {4, 3, 5}, {0, 4, 5}};
+  TriMesh ring;
+  for (const Vec3& centre : {Vec3(1, 1, 0), Vec3(-1, 1, 0), Vec3(-1, -1, 0), Vec3(1, -1, 0)}) {
+    ring = together(ring, one, centre);
+  }
+  return ring;
+}
+
+TEST(FindViews, SaysWhyASkeletonHasMoreCyclesThanTheGenus) {
+  const ViewOptions options = quick_search();
+  const ShapeAnalysis shape = analyse_shape(model_of(ring_of_octahedra()), options);
+  EXPECT_EQ(shape.check.genus, 0U);
+  EXPECT_EQ(cycle_count(shape.skeleton.graph), 1U);
+  EXPECT_EQ(count_of("sheets touch at 4 vertices", find_views(shape, UpAxis::Y, options).warnings),
+            1U);
 }
 
 /// A box with this share of its significance inside the bottom, the rest everywhere.

@@ -70,6 +70,32 @@ TEST(FrameChoice, SaysItsFormatsOnlyOfWhatIsItsFormats) {
   EXPECT_EQ(frame_summary(choice), "up: y, 70 % sure; front: z, 60 % sure, its format's");
 }
 
+TEST(FrameChoice, SaysThatSidesLookTheSameWhereThatMakesItSure) {
+  EXPECT_EQ(frame_summary(choice_for(box(1.0, 1.0, 1.0, 4), ModelFormat::Ply)),
+            "up: y, its format's: all sides look the same; front: z, its format's: all sides look "
+            "the same");
+  ViewOptions options;
+  options.up = UpAxis::Y;
+  const std::string bar =
+      frame_summary(choice_for(box(3.0, 1.0, 0.5, 4), ModelFormat::Ply, options));
+  EXPECT_TRUE(bar.starts_with("up: y, as given; front: z (-z looks the same), ")) << bar;
+}
+
+TEST(FrameChoice, GivesNoReasonsOfTheShapeForWhatHabitCarries) {
+  const FrameChoice choice = choice_for(table(), ModelFormat::Ply);
+  EXPECT_EQ(choice.orientation.up.direction, Vec3::UnitY());
+  EXPECT_EQ(frame_summary(choice), "");
+}
+
+TEST(StandAlongAxes, SaysWhereItTurnsNothing) {
+  Model model = model_of(sphere(2));
+  ViewOptions options;
+  options.up = UpAxis::Any;
+  EXPECT_TRUE(stand_along_axes(model, options).isIdentity(0.0));
+  ASSERT_EQ(model.notes.size(), 1U);
+  EXPECT_TRUE(model.notes.front().starts_with("--up any turned nothing"));
+}
+
 TEST(FrameChoice, RefusesUpAndFrontOfOneAxis) {
   ViewOptions options;
   options.up = UpAxis::Y;
