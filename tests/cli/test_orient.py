@@ -146,10 +146,16 @@ class Orient(ProgramTest):
         self.assertEqual(len(found["ups"][0]["values"]), len(found["up_features"]))
         self.assertEqual(len(found["fronts"][0]["values"]), len(found["front_features"]))
 
-    def test_up_and_front_along_one_axis_are_refused(self):
+    def test_up_and_front_along_one_axis_are_wrong_usage(self):
         self.write("a.obj", obj())
-        done = self.vantage("orient", "a.obj", "--up", "y", "--front=-y", exit_code=1)
-        self.assertIn("same axis", done.err)
+        for command in (("orient", "a.obj"), ("view", "a.obj", "-o", "r")):
+            said = self.vantage(*command, "--front=-y", exit_code=2).err
+            self.assertIn("-y is along the up axis, y, which the format gives; --up", said)
+        done = self.vantage("orient", "a.obj", "--up", "y", "--front=-y", exit_code=2)
+        self.assertIn("-y is along the up axis, y: give", done.err)
+        # A sidecar is no command line.
+        self.write("vantage.json", '{"front": "y"}')
+        self.assertIn("along the up axis", self.vantage("orient", "a.obj", exit_code=1).err)
 
 
 class Front(ProgramTest):
@@ -252,18 +258,6 @@ class OffTheAxes(ProgramTest):
         self.write("a.obj", obj(leaning))
         done = self.vantage("orient", "a.obj", "--up", "any", "-o", "up.obj", exit_code=2)
         self.assertIn("must end in .ply", done.err)
-
-
-class FrontAlongUp(ProgramTest):
-    def test_is_wrong_usage_and_says_what_is_up(self):
-        self.write("a.obj", obj())
-        for command in (("orient", "a.obj"), ("view", "a.obj", "-o", "r")):
-            said = self.vantage(*command, "--front=-y", exit_code=2).err
-            self.assertIn("-y is along the up axis, y, which the format gives; --up", said)
-            self.assertIn("along the", self.vantage(*command, "--front", "z", "--up=-z", exit_code=2).err)
-        # A sidecar is no command line.
-        self.write("vantage.json", '{"front": "y"}')
-        self.assertIn("along the up axis", self.vantage("orient", "a.obj", exit_code=1).err)
 
 
 class Sidecars(ProgramTest):
