@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "pipeline/frame_choice.h"
+
 #include <string>
 
 #include <gtest/gtest.h>
@@ -82,9 +84,33 @@ TEST(FrameChoice, SaysThatSidesLookTheSameWhereThatMakesItSure) {
 }
 
 TEST(FrameChoice, GivesNoReasonsOfTheShapeForWhatHabitCarries) {
-  const FrameChoice choice = choice_for(table(), ModelFormat::Ply);
-  EXPECT_EQ(choice.orientation.up.direction, Vec3::UnitY());
-  EXPECT_EQ(frame_summary(choice), "");
+  // A tower that stands on z = 0, in a format whose up is y.
+  const TriMesh tower = together(box(1.0, 1.0, 1.0, 1), box(0.6, 0.6, 2.0, 1), Vec3(0.2, 0.2, 1.0));
+  const FrameChoice choice = choice_for(tower, ModelFormat::Ply);
+  const std::string said = frame_summary(choice);
+  EXPECT_TRUE(said.starts_with(
+      "up: y (x, -x and -y look the same), 83 % sure, its format's (the shape alone: z); front: "))
+      << said;
+  EXPECT_EQ(choice.orientation.up.reasons, "");
+  const std::string upright = frame_summary(choice_for(tower, ModelFormat::Stl));
+  EXPECT_TRUE(upright.find("sure, by its flat base and ") != std::string::npos) << upright;
+}
+
+TEST(FrameChoice, NotesWhereTheShapeAloneIsSureOfAnother) {
+  FrameChoice choice;
+  choice.orientation.up.source = "format";
+  DirectionChoice& front = choice.orientation.front;
+  front = {.direction = Vec3::UnitZ(),
+           .source = "format",
+           .confidence = 0.6,
+           .likeliest = Vec3::UnitZ(),
+           .by_shape = Vec3(Vec3::UnitX()),
+           .by_shape_confidence = 0.7};
+  EXPECT_EQ(note_on_front(choice, {}), "");
+  front.by_shape_confidence = 0.9;
+  EXPECT_EQ(note_on_front(choice, {}),
+            "front: z is taken, the usual one of its format (60 % sure), but the shape alone "
+            "suggests x; --front x takes it");
 }
 
 TEST(StandAlongAxes, SaysWhereItTurnsNothing) {
