@@ -77,7 +77,7 @@ Eigen::Matrix3d stand_along_axes(Model& model, const ViewOptions& options);
 FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,
                          const ViewOptions& options);
 
-/// "up: z, 97 % sure, by its flat base and its upright mirror plane; front: -y, the format's".
+/// "up: z, 97 % sure, by its flat base and its upright mirror plane; front: -y, 60 % sure, its format's".
 std::string frame_summary(const FrameChoice& choice);
 
 /// A view that a mirror plane of the model makes as good as the best.
@@ -150,7 +150,7 @@ class MapScorer {
 ViewReport find_views(const ShapeAnalysis& shape, const ModelFrame& frame,
                       const ViewOptions& options, const RunContext& run = {});
 
-/// The same with a frame that was chosen; its notes join the warnings.
+/// The same with a frame that was chosen; its notes join the warnings, last of them.
 ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
                       const ViewOptions& options, const RunContext& run = {});
 
