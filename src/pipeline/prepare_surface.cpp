@@ -13,6 +13,7 @@
 #include "vantage/pipeline/shape_analysis.h"
 
 #include "core/parallel.h"
+#include "mesh/copied_faces.h"
 #include "mesh/extent.h"
 #include "mesh/specks.h"
 #include "pipeline/prepare_points.h"
@@ -29,8 +30,8 @@ std::string counted(std::size_t count, std::string_view one, std::string_view ma
   return text;
 }
 
-void list_repairs(const WeldedMesh& welded, const OrientedMesh& oriented, const MeshReport& check,
-                  std::vector<std::string>& warnings) {
+void list_repairs(const WeldedMesh& welded, std::size_t copies, const OrientedMesh& oriented,
+                  const MeshReport& check, std::vector<std::string>& warnings) {
   const auto add = [&](std::size_t count, std::string_view one, std::string_view many,
                        std::string_view rest) {
     if (count > 0) {
@@ -40,6 +41,7 @@ void list_repairs(const WeldedMesh& welded, const OrientedMesh& oriented, const 
   add(welded.merged_vertices, "vertex", "vertices",
       " welded to an earlier one at the same position");
   add(welded.dropped_faces, "face", "faces", " left out for naming one position twice");
+  add(copies, "face", "faces", " standing in the place of an earlier one left out");
   add(check.isolated_vertices, "vertex", "vertices", " belonging to no face left out");
   add(check.zero_area_faces, "face", "faces", " without area");
   add(check.duplicate_faces, "face", "faces", " standing there twice");
@@ -94,10 +96,17 @@ ShapeAnalysis prepare_surface(const Model& model, const RunContext& run) {
   check_extent(points, model.name);
   ShapeAnalysis shape;
   OrientedMesh oriented;
-  run_both(
-      run, [&] { oriented = orient_shells(welded.mesh, run); },
-      [&] { shape.check = check_mesh(welded.mesh, run); });
-  list_repairs(welded, oriented, shape.check, shape.warnings);
+  const auto look = [&] {
+    run_both(
+        run, [&] { oriented = orient_shells(welded.mesh, run); },
+        [&] { shape.check = check_mesh(welded.mesh, run); });
+  };
+  look();
+  std::size_t copies = 0;
+  if (shape.check.duplicate_faces > 0 && (copies = leave_out_copies(welded.mesh)) > 0) {
+    look();
+  }
+  list_repairs(welded, copies, oriented, shape.check, shape.warnings);
   list_coarse_coordinates(points, shape.warnings);
   list_specks(find_specks(welded.mesh), shape.warnings);
   run.check();

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "vantage/mesh/mesh_check.h"
+#include "vantage/pipeline/find_views.h"
 
 #include "support/model_of.h"
 #include "support/shapes.h"
@@ -69,6 +70,32 @@ TEST(PrepareSurface, EnclosesThePointsThatNoTriangleJoinsAndNotesThem) {
   EXPECT_THAT(shape.warnings, Contains(HasSubstr("drawn but not counted")));
   const TriMesh ball{.positions = sphere(2).positions, .triangles = {}};
   EXPECT_TRUE(prepare_surface(model_of(ball)).warnings.empty());
+}
+
+TEST(AnalyseShape, IsTheSameWithACopyOfEachFace) {
+  const TriMesh once = y_of_tubes(0.2, 24);
+  ViewOptions by_area;
+  by_area.weight = Weight::Area;
+  const auto score = [&](const ShapeAnalysis& shape) {
+    const VertexVisibility visibility(shape.surface, shape.sides);
+    const MapScorer map(shape, visibility, by_area);
+    return std::pair(map.scorer().score(Vec3(0.3, 0.4, 0.5)), map.scorer().total());
+  };
+  const ShapeAnalysis alone = analyse_shape(model_of(once), {});
+  for (const bool is_turned : {false, true}) {
+    TriMesh twice = once;
+    for (auto [a, b, c] : once.triangles) {
+      twice.triangles.push_back(is_turned ? Triangle{a, c, b} : Triangle{b, c, a});
+    }
+    const ShapeAnalysis other = analyse_shape(model_of(twice), {});
+    EXPECT_EQ(other.significance, alone.significance) << is_turned;
+    EXPECT_EQ(other.skeleton.graph.nodes, alone.skeleton.graph.nodes) << is_turned;
+    EXPECT_EQ(other.skeleton.graph.edges, alone.skeleton.graph.edges) << is_turned;
+    EXPECT_EQ(score(other), score(alone)) << is_turned;
+    EXPECT_THAT(other.warnings,
+                Contains(std::to_string(once.triangles.size()) +
+                         " faces standing in the place of an earlier one left out"));
+  }
 }
 
 TEST(AnalyseShape, IsTheSameForPointsInAnyOrder) {
