@@ -84,6 +84,10 @@ SecondMesh contract_second_mesh(const TriMesh& first, const ComponentHistory& hi
       .mesh = second.mesh,
       .levels = std::move(other.levels),
       .component_of_vertex = std::vector<std::uint32_t>(second.mesh.positions.size(), 0)};
+  const auto vertices = static_cast<double>(second.mesh.positions.size());
+  if (vertices > kProxyShare * static_cast<double>(first.positions.size())) {
+    result.untested = second.mesh.positions.size();
+  }
   for (std::size_t level = 0; level < history.levels.size(); ++level) {
     const std::vector<Vec3>& at = result.levels[std::min(level, result.levels.size() - 1)];
     auto& here = result.here.emplace_back();
@@ -109,6 +113,7 @@ void append(SecondMesh part, SecondMesh& all) {
   }
   all.component_of_vertex.insert(all.component_of_vertex.end(), part.mesh.positions.size(),
                                  component);
+  all.untested += part.untested;
   append_levels(std::move(part.levels), all.levels, own);
   append_levels(std::move(part.here), all.here, count);
   append_levels(std::move(part.there), all.there, count);

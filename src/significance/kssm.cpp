@@ -85,8 +85,8 @@ double variance(const std::vector<double>& x, const std::vector<double>& weight)
 
 /// The weight of each level, by the correlation r of its displacements with those of the surface meshed
 /// anew: 0 up to r = least, 1 from r = (1 + least) / 2 on, linear between. Two meshes may agree by chance:
-/// r is taken with the largest variance of the difference at this level or an earlier one. Level 0 has
-/// weight 1.
+/// r is taken with the largest variance of the difference at this level or an earlier one. What was not
+/// meshed anew tells nothing. Level 0 has weight 1.
 std::vector<double> level_weights(const ContractionHistory& history, const CurveGraph& skeleton,
                                   const CurveGraph& other, double least, const RunContext& run) {
   std::vector<double> weights(history.levels.size(), 1.0);
@@ -102,6 +102,8 @@ std::vector<double> level_weights(const ContractionHistory& history, const Curve
   std::vector<double> there(area.size());
   std::vector<double> difference(area.size());
   const double full = kRamp * (1.0 - least);
+  const double tested =
+      1.0 - static_cast<double>(second.untested) / static_cast<double>(area.size());
   double noise = 0.0;
   for (std::size_t level = 0; level < weights.size(); ++level) {
     parallel_for(run, area.size(), kVerticesPerTask, [&](std::size_t begin, std::size_t end) {
@@ -115,7 +117,8 @@ std::vector<double> level_weights(const ContractionHistory& history, const Curve
     const double signal = std::min(variance(here, area), variance(there, area));
     // 1 − noise / 2 signal is the correlation where both vary alike.
     const double surplus = signal > 0.0 ? 1.0 - 0.5 * noise / signal - least : 1.0 - least;
-    weights[level] = full > 0.0 ? std::clamp(surplus / full, 0.0, 1.0) : surplus >= 0.0 ? 1.0 : 0.0;
+    const double unramped = surplus >= 0.0 ? 1.0 : 0.0;
+    weights[level] = tested * (full > 0.0 ? std::clamp(surplus / full, 0.0, 1.0) : unramped);
   }
   weights.front() = 1.0;
   return weights;

@@ -82,6 +82,8 @@ struct SecondMesh {
   /// Points of the surface, next to each of its vertices, at the levels of the first contraction.
   std::vector<std::vector<Vec3>> here{};
   std::vector<std::vector<Vec3>> there{};  ///< The same points by the second contraction.
+  /// Vertices of components that could hardly be made coarser: agreement there tells nothing.
+  std::size_t untested = 0;
 };
 
 /// Positions of every vertex at every level.

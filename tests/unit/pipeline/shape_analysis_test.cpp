@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "vantage/pipeline/shape_analysis.h"
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -179,6 +185,39 @@ TEST(AnalyseShape, CountsAllLevelsWhereThereIsNoSecondCurve) {
   const auto [finished, all_finished] =
       used({.kssm = {.level_agreement = 0.9999}, .kssm_to_finished_graph = true});
   EXPECT_EQ(finished, all_finished);
+}
+
+/// Cells in a cube of three along each side; their walls are there once for each cell.
+TriMesh cells_with_walls() {
+  constexpr std::uint32_t kPoints = 4;
+  TriMesh mesh;
+  const auto quad = [&](std::uint32_t at, std::uint32_t along, std::uint32_t up, bool is_turned) {
+    for (Triangle t : {Triangle{at, at + along, at + along + up}, {at, at + along + up, at + up}}) {
+      if (is_turned) {
+        std::swap(t[1], t[2]);
+      }
+      mesh.triangles.push_back(t);
+    }
+  };
+  constexpr std::array<std::uint32_t, 3> kStep{1, kPoints, kPoints * kPoints};
+  for (std::uint32_t v = 0; v < kPoints * kPoints * kPoints; ++v) {
+    const std::array<std::uint32_t, 3> at{v % kPoints, v / kPoints % kPoints, v / kStep[2]};
+    mesh.positions.emplace_back(at[0], at[1], at[2]);
+    if (*std::max_element(at.begin(), at.end()) + 1 < kPoints) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        quad(v, kStep[(axis + 1) % 3], kStep[(axis + 2) % 3], true);
+        quad(v + kStep[axis], kStep[(axis + 1) % 3], kStep[(axis + 2) % 3], false);
+      }
+    }
+  }
+  return mesh;
+}
+
+TEST(AnalyseShape, CountsNoFurtherLevelsWhereNoEdgeCanBeCollapsed) {
+  const ShapeAnalysis shape = analyse_shape(model_of(cells_with_walls()), {});
+  EXPECT_GT(shape.history.levels.size(), 1U);
+  EXPECT_THAT(shape.kssm.levels_used, testing::ElementsAre(0U));
+  EXPECT_THAT(shape.warnings, Contains("108 faces standing there twice"));  // both are kept
 }
 
 TEST(AnalyseShape, GivesEveryInputVertexItsValueAndNode) {

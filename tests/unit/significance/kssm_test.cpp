@@ -164,6 +164,18 @@ TEST(ComputeKssm, LeavesOutLevelsThatTheOtherMeshHasOtherwise) {
   EXPECT_EQ(map.levels_used, std::vector<std::size_t>{0});  // noise stays: level 2 is finer still
 }
 
+TEST(ComputeKssm, CountsLevelsTheLessTheMoreWasNotMeshedAnew) {
+  HandMade made = contracted_twice();
+  const KssmMap all = compute_kssm(made.mesh, made.history, made.graph, {}, {}, made.graph);
+  made.history.second.untested = 1;  // of four vertices
+  const KssmMap some = compute_kssm(made.mesh, made.history, made.graph, {}, {}, made.graph);
+  EXPECT_DOUBLE_EQ(some.level_factor[1], 0.75 * all.level_factor[1]);
+  EXPECT_EQ(some.level_factor[0], all.level_factor[0]);
+  made.history.second.untested = 4;
+  EXPECT_EQ(compute_kssm(made.mesh, made.history, made.graph, {}, {}, made.graph).levels_used,
+            std::vector<std::size_t>{0});
+}
+
 TEST(ComputeKssm, CountsAllLevelsWhereNoOtherCurveIsGivenOrNoneIsAskedFor) {
   const HandMade made = contracted_twice();
   const CurveGraph other{.nodes = {{0.03, 0, 0}}, .edges = {}};
