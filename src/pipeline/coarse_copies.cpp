@@ -52,7 +52,7 @@ CoarseCopies::CoarseCopies(const ShapeAnalysis& shape, const RunContext& run,
       coarse((run.check(), coarse_of(shape, proxy, run))),
       coarse_visibility(coarse.mesh, coarse.sides, kCoarseEyes) {
   if (survey_by && is_coarse()) {
-    survey.emplace(coarse_visibility, *survey_by, run);
+    survey.emplace(coarse_visibility, *survey_by, survey_level(), run);
   }
 }
 
@@ -66,6 +66,12 @@ bool CoarseCopies::has_proxy() const {
 
 bool CoarseCopies::is_sampled() const {
   return !is_coarse() && coarse.of_vertex.size() > kLargeSurface;
+}
+
+int CoarseCopies::survey_level() const {
+  constexpr std::size_t kSeveral = 4;  // [ours]
+  const bool remains_large = coarse.mesh.positions.size() > kSeveral * kCoarseVertices;
+  return is_sampled() || (is_coarse() && remains_large) ? 3 : 4;
 }
 
 }  // namespace vantage

@@ -45,6 +45,10 @@ struct CoarseCopies {
 
   /// Whether the surface is large, but cannot be made so much coarser.
   [[nodiscard]] bool is_sampled() const;
+
+  /// Icosahedron level of a survey: lower where a look costs ten times as much as at surfaces of one skin,
+  /// or the coarse copy remained several times as large as it was to become.
+  [[nodiscard]] int survey_level() const;
 };
 
 }  // namespace vantage

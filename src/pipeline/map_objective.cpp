@@ -58,9 +58,8 @@ ViewObjective MapObjective::objective(const Preference& preference) const {
 void MapObjective::add_estimates(ViewObjective& objective) const {
   const CoarseCopies& copies = estimates_->copies();
   const bool is_by_area = scorer().faces() != nullptr;
-  if (copies.is_sampled()) {
-    objective.survey_level = 3;  // a look costs ten times as much as at surfaces of one skin
-  } else if (!is_by_area && !copies.has_proxy()) {
+  objective.survey_level = copies.survey_level();
+  if (!copies.is_sampled() && !is_by_area && !copies.has_proxy()) {
     objective.starts = kManyStarts;
   }
   if (copies.is_coarse() || copies.is_sampled() || is_by_area) {

@@ -10,8 +10,6 @@
 namespace vantage {
 namespace {
 
-constexpr int kLevel = 4;  // ViewObjective::survey_level
-
 std::array<double, 3> key_of(const Vec3& direction) {
   return {direction.x(), direction.y(), direction.z()};
 }
@@ -24,11 +22,10 @@ bool is_same(const ScoringCamera& a, const ScoringCamera& b) {
          a.distance_factor == b.distance_factor;
 }
 
-SurveySight::SurveySight(const VertexVisibility& visibility, const ScoringCamera& camera,
+SurveySight::SurveySight(const VertexVisibility& visibility, const ScoringCamera& camera, int level,
                          const RunContext& run)
     : camera_(camera) {
-  const std::vector<Vec3> directions =
-      direction_set(ViewSphereBase::Icosahedron, kLevel).directions;
+  const std::vector<Vec3> directions = direction_set(ViewSphereBase::Icosahedron, level).directions;
   visible_.resize(directions.size());
   const RunContext quiet = run.quiet();
   parallel_items(quiet, directions.size(), [&](std::size_t i, const RunContext& own) {

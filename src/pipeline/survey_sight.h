@@ -17,12 +17,12 @@ namespace vantage {
 /// Whether two cameras see the same from every direction.
 bool is_same(const ScoringCamera& a, const ScoringCamera& b);
 
-/// Which vertices are seen from the directions that a search surveys, icosahedron level 4. They do
-/// not depend on the map, so that they are found beside the contraction.
+/// Which vertices are seen from the directions that a search surveys. They do not depend on the map, so
+/// that they are found beside the contraction.
 class SurveySight {
  public:
-  /// \throw Cancelled
-  SurveySight(const VertexVisibility& visibility, const ScoringCamera& camera,
+  /// \param level of the icosahedron, as ViewObjective::survey_level. \throw Cancelled
+  SurveySight(const VertexVisibility& visibility, const ScoringCamera& camera, int level,
               const RunContext& run);
 
   /// What it is seen through.

@@ -27,7 +27,7 @@ struct Surveyed {
 
 TEST(SurveySight, ScoresAsTheScorerDoesToTheLastBit) {
   const Surveyed shape;
-  const SurveySight sight(shape.visibility, shape.camera, {});
+  const SurveySight sight(shape.visibility, shape.camera, 4, {});
   const ViewScorer scorer(shape.visibility, shape.shares, shape.camera);
   for (const int level : {3, 4}) {  // the report's directions and the search's
     const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, level);
@@ -40,7 +40,7 @@ TEST(SurveySight, ScoresAsTheScorerDoesToTheLastBit) {
 
 TEST(SurveySight, KnowsNoOtherDirectionsAndCameras) {
   const Surveyed shape;
-  const SurveySight sight(shape.visibility, shape.camera, {});
+  const SurveySight sight(shape.visibility, shape.camera, 4, {});
   EXPECT_FALSE(sight.score(Vec3(0.6, 0.48, 0.64), shape.shares).has_value());
   EXPECT_TRUE(is_same(sight.camera(), shape.camera));
   ScoringCamera other = shape.camera;
