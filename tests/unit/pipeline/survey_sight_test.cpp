@@ -8,7 +8,7 @@
 
 #include "vantage/spatial/directions.h"
 
-#include "pipeline/view_preparation.h"
+#include "pipeline/coarse_copies.h"
 #include "support/model_of.h"
 #include "support/shapes.h"
 
@@ -57,11 +57,11 @@ TEST(SurveySight, KnowsNoOtherDirectionsAndCameras) {
   EXPECT_FALSE(is_same(sight.camera(), other));
 }
 
-TEST(ViewPreparation, SurveysACopyThatRemainsLargeFromFewerDirections) {
+TEST(CoarseCopies, SurveysACopyThatRemainsLargeFromFewerDirections) {
   // Each of so many icosahedra becomes a tetrahedron.
   TriMesh many;
   const TriMesh one = sphere(0);
-  for (std::uint32_t i = 0; i < ViewPreparation::kCoarseVertices + 1; ++i) {
+  for (std::uint32_t i = 0; i < CoarseCopies::kCoarseVertices + 1; ++i) {
     const auto first = static_cast<std::uint32_t>(many.positions.size());
     for (const Vec3& p : one.positions) {
       many.positions.emplace_back(p + 3.0 * Vec3(i % 10, i / 10 % 10, i / 100));
@@ -71,11 +71,11 @@ TEST(ViewPreparation, SurveysACopyThatRemainsLargeFromFewerDirections) {
     }
   }
   const ShapeAnalysis large_shape = prepare_surface(model_of(many));
-  const ViewPreparation large(large_shape);
+  const CoarseCopies large(large_shape);
   EXPECT_TRUE(large.is_coarse());
   EXPECT_EQ(large.survey_level(), 3);
   const ShapeAnalysis usual_shape = prepare_surface(model_of(sphere(4)));
-  const ViewPreparation usual(usual_shape);
+  const CoarseCopies usual(usual_shape);
   EXPECT_TRUE(usual.is_coarse());
   EXPECT_EQ(usual.survey_level(), 4);
 }
