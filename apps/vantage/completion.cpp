@@ -181,6 +181,21 @@ std::string zsh_script(const CLI::App& program) {
          "_vantage \"$@\"\n";
 }
 
+/// What completes an option after `call`; nothing for files named by position.
+std::string fish_rule(const OptionText& option, const std::string& call) {
+  const std::string choices =
+      option.choices.empty() ? "" : " -f -a " + shell_word(CLI::detail::join(option.choices, " "));
+  if (option.positional) {
+    return choices.empty() ? "" : call + choices + "\n";
+  }
+  std::string rule = call;
+  for (const std::string& name : option.names) {
+    rule += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+  }
+  return rule + (option.value.empty() ? "" : " -r") + choices + " -d " +
+         shell_word(option.meaning) + "\n";
+}
+
 std::string fish_script(const CLI::App& program) {
   std::string script = "# fish completion of vantage\n";
   const std::string complete = "complete -c vantage";
@@ -197,22 +212,7 @@ std::string fish_script(const CLI::App& program) {
   for (const CLI::App* command : leaves) {
     const std::string when = " -n '__fish_seen_subcommand_from " + command->get_name() + "'";
     for (const OptionText& option : describe_options(*command)) {
-      if (option.positional) {
-        script += option.choices.empty()
-                      ? ""
-                      : complete + when + " -f -a " +
-                            shell_word(CLI::detail::join(option.choices, " ")) + "\n";
-        continue;
-      }
-      script += complete + when;
-      for (const std::string& name : option.names) {
-        script += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
-      }
-      script += option.value.empty() ? "" : " -r";
-      script += option.choices.empty()
-                    ? ""
-                    : " -f -a " + shell_word(CLI::detail::join(option.choices, " "));
-      script += " -d " + shell_word(option.meaning) + "\n";
+      script += fish_rule(option, complete + when);
     }
   }
   return script;

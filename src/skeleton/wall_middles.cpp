@@ -36,12 +36,7 @@ bool WallMiddles::add(std::uint32_t node, const std::vector<std::uint32_t>& vert
 }
 
 CurveGraph WallMiddles::move() {
-  std::vector<std::uint32_t> moved;
-  for (std::uint32_t node = 0; node < place_.size(); ++node) {
-    if (!settled_[node]) {
-      moved.push_back(node);
-    }
-  }
+  const std::vector<std::uint32_t> moved = nearest_first();
   for (std::vector<std::uint32_t> waiting = moved; !waiting.empty();) {
     settle(take_next(waiting));
   }
@@ -51,22 +46,30 @@ CurveGraph WallMiddles::move() {
   return std::move(graph_);
 }
 
-/// The nodes beside settled ones; if there are none, the one nearest to a middle.
+/// The nodes to move, those nearest to a middle first.
+std::vector<std::uint32_t> WallMiddles::nearest_first() const {
+  std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> ranks;
+  for (std::uint32_t node = 0; node < place_.size(); ++node) {
+    if (!settled_[node]) {
+      ranks.emplace_back(order_.steps(way_to(best_middle(node), node)),
+                         order_.place(place_[node], place_[node]), node);
+    }
+  }
+  std::sort(ranks.begin(), ranks.end());
+  std::vector<std::uint32_t> nodes;
+  nodes.reserve(ranks.size());
+  for (const auto& rank : ranks) {
+    nodes.push_back(std::get<2>(rank));
+  }
+  return nodes;
+}
+
+/// The nodes beside settled ones; if there are none, the first.
 std::vector<std::uint32_t> WallMiddles::take_next(std::vector<std::uint32_t>& waiting) const {
   auto rest = std::stable_partition(waiting.begin(), waiting.end(), [this](std::uint32_t node) {
     return has_settled_neighbour(node);
   });
-  if (rest == waiting.begin()) {
-    const auto rank = [this](std::uint32_t node) {
-      return std::tuple(order_.steps(way_to(best_middle(node), node)),
-                        order_.place(place_[node], place_[node]), node);
-    };
-    std::iter_swap(waiting.begin(), std::min_element(waiting.begin(), waiting.end(),
-                                                     [&rank](std::uint32_t a, std::uint32_t b) {
-                                                       return rank(a) < rank(b);
-                                                     }));
-    ++rest;
-  }
+  rest += rest == waiting.begin() ? 1 : 0;
   std::vector<std::uint32_t> next(waiting.begin(), rest);
   waiting.erase(waiting.begin(), rest);
   return next;

@@ -27,6 +27,7 @@ class WallMiddles {
   [[nodiscard]] bool has_settled_neighbour(std::uint32_t node) const;
   [[nodiscard]] double way_to(const Vec3& middle, std::uint32_t node) const;
   [[nodiscard]] const Vec3& best_middle(std::uint32_t node) const;
+  [[nodiscard]] std::vector<std::uint32_t> nearest_first() const;
   std::vector<std::uint32_t> take_next(std::vector<std::uint32_t>& waiting) const;
   void settle(const std::vector<std::uint32_t>& nodes);
 
