@@ -155,7 +155,7 @@ std::string note_on_front(const FrameChoice& choice, const ViewOptions& options,
                                             (is_behind ? ", and is from behind" : "")
                            : is_behind ? "; the best view is from behind"
                                        : "";
-  const std::string note =
+  std::string note =
       note_on(front, "front", up_vector(default_front(choice.frame.up)),
               up.source == "format" ? "of its format" : "for this up", best,
               up.source == "shape" ? "--up " + name_of(up.direction) + " --front" : "--front");
