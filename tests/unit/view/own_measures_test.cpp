@@ -46,7 +46,7 @@ TEST(Measures, ThatAreNoNumberAreRefused) {
   EXPECT_THROW(static_cast<void>(measurer.values(one)), InvalidInput);
   EXPECT_THROW(static_cast<void>(measurer.values_of(0, one)), InvalidInput);
   EXPECT_THROW(measurer.kept_values_of(0, one), InvalidInput);
-  EXPECT_THROW(measurer.survey_of(0), InvalidInput);
+  EXPECT_THROW(static_cast<void>(measurer.survey_of(0)), InvalidInput);
   EXPECT_THROW(measurer.set_values(), InvalidInput);
 }
 
