@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "skeleton/surface_collapse.h"
 
+#include <span>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -75,10 +76,12 @@ TEST(CollapseThinnest, OfEachComponentIsAsIfItWereAlone) {
   EXPECT_EQ(both.lost_handles, 0U);
   const std::size_t nodes = alone.graph.nodes.size();
   ASSERT_GT(both.graph.nodes.size(), nodes);
-  EXPECT_THAT(std::vector(both.graph.nodes.begin(), both.graph.nodes.begin() + nodes),
-              ::testing::ElementsAreArray(alone.graph.nodes));
-  EXPECT_THAT(std::vector(both.node_of_vertex.begin(),
-                          both.node_of_vertex.begin() + torus.positions.size()),
+  const auto first = [](const auto& list, std::size_t count) {
+    const auto of_all = std::span(list).first(count);
+    return std::vector(of_all.begin(), of_all.end());
+  };
+  EXPECT_THAT(first(both.graph.nodes, nodes), ::testing::ElementsAreArray(alone.graph.nodes));
+  EXPECT_THAT(first(both.node_of_vertex, torus.positions.size()),
               ::testing::ElementsAreArray(alone.node_of_vertex));
 }
 
