@@ -17,7 +17,8 @@ std::vector<double> vertex_shares(const ShapeAnalysis& shape, std::span<const do
                                   Weight weight) {
   std::vector<double> shares(map.begin(), map.end());
   if (weight == Weight::Area) {
-    const std::vector<double> areas = vertex_areas(shape.surface);
+    const std::vector<double> areas =
+        shape.views ? shape.views->vertex_areas : vertex_areas(shape.surface);
     const double whole = surface_area(shape.surface);
     for (std::size_t v = 0; v < shares.size(); ++v) {
       shares[v] *= whole > 0.0 ? areas[v] / whole : 0.0;
