@@ -477,7 +477,8 @@ bool EyeGrid::walk_sorted(const Surface& surface, std::vector<std::uint8_t>& see
 
 bool EyeGrid::hide(const Surface& surface, std::vector<std::uint8_t>& seen, const RunContext& run) {
   if (aim_ == Aim::None) {
-    aim_ = picture_.aim(eye_, surface.rounded, run) ? Aim::Taken : Aim::Failed;
+    const bool is_flat = picture_.aim(eye_of_rounded(surface, eye_), surface.rounded, run);
+    aim_ = is_flat ? Aim::Taken : Aim::Failed;
     if (aim_ == Aim::Taken) {
       picture_.lay_out(static_cast<std::size_t>(std::count(seen.begin(), seen.end(), 1)),
                        surface.blocks.balls, run);

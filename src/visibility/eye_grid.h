@@ -37,6 +37,11 @@ class EyeGrid {
   ///         are so long and thin that a grid is slow. What is 0 by then is hidden all the same.
   bool hide(const Surface& surface, std::vector<std::uint8_t>& seen, const RunContext& run);
 
+  /// Of all samples and blocks of faces, since the first query; null where the eye is too near for one.
+  [[nodiscard]] const EyePicture* picture() const {
+    return aim_ == Aim::Taken ? &picture_ : nullptr;
+  }
+
  private:
   using Place = EyePicture::Place;
   using CellRange = EyePicture::CellRange;

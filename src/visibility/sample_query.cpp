@@ -12,11 +12,31 @@ namespace {
 
 constexpr std::size_t kPointsPerTask = 2048;  // a few tenths of a millisecond
 
+std::vector<std::uint8_t> values_at(std::span<const std::uint8_t> values,
+                                    std::span<const std::uint32_t> places) {
+  std::vector<std::uint8_t> some;
+  some.reserve(places.size());
+  for (const std::uint32_t place : places) {
+    some.push_back(values[place]);
+  }
+  return some;
+}
+
 }  // namespace
+
+SampleScene::SampleScene(Surface prepared) : surface_(std::move(prepared)) {
+  for (std::vector<std::uint32_t>& samples : dense_samples(surface_.samples)) {
+    std::vector<std::uint32_t> faces = faces_between(surface_, samples);
+    auto scene = std::make_unique<SampleScene>(part_of(surface_, samples, faces));
+    parts_.push_back({std::move(samples), std::move(faces), std::move(scene)});
+  }
+}
 
 template <typename Holds>
 bool SampleScene::hidden(const Vec3& start, const Viewpoint& eye, const Holds& holds) {
-  std::call_once(candidates_once_, [&] { candidates_.emplace(surface_.samples, surface_.faces); });
+  const UnitFrame& rounding = surface_.rounding;
+  std::call_once(candidates_once_,
+                 [&] { candidates_.emplace(rounding.to_frame(surface_.samples), surface_.faces); });
   const bool bounded = eye.projection == Projection::Perspective;
   const Vec3 direction = bounded ? Vec3(eye.position - start) : eye.position;
   if (!(direction.squaredNorm() > 0.0)) {
@@ -24,12 +44,13 @@ bool SampleScene::hidden(const Vec3& start, const Viewpoint& eye, const Holds& h
   }
   const Segment segment(start, direction, bounded);
   const double length = direction.norm();
-  const double reach = bounded ? length : std::numeric_limits<double>::infinity();
-  return candidates_->any(start, direction / length, reach, [&](std::uint32_t f) {
-    const Triangle& t = surface_.faces[f];
-    return !holds(f) && segment.crosses(surface_.samples[t[0]], surface_.samples[t[1]],
-                                        surface_.samples[t[2]], surface_.twice_areas[f]);
-  });
+  const double reach = bounded ? length * rounding.scale : std::numeric_limits<double>::infinity();
+  return candidates_->any(
+      rounding.to_frame(start), direction / length, reach, [&](std::uint32_t f) {
+        const Triangle& t = surface_.faces[f];
+        return !holds(f) && segment.crosses(surface_.samples[t[0]], surface_.samples[t[1]],
+                                            surface_.samples[t[2]], surface_.twice_areas[f]);
+      });
 }
 
 bool SampleScene::hides_sample(std::uint32_t sample, const Viewpoint& eye) {
@@ -45,10 +66,13 @@ bool SampleScene::hides_place(const Vec3& place, std::uint32_t face, const Viewp
 
 SampleQuery::SampleQuery(SampleScene& scene, const Viewpoint& eye, const RunContext& run,
                          std::span<const std::uint8_t> back_faces)
-    : scene_(scene), eye_(eye), run_(run), memory_(scene.memory_) {
+    : scene_(scene),
+      eye_(eye),
+      run_(run),
+      back_faces_(back_faces.empty() ? scene.surface_.back_faces : back_faces),
+      memory_(scene.memory_) {
   find_turned(scene.surface_, eye, memory_->turned, run);
-  memory_->grid.begin(eye, memory_->turned,
-                      back_faces.empty() ? scene.surface_.back_faces : back_faces);
+  memory_->grid.begin(eye, memory_->turned, back_faces_);
 }
 
 std::vector<std::uint8_t> SampleQuery::seen_samples() {
@@ -97,11 +121,44 @@ void SampleQuery::clear_hidden(std::vector<std::uint8_t>& asked) {
   });
 }
 
+/// Takes those of a part's samples out of `seen` that a face hides.
+void SampleQuery::clear_hidden_of(const DensePart& part, std::span<const std::uint8_t> asked,
+                                  std::vector<std::uint8_t>& seen) {
+  const Surface& surface = scene_.surface_;
+  std::vector<std::uint8_t> left = values_at(asked, part.samples);
+  const std::vector<std::uint8_t> back_faces =
+      back_faces_.empty() ? std::vector<std::uint8_t>{} : values_at(back_faces_, part.faces);
+  left = SampleQuery(*part.scene, eye_, run_, back_faces).not_hidden(std::move(left));
+  const EyePicture& picture = *memory_->grid.picture();
+  const std::vector<FaceBefore> others = faces_before(part, left, surface, picture);
+  parallel_for(run_, left.size(), kPointsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t sample = part.samples[i];
+      seen[sample] = left[i] != 0 && !is_hidden_by(others, sample, surface, picture, eye_) ? 1 : 0;
+    }
+  });
+}
+
 std::vector<std::uint8_t> SampleQuery::not_hidden(std::vector<std::uint8_t> asked) {
-  if (!memory_->grid.hide(scene_.surface_, asked, run_)) {
-    clear_hidden(asked);
+  std::vector<std::uint8_t> seen = asked;
+  for (const DensePart& part : scene_.parts_) {
+    for (const std::uint32_t sample : part.samples) {
+      seen[sample] = 0;
+    }
   }
-  return asked;
+  EyeGrid& grid = memory_->grid;
+  const bool is_complete = grid.hide(scene_.surface_, seen, run_);
+  if (grid.picture() == nullptr) {
+    clear_hidden(asked);
+    return asked;
+  }
+  if (!is_complete) {
+    clear_hidden(seen);
+  }
+  for (const DensePart& part : scene_.parts_) {
+    clear_hidden_of(part, asked, seen);
+  }
+  return seen;
 }
 
 }  // namespace vantage

@@ -12,6 +12,7 @@
 #include "vantage/core/run_context.h"
 
 #include "spatial/ray_scene.h"
+#include "visibility/dense_parts.h"
 #include "visibility/eye_grid.h"
 #include "visibility/surface.h"
 
@@ -65,7 +66,7 @@ class SampleQuery;
 /// Queries may run on many threads at once.
 class SampleScene {
  public:
-  explicit SampleScene(Surface prepared) : surface_(std::move(prepared)) {}
+  explicit SampleScene(Surface prepared);
 
   [[nodiscard]] const Surface& surface() const { return surface_; }
 
@@ -83,6 +84,7 @@ class SampleScene {
   bool hidden(const Vec3& start, const Viewpoint& eye, const Holds& holds);
 
   Surface surface_;
+  std::vector<DensePart> parts_{};
 
   /// Working memory of one query.
   struct QueryMemory {
@@ -127,10 +129,13 @@ class SampleQuery {
  private:
   [[nodiscard]] std::vector<std::uint8_t> turned_among(std::span<const std::uint8_t> samples) const;
   void clear_hidden(std::vector<std::uint8_t>& asked);
+  void clear_hidden_of(const DensePart& part, std::span<const std::uint8_t> asked,
+                       std::vector<std::uint8_t>& seen);
 
   SampleScene& scene_;
   Viewpoint eye_;
   RunContext run_;
+  std::span<const std::uint8_t> back_faces_;
   LentMemory<SampleScene::QueryMemory>::Loan memory_;
 };
 

@@ -143,14 +143,15 @@ std::vector<std::uint32_t> number_samples(const std::vector<Vec3>& positions,
   return sample_of_welded;
 }
 
-FacePlanes planes_of(const Surface& surface) {
+/// \param samples where they are rounded.
+FacePlanes planes_of(const Surface& surface, const std::vector<Vec3>& samples) {
   FacePlanes planes;
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
     const Vec3 normal = surface.area_vectors[f] / surface.twice_areas[f];
     planes.x.push_back(static_cast<float>(normal.x()));
     planes.y.push_back(static_cast<float>(normal.y()));
     planes.z.push_back(static_cast<float>(normal.z()));
-    planes.offset.push_back(static_cast<float>(normal.dot(surface.samples[surface.faces[f][0]])));
+    planes.offset.push_back(static_cast<float>(normal.dot(samples[surface.faces[f][0]])));
   }
   return planes;
 }
@@ -228,14 +229,15 @@ void add_cones(const Surface& surface, FaceBlocks& blocks) {
   }
 }
 
-FaceBlocks blocks_of(const Surface& surface) {
+/// \param samples where they are rounded.
+FaceBlocks blocks_of(const Surface& surface, const std::vector<Vec3>& samples) {
   FaceBlocks blocks;
   const std::size_t count = surface.faces.size();
   for (std::size_t begin = 0; begin < count; begin += FaceBlocks::kFaces) {
     std::vector<Vec3> corners;
     for (std::size_t f = begin; f < std::min(count, begin + FaceBlocks::kFaces); ++f) {
       for (const std::uint32_t sample : surface.faces[f]) {
-        corners.push_back(surface.samples[sample]);
+        corners.push_back(samples[sample]);
       }
     }
     const Box box = bounding_box(corners);
@@ -253,6 +255,15 @@ FaceBlocks blocks_of(const Surface& surface) {
         static_cast<float>(std::sqrt(squared) * (1.0 + kRounding) + kRounding));
   }
   return blocks;
+}
+
+/// Rounds its samples and faces.
+void add_rounded(Surface& surface) {
+  const std::vector<Vec3> samples = surface.rounding.to_frame(surface.samples);
+  surface.rounded = rounded_points(samples);
+  surface.planes = planes_of(surface, samples);
+  surface.blocks = blocks_of(surface, samples);
+  add_cones(surface, surface.blocks);
 }
 
 }  // namespace
@@ -350,10 +361,7 @@ Surface visibility_surface(const TriMesh& mesh, std::span<const FaceSides> sides
     surface.sides.push_back(faces[f].sides);
     surface.face_of_mesh.push_back(faces[f].of_mesh);
   }
-  surface.rounded = rounded_points(surface.samples);
-  surface.planes = planes_of(surface);
-  surface.blocks = blocks_of(surface);
-  add_cones(surface, surface.blocks);
+  add_rounded(surface);
 
   // A vertex that no face names is never seen, even at a position that others use.
   surface.sample_of_vertex.assign(mesh.positions.size(), Surface::kNoSample);
@@ -365,19 +373,51 @@ Surface visibility_surface(const TriMesh& mesh, std::span<const FaceSides> sides
   return surface;
 }
 
+Surface part_of(const Surface& whole, std::span<const std::uint32_t> samples,
+                std::span<const std::uint32_t> faces) {
+  Surface part;
+  part.frame = whole.frame;
+  for (const std::uint32_t i : samples) {
+    part.samples.push_back(whole.samples[i]);
+  }
+  const auto place_of = [&](std::uint32_t sample) {
+    return static_cast<std::uint32_t>(std::lower_bound(samples.begin(), samples.end(), sample) -
+                                      samples.begin());
+  };
+  for (const std::uint32_t f : faces) {
+    const auto& [a, b, c] = whole.faces[f];
+    part.faces.push_back({place_of(a), place_of(b), place_of(c)});
+    part.area_vectors.push_back(whole.area_vectors[f]);
+    part.twice_areas.push_back(whole.twice_areas[f]);
+    part.sides.push_back(whole.sides[f]);
+    if (!whole.back_faces.empty()) {
+      part.back_faces.push_back(whole.back_faces[f]);
+    }
+  }
+  part.rounding = unit_frame(part.samples);
+  add_rounded(part);
+  return part;
+}
+
+Viewpoint eye_of_rounded(const Surface& surface, const Viewpoint& eye) {
+  const bool is_place = eye.projection == Projection::Perspective;
+  return {eye.projection, is_place ? surface.rounding.to_frame(eye.position) : eye.position};
+}
+
 void find_turned(const Surface& surface, const Viewpoint& eye, TurnedFaces& turned,
                  const RunContext& run) {
+  const Viewpoint rounded_eye = eye_of_rounded(surface, eye);
   const FacePlanes& planes = surface.planes;
   const std::size_t count = surface.faces.size();
   std::vector<std::uint8_t>& of_face = turned.of_face;
   of_face.resize(count);
   const bool perspective = eye.projection == Projection::Perspective;
-  const auto length = static_cast<float>(eye.position.norm());
-  const Eigen::Vector3f at = eye.position.cast<float>();
+  const auto length = static_cast<float>(rounded_eye.position.norm());
+  const Eigen::Vector3f at = rounded_eye.position.cast<float>();
   const float offset = perspective ? 1.0F : 0.0F;
   // Bounds the rounding of the float height below: a dozen roundings of numbers of this size.
   const float error_bound = 0x1p-19F * (length + 2.0F);
-  find_turned_blocks(surface.blocks, eye, error_bound, turned.of_block);
+  find_turned_blocks(surface.blocks, rounded_eye, error_bound, turned.of_block);
   const auto faces_of = [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       const float height = planes.x[f] * at.x() + planes.y[f] * at.y() + planes.z[f] * at.z() -

@@ -46,9 +46,10 @@ struct Surface {
   std::vector<double> twice_areas{};              ///< Their lengths; > 0.
   std::vector<FaceSides> sides{};                 ///< Of each face.
   std::vector<std::uint32_t> face_of_mesh{};      ///< The mesh's face that each face was.
-  FloatPoints rounded{};                          ///< The samples.
-  FacePlanes planes{};                            ///< Of each face.
-  FaceBlocks blocks{};                            ///< Of faces 0 … kFaces−1 and so on.
+  UnitFrame rounding{};                           ///< In it are, seen from the samples' frame:
+  FloatPoints rounded{};                          ///< the samples,
+  FacePlanes planes{};                            ///< of each face,
+  FaceBlocks blocks{};                            ///< of faces 0 … kFaces−1 and so on.
   std::vector<std::uint8_t> back_faces{};  ///< FaceMeetings::occluding_back_faces; none: not known.
 };
 
@@ -73,6 +74,14 @@ Viewpoint eye_in_frame(const Viewpoint& eye, const UnitFrame& frame);
 /// \param sides one per component of connected_components(mesh), or a single one for all.
 /// \throw InvalidInput if there are neither.
 Surface visibility_surface(const TriMesh& mesh, std::span<const FaceSides> sides);
+
+/// Some samples of a surface and the faces between them, rounded in a frame of their own: what is decided in double
+/// is decided as for the whole. \param samples ascending. \param faces the faces between them, ascending
+Surface part_of(const Surface& whole, std::span<const std::uint32_t> samples,
+                std::span<const std::uint32_t> faces);
+
+/// The eye of a query where the surface's rounded points are.
+Viewpoint eye_of_rounded(const Surface& surface, const Viewpoint& eye);
 
 /// The faces of the mesh that visibility_surface() leaves out because an earlier one stands in their
 /// place, ascending. \param sides as there. \throw InvalidInput as there
