@@ -146,20 +146,20 @@ class Voxels {
 class Span {
  public:
   void add(const EyePicture::Place& place) {
-    low = place < low ? place : low;
-    high = high < place ? place : high;
+    low_ = place < low_ ? place : low_;
+    high_ = high_ < place ? place : high_;
   }
 
   /// Wider by so much in the picture, and in depth.
   [[nodiscard]] EyePicture::Extent widened(float reach, float depth) const {
     const EyePicture::Place more{reach, reach, depth, 0.0F};
-    return {low - more, high + more};
+    return {low_ - more, high_ + more};
   }
 
  private:
   static constexpr float kNone = std::numeric_limits<float>::max();
-  EyePicture::Place low{kNone, kNone, kNone, 0.0F};
-  EyePicture::Place high{-kNone, -kNone, -kNone, 0.0F};
+  EyePicture::Place low_{kNone, kNone, kNone, 0.0F};
+  EyePicture::Place high_{-kNone, -kNone, -kNone, 0.0F};
 };
 
 /// Whether what spans the first may hide what spans the second.
