@@ -2,12 +2,15 @@
 #include "spatial/close_faces.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "vantage/mesh/measures.h"
 
 #include "support/shapes.h"
 
@@ -27,18 +30,11 @@ Pairs pairs_of(const TriMesh& mesh) {
   return pairs;
 }
 
-/// How far the boxes of two faces are apart along some axis; below 0 if they overlap.
-double gap_between(const TriMesh& mesh, std::uint32_t f, std::uint32_t g) {
+/// How far two boxes are apart along some axis; below 0 if they overlap.
+double gap_between(const Box& one, const Box& other) {
   double gap = -1.0;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const auto span_of = [&](std::uint32_t face) {
-      const auto& [a, b, c] = mesh.triangles[face];
-      return std::minmax(
-          {mesh.positions[a][axis], mesh.positions[b][axis], mesh.positions[c][axis]});
-    };
-    const auto [low, high] = span_of(f);
-    const auto [other_low, other_high] = span_of(g);
-    gap = std::max({gap, other_low - high, low - other_high});
+    gap = std::max({gap, other.low[axis] - one.high[axis], one.low[axis] - other.high[axis]});
   }
   return gap;
 }
@@ -46,10 +42,15 @@ double gap_between(const TriMesh& mesh, std::uint32_t f, std::uint32_t g) {
 /// Pairs that are wrongly among those found, or missing.
 std::size_t mistakes_in(const TriMesh& mesh, const Pairs& found) {
   constexpr double kNearly = 1e-6;  // some roundings to float
+  std::vector<Box> boxes;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    boxes.push_back(
+        bounding_box(std::array{mesh.positions[a], mesh.positions[b], mesh.positions[c]}));
+  }
   std::size_t mistakes = 0;
   for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
     for (std::uint32_t g = f + 1; g < mesh.triangles.size(); ++g) {
-      const double gap = gap_between(mesh, f, g);
+      const double gap = gap_between(boxes[f], boxes[g]);
       const bool is_found = found.contains({f, g});
       mistakes += is_found ? (gap > kNearly ? 1 : 0) : (gap <= 0.0 ? 1 : 0);
     }
@@ -60,7 +61,7 @@ std::size_t mistakes_in(const TriMesh& mesh, const Pairs& found) {
 TEST(CloseFaces, AreAllPairsWhoseBoxesOverlap) {
   for (const TriMesh& mesh :
        {test::torus(1.0, 0.3, 23, 11), test::soup(test::sphere(2)), test::box(1.0, 2.0, 3.0, 4),
-        test::together(test::sphere(2), test::sphere(3), Vec3(0.5, 0.0, 0.0))}) {
+        test::together(test::sphere(1), test::sphere(2), Vec3(0.5, 0.0, 0.0))}) {
     const Pairs found = pairs_of(mesh);
     EXPECT_GT(found.size(), mesh.triangles.size());
     EXPECT_EQ(mistakes_in(mesh, found), 0U);

@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "spatial/picture_cells.h"
-#include "spatial/segment.h"
 #include "support/random_soup.h"
 #include "support/shapes.h"
+#include "visibility/sample_query.h"
 #include "visibility/surface.h"
 
 namespace vantage {
@@ -26,7 +26,7 @@ constexpr std::size_t kEnough = 100'000'000;  // steps
 class Clipped {
  public:
   Clipped(const TriMesh& mesh, const Viewpoint& eye)
-      : surface_(visibility_surface(mesh, sides_)), local_(eye_in_frame(eye, surface_.frame)) {
+      : scene_(visibility_surface(mesh, sides_)), local_(eye_in_frame(eye, surface_.frame)) {
     for (std::size_t f = 0; f < surface_.faces.size(); ++f) {
       const double height =
           surface_.area_vectors[f].dot(sight_line(surface_.samples[surface_.faces[f][0]], local_));
@@ -87,7 +87,7 @@ class Clipped {
   [[nodiscard]] int turned(std::uint32_t face) const { return turned_[number_of(face)]; }
 
   /// The same from the centroids of squared `side` parts of each face.
-  [[nodiscard]] std::vector<double> sampled_shares(int side) const {
+  [[nodiscard]] std::vector<double> sampled_shares(int side) {
     std::vector<double> result(surface_.faces.size(), 0.0);
     for (std::uint32_t f = 0; f < result.size(); ++f) {
       const auto& [a, b, c] = surface_.faces[f];
@@ -98,10 +98,9 @@ class Clipped {
           const double u = (i + third) / side;
           const int row = j / 2;
           const double v = (row + third) / side;
-          seen += is_hidden(f, u * surface_.samples[a] + v * surface_.samples[b] +
-                                   (1.0 - u - v) * surface_.samples[c])
-                      ? 0
-                      : 1;
+          const Vec3 place = u * surface_.samples[a] + v * surface_.samples[b] +
+                             (1.0 - u - v) * surface_.samples[c];
+          seen += scene_.hides_place(place, f, local_) ? 0 : 1;
         }
       }
       result[surface_.face_of_mesh[f]] = static_cast<double>(seen) / (side * side);
@@ -141,20 +140,9 @@ class Clipped {
     return static_cast<std::uint32_t>(at - surface_.face_of_mesh.begin());
   }
 
-  [[nodiscard]] bool is_hidden(std::uint32_t face, const Vec3& place) const {
-    const Segment segment = segment_to(place, local_);
-    for (std::uint32_t f = 0; f < surface_.faces.size(); ++f) {
-      const auto& [a, b, c] = surface_.faces[f];
-      if (f != face && segment.crosses(surface_.samples[a], surface_.samples[b],
-                                       surface_.samples[c], surface_.twice_areas[f])) {
-        return true;
-      }
-    }
-    return false;
-  }
-
   std::vector<FaceSides> sides_{FaceSides::Both};
-  Surface surface_;
+  SampleScene scene_;
+  const Surface& surface_ = scene_.surface();
   Viewpoint local_;
   std::vector<std::uint8_t> turned_{};
 };
@@ -215,7 +203,7 @@ TEST(FaceClip, KeepsWhatShadowsPassByInOnePart) {
 TEST(FaceClip, LeavesWhatSamplesSee) {
   for (const Viewpoint& eye : {Viewpoint{Projection::Orthographic, Vec3(0.3, -0.2, 1.0)},
                                Viewpoint{Projection::Perspective, Vec3(3.0, 2.0, 4.0)}}) {
-    const Clipped clipped(test::random_soup(60, 7), eye);
+    Clipped clipped(test::random_soup(60, 7), eye);
     const std::vector<double> exact = clipped.shares();
     const std::vector<double> sampled = clipped.sampled_shares(40);
     double sum = 0.0;
