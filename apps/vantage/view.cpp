@@ -251,7 +251,7 @@ struct ViewCommand {
       session.tell("  certified   best " + rounded(100.0 * gap->best_ratio, 5) +
                    " % of a dense search's, worst " +
                    rounded(100.0 * std::abs(gap->worst_above), 3) + " % of the range " +
-                   (gap->worst_above < 0.0 ? "below" : "above") + " its");
+                   (gap->worst_above < 0.0 ? "lower" : "higher") + " than its");
     }
     session.tell("  time        " + timing_line(seconds));
     session.tell("  results in  " + printable(output.path()) + "/");

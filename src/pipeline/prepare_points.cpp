@@ -91,9 +91,9 @@ ShapeAnalysis prepare_points(const Model& model, const RunContext& run) {
   shape.surface_vertex = std::move(welded.welded_of_vertex);
   const std::size_t n = shape.surface.positions.size();
   if (shape.surface.triangles.empty()) {
-    throw InvalidInput(model.name +
-                       ": the points lie on one line or are fewer than three, so there is no shape "
-                       "to look at");
+    throw InvalidInput(about_model(
+        model.name,
+        "the points lie on one line or are fewer than three, so there is no shape to look at"));
   }
   const std::vector<Vec3> drawn = drawn_points(shape);
   shape.sphere = enclosing_sphere(drawn);

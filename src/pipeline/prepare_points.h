@@ -9,6 +9,9 @@
 
 namespace vantage {
 
+/// What is wrong with a model, behind its name if it has one.
+std::string about_model(const std::string& name, const std::string& problem);
+
 /// \throw InvalidInput if nothing can be computed with points so large, small or far away.
 void check_extent(std::span<const Vec3> points, const std::string& name);
 

@@ -74,8 +74,12 @@ void list_specks(const Specks& specks, std::vector<std::string>& warnings) {
 
 void check_extent(std::span<const Vec3> points, const std::string& name) {
   if (const std::string problem = extent_problem(points); !problem.empty()) {
-    throw InvalidInput(name + ": the model " + problem);
+    throw InvalidInput(about_model(name, "the model " + problem));
   }
+}
+
+std::string about_model(const std::string& name, const std::string& problem) {
+  return name.empty() ? problem : name + ": " + problem;
 }
 
 void list_coarse_coordinates(std::span<const Vec3> points, std::vector<std::string>& warnings) {
@@ -115,9 +119,9 @@ ShapeAnalysis prepare_surface(const Model& model, const RunContext& run) {
     shape.flow = texture_flow(model.mesh, model.appearance);
   }
   if (welded.mesh.triangles.empty() || !(shape.sphere.diameter > 0.0)) {
-    throw InvalidInput(
-        model.name +
-        ": all faces have collapsed to points or lines, so there is no shape to look at");
+    throw InvalidInput(about_model(
+        model.name,
+        "all faces have collapsed to points or lines, so there is no shape to look at"));
   }
   shape.surface = std::move(oriented.mesh);
   shape.sides = std::move(oriented.sides);

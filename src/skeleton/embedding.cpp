@@ -125,6 +125,33 @@ CurveGraph centre_nodes(const CurveGraph& graph, const TriMesh& mesh,
   return centred;
 }
 
+CurveGraph without_merged(const CurveGraph& graph, const std::vector<std::uint32_t>& stands_for,
+                          std::vector<std::uint32_t>& node_of_vertex) {
+  CurveGraph kept;
+  std::vector<std::uint32_t> new_of_old(graph.nodes.size(), Skeleton::kNone);
+  for (std::uint32_t i = 0; i < graph.nodes.size(); ++i) {
+    if (stands_for[i] == i) {
+      new_of_old[i] = static_cast<std::uint32_t>(kept.nodes.size());
+      kept.nodes.push_back(graph.nodes[i]);
+    }
+  }
+  for (const auto& [a, b] : graph.edges) {
+    if (stands_for[a] == a && stands_for[b] == b) {
+      kept.edges.push_back({new_of_old[a], new_of_old[b]});
+    }
+  }
+  for (std::uint32_t& node : node_of_vertex) {
+    if (node != Skeleton::kNone) {
+      // A junction may itself have become part of a longer end that was cut later.
+      while (stands_for[node] != node) {
+        node = stands_for[node];
+      }
+      node = new_of_old[node];
+    }
+  }
+  return kept;
+}
+
 CurveGraph prune_ends(const CurveGraph& graph, double ratio, const std::vector<double>& radius,
                       std::vector<std::uint32_t>& node_of_vertex) {
   Adjacency lists = node_neighbours(graph);
@@ -144,29 +171,7 @@ CurveGraph prune_ends(const CurveGraph& graph, double ratio, const std::vector<d
     }
   }
 
-  CurveGraph pruned;
-  std::vector<std::uint32_t> new_of_old(graph.nodes.size(), Skeleton::kNone);
-  for (std::uint32_t i = 0; i < graph.nodes.size(); ++i) {
-    if (stands_for[i] == i) {
-      new_of_old[i] = static_cast<std::uint32_t>(pruned.nodes.size());
-      pruned.nodes.push_back(graph.nodes[i]);
-    }
-  }
-  for (const auto& [a, b] : graph.edges) {
-    if (stands_for[a] == a && stands_for[b] == b) {
-      pruned.edges.push_back({new_of_old[a], new_of_old[b]});
-    }
-  }
-  for (std::uint32_t& node : node_of_vertex) {
-    if (node != Skeleton::kNone) {
-      // A junction may itself have become part of a longer end that was cut later.
-      while (stands_for[node] != node) {
-        node = stands_for[node];
-      }
-      node = new_of_old[node];
-    }
-  }
-  return pruned;
+  return without_merged(graph, stands_for, node_of_vertex);
 }
 
 }  // namespace vantage

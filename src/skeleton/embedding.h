@@ -20,6 +20,12 @@ std::vector<double> node_radii(const CurveGraph& graph, const TriMesh& mesh,
 CurveGraph centre_nodes(const CurveGraph& graph, const TriMesh& mesh,
                         std::span<const std::uint32_t> node_of_vertex);
 
+/// The graph without the nodes that others stand for; their edges to others go.
+/// \param stands_for     of each node the one that takes its vertices, itself if it stays.
+/// \param node_of_vertex mapped to the remaining nodes.
+CurveGraph without_merged(const CurveGraph& graph, const std::vector<std::uint32_t>& stands_for,
+                          std::vector<std::uint32_t>& node_of_vertex);
+
 /// Cuts ends whose length is below `ratio` times the radius at the junction they hang from,
 /// shortest first; their vertices go to the junction. Cycles and components stay.
 /// \param radius         |N| radii.

@@ -11,6 +11,7 @@
 
 #include "core/parallel.h"
 #include "mesh/close_nodes.h"
+#include "skeleton/bent_ends.h"
 #include "skeleton/collapsed.h"
 #include "skeleton/curve_fitting.h"
 #include "skeleton/embedding.h"
@@ -89,6 +90,10 @@ void finish(const TriMesh& mesh, const ContractionHistory& history, const Shell*
     skeleton.graph = centre_nodes(skeleton.graph, mesh, skeleton.node_of_vertex);
     skeleton.graph =
         move_nodes_inside(skeleton.graph, skeleton.raw, *routing, skeleton.node_of_vertex);
+  }
+  if (options.prune && routing && options.centre) {
+    skeleton.graph =
+        take_in_bent_ends(skeleton.graph, options.prune_ratio, *routing, skeleton.node_of_vertex);
   }
   if (options.prune) {
     const std::vector<double> radius = node_radii(skeleton.graph, mesh, skeleton.node_of_vertex);

@@ -168,7 +168,18 @@ TEST(PrepareSurface, RefusesAModelWithoutExtent) {
   TriMesh dot;
   dot.positions.assign(3, Vec3(1.0, 2.0, 3.0));
   dot.triangles = {{0, 1, 2}};
-  EXPECT_THROW(prepare_surface(model_of(dot)), InvalidInput);
+  const auto problem_of = [&](const std::string& name) -> std::string {
+    Model model = model_of(dot);
+    model.name = name;
+    try {
+      prepare_surface(model);
+    } catch (const InvalidInput& e) {
+      return e.what();
+    }
+    return "none";
+  };
+  EXPECT_THAT(problem_of("dot"), testing::StartsWith("dot: all faces"));
+  EXPECT_THAT(problem_of(""), testing::StartsWith("all faces"));
 }
 
 TEST(AnalyseShape, CountsAllLevelsWhereThereIsNoSecondCurve) {
