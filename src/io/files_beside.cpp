@@ -26,7 +26,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kMostText = 64U << 20U;  // [ours] of a glTF, and of all lines with libraries
+constexpr std::size_t kMostLibraries = 64U << 20U;  // [ours] of all lines with libraries
 // A GLB begins with 12 bytes of its own and 8 of the chunk that is its JSON, the first four its length.
 constexpr std::size_t kGlbHeaders = 20;
 constexpr std::size_t kGlbLength = 12;
@@ -41,14 +41,18 @@ bool may_name_library(std::string_view line) {
 }
 
 /// Paths that the reader would ask for, in the order of the text.
-std::vector<std::string> names_in_gltf(const std::string& text) {
+std::vector<std::string> names_in_gltf(std::string_view text) {
+  using nlohmann::json;
+  const auto is_list = [](int depth, json::parse_event_t event, const json& key) {
+    return depth > 1 || event != json::parse_event_t::key || key == "buffers" || key == "images";
+  };
   std::vector<std::string> names;
-  const auto json = nlohmann::json::parse(text, nullptr, false);
+  const auto gltf = json::parse(text, is_list, false);
   for (const char* const list : {"buffers", "images"}) {
-    if (!json.is_object() || !json.contains(list) || !json[list].is_array()) {
+    if (!gltf.is_object() || !gltf.contains(list) || !gltf[list].is_array()) {
       continue;
     }
-    for (const auto& file : json[list]) {
+    for (const auto& file : gltf[list]) {
       if (!file.is_object() || !file.contains("uri") || !file["uri"].is_string()) {
         continue;
       }
@@ -138,7 +142,7 @@ void FilesBeside::tell_format() {
 
 void FilesBeside::keep(std::string_view bytes) {
   if (format_ == ModelFormat::Gltf) {
-    text_.append(bytes.substr(0, kMostText - std::min(text_.size(), kMostText)));
+    text_.append(bytes);
   } else if (format_ == ModelFormat::Glb) {
     keep_json_of_glb(bytes);
   } else if (format_ == ModelFormat::Ply) {
@@ -162,12 +166,12 @@ void FilesBeside::keep_json_of_glb(std::string_view bytes) {
   keep_up_to(kGlbHeaders);
   if (text_.size() >= kGlbHeaders) {
     const auto length = decode<std::uint32_t>(text_.data() + kGlbLength, ByteOrder::Little);
-    keep_up_to(kGlbHeaders + std::min<std::size_t>(length, kMostText));
+    keep_up_to(kGlbHeaders + length);
   }
 }
 
 void FilesBeside::keep_libraries(std::string_view bytes) {
-  while (!bytes.empty() && text_.size() < kMostText) {
+  while (!bytes.empty() && text_.size() < kMostLibraries) {
     const auto end = static_cast<std::size_t>(
         std::find_if(bytes.begin(), bytes.end(), is_line_end) - bytes.begin());
     if (!skips_) {
@@ -198,7 +202,7 @@ std::vector<FileBeside> FilesBeside::find() {
   std::vector<std::string> names;
   if (format_ == ModelFormat::Gltf || format_ == ModelFormat::Glb) {
     const std::size_t begin = format_ == ModelFormat::Glb ? kGlbHeaders : 0;
-    names = names_in_gltf(text_.substr(std::min(begin, text_.size())));
+    names = names_in_gltf(std::string_view(text_).substr(std::min(begin, text_.size())));
   } else if (format_ == ModelFormat::Obj) {
     names = names_in_obj(text_ + line_, files, exists);
   } else if (format_ == ModelFormat::Ply) {

@@ -126,8 +126,7 @@ class FilesBeside {
   void add_pictures(std::vector<std::string> names) { pictures_ = std::move(names); }
 
   /// Call once all bytes have passed. \return the files, each once, in an order that the files' contents
-  /// say, and those that would be read if they were there. Those of a glTF of more than 64 MB of JSON are
-  /// not found.
+  /// say, and those that would be read if they were there.
   std::vector<FileBeside> find();
 
  private:
