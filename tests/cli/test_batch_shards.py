@@ -85,14 +85,23 @@ class Shards(BatchTest):
         self.assertFalse((self.dir / "all/.work/merge").exists())
         self.assertEqual(self.batch(*words, out="all")["skipped"], 2)
 
-    def test_a_further_batch_without_its_folders_brings_no_others(self):
-        self.batch("00.off", out="all")
-        self.batch("00.off", "--objective", "significance", out="part")
+    def test_a_further_batch_without_its_folders_takes_no_results_away(self):
+        self.batch("00.off", "01.off", out="all")  # equal ones
+        before = self.export("all")
+        self.batch("00.off", "01.off", "--objective", "significance", out="part")
         shutil.rmtree(self.dir / "part/models")
         for _ in range(2):
-            self.assertIn("1 record came without results", self.vantage("results", "merge", "all", "part").err)
-            self.assertIn("has no results; run the batch again",
-                          self.vantage("results", "verify", "all", exit_code=1).out)
+            self.assertIn("2 records came without results", self.vantage("results", "merge", "all", "part").err)
+            self.assertIn("1 folder of results: all sound", self.vantage("results", "verify", "all").out)
+            self.assertEqual(self.export("all"), before)
+
+    def test_a_record_without_its_folder_gets_none_of_another_answer(self):
+        self.batch("00.off", out="all")
+        shutil.rmtree(self.dir / "all/models")
+        self.batch("00.off", "--objective", "significance", out="part")
+        shutil.rmtree(self.dir / "part/models")
+        self.vantage("results", "merge", "all", "part")
+        self.assertIn("has no results; run the batch again", self.vantage("results", "verify", "all", exit_code=1).out)
         self.assertEqual(self.batch("00.off", "--objective", "significance", out="all")["done"], 1)
         self.assertIn("all sound", self.vantage("results", "verify", "all").out)
 

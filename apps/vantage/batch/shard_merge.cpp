@@ -50,10 +50,7 @@ class Merge {
         root_(root),
         run_(run),
         heirs_(store, root,
-               {.is_there =
-                    [this](const std::string& folder) {
-                      return coming_.contains(folder) || root_.is_folder(model_folder(folder));
-                    },
+               {.is_there = [this](const std::string& folder) { return is_there(folder); },
                 .move =
                     [this](const std::string& from, const std::string& folder) {
                       moves_.emplace_back(from, folder);
@@ -74,6 +71,8 @@ class Merge {
       take_beside(record, owner);
     } else if (brings_results) {
       take_with_results(record, *origin);
+    } else if (origin != nullptr && !record.duplicate_of.empty()) {
+      equals_.push_back(record);
     } else {
       put(record);
     }
@@ -82,6 +81,7 @@ class Merge {
   /// Stores what was taken in, and puts results in place. Between the two no record names a folder that others
   /// come into: who is killed there leaves models without results, which the next merge or batch brings.
   void finish() {
+    std::for_each(equals_.begin(), equals_.end(), [this](const auto& equal) { take_equal(equal); });
     std::vector<std::pair<std::string, std::string>> owners;
     for (const std::string& folder : coming_) {
       if (const std::string key = store_.owner_of(folder); !key.empty()) {
@@ -130,10 +130,34 @@ class Merge {
       return;
     }
     ++counts_.missing;
-    const std::optional<ModelRecord> held = store_.find(record.key);
-    ModelRecord bare = record;  // what is in that folder here may be the answer to something else
-    bare.folder = held && have_one_answer(*held, record) ? held->folder : "";
-    put(bare);
+    if (!has_results(record.key)) {
+      ModelRecord bare = record;  // what is in that folder here may be the answer to something else
+      bare.folder.clear();
+      put(bare);
+    }
+  }
+
+  /// Takes in a record that has another's results, unless those did not come and it has some.
+  void take_equal(const ModelRecord& record) {
+    const std::optional<ModelRecord> owner = store_.find(record.duplicate_of);
+    if ((owner && have_one_answer(*owner, record)) || !has_results(record.key)) {
+      put(record);
+    } else if (is_wanted(record)) {
+      ++counts_.missing;
+    }
+  }
+
+  [[nodiscard]] bool is_there(const std::string& folder) const {
+    return coming_.contains(folder) || root_.is_folder(model_folder(folder));
+  }
+
+  /// Whether there are results of a model, or of the one whose results stand for it.
+  [[nodiscard]] bool has_results(const std::string& key) {
+    std::optional<ModelRecord> held = store_.find(key);
+    if (held && !held->duplicate_of.empty()) {
+      held = store_.find(held->duplicate_of);
+    }
+    return held && held->status == "done" && !held->folder.empty() && is_there(held->folder);
   }
 
   /// Takes in a record whose folder is there, as another model's: of equal models, that one's results stand
@@ -182,7 +206,8 @@ class Merge {
   ResultHeirs heirs_;
   std::vector<std::pair<std::string, std::string>> moves_{};  // of results to folders, in order
   std::set<std::string> coming_{};                            // those folders
-  std::vector<std::string> left_{};  // folders of records that were replaced
+  std::vector<ModelRecord> equals_{};  // of further folders; their results may come after them
+  std::vector<std::string> left_{};    // folders of records that were replaced
   MergeCounts counts_{};
 };
 
