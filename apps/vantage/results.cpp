@@ -231,8 +231,10 @@ struct DiffCommand {
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("A", before, "folder of a batch")->required();
     app.add_option("B", after, "folder of another one")->required();
-    app.add_option("--tolerance", tolerance,
-                   "scores may differ by this share of the larger before it counts")
+    app.add_option(
+           "--tolerance", tolerance,
+           "scores, and numbers of cameras, may differ by this share of the larger before it "
+           "counts")
         ->check(within(0.0, 1.0))
         ->capture_default_str();
     add_common_flags(app, session.flags);

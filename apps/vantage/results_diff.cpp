@@ -2,8 +2,10 @@
 #include "results_diff.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <unordered_set>
 
 #include "vantage/core/error.h"
@@ -16,19 +18,54 @@ namespace vantage::cli {
 namespace {
 
 const std::vector<std::string>& compared_columns() {
-  static const std::vector<std::string> kColumns{
-      "key",   "status",     "reason",        "error",       "content",       "vertices",
-      "faces", "best_score", "best_fraction", "worst_score", "worst_fraction"};
+  static const std::vector<std::string> kColumns{"key",
+                                                 "status",
+                                                 "reason",
+                                                 "error",
+                                                 "content",
+                                                 "vertices",
+                                                 "faces",
+                                                 "best_score",
+                                                 "best_fraction",
+                                                 "worst_score",
+                                                 "worst_fraction",
+                                                 "best_camera_orbit",
+                                                 "best_camera_target",
+                                                 "best_field_of_view"};
   return kColumns;
+}
+
+bool is_near(double x, double y, double tolerance) {
+  return std::abs(x - y) <= tolerance * std::max(std::abs(x), std::abs(y));
+}
+
+/// Takes the number off the front of a text, or else a letter. \return the number, or the letter's code.
+double take_number(std::string_view& text) {
+  double number = static_cast<unsigned char>(text.front());
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  text.remove_prefix(error == std::errc{} ? static_cast<std::size_t>(end - text.data()) : 1);
+  return number;
+}
+
+/// Whether cameras as `12deg 75deg 3.1m` are alike but for their numbers.
+bool is_alike(std::string_view a, std::string_view b, double tolerance) {
+  while (!a.empty() && !b.empty()) {
+    if (!is_near(take_number(a), take_number(b), tolerance)) {
+      return false;
+    }
+  }
+  return a.empty() && b.empty();
 }
 
 bool is_alike(const batch::Statement& a, const batch::Statement& b, int column, double tolerance) {
   if (a.is_real(column) && b.is_real(column)) {
-    const double x = a.number(column);
-    const double y = b.number(column);
-    return std::abs(x - y) <= tolerance * std::max(std::abs(x), std::abs(y));
+    return is_near(a.number(column), b.number(column), tolerance);
   }
-  return cell_text(a, column) == cell_text(b, column);
+  const std::string x = cell_text(a, column);
+  const std::string y = cell_text(b, column);
+  return compared_columns()[static_cast<std::size_t>(column)].starts_with("best_")
+             ? is_alike(x, y, tolerance)
+             : x == y;
 }
 
 Difference compared(const batch::Statement& a, const batch::Statement& b, double tolerance) {

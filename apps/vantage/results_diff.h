@@ -33,7 +33,8 @@ struct DiffCounts {
 };
 
 /// Walks through two stores in the order of keys. What is compared: status, error, content,
-/// counts of the surface, and the scores, which may differ by `tolerance` of the larger.
+/// counts of the surface, and the scores and the best view's camera, whose numbers may differ by `tolerance`
+/// of the larger.
 DiffCounts diff_results(batch::ResultsStore& a, batch::ResultsStore& b, double tolerance,
                         const std::function<void(const Difference&)>& take);
 

@@ -424,6 +424,14 @@ class Results(BatchTest):
         self.assertEqual([diff[k] for k in ("equal", "changed", "only_in_a", "only_in_b")], [0, 1, 1, 1])
         self.assertEqual(json.loads(self.vantage("results", "diff", "a", "a", "--json").out)["differences"], [])
 
+    def test_other_cameras_of_equal_scores_are_a_change(self):
+        self.write("a.off", box(2, 3))
+        for up in "yz":
+            self.batch("a.off", "--up", up, out=up)
+        diff = json.loads(self.vantage("results", "diff", "y", "z", "--json").out)
+        self.assertEqual(diff["changed"], 1)
+        self.assertIn("best_camera_orbit", diff["differences"][0]["changes"])
+
     def test_a_diff_of_batches_from_two_folders_tells_why_no_key_is_in_both(self):
         (self.dir / "m").mkdir()
         self.write("m/a.off", box(1))
