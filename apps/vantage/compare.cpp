@@ -53,7 +53,8 @@ struct CompareCommand {
     ViewOptions options = method.resolve();
     options.margin_percent = look.margin_percent();
     const std::vector<Measure> measures = chosen_measures(session, options);
-    method.require_use(uses_saliency(measures), "saliency", "mesh-saliency");
+    session.refuse_idle(!uses_saliency(measures), flags_of({"saliency"}),
+                        "goes with --method mesh-saliency only");
     for (const Measure& measure : measures) {
       if (!options.focus.empty() && !sums_a_map(measure.name)) {
         throw CLI::ValidationError(

@@ -54,12 +54,8 @@ struct FiguresCommand {
       throw CLI::ValidationError(
           "--size", "must be WIDTHxHEIGHT like 800x600: the panels of a figure are of one size");
     }
-    for (const char* const flag : {"objective", "prior", "certify"}) {
-      if (method.has(flag)) {
-        throw CLI::ValidationError(std::string("--") + flag,
-                                   "has no effect on figures: they are of the score alone");
-      }
-    }
+    session.refuse_idle(true, {"--objective", "--prior", "--certify"},
+                        "has no effect on figures: they are of the score alone");
     options.objective = Objective::Significance;  // the paper's
     options.view_set = several.request_or(kSheetViews);
     options.margin_percent = look.margin_percent();

@@ -67,9 +67,6 @@ class LookFlags {
   /// The options of pictures as words say them, for a hash.
   [[nodiscard]] std::string text() const;
 
-  /// Whether the option of that name was given.
-  [[nodiscard]] bool has(const std::string& name) const { return flags_.has(name); }
-
   /// Empty border, per cent of the picture's shorter side.
   [[nodiscard]] double margin_percent() const { return resolved().view.margin_percent; }
 

@@ -56,12 +56,17 @@ struct MapCommand {
   void run(Session& session) {
     ViewOptions options = method.resolve();
     const bool by_skeleton = name == "kssm" || name == "thickness";
-    method.require_use(name == "mesh-saliency", "saliency", "mesh-saliency");
+    session.refuse_idle(name != "mesh-saliency", flags_of({"saliency"}),
+                        "goes with --method mesh-saliency only");
+    session.refuse_idle(!by_skeleton, flags_of({"map", "method"}),
+                        "goes with --method kssm and thickness only");
+    session.refuse_idle(name == "thickness", {"--suppression", "--weight"},
+                        "goes with --method kssm only: thickness is the distance alone");
+    session.refuse_idle(name != "pmi-saliency", {"--projection", "--distance", "--fov"},
+                        "goes with --method pmi-saliency only: other maps ask for no camera");
     refuse_any_up(options);
-    method.require_use(by_skeleton, "map", "kssm and thickness");
-    if (!by_skeleton && (!levels.empty() || !options.focus.empty())) {
-      throw CLI::ValidationError(levels.empty() ? "--focus" : "--levels",
-                                 "goes with --method kssm or thickness only");
+    if (!by_skeleton && !levels.empty()) {
+      throw CLI::ValidationError("--levels", "goes with --method kssm or thickness only");
     }
     session.leave_output_to(file, "-o");
     check_output(file, OutputKind::Shape, session.flags);

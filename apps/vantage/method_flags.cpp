@@ -58,14 +58,6 @@ ViewOptions MethodFlags::resolve(std::uint64_t seed) const {
   return all.view;
 }
 
-void MethodFlags::require_use(bool is_used, std::string_view group,
-                              const std::string& methods) const {
-  const std::string flag = flags_.first_given(group);
-  if (!is_used && !flag.empty()) {
-    throw CLI::ValidationError(flag, "goes with --method " + methods + " only");
-  }
-}
-
 void refuse_any_up(const ViewOptions& options) {
   if (options.up == UpAxis::Any) {
     throw CLI::ValidationError(

@@ -38,9 +38,6 @@ class MethodFlags {
   /// What was given.
   [[nodiscard]] const OptionFlags& flags() const { return flags_; }
 
-  /// Refuses flags of a group that nothing uses. \throw CLI::ValidationError
-  void require_use(bool is_used, std::string_view group, const std::string& methods) const;
-
  private:
   OptionFlags flags_{};
   bool fits_ = false;

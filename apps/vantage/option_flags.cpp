@@ -128,6 +128,17 @@ std::string OptionFlags::first_given(std::string_view group) const {
   return {};
 }
 
+std::vector<std::string> flags_of(std::initializer_list<std::string_view> groups) {
+  std::vector<std::string> flags;
+  for (const Option& option : option_table()) {
+    if (option.name != "preset" && option.is_listed() &&
+        std::find(groups.begin(), groups.end(), option.group) != groups.end()) {
+      flags.push_back(flag_of(option));
+    }
+  }
+  return flags;
+}
+
 void OptionFlags::apply(AllOptions& all) const {
   try {
     for (const Option& option : option_table()) {

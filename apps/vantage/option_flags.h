@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -42,6 +43,9 @@ class OptionFlags {
 
   std::map<std::string, OptionValue> given_{};  // by the option's name
 };
+
+/// Flags of the options of groups but for --preset, which is of all groups.
+std::vector<std::string> flags_of(std::initializer_list<std::string_view> groups);
 
 /// What an option was refused for, as a complaint about its flag, or about `flag`.
 CLI::ValidationError refused(const InvalidInput& error, std::string flag = {});

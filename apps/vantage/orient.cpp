@@ -89,6 +89,8 @@ struct OrientCommand {
   }
 
   void run(Session& session) const {
+    session.refuse_idle(features, {"--output", "--print"},
+                        "has no effect beside --features, which does nothing else");
     AllOptions given;
     known.apply(given);
     Model loaded = session.load(model);

@@ -63,7 +63,7 @@ struct RenderCommand {
     check_output(file, OutputKind::Picture, session.flags);
     ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
     look.check(file, options);
-    check_beside_camera();
+    refuse_idle_flags(session);
     options.margin_percent = look.margin_percent();
     const RunContext run = session.run();
     std::optional<Vec3> direction;
@@ -121,15 +121,22 @@ struct RenderCommand {
   }
 
  private:
-  /// Refuses what the file of a camera says, too.
-  void check_beside_camera() const {
-    for (const char* const flag : {"projection", "distance", "fov", "margin", "up", "front"}) {
-      const bool is_of_ground = look.look().ground && std::string_view(flag) == "up";
-      if (!camera_file.empty() && (method.has(flag) || look.has(flag)) && !is_of_ground) {
-        throw CLI::ValidationError(std::string("--") + flag,
-                                   "says what the file of --camera says: leave one out");
-      }
+  void refuse_idle_flags(const Session& session) const {
+    std::vector<std::string> of_file{"--projection", "--distance", "--fov", "--margin", "--front"};
+    if (!look.look().ground) {
+      of_file.emplace_back("--up");
     }
+    session.refuse_idle(!camera_file.empty(), of_file,
+                        "says what the file of --camera says: leave one out");
+    session.refuse_idle(true, {"--certify"},
+                        "has no effect on a picture: view reports how far views are behind");
+    session.refuse_idle(view.empty(), flags_of({"search"}),
+                        "goes with --view only: else nothing is searched");
+    std::vector<std::string> of_map = flags_of({"map", "method"});
+    std::erase(of_map, "--focus");  // which pictures are framed on
+    session.refuse_idle(
+        view.empty() && show == "plain", of_map,
+        "goes with --view, --show kssm and --show skeleton only: else no map is made");
   }
 
   static Vec3 unit(const Vec3& v) {

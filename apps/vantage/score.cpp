@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <array>
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -67,16 +67,9 @@ struct ScoreCommand {
   void run(Session& session) {
     ViewOptions options = method.resolve();
     const std::vector<Measure> measures = parse_measures(measure, "--method");
-    method.require_use(uses_saliency(measures), "saliency", "mesh-saliency");
     const RunContext run = session.run();
     const bool free_eyes = !eyes.empty();
-    for (const char* const flag : {"projection", "distance", "fov"}) {
-      if (free_eyes && method.has(flag)) {
-        throw CLI::ValidationError(
-            std::string("--") + flag,
-            "goes with --sphere and --directions: --eyes says where eyes are");
-      }
-    }
+    refuse_idle_flags(session, measures);
     refuse_any_up(options);
     if (free_eyes && !visible.empty()) {
       throw CLI::ValidationError("--visible", "needs directions: --sphere or --directions");
@@ -111,6 +104,27 @@ struct ScoreCommand {
   }
 
  private:
+  void refuse_idle_flags(const Session& session, const std::vector<Measure>& measures) const {
+    const auto any = [&](auto&& uses) {
+      return std::any_of(measures.begin(), measures.end(), uses);
+    };
+    const bool by_kssm = any([](const Measure& m) { return m.needs.kssm; });
+    const bool by_skeleton = any([](const Measure& m) { return m.needs.skeleton; });
+    std::vector<std::string> of_kssm = flags_of({"map"});
+    std::erase(of_kssm, "--weight");  // which sums of any map heed
+    session.refuse_idle(!uses_saliency(measures), flags_of({"saliency"}),
+                        "goes with --method mesh-saliency only");
+    session.refuse_idle(!eyes.empty(), {"--projection", "--distance", "--fov"},
+                        "goes with --sphere and --directions: --eyes says where eyes are");
+    session.refuse_idle(!any([](const Measure& m) { return m.is_of_set(); }), {"--view-set"},
+                        "goes with measures that are built on a set of views only, such as vmi");
+    session.refuse_idle(!by_kssm, of_kssm, "goes with --method kssm only");
+    session.refuse_idle(!by_kssm && !uses_saliency(measures), {"--weight"},
+                        "goes with --method kssm and mesh-saliency only");
+    session.refuse_idle(!by_kssm && !by_skeleton, flags_of({"method"}),
+                        "goes with methods of the skeleton only, such as kssm");
+  }
+
   /// Scores by any measures; the map is made only if one of them, or --visible, needs it.
   void score_measures(Session& session, const Model& loaded, const ViewOptions& options,
                       const std::vector<Measure>& measures, const std::vector<Vec3>& points) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "session.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -125,10 +126,23 @@ void Session::limit_threads() {
 
 void Session::configure(CLI::App& command) {
   const Abandonable abandonable;
+  for (const CLI::Option* option : command.get_options({})) {
+    if (option->count() > 0 && !option->get_lnames().empty()) {
+      given_.push_back("--" + option->get_lnames().front());
+    }
+  }
   for (const std::string& warning : apply_settings(command)) {
     say("warning: " + warning);
   }
   flags.inputs = named_inputs(command);
+}
+
+void Session::refuse_idle(bool are_idle, const std::vector<std::string>& names,
+                          const std::string& why) const {
+  const auto given = std::find_first_of(names.begin(), names.end(), given_.begin(), given_.end());
+  if (are_idle && given != names.end()) {
+    throw CLI::ValidationError(*given, why);
+  }
 }
 
 Model Session::load(const std::string& path, const ReadOptions& options) {

@@ -72,6 +72,11 @@ class Session {
   /// Sets what the command line left open, from the environment and --config.
   void configure(CLI::App& command);
 
+  /// Refuses flags of the command line that would do nothing; settings may be meant for other commands.
+  /// \param why they would. \throw CLI::ValidationError naming the first of them that was given.
+  void refuse_idle(bool are_idle, const std::vector<std::string>& names,
+                   const std::string& why) const;
+
   /// Reads a model; a failure in here means exit code 3.
   Model load(const std::string& path, const ReadOptions& options = {});
 
@@ -123,6 +128,7 @@ class Session {
  private:
   std::stop_source stop_{};
   bool output_is_taken_ = false;
+  std::vector<std::string> given_{};  ///< Flags of the command line.
   Progress progress_{};
   void limit_threads();
 

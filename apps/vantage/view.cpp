@@ -166,7 +166,8 @@ struct ViewCommand {
     options.view_set = several.request();
     options.margin_percent = look.margin_percent();
     measure.apply(options);
-    method.require_use(options.method == "mesh-saliency", "saliency", "mesh-saliency");
+    session.refuse_idle(options.method != "mesh-saliency", flags_of({"saliency"}),
+                        "goes with --method mesh-saliency only");
     several.require_use(sums_a_map(options.method));
     return options;
   }

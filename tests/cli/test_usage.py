@@ -5,6 +5,7 @@ import re
 import signal
 import subprocess
 import unittest
+import unittest.mock
 
 from program import MODELS, PROGRAM, ProgramTest
 from program import contract_quickly as setUpModule
@@ -124,6 +125,44 @@ class WhatWasMeant(ProgramTest):
             with self.subTest(words=words):
                 self.assertIn(named, self.vantage(*words, exit_code=2).err)
         self.assertEqual([p.name for p in self.dir.iterdir()], ["a.off"])
+
+    def test_flags_that_would_do_nothing_are_refused(self):
+        self.write("a.off", box(1))
+        looks = ("render", "a.off", "-o", "r.png", "--direction", "1,1,1", "--size", 16)
+        scores = ("score", "a.off", "--sphere", 0, "--method", "viewpoint-entropy")
+        maps = ("map", "a.off", "-o", "m.ply", "--method")
+        table = [((*looks[:4], "--view", "best", "--certify"), "--certify"), ((*looks, "--certify"), "--certify"),
+                 *(((*looks, *flag), flag[0]) for flag in (
+                     ("--suppression", "mean"), ("--contraction", "exact"), ("--search", "rapid"), ("--weight", "area"),
+                     ("--search", "exhaustive", "--subdivisions", 1), ("--objective", "people"))),
+                 ((*looks, "--show", "kssm", "--search", "rapid"), "--search"),
+                 *(((*scores, *flag), flag[0]) for flag in (
+                     ("--suppression", "mean"), ("--contraction", "exact"), ("--weight", "area"), ("--view-set", 1))),
+                 ((*scores[:4], "--view-set", 1), "--view-set"),
+                 *(((*maps, method, *flag), flag[0]) for method in ("kssm", "mesh-saliency", "thickness")
+                   for flag in (("--fov", 40), ("--projection", "orthographic"), ("--distance", 3))),
+                 *(((*maps, "thickness", *flag), flag[0]) for flag in (("--suppression", "mean"), ("--weight", "area"))),
+                 ((*maps, "mesh-saliency", "--contraction", "exact"), "--contraction"),
+                 (("orient", "a.off", "--features", "-o", "z.ply"), "--output"),
+                 (("orient", "a.off", "--features", "--print"), "--print")]
+        for words, flag in table:
+            with self.subTest(words=words):
+                self.assertRegex(self.vantage(*words, exit_code=2).err, f"^vantage: {flag}: .{{20}}")
+        self.assertEqual([p.name for p in self.dir.iterdir()], ["a.off"])
+
+    def test_flags_that_do_something_and_settings_are_taken(self):
+        self.write("a.off", box(1))
+        looks = ("render", "a.off", "-o", "r.png", "--size", 16)
+        for words in ((*looks, "--direction", "1,1,1", "--show", "kssm", "--suppression", "local-maxima"),
+                      (*looks, "--direction", "1,1,1", "--focus", 0, "--preset", "paper"),
+                      ("score", "a.off", "--sphere", 0, "--method", "vmi", "--view-set", 0),
+                      ("map", "a.off", "-o", "m.ply", "--method", "pmi-saliency", "--fov", 40)):
+            self.vantage(*words)
+        with unittest.mock.patch.dict(os.environ, VANTAGE_SUPPRESSION="mean", VANTAGE_SEARCH="rapid", VANTAGE_FOV="40",
+                                      VANTAGE_CERTIFY="true", VANTAGE_VIEW_SET="1", VANTAGE_CONTRACTION="exact"):
+            self.vantage(*looks, "--direction", "1,1,1")
+            self.vantage("score", "a.off", "--sphere", 0, "--method", "viewpoint-entropy")
+            self.vantage("map", "a.off", "-o", "m.ply", "--method", "mesh-saliency")
 
     def test_a_surface_without_area_is_bad_input(self):
         self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")
