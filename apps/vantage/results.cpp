@@ -76,7 +76,7 @@ struct ExportCommand {
       batch::Statement rows = select_rows(*store, selected, {}, {});
       while (rows.step()) {
         context.check();
-        file.add(kind == "csv" ? csv_row(rows, columns.size()) : json_row(rows, columns));
+        file.add(kind == "csv" ? csv_row(rows, columns) : json_row(rows, columns));
       }
     }
     file.finish();
@@ -95,10 +95,10 @@ struct ExportCommand {
     return ending == ".jsonl" ? "jsonl" : "csv";
   }
 
-  static std::string csv_row(const batch::Statement& row, std::size_t count) {
+  static std::string csv_row(const batch::Statement& row, const std::vector<std::string>& columns) {
     std::vector<std::string> cells;
-    for (std::size_t i = 0; i < count; ++i) {
-      cells.push_back(csv_text(row, static_cast<int>(i)));
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      cells.push_back(csv_text(row, static_cast<int>(i), columns[i]));
     }
     return csv_line(cells);
   }

@@ -217,9 +217,11 @@ std::string cell_text(const batch::Statement& row, int column) {
   return row.is_real(column) ? number_text(row.number(column)) : row.text(column);
 }
 
-std::string csv_text(const batch::Statement& row, int column) {
+std::string csv_text(const batch::Statement& row, int column, const std::string& name) {
   const std::string text = cell_text(row, column);
-  const bool is_number = row.is_real(column) || row.is_integer(column);
+  const bool is_number = row.is_real(column) || row.is_integer(column) ||
+                         (name.starts_with("best_camera_") &&
+                          text.find_first_not_of("-.0123456789 degm") == std::string::npos);
   const bool computes =
       !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
   return computes && !is_number ? "'" + text : text;

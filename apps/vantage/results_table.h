@@ -58,8 +58,9 @@ batch::Statement select_rows(batch::ResultsStore& store, const std::vector<std::
 std::string cell_text(const batch::Statement& row, int column);
 
 /// The same for CSV: a spreadsheet would compute a text that begins with = + - @, a tab or a carriage
-/// return, so an apostrophe is put before it.
-std::string csv_text(const batch::Statement& row, int column);
+/// return, so an apostrophe is put before it; not before lengths and angles of a camera.
+/// \param name of the column.
+std::string csv_text(const batch::Statement& row, int column, const std::string& name);
 
 /// A cell as JSON. \param name of its column.
 nlohmann::ordered_json cell_json(const batch::Statement& row, int column, const std::string& name);

@@ -355,11 +355,14 @@ class Results(BatchTest):
         self.assertEqual(self.rows()["a.off"]["folder"], "_./_a")
 
     def test_csv_reads_back_and_timings_are_left_out_unless_asked_for(self):
-        self.write('q"u,o\nte.off', box(1))
+        self.write('q"u,o\nte.off', box(-5))
         self.batch('q"u,o\nte.off')
         plain = list(csv.DictReader(io.StringIO(self.vantage("results", "export", "out").out)))
         self.assertEqual(plain[0]["key"], 'q"u,o\nte.off')
         self.assertNotIn("seconds", plain[0])
+        self.assertTrue(plain[0]["best_camera_target"].startswith("-"))
+        view = json.loads(next((self.dir / "out/models").glob("*/view.json")).read_text())
+        self.assertEqual(plain[0]["best_camera_target"], view["best"]["model_viewer"]["camera-target"])
         timed = self.vantage("results", "export", "out", "--timings").out
         self.assertEqual(next(csv.DictReader(io.StringIO(timed)))["attempts"], "1")
         self.vantage("results", "export", "out", "-o", "new/x.csv")  # a folder is made, as by other commands
