@@ -183,7 +183,7 @@ void FilesBeside::keep_libraries(std::string_view bytes) {
     }
     const bool is_second_half = line_.empty() && !skips_ && bytes[end] == '\n';  // of \r\n
     if (!skips_ && !is_second_half) {
-      goes_on_ = trimmed(line_).ends_with('\\');
+      goes_on_ = goes_on(line_);
       text_.append(line_).append("\n");
     }
     line_.clear();

@@ -135,6 +135,7 @@ TEST_F(FilesBesideAModel, LibrariesAreFoundAnywhereInTheFile) {
     EXPECT_THAT(found("m.obj", text, piece), ElementsAre("a.mtl", "b.mtl")) << piece;
   }
   EXPECT_THAT(found("m.OBJ", "mtllib a.mtl", 3), ElementsAre("a.mtl"));
+  EXPECT_THAT(found("m.obj", "mtllib a.mtl # D:\\\nmtllib b.mtl\n"), ElementsAre("a.mtl", "b.mtl"));
 }
 
 TEST_F(FilesBesideAModel, BuffersAndPicturesOfABinaryGltf) {

@@ -65,6 +65,8 @@ TEST(Obj, ACommentMayFollowACornerWithoutABlank) {
 
 TEST(Obj, ABackslashAtTheEndOfACommentHidesNothing) {
   EXPECT_EQ(obj(std::string("# from C:\\models\\\n") + kThreePoints + "f 1 2 3").polygons, 1U);
+  EXPECT_EQ(obj(std::string(kThreePoints) + "usemtl a # D:\\tex\\\nf 1 2 3").polygons, 1U);
+  EXPECT_EQ(obj(std::string(kThreePoints) + "usemtl a#1 \\\nb\nf 1 2 3").polygons, 1U);
 }
 
 TEST(Obj, AFaceMayComeBeforeItsVertices) {
