@@ -338,11 +338,10 @@ struct MergeCommand {
                   " came without results; run their batches again, then merge");
     }
     if (session.flags.json) {
-      const Json json = {{"read", merged.seen},
-                         {"new", merged.taken},
-                         {"done", counts.done},
-                         {"failed", counts.failed},
-                         {"duplicates", counts.duplicates}};
+      const Json json = {{"read", merged.seen},       {"new", merged.taken},
+                         {"torn", merged.torn},       {"clashes", merged.clashes},
+                         {"missing", merged.missing}, {"done", counts.done},
+                         {"failed", counts.failed},   {"duplicates", counts.duplicates}};
       std::printf("%s\n", batch::json_text(json).c_str());
     }
     finish_standard_output();

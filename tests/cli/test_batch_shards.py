@@ -155,6 +155,8 @@ class Shards(BatchTest):
             self.batch(folder, "--name", "{stem}", out=out)
         done = self.vantage("results", "merge", "all", "part")
         self.assertIn("1 record left out", done.err)
+        counts = json.loads(self.vantage("results", "merge", "all", "part", "--json", "-q").out)
+        self.assertEqual([counts[lost] for lost in ("torn", "clashes", "missing")], [0, 1, 0])
         self.assertIn("all sound", self.vantage("results", "verify", "all").out)
 
     def test_a_new_model_moves_no_other_one(self):
