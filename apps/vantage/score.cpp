@@ -65,6 +65,7 @@ struct ScoreCommand {
   }
 
   void run(Session& session) {
+    session.leave_output_to(visible, "--visible");
     ViewOptions options = method.resolve();
     const std::vector<Measure> measures = parse_measures(measure, "--method");
     const RunContext run = session.run();

@@ -213,7 +213,8 @@ class StandardOutput(ProgramTest):
 
     def test_json_does_not_share_it_with_a_file(self):
         for words in (("map", "a.off", "-o", "-"), ("render", "a.off", "--direction", "0,0,1", "-o", "-"), ("thumb", "a.off", "-"),
-                      ("view", "a.off", "--no-images", "--trace", "-")):
+                      ("view", "a.off", "--no-images", "--trace", "-"),
+                      ("score", "a.off", "--sphere", 0, "-o", "s.csv", "--visible", "-")):
             done = self.vantage(*words, "--json", exit_code=2)
             self.assertIn("standard output, where --json writes", done.err)
         scores = self.vantage("score", "a.off", "--sphere", "0", "-o", "scores.csv", "--json").out
