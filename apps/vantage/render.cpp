@@ -140,12 +140,12 @@ struct RenderCommand {
   }
 
   static Vec3 unit(const Vec3& v) {
-    const double length = v.stableNorm();
-    if (!(length > 0.0) || !std::isfinite(length)) {
+    const std::optional<Vec3> direction = unit_vector(v);
+    if (!direction) {
       throw CLI::ValidationError("--direction",
                                  "must be three finite numbers, not all of them zero");
     }
-    return v / length;
+    return *direction;
   }
 
   /// The camera of the file, for a picture of the aspect that the file says if none is wanted.

@@ -167,22 +167,12 @@ struct ScoreCommand {
     if (sphere >= 0) {
       return direction_set(ViewSphereBase::Icosahedron, sphere).directions;
     }
-    const bool free_eyes = !eyes.empty();
-    const std::string& name = free_eyes ? eyes : directions;
-    using Columns = std::array<std::string_view, 3>;
-    std::vector<Vec3> points = parse_points_csv(
-        read_text(name), name, free_eyes ? Columns{"x", "y", "z"} : Columns{"dx", "dy", "dz"});
+    const std::string& name = eyes.empty() ? directions : eyes;
+    std::vector<Vec3> points = eyes.empty()
+                                   ? parse_directions_csv(read_text(name), name, {"dx", "dy", "dz"})
+                                   : parse_points_csv(read_text(name), name, {"x", "y", "z"});
     if (points.empty()) {
       throw FormatError(name, "", "holds no directions or eyes: one a line, x,y,z");
-    }
-    if (!free_eyes) {
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        const double length = points[i].stableNorm();
-        if (!(length > 0.0)) {
-          throw FormatError(name, "row " + std::to_string(i + 1), "a direction must not be zero");
-        }
-        points[i] /= length;
-      }
     }
     return points;
   }

@@ -33,12 +33,10 @@ Standpoint standpoint_of(const py::object& direction, const py::object& camera,
   }
   Standpoint from;
   if (!direction.is_none()) {
-    const Vec3 towards = vector_of(direction, "direction");
-    const double length = towards.stableNorm();
-    if (!(length > 0.0)) {
-      throw InvalidInput("direction must not be zero");
+    from.direction = unit_vector(vector_of(direction, "direction"));
+    if (!from.direction) {
+      throw InvalidInput("direction must not be zero, and of a finite length");
     }
-    from.direction = towards / length;
   } else if (!camera.is_none()) {
     from.camera = camera_of(camera);
   } else {

@@ -32,11 +32,13 @@ struct Views {
 Views directions_of(const py::object& directions) {
   Views views{.points = points_of(directions, "directions")};
   for (std::size_t i = 0; i < views.points.size(); ++i) {
-    const double length = views.points[i].stableNorm();
-    if (!(length > 0.0)) {
-      throw InvalidInput("directions holds the zero vector in row " + std::to_string(i));
+    const std::optional<Vec3> unit = unit_vector(views.points[i]);
+    if (!unit) {
+      throw InvalidInput(
+          "directions holds the zero vector, or one without a finite length, in row " +
+          std::to_string(i));
     }
-    views.points[i] /= length;
+    views.points[i] = *unit;
   }
   return views;
 }

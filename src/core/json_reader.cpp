@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/json_reader.h"
 
-#include <cmath>
+#include <optional>
 
 #include "vantage/core/error.h"
 
@@ -37,11 +37,11 @@ Vec3 JsonReader::unit_vector(const Json& value, const std::string& what) const {
     }
     vector[static_cast<Eigen::Index>(axis)] = value[axis].get<double>();
   }
-  const double length = vector.stableNorm();
-  if (!(length > 0.0) || !std::isfinite(length)) {
+  const std::optional<Vec3> unit = vantage::unit_vector(vector);
+  if (!unit) {
     fail(what + " must be three finite numbers, not all zero");
   }
-  return vector / length;
+  return *unit;
 }
 
 }  // namespace vantage

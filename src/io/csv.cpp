@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -40,11 +41,10 @@ std::vector<std::string_view> split(std::string_view line) {
   }
 }
 
-}  // namespace
-
-std::vector<Vec3> parse_points_csv(std::string_view bytes, std::string_view name,
-                                   std::array<std::string_view, 3> columns) {
-  std::vector<Vec3> points;
+/// \param take is given the points, and where each is.
+void parse_rows(std::string_view bytes, std::string_view name,
+                std::array<std::string_view, 3> columns,
+                const std::function<void(const Vec3&, const Place&)>& take) {
   std::array<std::size_t, 3> places = {0, 1, 2};
   TextCursor cursor(without_bom(bytes));
   const auto fail = [&](const std::string& problem) {
@@ -84,10 +84,33 @@ std::vector<Vec3> parse_points_csv(std::string_view bytes, std::string_view name
       point[static_cast<Eigen::Index>(c)] = *value;
     }
     if (!is_header) {
-      points.push_back(point);
+      take(point, cursor.place());
     }
   }
+}
+
+}  // namespace
+
+std::vector<Vec3> parse_points_csv(std::string_view bytes, std::string_view name,
+                                   std::array<std::string_view, 3> columns) {
+  std::vector<Vec3> points;
+  parse_rows(bytes, name, columns,
+             [&](const Vec3& point, const Place& /*place*/) { points.push_back(point); });
   return points;
+}
+
+std::vector<Vec3> parse_directions_csv(std::string_view bytes, std::string_view name,
+                                       std::array<std::string_view, 3> columns) {
+  std::vector<Vec3> directions;
+  parse_rows(bytes, name, columns, [&](const Vec3& point, const Place& place) {
+    const std::optional<Vec3> unit = unit_vector(point);
+    if (!unit) {
+      throw FormatError(name, place.text(),
+                        "a direction must be neither zero nor longer than a number can be");
+    }
+    directions.push_back(*unit);
+  });
+  return directions;
 }
 
 }  // namespace vantage

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <locale>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -77,12 +78,12 @@ class Table {
     for (std::size_t k = 0; k < 3; ++k) {
       v[static_cast<Eigen::Index>(k)] = number_of(text(row, columns[k]), file_, rows_[row].line);
     }
-    const double length = v.stableNorm();
-    if (!(length > 0.0)) {
+    const std::optional<Vec3> unit = unit_vector(v);
+    if (!unit) {
       throw FormatError(file_.string(), "line " + std::to_string(rows_[row].line),
-                        "a direction must not be zero");
+                        "a direction must be neither zero nor longer than a number can be");
     }
-    return v / length;
+    return *unit;
   }
 
  private:

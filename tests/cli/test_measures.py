@@ -253,8 +253,9 @@ class Measures(ProgramTest):
         (self.dir / "empty").mkdir()
         self.vantage("eval", "empty", exit_code=3)
         (self.dir / "bad").mkdir()
-        self.write("bad/views.csv", "model,subject,status,vx,vy,vz\nbox.off,A,moved,1,1,up\n")
-        self.assertIn("line 2", self.vantage("eval", "bad", exit_code=3).err)
+        for view in ("1,1,up", "0,0,0", "1.7e308,1.7e308,1.7e308"):
+            self.write("bad/views.csv", f"model,subject,status,vx,vy,vz\nbox.off,A,moved,{view}\n")
+            self.assertIn("line 2", self.vantage("eval", "bad", exit_code=3).err)
         self.vantage("eval", "nowhere", exit_code=3)
 
     def people(self):

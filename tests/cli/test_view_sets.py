@@ -214,6 +214,10 @@ class ViewSets(ProgramTest):
                 total += weight if seen[i // 8] >> (i % 8) & 1 else 0.0
             self.assertEqual(total, score)
 
+    def test_a_direction_without_a_length_is_bad_input(self):
+        self.write("d.csv", "dx,dy,dz\n\n0,0,1\n1.7e308,1.7e308,1.7e308\n")
+        self.assertIn("d.csv, line 4: ", self.vantage("score", FAN, "--directions", "d.csv", exit_code=3).err)
+
     def test_visible_table_needs_directions(self):
         self.write("eyes.csv", "x,y,z\n1,2,3\n")
         done = self.vantage("score", FAN, "--eyes", "eyes.csv", "--visible", "seen.npy", exit_code=2)

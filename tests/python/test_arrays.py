@@ -167,7 +167,7 @@ def test_length_of_a_direction_does_not_matter():
 
 
 @pytest.mark.parametrize("keywords", [
-    {}, {"eyes": [0, 0, 9], "sphere": 0}, {"directions": [0, 0, 0]}, {"directions": [[0, 1]]},
+    {}, {"eyes": [0, 0, 9], "sphere": 0}, {"directions": [0, 0, 0]}, {"directions": [1.7e308] * 3}, {"directions": [[0, 1]]},
     {"eyes": [0, 0, np.nan]}, {"sphere": 9}, {"sphere": -1}, {"sphere": 2**40},
     {"sphere": 0, "view_set": -1}, {"sphere": 0, "view_set": 7}])
 def test_views_that_make_no_sense_are_refused(keywords):

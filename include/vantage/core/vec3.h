@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+#include <optional>
+
 #include <Eigen/Core>
 
 /// \file
@@ -10,5 +13,12 @@
 namespace vantage {
 
 using Vec3 = Eigen::Vector3d;  ///< Point or direction, in model units unless stated otherwise.
+
+/// `vector` made a unit vector; nothing if its length is 0, or too large for a number.
+inline std::optional<Vec3> unit_vector(const Vec3& vector) {
+  const double length = vector.stableNorm();
+  return length > 0.0 && std::isfinite(length) ? std::optional<Vec3>(vector / length)
+                                               : std::nullopt;
+}
 
 }  // namespace vantage

@@ -156,6 +156,10 @@ class FilesBeside {
 std::vector<Vec3> parse_points_csv(std::string_view bytes, std::string_view name,
                                    std::array<std::string_view, 3> columns);
 
+/// The same of directions, made unit vectors: the zero vector is none.
+std::vector<Vec3> parse_directions_csv(std::string_view bytes, std::string_view name,
+                                       std::array<std::string_view, 3> columns);
+
 /// The note of a model whose materials were made opaque.
 inline constexpr const char* kMadeOpaque =
     "by its materials no face can be seen at all; it is shown as opaque";

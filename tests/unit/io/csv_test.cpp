@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 3> kDirection = {"dx", "dy", "dz"};
 
 std::string csv_error(std::string_view text) {
   try {
-    parse_points_csv(text, "d.csv", kDirection);
+    parse_directions_csv(text, "d.csv", kDirection);
   } catch (const FormatError& error) {
     return error.what();
   }
@@ -46,6 +46,8 @@ TEST(PointsCsv, NamesTheLineOfAnError) {
   EXPECT_THAT(csv_error("1,2,3\n1,2\n"), HasSubstr("d.csv, line 2: expected a value for dz"));
   EXPECT_THAT(csv_error("1,2,3\n1,x,3\n"), HasSubstr("line 2: column dy: expected a number"));
   EXPECT_THAT(csv_error("1,2,nan\n"), HasSubstr("line 1: column dz: 'nan' is not a finite number"));
+  EXPECT_THAT(csv_error("1,2,3\n\n0,0,0\n"), HasSubstr("line 3: a direction must be neither zero"));
+  EXPECT_THAT(csv_error("# \n1.7e308,1.7e308,1.7e308\n"), HasSubstr("line 2: a direction must be"));
   EXPECT_THAT(csv_error("x,y,z\n1,2,3\n"), HasSubstr("line 1: the header has no column dx"));
 }
 
