@@ -27,6 +27,8 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t kMostLibraries = 64U << 20U;  // [ours] of all lines with libraries
+constexpr std::size_t kMostJson =
+    1U << 30U;  // [ours] of a glTF, so that a batch ends on no file's size
 // A GLB begins with 12 bytes of its own and 8 of the chunk that is its JSON, the first four its length.
 constexpr std::size_t kGlbHeaders = 20;
 constexpr std::size_t kGlbLength = 12;
@@ -142,7 +144,7 @@ void FilesBeside::tell_format() {
 
 void FilesBeside::keep(std::string_view bytes) {
   if (format_ == ModelFormat::Gltf) {
-    text_.append(bytes);
+    text_.append(bytes.substr(0, kMostJson - std::min(text_.size(), kMostJson)));
   } else if (format_ == ModelFormat::Glb) {
     keep_json_of_glb(bytes);
   } else if (format_ == ModelFormat::Ply) {
@@ -166,7 +168,7 @@ void FilesBeside::keep_json_of_glb(std::string_view bytes) {
   keep_up_to(kGlbHeaders);
   if (text_.size() >= kGlbHeaders) {
     const auto length = decode<std::uint32_t>(text_.data() + kGlbLength, ByteOrder::Little);
-    keep_up_to(kGlbHeaders + length);
+    keep_up_to(kGlbHeaders + std::min<std::size_t>(length, kMostJson));
   }
 }
 
