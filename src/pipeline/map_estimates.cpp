@@ -47,6 +47,7 @@ std::vector<double> estimated_shares(const CoarseCopies& copies,
 MapEstimates::MapEstimates(const ShapeAnalysis& shape, std::span<const double> map,
                            const ViewOptions& options, const RunContext& run)
     : quiet_(run.quiet()),
+      is_by_area_(options.weight == Weight::Area),
       copies_(copies_of(shape, quiet_)),
       looked_at_(copies_->is_sampled() ? visibility_of(shape, ViewPreparation::kEyes)
                                        : std::shared_ptr<const VertexVisibility>(

@@ -25,6 +25,11 @@ class MapEstimates {
 
   [[nodiscard]] const CoarseCopies& copies() const { return *copies_; }
 
+  /// Whether they are so much sooner than the scores themselves that estimates gain.
+  [[nodiscard]] bool are_sooner() const {
+    return copies_->is_coarse() || copies_->is_sampled() || is_by_area_;
+  }
+
   /// By vertices. \throw Cancelled
   [[nodiscard]] std::vector<double> scores(const std::vector<Vec3>& directions) const;
 
@@ -33,6 +38,7 @@ class MapEstimates {
 
  private:
   RunContext quiet_;
+  bool is_by_area_;
   std::shared_ptr<const CoarseCopies> copies_;
   std::shared_ptr<const VertexVisibility> looked_at_;  // of the coarse copy, or of the surface
   std::vector<double> proxy_shares_{};

@@ -62,7 +62,7 @@ void MapObjective::add_estimates(ViewObjective& objective) const {
   if (!copies.is_sampled() && !is_by_area && !copies.has_proxy()) {
     objective.starts = kManyStarts;
   }
-  if (copies.is_coarse() || copies.is_sampled() || is_by_area) {
+  if (estimates_->are_sooner()) {
     objective.surrogate = [this](const std::vector<Vec3>& directions) {
       return estimates_->scores(directions);
     };

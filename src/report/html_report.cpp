@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "core/parallel.h"
 #include "pipeline/map_estimates.h"
 #include "pipeline/preference.h"
+#include "pipeline/view_preparation.h"
 #include "report/asset_part.h"
 #include "report/cloud_picture.h"
 #include "report/display_mesh.h"
@@ -35,6 +37,7 @@ constexpr std::size_t kDisplayFaces = 300000;
 constexpr std::size_t kHistoryVertices = 30000;
 /// The heat map's set: icosahedron level 3, 642 directions.
 constexpr int kSphereLevel = 3;
+constexpr std::size_t kSphereEyes = 642;
 /// Directions of it whose preference one task works out.
 constexpr std::size_t kPreferenceGrain = 32;
 /// Most views of a set in the filmstrip: each adds a picture of about 40 KB. [ours]
@@ -275,10 +278,9 @@ std::string script_safe(const Json& json) {
 }
 
 /// Scores estimated on a coarse surface, shifted and stretched so that they meet the largest and the
-/// least. Exact ones of a large model would take most of the time of a result.
-ScoreBatch estimated_scores(const ShapeAnalysis& shape, const ViewReport& report,
-                            const ViewOptions& options, const RunContext& run) {
-  const auto map = std::make_shared<const MapEstimates>(shape, shape.significance, options, run);
+/// least, and none is beyond these. Exact ones of a large model would take most of the time of a result.
+ScoreBatch estimated_scores(const std::shared_ptr<const MapEstimates>& map,
+                            const ViewReport& report) {
   const std::vector<Vec3> ends{report.worst.direction, report.highest_direction};
   const std::vector<double> known = map->scores(ends);
   const double range = known[1] - known[0];
@@ -286,16 +288,33 @@ ScoreBatch estimated_scores(const ShapeAnalysis& shape, const ViewReport& report
   constexpr double kLeastRange = 1e-3;  // of all: less is the estimates' own error
   const double stretch = std::min(range, exact) > kLeastRange * report.total ? exact / range : 1.0;
   const double shift = report.worst.score - stretch * known[0];
-  return [map, stretch, shift, total = report.total](const std::vector<Vec3>& directions) {
+  return [map, stretch, shift, least = report.worst.score,
+          most = report.highest_score](const std::vector<Vec3>& directions) {
     std::vector<double> scores = map->scores(directions);
     for (double& score : scores) {
-      score = std::clamp(stretch * score + shift, 0.0, total);
+      score = std::clamp(stretch * score + shift, least, most);
     }
     return scores;
   };
 }
 
-/// What the best view maximises, by estimated scores; empty if that is the score.
+/// The scores on the page: exact of a surface that estimates would hardly be sooner of.
+ScoreBatch page_scores(const ShapeAnalysis& shape, const ViewReport& report,
+                       const ViewOptions& options, const RunContext& run) {
+  const auto estimates =
+      std::make_shared<const MapEstimates>(shape, shape.significance, options, run);
+  if (estimates->are_sooner()) {
+    return estimated_scores(estimates, report);
+  }
+  const std::shared_ptr<const VertexVisibility> visibility = visibility_of(shape, kSphereEyes);
+  const auto map = std::make_shared<const MapScorer>(shape, *visibility, options);
+  return [visibility, map, run](const std::vector<Vec3>& directions) {
+    return map->scorer().score_all(directions, run);
+  };
+}
+
+/// What the best view maximises, by the page's scores; empty if that is the score. Estimates make none
+/// better than the best view, unless that was given.
 std::vector<double> objectives(const ShapeAnalysis& shape, const ViewReport& report,
                                const ViewOptions& options, const std::vector<Vec3>& directions,
                                const std::vector<double>& scores, const RunContext& run) {
@@ -306,10 +325,12 @@ std::vector<double> objectives(const ShapeAnalysis& shape, const ViewReport& rep
   if (preference.is_score()) {
     return {};
   }
+  const double most =
+      options.best_view ? std::numeric_limits<double>::infinity() : report.best.objective;
   std::vector<double> values(directions.size());
   parallel_for(run, values.size(), kPreferenceGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      values[i] = preference(directions[i], scores[i]);
+      values[i] = std::min(preference(directions[i], scores[i]), most);
     }
   });
   return values;
@@ -330,7 +351,7 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, ShapePic
   const PageFrame frame{report.camera.sphere.centre, 0.5 * report.camera.sphere.diameter};
   const DirectionSet set = direction_set(ViewSphereBase::Icosahedron, kSphereLevel);
   const RunContext quiet = run.quiet();
-  const ScoreBatch score = estimated_scores(shape, report, options, quiet);
+  const ScoreBatch score = page_scores(shape, report, options, quiet);
 
   Json data = {{"view", parsed_json(view_json(model, shape, report, options))},
                {"up", numbers(up_vector(report.up))},

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "vantage/report/view_report.h"
+
+#include "support/model_of.h"
+#include "support/shapes.h"
+
+namespace vantage::test {
+namespace {
+
+using nlohmann::json;
+
+/// What the page of a result has in its data block.
+json page_data(const Model& model, const ShapeAnalysis& shape, const ViewReport& report,
+               const ViewOptions& options) {
+  ShapePictures pictures(shape);
+  const std::string page = report_html(model, shape, pictures, report, options);
+  const std::string mark = R"(<script type="application/json" id="data">)";
+  const std::size_t begin = page.find(mark) + mark.size();
+  return json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+/// A result whose map is a few spikes: the scores of a coarse copy differ from the surface's.
+struct Spiky {
+  explicit Spiky(const TriMesh& mesh) : model(model_of(mesh)) {
+    options.width = options.height = 32;
+    shape = analyse_shape(model, options);
+    for (std::size_t v = 0; v < shape.significance.size(); ++v) {
+      shape.significance[v] = v % 53 == 0 ? 1.0 : 0.0;
+    }
+    report = find_views(shape, UpAxis::Y, options);
+  }
+
+  [[nodiscard]] json page() const { return page_data(model, shape, report, options); }
+
+  Model model;
+  ViewOptions options{};
+  ShapeAnalysis shape{};
+  ViewReport report{};
+};
+
+TEST(ReportPage, ShowsNoEstimateBeyondWhatWasFound) {
+  if (!has_report_page()) {
+    GTEST_SKIP() << "built without npm";
+  }
+  const Spiky spiky(y_of_tubes(0.3, 28));  // 3348 vertices: the page estimates
+  const json data = spiky.page();
+  const auto scores = data["sphere"]["scores"].get<std::vector<double>>();
+  const auto objectives = data["sphere"]["objective"].get<std::vector<double>>();
+  ASSERT_EQ(scores.size(), 642U);
+  ASSERT_EQ(objectives.size(), 642U);
+  EXPECT_LE(*std::max_element(scores.begin(), scores.end()), spiky.report.highest_score);
+  EXPECT_GE(*std::min_element(scores.begin(), scores.end()), spiky.report.worst.score);
+  EXPECT_LE(*std::max_element(objectives.begin(), objectives.end()), spiky.report.best.objective);
+  for (const char* goal : {"best", "worst"}) {
+    for (const json& step : data["rapid"][goal]) {
+      EXPECT_LE(step["score"].get<double>(), spiky.report.highest_score);
+      EXPECT_GE(step["score"].get<double>(), spiky.report.worst.score);
+    }
+  }
+}
+
+TEST(ReportPage, HasTheVeryScoresOfASmallModel) {
+  if (!has_report_page()) {
+    GTEST_SKIP() << "built without npm";
+  }
+  const Spiky spiky(y_of_tubes(0.3, 20));
+  ASSERT_LT(spiky.shape.surface.positions.size(), 2000U);
+  ASSERT_GT(spiky.shape.surface.positions.size(), 1000U);
+  const json sphere = spiky.page()["sphere"];
+  const VertexVisibility visibility(spiky.shape.surface, spiky.shape.sides);
+  const MapScorer map(spiky.shape, visibility, spiky.options);
+  for (std::size_t i = 0; i < sphere["directions"].size(); i += 7) {
+    const auto d = sphere["directions"][i].get<std::vector<double>>();
+    EXPECT_DOUBLE_EQ(sphere["scores"][i].get<double>(), map.scorer().score(Vec3(d[0], d[1], d[2])));
+  }
+}
+
+}  // namespace
+}  // namespace vantage::test
