@@ -30,7 +30,7 @@ class DrawnSurface;
 /// How much work goes into a picture.
 enum class Quality {
   Draft,   ///< 9 samples a pixel, 8 occlusion rays a probe: thumbnails.
-  Normal,  ///< 16 and 16: pictures on a screen.
+  Normal,  ///< 16 and 8: pictures on a screen.
   Fine,    ///< 64 and 64: print.
 };
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -141,12 +143,15 @@ TEST(RenderStyle, ACreaseOfNoughtShowsTheFacets) {
   EXPECT_GT(shades(40.0), 40U);
 }
 
-TEST(RenderStyle, FinerQualityMeansMoreRays) {
-  RenderOptions draft = look(Style::Clay);
-  RenderOptions fine = look(Style::Clay);
-  set_quality(fine, Quality::Fine);
-  EXPECT_GT(fine.samples, draft.samples);
-  EXPECT_GT(fine.ambient_rays * fine.samples, draft.ambient_rays * draft.samples);
+TEST(RenderStyle, QualitiesHaveTheRaysThatTheManualSays) {
+  const std::vector<std::array<int, 2>> rays{{9, 8}, {16, 8}, {64, 64}};  // docs/rendering.md
+  std::vector<std::array<int, 2>> found;
+  for (const Quality quality : {Quality::Draft, Quality::Normal, Quality::Fine}) {
+    RenderOptions options = look(Style::Clay);
+    set_quality(options, quality);
+    found.push_back({options.samples, options.ambient_rays});
+  }
+  EXPECT_EQ(found, rays);
 }
 
 TEST(RenderStyle, AnUpThatIsNoDirectionIsRefused) {
