@@ -3,6 +3,8 @@
 
 #include <charconv>
 
+#include "vantage/pipeline/find_views.h"
+
 #include "session.h"
 #include "settings.h"
 #include "value_checks.h"
@@ -56,6 +58,14 @@ ViewOptions MethodFlags::resolve(std::uint64_t seed) const {
     throw refused(error);
   }
   return all.view;
+}
+
+void refuse_near_eye(const ViewOptions& options) {
+  try {
+    check_framing(options);
+  } catch (const InvalidInput& error) {
+    throw refused(error);
+  }
 }
 
 void refuse_any_up(const ViewOptions& options) {

@@ -46,6 +46,10 @@ class MethodFlags {
 /// Refuses --up any, of a command that leaves the model as it stands. \throw CLI::ValidationError
 void refuse_any_up(const ViewOptions& options);
 
+/// Refuses --distance or --fov from where pictures do not show all of every model.
+/// \throw CLI::ValidationError
+void refuse_near_eye(const ViewOptions& options);
+
 /// The axis of "x", "-y", … \pre it is one of these.
 UpAxis up_axis(const std::string& name);
 

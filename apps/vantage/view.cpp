@@ -165,6 +165,7 @@ struct ViewCommand {
     options.pictures = !no_images;
     options.view_set = several.request();
     options.margin_percent = look.margin_percent();
+    refuse_near_eye(options);
     measure.apply(options);
     session.refuse_idle(options.method != "mesh-saliency", flags_of({"saliency"}),
                         "goes with --method mesh-saliency only");

@@ -235,6 +235,7 @@ ViewOptions view_options_of(const MethodFlags& method, const ViewSetFlags& sever
   ViewOptions options = method.resolve(seed);
   options.margin_percent = look.margin_percent();
   options.view_set = kinds.has("views") ? several.request_or(kViewsOfBatch) : several.request();
+  refuse_near_eye(options);
   return options;
 }
 

@@ -2,8 +2,12 @@
 // Camera and size of a picture of the whole surface.
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <span>
+#include <sstream>
+#include <string>
 
+#include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/pipeline/find_views.h"
 #include "vantage/render/render.h"
@@ -32,6 +36,12 @@ void settle_on_focus(Camera& camera, std::span<const Vec3> focus, const ShapeAna
   }
 }
 
+std::string in_radii(double distance) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(4) << distance << " radii";
+  return text.str();
+}
+
 double aspect_of(PictureSize size) {
   return static_cast<double>(size.width) / size.height;
 }
@@ -55,6 +65,24 @@ PictureFrame frame_picture(const ShapeAnalysis& shape, const Vec3& direction, Up
     settle_on_focus(frame.camera, points, shape);
   }
   return frame;
+}
+
+void check_framing(const ViewOptions& options) {
+  if (options.projection == Projection::Orthographic || !options.focus.empty()) {
+    return;
+  }
+  const double distance = ScoringCamera{.sphere = {Vec3::Zero(), 2.0},
+                                        .projection = options.projection,
+                                        .fov_y_deg = options.fov_y_deg,
+                                        .distance_factor = options.distance_factor}
+                              .distance();
+  const double least = least_distance(options.margin_percent / 100.0);
+  if (distance < least) {
+    throw InvalidInput("option " + std::string(options.distance_factor ? "distance" : "fov") +
+                       " puts the eye " + in_radii(distance) +
+                       " from the centre; with this margin a picture shows all of a ball from " +
+                       in_radii(std::ceil(1e4 * least) / 1e4) + " on");
+  }
 }
 
 PictureSize size_with_aspect(const ViewOptions& options, double aspect) {

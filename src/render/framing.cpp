@@ -213,11 +213,11 @@ Camera frame_perspective(std::span<const Vec3> points, const Vec3& eye, const Ve
   const double tangent = std::max(std::max(bounds.high_x, -bounds.low_x) / room.x,
                                   std::max(bounds.high_y, -bounds.low_y) / room.y);
   if (tangent > kMaxTangent) {
-    if (std::max({bounds.high_x, -bounds.low_x, bounds.high_y, -bounds.low_y}) < kMaxTangent) {
+    const double widest = std::max({bounds.high_x, -bounds.low_x, bounds.high_y, -bounds.low_y});
+    if (room.x < room.y && widest < kMaxTangent * room.y) {
       throw InvalidInput(
           "the picture is so narrow that it would need a field of view beyond 170°; take a wider "
-          "one, "
-          "or an orthographic camera");
+          "one, or an orthographic camera");
     }
     throw_too_near();
   }
@@ -297,6 +297,10 @@ Camera frame_points(std::span<const Vec3> points, const Viewpoint& eye, const Ve
     return frame_orthographic(points, eye.position.normalized(), centre, model_up, room);
   }
   return frame_perspective(points, eye.position, centre, model_up, room);
+}
+
+double least_distance(double margin) {
+  return std::hypot(1.0, 1.0 / (kMaxTangent * room_for(1.0, margin).y));
 }
 
 double fitting_aspect(std::span<const Vec3> points, const Viewpoint& eye, const Vec3& centre,

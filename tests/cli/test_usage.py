@@ -108,6 +108,8 @@ class WhatWasMeant(ProgramTest):
         self.write("a.off", box(1))
         for flags, named in ((("--search", "rapid", "--objective", "people"), "--objective"),
                              (("--prior", "none", "--objective", "people"), "--prior"), (("-o", ""), "--output"),
+                             (("--distance", 1.003), "--distance puts the eye 1.0030 radii"),
+                             (("--distance", 1.1, "--margin", 45), "from 1.3287 radii on"),
                              (("--up", "z", "--front", "z"), "--front"), (("--up", "-y", "--front", "y"), "--front")):
             with self.subTest(flags=flags):
                 self.assertIn(named, self.vantage("view", "a.off", *flags, exit_code=2).err)

@@ -210,6 +210,10 @@ struct PictureFrame {
 PictureFrame frame_picture(const ShapeAnalysis& shape, const Vec3& direction, UpAxis up,
                            const ViewOptions& options);
 
+/// Refuses an eye so near that no picture could show all of a ball, which a model may be; a focus may be
+/// small. \throw InvalidInput
+void check_framing(const ViewOptions& options);
+
 /// A picture of about options.width × options.height pixels with that aspect (width over height),
 /// no side longer than 16384.
 PictureSize size_with_aspect(const ViewOptions& options, double aspect);

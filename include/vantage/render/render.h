@@ -185,6 +185,10 @@ Vec3 upright(const Vec3& direction, const Vec3& model_up);
 Camera frame_points(std::span<const Vec3> points, const Viewpoint& eye, const Vec3& centre,
                     const Vec3& model_up, double aspect, double margin = 0.04);
 
+/// Distance from a ball's centre, in its radii, from which on frame_points() can show all of it with
+/// perspective in a picture that is not narrow.
+double least_distance(double margin = 0.04);
+
 /// The aspect with which frame_points() lets the points touch the margin on all four sides: width
 /// over height of their box and the margin. 0 and infinity are possible, if they lie in a line; 1 if
 /// they are one point. \throw InvalidInput like frame_points()

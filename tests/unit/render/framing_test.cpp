@@ -128,8 +128,8 @@ TEST(FramePoints, RefusesAnEyeInsideThePoints) {
 }
 
 TEST(FramePoints, TellsNarrowPicturesFromNearEyes) {
-  const TriMesh ball = test::sphere(2);
-  const auto reason = [&](const Vec3& eye, double aspect) -> std::string {
+  const auto reason = [](const Vec3& eye, double aspect,
+                         const TriMesh& ball = test::sphere(2)) -> std::string {
     try {
       frame_points(ball.positions, eye_at(eye), Vec3::Zero(), Vec3::UnitY(), aspect);
     } catch (const InvalidInput& error) {
@@ -140,6 +140,10 @@ TEST(FramePoints, TellsNarrowPicturesFromNearEyes) {
   EXPECT_NE(reason(Vec3(0, 0, 3), 1e-3).find("narrow"), std::string::npos);
   EXPECT_NE(reason(Vec3(0, 0, 0.5), 1.0).find("too near"), std::string::npos);
   EXPECT_EQ(reason(Vec3(0, 0, 3), 0.1), "");
+  // Just so near that the margin alone takes it beyond the widest field of view.
+  const Vec3 away = Vec3(0.3, 0.5, 0.8).normalized();
+  EXPECT_NE(reason(1.004 * away, 1.0, test::sphere(5)).find("too near"), std::string::npos);
+  EXPECT_EQ(reason(1.0001 * least_distance() * away, 1.0, test::sphere(5)), "");
 }
 
 TEST(FramePoints, RefusesAPointAtTheEye) {
