@@ -122,7 +122,7 @@ FoundView one_view(const MapObjective& map, const Preference& preference, Goal g
   const ViewObjective objective = map.objective(preference);
   found = search_view(objective, goal, options.search, run);
   if (goal == Goal::Best && !preference.is_score()) {
-    settle_on_the_front(found, objective, preference, shape, frame);
+    settle_on_the_front(found, {}, objective, preference, shape, frame);
   }
   return found;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/settled_search.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "pipeline/twins.h"
@@ -36,12 +37,35 @@ DenseGap gap_to_dense(const FoundViews& found, const ViewObjective& objective,
   return gap;
 }
 
+bool has(const FoundView& view, const Vec3& direction) {
+  return std::any_of(view.trace.begin(), view.trace.end(),
+                     [&](const SearchStep& step) { return step.direction == direction; });
+}
+
+/// Scores what `view` comes to beside its search, and counts what neither search has scored.
+std::vector<double> scored_beside(const std::vector<Vec3>& directions, FoundView& view,
+                                  const FoundView& other, const ViewObjective& objective) {
+  std::vector<double> scores = objective.score(directions);
+  const int level = view.trace.empty() ? 0 : view.trace.back().level;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    if (!has(view, directions[i]) && !has(other, directions[i])) {
+      view.trace.push_back({level, directions[i], scores[i]});
+      ++view.evaluations;
+    }
+  }
+  return scores;
+}
+
 }  // namespace
 
-std::vector<TwinView> settle_on_the_front(FoundView& best, const ViewObjective& objective,
+std::vector<TwinView> settle_on_the_front(FoundView& best, const FoundView& worst,
+                                          const ViewObjective& objective,
                                           const Preference& preference, const ShapeAnalysis& shape,
                                           const ModelFrame& frame) {
-  std::vector<TwinView> twins = twins_of(best.direction, shape, objective.score, preference);
+  const ScoreBatch score = [&](const std::vector<Vec3>& directions) {
+    return scored_beside(directions, best, worst, objective);
+  };
+  std::vector<TwinView> twins = twins_of(best.direction, shape, score, preference);
   if (!preference.is_score()) {
     TwinView first{best.direction, best.score, best.preference};
     settle_near_ties(first, twins, upright_frame(frame));
@@ -63,10 +87,11 @@ SettledViews search_settled(const ViewObjective& objective, const Preference& pr
   if (options.best_view) {
     FoundView& best = found.best;
     best.direction = *options.best_view;
-    best.score = objective.score({best.direction}).front();
+    best.score = scored_beside({best.direction}, best, found.worst, objective).front();
     best.preference = preference(best.direction, best.score);
   } else {
-    settled.twins = settle_on_the_front(found.best, objective, preference, shape, frame);
+    settled.twins =
+        settle_on_the_front(found.best, found.worst, objective, preference, shape, frame);
   }
   if (options.certify) {  // what is reported, and so not before near-ties are settled
     settled.dense_gap = gap_to_dense(found, objective, run.part(share, 1.0));

@@ -24,8 +24,10 @@ SettledViews search_settled(const ViewObjective& objective, const Preference& pr
                             const ViewOptions& options, const RunContext& run);
 
 /// Of the best view and what mirror planes make of it, takes the one most toward the front, unless the
-/// score alone counts. \return the others.
-std::vector<TwinView> settle_on_the_front(FoundView& best, const ViewObjective& objective,
+/// score alone counts. Counts those images as evaluations of the best that it and `worst` have not scored.
+/// \return the others.
+std::vector<TwinView> settle_on_the_front(FoundView& best, const FoundView& worst,
+                                          const ViewObjective& objective,
                                           const Preference& preference, const ShapeAnalysis& shape,
                                           const ModelFrame& frame);
 

@@ -137,7 +137,7 @@ TEST_F(ReportOfAY, NoDirectionOfTheSetBeatsTheBestOrUndercutsTheWorst) {
     EXPECT_LE(step.score, report_.best.score);
     EXPECT_GE(step.score, report_.worst.score);
   }
-  EXPECT_EQ(report_.best_search.trace.size(), 162U);
+  EXPECT_EQ(report_.best_search.trace.size(), 162U + 1U);  // and the mirror image of the best
 }
 
 TEST_F(ReportOfAY, TheEyeStandsWhereTheEnclosingSphereFillsTheView) {
@@ -392,6 +392,27 @@ TEST(FindViews, CountsAndTracesTheSearchForTheHighestScore) {
     largest = larger(largest, step.score);
   }
   EXPECT_EQ(largest, report.highest_score);
+}
+
+TEST(FindViews, TracesTheMirrorImageThatItTakesForTheBest) {
+  ViewOptions options = quick_search();
+  options.objective = Objective::People;
+  for (const UpAxis front : {UpAxis::X, UpAxis::MinusX}) {  // from one the search's own is taken
+    const ModelFrame frame{UpAxis::Y, front};
+    const ViewReport report = find_views(analysed_box(), frame, options);
+    ASSERT_FALSE(report.twins.empty());
+    std::vector<SearchStep> scored = report.best_search.trace;
+    EXPECT_EQ(report.best_search.evaluations, scored.size());
+    scored.insert(scored.end(), report.worst_search.trace.begin(), report.worst_search.trace.end());
+    const auto times = [&](const Vec3& direction) {
+      return std::count_if(scored.begin(), scored.end(),
+                           [&](const SearchStep& step) { return step.direction == direction; });
+    };
+    EXPECT_EQ(times(report.best.direction), 1);
+    for (const TwinView& twin : report.twins) {
+      EXPECT_EQ(times(twin.direction), 1);
+    }
+  }
 }
 
 TEST(FindViews, FindsTheSameWhereNothingWasPrepared) {
