@@ -101,8 +101,9 @@ DisplayMesh clustered(const TriMesh& surface, const std::vector<std::uint32_t>& 
       points.push_back(static_cast<float>(unit[axis]));
     }
   }
-  // A closed surface has about twice as many faces as vertices.
-  auto wanted = static_cast<double>(std::min(max_faces, 2 * max_vertices));
+  // A closed surface has about twice as many faces as vertices. A soup has a third as many: it may
+  // have too many vertices and yet fewer faces than that, and meshoptimizer aborts when asked for more.
+  auto wanted = static_cast<double>(std::min({max_faces, 2 * max_vertices, all.size() / 3}));
   std::vector<std::uint32_t> indices(all.size());
   for (int attempt = 0; attempt < kTries; ++attempt, wanted *= kNextTry) {
     const std::size_t target = 3 * static_cast<std::size_t>(wanted);

@@ -78,5 +78,15 @@ TEST(DisplayMesh, OfASoupIsMadeSmallToo) {
   EXPECT_FALSE(display.triangles.empty());
 }
 
+TEST(DisplayMesh, OfASoupWithTooManyVerticesButFewFacesIsMadeSmall) {
+  const TriMesh mesh = soup(sphere(1));
+  const std::size_t faces = mesh.triangles.size();
+  const DisplayMesh display =
+      copy_of(mesh, std::vector<double>(mesh.positions.size(), 1.0),
+              std::vector<FaceSides>(faces, FaceSides::Both), 2 * faces, 2 * faces);
+  EXPECT_LE(display.vertex_of_row.size(), 2 * faces);
+  EXPECT_GT(display.triangles.size(), faces / 3);
+}
+
 }  // namespace
 }  // namespace vantage::test
