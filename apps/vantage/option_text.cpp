@@ -93,9 +93,13 @@ class HelpFormatter final : public CLI::Formatter {
                         CLI::AppFormatMode mode) const override {
     const std::size_t count = describe_options(*app).size();
     shows_all_ = mode == CLI::AppFormatMode::All || count <= kFewOptions;
-    // All of this command, and not of the commands below it.
-    const std::string help =
-        CLI::Formatter::make_help(app, std::move(name), CLI::AppFormatMode::Normal);
+    // Commands below this one have help of their own, which follows if all is asked for.
+    std::string help = CLI::Formatter::make_help(app, std::move(name), CLI::AppFormatMode::Normal);
+    if (mode == CLI::AppFormatMode::All) {
+      for (const CLI::App* command : commands_below(*app)) {
+        help += "\n\n\n" + make_help(command, command->get_name(), mode);
+      }
+    }
     std::string closed;  // groups of which nothing is shown leave their blank lines
     for (const char c : help) {
       closed += c == '\n' && closed.ends_with("\n\n") ? "" : std::string(1, c);

@@ -208,6 +208,12 @@ class Help(ProgramTest):
     def test_commands_with_few_options_show_all(self):
         self.assertNotIn("lists all", self.vantage("completion", "--help").out)
 
+    def test_all_help_of_the_program_has_that_of_every_command(self):
+        everything = self.vantage("--help-all").out
+        for command in ("view", "batch", "results query"):
+            self.assertIn(self.vantage(*command.split(), "--help-all").out.strip(), everything, command)
+        self.assertNotIn("--threads", self.vantage("--help").out)
+
     def test_methods_are_completed(self):
         for shell in ("bash", "zsh", "fish"):
             script = self.vantage("completion", shell).out
