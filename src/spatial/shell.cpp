@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -15,12 +16,6 @@
 namespace vantage {
 namespace {
 
-/// Faces a cell of the grid, on average, if all were the same size.
-constexpr double kFacesPerCell = 2.0;
-constexpr int kMostCellsAlong = 2048;  // along one side
-/// Entries of the grid for each face, beyond which its cells are made larger: large faces that lie
-/// over one another touch every cell, and thousands of them fill gigabytes [ours].
-constexpr std::size_t kMostEntries = 64;
 /// Faces that a way meets in a cell, in the mean, beyond which walls are looked for by rays: long faces
 /// of thin tubes fill the same cells [ours].
 constexpr double kMostMet = 500.0;
@@ -30,8 +25,6 @@ constexpr double kSkip = 1e-4;
 constexpr double kRounding = 1e-9;
 /// A point nearer to the surface than this share of the model is on it.
 constexpr double kAside = 1e-6;
-/// Rows of cells are taken this much wider, in cells, so that rounding loses no face.
-constexpr double kSlack = 0.01;
 /// A segment that passes a face's plane farther than this share of the model from the face does not
 /// meet it, unless it runs nearly along the plane, where rounding moves the place.
 constexpr double kBeside = 1e-9;
@@ -58,27 +51,28 @@ std::vector<Vec3> vertex_normals(const TriMesh& mesh) {
   return normals;
 }
 
+std::vector<Vec3> corners_of(const TriMesh& mesh, std::span<const std::uint32_t> faces) {
+  std::vector<Vec3> corners;
+  corners.reserve(3 * faces.size());
+  for (const std::uint32_t f : faces) {
+    for (const std::uint32_t v : mesh.triangles[f]) {
+      corners.push_back(mesh.positions[v]);
+    }
+  }
+  return corners;
+}
+
 }  // namespace
 
 Shell::Shell(const TriMesh& mesh, std::span<const std::uint32_t> component_of_vertex,
              std::size_t most_walked)
     : mesh_(mesh), component_of_vertex_(component_of_vertex), normal_(vertex_normals(mesh)) {
   look_at_edges();
-  sort_into_cells();
-  if (mesh.triangles.size() > most_walked || faces_met() > kMostMet) {
+  sort_faces();
+  if (mesh.triangles.size() > most_walked || whole_.faces_met() > kMostMet) {
     frame_ = unit_frame(referenced_points(mesh));
     rays_.emplace(in_frame(mesh, frame_));
   }
-}
-
-/// How many faces lie in the cell of one, in the mean over all faces and their cells.
-double Shell::faces_met() const {
-  double squares = 0.0;
-  for (std::size_t cell = 1; cell < offsets_.size(); ++cell) {
-    const double faces = offsets_[cell] - offsets_[cell - 1];
-    squares += faces * faces;
-  }
-  return faces_.empty() ? 0.0 : squares / static_cast<double>(faces_.size());
 }
 
 void Shell::look_at_edges() {
@@ -87,114 +81,29 @@ void Shell::look_at_edges() {
   neighbours_ = vertex_neighbours(table, mesh_.positions.size());
 }
 
-void Shell::sort_into_cells() {
+/// A grid of all faces, where walls are looked for, and one of each closed component, where it is asked
+/// what is inside: a grid over parts that are far apart has each of them in a few of its cells.
+void Shell::sort_faces() {
   const Box box = bounding_box(referenced_points(mesh_));  // a lone vertex may be anywhere
-  const Vec3 size = box.size();
-  size.minCoeff(&up_);  // along the shortest side, projections overlap least
-  low_ = box.low;
-  size_ = size.maxCoeff();
-  const double width = size[(up_ + 1) % 3];
-  const double height = size[(up_ + 2) % 3];
-  const double wanted = std::max(1.0, static_cast<double>(mesh_.triangles.size()) / kFacesPerCell);
-  double cell_size =
-      std::max(std::sqrt(width * height / wanted), std::max(width, height) / kMostCellsAlong);
-  if (!(cell_size > 0.0)) {
-    cell_size = 1.0;
-  }
-  while (!fill_cells(width, height, cell_size)) {
-    cell_size *= 2.0;
-  }
-}
-
-/// Sorts the faces into cells of this size; false if they had more than kMostEntries for each face.
-bool Shell::fill_cells(double width, double height, double cell_size) {
-  cell_size_ = cell_size;
-  cells_ = {static_cast<int>(width / cell_size_) + 1, static_cast<int>(height / cell_size_) + 1};
-  // Cells grow with coordinates, so those of a face's box are between those of its corners.
-  std::vector<std::array<int, 2>> cell_of_vertex;
-  cell_of_vertex.reserve(mesh_.positions.size());
-  for (const Vec3& p : mesh_.positions) {
-    cell_of_vertex.push_back(cell_of(p));
-  }
-  const auto for_each_cell = [&](const Triangle& t, const auto& visit) {
-    const auto& a = cell_of_vertex[t[0]];
-    const auto& b = cell_of_vertex[t[1]];
-    const auto& c = cell_of_vertex[t[2]];
-    const auto [left, right] = std::minmax({a[0], b[0], c[0]});
-    const auto [bottom, top] = std::minmax({a[1], b[1], c[1]});
-    const bool slanted = right - left > 2 && top - bottom > 2;
-    for (int y = bottom; y <= top; ++y) {
-      const auto [first, last] = slanted ? cells_in_row(t, y) : std::array{left, right};
-      for (int x = first; x <= last; ++x) {
-        visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_[0]) +
-              static_cast<std::size_t>(x));
-      }
-    }
-  };
-  offsets_.assign(static_cast<std::size_t>(cells_[0]) * static_cast<std::size_t>(cells_[1]) + 1, 0);
-  const std::size_t most = kMostEntries * mesh_.triangles.size();
-  std::size_t entries = 0;
-  for (const Triangle& t : mesh_.triangles) {
-    for_each_cell(t, [&](std::size_t cell) {
-      ++offsets_[cell + 1];
-      ++entries;
-    });
-    if (entries > most) {
-      return false;
+  box.size().minCoeff(&up_);  // along the shortest side, projections overlap least
+  size_ = box.longest_side();
+  std::vector<std::uint32_t> all(mesh_.triangles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  whole_ = FaceGrid(mesh_, all, box, up_);
+  std::vector<std::vector<std::uint32_t>> of_component(is_open_.size());
+  for (const std::uint32_t f : all) {
+    const std::uint32_t component = component_of_vertex_[mesh_.triangles[f][0]];
+    if (!is_open(component)) {
+      of_component[component].push_back(f);
     }
   }
-  for (std::size_t cell = 1; cell < offsets_.size(); ++cell) {
-    offsets_[cell] += offsets_[cell - 1];
+  if (std::any_of(of_component.begin(), of_component.end(),
+                  [&](const auto& faces) { return faces.size() == all.size(); })) {
+    return;  // of one component, which has all of the faces
   }
-  faces_.resize(offsets_.back());
-  std::vector<std::uint32_t> cursor(offsets_.begin(), offsets_.end() - 1);
-  for (std::uint32_t f = 0; f < mesh_.triangles.size(); ++f) {
-    for_each_cell(mesh_.triangles[f], [&](std::size_t cell) { faces_[cursor[cell]++] = f; });
+  for (const std::vector<std::uint32_t>& faces : of_component) {
+    grids_.emplace_back(mesh_, faces, bounding_box(corners_of(mesh_, faces)), up_);
   }
-  return true;
-}
-
-/// The first and the last cell of a row that the face's projection touches; a needle that lies askew
-/// fills few of the cells of its box.
-std::array<int, 2> Shell::cells_in_row(const Triangle& t, int row) const {
-  const int across = (up_ + 1) % 3;
-  const int along = (up_ + 2) % 3;
-  // Points beyond the grid count to its outermost cells.
-  const double bottom = row == 0 ? -kFar : low_[along] + (row - kSlack) * cell_size_;
-  const double top = row + 1 == cells_[1] ? kFar : low_[along] + (row + 1 + kSlack) * cell_size_;
-  Vec3 left = Vec3::Constant(kFar);
-  Vec3 right = Vec3::Constant(-kFar);
-  const auto touch = [&](double x) {
-    left[across] = std::min(left[across], x);
-    right[across] = std::max(right[across], x);
-  };
-  for (std::size_t c = 0; c < 3; ++c) {
-    const Vec3& p = mesh_.positions[t.at(c)];
-    const Vec3& q = mesh_.positions[t.at((c + 1) % 3)];
-    if (p[along] >= bottom && p[along] <= top) {
-      touch(p[across]);
-    }
-    for (const double border : {bottom, top}) {
-      if ((p[along] < border) != (q[along] < border)) {
-        touch(p[across] + (border - p[along]) / (q[along] - p[along]) * (q[across] - p[across]));
-      }
-    }
-  }
-  const Vec3 margin = Vec3::Constant(kSlack * cell_size_);
-  return {cell_of(left - margin)[0], cell_of(right + margin)[0]};
-}
-
-std::array<int, 2> Shell::cell_of(const Vec3& p) const {
-  std::array<int, 2> cell{};
-  for (int a = 0; a < 2; ++a) {
-    const int axis = (up_ + 1 + a) % 3;
-    const double place = std::floor((p[axis] - low_[axis]) / cell_size_);
-    const auto last = static_cast<double>(cells_.at(static_cast<std::size_t>(a)) - 1);
-    // A place that is not a number counts to the first cell.
-    cell.at(static_cast<std::size_t>(a)) =
-        place > 0.0 ? static_cast<int>(std::min(place, last)) : 0;
-  }
-  return cell;
 }
 
 /// +1 or −1 if the projected edge passes the projected point on one side, upwards or downwards; the
@@ -249,16 +158,9 @@ bool Shell::inside(std::uint32_t component, const Vec3& point) const {
   if (is_open(component)) {
     return true;
   }
-  const auto [x, y] = cell_of(point);
-  const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_[0]) +
-                           static_cast<std::size_t>(x);
   int winding = 0;
-  for (std::uint32_t i = offsets_[cell]; i < offsets_[cell + 1]; ++i) {
-    const Triangle& t = mesh_.triangles[faces_[i]];
-    if (component_of_vertex_[t[0]] == component) {
-      winding += winding_of_face(t, point);
-    }
-  }
+  grid_of(component).visit_at(point,
+                              [&](const Triangle& t) { winding += winding_of_face(t, point); });
   return winding != 0;
 }
 
@@ -284,69 +186,6 @@ bool Shell::is_near(const Triangle& t, const Vec3& normal, const Vec3& p) const 
     }
   }
   return true;
-}
-
-/// What of the segment lies in a slab of cells across one of the grid's two axes.
-Shell::Stretch Shell::stretch_in(int slab, std::size_t axis, const Vec3& a, const Vec3& b) const {
-  const int across = (up_ + 1 + static_cast<int>(axis)) % 3;
-  const Vec3 way = b - a;
-  const Vec3 margin = Vec3::Constant(kSlack * cell_size_);
-  double enter = 0.0;
-  double leave = 1.0;
-  if (cell_of(a).at(axis) != cell_of(b).at(axis)) {
-    const double border = low_[across] + slab * cell_size_ - a[across];
-    const double s = (border - margin[across]) / way[across];
-    const double t = (border + cell_size_ + margin[across]) / way[across];
-    enter = slab == cell_of(a).at(axis) ? 0.0 : std::clamp(std::min(s, t), 0.0, 1.0);
-    leave = slab == cell_of(b).at(axis) ? 1.0 : std::clamp(std::max(s, t), 0.0, 1.0);
-  }
-  const Vec3 in = a + enter * way;
-  const Vec3 out = a + leave * way;
-  return {.leave = leave, .low = in.cwiseMin(out) - margin, .high = in.cwiseMax(out) + margin};
-}
-
-/// Visits the faces in the cells along a segment, slab by slab of cells across its longer way, until
-/// `done(share)` says after a slab that it is enough: all faces that may be met up to that share of
-/// the way were visited, some more than once.
-template <class Visit, class Done>
-void Shell::walk(const Vec3& a, const Vec3& b, const Visit& visit, const Done& done) const {
-  const Vec3 way = (b - a).cwiseAbs();
-  const std::size_t major = way[(up_ + 1) % 3] > way[(up_ + 2) % 3] ? 0 : 1;
-  const int last = cell_of(b).at(major);
-  const int step = cell_of(a).at(major) <= last ? 1 : -1;
-  for (int slab = cell_of(a).at(major); slab != last + step; slab += step) {
-    const Stretch stretch = stretch_in(slab, major, a, b);
-    auto low = cell_of(stretch.low);
-    auto high = cell_of(stretch.high);
-    low.at(major) = slab;
-    high.at(major) = slab;
-    for (int y = low[1]; y <= high[1]; ++y) {
-      for (int x = low[0]; x <= high[0]; ++x) {
-        visit_cell(x, y, stretch, visit);
-      }
-    }
-    if (done(stretch.leave)) {
-      return;
-    }
-  }
-}
-
-/// Visits the faces of a cell but for those that are wholly below or above a stretch.
-template <class Visit>
-void Shell::visit_cell(int x, int y, const Stretch& stretch, const Visit& visit) const {
-  const double bottom = stretch.low[up_];
-  const double top = stretch.high[up_];
-  const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_[0]) +
-                           static_cast<std::size_t>(x);
-  for (std::uint32_t i = offsets_[cell]; i < offsets_[cell + 1]; ++i) {
-    const Triangle& t = mesh_.triangles[faces_[i]];
-    const double p = mesh_.positions[t[0]][up_];
-    const double q = mesh_.positions[t[1]][up_];
-    const double r = mesh_.positions[t[2]][up_];
-    if (!((p < bottom && q < bottom && r < bottom) || (p > top && q > top && r > top))) {
-      visit(t);
-    }
-  }
 }
 
 /// Where a segment passes the plane of a face.
@@ -375,9 +214,6 @@ std::vector<double> Shell::cuts(std::uint32_t component, const Vec3& a, const Ve
   const Vec3 way = b - a;
   std::vector<double> places{0.0, 1.0};
   const auto look_at = [&](const Triangle& t) {
-    if (component_of_vertex_[t[0]] != component) {
-      return;
-    }
     if (const auto passed = passage(t, a, b)) {
       const double length = passed->normal.norm();
       if (passed->rise < kAlongPlane * length * way.norm() ||
@@ -386,7 +222,7 @@ std::vector<double> Shell::cuts(std::uint32_t component, const Vec3& a, const Ve
       }
     }
   };
-  walk(a, b, look_at, [](double) { return false; });
+  grid_of(component).walk(a, b, look_at, [](double) { return false; });
   std::sort(places.begin(), places.end());
   return places;
 }
@@ -403,7 +239,7 @@ double Shell::first_hit(const Vec3& a, const Vec3& b, double nearest) const {
       hit = passed->place;
     }
   };
-  walk(a, b, look_at, [&](double share) { return hit <= share; });
+  whole_.walk(a, b, look_at, [&](double share) { return hit <= share; });
   return hit;
 }
 

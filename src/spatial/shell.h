@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -10,6 +9,7 @@
 #include "vantage/mesh/topology.h"
 #include "vantage/mesh/tri_mesh.h"
 
+#include "spatial/face_grid.h"
 #include "spatial/ray_scene.h"
 
 namespace vantage {
@@ -50,7 +50,12 @@ class Shell {
   [[nodiscard]] const IndexLists& neighbours() const { return neighbours_; }
 
   /// Faces in cells of the grid, each counted in every cell that it touches.
-  [[nodiscard]] std::size_t grid_entries() const { return faces_.size(); }
+  [[nodiscard]] std::size_t grid_entries() const { return whole_.entries(); }
+
+  /// How many faces a look at what is inside a component meets, in the mean over its faces.
+  [[nodiscard]] double faces_met(std::uint32_t component) const {
+    return grid_of(component).faces_met();
+  }
 
   /// Whether the component has an edge with an odd number of faces, or many more
   /// faces than a closed surface of its vertices: nothing is inside or outside.
@@ -59,27 +64,16 @@ class Shell {
   }
 
  private:
-  /// Part of a segment, up to a share of its way, and its box.
-  struct Stretch {
-    double leave = 1.0;
-    Vec3 low = Vec3::Zero();
-    Vec3 high = Vec3::Zero();
-  };
-
   void look_at_edges();
-  void sort_into_cells();
-  [[nodiscard]] double faces_met() const;
-  bool fill_cells(double width, double height, double cell_size);
-  [[nodiscard]] std::array<int, 2> cell_of(const Vec3& p) const;
-  [[nodiscard]] std::array<int, 2> cells_in_row(const Triangle& t, int row) const;
+  void sort_faces();
+
+  [[nodiscard]] const FaceGrid& grid_of(std::uint32_t component) const {
+    return grids_.empty() ? whole_ : grids_[component];
+  }
+
   [[nodiscard]] int crossing(std::uint32_t from, std::uint32_t to, const Vec3& p) const;
   [[nodiscard]] int winding_of_face(const Triangle& t, const Vec3& p) const;
   [[nodiscard]] bool is_near(const Triangle& t, const Vec3& normal, const Vec3& p) const;
-  [[nodiscard]] Stretch stretch_in(int slab, std::size_t axis, const Vec3& a, const Vec3& b) const;
-  template <class Visit>
-  void visit_cell(int x, int y, const Stretch& stretch, const Visit& visit) const;
-  template <class Visit, class Done>
-  void walk(const Vec3& a, const Vec3& b, const Visit& visit, const Done& done) const;
   [[nodiscard]] double way_to_wall(std::uint32_t vertex, const Vec3& direction) const;
   struct Passage;
   [[nodiscard]] std::optional<Passage> passage(const Triangle& t, const Vec3& a,
@@ -92,14 +86,10 @@ class Shell {
   std::span<const std::uint32_t> component_of_vertex_;
   std::vector<std::uint8_t> is_open_{};  ///< Of each component.
   IndexLists neighbours_{};
-  // Faces by the cell of a plane grid that their projection along `up_` touches.
-  int up_ = 2;
-  Vec3 low_ = Vec3::Zero();
+  int up_ = 2;         ///< The axis along which faces are projected.
   double size_ = 0.0;  ///< Longest side of the box.
-  std::array<int, 2> cells_{1, 1};
-  double cell_size_ = 1.0;
-  std::vector<std::uint32_t> offsets_{};
-  std::vector<std::uint32_t> faces_{};
+  FaceGrid whole_{};
+  std::vector<FaceGrid> grids_{};  ///< Of each component, empty of open ones; none of a single one.
   // For walls.
   UnitFrame frame_{};               ///< Of the rays.
   std::optional<RayScene> rays_{};  ///< If there are many faces.

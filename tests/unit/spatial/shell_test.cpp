@@ -119,6 +119,20 @@ TEST(ShellInside, LooksAtOneComponentOnly) {
   EXPECT_TRUE(shell.inside(1, Vec3(5, 0, 0)));
 }
 
+TEST(ShellInside, AGridOfEachComponentHasAboutTwoFacesACellHoweverFarApartTheyAre) {
+  // A grid over both has each of them in one cell, where every look meets all of its faces.
+  const TriMesh mesh = test::together(test::sphere(4), test::sphere(1), Vec3(1e4, 0, 3e3));
+  std::vector<std::uint32_t> components(mesh.positions.size(), 1);
+  std::fill(components.begin(),
+            components.begin() + static_cast<std::ptrdiff_t>(test::sphere(4).positions.size()), 0);
+  const Shell shell(mesh, components);
+  EXPECT_LE(shell.faces_met(0), 20.0);
+  EXPECT_TRUE(shell.inside(0, Vec3(0.1, 0.2, 0.3)));
+  EXPECT_TRUE(shell.inside(0, Vec3(0.9, 0, 0), Vec3(-0.9, 0, 0)));
+  EXPECT_FALSE(shell.inside(0, Vec3(0, 0, 0), Vec3(1e4, 0, 3e3)));
+  EXPECT_TRUE(shell.inside(1, Vec3(1e4, 0.1, 3e3)));
+}
+
 TEST(ShellInside, AnOpenSurfaceHasNoOutside) {
   const TriMesh mesh = test::open_cylinder(0.3, 1.0, 8, 4);
   const auto components = one_component(mesh);
