@@ -24,6 +24,8 @@ FaceGrid::FaceGrid(const TriMesh& mesh, std::span<const std::uint32_t> faces, co
     : mesh_(&mesh), up_(up), low_(box.low) {
   const double width = box.size()[(up_ + 1) % 3];
   const double height = box.size()[(up_ + 2) % 3];
+  const double rise = box.size()[up_];
+  levels_ = rise > 0.0 ? kTopLevel / rise : 0.0;
   const double wanted = std::max(1.0, static_cast<double>(faces.size()) / kFacesPerCell);
   // A grid has few more cells than faces, however long and thin: there may be thousands of grids.
   const auto most_along =
@@ -44,7 +46,7 @@ double FaceGrid::faces_met() const {
     const double faces = offsets_[cell] - offsets_[cell - 1];
     squares += faces * faces;
   }
-  return faces_.empty() ? 0.0 : squares / static_cast<double>(faces_.size());
+  return entries_.empty() ? 0.0 : squares / static_cast<double>(entries_.size());
 }
 
 /// The cells that a face touches, and some beside it.
@@ -86,12 +88,21 @@ bool FaceGrid::fill_cells(std::span<const std::uint32_t> faces, double width, do
   for (std::size_t cell = 1; cell < offsets_.size(); ++cell) {
     offsets_[cell] += offsets_[cell - 1];
   }
-  faces_.resize(offsets_.back());
+  entries_.resize(offsets_.back());
   std::vector<std::uint32_t> cursor(offsets_.begin(), offsets_.end() - 1);
   for (const std::uint32_t f : faces) {
-    for_each_cell(mesh_->triangles[f], [&](std::size_t cell) { faces_[cursor[cell]++] = f; });
+    const Entry entry = entry_of(f);
+    for_each_cell(mesh_->triangles[f], [&](std::size_t cell) { entries_[cursor[cell]++] = entry; });
   }
   return true;
+}
+
+FaceGrid::Entry FaceGrid::entry_of(std::uint32_t face) const {
+  const Triangle& t = mesh_->triangles[face];
+  const auto [low, high] =
+      std::minmax({level_of(mesh_->positions[t[0]]), level_of(mesh_->positions[t[1]]),
+                   level_of(mesh_->positions[t[2]])});
+  return {face, low, high};
 }
 
 /// The first and the last cell of a row that the face's projection touches; a needle that lies askew

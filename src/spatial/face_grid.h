@@ -24,17 +24,20 @@ class FaceGrid {
   FaceGrid(const TriMesh& mesh, std::span<const std::uint32_t> faces, const Box& box, int up);
 
   /// Faces in cells, each counted in every cell that it touches.
-  [[nodiscard]] std::size_t entries() const { return faces_.size(); }
+  [[nodiscard]] std::size_t entries() const { return entries_.size(); }
 
   /// How many faces lie in the cell of one, in the mean over all faces and their cells.
   [[nodiscard]] double faces_met() const;
 
-  /// Visits the faces in the cell of a point: all that are above or below it.
+  /// Visits faces in the cell of a point: all that lie above it, and some others.
   template <class Visit>
   void visit_at(const Vec3& point, const Visit& visit) const {
     const auto [x, y] = cell_of(point);
-    for (const std::uint32_t f : faces_in(x, y)) {
-      visit(mesh_->triangles[f]);
+    const std::uint16_t bottom = level_of(point);
+    for (const Entry& entry : entries_in(x, y)) {
+      if (entry.high >= bottom) {
+        visit(mesh_->triangles[entry.face]);
+      }
     }
   }
 
@@ -72,6 +75,14 @@ class FaceGrid {
     Vec3 high = Vec3::Zero();
   };
 
+  /// A face in a cell, and between which levels along the axis it lies: most of those in a cell are told
+  /// apart by them, without a look at their corners.
+  struct Entry {
+    std::uint32_t face = 0;
+    std::uint16_t low = 0;
+    std::uint16_t high = 0;
+  };
+
   bool fill_cells(std::span<const std::uint32_t> faces, double width, double height,
                   double cell_size);
   template <class Visit>
@@ -80,10 +91,18 @@ class FaceGrid {
   [[nodiscard]] std::array<int, 2> cell_of(const Vec3& p) const;
   [[nodiscard]] Stretch stretch_in(int slab, std::size_t axis, const Vec3& a, const Vec3& b) const;
 
-  [[nodiscard]] std::span<const std::uint32_t> faces_in(int x, int y) const {
+  /// The level of a place along the axis: of two places the higher has no lower level.
+  [[nodiscard]] std::uint16_t level_of(const Vec3& p) const {
+    const double place = (p[up_] - low_[up_]) * levels_;
+    return place > 0.0 ? static_cast<std::uint16_t>(std::min(place, kTopLevel)) : std::uint16_t{0};
+  }
+
+  [[nodiscard]] Entry entry_of(std::uint32_t face) const;
+
+  [[nodiscard]] std::span<const Entry> entries_in(int x, int y) const {
     const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(cells_[0]) +
                              static_cast<std::size_t>(x);
-    return {faces_.data() + offsets_[cell], offsets_[cell + 1] - offsets_[cell]};
+    return {entries_.data() + offsets_[cell], offsets_[cell + 1] - offsets_[cell]};
   }
 
   /// Visits the faces of a cell but for those that are wholly below or above a stretch.
@@ -91,8 +110,13 @@ class FaceGrid {
   void visit_cell(int x, int y, const Stretch& stretch, const Visit& visit) const {
     const double bottom = stretch.low[up_];
     const double top = stretch.high[up_];
-    for (const std::uint32_t f : faces_in(x, y)) {
-      const Triangle& t = mesh_->triangles[f];
+    const std::uint16_t bottom_level = level_of(stretch.low);
+    const std::uint16_t top_level = level_of(stretch.high);
+    for (const Entry& entry : entries_in(x, y)) {
+      if (entry.high < bottom_level || entry.low > top_level) {
+        continue;
+      }
+      const Triangle& t = mesh_->triangles[entry.face];
       const double p = mesh_->positions[t[0]][up_];
       const double q = mesh_->positions[t[1]][up_];
       const double r = mesh_->positions[t[2]][up_];
@@ -102,13 +126,16 @@ class FaceGrid {
     }
   }
 
+  static constexpr double kTopLevel = 65535.0;
+
   const TriMesh* mesh_ = nullptr;
   int up_ = 2;
   Vec3 low_ = Vec3::Zero();
   std::array<int, 2> cells_{1, 1};
   double cell_size_ = 1.0;
+  double levels_ = 0.0;  ///< To a unit of length along the axis.
   std::vector<std::uint32_t> offsets_{0, 0};
-  std::vector<std::uint32_t> faces_{};
+  std::vector<Entry> entries_{};
 };
 
 }  // namespace vantage
