@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <tuple>
 
 namespace vantage {
 namespace {
@@ -15,21 +16,29 @@ constexpr double kParallel = 1e-12;
 /// Pieces of a tube are halved until each lies in so many tiles each way. [ours]
 constexpr int kTilesOfPiece = 2;
 
+/// A hit's depth may be less than that of what is met by this, in the unit frame: rounding where a ray
+/// touches a tube.
+constexpr double kDepthSlack = 1e-6;
+
 }  // namespace
 
 Tubes::Tubes(const CurveGraph& graph, double radius, const PictureRays& rays, int width, int height,
-             double joint_thickness) {
+             double joint_thickness)
+    : sight_(-rays.back()) {
   std::vector<std::uint32_t> degree(graph.nodes.size(), 0);
   for (const auto& edge : graph.edges) {
-    capsules_.push_back({graph.nodes[edge[0]], graph.nodes[edge[1]], radius});
+    add(graph.nodes[edge[0]], graph.nodes[edge[1]], radius);
     ++degree[edge[0]];
     ++degree[edge[1]];
   }
   for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
     if (degree[n] != 2) {
-      capsules_.push_back({graph.nodes[n], graph.nodes[n], joint_thickness * radius});
+      add(graph.nodes[n], graph.nodes[n], joint_thickness * radius);
     }
   }
+  std::sort(capsules_.begin(), capsules_.end(), [](const Capsule& a, const Capsule& b) {
+    return std::tie(a.depth, a.index) < std::tie(b.depth, b.index);
+  });
   tiles_across_ = (width + kTilePx - 1) / kTilePx;
   const int tiles_down = (height + kTilePx - 1) / kTilePx;
   std::vector<std::array<std::uint32_t, 2>> tile_and_capsule;
@@ -47,6 +56,12 @@ Tubes::Tubes(const CurveGraph& graph, double radius, const PictureRays& rays, in
   for (std::size_t tile = 0; tile < capsules_of_tile_.size(); ++tile) {
     capsules_of_tile_.offsets[tile + 1] += capsules_of_tile_.offsets[tile];
   }
+}
+
+void Tubes::add(const Vec3& begin, const Vec3& end, double radius) {
+  const auto index = static_cast<std::uint32_t>(capsules_.size());
+  const double depth = std::min(begin.dot(sight_), end.dot(sight_)) - radius;
+  capsules_.push_back({begin, end, radius, index, depth - kDepthSlack * (1.0 + std::abs(depth))});
 }
 
 std::vector<std::uint32_t> Tubes::tiles_of(const Capsule& capsule, const PictureRays& rays) const {
@@ -143,10 +158,18 @@ std::span<const std::uint32_t> Tubes::near(int x, int y) const {
 
 TubeHit Tubes::closest_hit(const PictureRay& ray, int x, int y) const {
   TubeHit nearest;
+  std::uint32_t index = 0;
+  const double start = ray.origin.dot(sight_);
+  const double slope = ray.direction.dot(sight_);  // above 0
   for (const std::uint32_t c : near(x, y)) {
-    const TubeHit hit = meet(capsules_[c], ray);
-    if (hit.t < nearest.t) {
+    const Capsule& capsule = capsules_[c];
+    if (capsule.depth > start + nearest.t * slope) {
+      break;
+    }
+    const TubeHit hit = meet(capsule, ray);
+    if (hit.t < nearest.t || (hit.t == nearest.t && capsule.index < index)) {
       nearest = hit;
+      index = capsule.index;
     }
   }
   return nearest;

@@ -25,7 +25,8 @@ struct TubeHit {
 
 /// A curve graph as round tubes, exact in double precision. Nodes of degree two are joined
 /// smoothly; ends, branches and isolated nodes are balls of kJointThickness times the radius.
-/// Tubes are listed by picture tile, so that a ray asks only those near it.
+/// Tubes are listed by picture tile, the foremost first, so that a ray asks only those near it and not
+/// those behind the one that it meets.
 class Tubes {
  public:
   static constexpr int kTilePx = 8;  ///< Side of a tile.
@@ -47,8 +48,11 @@ class Tubes {
     Vec3 begin;
     Vec3 end;
     double radius;
+    std::uint32_t index;  ///< In the order of edges, then nodes.
+    double depth;         ///< Along the line of sight: no point of it has less.
   };
 
+  void add(const Vec3& begin, const Vec3& end, double radius);
   /// Tiles that a capsule may show in, ascending.
   [[nodiscard]] std::vector<std::uint32_t> tiles_of(const Capsule& capsule,
                                                     const PictureRays& rays) const;
@@ -59,6 +63,7 @@ class Tubes {
   std::vector<Capsule> capsules_;
   IndexLists capsules_of_tile_;
   int tiles_across_ = 0;
+  Vec3 sight_;  ///< Unit.
 };
 
 }  // namespace vantage

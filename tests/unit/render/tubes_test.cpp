@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -137,6 +138,45 @@ TEST(Tubes, TheTileListsMissNoTubeThatPassesTheEye) {
     }
   }
   EXPECT_GT(met, 100);
+}
+
+/// Asks all at once and one by one. \return how many rays met any.
+int hits_alike(const CurveGraph& graph, const PictureRays& rays, int width, int height) {
+  const Tubes all(graph, 0.02, rays, width, height);
+  std::vector<Tubes> single;
+  for (const auto& [a, b] : graph.edges) {
+    single.push_back(
+        Tubes({{graph.nodes[a], graph.nodes[b]}, {{0, 1}}}, 0.02, rays, width, height));
+  }
+  int hits = 0;
+  for (int y = 0; y < height; y += 3) {
+    for (int x = 0; x < width; x += 3) {
+      const PictureRay ray = rays.ray(x + 0.5, y + 0.5);
+      TubeHit nearest;
+      for (const Tubes& one : single) {
+        const TubeHit hit = one.closest_hit(ray, x, y);
+        nearest = hit.t < nearest.t ? hit : nearest;
+      }
+      const TubeHit hit = all.closest_hit(ray, x, y);
+      EXPECT_EQ(hit.t, nearest.t) << x << " " << y;
+      EXPECT_EQ(hit.normal, nearest.normal) << x << " " << y;
+      hits += std::isfinite(hit.t) ? 1 : 0;
+    }
+  }
+  return hits;
+}
+
+TEST(Tubes, OfManyBehindOneAnotherTheNearestIsMetWhateverTheirOrder) {
+  Pcg32 random(8);
+  CurveGraph graph;
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    graph.nodes.push_back(random_point(random));
+    graph.nodes.push_back(graph.nodes.back() + 0.3 * random_point(random));
+    graph.edges.push_back({2 * i, 2 * i + 1});
+  }
+  EXPECT_GT(hits_alike(graph, front_rays(), kSizePx, kSizePx), 100);
+  EXPECT_GT(hits_alike(graph, rays_from(3.0), 80, 50), 50);
+  EXPECT_GT(hits_alike(graph, rays_from(0.0), 80, 50), 100);
 }
 
 /// A model of many posts beside the eye took all posts for every pixel.
