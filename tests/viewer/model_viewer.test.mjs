@@ -184,9 +184,19 @@ test('the page of a collection shows its models from their best views', { skip }
   const page = await browser.newPage({ viewport: { width: 700, height: 400 } });
   await page.goto(`http://127.0.0.1:${server.address().port}/collection.html`);
   await page.waitForFunction(() => document.querySelector('model-viewer')?.loaded, undefined, { timeout: 60000 });
-  const orbit = await page.evaluate(() => {
-    const { theta, phi, radius } = document.querySelector('model-viewer').getCameraOrbit();
-    return { theta, phi, radius };
+  const orbit = await page.evaluate(async () => {
+    const read = () => {
+      const { theta, phi, radius } = document.querySelector('model-viewer').getCameraOrbit();
+      return { theta, phi, radius };
+    };
+    for (let last = read(); ;) { // the element glides to where its camera shall be: frames come late on a busy machine
+      await new Promise((done) => { setTimeout(done, 300); });
+      const now = read();
+      if (JSON.stringify(now) === JSON.stringify(last)) {
+        return now;
+      }
+      last = now;
+    }
   });
   const [view] = fs.readdirSync(path.join(folder, 'results/models')).filter((name) => name.startsWith('bracket'))
     .map((name) => JSON.parse(fs.readFileSync(path.join(folder, 'results/models', name, 'view.json'), 'utf8')));
