@@ -121,9 +121,9 @@ void SampleQuery::clear_hidden(std::vector<std::uint8_t>& asked) {
   });
 }
 
-/// Takes those of a part's samples out of `seen` that a face hides.
-void SampleQuery::clear_hidden_of(const DensePart& part, std::span<const std::uint8_t> asked,
-                                  std::vector<std::uint8_t>& seen) {
+/// Sets what is seen of a part's samples: 1 for those asked about that no face hides.
+void SampleQuery::set_seen_of(const DensePart& part, std::span<const std::uint8_t> asked,
+                              std::vector<std::uint8_t>& seen) {
   const Surface& surface = scene_.surface_;
   std::vector<std::uint8_t> left = values_at(asked, part.samples);
   const std::vector<std::uint8_t> back_faces =
@@ -156,7 +156,7 @@ std::vector<std::uint8_t> SampleQuery::not_hidden(std::vector<std::uint8_t> aske
     clear_hidden(seen);
   }
   for (const DensePart& part : scene_.parts_) {
-    clear_hidden_of(part, asked, seen);
+    set_seen_of(part, asked, seen);
   }
   return seen;
 }

@@ -129,8 +129,8 @@ class SampleQuery {
  private:
   [[nodiscard]] std::vector<std::uint8_t> turned_among(std::span<const std::uint8_t> samples) const;
   void clear_hidden(std::vector<std::uint8_t>& asked);
-  void clear_hidden_of(const DensePart& part, std::span<const std::uint8_t> asked,
-                       std::vector<std::uint8_t>& seen);
+  void set_seen_of(const DensePart& part, std::span<const std::uint8_t> asked,
+                   std::vector<std::uint8_t>& seen);
 
   SampleScene& scene_;
   Viewpoint eye_;

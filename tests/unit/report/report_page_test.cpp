@@ -47,7 +47,7 @@ struct Spiky {
 
 TEST(ReportPage, ShowsNoEstimateBeyondWhatWasFound) {
   if (!has_report_page()) {
-    GTEST_SKIP() << "built without npm";
+    GTEST_SKIP() << "NOTHING WAS TESTED: built without npm, so there is no page";
   }
   const Spiky spiky(y_of_tubes(0.3, 28));  // 3348 vertices: the page estimates
   const json data = spiky.page();
@@ -68,7 +68,7 @@ TEST(ReportPage, ShowsNoEstimateBeyondWhatWasFound) {
 
 TEST(ReportPage, HasTheVeryScoresOfASmallModel) {
   if (!has_report_page()) {
-    GTEST_SKIP() << "built without npm";
+    GTEST_SKIP() << "NOTHING WAS TESTED: built without npm, so there is no page";
   }
   const Spiky spiky(y_of_tubes(0.3, 20));
   ASSERT_LT(spiky.shape.surface.positions.size(), 2000U);
