@@ -15,6 +15,7 @@ from program import PROGRAM, ProgramTest
 QUICK = ("--no-images", "--search", "rapid")
 MEMORY = 4 << 30  # bytes
 SECONDS = 60
+LARGEST_OF_A_SAMPLE = 200_000  # bytes; what is wrong with a file is seldom its size
 
 
 def off(vertices, faces):
@@ -176,7 +177,10 @@ class BrokenFiles(ProgramTest):
                        if p.is_file() and p.suffix.lower() in models)
         self.assertGreater(len(files), 200)
         wrong = []
-        for file in files[::int(os.environ.get("VANTAGE_NASTY_STRIDE", "6"))]:
+        stride = int(os.environ.get("VANTAGE_NASTY_STRIDE", "6"))
+        for file in files[::stride]:
+            if stride > 1 and file.stat().st_size > LARGEST_OF_A_SAMPLE:
+                continue
             problem = self.problem_with(file)
             if problem:
                 wrong.append(f"{file.relative_to(data)}: {problem}")

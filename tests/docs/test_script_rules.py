@@ -6,6 +6,7 @@ import importlib.util
 import io
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -49,6 +50,15 @@ class Scripts(unittest.TestCase):
             reached[self.dir / name] = edges
         self.assertEqual([file.name for file in choose_inputs.chosen(reached, 9)], ["small", "other"])
         self.assertEqual([file.name for file in choose_inputs.chosen(reached, 1)], ["small"])
+
+    def test_what_sanitizers_leave_out_is_there(self):
+        tests = SCRIPTS.parent / "tests"
+        sources = "".join(file.read_text() for file in (tests / "unit").rglob("*.cpp"))
+        names = (tests / "left_out_under_sanitizers.txt").read_text().split()
+        self.assertTrue(names)
+        for name in names:
+            suite, test = re.fullmatch(r"(?:\w+/)?(\w+)\.(\w+)(?:/\w+)?", name).groups()
+            self.assertRegex(sources, rf"TEST(_F|_P)?\({suite},\s+{test}\)", name)
 
     def test_tests_of_every_runner_are_counted_and_skips_are_said(self):
         log = self.dir / "Testing/Temporary/LastTest.log"

@@ -160,8 +160,13 @@ TEST_F(FilesBesideAModel, BuffersAndPicturesOfAGltf) {
       "buffers":[{"uri":"my%20buffer.bin"},{"uri":"http://a/t.png"},{"uri":"gone.bin"},{}]})";
   EXPECT_THAT(found("m.gltf", text, 10), ElementsAre("my buffer.bin", "t.png"));
   EXPECT_THAT(missing_, ElementsAre("gone.bin"));
+}
+
+TEST_F(FilesBesideAModel, OfAGltfLongerThanWhatIsReadOfOthers) {
+  write("t.png");
+  const std::string text = R"({"images":[{"uri":"t.png"}]})";
   const std::string long_text = "{" + std::string(65U << 20U, ' ') + text.substr(1);
-  EXPECT_THAT(found("m.gltf", long_text, 1U << 20U), ElementsAre("my buffer.bin", "t.png"));
+  EXPECT_THAT(found("m.gltf", long_text, 1U << 20U), ElementsAre("t.png"));
 }
 
 TEST_F(FilesBesideAModel, PicturesOfAPly) {
