@@ -261,9 +261,22 @@ Bits HandleGuard::crossed_by(const Bits& loop) const {
 }
 
 bool HandleGuard::may_kill(const Bits& loop, const std::vector<Bits>& crossed_by_others) const {
-  const auto crosses = [&](const Bits& crossed) { return is_odd_in_common(loop, crossed); };
-  return std::none_of(crossed_by_dead_.begin(), crossed_by_dead_.end(), crosses) &&
-         std::none_of(crossed_by_others.begin(), crossed_by_others.end(), crosses);
+  return !dead_crossed_by(loop) &&
+         std::none_of(crossed_by_others.begin(), crossed_by_others.end(),
+                      [&](const Bits& crossed) { return is_odd_in_common(loop, crossed); });
+}
+
+std::optional<std::size_t> HandleGuard::dead_crossed_by(const Bits& loop) const {
+  for (std::size_t dead = 0; dead < crossed_by_dead_.size(); ++dead) {
+    if (crosses_dead(loop, dead)) {
+      return dead;
+    }
+  }
+  return std::nullopt;
+}
+
+bool HandleGuard::crosses_dead(const Bits& loop, std::size_t dead) const {
+  return is_odd_in_common(loop, crossed_by_dead_[dead]);
 }
 
 void HandleGuard::kill(const Bits& loop, std::vector<std::uint64_t>& annotations) {

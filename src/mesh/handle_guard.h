@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,12 @@ class HandleGuard {
   /// Whether a class may die together with the dead ones and with others.
   /// \param crossed_by_others of each of the others: see crossed_by().
   [[nodiscard]] bool may_kill(const Bits& loop, const std::vector<Bits>& crossed_by_others) const;
+
+  /// The first dead class that a class crosses; nothing if there is none.
+  [[nodiscard]] std::optional<std::size_t> dead_crossed_by(const Bits& loop) const;
+
+  /// Whether a class crosses the dead one of this index.
+  [[nodiscard]] bool crosses_dead(const Bits& loop, std::size_t dead) const;
 
   /// The coordinates of loops that cross this one an odd number of times.
   [[nodiscard]] Bits crossed_by(const Bits& loop) const;

@@ -36,6 +36,10 @@ std::array<std::uint32_t, 2> others(const Triangle& t, std::uint32_t corner) {
 
 ClusterComplex::ClusterComplex(const TriMesh& mesh, std::vector<Vec3> positions,
                                std::vector<double> weights)
+    : ClusterComplex(mesh, build_edge_table(mesh), std::move(positions), std::move(weights)) {}
+
+ClusterComplex::ClusterComplex(const TriMesh& mesh, const EdgeTable& table,
+                               std::vector<Vec3> positions, std::vector<double> weights)
     : position_(std::move(positions)),
       order_(referenced_points({position_, mesh.triangles})),
       weight_(std::move(weights)),
@@ -43,14 +47,12 @@ ClusterComplex::ClusterComplex(const TriMesh& mesh, std::vector<Vec3> positions,
       links_(position_.size()),
       faces_of_(position_.size()),
       faces_(mesh.triangles),
+      ends_(table.edges),
+      edge_faces_(table.edges.size()),
       vertex_count_(position_.size()),
-      guard_(TriMesh{}, EdgeTable{}) {
+      guard_(mesh, table),
+      annotation_(guard_.take_annotations()) {
   std::iota(parent_.begin(), parent_.end(), 0U);
-  const EdgeTable table = build_edge_table(mesh);
-  guard_ = HandleGuard(mesh, table);
-  annotation_ = guard_.take_annotations();
-  ends_ = table.edges;
-  edge_faces_.resize(table.edges.size());
   // Sorted edges: each cluster first meets its lower, then its higher neighbours.
   for (std::uint32_t e = 0; e < ends_.size(); ++e) {
     links_[ends_[e][1]].push_back({ends_[e][0], e});
@@ -141,17 +143,34 @@ Bits ClusterComplex::loop_class(std::uint32_t edge, std::uint32_t third) const {
   return sum;
 }
 
-bool ClusterComplex::keeps_handles(std::uint32_t edge) const {
+bool ClusterComplex::keeps_handles(std::uint32_t edge) {
   if (guard_.words() == 0) {
     return true;
   }
+  refusal_.resize(edge_count());
+  if (is_still_refused(edge)) {
+    return false;
+  }
+  refusal_[edge].reset();
   std::vector<Bits> crossed;
   for (const std::uint32_t third : pinched_by(edge)) {
-    if (!may_pinch(loop_class(edge, third), crossed)) {
+    const Bits loop = loop_class(edge, third);
+    if (!may_pinch(loop, crossed)) {
+      if (const std::optional<std::size_t> dead = guard_.dead_crossed_by(loop)) {
+        refusal_[edge] = {third, *dead};
+      }
       return false;
     }
   }
   return true;
+}
+
+bool ClusterComplex::is_still_refused(std::uint32_t edge) const {
+  const std::optional<Refusal>& refusal = refusal_[edge];
+  const auto [a, b] = ends_[edge];
+  return refusal && find(refusal->third, a) != nullptr && find(refusal->third, b) != nullptr &&
+         !has_face(refusal->third, a, b) &&
+         guard_.crosses_dead(loop_class(edge, refusal->third), refusal->dead);
 }
 
 bool ClusterComplex::may_pinch(const Bits& loop, std::vector<Bits>& crossed) const {

@@ -4,10 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "vantage/core/vec3.h"
 #include "vantage/mesh/curve_graph.h"
+#include "vantage/mesh/topology.h"
 #include "vantage/mesh/tri_mesh.h"
 
 #include "mesh/handle_guard.h"
@@ -61,8 +63,8 @@ class ClusterComplex {
   /// edge would pinch the loop through them.
   [[nodiscard]] std::vector<std::uint32_t> pinched_by(std::uint32_t edge) const;
 
-  /// Whether collapsing the edge loses no handle.
-  [[nodiscard]] bool keeps_handles(std::uint32_t edge) const;
+  /// Whether collapsing the edge loses no handle. Remembers why not: many edges are asked for again and again.
+  [[nodiscard]] bool keeps_handles(std::uint32_t edge);
 
   /// Independent loops that collapses have pinched so far, of those that carry handles.
   [[nodiscard]] std::size_t dead_loops() const { return guard_.dead_count(); }
@@ -82,9 +84,13 @@ class ClusterComplex {
   CurveGraph graph(std::vector<std::uint32_t>& node_of_vertex);
 
  private:
+  ClusterComplex(const TriMesh& mesh, const EdgeTable& table, std::vector<Vec3> positions,
+                 std::vector<double> weights);
   [[nodiscard]] const Link* find(std::uint32_t cluster, std::uint32_t neighbour) const;
   /// Class of the loop over the ends of `edge` and their common neighbour `third`, in normal form.
   [[nodiscard]] Bits loop_class(std::uint32_t edge, std::uint32_t third) const;
+  /// Whether the loop for which an edge was refused is still there and crosses the dead one that it did.
+  [[nodiscard]] bool is_still_refused(std::uint32_t edge) const;
   /// Whether a loop may be pinched together with others, then one of them.
   /// \param crossed of the others: HandleGuard::crossed_by().
   bool may_pinch(const Bits& loop, std::vector<Bits>& crossed) const;
@@ -109,6 +115,14 @@ class ClusterComplex {
   std::size_t vertex_count_ = 0;  ///< Clusters beyond were made by splits.
   std::size_t live_faces_ = 0;
   HandleGuard guard_;
+
+  /// Why an edge was refused: the loop through a neighbour of both ends crosses a dead one.
+  struct Refusal {
+    std::uint32_t third;
+    std::size_t dead;
+  };
+
+  std::vector<std::optional<Refusal>> refusal_{};  ///< Of each edge; may be shorter.
   std::vector<std::uint64_t> annotation_;  ///< In normal form; kept up to date as edges move.
 };
 

@@ -128,7 +128,8 @@ class SurfaceCollapse {
       if (here == tried) {
         continue;  // the piece had stopped before
       }
-      Collapsed trial = collapse(piece, here, run.part(share, 0.5 * (1.0 + share)));
+      Collapsed trial =
+          collapse(piece, here, run.part(share, 0.5 * (1.0 + share)), best.lost_handles);
       share = 0.5 * (1.0 + share);
       if (trial.lost_handles < best.lost_handles) {
         best = std::move(trial);
@@ -156,7 +157,8 @@ class SurfaceCollapse {
   /// Large surfaces lose their shortest edges first, in passes; the graph is as fine as before,
   /// because spacing is much longer than they are.
   [[nodiscard]] Collapsed collapse(const Piece& piece, const std::vector<Vec3>& positions,
-                                   const RunContext& run) const {
+                                   const RunContext& run,
+                                   std::size_t given_up_at = kNeverGivenUp) const {
     std::vector<double> weights;
     weights.reserve(piece.vertices.size());
     for (const std::uint32_t v : piece.vertices) {
@@ -164,20 +166,21 @@ class SurfaceCollapse {
     }
     const TriMesh mesh{positions, piece.triangles};
     if (count_ < kMergeFrom) {
-      return collapse(mesh, weights, run);
+      return collapse(mesh, weights, run, given_up_at);
     }
     const Decimation merged = merge_short_edges(mesh, weights, merged_length_, run);
     Collapsed collapsed = collapse(
-        merged.mesh, sums_of_parts(weights, merged.of_vertex, merged.mesh.positions.size()), run);
+        merged.mesh, sums_of_parts(weights, merged.of_vertex, merged.mesh.positions.size()), run,
+        given_up_at);
     collapsed.node_of_vertex = nodes_of_merged(merged.of_vertex, collapsed.node_of_vertex);
     return collapsed;
   }
 
   [[nodiscard]] static Collapsed collapse(const TriMesh& mesh, const std::vector<double>& weights,
-                                          const RunContext& run) {
+                                          const RunContext& run, std::size_t given_up_at) {
     ClusterComplex complex(mesh, mesh.positions, weights);
     Collapsed collapsed;
-    collapsed.lost_handles = collapse_to_graph(complex, run);
+    collapsed.lost_handles = collapse_to_graph(complex, run, given_up_at);
     collapsed.graph = complex.graph(collapsed.node_of_vertex);
     return collapsed;
   }

@@ -203,7 +203,8 @@ class CollapseQueue {
 
 }  // namespace
 
-std::size_t collapse_to_graph(ClusterComplex& complex, const RunContext& run) {
+std::size_t collapse_to_graph(ClusterComplex& complex, const RunContext& run,
+                              std::size_t given_up_at) {
   CollapseQueue queue(complex);
   const auto all_faces = static_cast<double>(std::max<std::size_t>(1, complex.face_count()));
   std::size_t refined = 0;
@@ -233,8 +234,8 @@ std::size_t collapse_to_graph(ClusterComplex& complex, const RunContext& run) {
         complex.make_room(edge);
         queue.push_new_edges();
         ++refined;
-      } else {
-        ++forced;
+      } else if (++forced == given_up_at) {
+        return forced;
       }
     }
     queue.refresh(complex.collapse(edge));

@@ -8,6 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/random.h"
+#include "support/voxel_surface.h"
+
 namespace vantage {
 namespace {
 
@@ -30,6 +33,23 @@ TEST(Surgery, EndsSoonAtAnEdgeOfThousandsOfFaces) {
   // Some tenths of a second; where each page queues all others anew, twenty seconds.
   EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 5.0);
   EXPECT_EQ(complex.face_count(), 0U);
+}
+
+TEST(Surgery, IsGivenUpWhereAsManyHandlesAreLostAsByAnotherWay) {
+  const auto is_bar = [](int i, int j, int k) { return i % 2 + j % 2 + k % 2 <= 1; };
+  TriMesh mesh = test::voxel_surface(7, 7, 7, is_bar);
+  Pcg32 random(1, 1);
+  for (Vec3& p : mesh.positions) {  // all handles shrunk into one another
+    p = Vec3(random.uniform(), random.uniform(), random.uniform());
+  }
+  const auto complex_of_bars = [&mesh] {
+    return ClusterComplex(mesh, mesh.positions, std::vector<double>(mesh.positions.size(), 1.0));
+  };
+  ClusterComplex whole = complex_of_bars();
+  ASSERT_GT(collapse_to_graph(whole, {}), 2U);
+  ClusterComplex given_up = complex_of_bars();
+  EXPECT_EQ(collapse_to_graph(given_up, {}, 2), 2U);
+  EXPECT_GT(given_up.face_count(), 0U);
 }
 
 }  // namespace
