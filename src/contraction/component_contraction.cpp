@@ -48,6 +48,7 @@ struct Attempt {
   std::vector<double> vertex_ratio{};
   double shrinkage = 0.0;
   double contraction = 0.0;  ///< [W_L] it was made with, before the variant's share.
+  std::string remedy{};      ///< A sentence if it was not made as defined.
 };
 
 /// Why a contraction ends at a step of which none of the ways was sound. One that enlarges the
@@ -133,7 +134,7 @@ class Contraction {
   /// Whether an early step was not sound as it is defined.
   [[nodiscard]] bool was_unsound() const { return was_unsound_; }
 
-  /// What was done about steps that could not be taken as defined, a phrase each.
+  /// What was done about steps that could not be taken as defined, a clause each.
   [[nodiscard]] const std::vector<std::string>& remedies() const { return remedies_; }
 
   /// Takes the next step, unless no way to take it is sound or it shrinks the surface by less than
@@ -146,6 +147,9 @@ class Contraction {
     if (state_.shrinkage <= kBegun &&
         state_.shrinkage - attempt.shrinkage < least_progress(attempt.shrinkage)) {
       return ContractionStop::Shrunk;
+    }
+    if (!attempt.remedy.empty()) {
+      remedies_.push_back(std::move(attempt.remedy));
     }
     state_.now = std::move(attempt.mesh);
     state_.shrinkage = attempt.shrinkage;
@@ -197,7 +201,7 @@ class Contraction {
       if (attempt.flaw == StepFlaw::None) {
         state_.contraction = attempt.contraction;
         if (first != StepFlaw::None) {
-          go_on_by(kVariants[variant], first);
+          attempt.remedy = go_on_by(kVariants[variant], first);
         }
         return attempt;
       }
@@ -209,18 +213,18 @@ class Contraction {
     }
     if (!is_curve) {
       is_stuck_ = true;
-      remedies_.push_back("ended at step " + std::to_string(state_.steps + 1) + ", which " +
+      remedies_.push_back("it ended at step " + std::to_string(state_.steps + 1) + ", which " +
                           description(attempt.flaw) + " however it was taken");
     }
     return attempt;
   }
 
-  /// After a step that was sound by this way only.
-  void go_on_by(const StepVariant& variant, StepFlaw else_flaw) {
-    remedies_.push_back("step " + std::to_string(state_.steps + 1) + " " + description(else_flaw) +
-                        " and was " + description(variant));
+  /// After a step that was sound by this way only. Says so, for when the step is kept.
+  std::string go_on_by(const StepVariant& variant, StepFlaw else_flaw) {
     state_.contraction *= variant.share;
     variant_ = kSafer;
+    return "step " + std::to_string(state_.steps + 1) + " " + description(else_flaw) + " and was " +
+           description(variant);
   }
 
   /// With a larger W_L, up to the limit, while a surface that has not begun to shrink rises.

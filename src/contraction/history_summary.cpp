@@ -7,10 +7,10 @@
 namespace vantage {
 namespace {
 
-/// Warnings about single steps at most.
+/// Warnings about remedies at most.
 constexpr std::size_t kMostRemedies = 5;
 
-/// Steps that were not taken as defined, one sentence each; of many components only the first.
+/// What was not done as defined, one sentence each; of many components only the first.
 void add_remedies(ContractionHistory& history) {
   std::size_t told = 0;
   std::size_t untold = 0;
@@ -28,7 +28,7 @@ void add_remedies(ContractionHistory& history) {
   }
   if (untold > 0) {
     history.warnings.push_back("contraction: " + std::to_string(untold) +
-                               " more steps were not taken as defined");
+                               " more warnings like these are left out");
   }
 }
 

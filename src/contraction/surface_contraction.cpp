@@ -76,8 +76,8 @@ ComponentHistory contract_by(const TriMesh& mesh, const ContractionOptions& opti
 }
 
 /// Contracts a component at full resolution. A large one is thinned by its proxy all the same:
-/// whether a sheet becomes a curve hangs on its slivers, and the methods should agree on it. Small
-/// ones are not thinned: their W_L begins far below its limit.
+/// whether a sheet becomes a curve hangs on its slivers, and the methods should agree on it, so that the
+/// proxy counts by area whatever options.weights says. Small ones are not thinned: their W_L begins far below its limit.
 ComponentHistory contract_exactly(const TriMesh& scaled, const ContractionOptions& options,
                                   const RunContext& run) {
   ComponentHistory history = contract_by(scaled, without_thinning(options), run.part(0.0, 0.9));
@@ -114,7 +114,7 @@ std::optional<Alternative> contract_carefully(const TriMesh& scaled, const Compo
   }
   careful.summary.strategy = before.summary.strategy;
   return Alternative{std::move(careful),
-                     "so all steps were taken with weights that thin triangles do not upset"};
+                     "all steps were taken anew with weights that thin triangles do not upset"};
 }
 
 /// A copy with fewer vertices and evener triangles: thin ones throw parts of a surface about.
@@ -138,9 +138,8 @@ std::optional<Alternative> contract_even_copy(const TriMesh& scaled, const Compo
   }
   copy.levels.front() = scaled.positions;
   copy.summary.strategy = before.summary.strategy;
-  return Alternative{std::move(copy), "so a copy with evener triangles was contracted, of " +
-                                          std::to_string(proxy.mesh.positions.size()) +
-                                          " vertices"};
+  return Alternative{std::move(copy), "a copy of " + std::to_string(proxy.mesh.positions.size()) +
+                                          " vertices with evener triangles was contracted instead"};
 }
 
 /// A finer copy, whose first vertices are the surface's own: coarse meshes have too few to move.
@@ -163,7 +162,7 @@ std::optional<Alternative> contract_finer_copy(const TriMesh& scaled,
   const std::string& former = before.summary.strategy;
   copy.summary.strategy = (former == "direct" ? "" : former + ", ") + "refined " + size;
   return Alternative{std::move(copy),
-                     "so a finer copy of the surface was contracted, of " + size + " vertices"};
+                     "a finer copy of " + size + " vertices was contracted instead"};
 }
 
 bool is_stuck(const ComponentHistory& history, const TriMesh&, const ContractionOptions&) {

@@ -38,5 +38,16 @@ TEST(Summarise, WarnsOfStepsThatWereMendedAndOfSystemsThatCouldNotBeSolved) {
                                             HasSubstr("1 component(s) ended early")));
 }
 
+TEST(Summarise, CountsWarningsThatItLeavesOut) {
+  ComponentHistory one{.shrinkage = {1.0}, .summary = {.vertices = 4}};
+  one.summary.remedies.assign(7, "a copy of 500 vertices was contracted instead");
+  ContractionHistory history;
+  history.levels.resize(1);
+  const std::vector<const ComponentHistory*> parts{&one};
+  summarise(parts, history);
+  ASSERT_EQ(history.warnings.size(), 6U);
+  EXPECT_EQ(history.warnings.back(), "contraction: 2 more warnings like these are left out");
+}
+
 }  // namespace
 }  // namespace vantage
