@@ -5,7 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
+#include <utility>
 #include <vector>
+
+#include "spatial/nearest_point.h"
 
 namespace vantage {
 namespace {
@@ -15,6 +19,8 @@ constexpr int kRounds = 6;
 /// An end is led on by so many pieces at most.
 constexpr double kFarthestEnd = 4.0;
 constexpr std::size_t kMostPieces = 1000;  // of an edge
+/// A node of more candidates for its points is a hub, at which a tree pays.
+constexpr std::size_t kHub = 32;
 
 /// A graph cut into pieces, and which of its nodes may stand for a point of a node of the first.
 class FinerCurve {
@@ -42,10 +48,14 @@ class FinerCurve {
     }
     std::sort(curve_.edges.begin(), curve_.edges.end());
     neighbours_ = node_neighbours(curve_);
+    sort_at_hubs();
   }
 
   /// The node nearest to a point that belongs to `node` of the first graph.
   [[nodiscard]] std::uint32_t nearest(const Vec3& point, std::uint32_t node) const {
+    if (near_[node].size() > kHub) {
+      return near_[node][hubs_.at(node).to(point)];
+    }
     std::uint32_t best = node;
     double least = std::numeric_limits<double>::infinity();
     for (const std::uint32_t candidate : near_[node]) {
@@ -67,6 +77,7 @@ class FinerCurve {
       }
     }
     curve_.nodes = smoothed_along_chains(mean, neighbours_);
+    sort_at_hubs();
   }
 
   /// Unit vector out of an end of the curve; zero at other nodes.
@@ -81,8 +92,23 @@ class FinerCurve {
   [[nodiscard]] CurveGraph& curve() { return curve_; }
 
  private:
+  void sort_at_hubs() {
+    hubs_.clear();
+    for (std::uint32_t node = 0; node < near_.size(); ++node) {
+      if (near_[node].size() > kHub) {
+        std::vector<Vec3> places;
+        places.reserve(near_[node].size());
+        for (const std::uint32_t candidate : near_[node]) {
+          places.push_back(curve_.nodes[candidate]);
+        }
+        hubs_.emplace(node, NearestPoint(std::move(places)));
+      }
+    }
+  }
+
   CurveGraph curve_;
   std::vector<std::vector<std::uint32_t>> near_;  // of nodes of the first graph
+  std::map<std::uint32_t, NearestPoint> hubs_{};  // of these, by where they are now
   std::vector<std::vector<std::uint32_t>> neighbours_{};
 };
 
