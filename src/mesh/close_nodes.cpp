@@ -46,6 +46,9 @@ class MergingGraph {
 
   /// Merging both would close a triangle of the graph and lose its cycle.
   [[nodiscard]] bool share_a_neighbour(std::uint32_t a, std::uint32_t b) const {
+    if (neighbours_[b].size() < neighbours_[a].size()) {
+      std::swap(a, b);  // one may be a hub
+    }
     return std::any_of(neighbours_[a].begin(), neighbours_[a].end(),
                        [&](std::uint32_t c) { return linked(b, c); });
   }
@@ -58,7 +61,9 @@ class MergingGraph {
     return neighbours_[a];
   }
 
-  void merge(std::uint32_t keep, std::uint32_t gone) {
+  /// Returns the neighbours of `keep` that it has another edge to than before: all if it moved.
+  [[nodiscard]] std::vector<std::uint32_t> merge(std::uint32_t keep, std::uint32_t gone) {
+    const Vec3 before = position_[keep];
     const bool keep_fixed = neighbours_[keep].size() != 2;
     const bool gone_fixed = neighbours_[gone].size() != 2;
     // Between an end and a junction, the junction stays: a spur shorter than the spacing is no limb.
@@ -75,15 +80,17 @@ class MergingGraph {
       position_[keep] = (weight_[keep] * position_[keep] + weight_[gone] * position_[gone]) / total;
     }
     weight_[keep] = total;
-    for (const std::uint32_t c : neighbours_[gone]) {
-      std::erase(neighbours_[c], gone);
+    parent_[gone] = keep;
+    std::vector<std::uint32_t> changed = std::exchange(neighbours_[gone], {});
+    for (const std::uint32_t c : changed) {
+      erase(c, gone);
       if (c != keep && !linked(keep, c)) {
         insert(keep, c);
         insert(c, keep);
       }
     }
-    neighbours_[gone].clear();
-    parent_[gone] = keep;
+    std::erase(changed, keep);
+    return position_[keep] == before ? changed : neighbours_[keep];
   }
 
   [[nodiscard]] std::uint32_t root(std::uint32_t node) const {
@@ -98,6 +105,11 @@ class MergingGraph {
   [[nodiscard]] std::size_t size() const { return position_.size(); }
 
  private:
+  void erase(std::uint32_t a, std::uint32_t b) {
+    auto& list = neighbours_[a];
+    list.erase(std::lower_bound(list.begin(), list.end(), b));
+  }
+
   void insert(std::uint32_t a, std::uint32_t b) {
     auto& list = neighbours_[a];
     list.insert(std::lower_bound(list.begin(), list.end(), b), b);
@@ -133,8 +145,8 @@ CurveGraph merge_close_nodes(const CurveGraph& graph, double spacing, std::vecto
         merging.share_a_neighbour(a, b)) {
       continue;
     }
-    merging.merge(a, b);
-    for (const std::uint32_t c : merging.neighbours(a)) {
+    // What was turned down for a common neighbour stays so: no merge opens a triangle. So only what changed.
+    for (const std::uint32_t c : merging.merge(a, b)) {
       offer(a, c);
     }
   }

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/close_nodes.h"
 
+#include <cmath>
+#include <ctime>
+#include <numbers>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -84,6 +88,26 @@ TEST(MergeCloseNodes, OfTwoJunctionsKeepsThatOfMoreVerticesHoweverNodesAreNumber
   const CurveGraph second = merge_close_nodes(graph, 0.5, {5, 9, 1, 1, 1, 1}, node_of_vertex);
   EXPECT_EQ(first.nodes[0], Vec3(0, 0, 0));
   EXPECT_EQ(second.nodes[0], Vec3(0.1, 0, 0));
+}
+
+TEST(MergeCloseNodes, EndsSoonAtAHubOfThousandsOfShortChains) {
+  constexpr std::uint32_t kChains = 3000;
+  CurveGraph hub{{Vec3::Zero()}, {}};
+  for (std::uint32_t i = 0; i < kChains; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kChains;
+    const Vec3 along(std::cos(angle), std::sin(angle), 0.0);
+    hub.nodes.emplace_back((0.01 + 1e-6 * i) * along);
+    hub.nodes.emplace_back(along);
+    hub.edges.push_back({0, 2 * i + 1});
+    hub.edges.push_back({2 * i + 1, 2 * i + 2});
+  }
+  std::vector<std::uint32_t> node_of_vertex;
+  const std::clock_t begin = std::clock();
+  const CurveGraph merged =
+      merge_close_nodes(hub, 0.1, std::vector<double>(hub.nodes.size(), 1.0), node_of_vertex);
+  // Some hundredths of a second; where each merge offers all of the hub's edges anew, several seconds.
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 1.0);
+  EXPECT_EQ(merged.edges.size(), kChains);
 }
 
 }  // namespace
