@@ -80,7 +80,7 @@ class EdgeRouter {
       paths_.emplace(routing_.mesh, routing_.shell);
     }
     std::vector<std::uint32_t> around{a, b};
-    for (int ring = 0; ring <= kMostRings; ++ring) {
+    for (int ring = 0; ring <= kMostRings && !paths_->is_spent(); ++ring) {
       std::vector<std::uint32_t> vertices;
       for (const std::uint32_t node : around) {
         vertices.insert(vertices.end(), vertices_[node].begin(), vertices_[node].end());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <queue>
 #include <tuple>
@@ -151,6 +152,10 @@ const Vec3* InteriorPaths::wall_at(std::uint32_t vertex) {
 std::optional<std::vector<Vec3>> InteriorPaths::find(std::uint32_t component, const Vec3& a,
                                                      const Vec3& b,
                                                      std::span<const std::uint32_t> vertices) {
+  if (is_spent() || vertices.size() > vertices_left_) {
+    return std::nullopt;
+  }
+  vertices_left_ -= vertices.size();
   std::vector<std::uint32_t> sorted(vertices.begin(), vertices.end());
   std::sort(sorted.begin(), sorted.end());
   const std::size_t allowed = std::min(kMostLooks, looks_left_);

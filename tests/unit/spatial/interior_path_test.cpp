@@ -72,5 +72,22 @@ TEST(InteriorPaths, FindNothingFromOutside) {
   EXPECT_FALSE(ring.paths.find(0, Vec3::Zero(), ring.b, ring.all));
 }
 
+// At a hub each way would be looked for below the whole surface.
+TEST(InteriorPaths, FindNothingBelowMoreVerticesThanAreLeftInAll) {
+  Ring ring;
+  const std::vector<std::uint32_t> too_many(10'000'001, 0);
+  EXPECT_FALSE(ring.paths.find(0, ring.a, Vec3(1.0, 0.01, 0.0), too_many));
+  EXPECT_TRUE(ring.paths.find(0, ring.a, Vec3(1.0, 0.01, 0.0), ring.all));
+}
+
+TEST(InteriorPaths, AreSpentAfterAHundredThousandLooks) {
+  Ring ring;
+  for (int i = 0; i < 100 && !ring.paths.is_spent(); ++i) {
+    EXPECT_FALSE(ring.paths.find(0, Vec3::Zero(), ring.b, ring.all));
+  }
+  ASSERT_TRUE(ring.paths.is_spent());
+  EXPECT_FALSE(ring.paths.find(0, ring.a, ring.b, ring.all));
+}
+
 }  // namespace
 }  // namespace vantage
