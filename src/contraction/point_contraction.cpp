@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "vantage/contraction/contraction.h"
+#include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 #include "vantage/mesh/topology.h"
 
@@ -255,6 +256,9 @@ PointContraction contract_points(std::span<const Vec3> points,
                                  std::span<const std::uint8_t> left_out,
                                  const ContractionOptions& options, const RunContext& run) {
   check_fields(options, kContractionFields);
+  if (left_out.size() != points.size()) {
+    throw InvalidInput("there must be one entry a point that says whether it is left out");
+  }
   std::vector<Vec3> kept;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (left_out[i] == 0) {

@@ -3,9 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <string>
 #include <tuple>
 #include <vector>
 
@@ -106,7 +104,7 @@ std::vector<std::uint8_t> find_outliers(std::span<const Vec3> points, const RunC
 /// Contracts each component of the cloud's ring graph by itself.
 /// \param points    pairwise different, finite.
 /// \param left_out  one entry per point; 1 leaves it out (outliers).
-/// \throw InvalidInput if an option is outside its range. \throw Cancelled
+/// \throw InvalidInput if an option is outside its range, or `left_out` of another length. \throw Cancelled
 PointContraction contract_points(std::span<const Vec3> points,
                                  std::span<const std::uint8_t> left_out,
                                  const ContractionOptions& options = {},

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "vantage/contraction/contraction.h"
+#include "vantage/core/error.h"
 #include "vantage/mesh/measures.h"
 
 #include "skeleton/point_skeleton.h"
@@ -31,6 +32,14 @@ TEST(PointContraction, BringsACylinderToItsAxis) {
     farthest = larger(farthest, std::hypot(p.x(), p.y()));
   }
   EXPECT_LT(farthest, 0.1 * 0.2);
+}
+
+TEST(PointContraction, WantsOneEntryAPointOfWhatIsLeftOut) {
+  const std::vector<Vec3> points = torus(1.0, 0.3, 10, 10).positions;
+  EXPECT_THROW(contract_points(points, std::vector<std::uint8_t>(points.size() - 1, 0)),
+               InvalidInput);
+  EXPECT_THROW(contract_points(points, std::vector<std::uint8_t>(points.size() + 1, 0)),
+               InvalidInput);
 }
 
 TEST(PointContraction, LeavesPointsWhereTheyAreIfAllAreLeftOut) {
