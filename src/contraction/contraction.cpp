@@ -265,13 +265,20 @@ ContractionHistory of_refined(const TriMesh& mesh, RefinedSurface surface,
       component.vertices -= added[c];
     }
   }
-  ContractedRefinement all{std::move(refined), history.levels, history.component_of_vertex,
-                           history.thinned};
-  for (auto& level : history.levels) {
-    level.resize(n);
+  ContractedRefinement all{std::move(refined), std::exchange(history.levels, {}),
+                           std::exchange(history.component_of_vertex, {}),
+                           std::exchange(history.thinned, {})};
+  const auto first = [n](const auto& of_all) {
+    return std::span(of_all).first(std::min(n, of_all.size()));
+  };
+  for (const auto& level : all.levels) {
+    const auto own = first(level);
+    history.levels.emplace_back(own.begin(), own.end());
   }
-  history.thinned.resize(history.thinned.empty() ? 0 : n);
-  history.component_of_vertex.resize(n);
+  const auto thinned = first(all.thinned);
+  history.thinned.assign(thinned.begin(), thinned.end());
+  const auto components = first(all.component_of_vertex);
+  history.component_of_vertex.assign(components.begin(), components.end());
   history.refinement = std::move(all);
   return history;
 }
