@@ -14,7 +14,7 @@ constexpr std::size_t kDeepest = 64;  // medians halve: a tree of 2^32 pieces is
 /// longest side: skeletons have shorter ones, only soups of faces do not. [ours]
 constexpr std::size_t kCutFrom = 1000;
 constexpr double kLongestPart = 1.0 / 16.0;
-constexpr double kMostParts = 8.0;  ///< For each segment, in the mean. [ours]
+constexpr double kMostParts = 8.0;  // for each segment, in the mean. [ours]
 constexpr double kCutMargin = 1e-12;
 
 double segment_distance_squared(const Vec3& p, const Vec3& a, const Vec3& b) {

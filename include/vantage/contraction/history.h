@@ -52,14 +52,14 @@ struct ComponentContraction {
   int steps = 0;             ///< Accepted steps; later levels repeat the last one.
   ContractionStop stop = ContractionStop::NothingToMove;  ///< Why it ended.
   int regularised_steps = 0;  ///< Steps with the weights for slivers: once needed, they stay.
-  std::vector<std::string> remedies{};  ///< What was done about them, a phrase each.
+  std::vector<std::string> remedies{};  ///< What was not done as defined, a clause each.
   std::string strategy{"exact"};        ///< Which method contracted it.
   double shrinkage = 1.0;               ///< [a_t] of its last level.
 };
 
 /// A finer surface that was contracted in place of the input; the input's vertices come first.
 struct ContractedRefinement {
-  TriMesh mesh{};                                    ///< The same surface with more vertices.
+  TriMesh mesh{};                                    ///< Model units; the new vertices come last.
   std::vector<std::vector<Vec3>> levels{};           ///< K + 1 levels of its vertices, model units.
   std::vector<std::uint32_t> component_of_vertex{};  ///< As in ContractionHistory.
   std::vector<Vec3> thinned{};                       ///< As in ContractionHistory.
@@ -68,7 +68,7 @@ struct ContractedRefinement {
 /// The surface with some vertices merged: the same components, borders and genus, fewer faces. A skeleton that starts
 /// from it need not collapse every edge of a large surface.
 struct MergedSurface {
-  std::size_t vertex_count = 0;
+  std::size_t vertex_count = 0;            ///< Merged vertices.
   std::vector<Triangle> triangles{};       ///< Of merged vertices.
   std::vector<std::uint32_t> of_vertex{};  ///< Of each vertex, of `refinement` if there is one.
 };
@@ -76,7 +76,7 @@ struct MergedSurface {
 /// A second mesh of the same surface, coarser, contracted by itself. Where the two contractions agree, they tell of
 /// the surface; the rest hangs on how it is cut into triangles.
 struct SecondMesh {
-  TriMesh mesh{};
+  TriMesh mesh{};                                    ///< Model units; vertices of its own.
   std::vector<std::vector<Vec3>> levels{};           ///< Of its vertices, model units.
   std::vector<std::uint32_t> component_of_vertex{};  ///< As in ContractionHistory.
   /// Points of the surface, next to each of its vertices, at the levels of the first contraction.

@@ -18,7 +18,7 @@ namespace vantage {
 struct LaplacianLimits {
   /// A row whose diagonal exceeds this in magnitude is scaled down to it (Cao 2010: 10⁴); > 0.
   double diagonal = 1e4;
-  /// Each cotangent is clamped to ± this; > 0. 10⁸ is the cotangent of 2·10⁻⁶ degrees, where
+  /// Each cotangent is clamped to ± this; > 0. 10⁸ is the cotangent of 6·10⁻⁷ degrees, where
   /// double precision has lost the angle.
   double cotangent = 1e8;
   /// Clamp the weight of an edge from below at 0: obtuse slivers then pull instead of push.

@@ -74,7 +74,7 @@ struct KssmMap {
   std::vector<std::size_t> levels_used{};  ///< Ascending; those that contribute.
 
   /// d^(0), the distance of the surface itself to the skeleton, or, of displacements, its mean to both
-  /// curves; model units.
+  /// curves; model units. \pre compute_kssm() made the map
   [[nodiscard]] const std::vector<double>& thickness() const { return displacement.front(); }
 };
 

@@ -29,6 +29,7 @@ struct MirrorPlane {
 /// Looks for mirror planes among those that are orthogonal to a principal axis of the surface's
 /// area or to a coordinate axis; planes within 5° of an earlier one are the same. Compares samples
 /// of the surface, so that the tessellation does not matter. At most 6, in that order.
+/// Throws nothing of its own: options are not checked.
 /// \complexity O(|F| log |F|).
 std::vector<MirrorPlane> mirror_planes(const TriMesh& surface, const MirrorOptions& options = {});
 
