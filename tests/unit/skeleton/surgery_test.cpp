@@ -42,14 +42,9 @@ TEST(Surgery, IsGivenUpWhereAsManyHandlesAreLostAsByAnotherWay) {
   for (Vec3& p : mesh.positions) {  // all handles shrunk into one another
     p = Vec3(random.uniform(), random.uniform(), random.uniform());
   }
-  const auto complex_of_bars = [&mesh] {
-    return ClusterComplex(mesh, mesh.positions, std::vector<double>(mesh.positions.size(), 1.0));
-  };
-  ClusterComplex whole = complex_of_bars();
-  ASSERT_GT(collapse_to_graph(whole, {}), 2U);
-  ClusterComplex given_up = complex_of_bars();
-  EXPECT_EQ(collapse_to_graph(given_up, {}, 2), 2U);
-  EXPECT_GT(given_up.face_count(), 0U);
+  ClusterComplex complex(mesh, mesh.positions, std::vector<double>(mesh.positions.size(), 1.0));
+  EXPECT_EQ(collapse_to_graph(complex, {}, 2), 2U);
+  EXPECT_GT(complex.face_count(), 0U);
 }
 
 }  // namespace
