@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "vantage/contraction/contraction.h"
 #include "vantage/core/error.h"
@@ -36,7 +37,7 @@ constexpr std::size_t kGrain = 2048;
 constexpr std::uint32_t kIsolated = ContractionHistory::kIsolated;
 
 /// Labels of the components of the ring graph, numbered by lowest point.
-std::vector<std::uint32_t> label_components(const PointRings& rings, std::uint32_t& count) {
+Components label_components(const PointRings& rings) {
   const std::size_t n = rings.closed.size();
   DisjointSets sets(n);
   for (std::uint32_t i = 0; i < n; ++i) {
@@ -44,12 +45,13 @@ std::vector<std::uint32_t> label_components(const PointRings& rings, std::uint32
       sets.join(i, j);
     }
   }
-  std::vector<std::uint32_t> label(n);
-  count = 0;
+  Components components{.of_vertex = std::vector<std::uint32_t>(n)};
+  std::vector<std::uint32_t>& label = components.of_vertex;
   for (std::uint32_t i = 0; i < n; ++i) {
-    label[i] = sets.root(i) == i ? count++ : label[sets.root(i)];
+    label[i] =
+        sets.root(i) == i ? static_cast<std::uint32_t>(components.count++) : label[sets.root(i)];
   }
-  return label;
+  return components;
 }
 
 /// One component's points, and the rings in its own numbers.
@@ -59,7 +61,7 @@ struct Piece {
 };
 
 std::vector<Piece> cut(const PointRings& rings, std::vector<std::uint32_t>& label,
-                       std::uint32_t count) {
+                       std::size_t count) {
   std::vector<std::size_t> size(count, 0);
   for (const std::uint32_t l : label) {
     ++size[l];
@@ -119,9 +121,9 @@ ComponentHistory contract_piece(const std::vector<Vec3>& points, const Piece& pi
 ContractionHistory contract_samples(const std::vector<Vec3>& points, const PointRings& rings,
                                     const ContractionOptions& options, const RunContext& run) {
   ContractionHistory history;
-  std::uint32_t count = 0;
-  history.component_of_vertex = label_components(rings, count);
-  const std::vector<Piece> pieces = cut(rings, history.component_of_vertex, count);
+  Components components = label_components(rings);
+  history.component_of_vertex = std::move(components.of_vertex);
+  const std::vector<Piece> pieces = cut(rings, history.component_of_vertex, components.count);
   history.levels.push_back(points);
   std::vector<ComponentHistory> parts;
   double done = 0.0;

@@ -77,21 +77,29 @@ class PointStep {
   PositionSolver positions_{};
 };
 
+/// What came of a step.
+struct PointAttempt {
+  std::optional<std::vector<Vec3>> next{};
+  int regularisation = kAsDefined;  ///< It was taken with.
+  ContractionStop stop =
+      ContractionStop::SolverFailed;  ///< Why there is no result, if there is none.
+};
+
 /// Repeats a step with more regularisation while it fails or outgrows its box.
-/// \param stop why there is no result, if there is none.
 template <class Solve>
-std::optional<std::vector<Vec3>> attempt_step(const Vec3& bound, int& regularisation,
-                                              ContractionStop& stop, const RunContext& run,
-                                              const Solve& solve) {
-  for (; regularisation <= kMostRegularised; ++regularisation) {
+PointAttempt attempt_step(const Vec3& bound, int regularisation, const RunContext& run,
+                          const Solve& solve) {
+  PointAttempt attempt{.regularisation = regularisation};
+  for (; attempt.regularisation <= kMostRegularised; ++attempt.regularisation) {
     run.check();
-    std::optional<std::vector<Vec3>> next = solve();
-    stop = next ? ContractionStop::Grew : ContractionStop::SolverFailed;
-    if (next && !(bounding_box(*next).size().array() > bound.array()).any()) {
-      return next;
+    attempt.next = solve(attempt.regularisation);
+    if (attempt.next && !(bounding_box(*attempt.next).size().array() > bound.array()).any()) {
+      return attempt;
     }
+    attempt.stop = attempt.next ? ContractionStop::Grew : ContractionStop::SolverFailed;
   }
-  return std::nullopt;
+  attempt.next.reset();
+  return attempt;
 }
 
 }  // namespace
@@ -117,14 +125,15 @@ ComponentHistory contract_point_component(const std::vector<Vec3>& scaled, const
   history.summary.stop = ContractionStop::StepLimit;
   for (int step = 0; step < options.max_steps; ++step) {
     run.advance("contracting", static_cast<double>(step) / options.max_steps);
-    const std::optional<std::vector<Vec3>> next = attempt_step(
-        bound, regularisation, history.summary.stop, run,
-        [&] { return stepper.solve(now, rings, W_L, W_H, options, regularisation, run); });
-    if (!next) {
+    PointAttempt attempt = attempt_step(bound, regularisation, run, [&](int as) {
+      return stepper.solve(now, rings, W_L, W_H, options, as, run);
+    });
+    if (!attempt.next) {
+      history.summary.stop = attempt.stop;
       break;
     }
-    history.summary.stop = ContractionStop::StepLimit;
-    const EdgeLengths lengths = measure(*next, rings);
+    regularisation = attempt.regularisation;
+    const EdgeLengths lengths = measure(*attempt.next, rings);
     const double shrinkage = lengths.sum / start.sum;
     const double before = history.shrinkage.back();
     if (before <= kBegun && before - shrinkage < options.shrinkage_tolerance) {
@@ -132,7 +141,7 @@ ComponentHistory contract_point_component(const std::vector<Vec3>& scaled, const
       break;
     }
     if (shrinkage <= before) {  // a step too gentle to shrink anything is made stronger
-      now = *next;
+      now = std::move(*attempt.next);
       history.levels.push_back(now);
       history.shrinkage.push_back(shrinkage);
       ++history.summary.steps;

@@ -77,8 +77,7 @@ std::vector<std::uint32_t> nearest_centres(const std::vector<Vec3>& points,
 }
 
 /// Clusters: the connected parts of what is nearest to each centre, numbered by lowest point.
-std::vector<std::uint32_t> connected_parts(const std::vector<std::uint32_t>& centre,
-                                           const IndexLists& neighbours, std::size_t& count) {
+Components connected_parts(const std::vector<std::uint32_t>& centre, const IndexLists& neighbours) {
   const std::size_t n = centre.size();
   DisjointSets parts(n);
   for (std::uint32_t i = 0; i < n; ++i) {
@@ -109,13 +108,13 @@ std::vector<std::uint32_t> connected_parts(const std::vector<std::uint32_t>& cen
       size[parts.root(i)] = both;
     }
   }
-  std::vector<std::uint32_t> cluster(n);
-  count = 0;
+  Components clusters{.of_vertex = std::vector<std::uint32_t>(n)};
+  std::vector<std::uint32_t>& cluster = clusters.of_vertex;
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t part = parts.root(i);
-    cluster[i] = part == i ? static_cast<std::uint32_t>(count++) : cluster[part];
+    cluster[i] = part == i ? static_cast<std::uint32_t>(clusters.count++) : cluster[part];
   }
-  return cluster;
+  return clusters;
 }
 
 using Links = std::vector<std::array<std::uint32_t, 2>>;
@@ -198,9 +197,8 @@ Collapsed thin_cloud(const TriMesh& samples, const ContractionHistory& history, 
                      const RunContext& run) {
   const std::vector<Vec3>& points = history.levels.back();
   const IndexLists neighbours = vertex_neighbours(samples);
-  std::size_t count = 0;
-  const std::vector<std::uint32_t> cluster = connected_parts(
-      nearest_centres(points, history.component_of_vertex, spacing, run), neighbours, count);
+  const auto [cluster, count] = connected_parts(
+      nearest_centres(points, history.component_of_vertex, spacing, run), neighbours);
   std::vector<Vec3> places(count, Vec3::Zero());
   std::vector<double> weights(count, 0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "vantage/mesh/measures.h"
 #include "vantage/skeleton/skeleton.h"
@@ -60,9 +61,10 @@ End shortest_spurious_end(const CurveGraph& graph, const Adjacency& lists, doubl
   return best;
 }
 
-/// Gives nodes that stand for no vertex the mean radius of their neighbours, ring by ring.
-void fill_from_neighbours(const CurveGraph& graph, std::vector<double>& count,
-                          std::vector<double>& radius) {
+/// Radii in which nodes that stand for no vertex have the mean of their neighbours, ring by ring.
+/// \param count of vertices of each node.
+std::vector<double> filled_from_neighbours(const CurveGraph& graph, std::vector<double> count,
+                                           std::vector<double> radius) {
   const Adjacency lists = node_neighbours(graph);
   for (bool changed = true; changed;) {
     changed = false;
@@ -81,6 +83,7 @@ void fill_from_neighbours(const CurveGraph& graph, std::vector<double>& count,
       }
     }
   }
+  return radius;
 }
 
 }  // namespace
@@ -99,8 +102,7 @@ std::vector<double> node_radii(const CurveGraph& graph, const TriMesh& mesh,
   for (std::size_t i = 0; i < sum.size(); ++i) {
     sum[i] = count[i] > 0.0 ? sum[i] / count[i] : 0.0;
   }
-  fill_from_neighbours(graph, count, sum);
-  return sum;
+  return filled_from_neighbours(graph, std::move(count), std::move(sum));
 }
 
 CurveGraph centre_nodes(const CurveGraph& graph, const TriMesh& mesh,

@@ -22,10 +22,15 @@ constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
 using Adjacency = std::vector<std::vector<std::uint32_t>>;
 
-/// The nodes of the shortest loop over an edge, in order, or none if it is longer than `most`.
-std::vector<std::uint32_t> loop_over(const CurveGraph& graph, const Adjacency& lists,
-                                     std::array<std::uint32_t, 2> edge, double most,
-                                     double& length) {
+/// A loop of a graph.
+struct Loop {
+  std::vector<std::uint32_t> nodes{};  ///< In order.
+  double length = kUnreached;
+};
+
+/// The shortest loop over an edge, without nodes if it is longer than `most`.
+Loop loop_over(const CurveGraph& graph, const Adjacency& lists, std::array<std::uint32_t, 2> edge,
+               double most) {
   const auto span = [&graph](std::uint32_t a, std::uint32_t b) {
     return (graph.nodes[a] - graph.nodes[b]).norm();
   };
@@ -54,10 +59,9 @@ std::vector<std::uint32_t> loop_over(const CurveGraph& graph, const Adjacency& l
       }
     }
   }
-  length = distance[edge[1]];
-  std::vector<std::uint32_t> loop;
-  for (std::uint32_t n = edge[1]; length < kUnreached && n != Skeleton::kNone; n = from[n]) {
-    loop.push_back(n);
+  Loop loop{.length = distance[edge[1]]};
+  for (std::uint32_t n = edge[1]; loop.length < kUnreached && n != Skeleton::kNone; n = from[n]) {
+    loop.nodes.push_back(n);
   }
   return loop;
 }
@@ -155,15 +159,14 @@ void close_short_loops(CurveGraph& graph, const TriMesh& samples,
     double most = kCircumference * *std::max_element(radius.begin(), radius.end());
     std::vector<std::uint32_t> shortest;
     for (const auto& edge : graph.edges) {
-      double length = kUnreached;
-      std::vector<std::uint32_t> loop = loop_over(graph, lists, edge, most, length);
+      Loop loop = loop_over(graph, lists, edge, most);
       double mean = 0.0;
-      for (const std::uint32_t n : loop) {
-        mean += radius[n] / static_cast<double>(loop.size());
+      for (const std::uint32_t n : loop.nodes) {
+        mean += radius[n] / static_cast<double>(loop.nodes.size());
       }
-      if (!loop.empty() && length < most && length < kCircumference * mean) {
-        most = length;
-        shortest = std::move(loop);
+      if (!loop.nodes.empty() && loop.length < most && loop.length < kCircumference * mean) {
+        most = loop.length;
+        shortest = std::move(loop.nodes);
       }
     }
     if (shortest.empty()) {

@@ -2,6 +2,7 @@
 #include "skeleton/wall_middles.h"
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -26,9 +27,8 @@ WallMiddles::WallMiddles(CurveGraph graph, const Shell& shell)
 
 bool WallMiddles::add(std::uint32_t node, const std::vector<std::uint32_t>& vertices) {
   for (const std::uint32_t v : vertices) {
-    Vec3 middle = Vec3::Zero();
-    if (shell_.middle_at(v, middle)) {
-      middles_[node].push_back(middle);
+    if (const std::optional<Vec3> middle = shell_.middle_at(v)) {
+      middles_[node].push_back(*middle);
     }
   }
   settled_[node] = middles_[node].empty();

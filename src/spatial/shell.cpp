@@ -308,12 +308,9 @@ std::optional<Vec3> Shell::wall_at(std::uint32_t vertex) const {
   return std::nullopt;
 }
 
-bool Shell::middle_at(std::uint32_t vertex, Vec3& middle) const {
+std::optional<Vec3> Shell::middle_at(std::uint32_t vertex) const {
   const std::optional<Vec3> across = wall_at(vertex);
-  if (across) {
-    middle = mesh_.positions[vertex] + 0.5 * *across;
-  }
-  return across.has_value();
+  return across ? std::optional<Vec3>(mesh_.positions[vertex] + 0.5 * *across) : std::nullopt;
 }
 
 }  // namespace vantage

@@ -42,9 +42,8 @@ class Shell {
   /// neither way leads through the inside.
   [[nodiscard]] std::optional<Vec3> wall_at(std::uint32_t vertex) const;
 
-  /// Finds the middle between a vertex and the wall across from it, along the normal.
-  /// \return false, and `middle` as it was, if neither way leads through the inside.
-  [[nodiscard]] bool middle_at(std::uint32_t vertex, Vec3& middle) const;
+  /// The middle between a vertex and the wall across from it; nothing where wall_at() is.
+  [[nodiscard]] std::optional<Vec3> middle_at(std::uint32_t vertex) const;
 
   /// The vertices that share an edge with each vertex.
   [[nodiscard]] const IndexLists& neighbours() const { return neighbours_; }
