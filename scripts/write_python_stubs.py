@@ -40,7 +40,7 @@ from .results import (
 
 Model = _core.Model
 Analysis = _core.Analysis
-_Path = Union[str, "os.PathLike[str]"]
+_Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 
 class _HasVertices(Protocol):  # trimesh, Open3D's TriangleMesh
     @property
@@ -67,34 +67,34 @@ _Subject = Union[
 _Progress = Optional[Callable[[str, float], object]]
 
 def load(
-    path: _Path, *, progress: _Progress = None, threads: int = 0, max_faces: int = 0
+    path: _Path, *, progress: _Progress = None, threads: Optional[int] = 0, max_faces: Optional[int] = 0
 ) -> _core.Model: ...
 '''
 TAIL = '''def directions(level: int = 3, base: str = "icosahedron") -> DirectionSet: ...
 def colour_map(values: npt.ArrayLike) -> Bytes: ...
 def measures() -> Tuple[Measure, ...]: ...
-def defaults(preset: str = "default") -> Dict[str, Any]: ...
+def defaults(preset: Optional[str] = "default") -> Dict[str, Any]: ...
 def options() -> List[Mapping[str, Any]]: ...
 def library_versions() -> str: ...
 '''
 POINTS = "Optional[npt.ArrayLike] = None"
 FUNCTIONS = [  # name, own keywords, groups of options, result
     ("analyse", [], ["method", "map"], "_core.Analysis"),
-    ("best_view", ['method: str = "kssm"'],
+    ("best_view", ['method: Optional[str] = "kssm"'],
      ["method", "map", "camera", "search", "saliency", "set", "size"], "BestView"),
-    ("skeleton", ["levels: bool = False", "measure: bool = False"], ["method"], "Skeleton"),
-    ("kssm", ["levels: bool = False"], ["method", "map"], "KssmMap"),
-    ("vertex_map", ['method: str = "kssm"'],
+    ("skeleton", ["levels: Optional[bool] = False", "measure: Optional[bool] = False"], ["method"], "Skeleton"),
+    ("kssm", ["levels: Optional[bool] = False"], ["method", "map"], "KssmMap"),
+    ("vertex_map", ['method: Optional[str] = "kssm"'],
      ["method", "map", "camera", "saliency"],
      "Floats"),
     ("visible_vertices", [f"eyes: {POINTS}", f"directions: {POINTS}", "sphere: Optional[int] = None"],
      ["camera"], "Flags"),
     ("score", [f"directions: {POINTS}", f"eyes: {POINTS}", "sphere: Optional[int] = None",
-               'method: Union[str, Sequence[str]] = "kssm"', "view_set: int = 3"],
+               'method: Union[str, Sequence[str], None] = "kssm"', "view_set: Optional[int] = 3"],
      ["method", "map", "camera", "saliency"], "Any"),
     ("render", [f"direction: {POINTS}", "camera: Optional[Camera] = None",
                 'view: Optional[Literal["best", "worst"]] = None',
-                'show: Literal["plain", "kssm", "skeleton"] = "plain"', f"colours: {POINTS}"],
+                'show: Optional[Literal["plain", "kssm", "skeleton"]] = "plain"', f"colours: {POINTS}"],
      ["method", "map", "camera", "search", "size", "look"], "Bytes"),
 ]
 
@@ -110,7 +110,7 @@ def stub(name, own, groups, result):
     """One function, a keyword a line."""
     lines = [f"def {name}(", "    model: _Subject,", "    F: Optional[npt.ArrayLike] = None,", "    *,"]
     lines += [f"    {keyword}," for keyword in own]
-    lines += ["    progress: _Progress = None,", "    threads: int = 0,"]
+    lines += ["    progress: _Progress = None,", "    threads: Optional[int] = 0,"]
     lines += [f"    {row['name']}: {annotation(row)} = None,"
               for row in _core.options() if row["group"] in groups]
     return "\n".join([*lines, f") -> {result}: ..."]) + "\n"

@@ -4,8 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "vantage/core/error.h"
+
+#include "arguments.h"
 
 namespace vantage::python {
 namespace {
@@ -14,13 +17,34 @@ std::string shape_text(const py::array& array) {
   return py::str(array.attr("shape")).cast<std::string>();
 }
 
+std::string not_numbers(const char* name) {
+  return std::string(name) + " must be an array of numbers";
+}
+
 py::array array_from(const py::object& value, const char* name) {
-  py::array array = py::array::ensure(value);
-  if (!array) {
-    PyErr_Clear();
-    throw py::type_error(std::string(name) + " must be an array of numbers");
+  try {
+    py::array array(value);
+    if (array.ndim() == 0) {  // NumPy wraps whatever it is given
+      throw py::type_error(not_numbers(name) + ", not " + Py_TYPE(value.ptr())->tp_name);
+    }
+    return array;
+  } catch (py::error_already_set& error) {
+    error.restore();
+    refuse_type(not_numbers(name));
   }
-  return array;
+}
+
+/// \param kinds NumPy's letters for them. \throw py::type_error if it holds others
+void need_numbers(const py::array& array, const char* name, std::string_view kinds,
+                  const char* what) {
+  if (kinds.find(array.dtype().kind()) == std::string_view::npos) {
+    throw py::type_error(std::string(name) + " must hold " + what + ", not " +
+                         py::str(array.dtype()).cast<std::string>());
+  }
+}
+
+void need_real_numbers(const py::array& array, const char* name) {
+  need_numbers(array, name, "fiu", "real numbers");
 }
 
 void need_rows_of_three(const py::array& array, const char* name) {
@@ -117,12 +141,9 @@ std::vector<Vec3> points_of(const py::object& value, const char* name) {
   if (array.ndim() == 1 && array.shape(0) == 3) {
     array = array.reshape({1, 3});
   }
+  need_real_numbers(array, name);
   need_rows_of_three(array, name);
   const char kind = array.dtype().kind();
-  if (kind != 'f' && kind != 'i' && kind != 'u') {
-    throw py::type_error(std::string(name) + " must hold real numbers, not " +
-                         py::str(array.dtype()).cast<std::string>());
-  }
   array = native(array);
   if (kind == 'f' && array.itemsize() == sizeof(float)) {
     return read_points<float>(array, name);
@@ -135,14 +156,31 @@ std::vector<Vec3> points_of(const py::object& value, const char* name) {
 
 Vec3 vector_of(const py::object& value, const char* name) {
   const py::array array = array_from(value, name);
+  need_real_numbers(array, name);
   if (array.ndim() != 1 || array.shape(0) != 3) {
     throw InvalidInput(std::string(name) + " must be three numbers");
   }
   return points_of(array, name).front();
 }
 
+std::vector<double> numbers_of(const py::object& value, const char* name) {
+  const py::array array = array_from(value, name);
+  need_numbers(array, name, "fiubO", "real numbers");  // None is NaN
+  if (array.ndim() != 1) {
+    throw InvalidInput(std::string(name) + " must be one number a vertex");
+  }
+  try {
+    const py::array_t<double, py::array::c_style | py::array::forcecast> numbers(array);
+    return {numbers.data(), numbers.data() + numbers.size()};
+  } catch (py::error_already_set& error) {
+    error.restore();
+    refuse_type(not_numbers(name));
+  }
+}
+
 TriMesh mesh_of(const py::object& V, const py::object& F) {
   const py::array vertices = array_from(V, "V");
+  need_real_numbers(vertices, "V");
   need_rows_of_three(vertices, "V");
   if (vertices.shape(0) == 0) {
     throw InvalidInput("V holds no vertices");
@@ -156,54 +194,31 @@ TriMesh mesh_of(const py::object& V, const py::object& F) {
     return mesh;
   }
   const py::array faces = array_from(F, "F");
-  if (faces.size() == 0 && faces.ndim() <= 2) {  // an empty list has neither shape nor integers
-    return mesh;
+  const bool is_empty = faces.size() == 0;  // an empty list has neither integers nor rows
+  if (!is_empty) {
+    need_numbers(faces, "F", "iu", "integers");
   }
-  need_rows_of_three(faces, "F");
-  const char kind = faces.dtype().kind();
-  if (kind != 'i' && kind != 'u') {
-    throw py::type_error("F must hold integers, not " + py::str(faces.dtype()).cast<std::string>());
+  if (!is_empty || faces.ndim() != 1) {
+    need_rows_of_three(faces, "F");
   }
-  mesh.triangles = triangles_of(native(faces), mesh.positions.size());
+  if (!is_empty) {
+    mesh.triangles = triangles_of(native(faces), mesh.positions.size());
+  }
   return mesh;
 }
 
 std::vector<std::array<std::uint8_t, 3>> colours_of(const py::object& value) {
   const py::array array = array_from(value, "colours");
-  need_rows_of_three(array, "colours");
   if (array.dtype().kind() != 'u' || array.itemsize() != 1) {
     throw py::type_error("colours must be uint8, not " +
                          py::str(array.dtype()).cast<std::string>());
   }
+  need_rows_of_three(array, "colours");
   std::vector<std::array<std::uint8_t, 3>> colours;
   colours.reserve(static_cast<std::size_t>(array.shape(0)));
   for_each_row<std::uint8_t>(
       array, [&](py::ssize_t, const std::array<std::uint8_t, 3>& row) { colours.push_back(row); });
   return colours;
-}
-
-double number_of(const py::object& value, const char* name) {
-  try {
-    return value.cast<double>();
-  } catch (const py::cast_error&) {
-    throw py::type_error(std::string(name) + " must be a number");
-  }
-}
-
-std::int64_t whole_number_of(const py::object& value, const char* name, std::int64_t low,
-                             std::int64_t high) {
-  const auto number = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
-  if (!number) {
-    PyErr_Clear();
-    throw py::type_error(std::string(name) + " must be a whole number");
-  }
-  int overflow = 0;
-  const long long whole = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
-  if (overflow != 0 || whole < low || whole > high) {
-    throw InvalidInput(name + (overflow == 0 ? " is " + std::to_string(whole) + " but" : "") +
-                       " must be between " + std::to_string(low) + " and " + std::to_string(high));
-  }
-  return whole;
 }
 
 }  // namespace vantage::python

@@ -83,8 +83,9 @@ py::array_t<Scalar> shared_array(const void* data, const Shape& shape, const Own
 py::array_t<double> array_of(const Vec3& v);
 
 /// The mesh that V and F describe. \param V n × 3 real numbers. \param F m × 3 integers, or None: a
-/// point cloud. \throw py::type_error for other types of numbers. \throw InvalidInput for other
-/// shapes, no points, coordinates that are not finite, indices that name no vertex.
+/// point cloud, as [] is. \throw py::type_error for what is no array, and other types of numbers.
+/// \throw InvalidInput for other shapes, no points, coordinates that are not finite, indices that
+/// name no vertex.
 TriMesh mesh_of(const py::object& V, const py::object& F);
 
 /// Points of a k × 3 array, or of one of three numbers. \param name shown in messages.
@@ -96,13 +97,10 @@ bool is_single_point(const py::object& value);
 /// Three finite numbers. \param name shown in messages.
 Vec3 vector_of(const py::object& value, const char* name);
 
+/// One number a row, of any kind that NumPy makes one of; those that are not finite too.
+std::vector<double> numbers_of(const py::object& value, const char* name);
+
 /// Colours of an n × 3 array of bytes.
 std::vector<std::array<std::uint8_t, 3>> colours_of(const py::object& value);
-
-/// \throw py::type_error that begins with `name`
-double number_of(const py::object& value, const char* name);
-/// \throw py::type_error, InvalidInput if it is less than `low` or more than `high`
-std::int64_t whole_number_of(const py::object& value, const char* name, std::int64_t low,
-                             std::int64_t high);
 
 }  // namespace vantage::python

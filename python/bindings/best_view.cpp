@@ -6,6 +6,7 @@
 #include "vantage/report/view_report.h"
 #include "vantage/view/measure.h"
 
+#include "arguments.h"
 #include "arrays.h"
 #include "camera.h"
 #include "released_run.h"
@@ -96,11 +97,11 @@ py::dict report_dict(const Outcome& outcome) {
   return result;
 }
 
-py::dict best_view(const py::object& model, const py::object& F, const std::string& method,
+py::dict best_view(const py::object& model, const py::object& F, const py::object& method,
                    const py::dict& options, const py::object& progress, const py::object& threads) {
   const Subject subject(model, F);
   Settings settings = subject.settings(options);
-  settings.view.method = find_measure(method).name;
+  settings.view.method = find_measure(word_of(method, "method")).name;
   settings.view.pictures = false;  // view.json names none
   return report_dict(released({progress, threads}, [&](const RunContext& run) {
     Outcome outcome;

@@ -5,6 +5,7 @@
 
 #include "vantage/core/error.h"
 
+#include "arguments.h"
 #include "arrays.h"
 
 namespace vantage::python {

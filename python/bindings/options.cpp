@@ -12,6 +12,7 @@
 
 #include "vantage/core/error.h"
 
+#include "arguments.h"
 #include "text.h"
 
 namespace vantage::python {
@@ -64,6 +65,14 @@ std::string type_of(const Option& option) {
   return "str";
 }
 
+/// Digits of a whole number; True is none. \throw py::cast_error
+std::string whole_text(const py::handle& given) {
+  if (PyBool_Check(given.ptr()) || PyIndex_Check(given.ptr()) == 0) {
+    throw py::cast_error();
+  }
+  return py::str(given).cast<std::string>();
+}
+
 /// A text of an option, from all that Python may say it by.
 std::string text_from(const Option& option, const py::object& given) {
   if (option.form == TextForm::File) {
@@ -73,56 +82,45 @@ std::string text_from(const Option& option, const py::object& given) {
     return given.cast<std::string>();
   }
   if (option.form == TextForm::Share) {
-    return py::repr(py::float_(given)).cast<std::string>();
-  }
-  if (option.form == TextForm::Size && py::isinstance<py::sequence>(given)) {
-    std::string text;
-    for (const py::handle side : given) {
-      text += (text.empty() ? "" : "x") + py::str(side).cast<std::string>();
-    }
-    return text;
+    return py::repr(py::cast(given.cast<double>())).cast<std::string>();
   }
   if (option.form == TextForm::Plain) {
     throw py::cast_error();
   }
-  return py::str(given).cast<std::string>();
+  if (option.form == TextForm::Size && PySequence_Check(given.ptr()) != 0 &&
+      !py::isinstance<py::bytes>(given)) {
+    std::string text;
+    for (const py::handle side : given) {
+      text += (text.empty() ? "" : "x") + whole_text(side);
+    }
+    return text;
+  }
+  return whole_text(given);
 }
 
 /// A whole number, from anything that stands for one.
 OptionValue whole_from(const Option& option, const py::object& given) {
   const auto number = py::reinterpret_steal<py::object>(PyNumber_Index(given.ptr()));
   if (!number) {
-    PyErr_Clear();
-    throw py::cast_error();
+    refuse_type("option " + keyword_of(option) + " must be " + type_of(option));
   }
   int overflow = 0;
   const long long small = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
-  if (overflow == 0 && small < 0) {
-    refuse_number(option.name, static_cast<double>(small), option.low, option.high);
-  }
-  const std::uint64_t whole = PyLong_AsUnsignedLongLong(number.ptr());
-  if (PyErr_Occurred() != nullptr) {
+  const bool is_below = overflow < 0 || (overflow == 0 && small < 0);
+  const std::uint64_t whole = is_below ? 0 : PyLong_AsUnsignedLongLong(number.ptr());
+  if (is_below || PyErr_Occurred() != nullptr) {
     PyErr_Clear();
     constexpr double kBeyond = 0x1p64;
-    throw InvalidInput("option " + option.name + " must be between " +
-                       std::to_string(static_cast<std::uint64_t>(option.low)) + " and " +
-                       std::to_string(option.high < kBeyond
-                                          ? static_cast<std::uint64_t>(option.high)
-                                          : std::numeric_limits<std::uint64_t>::max()));
+    throw InvalidInput(
+        "option " + option.name + (overflow == 0 ? " is " + std::to_string(small) + " but" : "") +
+        " must be between " + std::to_string(static_cast<std::uint64_t>(option.low)) + " and " +
+        std::to_string(option.high < kBeyond ? static_cast<std::uint64_t>(option.high)
+                                             : std::numeric_limits<std::uint64_t>::max()));
   }
   return whole;
 }
 
-/// True or False, NumPy's too; numbers are none. \throw py::cast_error
-bool switch_from(const py::object& given) {
-  py::detail::make_caster<bool> caster;
-  if (!caster.load(given, /*convert=*/false)) {
-    throw py::cast_error();
-  }
-  return static_cast<bool>(caster);
-}
-
-/// \throw py::cast_error if it is of another type
+/// \throw py::cast_error, py::type_error if it is of another type
 OptionValue value_from(const Option& option, const py::object& given) {
   switch (option.kind) {
     case OptionKind::Number:
@@ -130,7 +128,7 @@ OptionValue value_from(const Option& option, const py::object& given) {
     case OptionKind::Integer:
       return whole_from(option, given);
     case OptionKind::Switch:
-      return switch_from(given);
+      return switch_of(given, "option " + keyword_of(option));
     case OptionKind::Choice:
       return given.cast<std::string>();
     case OptionKind::Text:
@@ -215,7 +213,7 @@ Settings settings_over(Settings base, const py::dict& keywords) {
   return base;
 }
 
-py::dict default_values(const std::string& preset) {
+py::dict default_values(const py::object& preset) {
   py::dict keywords;
   keywords["preset"] = preset;
   const Settings settings = settings_of(keywords);
@@ -229,8 +227,8 @@ py::dict default_values(const std::string& preset) {
 }
 
 py::list option_rows() {
-  const py::dict ours = default_values("default");
-  const py::dict papers = default_values("paper");
+  const py::dict ours = default_values(py::none());
+  const py::dict papers = default_values(py::str("paper"));
   py::list rows;
   for (const Option& option : option_table()) {
     if (!option.is_listed()) {

@@ -23,8 +23,8 @@ Settings settings_of(const py::dict& keywords);
 /// The same over options that an analysis was made with; refuses what would change the analysis.
 Settings settings_over(Settings base, const py::dict& keywords);
 
-/// What each keyword is by a preset; None: nothing is set.
-py::dict default_values(const std::string& preset);
+/// What each keyword is by a preset, a name or None; None: nothing is set.
+py::dict default_values(const py::object& preset);
 
 /// Each keyword: name, flag, group, type, help, choices, low, high, default, paper.
 py::list option_rows();

@@ -9,6 +9,7 @@
 #include "vantage/render/render.h"
 #include "vantage/report/view_report.h"
 
+#include "arguments.h"
 #include "arrays.h"
 #include "camera.h"
 #include "released_run.h"
@@ -40,7 +41,7 @@ Standpoint standpoint_of(const py::object& direction, const py::object& camera,
   } else if (!camera.is_none()) {
     from.camera = camera_of(camera);
   } else {
-    const std::string name = view.is_none() ? "best" : py::str(view).cast<std::string>();
+    const std::string name = view.is_none() ? "best" : word_of(view, "view");
     if (name != "best" && name != "worst") {
       throw InvalidInput("view is '" + name + "' but must be best or worst");
     }
@@ -94,13 +95,13 @@ Image drawn(const Analysis& analysis, const Camera& camera, Picture picture,
 }
 
 py::array render_picture(const py::object& model, const py::object& F, const py::object& direction,
-                         const py::object& camera, const py::object& view, const std::string& show,
+                         const py::object& camera, const py::object& view, const py::object& show,
                          const py::object& colours, const py::dict& options,
                          const py::object& progress, const py::object& threads) {
   const Subject subject(model, F);
   Settings settings = subject.settings(options);
   const Standpoint from = standpoint_of(direction, camera, view);
-  const Picture picture = picture_of(show);
+  const Picture picture = picture_of(word_of(show, "show"));
   std::optional<std::vector<Rgb8>> given;
   if (!colours.is_none()) {
     given = colours_of(colours);
@@ -122,12 +123,8 @@ py::array render_picture(const py::object& model, const py::object& F, const py:
                                    {py::ssize_t{image.height}, py::ssize_t{image.width}, 4});
 }
 
-py::array colours_of_values(
-    const py::array_t<double, py::array::c_style | py::array::forcecast>& values) {
-  if (values.ndim() != 1) {
-    throw InvalidInput("values must be one number a vertex");
-  }
-  return owned_array(colour_map({values.data(), static_cast<std::size_t>(values.size())}));
+py::array colours_of_values(const py::object& values) {
+  return owned_array(colour_map(numbers_of(values, "values")));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@
 
 #include "vantage/core/error.h"
 
-#include "arrays.h"
+#include "arguments.h"
 
 namespace vantage::python {
 namespace {
@@ -294,7 +294,9 @@ class Worker {
 
 void run_released(const RunSettings& settings, const std::function<void(const RunContext&)>& work) {
   const auto threads =
-      static_cast<int>(whole_number_of(settings.threads, "threads", 0, kMostThreads));
+      settings.threads.is_none()
+          ? 0
+          : static_cast<int>(whole_number_of(settings.threads, "threads", 0, kMostThreads));
   const bool reports = !settings.progress.is_none();
   if (reports && PyCallable_Check(settings.progress.ptr()) == 0) {
     throw py::type_error("progress must be a function of (stage, fraction), or None");

@@ -19,7 +19,7 @@ namespace vantage::python {
 /// How to run, as given to every function.
 struct RunSettings {
   pybind11::object progress = pybind11::none();  ///< progress(stage, fraction), or None.
-  pybind11::object threads = pybind11::int_(0);  ///< At most this many; 0: all cores.
+  pybind11::object threads = pybind11::int_(0);  ///< At most this many; 0 or None: all cores.
 };
 
 /// Runs `work` without the interpreter's lock and waits for it. On Ctrl-C, or if the callback

@@ -10,6 +10,7 @@
 #include "vantage/pipeline/measured_shape.h"
 #include "vantage/skeleton/skeleton.h"
 
+#include "arguments.h"
 #include "arrays.h"
 #include "released_run.h"
 #include "subject.h"
@@ -79,15 +80,18 @@ py::dict quality_dict(const SkeletonQuality& quality, double diameter) {
   return result;
 }
 
-py::dict skeleton(const py::object& model, const py::object& F, bool levels, bool measure,
-                  const py::dict& options, const py::object& progress, const py::object& threads) {
+py::dict skeleton(const py::object& model, const py::object& F, const py::object& levels,
+                  const py::object& measure, const py::dict& options, const py::object& progress,
+                  const py::object& threads) {
   const Subject subject(model, F);
   const Settings settings = subject.settings(options);
+  const bool wants_levels = switch_of(levels, "levels");
+  const bool wants_quality = switch_of(measure, "measure");
   double diameter = 1.0;
   SkeletonParts parts = released({progress, threads}, [&](const RunContext& run) {
     const auto analysis = subject.analysed(settings, with_skeleton, run.part(0.0, 0.9));
     diameter = analysis->shape.sphere.diameter;
-    return skeleton_parts(*analysis, levels, measure, run.part(0.9, 1.0));
+    return skeleton_parts(*analysis, wants_levels, wants_quality, run.part(0.9, 1.0));
   });
   py::dict result;
   result["components"] = component_count(parts.graph);
@@ -103,7 +107,7 @@ py::dict skeleton(const py::object& model, const py::object& F, bool levels, boo
   }
   result["branches"] = py::tuple(branches);
   result["levels"] = py::none();
-  if (levels) {
+  if (wants_levels) {
     const Shape shape{extent(parts.level_count), extent(parts.vertex_node.size()), 3};
     result["levels"] = owned_array<double>(std::move(parts.levels), shape);
   }
@@ -124,24 +128,25 @@ struct MapParts {
   std::vector<std::string> warnings{};
 };
 
-py::dict kssm(const py::object& model, const py::object& F, bool levels, const py::dict& options,
-              const py::object& progress, const py::object& threads) {
+py::dict kssm(const py::object& model, const py::object& F, const py::object& levels,
+              const py::dict& options, const py::object& progress, const py::object& threads) {
   const Subject subject(model, F);
   const Settings settings = subject.settings(options);
+  const bool wants_levels = switch_of(levels, "levels");
   MapParts parts = released({progress, threads}, [&](const RunContext& run) {
     const auto analysis = subject.analysed(settings, with_map, run);
     const ShapeAnalysis& shape = analysis->shape;
     return MapParts{.of_vertex = on_input_vertices(shape, shape.significance),
                     .thickness = on_input_vertices(shape, shape.kssm.thickness()),
                     .level_factor = shape.kssm.level_factor,
-                    .displacement = levels ? stacked_levels(shape, shape.kssm.displacement)
-                                           : std::vector<double>{},
+                    .displacement = wants_levels ? stacked_levels(shape, shape.kssm.displacement)
+                                                 : std::vector<double>{},
                     .level_count = shape.kssm.displacement.size(),
                     .warnings = shape.warnings};
   });
   py::dict result;
   result["displacement"] = py::none();
-  if (levels) {
+  if (wants_levels) {
     const Shape shape{extent(parts.level_count), extent(parts.of_vertex.size())};
     result["displacement"] = owned_array<double>(std::move(parts.displacement), shape);
   }
@@ -152,10 +157,11 @@ py::dict kssm(const py::object& model, const py::object& F, bool levels, const p
   return result;
 }
 
-py::array map_of(const py::object& model, const py::object& F, const std::string& method,
+py::array map_of(const py::object& model, const py::object& F, const py::object& map,
                  const py::dict& options, const py::object& progress, const py::object& threads) {
   const Subject subject(model, F);
   const Settings settings = subject.settings(options);
+  const std::string method = word_of(map, "method");
   constexpr std::array kMaps{"kssm", "thickness", "mesh-saliency", "pmi-saliency"};
   if (std::find(kMaps.begin(), kMaps.end(), method) == kMaps.end()) {
     throw InvalidInput("there is no map '" + method +

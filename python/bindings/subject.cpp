@@ -12,6 +12,7 @@
 #include "vantage/pipeline/measured_shape.h"
 #include "vantage/pipeline/sidecar.h"
 
+#include "arguments.h"
 #include "arrays.h"
 #include "released_run.h"
 #include "text.h"
@@ -20,13 +21,14 @@ namespace vantage::python {
 namespace {
 
 bool is_path(const py::object& value) {
-  return py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__");
+  return py::isinstance<py::str>(value) || py::isinstance<py::bytes>(value) ||
+         py::hasattr(value, "__fspath__");
 }
 
-ModelHandle model_of_arrays(const py::object& V, const py::object& F, const std::string& name,
+ModelHandle model_of_arrays(const py::object& V, const py::object& F, const py::object& name,
                             const py::object& colours) {
   auto model = std::make_shared<Model>();
-  model->name = name;
+  model->name = name.is_none() ? "arrays" : word_of(name, "name");
   model->mesh = mesh_of(V, F);
   model->double_precision = true;
   model->polygons = model->mesh.triangles.size();
@@ -48,8 +50,9 @@ ReadOptions reading(bool appearance, std::size_t max_faces) {
 
 ModelHandle load(const py::object& path, const py::object& progress, const py::object& threads,
                  const py::object& max_faces) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
   const std::int64_t most =
-      whole_number_of(max_faces, "max_faces", 0, std::numeric_limits<std::int64_t>::max());
+      max_faces.is_none() ? 0 : whole_number_of(max_faces, "max_faces", 0, kMost);
   const std::string file = path_text(path);
   return {released({progress, threads}, [&](const RunContext& run) {
     return std::make_shared<const Model>(
@@ -80,8 +83,16 @@ std::string sizes_of(const Model& model) {
          std::to_string(model.mesh.triangles.size()) + " faces";
 }
 
+/// Copies go through pickle as well. Without this, protocols 0 and 1 end the interpreter.
+py::object refuse_pickle(const py::object& self, const py::args& /*protocol*/) {
+  throw py::type_error("cannot pickle " + std::string(Py_TYPE(self.ptr())->tp_name) +
+                       ": pickle its arrays, or the path of its file");
+}
+
 void define_model(py::module_& module) {
   py::class_<ModelHandle>(module, "Model")
+      .def("__reduce__", &refuse_pickle)
+      .def("__reduce_ex__", &refuse_pickle)
       .def(py::init(&model_of_arrays), py::arg("V"), py::arg("F") = py::none(), py::kw_only(),
            py::arg("name") = "arrays", py::arg("colours") = py::none())
       .def("__repr__",
@@ -119,6 +130,8 @@ void define_analysis(py::module_& module) {
     return h.analysis->shape;
   };
   py::class_<AnalysisHandle>(module, "Analysis")
+      .def("__reduce__", &refuse_pickle)
+      .def("__reduce_ex__", &refuse_pickle)
       .def("__repr__",
            [](const AnalysisHandle& h) {
              const Model& model = *h.analysis->model;
@@ -165,7 +178,7 @@ Subject::Subject(const py::object& model, const py::object& faces) {
   } else if (is_path(model)) {
     path_ = path_text(model);
   } else {
-    model_ = model_of_arrays(model, faces, "arrays", py::none()).model;
+    model_ = model_of_arrays(model, faces, py::none(), py::none()).model;
   }
 }
 

@@ -36,6 +36,23 @@ struct AnalysisHandle {
   std::shared_ptr<const Analysis> analysis{};
 };
 
+/// Takes a handle out of its Python object. What Python made by __new__ alone holds none: pybind11
+/// would read it from memory that nobody wrote.
+template <class Handle>
+class HandleCaster : public py::detail::type_caster_base<Handle> {
+ public:
+  bool load(py::handle source, bool convert) {
+    if (py::isinstance<Handle>(source)) {
+      auto* const object = reinterpret_cast<py::detail::instance*>(source.ptr());
+      if (!object->get_value_and_holder().holder_constructed()) {
+        throw py::type_error("this " + std::string(Py_TYPE(source.ptr())->tp_name) +
+                             " was made by __new__ alone and holds nothing");
+      }
+    }
+    return py::detail::type_caster_base<Handle>::load(source, convert);
+  }
+};
+
 /// Makes of a model what a function needs of it.
 using Analyser = std::function<ShapeAnalysis(const Model&, const ViewOptions&, const RunContext&)>;
 
@@ -81,3 +98,11 @@ void define_best_view(py::module_& module);
 void define_pictures(py::module_& module);
 
 }  // namespace vantage::python
+
+template <>
+class pybind11::detail::type_caster<vantage::python::ModelHandle>
+    : public vantage::python::HandleCaster<vantage::python::ModelHandle> {};
+
+template <>
+class pybind11::detail::type_caster<vantage::python::AnalysisHandle>
+    : public vantage::python::HandleCaster<vantage::python::AnalysisHandle> {};

@@ -8,6 +8,7 @@
 #include "vantage/pipeline/measured_shape.h"
 #include "vantage/spatial/directions.h"
 
+#include "arguments.h"
 #include "arrays.h"
 #include "released_run.h"
 #include "subject.h"
@@ -136,22 +137,29 @@ MeasureValues measured_scores(const Analysis& analysis, const ViewOptions& optio
   return measurer.values(std::span<const Viewpoint>(eyes), rest);
 }
 
-std::vector<Measure> measures_of(const std::vector<std::string>& names) {
-  if (names.empty()) {
-    throw InvalidInput("method names no measure; measures() lists them");
+/// \param method one name, or several.
+std::vector<Measure> measures_of(const py::object& method) {
+  if (py::isinstance<py::str>(method)) {
+    return {find_measure(word_of(method, "method"))};
+  }
+  const auto names = py::reinterpret_steal<py::object>(PySequence_List(method.ptr()));
+  if (!names) {
+    refuse_type("method must be str or a list of them");
   }
   std::vector<Measure> measures;
-  measures.reserve(names.size());
-  for (const std::string& name : names) {
-    measures.push_back(find_measure(name));
+  for (const py::handle name : names) {
+    measures.push_back(find_measure(word_of(py::reinterpret_borrow<py::object>(name), "method")));
+  }
+  if (measures.empty()) {
+    throw InvalidInput("method names no measure; measures() lists them");
   }
   return measures;
 }
 
 py::array score(const py::object& model, const py::object& F, const py::object& directions,
-                const py::object& eyes, const py::object& sphere,
-                const std::vector<std::string>& method, const py::object& view_set,
-                const py::dict& options, const py::object& progress, const py::object& threads) {
+                const py::object& eyes, const py::object& sphere, const py::object& method,
+                const py::object& view_set, const py::dict& options, const py::object& progress,
+                const py::object& threads) {
   const Subject subject(model, F);
   const Settings settings = subject.settings(options);
   const Views views = views_of(directions, eyes, sphere);
@@ -178,12 +186,14 @@ py::array score(const py::object& model, const py::object& F, const py::object& 
   return owned_array<double>(std::move(table), shape);
 }
 
-py::tuple directions(int level, const std::string& base) {
+py::tuple directions(const py::object& level, const py::object& of_base) {
+  const std::string base = word_of(of_base, "base");
   if (base != "icosahedron" && base != "cube") {
     throw InvalidInput("base is '" + base + "' but must be icosahedron or cube");
   }
   DirectionSet set =
-      direction_set(base == "cube" ? ViewSphereBase::Cube : ViewSphereBase::Icosahedron, level);
+      direction_set(base == "cube" ? ViewSphereBase::Cube : ViewSphereBase::Icosahedron,
+                    static_cast<int>(whole_number_of(level, "level", 0, kFinestLevel)));
   return py::make_tuple(owned_array(std::move(set.directions)),
                         owned_array(std::move(set.triangles)));
 }

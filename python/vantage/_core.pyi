@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -13,7 +13,7 @@ class Model:
         V: npt.ArrayLike,
         F: Optional[npt.ArrayLike] = None,
         *,
-        name: str = "arrays",
+        name: Optional[str] = None,
         colours: Optional[npt.ArrayLike] = None,
     ) -> None: ...
     @property
@@ -48,27 +48,27 @@ class Analysis:
     @property
     def warnings(self) -> Tuple[str, ...]: ...
 
-def load(path: Any, progress: Any, threads: int, max_faces: int) -> Model: ...
+def load(path: Any, progress: Any, threads: Any, max_faces: Any) -> Model: ...
 def analyse(
-    model: Any, F: Any, options: Dict[str, Any], progress: Any, threads: int
+    model: Any, F: Any, options: Dict[str, Any], progress: Any, threads: Any
 ) -> Analysis: ...
 def best_view(
-    model: Any, F: Any, method: str, options: Dict[str, Any], progress: Any, threads: int
+    model: Any, F: Any, method: Any, options: Dict[str, Any], progress: Any, threads: Any
 ) -> Dict[str, Any]: ...
 def skeleton(
     model: Any,
     F: Any,
-    levels: bool,
-    measure: bool,
+    levels: Any,
+    measure: Any,
     options: Dict[str, Any],
     progress: Any,
-    threads: int,
+    threads: Any,
 ) -> Dict[str, Any]: ...
 def kssm(
-    model: Any, F: Any, levels: bool, options: Dict[str, Any], progress: Any, threads: int
+    model: Any, F: Any, levels: Any, options: Dict[str, Any], progress: Any, threads: Any
 ) -> Dict[str, Any]: ...
 def vertex_map(
-    model: Any, F: Any, method: str, options: Dict[str, Any], progress: Any, threads: int
+    model: Any, F: Any, method: Any, options: Dict[str, Any], progress: Any, threads: Any
 ) -> npt.NDArray[np.float64]: ...
 def visible_vertices(
     model: Any,
@@ -78,7 +78,7 @@ def visible_vertices(
     sphere: Any,
     options: Dict[str, Any],
     progress: Any,
-    threads: int,
+    threads: Any,
 ) -> npt.NDArray[np.bool_]: ...
 def score(
     model: Any,
@@ -86,11 +86,11 @@ def score(
     directions: Any,
     eyes: Any,
     sphere: Any,
-    method: Sequence[str],
-    view_set: int,
+    method: Any,
+    view_set: Any,
     options: Dict[str, Any],
     progress: Any,
-    threads: int,
+    threads: Any,
 ) -> npt.NDArray[np.float64]: ...
 def render(
     model: Any,
@@ -98,17 +98,17 @@ def render(
     direction: Any,
     camera: Any,
     view: Any,
-    show: str,
+    show: Any,
     colours: Any,
     options: Dict[str, Any],
     progress: Any,
-    threads: int,
+    threads: Any,
 ) -> npt.NDArray[np.uint8]: ...
 def directions(
-    level: int, base: str
+    level: Any, base: Any
 ) -> Tuple[npt.NDArray[np.float64], npt.NDArray[np.uint32]]: ...
 def colour_map(values: npt.ArrayLike) -> npt.NDArray[np.uint8]: ...
 def measures() -> List[Dict[str, Any]]: ...
-def defaults(preset: str) -> Dict[str, Any]: ...
+def defaults(preset: Any) -> Dict[str, Any]: ...
 def options() -> List[Mapping[str, Any]]: ...
 def library_versions() -> str: ...

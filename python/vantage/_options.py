@@ -43,7 +43,9 @@ def takes(*groups: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
                 if name not in names and name not in known:
                     raise TypeError(f"{function.__name__}() got an unexpected keyword argument "
                                     f"{name!r}")
-            return function(*arguments, **keywords)
+            given = {name: value for name, value in keywords.items()
+                     if value is not None or name == "model"}
+            return function(*arguments, **given)
 
         keywords = [inspect.Parameter(row["name"], inspect.Parameter.KEYWORD_ONLY, default=None)
                     for row in rows]

@@ -17,7 +17,7 @@ from . import _core
 def subject_of(model: Any, F: Any) -> Tuple[Any, Any]:
     """What the compiled part reads, for what a user may pass: paths, models and arrays stay as they
     are; meshes of other libraries become arrays."""
-    if (isinstance(model, (str, _core.Model, _core.Analysis, np.ndarray, list))
+    if (isinstance(model, (str, bytes, _core.Model, _core.Analysis, np.ndarray, list))
             or hasattr(model, "__fspath__")):
         return model, F
     pair = _arrays_of(model)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List, Mapping, Sequence, Tuple, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -18,11 +18,12 @@ Analysis = _core.Analysis
 _NOTEBOOK_SIZE = (480, 360)
 
 
-def load(path: Any, *, progress: Any = None, threads: int = 0, max_faces: int = 0) -> Model:
+def load(path: Any, *, progress: Any = None, threads: Optional[int] = 0,
+         max_faces: Optional[int] = 0) -> Model:
     """Reads a model: OBJ, OFF, PLY, STL, glTF, GLB, 3MF, or a point cloud XYZ, PTS, PWN, PCD.
 
-    path: str or os.PathLike. max_faces: a model of more faces, or points, is refused; 0: what fits
-    into memory.
+    path: str, bytes or os.PathLike. max_faces: a model of more faces, or points, is refused; 0:
+    what fits into memory.
     Returns a Model: name, format, vertices (n, 3) float64, faces (m, 3) uint32, colours (n, 3) or
     (0, 3) uint8, parts (name, first face, faces) and notes. Its arrays are read-only views.
     Raises IoError, FormatError.
@@ -31,7 +32,7 @@ def load(path: Any, *, progress: Any = None, threads: int = 0, max_faces: int = 
 
 
 @takes("method", "map")
-def analyse(model: Any, F: Any = None, *, progress: Any = None, threads: int = 0,
+def analyse(model: Any, F: Any = None, *, progress: Any = None, threads: Optional[int] = 0,
             **options: Any) -> Analysis:
     """Contracts a model, finds its skeleton and its significance map, once for many questions.
 
@@ -46,8 +47,8 @@ def analyse(model: Any, F: Any = None, *, progress: Any = None, threads: int = 0
 
 
 @takes("method", "map", "camera", "search", "saliency", "set", "size")
-def best_view(model: Any, F: Any = None, *, method: str = "kssm", progress: Any = None,
-              threads: int = 0, **options: Any) -> BestView:
+def best_view(model: Any, F: Any = None, *, method: Optional[str] = "kssm", progress: Any = None,
+              threads: Optional[int] = 0, **options: Any) -> BestView:
     """Finds the view that tells most about a shape, and the one that tells least.
 
     model: a path, (n, 3) vertices, a Model, an Analysis; a mesh or point cloud of trimesh, Open3D,
@@ -64,8 +65,9 @@ def best_view(model: Any, F: Any = None, *, method: str = "kssm", progress: Any 
 
 
 @takes("method")
-def skeleton(model: Any, F: Any = None, *, levels: bool = False, measure: bool = False,
-             progress: Any = None, threads: int = 0, **options: Any) -> Skeleton:
+def skeleton(model: Any, F: Any = None, *, levels: Optional[bool] = False,
+             measure: Optional[bool] = False, progress: Any = None, threads: Optional[int] = 0,
+             **options: Any) -> Skeleton:
     """Contracts a surface, or a point cloud, to its curve skeleton.
 
     model: a path, (n, 3) vertices, a Model, an Analysis. F: (m, 3) integers with vertices; None: a
@@ -78,8 +80,8 @@ def skeleton(model: Any, F: Any = None, *, levels: bool = False, measure: bool =
 
 
 @takes("method", "map")
-def kssm(model: Any, F: Any = None, *, levels: bool = False, progress: Any = None,
-         threads: int = 0, **options: Any) -> KssmMap:
+def kssm(model: Any, F: Any = None, *, levels: Optional[bool] = False, progress: Any = None,
+         threads: Optional[int] = 0, **options: Any) -> KssmMap:
     """The significance of each vertex: the Kinematics Significance based Skeleton Map.
 
     model: a path, (n, 3) vertices, a Model, an Analysis. F: (m, 3) integers with vertices; None: a
@@ -92,8 +94,8 @@ def kssm(model: Any, F: Any = None, *, levels: bool = False, progress: Any = Non
 
 
 @takes("method", "map", "camera", "saliency")
-def vertex_map(model: Any, F: Any = None, *, method: str = "kssm", progress: Any = None,
-               threads: int = 0, **options: Any) -> Floats:
+def vertex_map(model: Any, F: Any = None, *, method: Optional[str] = "kssm", progress: Any = None,
+               threads: Optional[int] = 0, **options: Any) -> Floats:
     """One number a vertex: (n,) float64.
 
     method: "kssm", "thickness" (distance to the skeleton, in the model's units), "mesh-saliency"
@@ -105,7 +107,7 @@ def vertex_map(model: Any, F: Any = None, *, method: str = "kssm", progress: Any
 
 @takes("camera")
 def visible_vertices(model: Any, F: Any = None, *, eyes: Any = None, directions: Any = None,
-                     sphere: Any = None, progress: Any = None, threads: int = 0,
+                     sphere: Any = None, progress: Any = None, threads: Optional[int] = 0,
                      **options: Any) -> Flags:
     """Which vertices are seen: by an unblocked segment to the eye and a face turned to it.
 
@@ -132,8 +134,8 @@ def _is_single(eyes: Any, directions: Any) -> bool:
 
 @takes("method", "map", "camera", "saliency")
 def score(model: Any, F: Any = None, *, directions: Any = None, eyes: Any = None,
-          sphere: Any = None, method: "Union[str, Sequence[str]]" = "kssm", view_set: int = 3,
-          progress: Any = None, threads: int = 0, **options: Any) -> Any:
+          sphere: Any = None, method: "Union[str, Sequence[str], None]" = "kssm",
+          view_set: Optional[int] = 3, progress: Any = None, threads: Optional[int] = 0, **options: Any) -> Any:
     """Scores given views.
 
     model: a path, (n, 3) vertices, a Model, an Analysis. F: (m, 3) integers with vertices.
@@ -145,9 +147,8 @@ def score(model: Any, F: Any = None, *, directions: Any = None, eyes: Any = None
     single (3,) direction or eye. Raises InvalidInput, IoError, FormatError, TypeError.
     """
     model, F = subject_of(model, F)
-    names = [method] if isinstance(method, str) else list(method)
     directions = _points_of(directions)
-    table = _core.score(model, F, directions, eyes, sphere, names, view_set, options, progress,
+    table = _core.score(model, F, directions, eyes, sphere, method, view_set, options, progress,
                         threads)
     if _is_single(eyes, directions):
         table = table[:, 0]
@@ -156,8 +157,8 @@ def score(model: Any, F: Any = None, *, directions: Any = None, eyes: Any = None
 
 @takes("method", "map", "camera", "search", "size", "look")
 def render(model: Any, F: Any = None, *, direction: Any = None, camera: Any = None,
-           view: Any = None, show: str = "plain", colours: Any = None, progress: Any = None,
-           threads: int = 0, **options: Any) -> Bytes:
+           view: Any = None, show: Optional[str] = "plain", colours: Any = None, progress: Any = None,
+           threads: Optional[int] = 0, **options: Any) -> Bytes:
     """Takes a picture: (height, width, 4) uint8, sRGB with straight alpha, origin top left.
 
     model: a path, (n, 3) vertices, a Model, an Analysis. F: (m, 3) integers with vertices.
@@ -174,13 +175,13 @@ def render(model: Any, F: Any = None, *, direction: Any = None, camera: Any = No
 
 def directions(level: int = 3, base: str = "icosahedron") -> DirectionSet:
     """Directions spread over the sphere: "icosahedron" or "cube", its faces split in four `level`
-    times, 0 to 8. Raises InvalidInput."""
+    times, 0 to 8. Raises InvalidInput, TypeError."""
     return DirectionSet(*_core.directions(level, base))
 
 
 def colour_map(values: Any) -> Bytes:
     """(n, 3) uint8 colours of (n,) numbers, from cool (the least) to warm (the largest); NaN is
-    grey. Raises InvalidInput."""
+    grey. Raises InvalidInput, TypeError."""
     return _core.colour_map(values)
 
 
@@ -189,13 +190,14 @@ def measures() -> Tuple[Measure, ...]:
     return tuple(Measure(**row) for row in _core.measures())
 
 
-def defaults(preset: str = "default") -> Dict[str, Any]:
+def defaults(preset: Optional[str] = "default") -> Dict[str, Any]:
     """What every option is when it is not given, by preset: "default" or "paper"."""
     return _core.defaults(preset)
 
 
 def options() -> List[Mapping[str, Any]]:
-    """The table of all options: name, group, type, help, low, high, default, paper."""
+    """The table of all options: name, flag (of the program), group, type, help, choices, low, high,
+    default, paper."""
     return _core.options()
 
 

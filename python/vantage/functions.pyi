@@ -32,7 +32,7 @@ from .results import (
 
 Model = _core.Model
 Analysis = _core.Analysis
-_Path = Union[str, "os.PathLike[str]"]
+_Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 
 class _HasVertices(Protocol):  # trimesh, Open3D's TriangleMesh
     @property
@@ -59,14 +59,14 @@ _Subject = Union[
 _Progress = Optional[Callable[[str, float], object]]
 
 def load(
-    path: _Path, *, progress: _Progress = None, threads: int = 0, max_faces: int = 0
+    path: _Path, *, progress: _Progress = None, threads: Optional[int] = 0, max_faces: Optional[int] = 0
 ) -> _core.Model: ...
 def analyse(
     model: _Subject,
     F: Optional[npt.ArrayLike] = None,
     *,
     progress: _Progress = None,
-    threads: int = 0,
+    threads: Optional[int] = 0,
     preset: Optional[Literal["default", "paper"]] = None,
     contraction: Optional[Literal["auto", "exact"]] = None,
     contraction_weights: Optional[Literal["auto", "area", "vertex"]] = None,
@@ -94,9 +94,9 @@ def best_view(
     model: _Subject,
     F: Optional[npt.ArrayLike] = None,
     *,
-    method: str = "kssm",
+    method: Optional[str] = "kssm",
     progress: _Progress = None,
-    threads: int = 0,
+    threads: Optional[int] = 0,
     preset: Optional[Literal["default", "paper"]] = None,
     contraction: Optional[Literal["auto", "exact"]] = None,
     contraction_weights: Optional[Literal["auto", "area", "vertex"]] = None,
@@ -149,10 +149,10 @@ def skeleton(
     model: _Subject,
     F: Optional[npt.ArrayLike] = None,
     *,
-    levels: bool = False,
-    measure: bool = False,
+    levels: Optional[bool] = False,
+    measure: Optional[bool] = False,
     progress: _Progress = None,
-    threads: int = 0,
+    threads: Optional[int] = 0,
     preset: Optional[Literal["default", "paper"]] = None,
     contraction: Optional[Literal["auto", "exact"]] = None,
     contraction_weights: Optional[Literal["auto", "area", "vertex"]] = None,
@@ -173,9 +173,9 @@ def kssm(
     model: _Subject,
     F: Optional[npt.ArrayLike] = None,
     *,
-    levels: bool = False,
+    levels: Optional[bool] = False,
     progress: _Progress = None,
-    threads: int = 0,
+    threads: Optional[int] = 0,
     preset: Optional[Literal["default", "paper"]] = None,
     contraction: Optional[Literal["auto", "exact"]] = None,
     contraction_weights: Optional[Literal["auto", "area", "vertex"]] = None,
@@ -203,9 +203,9 @@ def vertex_map(
     model: _Subject,
     F: Optional[npt.ArrayLike] = None,
     *,
-    method: str = "kssm",
+    method: Optional[str] = "kssm",
     progress: _Progress = None,
-    threads: int = 0,
+    threads: Optional[int] = 0,
     preset: Optional[Literal["default", "paper"]] = None,
     contraction: Optional[Literal["auto", "exact"]] = None,
     contraction_weights: Optional[Literal["auto", "area", "vertex"]] = None,
@@ -245,7 +245,7 @@ def visible_vertices(
     directions: Optional[npt.ArrayLike] = None,
     sphere: Optional[int] = None,
     progress: _Progress = None,
-    threads: int = 0,
+    threads: Optional[int] = 0,
     projection: Optional[Literal["perspective", "orthographic"]] = None,
     distance: Optional[float] = None,
     fov: Optional[float] = None,
@@ -259,10 +259,10 @@ def score(
     directions: Optional[npt.ArrayLike] = None,
     eyes: Optional[npt.ArrayLike] = None,
     sphere: Optional[int] = None,
-    method: Union[str, Sequence[str]] = "kssm",
-    view_set: int = 3,
+    method: Union[str, Sequence[str], None] = "kssm",
+    view_set: Optional[int] = 3,
     progress: _Progress = None,
-    threads: int = 0,
+    threads: Optional[int] = 0,
     preset: Optional[Literal["default", "paper"]] = None,
     contraction: Optional[Literal["auto", "exact"]] = None,
     contraction_weights: Optional[Literal["auto", "area", "vertex"]] = None,
@@ -301,10 +301,10 @@ def render(
     direction: Optional[npt.ArrayLike] = None,
     camera: Optional[Camera] = None,
     view: Optional[Literal["best", "worst"]] = None,
-    show: Literal["plain", "kssm", "skeleton"] = "plain",
+    show: Optional[Literal["plain", "kssm", "skeleton"]] = "plain",
     colours: Optional[npt.ArrayLike] = None,
     progress: _Progress = None,
-    threads: int = 0,
+    threads: Optional[int] = 0,
     preset: Optional[Literal["default", "paper"]] = None,
     contraction: Optional[Literal["auto", "exact"]] = None,
     contraction_weights: Optional[Literal["auto", "area", "vertex"]] = None,
@@ -352,6 +352,6 @@ def render(
 def directions(level: int = 3, base: str = "icosahedron") -> DirectionSet: ...
 def colour_map(values: npt.ArrayLike) -> Bytes: ...
 def measures() -> Tuple[Measure, ...]: ...
-def defaults(preset: str = "default") -> Dict[str, Any]: ...
+def defaults(preset: Optional[str] = "default") -> Dict[str, Any]: ...
 def options() -> List[Mapping[str, Any]]: ...
 def library_versions() -> str: ...

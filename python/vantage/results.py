@@ -17,6 +17,8 @@ from typing import Any, Callable, Dict, Mapping, Optional, Tuple
 import numpy as np
 import numpy.typing as npt
 
+from .errors import InvalidInput
+
 Floats = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.uint32]
 Integers = npt.NDArray[np.int64]
@@ -51,6 +53,15 @@ def _inverse_of_rigid(pose: Floats) -> Floats:
     return inverse
 
 
+def _unit(vector: Floats, otherwise: str, least: float = 0.0) -> Floats:
+    """The vector at length 1. Raises InvalidInput, which says `otherwise`, if it is no
+    longer than `least`."""
+    length = np.linalg.norm(vector)
+    if not length > least:
+        raise InvalidInput(otherwise)
+    return vector / length
+
+
 def _png_of(picture: Bytes) -> bytes:
     """A PNG file of (height, width, 4) bytes, sRGB."""
     def chunk(kind: bytes, data: bytes) -> bytes:
@@ -75,7 +86,7 @@ class Camera(_Record):
     target: Floats
     """(3,) the point at the centre of the picture."""
     up: Floats
-    """(3,) unit, orthogonal to target − eye."""
+    """(3,) unit, orthogonal to target − eye; of another, the part that is, is meant."""
     fov_y_deg: float = 30.0
     """Perspective: full vertical field of view, degrees, in (0, 180)."""
     height: float = 2.0
@@ -94,11 +105,12 @@ class Camera(_Record):
 
     def world_from_camera(self) -> Floats:
         """(4, 4) camera to world, columns x right, y up, z back, eye: OpenGL, Blender, NeRF."""
-        back = self.eye - self.target
-        back = back / np.linalg.norm(back)
+        back = _unit(self.eye - self.target, "camera.target must differ from camera.eye")
+        up = _unit(self.up, "camera.up must not be zero")
+        right = _unit(np.cross(up, back), "camera.up must not point along the line of sight", 1e-12)
         pose = np.eye(4)
-        pose[:3, 0] = np.cross(self.up, back)
-        pose[:3, 1] = self.up
+        pose[:3, 0] = right
+        pose[:3, 1] = np.cross(back, right)
         pose[:3, 2] = back
         pose[:3, 3] = self.eye
         return pose
@@ -328,7 +340,7 @@ class Measure:
     """A measure of a view, as `method` names it."""
 
     name: str
-    alias: str
+    alias: Optional[str]
     meaning: str
     source: str
     better: str

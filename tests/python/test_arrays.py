@@ -85,6 +85,37 @@ def test_arrays_of_other_things_are_refused(vertices, faces, message):
         vantage.best_view(vertices, faces)
 
 
+@pytest.mark.parametrize("call, message", [
+    (lambda: vantage.kssm(None), "V must be an array of numbers, not NoneType"),
+    (lambda: vantage.kssm(5), "V must be an array of numbers, not int"),
+    (lambda: vantage.kssm({}), "V must be an array of numbers, not dict"),
+    (lambda: vantage.kssm(["a", "b"]), "V must hold real numbers"),
+    (lambda: vantage.kssm(V, 5), "F must be an array of numbers, not int"),
+    (lambda: vantage.kssm(V, ["a", "b", "c"]), "F must hold integers"),
+    (lambda: vantage.Model(V, F, colours="red"), "colours must be an array of numbers, not str"),
+    (lambda: vantage.score(V, F, directions="x"), "directions must be an array of numbers, not str"),
+    (lambda: vantage.render(V, F, direction="x"), "direction must be an array of numbers, not str"),
+    (lambda: vantage.render(V, F, direction=["x", "y"]), "direction must hold real numbers"),
+    (lambda: vantage.colour_map("x"), "values must be an array of numbers, not str"),
+    (lambda: vantage.colour_map([1j]), "values must be an array of numbers"),
+])
+def test_what_is_no_array_of_numbers_is_a_type_error(call, message):
+    with pytest.raises(TypeError, match=message):
+        call()
+
+
+@pytest.mark.parametrize("raised", [KeyboardInterrupt, MemoryError, RuntimeError, ValueError])
+def test_what_an_array_raises_as_it_is_made_is_not_lost(raised):
+    class Lazy:
+        def __array__(self, *_, **__):
+            raise raised("far away")
+
+    with pytest.raises(TypeError if raised is ValueError else raised) as caught:
+        vantage.kssm(Lazy(), F)
+    cause = caught.value.__cause__ if raised is ValueError else caught.value
+    assert isinstance(cause, raised) and str(cause) == "far away"
+
+
 def test_a_model_without_extent_is_refused():
     with pytest.raises(vantage.InvalidInput):
         vantage.best_view(np.zeros((3, 3)), [[0, 1, 2]])
@@ -99,6 +130,12 @@ def test_vertices_without_faces_are_a_point_cloud():
 def test_no_faces_at_all_are_the_same_as_none():
     assert np.array_equal(vantage.Model(V, []).faces, np.empty((0, 3)))
     assert np.array_equal(vantage.Model(V, np.empty((0, 3), int)).faces, np.empty((0, 3)))
+
+
+@pytest.mark.parametrize("faces", [[[]], np.empty((0, 4), int), np.empty((2, 0), int), np.empty((0, 3, 3), int)])
+def test_no_faces_of_another_shape_are_refused(faces):
+    with pytest.raises(vantage.InvalidInput, match=r"F must have the shape \(n, 3\), not"):
+        vantage.Model(V, faces)
 
 
 def test_a_vertex_without_faces_has_no_node_and_no_significance():

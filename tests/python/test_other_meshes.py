@@ -151,6 +151,20 @@ def test_matrices_of_cameras_project_the_same_point():
     assert camera.camera_position == tuple(map(tuple, (camera.eye, camera.target, camera.up)))
 
 
+def test_a_cameras_matrices_are_of_the_picture_that_render_takes():
+    askew = vantage.Camera("perspective", np.array([1.0, 2.0, 3.0]), np.zeros(3), np.array([0.0, 2.0, 0.0]))
+    pose = askew.world_from_camera()
+    assert np.allclose(pose[:3, :3].T @ pose[:3, :3], np.eye(3)) and np.linalg.det(pose) == pytest.approx(1)
+    upright = vantage.Camera("perspective", askew.eye, askew.target, pose[:3, 1])
+    small = {"size": 16, "quality": "draft"}
+    assert np.array_equal(vantage.render(V, F, camera=askew, **small), vantage.render(V, F, camera=upright, **small))
+    for up, target in ((askew.eye, askew.target), (np.zeros(3), askew.target), (askew.up, askew.eye)):
+        camera = vantage.Camera("perspective", askew.eye, target, up)
+        for take in (camera.world_from_camera, lambda camera=camera: vantage.render(V, F, camera=camera, **small)):
+            with pytest.raises(vantage.InvalidInput, match="camera"):
+                take()
+
+
 def test_a_notebook_shows_the_best_view():
     result = vantage.best_view(V, F)
     data = result._repr_png_()

@@ -255,6 +255,21 @@ def test_results_can_be_pickled(cat):
     assert again.json == result.json and np.array_equal(again.best.eye, result.best.eye)
 
 
+@pytest.mark.parametrize("held", [vantage.Model(*SMALL), vantage.analyse(*SMALL, contraction="exact")], ids=repr)
+def test_models_and_analyses_cannot_be_pickled_by_any_protocol(held):
+    for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
+        with pytest.raises(TypeError, match="cannot pickle vantage._core"):
+            pickle.dumps(held, protocol)
+
+
+@pytest.mark.parametrize("kind, member", [(vantage.Model, "name"), (vantage.Analysis, "model")])
+def test_what_new_alone_makes_says_that_it_holds_nothing(kind, member):
+    unmade = kind.__new__(kind)
+    for use in (lambda: getattr(unmade, member), lambda: repr(unmade), lambda: vantage.kssm(unmade)):
+        with pytest.raises(TypeError, match="holds nothing"):
+            use()
+
+
 @pytest.mark.parametrize("call", [
     lambda: vantage.kssm(*SMALL, levels=True, contraction="exact"),
     lambda: vantage.skeleton(*SMALL, levels=True, contraction="exact"),
