@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "vantage/io/write.h"
+#include "vantage/pipeline/option_rules.h"
 #include "vantage/report/comparison.h"
 
 #include "commands.h"
@@ -53,8 +54,7 @@ struct CompareCommand {
     ViewOptions options = method.resolve();
     options.margin_percent = look.margin_percent();
     const std::vector<Measure> measures = chosen_measures(session, options);
-    session.refuse_idle(!uses_saliency(measures), flags_of({"saliency"}),
-                        "goes with --method mesh-saliency only");
+    session.refuse_idle(idle_in_views(measures));
     for (const Measure& measure : measures) {
       if (!options.focus.empty() && !sums_a_map(measure.name)) {
         throw CLI::ValidationError(

@@ -4,6 +4,7 @@
 
 #include "vantage/io/write.h"
 #include "vantage/pipeline/measured_shape.h"
+#include "vantage/pipeline/option_rules.h"
 #include "vantage/render/render.h"
 
 #include "batch/json_text.h"
@@ -56,14 +57,7 @@ struct MapCommand {
   void run(Session& session) {
     ViewOptions options = method.resolve();
     const bool by_skeleton = name == "kssm" || name == "thickness";
-    session.refuse_idle(name != "mesh-saliency", flags_of({"saliency"}),
-                        "goes with --method mesh-saliency only");
-    session.refuse_idle(!by_skeleton, flags_of({"map", "method"}),
-                        "goes with --method kssm and thickness only");
-    session.refuse_idle(name == "thickness", {"--suppression", "--weight"},
-                        "goes with --method kssm only: thickness is the distance alone");
-    session.refuse_idle(name != "pmi-saliency", {"--projection", "--distance", "--fov"},
-                        "goes with --method pmi-saliency only: other maps ask for no camera");
+    session.refuse_idle(idle_in_map(name));
     refuse_any_up(options);
     if (!by_skeleton && !levels.empty()) {
       throw CLI::ValidationError("--levels", "goes with --method kssm or thickness only");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "measure_flags.h"
 
-#include <algorithm>
 #include <sstream>
 
 #include "vantage/core/error.h"
@@ -35,11 +34,6 @@ std::vector<Measure> parse_measures(const std::string& text, const std::string& 
     throw CLI::ValidationError(flag, "names no method; vantage measures lists them");
   }
   return measures;
-}
-
-bool uses_saliency(const std::vector<Measure>& measures) {
-  return std::any_of(measures.begin(), measures.end(),
-                     [](const Measure& m) { return m.needs.saliency; });
 }
 
 void check_gradient(const Measure& measure) {

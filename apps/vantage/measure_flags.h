@@ -14,9 +14,6 @@ namespace vantage::cli {
 /// Parses "kssm,vmi" or "all". \throw CLI::ValidationError naming what there is.
 std::vector<Measure> parse_measures(const std::string& text, const std::string& flag);
 
-/// Whether any of them is of the map of mesh saliency.
-bool uses_saliency(const std::vector<Measure>& measures);
-
 /// Refuses a search along the gradient of what has none. \throw CLI::ValidationError
 void check_gradient(const Measure& measure);
 

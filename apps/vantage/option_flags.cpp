@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "vantage/pipeline/option_rules.h"
+
 #include "terminal.h"
 #include "value_checks.h"
 
@@ -31,10 +33,6 @@ bool stands_alone(const Option& option) {
 
 bool is_on_by_default(const Option& option) {
   return option.kind == OptionKind::Switch && std::get<bool>(option.value({}));
-}
-
-std::string flag_of(const Option& option) {
-  return (is_on_by_default(option) ? "--no-" : "--") + option.name;
 }
 
 }  // namespace
@@ -126,17 +124,6 @@ std::string OptionFlags::first_given(std::string_view group) const {
     }
   }
   return {};
-}
-
-std::vector<std::string> flags_of(std::initializer_list<std::string_view> groups) {
-  std::vector<std::string> flags;
-  for (const Option& option : option_table()) {
-    if (option.name != "preset" && option.is_listed() &&
-        std::find(groups.begin(), groups.end(), option.group) != groups.end()) {
-      flags.push_back(flag_of(option));
-    }
-  }
-  return flags;
 }
 
 void OptionFlags::apply(AllOptions& all) const {

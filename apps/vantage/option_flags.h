@@ -44,9 +44,6 @@ class OptionFlags {
   std::map<std::string, OptionValue> given_{};  // by the option's name
 };
 
-/// Flags of the options of groups but for --preset, which is of all groups.
-std::vector<std::string> flags_of(std::initializer_list<std::string_view> groups);
-
 /// What an option was refused for, as a complaint about its flag, or about `flag`.
 CLI::ValidationError refused(const InvalidInput& error, std::string flag = {});
 

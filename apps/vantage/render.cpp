@@ -7,6 +7,7 @@
 #include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/find_views.h"
+#include "vantage/pipeline/option_rules.h"
 #include "vantage/report/view_report.h"
 
 #include "batch/json_text.h"
@@ -122,21 +123,10 @@ struct RenderCommand {
 
  private:
   void refuse_idle_flags(const Session& session) const {
-    std::vector<std::string> of_file{"--projection", "--distance", "--fov", "--margin", "--front"};
-    if (!look.look().ground) {
-      of_file.emplace_back("--up");
-    }
-    session.refuse_idle(!camera_file.empty(), of_file,
-                        "says what the file of --camera says: leave one out");
-    session.refuse_idle(true, {"--certify"},
-                        "has no effect on a picture: view reports how far views are behind");
-    session.refuse_idle(view.empty(), flags_of({"search"}),
-                        "goes with --view only: else nothing is searched");
-    std::vector<std::string> of_map = flags_of({"map", "method"});
-    std::erase(of_map, "--focus");  // which pictures are framed on
-    session.refuse_idle(
-        view.empty() && show == "plain", of_map,
-        "goes with --view, --show kssm and --show skeleton only: else no map is made");
+    session.refuse_idle(idle_in_picture({.has_camera = !camera_file.empty(),
+                                         .is_searched = !view.empty(),
+                                         .shows_map = show != "plain",
+                                         .has_ground = look.look().ground}));
   }
 
   static Vec3 unit(const Vec3& v) {

@@ -8,6 +8,7 @@
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/measured_shape.h"
+#include "vantage/pipeline/option_rules.h"
 #include "vantage/spatial/directions.h"
 
 #include "batch/json_text.h"
@@ -106,24 +107,11 @@ struct ScoreCommand {
 
  private:
   void refuse_idle_flags(const Session& session, const std::vector<Measure>& measures) const {
-    const auto any = [&](auto&& uses) {
-      return std::any_of(measures.begin(), measures.end(), uses);
-    };
-    const bool by_kssm = any([](const Measure& m) { return m.needs.kssm; });
-    const bool by_skeleton = any([](const Measure& m) { return m.needs.skeleton; });
-    std::vector<std::string> of_kssm = flags_of({"map"});
-    std::erase(of_kssm, "--weight");  // which sums of any map heed
-    session.refuse_idle(!uses_saliency(measures), flags_of({"saliency"}),
-                        "goes with --method mesh-saliency only");
-    session.refuse_idle(!eyes.empty(), {"--projection", "--distance", "--fov"},
-                        "goes with --sphere and --directions: --eyes says where eyes are");
-    session.refuse_idle(!any([](const Measure& m) { return m.is_of_set(); }), {"--view-set"},
+    session.refuse_idle(idle_in_scores(measures, !eyes.empty()));
+    const bool is_of_set = std::any_of(measures.begin(), measures.end(),
+                                       [](const Measure& m) { return m.is_of_set(); });
+    session.refuse_idle(!is_of_set, {"--view-set"},
                         "goes with measures that are built on a set of views only, such as vmi");
-    session.refuse_idle(!by_kssm, of_kssm, "goes with --method kssm only");
-    session.refuse_idle(!by_kssm && !uses_saliency(measures), {"--weight"},
-                        "goes with --method kssm and mesh-saliency only");
-    session.refuse_idle(!by_kssm && !by_skeleton, flags_of({"method"}),
-                        "goes with methods of the skeleton only, such as kssm");
   }
 
   /// Scores by any measures; the map is made only if one of them, or --visible, needs it.

@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include "vantage/core/error.h"
+#include "vantage/pipeline/option_rules.h"
 
 #include "import_program.h"
 #include "output_file.h"
@@ -135,6 +136,16 @@ void Session::configure(CLI::App& command) {
     say("warning: " + warning);
   }
   flags.inputs = named_inputs(command);
+}
+
+void Session::refuse_idle(const std::vector<IdleOptions>& idle) const {
+  for (const IdleOptions& options : idle) {
+    std::vector<std::string> names;
+    for (const std::string& name : options.names) {
+      names.push_back(flag_of(find_option(name)));
+    }
+    refuse_idle(true, names, options.why);
+  }
 }
 
 void Session::refuse_idle(bool are_idle, const std::vector<std::string>& names,

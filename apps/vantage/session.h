@@ -18,6 +18,10 @@
 /// \file
 /// What every command shares: the common flags, signals, progress, and how a failure ends.
 
+namespace vantage {
+struct IdleOptions;
+}
+
 namespace vantage::cli {
 
 // Exit codes of the program.
@@ -76,6 +80,8 @@ class Session {
   /// \param why they would. \throw CLI::ValidationError naming the first of them that was given.
   void refuse_idle(bool are_idle, const std::vector<std::string>& names,
                    const std::string& why) const;
+  /// The same of options that are known to.
+  void refuse_idle(const std::vector<IdleOptions>& idle) const;
 
   /// Reads a model; a failure in here means exit code 3.
   Model load(const std::string& path, const ReadOptions& options = {});

@@ -6,6 +6,7 @@
 #include "vantage/io/write.h"
 #include "vantage/pipeline/find_views.h"
 #include "vantage/pipeline/measured_shape.h"
+#include "vantage/pipeline/option_rules.h"
 #include "vantage/report/view_report.h"
 
 #include "clock.h"
@@ -167,8 +168,7 @@ struct ViewCommand {
     options.margin_percent = look.margin_percent();
     refuse_near_eye(options);
     measure.apply(options);
-    session.refuse_idle(options.method != "mesh-saliency", flags_of({"saliency"}),
-                        "goes with --method mesh-saliency only");
+    session.refuse_idle(idle_in_views({find_measure(options.method)}));
     several.require_use(sums_a_map(options.method));
     return options;
   }

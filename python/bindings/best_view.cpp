@@ -100,8 +100,10 @@ py::dict report_dict(const Outcome& outcome) {
 py::dict best_view(const py::object& model, const py::object& F, const py::object& method,
                    const py::dict& options, const py::object& progress, const py::object& threads) {
   const Subject subject(model, F);
-  Settings settings = subject.settings(options);
-  settings.view.method = find_measure(word_of(method, "method")).name;
+  const Measure measure = find_measure(word_of(method, "method"));
+  Settings settings =
+      subject.settings(options, [&](const Settings&) { return idle_in_views({measure}); });
+  settings.view.method = measure.name;
   settings.view.pictures = false;  // view.json names none
   return report_dict(released({progress, threads}, [&](const RunContext& run) {
     Outcome outcome;

@@ -22,7 +22,9 @@ namespace py = pybind11;
 
 /// A message of the library with its options as Python has them: "--max-faces" as max_faces.
 std::string without_flags(std::string text) {
-  std::vector<std::string> names{"max-faces"};
+  // Arguments of functions that are no options.
+  std::vector<std::string> names{"max-faces", "method",     "view", "show",
+                                 "camera",    "directions", "eyes", "sphere"};
   for (const Option& option : option_table()) {
     names.push_back(option.name);
   }
@@ -33,7 +35,7 @@ std::string without_flags(std::string text) {
     for (std::size_t at = text.find(flag); at != std::string::npos; at = text.find(flag, at + 1)) {
       const std::size_t end = at + flag.size();
       if (end == text.size() ||
-          std::string_view(" ,;.").find(text[end]) != std::string_view::npos) {
+          std::string_view(" ,;.:").find(text[end]) != std::string_view::npos) {
         text.replace(at + 1, flag.size() - 1, keyword);
       }
     }

@@ -24,13 +24,6 @@ std::string keyword_of(const Option& option) {
   return name;
 }
 
-/// As the program's command line has it.
-std::string flag_of(const Option& option) {
-  const OptionValue value = option.value({});
-  const bool* const is_on = std::get_if<bool>(&value);
-  return (is_on != nullptr && *is_on ? "--no-" : "--") + option.name;
-}
-
 /// As Python writes the type.
 std::string type_of(const Option& option) {
   switch (option.kind) {
@@ -175,8 +168,21 @@ void set_option(Settings& settings, const Option& option, const py::object& give
   }
 }
 
-void apply(Settings& settings, const py::dict& keywords, bool is_analysed) {
-  std::set<std::string, std::less<>> changed;  // defaults may be given, and mean nothing
+/// Names of options that are not as they were before.
+using Names = std::set<std::string, std::less<>>;
+
+void refuse_idle(const std::vector<IdleOptions>& idle, const Names& changed) {
+  for (const IdleOptions& options : idle) {
+    for (const std::string& name : options.names) {
+      if (changed.contains(name)) {
+        throw InvalidInput("option " + name + " " + options.why);
+      }
+    }
+  }
+}
+
+void apply(Settings& settings, const py::dict& keywords, bool is_analysed, const IdleRule& idle) {
+  Names changed;  // defaults may be given, and mean nothing
   for (const Option& option : option_table()) {
     const std::string keyword = keyword_of(option);
     if (!option.is_listed() || !is_given(keywords, keyword)) {
@@ -195,6 +201,9 @@ void apply(Settings& settings, const py::dict& keywords, bool is_analysed) {
   try {
     check_together(settings.view, [&](std::string_view name) { return changed.contains(name); });
     settings.view.view_set = checked_view_set(settings.view);
+    if (idle) {
+      refuse_idle(idle(settings), changed);
+    }
   } catch (const InvalidInput& error) {
     throw InvalidInput(in_keywords(error.what()));
   }
@@ -202,14 +211,14 @@ void apply(Settings& settings, const py::dict& keywords, bool is_analysed) {
 
 }  // namespace
 
-Settings settings_of(const py::dict& keywords) {
+Settings settings_of(const py::dict& keywords, const IdleRule& idle) {
   Settings settings = all_options(Preset::Default);
-  apply(settings, keywords, false);
+  apply(settings, keywords, false, idle);
   return settings;
 }
 
-Settings settings_over(Settings base, const py::dict& keywords) {
-  apply(base, keywords, true);
+Settings settings_over(Settings base, const py::dict& keywords, const IdleRule& idle) {
+  apply(base, keywords, true, idle);
   return base;
 }
 

@@ -99,12 +99,20 @@ py::array render_picture(const py::object& model, const py::object& F, const py:
                          const py::object& colours, const py::dict& options,
                          const py::object& progress, const py::object& threads) {
   const Subject subject(model, F);
-  Settings settings = subject.settings(options);
   const Standpoint from = standpoint_of(direction, camera, view);
   const Picture picture = picture_of(word_of(show, "show"));
+  Settings settings = subject.settings(options, [&](const Settings& all) {
+    return idle_in_picture({.has_camera = from.camera.has_value(),
+                            .is_searched = from.best.has_value(),
+                            .shows_map = picture != Picture::Plain,
+                            .has_ground = all.look.ground});
+  });
   std::optional<std::vector<Rgb8>> given;
   if (!colours.is_none()) {
     given = colours_of(colours);
+    if (picture != Picture::Plain) {
+      throw InvalidInput("colours goes with show plain only: other pictures have their own");
+    }
   }
   const bool needs_map = from.best || picture != Picture::Plain;
   Image image = released({progress, threads}, [&](const RunContext& run) {

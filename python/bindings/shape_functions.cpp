@@ -160,13 +160,14 @@ py::dict kssm(const py::object& model, const py::object& F, const py::object& le
 py::array map_of(const py::object& model, const py::object& F, const py::object& map,
                  const py::dict& options, const py::object& progress, const py::object& threads) {
   const Subject subject(model, F);
-  const Settings settings = subject.settings(options);
   const std::string method = word_of(map, "method");
   constexpr std::array kMaps{"kssm", "thickness", "mesh-saliency", "pmi-saliency"};
   if (std::find(kMaps.begin(), kMaps.end(), method) == kMaps.end()) {
     throw InvalidInput("there is no map '" + method +
                        "'; there are kssm, thickness, mesh-saliency, pmi-saliency");
   }
+  const Settings settings =
+      subject.settings(options, [&](const Settings&) { return idle_in_map(method); });
   const bool by_skeleton = method == "kssm" || method == "thickness";
   return owned_array(released({progress, threads}, [&](const RunContext& run) {
     const auto analysis = subject.analysed(settings, by_skeleton ? with_map : surface_only,

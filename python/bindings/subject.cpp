@@ -182,9 +182,9 @@ Subject::Subject(const py::object& model, const py::object& faces) {
   }
 }
 
-Settings Subject::settings(const py::dict& keywords) const {
+Settings Subject::settings(const py::dict& keywords, const IdleRule& idle) const {
   Settings settings =
-      analysis_ ? settings_over(analysis_->settings, keywords) : settings_of(keywords);
+      analysis_ ? settings_over(analysis_->settings, keywords, idle) : settings_of(keywords, idle);
   if (!path_.empty()) {
     Sidecar sidecar = sidecar_of(path_);
     const auto is_said = [&](const char* name) {

@@ -63,8 +63,8 @@ class Subject {
   /// \pre holds the interpreter's lock. \throw py::type_error, InvalidInput
   Subject(const py::object& model, const py::object& faces);
 
-  /// The options of a call about it.
-  [[nodiscard]] Settings settings(const py::dict& keywords) const;
+  /// The options of a call about it. \param idle as for settings_of().
+  [[nodiscard]] Settings settings(const py::dict& keywords, const IdleRule& idle = {}) const;
 
   /// The analysis, made now unless there was one. Does not touch Python. \throw Cancelled
   /// \param is_drawn whether materials and textures are read, if the style shows them.

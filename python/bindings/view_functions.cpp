@@ -16,8 +16,14 @@
 namespace vantage::python {
 namespace {
 
-constexpr int kFinestLevel = 8;    // of directions to look from
-constexpr int kFinestViewSet = 6;  // of views that measures are defined over
+constexpr int kUsualViewSet = 3;   // of views that measures are defined over
+constexpr int kFinestViewSet = 6;  // of the same
+
+/// Of directions to look from.
+int level_of(const py::object& value, const char* name) {
+  static const auto kFinest = static_cast<std::int64_t>(find_option("subdivisions").high);
+  return static_cast<int>(whole_number_of(value, name, 0, kFinest));
+}
 
 /// Views that were asked for: directions, or positions of eyes.
 struct Views {
@@ -57,7 +63,7 @@ Views views_of(const py::object& directions, const py::object& eyes, const py::o
   if (!eyes.is_none()) {
     return {.points = points_of(eyes, "eyes"), .are_eyes = true};
   }
-  const auto level = static_cast<int>(whole_number_of(sphere, "sphere", 0, kFinestLevel));
+  const auto level = level_of(sphere, "sphere");
   return {.points = direction_set(ViewSphereBase::Icosahedron, level).directions, .sphere = level};
 }
 
@@ -70,7 +76,9 @@ py::array visible(const py::object& model, const py::object& F, const py::object
                   const py::object& directions, const py::object& sphere, const py::dict& options,
                   const py::object& progress, const py::object& threads) {
   const Subject subject(model, F);
-  const Settings settings = subject.settings(options);
+  const Settings settings = subject.settings(options, [&](const Settings&) {
+    return idle_in_scores({find_measure("kssm")}, !eyes.is_none());
+  });
   const Views views = views_of(directions, eyes, sphere);
   std::size_t vertex_count = 0;
   std::vector<std::uint8_t> table = released({progress, threads}, [&](const RunContext& run) {
@@ -161,10 +169,17 @@ py::array score(const py::object& model, const py::object& F, const py::object& 
                 const py::object& view_set, const py::dict& options, const py::object& progress,
                 const py::object& threads) {
   const Subject subject(model, F);
-  const Settings settings = subject.settings(options);
-  const Views views = views_of(directions, eyes, sphere);
   const std::vector<Measure> measures = measures_of(method);
+  const Settings settings = subject.settings(
+      options, [&](const Settings&) { return idle_in_scores(measures, !eyes.is_none()); });
+  const Views views = views_of(directions, eyes, sphere);
   const auto set = static_cast<int>(whole_number_of(view_set, "view_set", 0, kFinestViewSet));
+  const bool is_of_set =
+      std::any_of(measures.begin(), measures.end(), [](const Measure& m) { return m.is_of_set(); });
+  if (set != kUsualViewSet && !is_of_set) {
+    throw InvalidInput(
+        "view_set goes with measures that are built on a set of views only, such as vmi");
+  }
   const bool by_kssm = measures.size() == 1 && measures.front().name == "kssm";
   std::vector<double> table = released({progress, threads}, [&](const RunContext& run) {
     const auto analyse = [&](const Model& loaded, const ViewOptions& o, const RunContext& part) {
@@ -193,7 +208,7 @@ py::tuple directions(const py::object& level, const py::object& of_base) {
   }
   DirectionSet set =
       direction_set(base == "cube" ? ViewSphereBase::Cube : ViewSphereBase::Icosahedron,
-                    static_cast<int>(whole_number_of(level, "level", 0, kFinestLevel)));
+                    level_of(level, "level"));
   return py::make_tuple(owned_array(std::move(set.directions)),
                         owned_array(std::move(set.triangles)));
 }
@@ -203,7 +218,7 @@ py::list measures() {
   for (const Measure& measure : builtin_measures()) {
     py::dict row;
     row["name"] = measure.name;
-    row["alias"] = measure.alias;
+    row["alias"] = measure.alias.empty() ? py::object(py::none()) : py::str(measure.alias);
     row["meaning"] = measure.meaning;
     row["source"] = measure.source;
     row["better"] = measure.better == Better::More ? "more" : "less";

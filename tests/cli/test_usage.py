@@ -175,7 +175,7 @@ class WhatWasMeant(ProgramTest):
         self.write("a.off", box(1))
         for flag in ("--fov", "--distance"):
             said = self.vantage("render", "a.off", "-o", "a.png", "--camera", "c.json", flag, "40", exit_code=2).err
-            self.assertIn(f"{flag}: says what the file of --camera says", said)
+            self.assertIn(f"{flag}: says what --camera says", said)
 
     def test_values_that_begin_with_a_dash_are_no_flags(self):
         self.assertIn("--foo", self.complaint("view", FAN, "--up", "-y", "--foo"))

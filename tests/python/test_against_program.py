@@ -174,4 +174,4 @@ def test_pictures_of_files_are_in_their_own_materials_as_the_programs(program, t
 def test_measures_are_those_that_the_program_lists(program):
     listed = json.loads(program("measures", "--json"))
     rows = listed if isinstance(listed, list) else listed["measures"]
-    assert [m.name for m in vantage.measures()] == [row["name"] for row in rows]
+    assert [(m.name, m.alias) for m in vantage.measures()] == [(row["name"], row["alias"]) for row in rows]

@@ -5,6 +5,7 @@ import functools
 import inspect
 import json
 import math
+import os
 import re
 
 import numpy as np
@@ -14,6 +15,7 @@ from conftest import torus
 import vantage
 
 V, F = torus(8, 6)
+CAMERA = vantage.Camera("perspective", np.array([0.0, 0.0, 9.0]), np.zeros(3), np.array([0.0, 1.0, 0.0]))
 
 # Flags that are no part of the method: files, how it runs, what is printed, moving pictures.
 NO_OPTIONS = {"help", "help-all", "output", "force", "trace", "no-images", "no-report", "preview", "tour", "tour-seconds", "fps",
@@ -34,7 +36,7 @@ TEXTS = {"focus": "0", "epsilon": "2%", "prior": "none", "size": (40, 30), "back
 OF_PROGRAM = {("view", "size"): "auto", ("render", "size"): "800x600"}  # other defaults
 WITH = {"base": {"search": "exhaustive"}, "subdivisions": {"search": "exhaustive"}, "epsilon": {"search": "rapid"}, "starts": {"search": "gradient"}, "seed": {"search": "gradient"}, "refine": {"views": 2},
         "min_separation": {"views": 2}, "information": {"select": "feixas", "views": 2}, "select": {"views": 2},
-        "tour_path": {"views": 2}}
+        "tour_path": {"views": 2}, **{row["name"]: {"method": "mesh-saliency"} for row in ROWS if row["group"] == "saliency"}}
 
 
 def flags_of(help_text):
@@ -166,6 +168,7 @@ def test_all_defaults_of_the_paper_are_its_preset():
     ({"focus": "nothing"}, "nothing"),
     ({"seed": 2**64}, "option seed must be between 0 and 18446744073709551615"),
     ({"seed": -10**400}, "option seed must be between 0 and 18446744073709551615"),
+    ({"seed": -1}, "option seed is -1 but must be between 0 and 18446744073709551615$"),
     ({"threads": 2**40}, "threads is 1099511627776 but must be between 0 and 1024"),
     ({"method": "viewpoint-entropy", "views": 3}, "leave out views and coverage, or method viewpoint-entropy$"),
 ])
@@ -204,11 +207,38 @@ def test_options_that_contradict_each_other_are_refused_as_by_the_program(option
         vantage.best_view(V, F, **options)
 
 
+@pytest.mark.parametrize("function, keywords, message", [
+    (vantage.render, {"direction": (0, 0, 1), "search": "dense"}, "option search goes with view only"),
+    (vantage.render, {"direction": (0, 0, 1), "weight": "area"}, "option weight goes with view, show kssm and"),
+    (vantage.render, {"certify": True}, "option certify has no effect on a picture"),
+    (vantage.render, {"camera": CAMERA, "fov": 90}, "option fov says what camera says: leave one out"),
+    (vantage.render, {"direction": (0, 0, 1), "show": "kssm", "colours": np.zeros((48, 3), np.uint8)},
+     "colours goes with show plain only"),
+    (vantage.best_view, {"saliency_scale": 0.01}, "option saliency_scale goes with method mesh-saliency only"),
+    (vantage.vertex_map, {"method": "thickness", "suppression": "mean", "weight": "area"}, "goes with method kssm only: "),
+    (vantage.vertex_map, {"fov": 60}, "option fov goes with method pmi-saliency only"),
+    (vantage.score, {"eyes": (0, 0, 9), "fov": 60}, "option fov goes with sphere and directions: eyes says where eyes are"),
+    (vantage.score, {"sphere": 0, "view_set": 2}, "view_set goes with measures that are built on a set of views only"),
+    (vantage.score, {"sphere": 0, "method": "viewpoint-entropy", "prune": False}, "option prune goes with methods of the"),
+    (vantage.visible_vertices, {"eyes": (0, 0, 9), "distance": 4}, "option distance goes with sphere and directions"),
+])
+def test_options_that_would_do_nothing_are_refused_as_by_the_program(function, keywords, message):
+    with pytest.raises(vantage.InvalidInput, match=message):
+        function(V, F, **keywords)
+
+
+def test_defaults_may_be_given_where_they_do_nothing():
+    assert vantage.render(V, F, direction=(0, 0, 1), search="global", weight="vertex", size=8).shape == (8, 8, 4)
+
+
 def test_a_model_of_more_faces_than_allowed_is_refused_by_the_keyword(models):
     with pytest.raises(vantage.Error, match="the most that max_faces allows"):
         vantage.load(models / "fan.ply", max_faces=3)
     with pytest.raises(vantage.InvalidInput, match="max_faces is -1 but must be between 0"):
         vantage.load(models / "fan.ply", max_faces=-1)
+    path = os.fsencode(models / "fan.ply")
+    assert np.array_equal(vantage.visible_vertices(path, sphere=0),
+                          vantage.visible_vertices(vantage.load(path, threads=None, max_faces=None), sphere=0))
 
 
 def test_a_switch_takes_the_booleans_of_numpy():
@@ -218,6 +248,39 @@ def test_a_switch_takes_the_booleans_of_numpy():
 def test_up_any_is_refused_of_an_analysis_too():
     with pytest.raises(vantage.InvalidInput, match="option up: any"):
         vantage.best_view(vantage.analyse(V, F), up="any")
+
+
+@pytest.mark.parametrize("call, message", [
+    (lambda: vantage.best_view(V, F, method=3), "method must be str"),
+    (lambda: vantage.vertex_map(V, F, method=3), "method must be str"),
+    (lambda: vantage.score(V, F, sphere=0, method=3), "method must be str or a list of them"),
+    (lambda: vantage.score(V, F, sphere=0, method=["vmi", 3]), "method must be str"),
+    (lambda: vantage.kssm(V, F, levels="x"), "levels must be bool"),
+    (lambda: vantage.skeleton(V, F, measure=1), "measure must be bool"),
+    (lambda: vantage.render(V, F, show=4), "show must be str"),
+    (lambda: vantage.render(V, F, view=4), "view must be str"),
+    (lambda: vantage.render(V, F, size=True), "option size must be tuple[int, int] | int | str"),
+    (lambda: vantage.render(V, F, size=(1.5, 2)), "option size must be tuple[int, int] | int | str"),
+    (lambda: vantage.render(V, F, focus=2.5), "option focus must be str | int"),
+    (lambda: vantage.best_view(V, F, epsilon=[2]), "option epsilon must be float | str"),
+    (lambda: vantage.directions(1.0), "level must be a whole number"),
+    (lambda: vantage.directions(1, 2), "base must be str"),
+    (lambda: vantage.Model(V, F, name=3), "name must be str"),
+    (lambda: vantage.defaults(3), 'option preset must be Literal["default", "paper"]'),
+])
+def test_messages_about_types_are_one_sentence(call, message):
+    with pytest.raises(TypeError) as caught:
+        call()
+    assert str(caught.value) == message
+
+
+def test_none_is_as_not_given_for_every_keyword():
+    none = dict.fromkeys(set(inspect.signature(vantage.best_view).parameters) - {"model", "F"})
+    assert vantage.best_view(V, F, **none).json == vantage.best_view(V, F).json
+    assert vantage.kssm(V, F, levels=None, threads=None).displacement is None
+    assert vantage.score(V, F, sphere=0, method=None, view_set=None).shape == (12,)
+    assert vantage.render(V, F, direction=(0, 0, 1), show=None, size=8).shape == (8, 8, 4)
+    assert vantage.Model(V, F, name=None).name == "arrays" and vantage.defaults(None) == vantage.defaults()
 
 
 def test_other_types_are_type_errors():
