@@ -9,6 +9,7 @@
 
 #include "vantage/core/error.h"
 
+#include "mesh/copied_polygons.h"
 #include "mesh/extent.h"
 #include "mesh/polygon.h"
 
@@ -203,11 +204,18 @@ void ModelBuilder::triangulate() {
     }
   };
   PolygonWork work(run_);
+  const std::vector<CopiedPolygon> copies =
+      copied_polygons(corners_, corner_counts_, model_.mesh.positions);
+  std::size_t next_copy = 0;
   for (std::size_t p = 0; p < corner_counts_.size(); ++p) {
     mark_parts(p);
     const std::size_t first_triangle = triangles.size();
-    triangulate_polygon({corners_.data() + first_corner, corner_counts_[p]}, model_.mesh.positions,
-                        work, triangles);
+    const std::span<const std::uint32_t> corners{corners_.data() + first_corner, corner_counts_[p]};
+    if (next_copy < copies.size() && copies[next_copy].polygon == p) {
+      triangulate_copy(corners, copies[next_copy++], work);
+    } else {
+      triangulate_polygon(corners, model_.mesh.positions, work, triangles);
+    }
     triangulate_uvs(first_corner, corner_counts_[p], first_triangle);
     if (keeps_appearance_) {
       const bool next = next_material < material_starts_.size() &&
@@ -219,6 +227,22 @@ void ModelBuilder::triangulate() {
   }
   mark_parts(corner_counts_.size());
   finish_parts(triangle_of_part_start);
+}
+
+void ModelBuilder::triangulate_copy(std::span<const std::uint32_t> corners,
+                                    const CopiedPolygon& copy, PolygonWork& work) {
+  std::vector<std::uint32_t> as_earlier(corners.begin(), corners.end());
+  std::rotate(as_earlier.begin(), as_earlier.begin() + copy.start, as_earlier.end());
+  if (copy.is_reversed) {
+    std::reverse(as_earlier.begin() + 1, as_earlier.end());
+  }
+  std::vector<Triangle>& triangles = model_.mesh.triangles;
+  const auto first_triangle = static_cast<std::ptrdiff_t>(triangles.size());
+  triangulate_polygon(as_earlier, model_.mesh.positions, work, triangles);
+  if (copy.is_reversed) {
+    std::for_each(triangles.begin() + first_triangle, triangles.end(),
+                  [](Triangle& t) { std::swap(t[1], t[2]); });
+  }
 }
 
 void ModelBuilder::triangulate_uvs(std::size_t first_corner, std::size_t count,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,9 @@
 #include "io/place.h"
 
 namespace vantage {
+
+class PolygonWork;
+struct CopiedPolygon;
 
 /// Collects what a reader finds, checks it, and makes the Model. Memory grows with what was added,
 /// never with what a header declares.
@@ -80,6 +84,11 @@ class ModelBuilder {
 
   [[nodiscard]] std::size_t point_count() const { return model_.mesh.positions.size(); }
 
+  /// Of faces so far, those left out too.
+  [[nodiscard]] std::size_t face_count() const {
+    return corner_counts_.size() + model_.skipped_faces;
+  }
+
   [[nodiscard]] std::size_t missing_points() const { return missing_points_; }
 
   [[nodiscard]] std::size_t colour_count() const { return colours_.size(); }
@@ -119,6 +128,10 @@ class ModelBuilder {
   void check_indices() const;
   void check_extent() const;
   void triangulate();
+
+  /// Into the triangles of the earlier polygon, so that its faces are known for copies.
+  void triangulate_copy(std::span<const std::uint32_t> corners, const CopiedPolygon& copy,
+                        PolygonWork& work);
   void finish_parts(const std::vector<std::size_t>& triangle_of_part_start);
   void triangulate_uvs(std::size_t first_corner, std::size_t count, std::size_t first_triangle);
   void finish_appearance();

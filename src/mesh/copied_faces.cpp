@@ -8,28 +8,15 @@
 
 #include "vantage/mesh/topology.h"
 
+#include "mesh/place_hash.h"
 #include "mesh/triangle_corners.h"
 
 namespace vantage {
 namespace {
 
-/// The finaliser of SplitMix64: Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", 2014.
-std::uint64_t mixed(std::uint64_t x) {
-  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31U);
-}
-
 std::vector<std::uint64_t> hashes_of_places(const std::vector<Vec3>& positions) {
-  std::vector<std::uint64_t> hashes;
-  hashes.reserve(positions.size());
-  for (const Vec3& p : positions) {
-    std::uint64_t hash = 0;
-    for (const double c : {p.x(), p.y(), p.z()}) {
-      hash = mixed(hash + std::bit_cast<std::uint64_t>(c + 0.0));  // −0 is 0
-    }
-    hashes.push_back(hash);
-  }
+  std::vector<std::uint64_t> hashes(positions.size());
+  std::transform(positions.begin(), positions.end(), hashes.begin(), place_hash);
   return hashes;
 }
 
