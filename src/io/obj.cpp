@@ -228,6 +228,10 @@ class ObjReader {
       builder_.note("lines with an unknown keyword left out: " + std::to_string(unknown_) +
                     ", the first is " + first_unknown_);
     }
+    const bool has_elements = builder_.face_count() + lines_and_points_ + curves_ + calls_ > 0;
+    if (!has_elements && builder_.point_count() > 0) {  // the file may have been cut off
+      builder_.note("no faces: taken as a point cloud");
+    }
   }
 
   ObjLines lines_;

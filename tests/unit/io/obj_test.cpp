@@ -9,11 +9,15 @@
 namespace vantage::test {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
+using testing::UnorderedElementsAre;
 
 constexpr const char* kThreePoints = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+constexpr const char* kCloud = "no faces: taken as a point cloud";
 
 Model obj(const std::string& text) {
   return parse_model(text, "a.obj");
@@ -133,22 +137,30 @@ TEST(Obj, AFewBrightColoursAreNoBytes) {
 
 TEST(Obj, ReadsNoOpacityAndSaysSo) {
   EXPECT_THAT(obj("v 0 0 0 1 0.2 0 0.5\nv 1 0 0 0 0 1 1\n").notes,
-              ElementsAre(HasSubstr("the opacity of vertices was left out")));
+              ElementsAre(HasSubstr("the opacity of vertices was left out"), kCloud));
   const Model opaque = obj("v 0 0 0 1 0.2 0 1\n");
   EXPECT_THAT(opaque.vertex_colours, ElementsAre(Rgb8{255, 51, 0}));
-  EXPECT_THAT(opaque.notes, IsEmpty());
+  EXPECT_THAT(opaque.notes, ElementsAre(kCloud));
 }
 
 TEST(Obj, LeavesColoursOutUnlessEveryVertexHasOne) {
   const Model model = obj("v 0 0 0 1 0 0\nv 1 0 0\n");
   EXPECT_THAT(model.vertex_colours, IsEmpty());
-  EXPECT_THAT(model.notes, ElementsAre(HasSubstr("only 1 of 2 vertices have a colour")));
+  EXPECT_THAT(model.notes,
+              UnorderedElementsAre(HasSubstr("only 1 of 2 vertices have a colour"), kCloud));
 }
 
 TEST(Obj, IgnoresTheWeightOfAVertexAndSaysSo) {
   const Model model = obj("v 2 4 6 2\n");
   EXPECT_EQ(model.mesh.positions[0], Vec3(2, 4, 6));
-  EXPECT_THAT(model.notes, ElementsAre(HasSubstr("weights of vertices")));
+  EXPECT_THAT(model.notes, ElementsAre(HasSubstr("weights of vertices"), kCloud));
+}
+
+TEST(Obj, NotesThatItHasNoFacesUnlessItSaysWhatItHas) {
+  EXPECT_THAT(obj(kThreePoints).notes, ElementsAre(kCloud));
+  for (const char* element : {"f 1 2 3\n", "f 1 2\n", "l 1 2\n", "p 1\n", "call b.obj\n"}) {
+    EXPECT_THAT(obj(std::string(kThreePoints) + element).notes, Not(Contains(kCloud))) << element;
+  }
 }
 
 TEST(Obj, NotesUnknownKeywords) {
