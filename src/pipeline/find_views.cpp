@@ -176,7 +176,7 @@ ViewReport find_views(const ShapeAnalysis& shape, const FrameChoice& choice,
                                       upright_frame(choice.frame));
   if (sums_a_map(options.method)) {
     note_what_none_sees(report);
-    note_parts_hardly_shown(shape, report.camera, report.warnings, run);
+    note_parts_hardly_shown(shape, options, report.warnings, run);
   }
   if (moved.is_unlike() && is_best_of_moved(shape, choice, options, moved, report, run)) {
     report.warnings.push_back(unlike_map_text(moved) +

@@ -92,11 +92,13 @@ TEST(DoubtsAbout, ASkeletonPartlyOutsideIsTheSkeletonsUntilTheViewsHangOnIt) {
 }
 
 TEST(NotesOn, PartsThatAreHiddenOrSpecksAreGiven) {
-  const auto notes_on = [](const TriMesh& mesh) {
+  const auto notes_on = [](const TriMesh& mesh, Weight weight = Weight::Vertex) {
     ShapeAnalysis shape = prepare_surface(model_of(mesh));
     shape.significance.assign(shape.surface.positions.size(), 1.0);
     std::vector<std::string> notes;
-    note_parts_hardly_shown(shape, scoring_camera(shape, {}), notes, {});
+    ViewOptions options;
+    options.weight = weight;
+    note_parts_hardly_shown(shape, options, notes, {});
     return notes;
   };
   const TriMesh hall = box(5.0, 5.0, 5.0, 1);
@@ -105,7 +107,19 @@ TEST(NotesOn, PartsThatAreHiddenOrSpecksAreGiven) {
   const std::vector<std::string> inside = notes_on(together(hall, ball, Vec3(2.5, 2.5, 2.5)));
   ASSERT_EQ(inside.size(), 1U);
   EXPECT_TRUE(inside[0].starts_with("1 of 2 separate parts show no vertex from any of 162"));
+  EXPECT_TRUE(notes_on(together(hall, ball, Vec3(2.5, 2.5, 2.5)), Weight::Area)[0].starts_with(
+      "1 of 2 separate parts show nothing from any of 162"));
   EXPECT_EQ(notes_on(together(hall, ball, Vec3(8.0, 0.0, 0.0))).size(), 0U);
+  // A spoke through the hall: both of its ends are within caps.
+  TriMesh caps = together(hall, hall, Vec3(20.0, 0.0, 0.0));
+  const TriMesh spoke = box(20.0, 1.0, 1.0, 1);
+  const TriMesh wheel =
+      together(together(caps, spoke, Vec3(2.5, 2.0, 2.0)), spoke, Vec3(2.5, 0.5, 0.5));
+  const std::vector<std::string> ends = notes_on(wheel);
+  ASSERT_EQ(ends.size(), 1U);
+  EXPECT_TRUE(ends[0].ends_with(
+      "so that no view counts them: others hide them or their ends; --weight area counts faces"));
+  EXPECT_EQ(notes_on(wheel, Weight::Area).size(), 0U);
   const std::vector<std::string> speck = notes_on(together(plate, ball, Vec3(50.0, 50.0, 2.0)));
   ASSERT_EQ(speck.size(), 1U);
   // The ball has 162 vertices of 170.
