@@ -2,6 +2,7 @@
 #include "pipeline/settled_search.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "pipeline/twins.h"
@@ -69,6 +70,7 @@ std::vector<TwinView> settle_on_the_front(FoundView& best, const FoundView& wors
   if (!preference.is_score()) {
     TwinView first{best.direction, best.score, best.preference};
     settle_near_ties(first, twins, upright_frame(frame));
+    settle_sides(first, twins, upright_frame(frame), std::cref(preference));
     best.direction = first.direction;
     best.score = first.score;
     best.preference = first.objective;

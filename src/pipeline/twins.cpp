@@ -31,6 +31,13 @@ bool ahead(const Vec3& a, const Vec3& b, const UprightFrame& frame) {
   return frame.side.dot(a) - frame.side.dot(b) > kSameComponent;
 }
 
+/// Whether b is on the right and what a plane between left and right makes of a.
+bool is_right_of(const Vec3& b, const Vec3& a, const UprightFrame& frame) {
+  return std::abs(frame.front.dot(a) - frame.front.dot(b)) < kSameComponent &&
+         std::abs(frame.up.dot(a) - frame.up.dot(b)) < kSameComponent &&
+         frame.side.dot(b) - frame.side.dot(a) > kSameComponent;
+}
+
 }  // namespace
 
 std::vector<TwinView> twins_of(const Vec3& best, const ShapeAnalysis& shape,
@@ -51,6 +58,18 @@ void settle_near_ties(TwinView& best, std::vector<TwinView>& twins, const Uprigh
   for (TwinView& twin : twins) {
     if (twin.objective >= least && ahead(twin.direction, best.direction, frame)) {
       std::swap(best, twin);
+    }
+  }
+}
+
+void settle_sides(TwinView& best, std::vector<TwinView>& twins, const UprightFrame& frame,
+                  const ScorePreference& preference) {
+  const double least = kNearTie * best.objective;
+  for (TwinView& twin : twins) {
+    if (is_right_of(twin.direction, best.direction, frame) &&
+        preference(twin.direction, best.score) >= least) {
+      std::swap(best, twin);
+      return;
     }
   }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/twins.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "support/model_of.h"
@@ -44,6 +46,38 @@ TEST(NearTies, GoToTheFrontAndThenToTheSide) {
   for (const TwinView& twin : twins) {
     EXPECT_NE(twin.direction, best.direction);
   }
+}
+
+TEST(Sides, GoToTheRightThoughTheMeshMakesTheirScoresDiffer) {
+  const auto seventh_power = [](const Vec3& direction, double score) {
+    return (direction.z() < 0.0 ? 0.9 : 1.0) * std::pow(score, 7.0);
+  };
+  const Vec3 left(-0.6, 0.0, 0.8);
+  const Vec3 right(0.6, 0.01, 0.79);
+  const auto view_of = [&](const Vec3& direction, double score) {
+    return TwinView{direction, score, seventh_power(direction, score)};
+  };
+  TwinView best = view_of(left, 1.0);
+  std::vector<TwinView> twins{view_of(right, 0.995)};
+  settle_near_ties(best, twins, {});
+  EXPECT_EQ(best.direction, left);  // 3.5 % less
+  settle_sides(best, twins, {}, seventh_power);
+  EXPECT_EQ(best.direction, right);
+  EXPECT_EQ(twins[0].direction, left);
+  settle_sides(best, twins, {}, seventh_power);
+  EXPECT_EQ(best.direction, right);
+}
+
+TEST(Sides, StayWhereTheOtherIsPreferredOrNoMirrorImageBetweenLeftAndRight) {
+  TwinView best{Vec3(-0.6, 0.0, 0.8), 1.0, 1.0};
+  std::vector<TwinView> twins{{Vec3(0.6, 0.0, 0.8), 0.99, 0.97}};
+  settle_sides(best, twins, {}, [](const Vec3& direction, double score) {
+    return (direction.x() > 0.0 ? 0.98 : 1.0) * score;
+  });
+  EXPECT_EQ(best.direction.x(), -0.6);
+  twins = {{Vec3(0.6, 0.0, -0.8), 1.0, 1.0}, {Vec3(-0.6, 0.0, -0.8), 1.0, 1.0}};
+  settle_sides(best, twins, {}, [](const Vec3& /*direction*/, double score) { return score; });
+  EXPECT_EQ(best.direction.x(), -0.6);
 }
 
 TEST(NearTies, LeaveABestThatIsClearlyBetter) {
