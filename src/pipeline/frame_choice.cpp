@@ -86,6 +86,12 @@ std::string summary_of(const DirectionChoice& choice, const std::string& word) {
     return text + ", its format's" + (choice.alike.empty() ? "" : ": all sides look the same");
   }
   const bool is_likeliest = choice.likeliest.dot(choice.direction) > 0.5;
+  if (!is_likeliest && choice.source == "format" && choice.confidence < kUnsure) {
+    return text + alike_text(choice.alike) + " by its format, unsure (" +
+           (choice.by_shape ? "the shape alone: " + name_of(*choice.by_shape)
+                            : "likelier: " + name_of(choice.likeliest)) +
+           ")";
+  }
   const bool is_by_habit = !is_likeliest || (choice.source == "format" && choice.reasons.empty());
   return text + alike_text(choice.alike) + ", " + sure(choice.confidence) +
          (is_by_habit ? ", its format's" : by(choice)) +

@@ -72,6 +72,20 @@ TEST(FrameChoice, SaysItsFormatsOnlyOfWhatIsItsFormats) {
   EXPECT_EQ(frame_summary(choice), "up: y, 70 % sure; front: z, 60 % sure, its format's");
 }
 
+TEST(FrameChoice, CallsItsFormatsUnsureWhereAnotherIsLikelier) {
+  FrameChoice choice;
+  choice.orientation.up = {.source = "format", .confidence = 0.4, .likeliest = Vec3::UnitX()};
+  choice.orientation.front = {.direction = -Vec3::UnitY(),
+                              .source = "format",
+                              .confidence = 0.03,
+                              .likeliest = Vec3::UnitX(),
+                              .likeliest_confidence = 0.6,
+                              .by_shape = Vec3(Vec3::UnitX())};
+  EXPECT_EQ(frame_summary(choice),
+            "up: y by its format, unsure (likelier: x); front: -y by its format, unsure (the shape "
+            "alone: x)");
+}
+
 TEST(FrameChoice, SaysThatSidesLookTheSameWhereThatMakesItSure) {
   EXPECT_EQ(frame_summary(choice_for(box(1.0, 1.0, 1.0, 4), ModelFormat::Ply)),
             "up: y, its format's: all sides look the same; front: z, its format's: all sides look "
