@@ -53,6 +53,14 @@ std::string objective_line(const ViewReport& report, const ViewOptions& options)
          direction_text(report.highest_direction);
 }
 
+/// \param above the dense search's lowest score, over the range of scores.
+std::string worst_gap(double above) {
+  const std::string share = rounded(100.0 * std::abs(above), 3) + " % of the range of scores ";
+  return above > 0.0   ? share + "above the lowest it finds"
+         : above < 0.0 ? share + "below the lowest it finds, so better"
+                       : "the lowest it finds";
+}
+
 std::string timing_line(const StageSeconds& s) {
   return rounded(s.total, 3) + " s (load " + rounded(s.load, 2) + ", contract " +
          rounded(s.contract, 2) + ", skeleton " + rounded(s.skeleton, 2) + ", map " +
@@ -224,10 +232,9 @@ struct ViewCommand {
     return count > 0 ? ", " + grouped(count) + " estimated" : "";
   }
 
-  static void summarise(Session& session, const Model& loaded, const ShapeAnalysis& shape,
-                        const FrameChoice& choice, const ViewReport& report,
-                        const ViewOptions& options, const OutputFolder& output,
-                        const StageSeconds& seconds) {
+  void summarise(Session& session, const Model& loaded, const ShapeAnalysis& shape,
+                 const FrameChoice& choice, const ViewReport& report, const ViewOptions& options,
+                 const OutputFolder& output, const StageSeconds& seconds) const {
     const MeshReport& check = shape.check;
     std::string kind = check.closed ? "closed" : "open";
     if (check.genus) {
@@ -250,13 +257,18 @@ struct ViewCommand {
                  plural(report.best_search.evaluations + report.worst_search.evaluations, "view") +
                  " evaluated" + estimated(report));
     if (const auto& gap = report.dense_gap) {
-      session.tell("  certified   best " + rounded(100.0 * gap->best_ratio, 5) +
-                   " % of a dense search's, worst " +
-                   rounded(100.0 * std::abs(gap->worst_above), 3) + " % of the range " +
-                   (gap->worst_above < 0.0 ? "lower" : "higher") + " than its");
+      session.tell(
+          "  certified   the best view has " + rounded(100.0 * gap->best_ratio, 5) +
+          " % of the highest objective that a dense search finds; the worst view's score is " +
+          worst_gap(gap->worst_above));
     }
     session.tell("  time        " + timing_line(seconds));
     session.tell("  results in  " + printable(output.path()) + "/");
+    for (const std::string& file : {several.tour(), trace}) {
+      if (!file.empty()) {
+        session.tell("              " + printable(file));
+      }
+    }
     if (session.flags.verbose) {
       for (const std::string& name : output.names()) {
         session.tell("              " + name);

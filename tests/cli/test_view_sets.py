@@ -147,8 +147,9 @@ class ViewSets(ProgramTest):
         self.assertEqual((self.dir / "tour--no-images.webp").read_bytes(), (self.dir / "tour--no-report.webp").read_bytes())
 
     def test_tour_has_as_many_pictures_as_its_time_takes(self):
-        self.vantage("view", self.bar, "-o", "out", "--views", 2, "--no-images", "--tour", "tour.png",
-                     "--tour-size", "40x30", "--tour-seconds", 2, "--fps", 4)
+        said = self.vantage("view", self.bar, "-o", "out", "--views", 2, "--no-images", "--tour", "tour.png",
+                            "--tour-size", "40x30", "--tour-seconds", 2, "--fps", 4).out
+        self.assertIn("  results in  out/\n              tour.png\n", said)
         data = (self.dir / "tour.png").read_bytes()
         at = data.index(b"acTL") + 4
         self.assertEqual(struct.unpack(">II", data[at:at + 8]), (8, 0))
