@@ -39,6 +39,21 @@ Json choice_json(const DirectionChoice& choice) {
           {"by_shape_confidence", choice.by_shape_confidence}};
 }
 
+/// A note without what the line of the result says already: how sure a choice is, and by what.
+std::string shortened(std::string note) {
+  const std::size_t begin = note.find(" (");
+  const std::size_t end = note.find("), not ");
+  return begin < end && end != std::string::npos ? note.erase(begin, end + 1 - begin) : note;
+}
+
+/// "turned from z up, front -y, to y up, front z"
+std::string turn_text(const ModelFrame& from, UpAxis up) {
+  const auto text = [](const ModelFrame& frame) {
+    return std::string(up_name(frame.up)) + " up, front " + std::string(up_name(frame.front));
+  };
+  return "turned from " + text(from) + ", to " + text({up, default_front(up)});
+}
+
 /// Every candidate's features: what scripts/fit_orientation.py reads.
 std::string features_json(const ShapeAnalysis& shape) {
   Json json = {{"up_features", Json::array()},
@@ -238,9 +253,15 @@ struct OrientCommand {
                    number_text(q[3]));
     } else {
       session.tell(printable(loaded.name) + ": " + frame_summary(choice) +
-                   (is_none ? "; nothing to turn" : ""));
+                   (is_none                  ? "; nothing to turn"
+                    : file.empty()           ? ""
+                    : !stood.isIdentity(0.0) ? "; turned"
+                                             : "; " + turn_text(choice.frame, default_up(loaded))) +
+                   (file.empty() ? "" : " → " + printable(file)));
     }
-    say_notes(session, choice.notes);
+    std::vector<std::string> notes(choice.notes.size());
+    std::transform(choice.notes.begin(), choice.notes.end(), notes.begin(), shortened);
+    say_notes(session, print ? choice.notes : notes);
   }
 };
 

@@ -39,7 +39,8 @@ class Orient(ProgramTest):
 
     def test_what_is_given_is_turned_to_the_formats_habit_and_all_else_stays(self):
         self.write("z.obj", obj(lambda p: (p[0], -p[2], p[1])) + "# the end\n")
-        self.vantage("orient", "z.obj", "-o", "up.obj", "--up", "z", "--front=-y")
+        said = self.vantage("orient", "z.obj", "-o", "up.obj", "--up", "z", "--front=-y").out
+        self.assertIn("; turned from z up, front -y, to y up, front z → up.obj\n", said)
         text = (self.dir / "up.obj").read_text()
         self.assertEqual(vertices(text), vertices(obj()))
         self.assertTrue(text.startswith("# a chair\n") and text.endswith("# the end\n"))
@@ -136,6 +137,7 @@ class Orient(ProgramTest):
         advised = re.findall("; (--.*) overrules this", notes)
         self.assertEqual(advised, ["--up y", "--up z --front -y"])
         self.assertIn("not -y, the usual one for this up;", notes)
+        self.assertNotIn("% sure", notes)  # which the line of the result says
         for flags in advised:
             self.vantage("orient", "chair.obj", *flags.split())
 
