@@ -147,7 +147,7 @@ void look_at_map(const MovedMap& moved, std::vector<std::string>& warnings) {
 std::string outside_text(const ShapeAnalysis& shape) {
   return percent(shape.skeleton.outside_share) +
          " of the skeleton's length is outside the surface, so do not measure by it: look at its "
-         "picture, and close or separate walls that touch";
+         "picture, and close or separate walls that touch, or fill or thicken thin ones";
 }
 
 void look_at_tangles(const ShapeAnalysis& shape, std::vector<std::string>& warnings) {
