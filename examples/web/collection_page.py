@@ -14,6 +14,7 @@ import json
 import os
 import pathlib
 import subprocess
+import urllib.parse
 
 PAGE = """<!doctype html>
 <html lang="en"><meta charset="utf-8"><title>{title}</title>
@@ -33,11 +34,12 @@ def attributes(pairs):
 
 def figure(row, pictures):
     """The model of one row of the batch."""
-    picture = f"{pictures}/{row['folder']}/best.png"
+    picture = urllib.parse.quote(f"{pictures}/{row['folder']}/best.png")
     camera = row["best"]["model_viewer"]
     name = html.escape(row["name"])
-    if row["format"] in ("gltf", "glb") and camera:
-        fields = [("src", row["key"]), ("alt", row["name"]), ("poster", picture), ("loading", "lazy"), *camera.items()]
+    is_file = "//" not in row["key"] and "\\x" not in row["key"]  # not in an archive, and of a name that is text
+    if row["format"] in ("gltf", "glb") and camera and is_file:
+        fields = [("src", urllib.parse.quote(row["key"])), ("alt", row["name"]), ("poster", picture), ("loading", "lazy"), *camera.items()]
         shown = f"<model-viewer {attributes(fields)} camera-controls></model-viewer>"
     else:
         shown = f"<img {attributes([('src', picture), ('alt', row['name'])])}>"

@@ -98,6 +98,19 @@ class Addon(unittest.TestCase):
                       self.result["errors"]["no program"])
 
 
+class Program(unittest.TestCase):
+
+    def test_a_file_that_is_no_program_ends_in_one_sentence(self):
+        sys.path.insert(0, str(ROOT / "integrations/blender/vantage_best_view"))
+        import program
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "vantage")
+            file.write_bytes(b"\0")
+            file.chmod(0o755)
+            with self.assertRaisesRegex(program.Failed, "cannot be run: Exec format error"):
+                program.output_of([str(file)], folder, 10)
+
+
 class Zip(unittest.TestCase):
 
     def test_it_holds_the_package_and_its_licence_and_is_the_same_twice(self):

@@ -5,6 +5,7 @@ import contextlib
 import importlib.util
 import io
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -35,6 +36,41 @@ SKIPPED [2] test_other.py:38: SKIPPED: open3d is not installed
 4/4 Testing: replay.inputs.obj
 nothing that is counted
 """
+
+
+def module_of(path):
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+class Examples(unittest.TestCase):
+    EXAMPLES = SCRIPTS.parent / "examples"
+
+    def test_the_page_of_a_collection_names_files_as_addresses(self):
+        figure = module_of(self.EXAMPLES / "web/collection_page.py").figure
+
+        def shown(key):
+            return figure({"key": key, "name": "n", "folder": "n #1", "format": "gltf",
+                           "best": {"model_viewer": {"camera-orbit": "0deg"}}}, "models")
+
+        self.assertIn('src="in/part%20%231%2050%25.gltf"', shown("in/part #1 50%.gltf"))
+        self.assertIn('poster="models/n%20%231/best.png"', shown("a.gltf"))
+        for key in ("a.zip//x.gltf", "b\\xff.gltf"):  # which no browser can ask for
+            self.assertIn('<img src="models/n%20%231/best.png"', shown(key))
+
+    def test_a_broken_shard_goes_before_failed_models(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "ray.py").write_text(
+                "def remote(**_):\n    def plain(function):\n        function.remote = function\n"
+                "        return function\n    return plain\ninit, get = lambda: None, list\n")
+            program = pathlib.Path(folder, "vantage")
+            program.write_text('#!/bin/sh\ncase "$*" in *0/2*) exit 4;; *1/2*) exit 2;; esac\n')
+            program.chmod(0o755)
+            done = subprocess.run([sys.executable, self.EXAMPLES / "engines/ray_shards.py", "in", "out", "2"], check=False,
+                                  env={**os.environ, "PATH": f"{folder}:{os.environ['PATH']}", "PYTHONPATH": folder})
+            self.assertEqual(done.returncode, 2)
 
 
 class Scripts(unittest.TestCase):

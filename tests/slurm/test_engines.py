@@ -29,17 +29,18 @@ class EnginesTest(unittest.TestCase):
         return subprocess.run(command, cwd=self.folder, env=self.environment, check=False, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
-    def check_same_as_local(self):
-        self.run_here(str(VANTAGE), "batch", "boxes", "-o", "local")
-        exports = [self.run_here(str(VANTAGE), "results", "export", out).stdout for out in ("local", "out")]
+    def check_same_as_local(self, models="boxes", results="out"):
+        self.run_here(str(VANTAGE), "batch", models, "-o", "local")
+        exports = [self.run_here(str(VANTAGE), "results", "export", out).stdout for out in ("local", results)]
         self.assertEqual(exports[0].count("\n"), 8)  # a header, six boxes, a broken file
         self.assertEqual(exports[0], exports[1])
 
     @unittest.skipUnless(shutil.which("parallel"), "GNU PARALLEL IS NOT INSTALLED, NOTHING IS TESTED")
     def test_gnu_parallel(self):
-        run = self.run_here(str(EXAMPLES / "parallel.sh"), "boxes", "out", SHARDS)
+        (self.folder / "boxes").rename(self.folder / "my boxes")
+        run = self.run_here(str(EXAMPLES / "parallel.sh"), "my boxes", "all of them", SHARDS)
         self.assertEqual(run.returncode, 0, run.stdout)
-        self.check_same_as_local()
+        self.check_same_as_local("my boxes", "all of them")
 
     @unittest.skipUnless(shutil.which("snakemake"), "SNAKEMAKE IS NOT INSTALLED, NOTHING IS TESTED")
     def test_snakemake(self):

@@ -52,6 +52,9 @@ def output_of(command, folder, seconds):
     except (FileNotFoundError, PermissionError):
         raise Failed(f"There is no program {command[0]}: install vantage, or set its path in the add-on's "
                      "preferences") from None
+    except OSError as error:
+        raise Failed(f"{command[0]} cannot be run: {error.strerror}; set the program's path in the add-on's "
+                     "preferences") from None
     except subprocess.TimeoutExpired:
         raise Failed(f"Stopped after {seconds} seconds; the add-on's preferences allow for more") from None
     if done.returncode != 0:
