@@ -148,6 +148,16 @@ const char* reason_of(int error_number, bool reading) {
                                   : "work";
 }
 
+/// What went wrong in words that are the same wherever, and by whichever worker, a model is done.
+std::string told(const Json& order, const std::string& error) {
+  const auto label = order.at("label").get<std::string>();
+  const std::string staging = batch::path_of_key(order.at("staging").get<std::string>());
+  const std::string said = replaced(replaced(error, staging + "/", label + ": "),
+                                    batch::path_of_key(order.at("path").get<std::string>()), label);
+  const std::string name = order.at("name").get<std::string>() + ": ";  // as results call it
+  return said.starts_with(name) ? label + ": " + said.substr(name.size()) : said;
+}
+
 /// What to say of a model in an archive that names files beside it; empty of others.
 std::string archive_remark(const Json& order, const batch::Content& content) {
   if (!order.at("in_archive").get<bool>() || content.beside.empty()) {
@@ -198,16 +208,10 @@ struct BatchWorkerCommand {
   [[nodiscard]] Json answer_to(const Json& order, Session& session, int answers) const {
     const std::string path = batch::path_of_key(order.at("path").get<std::string>());
     const auto key = order.at("key").get<std::string>();
-    const auto label = order.at("label").get<std::string>();
     batch::Content content;
     bool reading = true;
     const auto failed = [&](const char* reason, const std::string& error) {
-      const std::string said = replaced(error, path, label);
-      const std::string name = order.at("name").get<std::string>() + ": ";  // as results call it
-      return Json{
-          {"reason", reason},
-          {"error", said.starts_with(name) ? label + ": " + said.substr(name.size()) : said},
-          {"peak_bytes", peak_bytes()}};
+      return Json{{"reason", reason}, {"error", told(order, error)}, {"peak_bytes", peak_bytes()}};
     };
     const auto unreadable = [&](const std::string& error) {
       const std::string remark = archive_remark(order, content);
@@ -251,7 +255,9 @@ struct BatchWorkerCommand {
       throw;
     } catch (const IoError& error) {
       const std::string reason = reason_of(error.error_number(), reading);
-      return reason == "input" ? unreadable(error.what()) : failed(reason.c_str(), error.what());
+      const char* const remedy = reason == "output" ? "; --output-limit allows no more" : "";
+      return reason == "input" ? unreadable(error.what())
+                               : failed(reason.c_str(), error.what() + std::string(remedy));
     } catch (const FormatError& error) {
       return unreadable(error.what());
     } catch (const InvalidInput& error) {
