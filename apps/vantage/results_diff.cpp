@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_set>
@@ -18,20 +20,18 @@ namespace vantage::cli {
 namespace {
 
 const std::vector<std::string>& compared_columns() {
-  static const std::vector<std::string> kColumns{"key",
-                                                 "status",
-                                                 "reason",
-                                                 "error",
-                                                 "content",
-                                                 "vertices",
-                                                 "faces",
-                                                 "best_score",
-                                                 "best_fraction",
-                                                 "worst_score",
-                                                 "worst_fraction",
-                                                 "best_camera_orbit",
-                                                 "best_camera_target",
-                                                 "best_field_of_view"};
+  static const std::vector<std::string> kColumns = [] {
+    std::vector<std::string> columns;
+    const std::set<std::string> others{"name",   "duplicate_of", "options", "version",
+                                       "folder", "format",       "doubts"};
+    for (const std::string& column : batch::result_columns()) {
+      if (!others.contains(column)) {
+        columns.push_back(column);
+      }
+    }
+    columns.insert(columns.end(), {"up", "front", "doubt"});
+    return columns;
+  }();
   return kColumns;
 }
 
@@ -39,33 +39,42 @@ bool is_near(double x, double y, double tolerance) {
   return std::abs(x - y) <= tolerance * std::max(std::abs(x), std::abs(y));
 }
 
-/// Takes the number off the front of a text, or else a letter. \return the number, or the letter's code.
-double take_number(std::string_view& text) {
-  double number = static_cast<unsigned char>(text.front());
+/// Takes the number off the front of a text, if one is there.
+std::optional<double> take_number(std::string_view& text) {
+  double number = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  text.remove_prefix(error == std::errc{} ? static_cast<std::size_t>(end - text.data()) : 1);
+  if (error != std::errc{} || !std::isfinite(number)) {  // of "information"
+    return std::nullopt;
+  }
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   return number;
 }
 
-/// Whether cameras as `12deg 75deg 3.1m` are alike but for their numbers.
+/// Whether texts as `12deg 75deg 3.1m` are alike but for their numbers.
 bool is_alike(std::string_view a, std::string_view b, double tolerance) {
   while (!a.empty() && !b.empty()) {
-    if (!is_near(take_number(a), take_number(b), tolerance)) {
+    const std::optional<double> x = take_number(a);
+    const std::optional<double> y = take_number(b);
+    if (x && y ? !is_near(*x, *y, tolerance) : x || y || a.front() != b.front()) {
       return false;
     }
+    a.remove_prefix(x ? 0 : 1);
+    b.remove_prefix(y ? 0 : 1);
   }
   return a.empty() && b.empty();
 }
 
 bool is_alike(const batch::Statement& a, const batch::Statement& b, int column, double tolerance) {
+  const std::string& name = compared_columns()[static_cast<std::size_t>(column)];
   if (a.is_real(column) && b.is_real(column)) {
-    return is_near(a.number(column), b.number(column), tolerance);
+    const double x = a.number(column);
+    const double y = b.number(column);
+    const bool is_of_unit_vector = name.starts_with("best_d") || name.starts_with("worst_d");
+    return is_of_unit_vector ? std::abs(x - y) <= tolerance : is_near(x, y, tolerance);
   }
   const std::string x = cell_text(a, column);
   const std::string y = cell_text(b, column);
-  return compared_columns()[static_cast<std::size_t>(column)].starts_with("best_")
-             ? is_alike(x, y, tolerance)
-             : x == y;
+  return name.starts_with("best_") || name == "doubt" ? is_alike(x, y, tolerance) : x == y;
 }
 
 Difference compared(const batch::Statement& a, const batch::Statement& b, double tolerance) {

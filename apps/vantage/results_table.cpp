@@ -35,7 +35,10 @@ constexpr const char* kDoubtSql =
     "(SELECT group_concat(value, '; ') FROM json_each(result, '$.doubts'))";
 
 std::string sql_of(const std::string& column) {
-  return column == kDoubt ? kDoubtSql : column;
+  const bool is_of_result = column == "up" || column == "front";  // that differences are told of
+  return column == kDoubt ? kDoubtSql
+         : is_of_result   ? "json_extract(result, '$." + column + "')"
+                          : column;
 }
 
 bool is_column(const std::string& name) {

@@ -1,10 +1,13 @@
 """vantage batch: what it takes, what it writes, what it skips, how its shards add up."""
 
+import contextlib
 import csv
 import io
 import json
 import os
 import pathlib
+import shutil
+import sqlite3
 import tarfile
 import unittest
 import unittest.mock
@@ -426,6 +429,23 @@ class Results(BatchTest):
         self.assertEqual(kinds, {"0.off": "removed", "1.off": "changed", "2.off": "added"})
         self.assertEqual([diff[k] for k in ("equal", "changed", "only_in_a", "only_in_b")], [0, 1, 1, 1])
         self.assertEqual(json.loads(self.vantage("results", "diff", "a", "a", "--json").out)["differences"], [])
+
+    def test_diff_compares_all_that_results_hold(self):
+        self.write("a.off", box(1))
+        self.batch("a.off", out="a")
+        orbit = "$.best.model_viewer.camera-orbit"
+        for path, column in ((orbit, "best_camera_orbit"), ("$.closed", "closed"), ("$.genus", "genus"), ("$.total", "total"),
+                             ("$.components", "components"), ("$.up", "up"), ("$.front", "front"), ("$.doubts[0]", "doubt"),
+                             ("$.best.direction[0]", "best_dx"), ("$.worst.direction[2]", "worst_dz")):
+            shutil.rmtree(self.dir / "b", ignore_errors=True)
+            shutil.copytree(self.dir / "a", self.dir / "b")
+            with contextlib.closing(sqlite3.connect(self.dir / "b/results.sqlite")) as store, store:
+                path = path.replace("camera-orbit", '"camera-orbit"')
+                old, = store.execute("SELECT json_extract(result, ?) FROM models", (path,)).fetchone()
+                new = old.replace("deg", "def") if column == "best_camera_orbit" else 7
+                store.execute("UPDATE models SET result = json_set(result, ?, ?)", (path, new))
+            diff = json.loads(self.vantage("results", "diff", "a", "b", "--json", "--tolerance", "0.02").out)
+            self.assertEqual([list(row["changes"]) for row in diff["differences"]], [[column]], path)
 
     def test_other_cameras_of_equal_scores_are_a_change(self):
         self.write("a.off", box(2, 3))
