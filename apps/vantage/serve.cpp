@@ -8,6 +8,7 @@
 #include "batch/site_server.h"
 #include "commands.h"
 #include "method_flags.h"
+#include "standard_output.h"
 #include "terminal.h"
 #include "value_checks.h"
 
@@ -38,10 +39,13 @@ struct ServeCommand {
     const std::string& address = server.address();
     std::printf("%s\n",
                 session.flags.json ? ("{\"url\": \"" + address + "\"}").c_str() : address.c_str());
-    std::fflush(stdout);
+    finish_standard_output();  // nobody would know the address
     session.say(printable(folder) + " is shown at that address; Ctrl-C ends it");
     while (!run.stop.stop_requested()) {
       std::this_thread::sleep_for(kPulse);
+    }
+    if (Session::is_out_of_time()) {
+      run.check();
     }
   }
 };

@@ -136,6 +136,10 @@ void Session::configure(CLI::App& command) {
     say("warning: " + warning);
   }
   flags.inputs = named_inputs(command);
+  if (std::count(flags.inputs.begin(), flags.inputs.end(), "-") > 1) {
+    throw CLI::ValidationError("-",
+                               "is standard input, which is read once; name a file for the other");
+  }
 }
 
 void Session::refuse_idle(const std::vector<IdleOptions>& idle) const {
@@ -191,6 +195,10 @@ void Session::show(const std::string& text) {
   if (!flags.quiet && !flags.json && !output_is_taken_) {
     std::printf("%s\n", text.c_str());
   }
+}
+
+bool Session::is_out_of_time() {
+  return first_signal == SIGALRM;
 }
 
 int Session::report_failure() {

@@ -128,6 +128,9 @@ class Session {
   /// Clears the progress line.
   void end_progress() { progress_.finish(); }
 
+  /// Whether it is --timeout that asked it to stop.
+  static bool is_out_of_time();
+
   /// Prints what went wrong, in one sentence, and gives the exit code. Call inside a catch.
   int report_failure();
 

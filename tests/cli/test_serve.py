@@ -1,6 +1,7 @@
 """The server of results: what it shows, and what it must not."""
 
 import contextlib
+import http.client
 import json
 import os
 import signal
@@ -12,6 +13,9 @@ import unittest
 from program import PROGRAM, ProgramTest
 from program import contract_quickly as setUpModule
 from shapes import box
+
+
+VIEW = '{\n  "vantage": "0.1.0", "model": {"name": "one"}, "best": {}}'  # the least that is a result
 
 
 class Serve(ProgramTest):
@@ -68,6 +72,25 @@ class Serve(ProgramTest):
                     self.assertEqual((status, body[:4]), (200, b"\x89PNG"))
                     self.assertIn("image/png", head)
                     self.assertEqual(body, (self.dir / "shown" / row[5] / "best.png").read_bytes())
+
+    def test_it_ends_where_nobody_can_read_its_address_and_at_its_time_limit(self):
+        self.write("view.json", VIEW)
+        for command, code in (("serve . >&-", 1), ("serve . >/dev/full", 75), ("serve . --timeout 0.5", 1)):
+            done = subprocess.run(["sh", "-c", f'"$0" {command}', PROGRAM], cwd=self.dir, capture_output=True, timeout=30,
+                                  check=False)
+            self.assertEqual(done.returncode, code, done.stderr)
+        self.assertIn(b"--timeout", done.stderr)
+
+    def test_headers_say_once_what_is_so(self):
+        self.write("view.json", VIEW)
+        with self.served(self.dir) as address:
+            head = self.ask(address, "/", method="HEAD")[1]
+            self.assertEqual([line for line in head.splitlines() if line.startswith("Accept-Ranges")], ["Accept-Ranges: none"])
+            port = int(address.rstrip("/").rsplit(":", 1)[1])
+            kept = http.client.HTTPConnection("127.0.0.1", port, timeout=30)
+            self.addCleanup(kept.close)
+            kept.request("GET", "/")
+            self.assertEqual(kept.getresponse().headers["Keep-Alive"], "timeout=5, max=200")
 
     def test_a_single_result_is_shown_under_its_own_name(self):
         folder = self.results() / "two"
@@ -281,7 +304,7 @@ class Serve(ProgramTest):
         self.assertEqual(self.rows(body)[0][1], result["model"]["name"])
 
     def test_a_folder_without_results_is_an_input_error(self):
-        (self.dir / "empty").mkdir()
+        self.write("view.json", VIEW)
         self.write("empty/view.json", "[]")
         for folder in ("empty", "missing", "empty/view.json"):
             done = self.vantage("serve", folder, exit_code=3)

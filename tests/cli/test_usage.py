@@ -282,5 +282,11 @@ class Tables(ProgramTest):
         self.assertNotEqual(before, (self.dir / "c/contact-sheet-0001.png").read_bytes())
 
 
+class StandardInput(ProgramTest):
+    def test_it_is_read_by_one_option_at_most(self):
+        done = self.vantage("score", "-", "--directions", "-", exit_code=2, stdin=b"")
+        self.assertIn("is read once", done.err)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -141,6 +141,7 @@ void add_headers(const httplib::Request& /*request*/, httplib::Response& respons
   response.set_header("X-Content-Type-Options", "nosniff");
   response.set_header("Referrer-Policy", "no-referrer");
   response.set_header("Cache-Control", "no-cache");
+  response.headers.erase("Accept-Ranges");  // that the library says where a HEAD asks
   response.set_header("Accept-Ranges", "none");
   if (!response.has_header(kPolicy)) {
     response.set_header(kPolicy, kFile);
@@ -211,6 +212,7 @@ SiteServer::SiteServer(FolderSite site, int port)
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   });
   server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+  server.set_keep_alive_max_count(kRequestsPerConnection);  // which it only says
   server.set_pre_routing_handler(refuse_writing);
   server.set_post_routing_handler(add_headers);
   server.Get(".*",
