@@ -8,7 +8,6 @@
 
 #include "vantage/core/error.h"
 #include "vantage/core/version.h"
-#include "vantage/io/model.h"
 #include "vantage/pipeline/sidecar.h"
 #include "vantage/pipeline/view_options.h"
 
@@ -34,6 +33,7 @@
 #include "load_posed.h"
 #include "look_flags.h"
 #include "method_flags.h"
+#include "option_text.h"
 #include "output_file.h"
 #include "standard_output.h"
 #include "terminal.h"
@@ -92,10 +92,12 @@ struct BatchCommand {
     app.add_option("--include", filter.include,
                    "only files of folders that match this pattern; may be given again");
     app.add_option("--exclude", filter.exclude, "no files that match this pattern");
-    app.add_option("--write", write,
-                   "what to write for each model, besides view.json: json (no more), " +
-                       OutputKinds::all().text())
-        ->capture_default_str();
+    const std::string known = OutputKinds::all().text();
+    offer_values(
+        app.add_option("--write", write,
+                       "what to write for each model, besides view.json: json (no more), " + known)
+            ->capture_default_str(),
+        CLI::detail::split("json," + known, ','), /*joins=*/true);
     app.add_option("--name", runner.name_template,
                    "folder of a model's results: {stem} {name} {ext} {parent} {hash2} {hash8} "
                    "{hash16} {hash} {key8}")
@@ -191,6 +193,7 @@ struct BatchCommand {
     const std::optional<batch::Shard> part = checked_shard();
     prepare(session, part);
     std::unique_ptr<batch::EntrySource> source = open_source(session, /*warn=*/true);
+    batch::prepare_folder(folder);
     const batch::ConfinedFolder root(folder);
     if (!no_overview && !part) {
       batch::check_overview(root);
@@ -331,7 +334,6 @@ struct BatchCommand {
                                "--write=" + (kinds.text().empty() ? "json" : kinds.text()),
                                "--seed=" + std::to_string(session.flags.seed)};
     append_flags(runner.worker_arguments, method_options);
-    batch::prepare_folder(folder);
   }
 
   /// Options as they were given.

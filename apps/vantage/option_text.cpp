@@ -52,8 +52,13 @@ std::string wrapped(const std::string& text) {
   return lines;
 }
 
-std::map<const CLI::Option*, std::vector<std::string>>& offered_values() {
-  static std::map<const CLI::Option*, std::vector<std::string>> values;
+struct OfferedValues {
+  std::vector<std::string> values{};
+  bool joins = false;
+};
+
+std::map<const CLI::Option*, OfferedValues>& offered_values() {
+  static std::map<const CLI::Option*, OfferedValues> values;
   return values;
 }
 
@@ -135,8 +140,8 @@ class HelpFormatter final : public CLI::Formatter {
 
 }  // namespace
 
-void offer_values(const CLI::Option* option, std::vector<std::string> values) {
-  offered_values()[option] = std::move(values);
+void offer_values(const CLI::Option* option, std::vector<std::string> values, bool joins) {
+  offered_values()[option] = {std::move(values), joins};
 }
 
 OptionText describe(const CLI::Option& option) {
@@ -155,11 +160,12 @@ OptionText describe(const CLI::Option& option) {
   text.repeats = option.get_expected_max() >= CLI::detail::expected_max_vector_size;
   text.meaning = option.get_description();
   text.group = option.get_group();
+  if (const auto offered = offered_values().find(&option); offered != offered_values().end()) {
+    text.choices = offered->second.values;
+    text.joins = offered->second.joins;
+  }
   if (option.get_type_size() == 0 || option.get_expected_max() == 0) {
     return text;  // a flag
-  }
-  if (const auto offered = offered_values().find(&option); offered != offered_values().end()) {
-    text.choices = offered->second;
   }
   ValueText value = value_text(option.get_type_name());
   text.value = std::move(value.name);

@@ -21,12 +21,14 @@ struct OptionText {
   bool repeats = false;                ///< May be given, or take values, several times.
   std::string value{};                 ///< "N", "TEXT", "raw|finished"; empty for a flag.
   std::vector<std::string> choices{};  ///< Where only these values are allowed.
+  bool joins = false;                  ///< Several of them may be joined by commas.
   std::string meaning{};               ///< One line, with range and default.
   std::string group{};                 ///< Heading that it stands under.
 };
 
-/// Says what values of an option may be completed to; its help does not list them.
-void offer_values(const CLI::Option* option, std::vector<std::string> values);
+/// Says what values of an option may be completed to; its help does not list them. \param joins whether
+/// it takes several of them, joined by commas.
+void offer_values(const CLI::Option* option, std::vector<std::string> values, bool joins = false);
 
 /// Describes one option.
 OptionText describe(const CLI::Option& option);

@@ -46,6 +46,12 @@ class Lists(BatchTest):
         self.assertEqual(done.err.count(f"list: line 2 has members that are not read: upp{known}"), 1, done.err)
         self.assertNotIn("not read", self.run_list("path,key,name,up,front\na.off,,,,\n").err)
 
+    def test_what_is_no_manifest_is_an_unreadable_input_and_nothing_is_written(self):
+        self.write("list.json", '[{"path": "a.off"}]')
+        for manifest in (".", "list.json", "absent.txt"):
+            self.vantage("batch", "--manifest", manifest, "-o", "out", exit_code=3)
+            self.assertFalse((self.dir / "out").exists(), manifest)
+
     def test_blank_rows_and_lines_are_no_models(self):
         self.write("a.off", box(1))
         for text in ('path,key\na.off,\n,\n , ""\n', '{"path": "a.off"}\n  \n\t\n\n', "a.off\n \t\n"):

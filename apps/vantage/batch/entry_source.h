@@ -102,7 +102,7 @@ std::unique_ptr<EntrySource> entries_of_paths(std::vector<std::string> inputs, E
 /// byte). What it is shows in its first line. Paths are relative to the manifest's folder.
 /// \param stop ends waiting for a pipe: next() throws Cancelled. \param warn is told once of columns or
 /// members that are none of these.
-/// \throw IoError if it cannot be opened.
+/// \throw IoError if it cannot be opened or read; FormatError if its first line shows that it lists no models.
 std::unique_ptr<EntrySource> entries_of_manifest(
     const std::string& path, std::stop_token stop = {},
     std::function<void(const std::string& warning)> warn = {});

@@ -40,9 +40,15 @@ class ManifestSource : public EntrySource {
       : manifest_(path),
         folder_(std::filesystem::path(path).parent_path()),
         bytes_(path, std::move(stop)),
-        warn_(std::move(warn)) {}
+        warn_(std::move(warn)),
+        first_(read_next()) {}
 
-  std::optional<Entry> next() override {
+  std::optional<Entry> next() override { return first_ ? std::exchange(first_, {}) : read_next(); }
+
+  [[nodiscard]] bool has_more_now() const override { return first_ || bytes_.is_there(); }
+
+ private:
+  std::optional<Entry> read_next() {
     while (true) {
       std::optional<std::string> line = read_line();
       if (!line) {
@@ -60,9 +66,6 @@ class ManifestSource : public EntrySource {
     }
   }
 
-  [[nodiscard]] bool has_more_now() const override { return bytes_.is_there(); }
-
- private:
   /// Whether it is blank, as rows below a spreadsheet's last one are, or a comment.
   [[nodiscard]] bool lists_nothing(const std::string& line) const {
     if (zero_ended_ || line.empty()) {
@@ -386,6 +389,8 @@ class ManifestSource : public EntrySource {
   std::int64_t line_number_ = 0;    ///< Where the line read last begins.
   std::int64_t ends_in_cells_ = 0;  ///< Line ends in its quoted cells.
   std::int64_t position_ = 0;
+  /// Read ahead, as it shows what the manifest is. The last member, as reading uses all others.
+  std::optional<Entry> first_;
 };
 
 }  // namespace
