@@ -16,6 +16,7 @@
 #include "batch/shard_log.h"
 #include "batch/shard_merge.h"
 #include "batch/shard_plan.h"
+#include "settings.h"
 #include "terminal.h"
 #include "value_checks.h"
 
@@ -236,7 +237,7 @@ void SlurmFlags::add_to(CLI::App& app) {
 
 void SlurmFlags::refuse_any() const {
   for (const CLI::Option* option : options_) {
-    if (option->count() > 0) {
+    if (is_typed(*option)) {
       throw CLI::ValidationError(option->get_name(), "goes with --engine slurm only");
     }
   }

@@ -35,7 +35,7 @@ struct CompareCommand {
     offer_measures(
         app.add_option("--method", names, "methods of vantage measures, joined by commas, or all")
             ->capture_default_str(),
-        {"all"});
+        /*joins=*/true, {"all"});
     app.add_option("--search", search,
                    "how the extreme views are found: rings: from the best of the set of views by "
                    "smaller and smaller rings; gradient: Lee's ascent from random starts (--seed), "
@@ -98,10 +98,10 @@ struct CompareCommand {
 
  private:
   /// The measures to compare; also sets how they are searched. \throw CLI::ValidationError
-  std::vector<Measure> chosen_measures(const Session& session, ViewOptions& options) const {
+  std::vector<Measure> chosen_measures(const Session& session, ViewOptions& options) {
     std::vector<Measure> measures = parse_measures(names, "--method");
     if (search != "gradient") {
-      if (gradient.has("starts")) {
+      if (gradient.insists_on("starts")) {
         throw CLI::ValidationError("--starts", "goes with --search gradient only");
       }
       return measures;

@@ -58,7 +58,9 @@ std::string bash_rules(const CLI::App& command) {
     }
     if (!option.choices.empty()) {
       values += "        " + CLI::detail::join(option.names, "|") +
-                ") words=" + shell_word(CLI::detail::join(option.choices, " ")) + " ;;\n";
+                (option.value.empty() ? ") ((joined)) && words=" : ") words=") +
+                shell_word(CLI::detail::join(option.choices, " ")) +
+                (option.joins ? " list=1 ;;\n" : " ;;\n");
     }
   }
   std::string rules = "    " + shell_word(call_of(command)) + ")\n";
@@ -86,7 +88,10 @@ std::string bash_script(const CLI::App& program) {
   return "# bash completion of vantage\n"
          "_vantage() {\n"
          "  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
-         "  local call=${COMP_WORDS[1]} words= flags=\n"
+         "  local call=${COMP_WORDS[1]} words= flags= prefix= list=0 joined=0\n"
+         "  # Of --style=clay bash makes three words.\n"
+         "  if [[ $current == = ]]; then current= joined=1\n"
+         "  elif [[ $previous == = ]]; then previous=${COMP_WORDS[COMP_CWORD-2]} joined=1; fi\n"
          "  COMPREPLY=()\n"
          "  if ((COMP_CWORD == 1)); then\n"
          "    words=" +
@@ -100,7 +105,9 @@ std::string bash_script(const CLI::App& program) {
          "  esac\n"
          "  if [[ -z $words && $current == -* ]]; then words=$flags; fi\n"
          "  if [[ -n $words ]]; then\n"
-         "    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\")\n"
+         "    if ((list)) && [[ $current == *,* ]]; then prefix=${current%,*},; fi\n"
+         "    mapfile -t COMPREPLY < <(compgen -P \"$prefix\" -W \"$words\" -- "
+         "\"${current#\"$prefix\"}\")\n"
          "  else\n"
          "    mapfile -t COMPREPLY < <(compgen -f -- \"$current\")\n"
          "    compopt -o filenames 2>/dev/null\n"
@@ -183,8 +190,9 @@ std::string zsh_script(const CLI::App& program) {
 
 /// What completes an option after `call`; nothing for files named by position.
 std::string fish_rule(const OptionText& option, const std::string& call) {
+  const bool is_offered = !option.choices.empty() && (option.positional || !option.value.empty());
   const std::string choices =
-      option.choices.empty() ? "" : " -f -a " + shell_word(CLI::detail::join(option.choices, " "));
+      is_offered ? " -f -a " + shell_word(CLI::detail::join(option.choices, " ")) : "";
   if (option.positional) {
     return choices.empty() ? "" : call + choices + "\n";
   }

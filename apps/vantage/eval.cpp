@@ -41,7 +41,7 @@ struct EvalCommand {
     offer_measures(
         app.add_option("--method", names, "methods of vantage measures, joined by commas, or all")
             ->capture_default_str(),
-        {"all"});
+        /*joins=*/true, {"all"});
     app.add_option("--page", page, "also put the tables into this page, between its marks");
     app.add_option("--views-csv", views_file, "also write one row a method and model of views");
     app.add_option("--gaze-csv", gaze_file, "also write one row a map and model of gaze");
@@ -50,7 +50,7 @@ struct EvalCommand {
     add_common_flags(app, session.flags, Answer::OfItsOwn);
   }
 
-  void run(Session& session) const {
+  void run(Session& session) {
     const ViewOptions options = method.resolve();
     const std::vector<Measure> measures = parse_measures(names, "--method");
     check_outputs(session.flags);

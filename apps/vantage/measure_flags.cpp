@@ -44,17 +44,18 @@ void check_gradient(const Measure& measure) {
   }
 }
 
-void offer_measures(const CLI::Option* option, std::vector<std::string> others) {
+void offer_measures(const CLI::Option* option, bool joins, std::vector<std::string> others) {
   for (const Measure& measure : builtin_measures()) {
     others.push_back(measure.name);
   }
-  offer_values(option, std::move(others));
+  offer_values(option, std::move(others), joins);
 }
 
 void MeasureFlags::add_to(CLI::App& app) {
   offer_measures(app.add_option("--method", name_, "measure of a view: see vantage measures")
                      ->capture_default_str()
-                     ->group("Method"));
+                     ->group("Method"),
+                 /*joins=*/false);
 }
 
 void MeasureFlags::apply(ViewOptions& options) const {

@@ -18,7 +18,7 @@ std::vector<Measure> parse_measures(const std::string& text, const std::string& 
 void check_gradient(const Measure& measure);
 
 /// Lets shells complete the names of measures. \param others further values.
-void offer_measures(const CLI::Option* option, std::vector<std::string> others = {});
+void offer_measures(const CLI::Option* option, bool joins, std::vector<std::string> others = {});
 
 /// --method NAME of one measure.
 class MeasureFlags {

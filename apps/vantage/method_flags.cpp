@@ -46,17 +46,33 @@ void MethodFlags::add_to(CLI::App& app, const FlagGroups& groups) {
   fits_ = groups.fits;
 }
 
-ViewOptions MethodFlags::resolve(std::uint64_t seed) const {
+ViewOptions MethodFlags::resolve(std::uint64_t seed) {
   AllOptions all;
   flags_.apply(all);
-  all.view.fit_size |= fits_ && !flags_.has("size");
-  SearchOptions& search = all.view.search;
-  search.seed = search.strategy == SearchStrategy::Gradient ? seed : 0;
+  bool is_any_forgotten = false;
+  const auto insists_on = [&](std::string_view option) {
+    const std::string name(option);
+    // That one is asked about first, for what it contradicts, though it may have its effect.
+    if (name == "objective" && objective_of(all.view) == all.view.objective && !has("prior")) {
+      return flags_.is_typed(name);
+    }
+    const bool was_given = has(name);
+    const bool insists = flags_.insists_on(name);
+    is_any_forgotten |= was_given && !insists;
+    return insists;
+  };
   try {
-    check_together(all.view, [&](std::string_view name) { return has(std::string(name)); });
+    check_together(all.view, insists_on);
   } catch (const InvalidInput& error) {
     throw refused(error);
   }
+  if (is_any_forgotten) {
+    all = {};
+    flags_.apply(all);
+  }
+  all.view.fit_size |= fits_ && !flags_.has("size");
+  SearchOptions& search = all.view.search;
+  search.seed = search.strategy == SearchStrategy::Gradient ? seed : 0;
   return all.view;
 }
 

@@ -30,7 +30,7 @@ class MethodFlags {
   void add_to(CLI::App& app, const FlagGroups& groups);
 
   /// The options as asked for on the command line. \param seed of random sequences.
-  [[nodiscard]] ViewOptions resolve(std::uint64_t seed = 0) const;
+  [[nodiscard]] ViewOptions resolve(std::uint64_t seed = 0);
 
   /// Whether the option of that name was given.
   [[nodiscard]] bool has(const std::string& name) const { return flags_.has(name); }

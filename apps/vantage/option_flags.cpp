@@ -8,6 +8,7 @@
 
 #include "vantage/pipeline/option_rules.h"
 
+#include "settings.h"
 #include "terminal.h"
 #include "value_checks.h"
 
@@ -70,11 +71,12 @@ CLI::Option* OptionFlags::add_value(CLI::App& app, const Option& option) {
       option.help);
 }
 
-void OptionFlags::add_flag(CLI::App& app, const Option& option) {
+CLI::Option* OptionFlags::add_flag(CLI::App& app, const Option& option) {
   const bool is_on = is_on_by_default(option);
-  app.add_flag_callback(
-         flag_of(option), [this, &option, is_on] { given_[option.name] = !is_on; },
-         is_on ? option.off_help : option.help)
+  return app
+      .add_flag_callback(
+          flag_of(option), [this, &option, is_on] { given_[option.name] = !is_on; },
+          is_on ? option.off_help : option.help)
       ->group(option.heading);
 }
 
@@ -82,7 +84,7 @@ void OptionFlags::add(CLI::App& app, const Option& option, const AllOptions& sta
   CLI::Option* flag = nullptr;
   switch (option.kind) {
     case OptionKind::Switch:
-      add_flag(app, option);
+      options_[option.name] = add_flag(app, option);
       return;
     case OptionKind::Number:
       flag = add_value<double>(app, option)->check(within(option.low, option.high));
@@ -100,7 +102,7 @@ void OptionFlags::add(CLI::App& app, const Option& option, const AllOptions& sta
       flag = add_value<std::string>(app, option);
       break;
   }
-  flag->group(option.heading);
+  options_[option.name] = flag->group(option.heading);
   const std::string value = default_text(option.value(start));
   if (!value.empty()) {
     flag->default_str(value);
@@ -117,13 +119,35 @@ void OptionFlags::add_groups(CLI::App& app, std::initializer_list<std::string_vi
   }
 }
 
-std::string OptionFlags::first_given(std::string_view group) const {
+bool OptionFlags::is_typed(const std::string& name) const {
+  return has(name) && cli::is_typed(*options_.at(name));
+}
+
+std::string OptionFlags::first_typed(std::string_view group) const {
   for (const Option& option : option_table()) {
-    if (option.group == group && has(option.name)) {
+    if (option.group == group && is_typed(option.name)) {
       return flag_of(option);
     }
   }
   return {};
+}
+
+bool OptionFlags::insists_on(const std::string& name) {
+  if (is_typed(name)) {
+    return true;
+  }
+  if (given_.erase(name) > 0) {
+    options_.at(name)->clear();
+  }
+  return false;
+}
+
+void OptionFlags::forget(std::string_view group) {
+  for (const Option& option : option_table()) {
+    if (option.group == group) {
+      insists_on(option.name);
+    }
+  }
 }
 
 void OptionFlags::apply(AllOptions& all) const {

@@ -6,6 +6,7 @@
 
 #include "vantage/report/view_report.h"
 
+#include "option_text.h"
 #include "terminal_picture.h"
 
 namespace vantage::cli {
@@ -17,11 +18,15 @@ constexpr std::array<const char*, 4> kProtocols{"blocks", "kitty", "iterm", "six
 
 void PreviewFlag::add_to(CLI::App& app) {
   // A flag that may be given a value by =, so that it never swallows the model's name.
-  app.add_flag("--preview{auto}", protocol_,
-               "show the picture in the terminal; --preview=blocks, kitty, iterm or sixel if it is "
-               "not found out what the terminal knows")
-      ->check(CLI::IsMember({"auto", "blocks", "kitty", "iterm", "sixel"}))
-      ->group("Pictures");
+  const std::vector<std::string> words{"auto", "blocks", "kitty", "iterm", "sixel"};
+  CLI::Option* const flag =
+      app.add_flag(
+             "--preview{auto}", protocol_,
+             "show the picture in the terminal; --preview=blocks, kitty, iterm or sixel if it is "
+             "not found out what the terminal knows")
+          ->check(CLI::IsMember(words))
+          ->group("Pictures");
+  offer_values(flag, words);
 }
 
 void PreviewFlag::show(Session& session, const ShapeAnalysis& shape, const Camera& camera,

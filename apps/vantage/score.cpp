@@ -50,7 +50,7 @@ struct ScoreCommand {
                "--method", measure,
                "what to score by: one or several, joined by commas, of vantage measures, or all")
             ->capture_default_str(),
-        {"all"});
+        /*joins=*/true, {"all"});
     app.add_option("--view-set", view_set,
                    "views that the measures built on a set are defined over: the icosahedron split "
                    "this many times")

@@ -36,7 +36,8 @@ const CLI::App& program_of(const CLI::App& command) {
 
 bool any_command_has(const CLI::App& app, const std::string& option) {
   const auto below = commands_below(app);
-  return (app.get_option_no_throw("--" + option) != nullptr) ||
+  const CLI::Option* const own = app.get_option_no_throw("--" + option);
+  return (own != nullptr && own->get_configurable()) ||
          std::any_of(below.begin(), below.end(),
                      [&](const CLI::App* command) { return any_command_has(*command, option); });
 }
@@ -173,7 +174,9 @@ std::string variable_of(const std::string& words) {
 void list_variables(CLI::App& app, const std::string& before, std::vector<std::string>& names) {
   for (const CLI::Option* option : app.get_options({})) {
     for (const std::string& name : option->get_lnames()) {
-      names.push_back(variable_of(before + name));
+      if (option->get_configurable() || name == kConfig) {
+        names.push_back(variable_of(before + name));
+      }
     }
   }
   for (CLI::App* below : app.get_subcommands({})) {
@@ -227,23 +230,38 @@ bool is_open(const CLI::Option& option) {
                       [](const CLI::Option* other) { return other->count() > 0; });
 }
 
+/// What a flag is set to; nothing where it is said to be off. \throw CLI::ValidationError
+std::optional<std::string> flag_value(const CLI::Option& option, const std::string& word) {
+  const std::string usual = option.get_flag_value(option.get_lnames().front(), "");
+  if (word == "false" || word == "0") {
+    return std::nullopt;
+  }
+  if (word == "true" || word == "1") {
+    return usual;
+  }
+  if (usual == "true") {
+    throw CLI::ValidationError("is a flag; say true or false");
+  }
+  return word;  // of a flag that may be given one, as --preview=blocks
+}
+
 void set(CLI::Option& option, const Setting& setting) {
   try {
     if (option.get_expected_max() == 0) {
-      if (CLI::detail::to_flag_value(joined(setting.values)) < 1) {
-        return;  // a flag that is said to be off
+      const std::optional<std::string> value = flag_value(option, joined(setting.values));
+      if (!value) {
+        return;
       }
-      option.add_result("true");
+      option.add_result(*value);
     } else if (option.get_expected_max() > 1) {
       option.add_result(setting.values);
     } else {
       option.add_result(joined(setting.values));
     }
     option.run_callback();
+    option.envname(setting.origin);
   } catch (const CLI::ParseError& error) {
     throw CLI::ValidationError(setting.origin, error.what());
-  } catch (const std::invalid_argument&) {
-    throw CLI::ValidationError(setting.origin, "is a flag; say true or false");
   }
 }
 
@@ -285,6 +303,10 @@ std::vector<std::string> apply_settings(CLI::App& command) {
     }
   }
   return unknown_variables(command);
+}
+
+bool is_typed(const CLI::Option& option) {
+  return option.count() > 0 && option.get_envname().empty();
 }
 
 }  // namespace vantage::cli

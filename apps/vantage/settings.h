@@ -22,4 +22,8 @@ void add_config_flag(CLI::App& command);
 /// \throw CLI::ValidationError names the variable or the file and what is wrong with it.
 std::vector<std::string> apply_settings(CLI::App& command);
 
+/// Whether an option was typed. Of those that apply_settings() set, what has no effect is passed over, where
+/// it would be refused if it was typed: settings are for many runs.
+bool is_typed(const CLI::Option& option);
+
 }  // namespace vantage::cli

@@ -169,15 +169,15 @@ struct ViewCommand {
 
  private:
   /// \throw CLI::ValidationError if flags do not go together.
-  [[nodiscard]] ViewOptions resolved_options(Session& session) const {
+  [[nodiscard]] ViewOptions resolved_options(Session& session) {
     ViewOptions options = session.read([&] { return method.resolve(session.flags.seed); });
     options.pictures = !no_images;
-    options.view_set = several.request();
     options.margin_percent = look.margin_percent();
     refuse_near_eye(options);
     measure.apply(options);
     session.refuse_idle(idle_in_views({find_measure(options.method)}));
     several.require_use(sums_a_map(options.method));
+    options.view_set = several.request();
     return options;
   }
 

@@ -15,6 +15,7 @@
 #include "vantage/report/figures.h"
 
 #include "picture_file.h"
+#include "settings.h"
 #include "terminal.h"
 #include "value_checks.h"
 
@@ -71,10 +72,11 @@ void ViewSetFlags::add_set_to(CLI::App& app) {
 void ViewSetFlags::add_to(CLI::App& app) {
   add_set_to(app);
   const std::string group = kGroup;
-  CLI::Option* tour =
+  CLI::Option* const tour =
       app.add_option("--tour", tour_, "moving picture of the round over the views: .webp or .png")
           ->check(check_tour_name)
           ->group(group);
+  tour_option_ = tour;
   app.add_option("--tour-seconds", seconds_, "length of the tour; default: 36 degrees a second")
       ->check(within(0.1, kMostTourSeconds))
       ->needs(tour)
@@ -95,14 +97,52 @@ void ViewSetFlags::add_to(CLI::App& app) {
       ->group(group);
 }
 
-std::optional<ViewSetRequest> ViewSetFlags::request() const {
+void ViewSetFlags::forget_settings() {
+  flags_.forget("set");
+  tour_.clear();
+}
+
+/// What was asked for, but for settings that have no effect beside the others.
+ViewSetRequest ViewSetFlags::as_given() {
   AllOptions all;
   flags_.apply(all);
-  const std::optional<ViewSetRequest> request = checked(all.view);
-  const std::string flag = tour_.empty() ? flags_.first_given("set") : "--tour";
-  if (!request && !flag.empty()) {
+  const ViewSelection selection = all.view.view_set.value_or(ViewSetRequest{}).selection;
+  if (selection == ViewSelection::Feixas) {
+    flags_.insists_on("coverage");
+  } else {
+    flags_.insists_on("information");
+  }
+  if (selection != ViewSelection::Kssm) {
+    flags_.insists_on("min-separation");
+    flags_.insists_on("refine");
+  }
+  all = {};
+  flags_.apply(all);
+  return all.view.view_set.value_or(ViewSetRequest{});
+}
+
+std::optional<ViewSetRequest> ViewSetFlags::request() {
+  const ViewSetRequest given = as_given();
+  const bool is_tour_typed = !tour_.empty() && is_typed(*tour_option_);
+  const std::string flag = is_tour_typed ? "--tour" : flags_.first_typed("set");
+  const bool has_end = given.set.views || given.set.coverage || given.information > 0.0;
+  if (!has_end && !flag.empty()) {
     throw CLI::ValidationError(flag,
                                "say how many views are wanted, with --views N or --coverage C");
+  }
+  if (!has_end) {
+    forget_settings();
+    return std::nullopt;
+  }
+  ViewOptions options;
+  options.view_set = given;
+  const std::optional<ViewSetRequest> request = checked(options);
+  if (request->set.views == 1 && request->path == TourPath::Round) {
+    if (is_tour_typed) {
+      throw CLI::ValidationError("--tour",
+                                 "goes over two views at least: ask for more with --views");
+    }
+    tour_.clear();
   }
   check_sides(tour_, width_, height_, "--tour-size");
   if (!tour_.empty() && std::round(seconds_ * fps_) > kMostFrames) {
@@ -111,20 +151,16 @@ std::optional<ViewSetRequest> ViewSetFlags::request() const {
                                                      ", but at most " +
                                                      std::to_string(kMostFrames) + " are made");
   }
-  if (!tour_.empty() && request && request->set.views == 1 && request->path == TourPath::Round) {
-    throw CLI::ValidationError("--tour", "goes over two views at least: ask for more with --views");
-  }
   return request;
 }
 
-ViewSetRequest ViewSetFlags::request_or(int views) const {
-  AllOptions all;
-  flags_.apply(all);
-  ViewSetRequest& request = all.view.view_set ? *all.view.view_set : all.view.view_set.emplace();
+ViewSetRequest ViewSetFlags::request_or(int views) {
+  ViewOptions options;
+  ViewSetRequest& request = options.view_set.emplace(as_given());
   if (!request.set.views && !request.set.coverage && !(request.information > 0.0)) {
     request.set.views = views;
   }
-  return checked(all.view).value();
+  return checked(options).value();
 }
 
 double ViewSetFlags::seconds(const ReportedViewSet& set) const {
@@ -184,11 +220,15 @@ void ViewSetFlags::write(OutputFolder& output, const ShapeAnalysis& shape, Shape
   }
 }
 
-void ViewSetFlags::require_use(bool is_used) const {
-  const std::string flag = flags_.first_given("set");
-  if (!is_used && !flag.empty()) {
+void ViewSetFlags::require_use(bool is_used) {
+  if (is_used) {
+    return;
+  }
+  const std::string flag = flags_.first_typed("set");
+  if (!flag.empty()) {
     throw CLI::ValidationError(flag, "goes with --method kssm and mesh-saliency only");
   }
+  forget_settings();
 }
 
 void ViewSetFlags::check_names(const OutputFolder& output) const {
@@ -230,8 +270,8 @@ void ViewSetFlags::write_tour(OutputFolder& output, const ShapeAnalysis& shape,
   output.add_named(tour_, encoder.finish());
 }
 
-ViewOptions view_options_of(const MethodFlags& method, const ViewSetFlags& several,
-                            const LookFlags& look, const OutputKinds& kinds, std::uint64_t seed) {
+ViewOptions view_options_of(MethodFlags& method, ViewSetFlags& several, const LookFlags& look,
+                            const OutputKinds& kinds, std::uint64_t seed) {
   ViewOptions options = method.resolve(seed);
   options.margin_percent = look.margin_percent();
   options.view_set = kinds.has("views") ? several.request_or(kViewsOfBatch) : several.request();

@@ -26,15 +26,15 @@ class ViewSetFlags {
   void add_set_to(CLI::App& app);
 
   /// What was asked for, if anything. \throw CLI::ValidationError if the flags do not fit together.
-  [[nodiscard]] std::optional<ViewSetRequest> request() const;
+  [[nodiscard]] std::optional<ViewSetRequest> request();
   /// Refuses flags of the set where a method chooses none. \throw CLI::ValidationError
-  void require_use(bool is_used) const;
+  void require_use(bool is_used);
 
   /// Whether a moving picture was asked for.
   [[nodiscard]] bool has_tour() const { return !tour_.empty(); }
 
   /// What was asked for, or `views` of them where no flag says how many.
-  [[nodiscard]] ViewSetRequest request_or(int views) const;
+  [[nodiscard]] ViewSetRequest request_or(int views);
 
   /// \throw CLI::ValidationError if the tour's file would be another one of the results.
   void check_names(const OutputFolder& output) const;
@@ -48,6 +48,8 @@ class ViewSetFlags {
              const RunContext& run) const;
 
  private:
+  ViewSetRequest as_given();
+  void forget_settings();
   void write_tour(OutputFolder& output, const ShapeAnalysis& shape, ShapePictures& pictures,
                   const ViewReport& report, UpAxis up, double margin_percent,
                   const RunContext& run) const;
@@ -55,6 +57,7 @@ class ViewSetFlags {
 
   OptionFlags flags_{};
   std::string tour_{};
+  CLI::Option* tour_option_ = nullptr;
   double seconds_ = 0.0;
   int fps_ = 15;
   int width_ = 480;
@@ -63,8 +66,8 @@ class ViewSetFlags {
 
 /// The options of a model of a batch: those of the method, and a set of views if one is asked for
 /// or `kinds` has pictures of one.
-ViewOptions view_options_of(const MethodFlags& method, const ViewSetFlags& several,
-                            const LookFlags& look, const OutputKinds& kinds, std::uint64_t seed);
+ViewOptions view_options_of(MethodFlags& method, ViewSetFlags& several, const LookFlags& look,
+                            const OutputKinds& kinds, std::uint64_t seed);
 
 /// One line a view: where from, what it adds, how much is seen by then.
 std::string view_set_table(const ReportedViewSet& set);

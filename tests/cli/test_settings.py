@@ -1,5 +1,6 @@
 """Options from the environment and from files; completions and manual pages, written from the same tables."""
 
+import json
 import os
 import re
 import shutil
@@ -9,6 +10,7 @@ import unittest
 from program import MODELS, PROGRAM, ProgramTest
 
 MODEL = MODELS / "cat_lowpoly.ply"
+TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
 
 
 class Settings(ProgramTest):
@@ -69,6 +71,8 @@ class Settings(ProgramTest):
                                                    "did you mean VANTAGE_THUMB_SIZE?\n")
         for flag in (("-q",), ("--config", "none")):
             self.assertEqual(self.vantage(*thumb, *flag).err, "")
+        os.environ["VANTAGE_THUMB_VIEWS"] = "1"
+        self.assertNotIn("HELP", self.vantage(*thumb).err)
         os.environ["VANTAGE_VIEW_SET"] = "1"  # of --view-set
         told = self.vantage("view", "absent.ply", exit_code=3).err
         self.assertIn("VANTAGE_VIEW_SIZEE", told)
@@ -77,6 +81,9 @@ class Settings(ProgramTest):
     def test_what_is_wrong_is_said_in_one_sentence_that_names_where(self):
         cases = (('{"sise": 3}', "c.json: 'sise' is not an option of any command"),
                  ('{"thumb": {"directions": "a.csv"}}', "c.json: 'directions' is not an option of thumb"),
+                 ('{"help": true}', "c.json: 'help' is not an option of any command"),
+                 ('{"thumb": {"config": "d.json"}}', "c.json: 'config' is not an option of thumb"),
+                 ('{"ground": "yes"}', "c.json: ground: is a flag; say true or false"),
                  ('{"thumbnail": {}}', "c.json: 'thumbnail' is not a command"),
                  ('{"size": null}', "c.json: size: has no value"),
                  ('{"size": "big"}', "c.json: size: --size"),
@@ -98,6 +105,26 @@ class Settings(ProgramTest):
         self.assertIn("VANTAGE_GROUND: is a flag",
                       self.vantage("thumb", MODEL, "t.png", exit_code=2).err)
         self.assertFalse((self.dir / "t.png").exists())
+
+    def test_a_flag_that_may_be_given_a_word_is_set_by_that_or_by_true(self):
+        for value in ('"blocks"', "true"):
+            self.write("c.json", f'{{"preview": {value}}}')
+            self.assertIn("▀", self.vantage("thumb", MODEL, "t.png", "-s", "32", "--config", "c.json").out, value)
+
+    def test_what_has_no_effect_is_refused_if_typed_and_passed_over_if_set(self):
+        self.write("t.obj", TETRAHEDRON)
+        self.write("c.json", '{"base": "cube", "subdivisions": 2, "starts": 16, "epsilon": 1, "min-separation": 20, '
+                             '"select": "vazquez", "information": 0.1, "tour-path": "explore", "fps": 5, "partition": "x"}')
+        self.vantage("view", "t.obj", "--starts", "16", exit_code=2)
+        os.environ["VANTAGE_CONFIG"] = "c.json"
+        self.vantage("view", "t.obj", "--starts", "16", exit_code=2)
+        self.vantage("view", "t.obj", "--tour-path", "explore", "--select", "kssm", exit_code=2)
+        self.vantage("render", "t.obj", "-o", "a.png", "--direction", "0,0,1", "--size", "32")
+        self.vantage("batch", "t.obj", "-o", "b", "--write", "json", "-q")
+        said = [json.loads(self.vantage("view", "t.obj", "-o", "v", "--no-images", "--json", "--force", *flags).out)
+                for flags in ((), ("--config", "none"))]
+        self.assertEqual(said[0]["options_hash"], said[1]["options_hash"])
+        self.assertNotIn("views", said[0])
 
     def test_a_batch_hands_settings_to_its_workers(self):
         os.environ["VANTAGE_BATCH_SIZE"] = "40x30"
@@ -132,8 +159,13 @@ class Words(ProgramTest):
         self.assertEqual(self.complete("thumb", "--cre"), ["--crease"])
         self.assertEqual(self.complete("results", "query", "--stat"), ["--status"])
         self.assertEqual(self.complete("view", "--weight", ""), ["vertex", "area"])
+        for words, offered in ((("view", "--style", "="), ["clay", "asset", "technical"]), (("view", "--style", "=", "c"), ["clay"]),
+                               (("view", "--preview", "=", "b"), ["blocks"]), (("score", "--method", "kssm,vm"), ["kssm,vmi"]),
+                               (("batch", "--write", "map,worst-s"), ["map,worst-skeleton"]), (("batch", "--write", "j"), ["json"])):
+            self.assertEqual(self.complete(*words), offered)
         self.write("horse.ply", "")
         self.assertEqual(self.complete("view", "hor"), ["horse.ply"])
+        self.assertEqual(self.complete("view", "--preview", "hor"), ["horse.ply"])
         self.assertEqual(self.complete("completion", ""), ["bash", "zsh", "fish"])
         self.assertIn("--help", self.complete("completion", "--"))
 
