@@ -89,7 +89,7 @@ struct OrientCommand {
   OptionFlags known{};
 
   void add_flags(CLI::App& app, Session& session) {
-    app.add_option("MODEL", model, "file to read")->required();
+    app.add_option("MODEL", model, "file to read, or -")->required();
     app.add_option(
         "-o,--output", file,
         "file to write: the model upright and facing the front of its format; of MODEL's "

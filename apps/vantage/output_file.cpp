@@ -189,9 +189,10 @@ void check_output(const std::string& path, OutputKind kind, const CommonFlags& f
   const std::optional<std::string> head = head_of(path);
   if (head && !head->empty() && !is_ours(path, *head, kind)) {
     blame_inputs(path, flags.inputs);
-    throw IoError(path,
-                  "is there already, and vantage did not write it; choose another name, or say "
-                  "--force to replace it");
+    throw IoError(
+        path,
+        "is there already, and does not say that vantage wrote it; choose another name, or say "
+        "--force to replace it");
   }
 }
 

@@ -2,13 +2,37 @@
 #include "core/json_reader.h"
 
 #include <optional>
+#include <set>
+#include <vector>
 
 #include "vantage/core/error.h"
 
 namespace vantage {
 
+namespace {
+
+/// JSON in which no object names a member twice; discarded if it is not well formed.
+JsonReader::Json parsed_once(std::string_view bytes, std::string_view name) {
+  using Json = JsonReader::Json;
+  std::vector<std::set<std::string>> members;  // of the objects around the place
+  const auto look = [&](int /*depth*/, Json::parse_event_t event, Json& value) {
+    if (event == Json::parse_event_t::object_start) {
+      members.emplace_back();
+    } else if (event == Json::parse_event_t::object_end) {
+      members.pop_back();
+    } else if (event == Json::parse_event_t::key &&
+               !members.back().insert(value.get<std::string>()).second) {
+      throw FormatError(name, "", "names \"" + value.get<std::string>() + "\" twice; keep one");
+    }
+    return true;
+  };
+  return Json::parse(bytes.begin(), bytes.end(), look, false);
+}
+
+}  // namespace
+
 JsonReader::JsonReader(std::string_view bytes, std::string_view name)
-    : name_(name), root_(Json::parse(bytes.begin(), bytes.end(), nullptr, false)) {
+    : name_(name), root_(parsed_once(bytes, name)) {
   if (root_.is_discarded()) {
     fail("is not well formed JSON");
   }

@@ -16,7 +16,7 @@ class JsonReader {
  public:
   using Json = nlohmann::json;
 
-  /// \throw FormatError unless the bytes are well formed JSON.
+  /// \throw FormatError unless the bytes are well formed JSON in which no object names a member twice.
   JsonReader(std::string_view bytes, std::string_view name);
 
  protected:

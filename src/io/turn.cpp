@@ -43,6 +43,10 @@ std::vector<std::string_view> words_of(std::string_view line) {
 }
 
 std::string negative_of(std::string_view number) {
+  const std::string_view digits = number.substr(0, number.find_first_of("eE"));
+  if (digits.find_first_of("123456789") == std::string_view::npos) {  // 0 has no sign
+    return std::string(number.substr(number.starts_with('-') || number.starts_with('+') ? 1 : 0));
+  }
   if (number.starts_with('-')) {
     return std::string(number.substr(1));
   }

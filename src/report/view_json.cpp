@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -68,6 +69,25 @@ Json view_of(const ReportedView& view, const Json& image, const Pose& pose) {
           {"model_viewer", model_viewer_of(view.picture, pose)}};
 }
 
+/// As the best view's: its score over the largest, or where less is better the least over it.
+Json share_of_attainable(const ReportedView& view, const ViewReport& report) {
+  if (!report.score_of_attainable || view.score < 0.0) {
+    return nullptr;
+  }
+  const bool is_less = report.worst.score > report.highest_score;
+  const double most = is_less ? view.score : report.highest_score;
+  const double least = is_less ? report.highest_score : view.score;
+  return most > 0.0 ? std::min(1.0, least / most) : 1.0;  // 0 as it can be
+}
+
+/// A view of a report, and what `picture` is of.
+Json reported(const ReportedView& view, const std::string& picture, const ViewReport& report,
+              const ViewOptions& options, const Pose& pose) {
+  Json json = view_of(view, options.pictures ? Json(picture) : Json(nullptr), pose);
+  json["score_of_attainable"] = share_of_attainable(view, report);
+  return json;
+}
+
 Json camera_of(const ScoringCamera& camera, const Json& projection) {
   return {{"projection", projection},
           {"fov_y_deg", camera.fov_y_deg},
@@ -93,12 +113,12 @@ Json seconds_of(const StageSeconds& seconds) {
           {"total", seconds.total}};
 }
 
-Json views_of(const ReportedViewSet& set, bool pictures, const Pose& pose) {
+Json views_of(const ViewReport& report, const ViewOptions& options, const Pose& pose) {
+  const ReportedViewSet& set = *report.set;
   Json views = Json::array();
   for (std::size_t i = 0; i < set.views.size(); ++i) {
     const std::string number = (i < 9 ? "0" : "") + std::to_string(i + 1);
-    Json view =
-        view_of(set.views[i], pictures ? Json("view-" + number + ".png") : Json(nullptr), pose);
+    Json view = reported(set.views[i], "view-" + number + ".png", report, options, pose);
     view["gain"] = set.choice.views[i].gain;
     view["coverage"] = set.choice.views[i].coverage;
     views.push_back(view);
@@ -160,13 +180,12 @@ void add_frame(Json& json, const ViewReport& report, const ViewOptions& options)
                          {"mirrors_up", box.mirrors_up}};
 }
 
-void add_best_and_worst(Json& json, const ViewReport& report, bool pictures, const Pose& pose) {
-  json["best"] = view_of(report.best, pictures ? Json("best.png") : Json(nullptr), pose);
-  json["best"]["score_of_attainable"] =
-      report.score_of_attainable ? Json(*report.score_of_attainable) : Json(nullptr);
+void add_best_and_worst(Json& json, const ViewReport& report, const ViewOptions& options,
+                        const Pose& pose) {
+  json["best"] = reported(report.best, "best.png", report, options, pose);
   json["highest_score"] = {{"direction", point(report.highest_direction)},
                            {"score", report.highest_score}};
-  json["worst"] = view_of(report.worst, pictures ? Json("worst.png") : Json(nullptr), pose);
+  json["worst"] = reported(report.worst, "worst.png", report, options, pose);
 }
 
 Json twins_of(const ViewReport& report) {
@@ -206,7 +225,7 @@ void add_trace(std::string& csv, std::string_view goal, const FoundView& found) 
   for (const SearchStep& s : found.trace) {
     csv += std::string(goal) + ',' + std::to_string(step++) + ',' + std::to_string(s.level);
     for (const double value : {s.direction.x(), s.direction.y(), s.direction.z(), s.score}) {
-      csv += ',' + number_text(value);
+      csv += ',' + number_text(value + 0.0);  // 0 has no sign
     }
     csv += '\n';
   }
@@ -231,9 +250,9 @@ std::string view_json(const Model& model, const ShapeAnalysis& shape, const View
   add_frame(json, report, options);
   json["camera"] = camera_of(report.camera, echo["projection"]);
   const Pose pose{model.turn, model.turn.transpose() * up_vector(report.up)};
-  add_best_and_worst(json, report, options.pictures, pose);
+  add_best_and_worst(json, report, options, pose);
   if (report.set && options.view_set) {
-    json["views"] = views_of(*report.set, options.pictures, pose);
+    json["views"] = views_of(report, options, pose);
     json["view_set"] = set_of(*report.set, options.view_set->selection);
   }
   json["twins"] = twins_of(report);

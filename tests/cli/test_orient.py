@@ -50,7 +50,9 @@ class Orient(ProgramTest):
         self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
         for _ in range(2):
             self.vantage("orient", "a.obj", "-o", "b.obj", "--up", "z")
-        self.assertIn("is there already", self.vantage("orient", "a.obj", "-o", "b.obj", "--up", "x", exit_code=1).err)
+        self.assertNotIn("-0", (self.dir / "b.obj").read_text())
+        self.assertIn("does not say that vantage wrote it",
+                      self.vantage("orient", "a.obj", "-o", "b.obj", "--up", "x", exit_code=1).err)
         self.vantage("orient", "a.obj", "-o", "b.obj", "--up", "x", "--force")
 
     def test_a_turned_file_needs_no_turning(self):
@@ -348,6 +350,7 @@ class Sidecars(ProgramTest):
         self.write("a.obj", obj())
         for text, words in (("{", "a.vantage.json"), ("[]", "object"), ('{"up": "w"}', '"up" must be one of'),
                             ('{"up": "x", "front": "-x"}', "same axis"), ('{"turn": 1}', '"turn"'),
+                            ('{"up": "y", "up": "z"}', 'names "up" twice'),
                             ('{"view": [0, 0, 0]}', '"view"'), ('{"view": [0, "1", 0]}', '"view"'),
                             ('{"style": "oil"}', '"style"'), (" " * 70000 + "{}", "64 KiB")):
             self.write("a.vantage.json", text)

@@ -84,8 +84,9 @@ class View(ProgramTest):
         self.assertLessEqual(reports["default"]["best"]["score"], reports["none"]["best"]["score"])
         for name in ("default", "none"):  # what the score alone would take is said in both
             self.assertAlmostEqual(reports[name]["highest_score"]["score"], reports["none"]["best"]["score"], places=9)
-            self.assertAlmostEqual(reports[name]["best"]["score_of_attainable"],
-                                   reports[name]["best"]["score"] / reports[name]["highest_score"]["score"], places=12)
+            for view in (reports[name]["best"], reports[name]["worst"]):
+                self.assertAlmostEqual(view["score_of_attainable"], view["score"] / reports[name]["highest_score"]["score"],
+                                       places=12)
         self.assertEqual(reports["default"]["worst"], reports["none"]["worst"])
         self.assertEqual(reports["default"]["total"], reports["none"]["total"])
         self.assertGreater(reports["default"]["best"]["direction"][1], 0.0)  # not from below
@@ -239,6 +240,11 @@ class View(ProgramTest):
         # quality is stored as float: each value is off by at most 2^-24 of itself
         total = sum(row["quality"] for row in table)
         self.assertAlmostEqual(total / report["total"], 1.0, delta=2.0 ** -24)
+
+    def test_a_zero_of_the_trace_has_no_sign(self):
+        self.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n")
+        self.vantage("view", "t.obj", "--no-images", "--contraction", "exact", "--trace", "t.csv")
+        self.assertNotIn(",-0,", (self.dir / "t.csv").read_text())
 
     def test_paper_preset_is_the_papers_search(self):
         self.vantage("view", MODELS / "fan.ply", "-o", "out", "--no-images", "--preset", "paper",

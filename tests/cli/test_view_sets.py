@@ -58,7 +58,8 @@ class ViewSets(ProgramTest):
         self.assertEqual(len(tour["animations"]), 1)
 
     def test_the_first_view_is_the_best_one_in_every_number(self):
-        keys = ("direction", "eye", "score", "score_fraction", "objective", "visible_area_fraction", "frame")
+        keys = ("direction", "eye", "score", "score_fraction", "objective", "visible_area_fraction", "frame",
+                "score_of_attainable")
         for model, *flags in ((FAN,), (self.bar, "--weight", "area"), (self.bar, "--weight", "area", "--prior", "none")):
             with self.subTest(flags=flags):
                 self.vantage("view", model, "-o", "out", "--views", 2, "--no-images", *flags)

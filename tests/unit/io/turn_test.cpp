@@ -78,7 +78,7 @@ TEST(TurnedBytes, OfAnStlInCapitalsAreTurned) {
   const std::string after = turned(text, "a.stl", ModelFormat::Stl);
   EXPECT_THAT(parse_model(after, "a.stl").mesh.positions,
               testing::UnorderedElementsAre(Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(0, 1, -1)));
-  EXPECT_THAT(after, testing::HasSubstr("FACET NORMAL 0 1 -0\n"));
+  EXPECT_THAT(after, testing::HasSubstr("FACET NORMAL 0 1 0\n"));
 }
 
 TEST(TurnedBytes, OfAnStlWithSeveralVerticesALineAreRefused) {
