@@ -20,11 +20,11 @@ constexpr std::array<std::string_view, 12> kOtherFormats{".jpg",  ".jpeg", ".gif
 
 }  // namespace
 
-std::string checked_picture_name(const std::string& path) {
+std::string checked_picture_name(const std::string& path, const std::string& option) {
   const std::string extension = suffix_of(path);
   if (std::find(kOtherFormats.begin(), kOtherFormats.end(), extension) != kOtherFormats.end()) {
-    throw CLI::ValidationError("--output", "pictures are written as .png or .webp, not " +
-                                               extension + "; convert one of these");
+    throw CLI::ValidationError(option, "pictures are written as .png or .webp, not " + extension +
+                                           "; convert one of these");
   }
   return path;
 }

@@ -12,7 +12,7 @@ namespace vantage::cli {
 
 /// Refuses names of picture formats that are not written: anything but .webp becomes a PNG, because
 /// file managers ask for thumbnails under temporary names. \throw CLI::ValidationError
-std::string checked_picture_name(const std::string& path);
+std::string checked_picture_name(const std::string& path, const std::string& option);
 
 /// A WebP if the name ends so, else a PNG. \throw IoError, InvalidInput
 std::string picture_bytes(const std::string& path, const Image& image);

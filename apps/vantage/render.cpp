@@ -37,8 +37,10 @@ struct RenderCommand {
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("MODEL", model, "file to read, or -")->required();
     app.add_option_function<std::string>(
-           "-o,--output", [this](const std::string& path) { file = checked_picture_name(path); },
-           "picture to write: WebP if it ends in .webp, else PNG")
+           "-o,--output",
+           [this](const std::string& path) { file = checked_picture_name(path, "--output"); },
+           "picture to write: WebP if it ends in .webp, else PNG; names of other formats are "
+           "refused")
         ->required();
     CLI::Option_group* from = app.add_option_group("From", "where to look from: one of");
     from->add_option("--direction", direction_text, "x,y,z: from the model's centre to the eye");

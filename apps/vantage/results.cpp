@@ -387,6 +387,9 @@ struct VerifyCommand {
 void add_results_command(CLI::App& program, Session& session) {
   CLI::App* results = program.add_subcommand("results", "what a batch has stored");
   results->require_subcommand(1);
+  results->footer(
+      "Examples:\n  vantage results query DIR --where 'doubts>0' --columns key,doubt\n"
+      "  vantage results diff DIR1 DIR2");
   add_command<QueryCommand>(
       *results, session, "query", "rows that fulfil conditions, as a table",
       "Examples:\n"

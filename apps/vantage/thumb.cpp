@@ -51,12 +51,15 @@ struct ThumbCommand {
 
   void add_flags(CLI::App& app, Session& session) {
     app.add_option("MODEL", model, "file to read, or -")->required();
-    const auto name = [this](const std::string& path) { file = checked_picture_name(path); };
-    CLI::Option* place =
-        app.add_option_function<std::string>("FILE", name, "picture to write, unless named by -o");
-    app.add_option_function<std::string>(
-           "-o,--output", name,
-           "the same; WebP if it ends in .webp, else PNG, - for standard output")
+    const auto named_by = [this](const char* option) {
+      return [this, option](const std::string& path) { file = checked_picture_name(path, option); };
+    };
+    CLI::Option* place = app.add_option_function<std::string>(
+        "FILE", named_by("FILE"), "picture to write, unless named by -o");
+    app.add_option_function<std::string>("-o,--output", named_by("--output"),
+                                         "the same; WebP if it ends in .webp, else PNG (names of "
+                                         "other formats are refused), - for "
+                                         "standard output")
         ->excludes(place);
     app.add_option_function<std::string>(
            "-s,--size", [this](const std::string& text) { size = sized(text); },

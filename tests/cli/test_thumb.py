@@ -63,7 +63,7 @@ class Thumb(ProgramTest):
 
     def test_a_format_that_is_not_written_is_refused_before_any_work(self):
         done = self.vantage("thumb", FAN, "fan.jpg", exit_code=2)
-        self.assertIn(".png or .webp", done.err)
+        self.assertIn("FILE: pictures are written as .png or .webp", done.err)
         self.assertFalse((self.dir / "fan.jpg").exists())
 
     def test_a_picture_must_be_named_once(self):
