@@ -159,9 +159,11 @@ class Words(ProgramTest):
         self.assertEqual(self.complete("thumb", "--cre"), ["--crease"])
         self.assertEqual(self.complete("results", "query", "--stat"), ["--status"])
         self.assertEqual(self.complete("view", "--weight", ""), ["vertex", "area"])
-        for words, offered in ((("view", "--style", "="), ["clay", "asset", "technical"]), (("view", "--style", "=", "c"), ["clay"]),
-                               (("view", "--preview", "=", "b"), ["blocks"]), (("score", "--method", "kssm,vm"), ["kssm,vmi"]),
-                               (("batch", "--write", "map,worst-s"), ["map,worst-skeleton"]), (("batch", "--write", "j"), ["json"])):
+        for words, offered in ((("view", "--style", "="), ["clay", "asset", "technical"]),
+                               (("view", "--style", "=", "c"), ["clay"]), (("view", "--preview", "=", "b"), ["blocks"]),
+                               (("score", "--method", "kssm,vm"), ["kssm,vmi"]),
+                               (("batch", "--write", "map,worst-s"), ["map,worst-skeleton"]),
+                               (("batch", "--write", "j"), ["json"])):
             self.assertEqual(self.complete(*words), offered)
         self.write("horse.ply", "")
         self.assertEqual(self.complete("view", "hor"), ["horse.ply"])
