@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "vantage/io/write.h"
-#include "vantage/pipeline/option_rules.h"
+#include "vantage/pipeline/option_table.h"
 #include "vantage/report/comparison.h"
 
 #include "commands.h"

@@ -4,7 +4,7 @@
 
 #include "vantage/io/write.h"
 #include "vantage/pipeline/measured_shape.h"
-#include "vantage/pipeline/option_rules.h"
+#include "vantage/pipeline/option_table.h"
 #include "vantage/render/render.h"
 
 #include "batch/json_text.h"

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "vantage/pipeline/option_rules.h"
+#include "vantage/pipeline/option_table.h"
 
 #include "settings.h"
 #include "terminal.h"

@@ -7,7 +7,7 @@
 #include "vantage/io/camera_files.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/find_views.h"
-#include "vantage/pipeline/option_rules.h"
+#include "vantage/pipeline/option_table.h"
 #include "vantage/report/view_report.h"
 
 #include "batch/json_text.h"

@@ -8,7 +8,7 @@
 #include "vantage/io/model.h"
 #include "vantage/io/write.h"
 #include "vantage/pipeline/measured_shape.h"
-#include "vantage/pipeline/option_rules.h"
+#include "vantage/pipeline/option_table.h"
 #include "vantage/spatial/directions.h"
 
 #include "batch/json_text.h"

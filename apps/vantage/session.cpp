@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 #include "vantage/core/error.h"
-#include "vantage/pipeline/option_rules.h"
+#include "vantage/pipeline/option_table.h"
 
 #include "import_program.h"
 #include "output_file.h"

@@ -6,7 +6,7 @@
 #include "vantage/io/write.h"
 #include "vantage/pipeline/find_views.h"
 #include "vantage/pipeline/measured_shape.h"
-#include "vantage/pipeline/option_rules.h"
+#include "vantage/pipeline/option_table.h"
 #include "vantage/report/view_report.h"
 
 #include "clock.h"

@@ -6,7 +6,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "vantage/pipeline/option_rules.h"
+#include "vantage/pipeline/option_table.h"
 
 /// \file
 /// The keywords of the method: the library's table of options, as Python writes it. Signatures,

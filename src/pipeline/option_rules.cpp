@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "vantage/pipeline/option_rules.h"
-
 #include <algorithm>
 #include <functional>
 #include <initializer_list>
 #include <variant>
 
 #include "vantage/core/error.h"
+#include "vantage/pipeline/option_table.h"
 
 namespace vantage {
 namespace {

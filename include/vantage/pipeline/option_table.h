@@ -12,11 +12,13 @@
 #include "vantage/core/fields.h"
 #include "vantage/pipeline/view_options.h"
 #include "vantage/render/render.h"
+#include "vantage/view/measure.h"
 
 /// \file
 /// Every option of the method and of its pictures as one list, made from the tables beside the
 /// options structs. The program's flags, its help, completions and settings, Python's keywords, the
-/// options in view.json and their hash are this list, walked.
+/// options in view.json and their hash are this list, walked. Beside it the rules of which have no
+/// effect on what is asked for: the program refuses such flags, Python such keywords.
 
 namespace vantage {
 
@@ -79,5 +81,35 @@ void check_together(const ViewOptions& options,
 
 /// {"NAME": VALUE, …}: all options, as they are.
 std::string options_json(const AllOptions& options);
+
+/// Its flag: "--NAME", or "--no-NAME" of a switch that is on.
+std::string flag_of(const Option& option);
+
+/// Options without effect.
+struct IdleOptions {
+  std::vector<std::string> names{};  ///< As in option_table().
+  std::string why{};                 ///< What follows a name, such as "goes with --view only".
+};
+
+/// What a picture is asked to be.
+struct PictureRequest {
+  bool has_camera = false;   ///< Its camera is given.
+  bool is_searched = false;  ///< Of the best view, or the worst.
+  bool shows_map = false;    ///< Or a skeleton.
+  bool has_ground = false;   ///< So that it matters what is up.
+};
+
+/// Options without effect on a picture.
+std::vector<IdleOptions> idle_in_picture(const PictureRequest& picture);
+
+/// Options without effect on a search by these measures, or where they are compared.
+std::vector<IdleOptions> idle_in_views(const std::vector<Measure>& measures);
+
+/// Options without effect on scores. \param of_eyes whether eyes are given instead of directions.
+std::vector<IdleOptions> idle_in_scores(const std::vector<Measure>& measures, bool of_eyes);
+
+/// Options without effect on one number a vertex. \param map "kssm", "thickness", "mesh-saliency" or
+/// "pmi-saliency".
+std::vector<IdleOptions> idle_in_map(std::string_view map);
 
 }  // namespace vantage

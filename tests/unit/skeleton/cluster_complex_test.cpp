@@ -141,7 +141,7 @@ TriMesh smallest_torus() {
 }
 
 TEST(ClusterComplex, TheFirstPinchOfATorusKeepsItsHandle) {
-  const ClusterComplex complex = complex_of(smallest_torus());
+  ClusterComplex complex = complex_of(smallest_torus());
   const std::uint32_t around_the_tube = edge_between(complex, 0, 1).value();
   ASSERT_EQ(complex.pinched_by(around_the_tube), (std::vector<std::uint32_t>{2}));
   EXPECT_TRUE(complex.keeps_handles(around_the_tube));
