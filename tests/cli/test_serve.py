@@ -305,6 +305,7 @@ class Serve(ProgramTest):
 
     def test_a_folder_without_results_is_an_input_error(self):
         self.write("view.json", VIEW)
+        (self.dir / "empty").mkdir()
         self.write("empty/view.json", "[]")
         for folder in ("empty", "missing", "empty/view.json"):
             done = self.vantage("serve", folder, exit_code=3)

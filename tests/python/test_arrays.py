@@ -97,7 +97,7 @@ def test_arrays_of_other_things_are_refused(vertices, faces, message):
     (lambda: vantage.render(V, F, direction="x"), "direction must be an array of numbers, not str"),
     (lambda: vantage.render(V, F, direction=["x", "y"]), "direction must hold real numbers"),
     (lambda: vantage.colour_map("x"), "values must be an array of numbers, not str"),
-    (lambda: vantage.colour_map([1j]), "values must be an array of numbers"),
+    (lambda: vantage.colour_map([1j]), "values must hold real numbers"),
 ])
 def test_what_is_no_array_of_numbers_is_a_type_error(call, message):
     with pytest.raises(TypeError, match=message):
