@@ -259,7 +259,7 @@ void set(CLI::Option& option, const Setting& setting) {
       option.add_result(joined(setting.values));
     }
     option.run_callback();
-    option.envname(setting.origin);
+    option.envname(setting.origin);  // by which is_typed() knows
   } catch (const CLI::ParseError& error) {
     throw CLI::ValidationError(setting.origin, error.what());
   }

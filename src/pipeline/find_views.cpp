@@ -27,11 +27,6 @@
 namespace vantage {
 namespace {
 
-/// What the search surveys the sphere by.
-const ScoreBatch& surveyed_score(const ViewObjective& objective) {
-  return objective.surrogate ? objective.surrogate : objective.score;
-}
-
 /// find_views() by a map that is summed.
 ViewReport find_views_by_map(const ShapeAnalysis& shape, const FrameChoice& choice,
                              const ViewOptions& options, const RunContext& run) {
@@ -232,6 +227,7 @@ ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const FrameChoice&
 PictureView find_picture_view(const Model& model, const ShapeAnalysis& prepared,
                               const ViewOptions& options, const RunContext& run) {
   constexpr std::size_t kLarge = 200'000;  // vertices [ours]
+  require_view(prepared, model.name);
   if (options.best_view) {
     PictureView given{.choice = choose_frame(model, prepared, options),
                       .vertices = prepared.surface.positions.size()};

@@ -37,6 +37,10 @@ Vec3 along(const UprightFrame& frame, const Vec3& direction) {
 
 }  // namespace
 
+const ScoreBatch& surveyed_score(const ViewObjective& objective) {
+  return objective.surrogate ? objective.surrogate : objective.score;
+}
+
 Preference::Preference(const ShapeAnalysis& shape, const FrameChoice& choice,
                        const ViewOptions& options, double total)
     : options_(&options),

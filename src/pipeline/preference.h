@@ -10,6 +10,9 @@
 
 namespace vantage {
 
+/// What a search surveys the sphere by.
+const ScoreBatch& surveyed_score(const ViewObjective& objective);
+
 /// What the best view maximises, of a direction and its score: see Objective.
 class Preference {
  public:
@@ -19,7 +22,7 @@ class Preference {
 
   /// What there is to see tells nothing of where the front is: the views that go with each side that
   /// may be it count in all what the side's odds are, however much they show.
-  /// \param score of views, as good as the search's survey has it.
+  /// \param score of views, as good as surveyed_score().
   void weigh_fronts(const ScoreBatch& score);
 
   /// How finely it is worth being searched, degrees.

@@ -70,13 +70,6 @@ void list_specks(const Specks& specks, std::vector<std::string>& warnings) {
   }
 }
 
-/// Whether faces have some area beyond what rounding makes of none.
-bool has_area(const TriMesh& mesh, const MeshReport& check, double diameter) {
-  constexpr double kNoArea = 1e-12;  // of D², as check_mesh() has it of a face
-  return check.zero_area_faces < mesh.triangles.size() ||
-         surface_area(mesh) > kNoArea * diameter * diameter;
-}
-
 }  // namespace
 
 void check_extent(std::span<const Vec3> points, const std::string& name) {
@@ -125,7 +118,7 @@ ShapeAnalysis prepare_surface(const Model& model, const RunContext& run) {
   if (model.format == ModelFormat::Obj) {  // whose reader always keeps them
     shape.flow = texture_flow(model.mesh, model.appearance);
   }
-  if (!has_area(welded.mesh, shape.check, shape.sphere.diameter)) {
+  if (welded.mesh.triangles.empty() || !(shape.sphere.diameter > 0.0)) {
     throw InvalidInput(about_model(
         model.name,
         "all faces have collapsed to points or lines, so there is no shape to look at"));

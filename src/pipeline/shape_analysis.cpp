@@ -15,6 +15,7 @@
 #include "core/parallel.h"
 #include "mesh/extent.h"
 #include "pipeline/prepare_points.h"
+#include "pipeline/required_steps.h"
 #include "pipeline/view_preparation.h"
 
 namespace vantage {
@@ -150,6 +151,9 @@ ShapeAnalysis analyse_shape(const Model& model, const ViewOptions& options, cons
                             StageSeconds* seconds, AnalysisUse use) {
   auto mark = std::chrono::steady_clock::now();
   ShapeAnalysis prepared = prepare_surface(model, options, run);
+  if (use != AnalysisUse::Map && sums_a_map(options.method)) {
+    require_view(prepared, model.name);
+  }
   if (seconds != nullptr) {
     seconds->load += lap(mark);
   }

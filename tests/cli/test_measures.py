@@ -214,7 +214,7 @@ class Measures(ProgramTest):
         self.write("line.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n")
         for command in (["score", "line.off", "--sphere", 0], ["view", "line.off", "-o", "v"],
                         ["compare", "line.off", "-o", "c"]):
-            self.assertIn("line: all faces", self.vantage(*command, "--method", "vmi", exit_code=1).err)
+            self.assertIn("line.off: ", self.vantage(*command, "--method", "vmi", exit_code=3).err)
 
     def test_compare_replaces_its_own_folder_but_no_other(self):
         self.vantage("compare", FAN, "-o", "out", "--method", "plemenos", "--no-images")

@@ -166,10 +166,16 @@ class WhatWasMeant(ProgramTest):
             self.vantage("score", "a.off", "--sphere", 0, "--method", "viewpoint-entropy")
             self.vantage("map", "a.off", "-o", "m.ply", "--method", "mesh-saliency")
 
-    def test_a_surface_without_area_has_no_view(self):
+    def test_a_surface_without_area_is_bad_input(self):
         self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")
-        for words in (("view",), ("view", "--method", "vmi"), ("thumb", "a.png"), ("compare",), ("score", "--sphere", 1, "--method", "vmi")):
-            self.assertIn("a: all faces", self.vantage(words[0], "a.obj", *words[1:], exit_code=1).err, words)
+        for words in (("view", "--method", "vmi"), ("compare",), ("score", "--sphere", 1, "--method", "vmi")):
+            self.assertIn("a.obj: ", self.vantage(words[0], "a.obj", *words[1:], exit_code=3).err, words)
+
+    def test_of_a_surface_without_area_there_is_no_view(self):
+        self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")
+        for words in (("view", "a.obj"), ("thumb", "a.obj", "a.png")):
+            self.assertIn("a: its faces have no area", self.vantage(*words, exit_code=1).err, words)
+        self.assertEqual([p.name for p in self.dir.iterdir()], ["a.obj"])
 
     def test_what_a_camera_file_says_is_not_said_again(self):
         self.write("a.off", box(1))

@@ -164,16 +164,18 @@ TEST(PrepareSurface, NotesSmallComponentsThatMakeTheModelsBoxMuchLarger) {
   }
 }
 
-TEST(PrepareSurface, RefusesFacesWithoutArea) {
+TEST(AnalyseShape, ForViewsRefusesFacesWithoutArea) {
   TriMesh line;
   for (const double at : {0.0, 0.1, 0.3, 0.7}) {  // whose sums and products are rounded
     line.positions.emplace_back(at, 3.0 * at, 1.0 - at / 3.0);
   }
   line.triangles = {{0, 1, 2}, {1, 2, 3}};
-  EXPECT_THROW(prepare_surface(model_of(line)), InvalidInput);
+  EXPECT_THROW(analyse_shape(model_of(line), {}), InvalidInput);
+  EXPECT_THROW(find_picture_view(model_of(line), prepare_surface(model_of(line)), {}),
+               InvalidInput);
   line.positions.emplace_back(0.1, 0.3, 1.0);
   line.triangles.push_back({0, 3, 4});
-  EXPECT_EQ(prepare_surface(model_of(line)).check.zero_area_faces, 2U);
+  EXPECT_EQ(analyse_shape(model_of(line), {}).check.zero_area_faces, 2U);
 }
 
 TEST(PrepareSurface, RefusesAModelWithoutExtent) {
