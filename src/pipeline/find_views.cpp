@@ -37,9 +37,8 @@ ViewReport find_views_by_map(const ShapeAnalysis& shape, const FrameChoice& choi
   const MapObjective map(shape, shape.significance, options, run);
   const ViewScorer& scorer = map.scorer();
   report.total = scorer.total();
-  Preference preference(shape, choice, options, report.total);
+  const Preference preference(shape, choice, options, report.total);
   const ViewObjective objective = map.objective(preference);
-  preference.weigh_fronts(surveyed_score(objective));
   const double share = !options.view_set ? 1.0 : options.certify ? 0.6 : 0.25;  // of the bar
   SettledViews settled =
       search_settled(objective, preference, shape, choice.frame, options, run.part(0.0, share));
@@ -112,7 +111,7 @@ void note_what_none_sees(ViewReport& report) {
 }
 
 /// The best or the worst view by a map, as a search finds it.
-FoundView one_view(const MapObjective& map, Preference& preference, Goal goal,
+FoundView one_view(const MapObjective& map, const Preference& preference, Goal goal,
                    const ShapeAnalysis& shape, const ModelFrame& frame, const ViewOptions& options,
                    const RunContext& run) {
   FoundView found;
@@ -121,7 +120,6 @@ FoundView one_view(const MapObjective& map, Preference& preference, Goal goal,
     return found;
   }
   const ViewObjective objective = map.objective(preference);
-  preference.weigh_fronts(surveyed_score(objective));
   found = search_view(objective, goal, options.search, run);
   if (goal == Goal::Best && !preference.is_score()) {
     settle_on_the_front(found, {}, objective, preference, shape, frame);
@@ -137,7 +135,7 @@ bool is_best_of_moved(const ShapeAnalysis& shape, const FrameChoice& choice,
   constexpr double kAlike = 0.985;   // cosine of 10°: views nearer to each other look alike [ours]
   const RunContext quiet = run.quiet();
   const MapObjective map(shape, moved.significance, options, quiet);
-  Preference preference(shape, choice, options, map.scorer().total());
+  const Preference preference(shape, choice, options, map.scorer().total());
   const Vec3 again =
       one_view(map, preference, Goal::Best, shape, choice.frame, options, quiet).direction;
   const std::vector<Vec3> images = mirror_images(report.best.direction, planes_of(shape), kSameRad);
@@ -216,7 +214,7 @@ ReportedView find_view(const ShapeAnalysis& shape, Goal goal, const FrameChoice&
   }
   require_map(shape);
   const MapObjective map(shape, shape.significance, options, run);
-  Preference preference(shape, choice, options, map.scorer().total());
+  const Preference preference(shape, choice, options, map.scorer().total());
   const FoundView found = one_view(map, preference, goal, shape, choice.frame, options, run);
   ReportedView view = describe_scored_view(shape, map.visibility(), map.scorer(), found.direction,
                                            choice.frame, options, run);

@@ -155,8 +155,7 @@ ViewReport find_views_by_measure(const ShapeAnalysis& shape, const FrameChoice& 
                         kMeasureSetLevel, run.part(0.0, 0.6));
   const MeasureObjective by(measurer, 0, run.part(0.0, 0.6));
   ViewObjective objective = by.objective();
-  Preference preference(shape, choice, options, objective.total);
-  preference.weigh_fronts(surveyed_score(objective));
+  const Preference preference(shape, choice, options, objective.total);
   if (!preference.is_score()) {
     objective.preference = std::cref(preference);
     objective.finest_preferred_deg = std::max(objective.finest_deg, preference.finest_deg());

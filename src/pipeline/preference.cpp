@@ -24,22 +24,13 @@ constexpr double kFromBehind = 0.03;
 // 404 one is shown from well below, where no habit leads, and below is half of the sphere. It decides
 // where a habit shows next to nothing.
 constexpr double kLapses = 2.0 / 404.0;
-
-/// Directions over which habits are summed: 15° apart, where habits are wider.
-std::vector<Vec3> survey() {
-  constexpr int kSubdivisions = 2;
-  return direction_set(ViewSphereBase::Icosahedron, kSubdivisions).directions;
-}
+constexpr int kLapseSubdivisions = 2;  // 162 directions
 
 Vec3 along(const UprightFrame& frame, const Vec3& direction) {
   return {frame.side.dot(direction), frame.up.dot(direction), frame.front.dot(direction)};
 }
 
 }  // namespace
-
-const ScoreBatch& surveyed_score(const ViewObjective& objective) {
-  return objective.surrogate ? objective.surrogate : objective.score;
-}
 
 Preference::Preference(const ShapeAnalysis& shape, const FrameChoice& choice,
                        const ViewOptions& options, double total)
@@ -61,38 +52,11 @@ Preference::Preference(const ShapeAnalysis& shape, const FrameChoice& choice,
     }
     front = frame_.up.cross(front);
   }
-  find_lapse();
-}
-
-void Preference::find_lapse() {
-  const std::vector<Vec3> sphere = survey();
-  lapse_ = 0.0;
+  const std::vector<Vec3> sphere =
+      direction_set(ViewSphereBase::Icosahedron, kLapseSubdivisions).directions;
   for (const Vec3& direction : sphere) {
     lapse_ += kLapses * habit(direction) / static_cast<double>(sphere.size());
   }
-}
-
-void Preference::weigh_fronts(const ScoreBatch& score) {
-  if (fronts_.size() < 2) {
-    return;
-  }
-  const std::vector<Vec3> sphere = survey();
-  const std::vector<double> scores = score(sphere);
-  double odds = 0.0;
-  double weights = 0.0;
-  for (Hypothesis& front : fronts_) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < sphere.size(); ++i) {
-      sum += front.at(sphere[i]) * shown(scores[i]);
-    }
-    odds += front.weight;
-    front.weight /= sum;  // above zero: see kLeastShare
-    weights += front.weight;
-  }
-  for (Hypothesis& front : fronts_) {
-    front.weight *= odds / weights;
-  }
-  find_lapse();
 }
 
 double Preference::finest_deg() const {
@@ -113,22 +77,15 @@ double Preference::operator()(const Vec3& direction, double score) const {
   if (is_front_given_ && direction.dot(frame_.front) < 0.0) {
     chosen *= kFromBehind;
   }
-  return chosen * shown(score);
-}
-
-double Preference::shown(double score) const {
   const double share = total_ > 0.0 ? score / total_ : 0.0;
-  return std::pow(std::max(share, kLeastShare), choice_table().significance_weight);
-}
-
-double Preference::Hypothesis::at(const Vec3& direction) const {
-  return std::exp(-choice_table().habit_weight * habit.distance(along(frame, direction)));
+  return chosen * std::pow(std::max(share, kLeastShare), choice_table().significance_weight);
 }
 
 double Preference::habit(const Vec3& direction) const {
   double sum = 0.0;
   for (const Hypothesis& front : fronts_) {
-    sum += front.weight * front.at(direction);
+    sum += front.probability * std::exp(-choice_table().habit_weight *
+                                        front.habit.distance(along(front.frame, direction)));
   }
   return sum;
 }

@@ -317,25 +317,20 @@ ScoreBatch page_scores(const ShapeAnalysis& shape, const ViewReport& report,
 /// better than the best view, unless that was given.
 std::vector<double> objectives(const ShapeAnalysis& shape, const ViewReport& report,
                                const ViewOptions& options, const std::vector<Vec3>& directions,
-                               const std::vector<double>& scores, const ScoreBatch& score,
-                               const RunContext& run) {
+                               const std::vector<double>& scores, const RunContext& run) {
   FrameChoice choice;
   choice.frame = {report.up, report.front};
   choice.orientation = report.orientation;
-  Preference preference(shape, choice, options, report.total);
-  preference.weigh_fronts(score);
+  const Preference preference(shape, choice, options, report.total);
   if (preference.is_score()) {
     return {};
   }
-  // Estimates weigh the fronts a little otherwise than the search did.
-  const double of_best = preference(report.best.direction, report.best.score);
-  const double scale = of_best > 0.0 ? report.best.objective / of_best : 1.0;
   const double most =
       options.best_view ? std::numeric_limits<double>::infinity() : report.best.objective;
   std::vector<double> values(directions.size());
   parallel_for(run, values.size(), kPreferenceGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      values[i] = std::min(scale * preference(directions[i], scores[i]), most);
+      values[i] = std::min(preference(directions[i], scores[i]), most);
     }
   });
   return values;
@@ -370,8 +365,8 @@ std::string report_html(const Model& model, const ShapeAnalysis& shape, ShapePic
   data["skeleton"] = skeleton_part(shape.skeleton.graph, frame);
   run.advance("report", 0.2);
   const std::vector<double> scores = score(set.directions);
-  data["sphere"] = sphere_part(
-      set, scores, objectives(shape, report, options, set.directions, scores, score, quiet));
+  data["sphere"] =
+      sphere_part(set, scores, objectives(shape, report, options, set.directions, scores, quiet));
   run.advance("report", 0.7);
   data["rapid"] = {{"best", rapid_part(score, report.total, Goal::Best, quiet)},
                    {"worst", rapid_part(score, report.total, Goal::Worst, quiet)}};
