@@ -9,8 +9,6 @@
 namespace vantage {
 namespace {
 
-/// Up to so many points all are looked at.
-constexpr std::size_t kFewPoints = 32;
 /// How much farther than the tree's nearest point another one is looked for, which its sums may round
 /// to be farther than it is.
 constexpr double kRoundedUp = 1.0 + 1e-9;
@@ -18,33 +16,21 @@ constexpr double kLeastReach = 1e-150;  // its square is above 0
 
 }  // namespace
 
-NearestPoint::NearestPoint(std::vector<Vec3> points) : points_(std::move(points)) {
-  if (points_.size() > kFewPoints) {
-    tree_ = std::make_unique<const PointTree>(points_);
-  }
-}
+NearestPoint::NearestPoint(std::vector<Vec3> points)
+    : points_(std::move(points)), tree_(std::make_unique<const PointTree>(points_)) {}
 
 std::size_t NearestPoint::to(const Vec3& place) const {
   std::size_t best = 0;
+  double squared = 0.0;
+  tree_->nearest(place, std::span(&best, 1), std::span(&squared, 1));
+  std::vector<PointTree::Match> near;
+  tree_->within(place, kRoundedUp * std::sqrt(squared) + kLeastReach, near);
   double least = std::numeric_limits<double>::infinity();
-  const auto look_at = [&](std::size_t i) {
+  for (const auto& [i, ignored] : near) {
     const double distance = (points_[i] - place).squaredNorm();
     if (distance < least || (distance == least && i < best)) {
       least = distance;
       best = i;
-    }
-  };
-  if (tree_) {
-    double squared = 0.0;
-    tree_->nearest(place, std::span(&best, 1), std::span(&squared, 1));
-    std::vector<PointTree::Match> near;
-    tree_->within(place, kRoundedUp * std::sqrt(squared) + kLeastReach, near);
-    for (const PointTree::Match& match : near) {
-      look_at(match.first);
-    }
-  } else {
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      look_at(i);
     }
   }
   return best;

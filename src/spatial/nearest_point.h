@@ -11,7 +11,7 @@
 
 namespace vantage {
 
-/// Finds the nearest of some points, by a tree where they are many.
+/// Finds the nearest of many points by a tree, and of points equally near always the same.
 class NearestPoint {
  public:
   /// \param points at least one, finite.
@@ -22,7 +22,7 @@ class NearestPoint {
 
  private:
   std::vector<Vec3> points_;
-  std::unique_ptr<const PointTree> tree_{};  ///< None over a few points.
+  std::unique_ptr<const PointTree> tree_;  ///< Refers to the points: moves with them.
 };
 
 }  // namespace vantage
