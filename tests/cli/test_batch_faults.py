@@ -217,7 +217,9 @@ class WholeBatch(FaultTest):
         self.assertEqual((rows["m2.off"]["duplicate_of"], rows["twin.off"]["duplicate_of"]), ("m0.off", ""))
 
     def test_a_model_that_is_written_to_costs_no_equal_one(self):
-        self.write("twin.off", box(3))  # as m2
+        comment = "# as long as it takes to be sure to write while it is read\n" * 500_000
+        for name in ("m2.off", "twin.off"):
+            self.write(name, box(3).replace("OFF\n", "OFF\n" + comment, 1))
         process = self.start("m2.off", "twin.off", "--attempts", "1")
         while process.poll() is None:
             os.utime(self.dir / "m2.off", ns=(1, time.monotonic_ns()))
