@@ -7,6 +7,7 @@
 
 #include "vantage/io/write.h"
 
+#include "pipeline/map_coordinates.h"
 #include "pipeline/percent.h"
 #include "pipeline/view_preparation.h"
 
@@ -19,6 +20,18 @@ constexpr double kUnsure = 0.5;
 constexpr double kSpeaksAgainst = 0.8;
 // Only where all candidates look alike a choice is surer than 98 %.
 constexpr double kAllAlike = 0.99;
+
+/// How texts speak of who has the convention.
+struct Habit {
+  const char* of = "of its format";
+  const char* by = "by its format";
+  const char* its = "its format's";
+};
+
+Habit habit_of_up(bool is_of_map) {
+  constexpr const char* kByMap = "by its map coordinates";
+  return is_of_map ? Habit{"of map coordinates", kByMap, kByMap} : Habit{};
+}
 
 std::string name_of(const Vec3& direction) {
   return std::string(up_name(axis_nearest(direction)));
@@ -77,24 +90,24 @@ std::string alike_text(const std::vector<Vec3>& alike) {
                        : " (" + names + (alike.size() == 1 ? " looks" : " look") + " the same)";
 }
 
-std::string summary_of(const DirectionChoice& choice, const std::string& word) {
+std::string summary_of(const DirectionChoice& choice, const std::string& word, const Habit& habit) {
   const std::string text = word + ": " + name_of(choice.direction);
   if (choice.source == "given") {
     return text + ", as given";
   }
   if (choice.confidence > kAllAlike) {
-    return text + ", its format's" + (choice.alike.empty() ? "" : ": all sides look the same");
+    return text + ", " + habit.its + (choice.alike.empty() ? "" : ": all sides look the same");
   }
   const bool is_likeliest = choice.likeliest.dot(choice.direction) > 0.5;
   if (!is_likeliest && choice.source == "format" && choice.confidence < kUnsure) {
-    return text + alike_text(choice.alike) + " by its format, unsure (" +
+    return text + alike_text(choice.alike) + " " + habit.by + ", unsure (" +
            (choice.by_shape ? "the shape alone: " + name_of(*choice.by_shape)
                             : "likelier: " + name_of(choice.likeliest)) +
            ")";
   }
   const bool is_by_habit = !is_likeliest || (choice.source == "format" && choice.reasons.empty());
   return text + alike_text(choice.alike) + ", " + sure(choice.confidence) +
-         (is_by_habit ? ", its format's" : by(choice)) +
+         (is_by_habit ? std::string(", ") + habit.its : by(choice)) +
          (choice.by_shape ? " (the shape alone: " + name_of(*choice.by_shape) + ")" : "");
 }
 
@@ -138,12 +151,13 @@ FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,
   if (options.front) {
     request.front = up_vector(*options.front);
   }
-  FrameChoice choice;
+  FrameChoice choice{.is_of_map = up_of_map(model).has_value()};
   choice.orientation = evidence_of(shape).find(request);
   const DirectionChoice& up = choice.orientation.up;
   choice.frame = {axis_nearest(up.direction), axis_nearest(choice.orientation.front.direction)};
+  const Habit habit = habit_of_up(choice.is_of_map);
   for (const std::string& note :
-       {note_on(up, "up", usual_up, "of its format", "", "--up"), note_on_front(choice, options)}) {
+       {note_on(up, "up", usual_up, habit.of, "", "--up"), note_on_front(choice, options)}) {
     if (!note.empty()) {
       choice.notes.push_back(note);
     }
@@ -163,7 +177,7 @@ std::string note_on_front(const FrameChoice& choice, const ViewOptions& options,
                                        : "";
   std::string note =
       note_on(front, "front", up_vector(default_front(choice.frame.up)),
-              up.source == "format" ? "of its format" : "for this up", best,
+              up.source == "format" && !choice.is_of_map ? Habit{}.of : "for this up", best,
               up.source == "shape" ? "--up " + name_of(up.direction) + " --front" : "--front");
   if (!note.empty() || !is_behind) {
     return note;
@@ -175,8 +189,8 @@ std::string note_on_front(const FrameChoice& choice, const ViewOptions& options,
 }
 
 std::string frame_summary(const FrameChoice& choice) {
-  return summary_of(choice.orientation.up, "up") + "; " +
-         summary_of(choice.orientation.front, "front");
+  return summary_of(choice.orientation.up, "up", habit_of_up(choice.is_of_map)) + "; " +
+         summary_of(choice.orientation.front, "front", {});
 }
 
 }  // namespace vantage

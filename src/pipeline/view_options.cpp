@@ -11,6 +11,7 @@
 #include "core/fingerprint.h"
 #include "core/json_text.h"
 #include "io/files.h"
+#include "pipeline/map_coordinates.h"
 #include "pipeline/option_echo.h"
 
 namespace vantage {
@@ -85,7 +86,8 @@ UpAxis default_up(ModelFormat format) {
 }
 
 UpAxis default_up(const Model& model) {
-  return model.usual_up ? axis_nearest(*model.usual_up) : default_up(model.format);
+  return model.usual_up ? axis_nearest(*model.usual_up)
+                        : up_of_map(model).value_or(default_up(model.format));
 }
 
 UpAxis default_front(UpAxis up) {

@@ -64,6 +64,7 @@ struct ReportedViewSet {
 struct FrameChoice {
   ModelFrame frame{};                ///< As used.
   Orientation orientation{};         ///< The same with sources, confidences and reasons.
+  bool is_of_map = false;            ///< The usual up is that of map coordinates, not the format's.
   std::vector<std::string> notes{};  ///< One sentence for each guess, and for each unsure choice.
 };
 
@@ -71,8 +72,9 @@ struct FrameChoice {
 /// returns the rotation; else identity. All that follows, cameras too, is of the turned model.
 Eigen::Matrix3d stand_along_axes(Model& model, const ViewOptions& options);
 
-/// options.up and options.front where they are set; else what the shape says, or the format's
-/// convention where that is unsure (glTF's up axis is a part of the format, and always holds).
+/// options.up and options.front where they are set; else what the shape says, or the convention of the
+/// format or of map coordinates where that is unsure (glTF's up axis is a part of the format, and
+/// always holds).
 /// \throw InvalidInput if those given are along one axis.
 FrameChoice choose_frame(const Model& model, const ShapeAnalysis& shape,
                          const ViewOptions& options);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/frame_choice.h"
 
+#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -30,6 +31,50 @@ FrameChoice choice_for(const TriMesh& mesh, ModelFormat format, const ViewOption
   Model model = model_of(mesh);
   model.format = format;
   return choose_frame(model, prepare_surface(model), options);
+}
+
+/// Hills: a field of heights over x and y, 100 wide.
+TriMesh hills(const Vec3& corner) {
+  constexpr std::uint32_t kSide = 24;
+  TriMesh mesh;
+  for (std::uint32_t i = 0; i < kSide; ++i) {
+    for (std::uint32_t j = 0; j < kSide; ++j) {
+      const double x = 100.0 * i / (kSide - 1);
+      const double y = 100.0 * j / (kSide - 1);
+      const double height = 8.0 * std::sin(x / 11.0) * std::cos(y / 17.0) + 3.0 * std::sin(y / 5.0);
+      mesh.positions.emplace_back(corner + Vec3(x, y, height));
+      if (i > 0 && j > 0) {
+        const std::uint32_t v = i * kSide + j;
+        mesh.triangles.push_back({v - kSide - 1, v - 1, v});
+        mesh.triangles.push_back({v - kSide - 1, v, v - kSide});
+      }
+    }
+  }
+  return mesh;
+}
+
+TriMesh with_y_up(TriMesh mesh) {
+  for (Vec3& p : mesh.positions) {
+    p = Vec3(p.x(), p.z(), -p.y());
+  }
+  return mesh;
+}
+
+TEST(FrameChoice, HeightIsUpInCoordinatesOfAMap) {
+  const Vec3 in_utm(567840.5, 5934517.25, 120.0);
+  const FrameChoice terrain = choice_for(hills(in_utm), ModelFormat::Obj);
+  EXPECT_EQ(terrain.frame.up, UpAxis::Z);
+  EXPECT_EQ(terrain.orientation.up.source, "format");
+  EXPECT_TRUE(terrain.is_of_map);
+  EXPECT_EQ(choice_for(with_y_up(hills(in_utm)), ModelFormat::Stl).frame.up, UpAxis::Y);
+}
+
+TEST(FrameChoice, OtherFarPlacesAreNoMaps) {
+  for (const Vec3& corner : {Vec3(567840.5, 120.0, 80.0), Vec3(2e5, 3e5, 4e5),
+                             Vec3(900.0, 900.0, 0.0), Vec3(0.0, 5e6, 0.0)}) {
+    EXPECT_FALSE(choice_for(hills(corner), ModelFormat::Obj).is_of_map) << corner.transpose();
+  }
+  EXPECT_FALSE(choice_for(hills({5e5, 5e6, 0.0}), ModelFormat::Gltf).is_of_map);
 }
 
 TEST(FrameChoice, IsTheFormatsWhereItsHabitHolds) {
