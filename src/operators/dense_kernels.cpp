@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 
 #include "core/wide_registers.h"
@@ -22,9 +23,14 @@ constexpr std::size_t kSolved = 4;
 static_assert(kRightSides == kLanes && kSolved == 4);
 
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
+using Truths = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::int64_t))));
 
 VANTAGE_INLINE void load(const double* from, Lanes& to) {
   std::memcpy(&to, from, sizeof(Lanes));
+}
+
+VANTAGE_INLINE void store(const Lanes& value, double* to) {
+  std::memcpy(to, &value, sizeof(Lanes));
 }
 
 VANTAGE_INLINE void subtract_at(double* to, const Lanes& sum) {
@@ -34,32 +40,64 @@ VANTAGE_INLINE void subtract_at(double* to, const Lanes& sum) {
   std::memcpy(to, &value, sizeof(Lanes));
 }
 
-/// A full tile of kTileRows × kTileColumns.
-VANTAGE_INLINE void tile(double* C, std::size_t stride, ConstBlock A, ConstBlock B,
-                         std::size_t depth) {
-  Lanes sum[kTileColumns][2] = {};
-  for (std::size_t k = 0; k < depth; ++k) {
-    Lanes low;
-    Lanes high;
-    load(A.first + k * A.stride, low);
-    load(A.first + k * A.stride + kLanes, high);
-    for (std::size_t j = 0; j < kTileColumns; ++j) {
-      const double b = B.first[j + k * B.stride];
-      sum[j][0] += low * b;
-      sum[j][1] += high * b;
-    }
-  }
-  for (std::size_t j = 0; j < kTileColumns; ++j) {
-    subtract_at(C + j * stride, sum[j][0]);
-    subtract_at(C + j * stride + kLanes, sum[j][1]);
+/// Calls call<count>(): the compiler unrolls counts that it knows. \param count 1 to 4.
+template <class Call>
+VANTAGE_INLINE void with_columns(std::size_t count, const Call& call) {
+  static_assert(kSolved == 4 && kTileColumns == 4);
+  switch (count) {
+    case 1:
+      return call.template operator()<1>();
+    case 2:
+      return call.template operator()<2>();
+    case 3:
+      return call.template operator()<3>();
+    default:
+      return call.template operator()<4>();
   }
 }
 
-/// What is left at the borders.
+/// `Wide` times kLanes rows of `Columns` columns, of which the first `done` rows stay as they are.
+template <std::size_t Wide, std::size_t Columns>
+VANTAGE_INLINE void tile(double* C, std::size_t stride, ConstBlock A, ConstBlock B,
+                         std::size_t depth, std::size_t done) {
+  Lanes sum[Columns][Wide] = {};
+  for (std::size_t k = 0; k < depth; ++k) {
+    Lanes low;
+    Lanes high{};
+    load(A.first + k * A.stride, low);
+    if constexpr (Wide == 2) {
+      load(A.first + k * A.stride + kLanes, high);
+    }
+    for (std::size_t j = 0; j < Columns; ++j) {
+      const double b = B.first[j + k * B.stride];
+      sum[j][0] += low * b;
+      if constexpr (Wide == 2) {
+        sum[j][1] += high * b;
+      }
+    }
+  }
+  if (done == 0) {
+    for (std::size_t j = 0; j < Columns; ++j) {
+      for (std::size_t w = 0; w < Wide; ++w) {
+        subtract_at(C + j * stride + w * kLanes, sum[j][w]);
+      }
+    }
+    return;
+  }
+  for (std::size_t w = 0; w < Wide; ++w) {
+    const Truths wanted = Truths{0, 1, 2, 3} + static_cast<std::int64_t>(w * kLanes) >=
+                          static_cast<std::int64_t>(done);
+    for (std::size_t j = 0; j < Columns; ++j) {
+      subtract_at(C + j * stride + w * kLanes, wanted ? sum[j][w] : Lanes{});
+    }
+  }
+}
+
+/// Fewer rows than a register holds.
 VANTAGE_INLINE void border(double* C, std::size_t stride, ConstBlock A, ConstBlock B,
                            ProductShape shape) {
   for (std::size_t j = 0; j < shape.columns; ++j) {
-    double sum[kTileRows] = {};
+    double sum[kLanes] = {};
     for (std::size_t k = 0; k < shape.depth; ++k) {
       const double b = B.first[j + k * B.stride];
       for (std::size_t i = 0; i < shape.rows; ++i) {
@@ -72,21 +110,38 @@ VANTAGE_INLINE void border(double* C, std::size_t stride, ConstBlock A, ConstBlo
   }
 }
 
+/// `Columns` columns from row `first` on. The last rows are done by a tile that begins in those above: it
+/// takes a third of the time of plain loops, and most fronts are small.
+template <std::size_t Columns>
+VANTAGE_INLINE void subtract_columns(double* C, std::size_t stride, ConstBlock A, ConstBlock B,
+                                     ProductShape shape, std::size_t first) {
+  const auto rows_from = [&A](std::size_t i) { return ConstBlock{A.first + i, A.stride}; };
+  for (std::size_t i = first; i < shape.rows;) {
+    const std::size_t left = shape.rows - i;
+    if (left > kLanes && shape.rows >= kTileRows) {
+      const std::size_t done = kTileRows - std::min(left, kTileRows);
+      tile<2, Columns>(C + (i - done), stride, rows_from(i - done), B, shape.depth, done);
+      i += kTileRows;
+    } else if (shape.rows >= kLanes) {
+      const std::size_t done = kLanes - std::min(left, kLanes);
+      tile<1, Columns>(C + (i - done), stride, rows_from(i - done), B, shape.depth, done);
+      i += kLanes;
+    } else {
+      border(C + i, stride, rows_from(i), B, {left, Columns, shape.depth});
+      break;
+    }
+  }
+}
+
 VANTAGE_INLINE void subtract_slice(double* C, std::size_t stride, ConstBlock A, ConstBlock B,
                                    ProductShape shape, bool lower) {
   for (std::size_t j = 0; j < shape.columns; j += kTileColumns) {
-    const std::size_t columns = std::min(kTileColumns, shape.columns - j);
-    for (std::size_t i = lower ? j : 0; i < shape.rows; i += kTileRows) {
-      const std::size_t rows = std::min(kTileRows, shape.rows - i);
-      double* to = C + i + j * stride;
-      const ConstBlock a{A.first + i, A.stride};
-      const ConstBlock b{B.first + j, B.stride};
-      if (rows == kTileRows && columns == kTileColumns) {
-        tile(to, stride, a, b, shape.depth);
-      } else {
-        border(to, stride, a, b, {rows, columns, shape.depth});
-      }
-    }
+    with_columns(
+        std::min(kTileColumns, shape.columns - j), [&]<std::size_t Columns>() __attribute__((
+                                                       always_inline)) {
+          subtract_columns<Columns>(C + j * stride, stride, A, {B.first + j, B.stride}, shape,
+                                    lower ? j : 0);
+        });
   }
 }
 
@@ -130,10 +185,6 @@ VANTAGE_INLINE bool factorize_all(double* panel, std::size_t height, std::size_t
   return true;
 }
 
-VANTAGE_INLINE void store(const Lanes& value, double* to) {
-  std::memcpy(to, &value, sizeof(Lanes));
-}
-
 /// `Columns` columns of a panel, of which `from` is the first, into the rows from `end` on.
 template <std::size_t Columns>
 VANTAGE_INLINE void forward_below(const double* from, std::size_t height, std::size_t end,
@@ -145,22 +196,6 @@ VANTAGE_INLINE void forward_below(const double* from, std::size_t height, std::s
       value -= from[i + l * height] * x[l];
     }
     store(value, rows + i * kRightSides);
-  }
-}
-
-/// Calls call<count>(): the compiler unrolls counts that it knows. \param count 1 to kSolved.
-template <class Call>
-VANTAGE_INLINE void with_columns(std::size_t count, const Call& call) {
-  static_assert(kSolved == 4);
-  switch (count) {
-    case 1:
-      return call.template operator()<1>();
-    case 2:
-      return call.template operator()<2>();
-    case 3:
-      return call.template operator()<3>();
-    default:
-      return call.template operator()<4>();
   }
 }
 

@@ -47,6 +47,14 @@ TEST(SubtractProduct, IsThatOfMatricesForBordersAndDepthsOverOneSlice) {
   EXPECT_LT(product_error(21, 7, 200), 200 * 200 * 0x1p-53);
 }
 
+TEST(SubtractProduct, IsThatOfMatricesForAllRestsOfATile) {
+  for (Eigen::Index rows = 1; rows <= 17; ++rows) {
+    for (Eigen::Index columns = 1; columns <= 5; ++columns) {
+      EXPECT_LT(product_error(rows, columns, 3), 1e-14) << rows << " × " << columns;
+    }
+  }
+}
+
 TEST(SubtractProduct, LeavesTheUpperTilesAloneIfOnlyTheLowerAreWanted) {
   const Eigen::MatrixXd A = numbers(24, 3);
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(24, 24);
