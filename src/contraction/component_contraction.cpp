@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -107,13 +108,14 @@ struct State {
 class Contraction {
  public:
   Contraction(const TriMesh& scaled, const ContractionOptions& options, const EvenShares& shares,
-              const RunContext& run, bool is_careful)
+              const RunContext& run, bool is_careful, StepSolver* solver)
       : options_(options),
         run_(run),
         shares_(shares),
         soundness_(scaled),
         ratios_(scaled, shares),
-        solver_(scaled, shares),
+        own_solver_(solver == nullptr ? std::make_unique<StepSolver>(scaled, shares) : nullptr),
+        solver_(solver == nullptr ? *own_solver_ : *solver),
         variant_(is_careful ? kSafer : 0) {
     const double first =
         shares.empty() ? first_contraction(ratios_.mean_area()) : shares.first_contraction();
@@ -257,7 +259,8 @@ class Contraction {
   const EvenShares& shares_;
   Soundness soundness_;
   AreaRatios ratios_;
-  StepSolver solver_;
+  std::unique_ptr<StepSolver> own_solver_;
+  StepSolver& solver_;
   State state_{};
   std::optional<State> limited_{};  // before the first step whose W_L a limit kept low
   std::size_t variant_;             // of kVariants, where the next step begins
@@ -293,12 +296,12 @@ std::vector<Vec3> thin_further(Contraction& surface, const ContractionOptions& o
 
 ComponentHistory contract_component(const TriMesh& scaled, const ContractionOptions& options,
                                     const RunContext& run, const EvenShares& shares,
-                                    bool is_careful) {
+                                    bool is_careful, StepSolver* solver) {
   ComponentHistory history;
   history.summary.vertices = scaled.positions.size();
   history.levels.push_back(scaled.positions);
   history.shrinkage.push_back(1.0);
-  Contraction surface(scaled, options, shares, run, is_careful);
+  Contraction surface(scaled, options, shares, run, is_careful, solver);
   if (!surface.has_area()) {
     return history;
   }

@@ -43,14 +43,17 @@ struct EvenShares {
   }
 };
 
+class StepSolver;
+
 /// The shares of a surface; empty if it has no area.
 EvenShares even_shares(const TriMesh& mesh);
 
 /// Contracts one component already scaled as options.scaling says (docs/contraction.md).
 /// \param is_careful whether all steps are taken with the weights that are meant for slivers.
+/// \param solver of `scaled` with shares of the same counts, from an earlier contraction of it, if there is one.
 /// \pre every vertex belongs to a face, no face names a vertex twice. \throw Cancelled
 ComponentHistory contract_component(const TriMesh& scaled, const ContractionOptions& options,
                                     const RunContext& run, const EvenShares& shares = {},
-                                    bool is_careful = false);
+                                    bool is_careful = false, StepSolver* solver = nullptr);
 
 }  // namespace vantage

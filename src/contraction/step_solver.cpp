@@ -114,6 +114,19 @@ std::optional<std::vector<Vec3>> solved(const Eigen::SparseMatrix<double>& L, No
 StepSolver::StepSolver(const TriMesh& start, const EvenShares& shares)
     : shares_(shares), laplacian_(start.positions.size(), start.triangles) {}
 
+StepSolver::Intrinsic& StepSolver::intrinsic_of(const TriMesh& now, const LaplacianLimits& limits) {
+  if (!intrinsic_ || intrinsic_->positions != now.positions || intrinsic_->limits != limits) {
+    intrinsic_.emplace();
+    intrinsic_->positions = now.positions;
+    intrinsic_->limits = limits;
+    intrinsic_->L = intrinsic_laplacian(now.positions, now.triangles, limits);
+    if (NormalMatrix::fits(intrinsic_->L)) {
+      intrinsic_->normal.emplace(intrinsic_->L);
+    }
+  }
+  return *intrinsic_;
+}
+
 std::optional<std::vector<Vec3>> StepSolver::solve(const TriMesh& now, double W_L,
                                                    const std::vector<double>& W_H,
                                                    const ContractionOptions& options,
@@ -129,15 +142,11 @@ std::optional<std::vector<Vec3>> StepSolver::solve(const TriMesh& now, double W_
     held[i] = count * W_H[v] * W_H[v];
   }
   const LaplacianLimits limits = limits_of(options, variant.regularisation);
-  if (variant.intrinsic) {  // its pattern is another one each time
-    const Eigen::SparseMatrix<double> L = intrinsic_laplacian(now.positions, now.triangles, limits);
-    if (!NormalMatrix::fits(L)) {
-      return std::nullopt;
-    }
-    NormalMatrix normal(L);
-    PositionSolver system;
-    return solved(L, normal, system, now.positions, std::move(rows), std::move(held),
-                  variant.regularisation, run);
+  if (variant.intrinsic) {
+    Intrinsic& own = intrinsic_of(now, limits);
+    return own.normal ? solved(own.L, *own.normal, own.system, now.positions, std::move(rows),
+                               std::move(held), variant.regularisation, run)
+                      : std::nullopt;
   }
   const Eigen::SparseMatrix<double>& L = laplacian_.assemble(now.positions, limits);
   if (!normal_) {

@@ -25,6 +25,7 @@ struct StepVariant {
 };
 
 /// One step of the iteration: minimise |W_L L X'|² + Σ W_H,i² |x'_i − x_i|² by its normal equations.
+/// What follows from the triangles alone is found once, and kept for other contractions of the same surface.
 class StepSolver {
  public:
   /// \param start, shares must outlive this.
@@ -38,10 +39,23 @@ class StepSolver {
                                          const StepVariant& variant, const RunContext& run);
 
  private:
+  /// The weights of the intrinsic triangulation of a surface, whose pattern is another one at each step; ways
+  /// to take the same step differ in their pull alone.
+  struct Intrinsic {
+    std::vector<Vec3> positions{};
+    LaplacianLimits limits{};
+    Eigen::SparseMatrix<double> L{};
+    std::optional<NormalMatrix> normal{};  ///< None if it does not fit.
+    PositionSolver system{};
+  };
+
+  Intrinsic& intrinsic_of(const TriMesh& now, const LaplacianLimits& limits);
+
   const EvenShares& shares_;
   LaplacianAssembler laplacian_;
   std::optional<NormalMatrix> normal_{};
   PositionSolver system_{};
+  std::optional<Intrinsic> intrinsic_{};
 };
 
 }  // namespace vantage

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "contraction/refinement.h"
+#include "contraction/step_solver.h"
 
 namespace vantage {
 namespace {
@@ -42,6 +43,7 @@ ComponentHistory contract_evenly(const TriMesh& scaled, const ContractionOptions
                                  const RunContext& run, EvenShares shares,
                                  bool is_careful = false) {
   ComponentHistory best;
+  StepSolver solver(scaled, shares);
   double done = 0.0;
   for (int again = 0;; ++again) {
     const bool may_begin_again =
@@ -50,7 +52,8 @@ ComponentHistory contract_evenly(const TriMesh& scaled, const ContractionOptions
     shares.least_progress = may_begin_again ? kPlateStep : 0.0;
     const RunContext part = run.part(done, 0.5 * (1.0 + done));
     done = 0.5 * (1.0 + done);
-    ComponentHistory attempt = contract_component(scaled, options, part, shares, is_careful);
+    ComponentHistory attempt =
+        contract_component(scaled, options, part, shares, is_careful, &solver);
     if (again == 0) {
       best = std::move(attempt);
     } else if (!attempt.is_stuck) {  // larger steps may pass where these do not

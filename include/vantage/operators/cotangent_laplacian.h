@@ -23,6 +23,8 @@ struct LaplacianLimits {
   double cotangent = 1e8;
   /// Clamp the weight of an edge from below at 0: obtuse slivers then pull instead of push.
   bool non_negative = false;
+
+  bool operator==(const LaplacianLimits&) const = default;
 };
 
 /// Sparse |V| × |V| matrix L with (L x)_i = Σ_j w_ij (x_j − x_i), w_ij = cot α_ij + cot β_ij.

@@ -7,6 +7,7 @@
 #include "vantage/mesh/measures.h"
 
 #include "contraction/component_contraction.h"
+#include "contraction/step_solver.h"
 #include "support/dense_oracles.h"
 #include "support/named_mesh.h"
 #include "support/shapes.h"
@@ -84,6 +85,17 @@ TEST_P(Against, TheReportedShrinkageIsTheMeanAreaRatio) {
       sum += ratio;
     }
     EXPECT_NEAR(history.shrinkage[j], sum / static_cast<double>(mesh.positions.size()), 1e-10);
+  }
+}
+
+TEST_P(Against, ASolverThatHasBeenUsedGivesTheSameLevels) {
+  const TriMesh& mesh = GetParam().mesh;
+  const EvenShares shares = even_shares(mesh);
+  StepSolver solver(mesh, shares);
+  for (const bool is_careful : {false, true, false, true}) {
+    const ComponentHistory alone = contract_component(mesh, {}, {}, shares, is_careful);
+    const ComponentHistory again = contract_component(mesh, {}, {}, shares, is_careful, &solver);
+    EXPECT_EQ(again.levels, alone.levels) << is_careful;  // to the bit
   }
 }
 
